@@ -1,0 +1,66 @@
+/* The plain C interface between a generated module and the program that loads it. Generated code
+ * contains this text and includes nothing. A change of meaning here raises CASIMIR_ABI_VERSION. */
+#ifndef CASIMIR_MODULE_ABI_H
+#define CASIMIR_MODULE_ABI_H
+
+#define CASIMIR_ABI_VERSION 1
+
+/* How a run ended. */
+enum casimir_status {
+  CASIMIR_OK = 0,             /* the end of the interval was reached */
+  CASIMIR_NON_FINITE = 1,     /* the state or its derivative is not a finite number */
+  CASIMIR_STEP_UNDERFLOW = 2, /* the step that the tolerance asks for is lost in rounding */
+  CASIMIR_SINGULARITY = 3,    /* the solution runs into a pole of the right-hand side or to infinity */
+  CASIMIR_MAX_STEPS = 4,      /* the limit on the number of steps was reached */
+  CASIMIR_NO_CONVERGENCE = 5, /* an implicit step could not be solved at any step size tried */
+  CASIMIR_STOPPED = 6         /* the observer asked for the end */
+};
+
+/* An accepted step, as an observer sees it. All pointers are valid during the call only. */
+struct casimir_step {
+  double t0, t1;
+  const double* x0; /* n entries */
+  const double* x1; /* n entries */
+  /* Dense output: the state at a time between t0 and t1, n entries. */
+  void (*dense)(const struct casimir_step* step, double t, double* x);
+  const void* data; /* the kernel's own */
+};
+
+/* What a caller asks of an integration. */
+struct casimir_run {
+  double t_begin, t_end;
+  const double* parameters;    /* the run-time parameters, or null if there are none */
+  double rtol, atol;           /* local error per component: atol + rtol * |x_i| */
+  double fixed_step;           /* > 0: constant step of about this size (it divides the interval) */
+  double first_step;           /* 0: the kernel chooses */
+  unsigned long long max_steps; /* accepted and rejected; 0: no limit */
+  /* Called after each accepted step unless null; a non-zero answer stops the run. */
+  int (*observe)(void* observer, const struct casimir_step* step);
+  void* observer;
+  /* Dense linear algebra for implicit kernels. factor: n*n entries by columns, 0 if regular.
+   * solve: overwrites n entries of b by the solution. */
+  int (*factor)(void* solver, int n, const double* matrix);
+  void (*solve)(void* solver, double* b);
+  void* solver;
+};
+
+/* What came of it. The state array given to `integrate` then holds the state at `t`. */
+struct casimir_outcome {
+  int status; /* enum casimir_status */
+  double t;
+  unsigned long long steps, rejected, evaluations, jacobians;
+};
+
+/* A module exports, with C linkage:
+ *   int  casimir_abi_version(void);
+ *   int  casimir_dimension(void);        number of states n
+ *   int  casimir_parameter_count(void);  number of run-time parameters
+ *   int  casimir_invariant_count(void);
+ *   void casimir_rhs(double t, const double* x, const double* p, double* dx);
+ *   void casimir_jacobian(double t, const double* x, const double* p, double* J);  n*n by columns
+ *   void casimir_invariants(double t, const double* x, const double* p, double* values);
+ *   void casimir_integrate(const struct casimir_run*, double* x, struct casimir_outcome*);
+ * `casimir_jacobian` is present only where it was asked for, `casimir_integrate` only with a kernel.
+ */
+
+#endif

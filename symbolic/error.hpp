@@ -1,0 +1,46 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace casimir {
+
+/// Where a piece of text stands: a file (or "command line"), and its line and column from 1.
+/// Line 0 means that only the file is known.
+struct Location {
+  std::string file;
+  int line = 0;
+  int column = 0;
+};
+
+/// Bad input. `what()` is the whole message: `FILE:LINE:COLUMN: error: TEXT`, the offending line
+/// with a mark below the place, and a hint where there is one.
+class CaseError : public std::runtime_error {
+ public:
+  /// \param text     what is wrong and what was expected, without a full stop.
+  /// \param excerpt  the source line in which `where.column` points, or empty.
+  /// \param hint     for instance "did you mean 'M3'?", or empty.
+  CaseError(Location where, std::string text, std::string excerpt = {}, std::string hint = {});
+
+  const Location& where() const { return where_; }
+  const std::string& text() const { return text_; }
+
+ private:
+  Location where_;
+  std::string text_;
+};
+
+/// A mathematical object that cannot be made: brackets of the wrong number, a repeated coordinate.
+class ModelError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The name in `known` that is nearest to `name`, as "did you mean 'X'?", or empty if none is near.
+std::string suggest(const std::string& name, const std::vector<std::string>& known);
+
+/// `text` with control characters and invalid UTF-8 escaped, cut to `limit` characters: what a
+/// message may show of text that a stranger wrote.
+std::string printable(const std::string& text, std::size_t limit = 60);
+
+}  // namespace casimir
