@@ -1,0 +1,105 @@
+#include "symbolic/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+
+namespace casimir {
+namespace {
+
+std::string message(const Location& where, const std::string& text, const std::string& excerpt,
+                    const std::string& hint) {
+  std::string result = printable(where.file, 200);
+  if (where.line > 0) result += fmt::format(":{}:{}", where.line, std::max(where.column, 1));
+  result += ": error: " + text;
+  if (!excerpt.empty() && where.column > 0) {
+    // A long line is shown around its place only.
+    constexpr std::size_t kWidth = 72;
+    const std::size_t at = std::min<std::size_t>(where.column - 1, excerpt.size());
+    const std::size_t from = at > kWidth / 2 && excerpt.size() > kWidth ? at - kWidth / 2 : 0;
+    const std::string head = printable(excerpt.substr(from, at - from), kWidth);
+    const std::string tail = printable(excerpt.substr(at), kWidth - std::min(kWidth, head.size()) + 3);
+    result += "\n  " + std::string(from > 0 ? "..." : "") + head + tail;
+    result += "\n  " + std::string(head.size() + (from > 0 ? 3 : 0), ' ') + "^";
+  }
+  if (!hint.empty()) result += "\n  hint: " + hint;
+  return result;
+}
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t change = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({change, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+/// Length of the valid UTF-8 sequence that starts at `i`, 0 if there is none.
+std::size_t utf8_length(const std::string& text, std::size_t i) {
+  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+  const unsigned char lead = byte(i);
+  const std::size_t length = lead < 0x80                  ? 1
+                             : lead >= 0xC2 && lead < 0xE0 ? 2
+                             : lead >= 0xE0 && lead < 0xF0 ? 3
+                             : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                           : 0;
+  if (length == 0 || i + length > text.size()) return 0;
+  for (std::size_t k = 1; k < length; ++k) {
+    if ((byte(i + k) & 0xC0) != 0x80) return 0;
+  }
+  return length;
+}
+
+}  // namespace
+
+CaseError::CaseError(Location where, std::string text, std::string excerpt, std::string hint)
+    : std::runtime_error(message(where, text, excerpt, hint)),
+      where_(std::move(where)),
+      text_(std::move(text)) {}
+
+std::string suggest(const std::string& name, const std::vector<std::string>& known) {
+  if (name.size() > 100) return {};
+  std::string best;
+  std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;
+  for (const std::string& candidate : known) {
+    const std::size_t distance = edit_distance(name, candidate);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best.empty() ? std::string{} : fmt::format("did you mean '{}'?", best);
+}
+
+std::string printable(const std::string& text, std::size_t limit) {
+  std::string result;
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < text.size(); ++shown) {
+    if (shown == limit) return result + "...";
+    const std::size_t length = utf8_length(text, i);
+    const unsigned char lead = static_cast<unsigned char>(text[i]);
+    // C0 and C1 control characters can drive a terminal; so can a raw 0x80..0x9f.
+    const bool control = lead < 0x20 || lead == 0x7F ||
+                         (length == 2 && lead == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0);
+    if (length == 0 || control) {
+      result += fmt::format("\\x{:02x}", lead);
+      if (control && length == 2) result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[i + 1]));
+      i += std::max<std::size_t>(length, 1);
+    } else {
+      result += text.substr(i, length);
+      i += length;
+    }
+  }
+  return result;
+}
+
+}  // namespace casimir
