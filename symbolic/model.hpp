@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "symbolic/case_file.hpp"
 #include "symbolic/error.hpp"
 #include "symbolic/poisson.hpp"
 
@@ -19,13 +20,15 @@ struct NamedExpression {
   Location where;
 };
 
-/// `lhs RELATION rhs`, from an `assume` or a `domain`.
+/// A condition from an `assume` or a `domain`: `difference RELATION 0`.
 struct Assumption {
-  enum class Relation { equal, not_equal, less, less_equal, greater, greater_equal };
-  GiNaC::ex lhs;
-  Relation relation;
-  GiNaC::ex rhs;
-  std::string text;
+  GiNaC::ex difference;
+  std::string relation;  ///< one of != == <= >= < >
+  std::string text;      ///< as the file has it
+
+  /// Whether it holds where `point` gives every symbol a rational value; false also where the
+  /// difference has no value there or its sign is not decided by exact arithmetic.
+  bool holds_at(const GiNaC::exmap& point) const;
 };
 
 /// A function whose zero level is invariant (`conditional`: that is a first integral there) on the
@@ -33,6 +36,30 @@ struct Assumption {
 struct LevelClaim {
   NamedExpression expression;
   std::vector<NamedExpression> on;
+};
+
+/// dL/dt = [L, A] identically in the spectral parameter.
+struct LaxPair {
+  std::optional<GiNaC::symbol> spectral;
+  GiNaC::matrix l, a;
+};
+
+/// The default Poincare section: `function` = 0 crossed in one direction, and the plotted pair.
+struct Section {
+  GiNaC::ex function;
+  bool upwards = true;
+  std::vector<GiNaC::ex> plot;
+};
+
+/// A map from the phase space onto another one, claimed to be Poisson (`sign` 1) or anti-Poisson
+/// (-1), where the functions `on` vanish.
+struct PoissonMap {
+  std::string name;
+  Location where;
+  PoissonStructure target;               ///< over its own symbols
+  std::vector<GiNaC::ex> expressions;    ///< one for each coordinate of the target
+  std::vector<NamedExpression> on;
+  int sign = 1;
 };
 
 /// Initial data for a run. All values are exact constants (rational, or such as sqrt(2)).
@@ -68,18 +95,35 @@ struct Model {
   std::vector<GiNaC::ex> field;               ///< dx_i/dt for each variable, not expanded
 
   std::vector<NamedExpression> definitions;
+  std::vector<std::pair<Text, GiNaC::ex>> fixed;  ///< parameters replaced by ParameterValues
   std::vector<NamedExpression> casimirs;
   std::vector<NamedExpression> integrals;
   std::vector<LevelClaim> conditionals;
   std::vector<LevelClaim> invariant_relations;
+  std::vector<LaxPair> lax_pairs;
+  std::vector<PoissonMap> maps;
+  std::vector<NamedExpression> measures;  ///< densities
+  std::optional<Section> section;
   std::vector<Scene> scenes;
 
   /// The scene of that name; "default" may also mean the first one.
   /// \throws CaseError  if there is none; the message lists the names.
   const Scene& scene(const std::string& scene_name) const;
 
+  /// Reads an expression over the variables, parameters, time, definitions, and the names of the
+  /// Casimirs and integrals. \throws CaseError
+  GiNaC::ex parse(const Text& text) const;
+
   /// `expression` with every parameter replaced by the scene's exact value.
   GiNaC::ex at_parameters(const GiNaC::ex& expression, const Scene& scene) const;
 };
+
+/// Values from the command line (`--param NAME=VALUE`) that replace parameters by exact constants
+/// before anything else is read.
+using ParameterValues = std::vector<std::pair<Text, Text>>;
+
+/// Reads every expression of the case file and builds the bracket and the equations of motion.
+/// \throws CaseError  with the place of what is wrong.
+Model build_model(const CaseFile& file, const ParameterValues& fixed = {});
 
 }  // namespace casimir

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "symbolic/error.hpp"
+
+namespace casimir {
+
+/// A string of a case file (or of the command line) and where it stands.
+struct Text {
+  std::string value;
+  Location where;       ///< of the first character of `value`
+  std::string excerpt;  ///< the source line, if `value` stands in it unchanged
+
+  /// The error that something is wrong at `offset` bytes into this text.
+  CaseError error(const std::string& what, std::size_t offset = 0, const std::string& hint = {}) const;
+};
+
+using Entry = std::pair<Text, Text>;  ///< key and value
+
+/// The phase space as written: which of its forms is used is for the model to decide.
+struct PhaseSpaceText {
+  Location where;
+  std::vector<Text> variables;
+  std::optional<Text> algebra;
+  bool canonical = false;
+  std::optional<std::vector<Entry>> brackets;
+  std::optional<std::vector<Entry>> structure_constants;
+  std::optional<Text> sign;
+  std::vector<Text> domain;
+  std::optional<Text> time;
+};
+
+struct LevelText {
+  Text name;
+  Text expression;
+  std::vector<Text> on;
+};
+
+struct LaxText {
+  std::optional<Text> spectral;
+  std::vector<std::vector<Text>> l, a;
+};
+
+struct MapText {
+  Text name;
+  std::optional<Text> to;                    ///< an algebra or a case
+  std::optional<PhaseSpaceText> to_table;    ///< or a phase space written out
+  std::vector<Entry> expressions;
+  std::vector<Text> on;
+  std::optional<Text> sign;
+};
+
+struct SectionText {
+  Text function;
+  std::optional<Text> direction;
+  std::vector<Text> plot;
+};
+
+struct SceneText {
+  Text name;
+  std::vector<Entry> parameters;
+  std::vector<Entry> initial;
+  std::optional<Text> duration;
+  std::vector<Text> observe;
+  std::optional<Text> extreme;
+  std::vector<Entry> reference;
+};
+
+struct ParameterText {
+  Text name;
+  std::vector<Text> assume;
+};
+
+/// A case file as strings with their places: the structure is checked, no expression is read yet.
+/// Tables keep the order of the file.
+struct CaseFile {
+  std::string name;  ///< file name without folder and extension
+  std::string file;  ///< as messages show it
+  std::string title;
+  std::string source;
+  std::vector<std::string> tags;
+  bool integrable = false;
+  std::optional<Text> hamiltonian;
+  PhaseSpaceText phase_space;
+  std::vector<ParameterText> parameters;
+  std::vector<Entry> definitions, casimirs, integrals;
+  std::optional<std::vector<Entry>> equations;
+  std::vector<LevelText> conditionals, invariant_relations;
+  std::vector<LaxText> lax;
+  std::vector<MapText> maps;
+  std::vector<Text> measures;  ///< densities
+  std::optional<SectionText> section;
+  std::vector<SceneText> scenes;
+};
+
+/// Reads a case file of at most 16 MiB.
+/// \throws CaseError  for a file that cannot be read, broken TOML, an unknown or missing key, or a
+///                    value of the wrong type, with its place.
+CaseFile read_case(const std::filesystem::path& path);
+
+/// The same for text in memory; `file` names it in messages.
+CaseFile parse_case(const std::string& toml, const std::string& file);
+
+}  // namespace casimir

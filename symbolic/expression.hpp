@@ -1,0 +1,74 @@
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "symbolic/case_file.hpp"
+
+namespace casimir {
+
+/// An expression with bounds on what computing with it may cost. The bounds are checked while text
+/// is read, so that no expression of a stranger can make GiNaC build a giant.
+struct Quantity {
+  GiNaC::ex value;
+  double bits = 1;    ///< size of the numbers in it
+  double degree = 0;  ///< total degree, counting every function as a variable
+  double nodes = 1;   ///< size of the tree, counting shared parts as often as they are used
+
+  static Quantity symbol(const GiNaC::symbol& s) { return {s, 1, 1, 1}; }
+};
+
+/// Limits on one expression; beyond them it is refused with an error that names the limit.
+inline constexpr std::size_t kMaxExpressionBytes = std::size_t{256} << 10;
+inline constexpr int kMaxNesting = 200;
+inline constexpr double kMaxBits = 1e5;
+inline constexpr double kMaxDegree = 1e4;
+inline constexpr double kMaxNodes = 1e6;
+inline constexpr std::size_t kMaxNameLength = 100;
+
+/// The names that an expression may use.
+class Names {
+ public:
+  virtual ~Names() = default;
+  /// What `name` stands for, or null. May read a definition on the way, and throw its CaseError.
+  virtual const Quantity* find(const std::string& name) = 0;
+  /// Every name, for the hint in an error.
+  virtual std::vector<std::string> known() const = 0;
+};
+
+/// A fixed table of names.
+class NameTable : public Names {
+ public:
+  void add(const std::string& name, Quantity quantity) { table_[name] = std::move(quantity); }
+  const Quantity* find(const std::string& name) override;
+  std::vector<std::string> known() const override;
+
+ private:
+  std::map<std::string, Quantity> table_;
+};
+
+/// Reads an expression over `names`: + - * / ^, exact rationals and decimals ("0.5" is 1/2), Pi, I,
+/// sqrt sin cos tan exp log asin acos atan atan2.
+/// \throws CaseError  with the place inside `text`: unknown name, wrong arity, division by zero,
+///                    syntax, or a limit exceeded.
+Quantity parse_expression(const Text& text, Names& names);
+
+/// Reads an expression without any variable.
+GiNaC::ex parse_constant(const Text& text);
+
+/// Two sides and the relation between them, as in "r != 0".
+struct Relation {
+  GiNaC::ex lhs;
+  std::string relation;  ///< one of != == <= >= < >
+  GiNaC::ex rhs;
+};
+Relation parse_relation(const Text& text, Names& names);
+
+/// Throws unless `name` may name a variable, parameter or definition: letters, digits and `_`, not
+/// a function, constant or C++ keyword, at most kMaxNameLength characters.
+void check_name(const Text& name, const std::string& what);
+
+}  // namespace casimir

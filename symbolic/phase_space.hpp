@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "symbolic/case_file.hpp"
+#include "symbolic/expression.hpp"
+#include "symbolic/poisson.hpp"
+
+namespace casimir {
+
+/// The symbols for the variables of a phase space, names checked.
+std::vector<GiNaC::symbol> make_variables(const PhaseSpaceText& text);
+
+/// The bracket that the phase space names, over `variables`; none if it gives no bracket.
+/// `names` must know the variables and whatever else the brackets may use.
+/// \throws CaseError  for more than one form, an unknown algebra, a wrong number of variables, a
+///                    bracket that is not skew, or one that is not linear where it has to be.
+std::optional<PoissonStructure> make_bracket(const PhaseSpaceText& text,
+                                             const std::vector<GiNaC::symbol>& variables,
+                                             Names& names);
+
+/// "e(3)", "canonical", "brackets", "structure constants" or "equations".
+std::string describe(const PhaseSpaceText& text);
+
+}  // namespace casimir
