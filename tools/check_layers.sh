@@ -1,0 +1,134 @@
+#!/usr/bin/env bash
+# Checks who includes whom, and that no code names a case. Prints FILE:LINE: offence for each.
+#
+#   tools/check_layers.sh [ROOT]       checks the tree at ROOT (by default this one)
+#   tools/check_layers.sh --self-test  bends a small tree in each way and expects to be told
+set -euo pipefail
+
+# Reads "FILE:LINE:TEXT" of every include and prints the forbidden ones.
+# shellcheck disable=SC2016
+readonly include_rules='
+function layer(file) {
+  if (file ~ /^runtime\/kernels\//) return "runtime/kernels"
+  return substr(file, 1, index(file, "/") - 1)
+}
+BEGIN {
+  may["symbolic"] = "^symbolic/"
+  may["codegen"] = "^(codegen/|symbolic/|runtime/program[.]hpp$|runtime/module_abi[.]h$)"
+  may["runtime"] = "^runtime/"
+  may["runtime/kernels"] = "^(runtime/kernels/|runtime/module_abi[.]h$)"
+  may["tools"] = "^(tools|codegen|symbolic|runtime)/"
+  # Libraries that would carry one layer'"'"'s business into another.
+  never["symbolic"] = "^(Eigen/|CLI/|nlohmann/|sundials/|boost/)"
+  never["codegen"] = "^(Eigen/|CLI/|toml|sundials/)"
+  never["runtime"] = "^(ginac/|toml|CLI/|nlohmann/|iostream$)"
+  never["runtime/kernels"] = "^(ginac/|cln/|toml|CLI/|nlohmann/|iostream$)"
+}
+match($0, /^[^:]+:[0-9]+:/) {
+  place = substr($0, 1, RLENGTH - 1)
+  text = substr($0, RLENGTH + 1)
+  file = place
+  sub(/:[0-9]+$/, "", file)
+  name = layer(file)
+  if (match(text, /"[^"]*"/)) {
+    target = substr(text, RSTART + 1, RLENGTH - 2)
+    if (target !~ may[name]) print place ": " name " must not include \"" target "\""
+  } else if (match(text, /<[^>]*>/)) {
+    target = substr(text, RSTART + 1, RLENGTH - 2)
+    if (name in never && target ~ never[name]) print place ": " name " must not include <" target ">"
+  }
+}'
+
+# The sources below the given folders of the tree; folders that are not there have none.
+sources() {
+  local folder
+  for folder in "$@"; do
+    [[ ! -d $folder ]] || find "$folder" -type f \( -name '*.[ch]pp' -o -name '*.h' \)
+  done | LC_ALL=C sort
+}
+
+forbidden_includes() {
+  sources symbolic codegen runtime tools |
+    xargs -r -d '\n' grep -HnE '^[[:space:]]*#[[:space:]]*include' |
+    awk "$include_rules"
+}
+
+# A string literal that is the name of a case, or a path to one.
+named_cases() {
+  local names
+  names=$(find cases -name '*.toml' 2>/dev/null | sed 's:.*/::; s:[.]toml$::' | LC_ALL=C sort |
+    paste -sd'|')
+  [[ -n $names ]] || return 0
+  sources symbolic codegen runtime tools |
+    xargs -r -d '\n' grep -HnE "^([^/]|/[^/])*\"([^\"]*/)?($names)([.]toml)?\"" |
+    sed -E 's/^([^:]+:[0-9]+):[[:space:]]*(.*)$/\1: names a case: \2/'
+}
+
+check() {
+  local offences
+  cd "$1"
+  offences=$(forbidden_includes; named_cases) || true
+  [[ -n $offences ]] || return 0
+  printf '%s\n' "$offences"
+  return 1
+}
+
+# expect TREE FILE TEXT MESSAGE: TEXT as the only line of FILE must be reported, and as MESSAGE.
+expect() {
+  local tree=$1 file=$2 text=$3 message=$4 output status=0
+  mkdir -p "$tree/$(dirname "$file")"
+  printf '%s\n' "$text" >"$tree/$file"
+  output=$(check "$tree") || status=$?
+  rm "$tree/$file"
+  if [[ -n $message ]]; then message="$file:1: $message"; fi
+  if [[ $output != "$message" || $status -ne $((${#message} > 0)) ]]; then
+    printf 'self-test: %s in %s\n  expected: %s\n  reported: %s (status %d)\n' \
+      "$text" "$file" "${message:-nothing}" "${output:-nothing}" "$status"
+    return 1
+  fi
+}
+
+self_test() {
+  local tree failed=0
+  tree=$(mktemp -d)
+  # shellcheck disable=SC2064
+  trap "rm -rf '$tree'" EXIT
+  mkdir "$tree/cases"
+  : >"$tree/cases/top.toml"
+
+  bent() { expect "$tree" "$@" || failed=1; }
+  bent symbolic/a.hpp '#include "codegen/x.hpp"' 'symbolic must not include "codegen/x.hpp"'
+  bent symbolic/a.cpp '#include "runtime/program.hpp"' \
+    'symbolic must not include "runtime/program.hpp"'
+  bent symbolic/a.cpp '#include "b.hpp"' 'symbolic must not include "b.hpp"'
+  bent symbolic/a.cpp '  #  include <Eigen/Dense>' 'symbolic must not include <Eigen/Dense>'
+  bent codegen/a.cpp '#include "runtime/module.hpp"' \
+    'codegen must not include "runtime/module.hpp"'
+  bent codegen/a.cpp '#include "tools/report.hpp"' 'codegen must not include "tools/report.hpp"'
+  bent runtime/a.cpp '#include "symbolic/x.hpp"' 'runtime must not include "symbolic/x.hpp"'
+  bent runtime/a.h '#include "codegen/x.hpp"' 'runtime must not include "codegen/x.hpp"'
+  bent runtime/a.cpp '#include <ginac/ginac.h>' 'runtime must not include <ginac/ginac.h>'
+  bent runtime/kernels/a.hpp '#include "runtime/program.hpp"' \
+    'runtime/kernels must not include "runtime/program.hpp"'
+  bent tools/commands/a.cpp '#include "tests/systems.hpp"' \
+    'tools must not include "tests/systems.hpp"'
+  bent tools/a.cpp 'if (name == "top") {' 'names a case: if (name == "top") {'
+  bent codegen/a.cpp 'read("cases/top.toml");' 'names a case: read("cases/top.toml");'
+
+  bent symbolic/a.cpp '#include "symbolic/b.hpp"' ''
+  bent codegen/a.cpp '#include "runtime/program.hpp"' ''
+  bent runtime/kernels/a.hpp '#include "runtime/module_abi.h"' ''
+  bent runtime/a.cpp '#include <vector>' ''
+  bent tools/commands/a.cpp '#include "runtime/module.hpp"' ''
+  bent tools/a.cpp 'help("for instance: casimir show top");' ''
+  bent tools/a.cpp '// such as "top"' ''
+
+  if [[ $failed -eq 0 ]]; then printf 'self-test passed\n'; fi
+  return "$failed"
+}
+
+if [[ ${1-} == --self-test ]]; then
+  self_test
+else
+  check "${1:-$(dirname -- "${BASH_SOURCE[0]}")/..}"
+fi
