@@ -1,0 +1,379 @@
+#include "codegen/canonical.hpp"
+
+#include <cln/integer.h>
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include "symbolic/error.hpp"
+
+namespace casimir::codegen {
+
+namespace {
+
+bool is_integer(const cln::cl_RA& value) { return cln::denominator(value) == 1; }
+
+std::string shown(const GiNaC::ex& expression) {
+  std::ostringstream out;
+  out << expression;
+  return out.str();
+}
+
+cln::cl_RA exact_value(const GiNaC::ex& expression) {
+  const auto& number = GiNaC::ex_to<GiNaC::numeric>(expression);
+  if (!number.is_real()) {
+    throw ModelError("the imaginary number " + shown(expression) +
+                     " appears: every expression must be real");
+  }
+  if (!number.is_rational()) {
+    throw ModelError("the number " + shown(expression) + " is not exact");
+  }
+  return cln::the<cln::cl_RA>(number.to_cl_N());
+}
+
+std::size_t mix(std::size_t seed, std::size_t value) {
+  return seed ^ (value + 0x9e3779b97f4a7c15ULL + (seed << 6) + (seed >> 2));
+}
+
+std::size_t hash_of(const Node& node) {
+  std::size_t h = mix(static_cast<std::size_t>(node.kind), static_cast<std::size_t>(node.symbol));
+  h = mix(h, static_cast<std::size_t>(node.function));
+  h = mix(h, cln::equal_hashcode(node.number));
+  for (const Scaled& t : node.terms) {
+    h = mix(mix(h, cln::equal_hashcode(t.coefficient)), static_cast<std::size_t>(t.node));
+  }
+  for (const Factor& f : node.factors) {
+    h = mix(mix(h, cln::equal_hashcode(f.exponent)), static_cast<std::size_t>(f.node));
+  }
+  return h;
+}
+
+bool same(const Node& a, const Node& b) {
+  const auto same_term = [](const Scaled& s, const Scaled& t) {
+    return s.node == t.node && s.coefficient == t.coefficient;
+  };
+  const auto same_factor = [](const Factor& s, const Factor& t) {
+    return s.node == t.node && s.exponent == t.exponent;
+  };
+  return a.kind == b.kind && a.symbol == b.symbol && a.function == b.function &&
+         a.number == b.number && std::ranges::equal(a.terms, b.terms, same_term) &&
+         std::ranges::equal(a.factors, b.factors, same_factor);
+}
+
+int order(const cln::cl_RA& a, const cln::cl_RA& b) { return cln::compare(a, b); }
+
+}  // namespace
+
+Dag::Dag(std::vector<GiNaC::symbol> symbols, std::size_t coordinates) : coordinates_(coordinates) {
+  nodes_.emplace_back();
+  for (std::size_t i = 0; i < symbols.size(); ++i) {
+    names_.push_back(symbols[i].get_name());
+    ranks_[symbols[i]] = static_cast<int>(i);
+  }
+}
+
+const std::string& Dag::symbol_name(int symbol) const {
+  return names_[static_cast<std::size_t>(symbol)];
+}
+
+bool Dag::contains(const Scaled& expression, int symbol) const {
+  std::vector<bool> seen(nodes_.size(), false);
+  std::vector<NodeId> open{expression.node};
+  while (!open.empty()) {
+    const NodeId id = open.back();
+    open.pop_back();
+    const Node& node = (*this)[id];
+    if (node.kind == NodeKind::symbol && node.symbol == symbol) return true;
+    if (node.constant || seen[static_cast<std::size_t>(id)]) continue;
+    seen[static_cast<std::size_t>(id)] = true;
+    for (const Scaled& t : node.terms) open.push_back(t.node);
+    for (const Factor& f : node.factors) open.push_back(f.node);
+  }
+  return false;
+}
+
+// ------------------------------------------------------------------------------------ conversion
+
+Scaled Dag::convert(const GiNaC::ex& expression) {
+  if (const auto found = converted_.find(expression); found != converted_.end()) {
+    return found->second;
+  }
+  const Scaled result = convert_new(expression);
+  converted_.emplace(expression, result);
+  return result;
+}
+
+Scaled Dag::convert_new(const GiNaC::ex& e) {
+  if (GiNaC::is_a<GiNaC::numeric>(e)) return {exact_value(e), kOne};
+  if (GiNaC::is_a<GiNaC::symbol>(e)) {
+    const auto rank = ranks_.find(e);
+    if (rank == ranks_.end()) throw ModelError("unknown symbol '" + shown(e) + "'");
+    return symbol(rank->second);
+  }
+  if (e.is_equal(GiNaC::Pi)) {
+    Node node;
+    node.kind = NodeKind::pi;
+    return {1, intern(std::move(node))};
+  }
+  if (GiNaC::is_a<GiNaC::add>(e) || GiNaC::is_a<GiNaC::mul>(e)) {
+    std::vector<Scaled> parts;
+    for (const GiNaC::ex& part : e) parts.push_back(convert(part));
+    return GiNaC::is_a<GiNaC::add>(e) ? sum(parts) : product(parts);
+  }
+  if (GiNaC::is_a<GiNaC::power>(e)) {
+    if (GiNaC::is_a<GiNaC::numeric>(e.op(1))) return power(convert(e.op(0)), exact_value(e.op(1)));
+    return call(Op::exp, {product({convert(e.op(1)), call(Op::log, {convert(e.op(0))})})});
+  }
+  if (GiNaC::is_a<GiNaC::function>(e)) return convert_function(e);
+  throw ModelError("cannot compute '" + shown(e) + "'");
+}
+
+Scaled Dag::convert_function(const GiNaC::ex& e) {
+  static const std::map<std::string, Op> kKnown{
+      {"sin", Op::sin},   {"cos", Op::cos},   {"tan", Op::tan},   {"exp", Op::exp},
+      {"log", Op::log},   {"asin", Op::asin}, {"acos", Op::acos}, {"atan2", Op::atan2},
+      {"atan", Op::atan2}};
+  const std::string name = GiNaC::ex_to<GiNaC::function>(e).get_name();
+  const auto known = kKnown.find(name);
+  if (known == kKnown.end()) throw ModelError("unknown function '" + name + "'");
+  std::vector<Scaled> arguments;
+  for (const GiNaC::ex& argument : e) arguments.push_back(convert(argument));
+  if (name == "atan") arguments.push_back({1, kOne});
+  return call(known->second, std::move(arguments));
+}
+
+// ---------------------------------------------------------------------------------- construction
+
+Scaled Dag::symbol(int index) {
+  Node node;
+  node.kind = NodeKind::symbol;
+  node.symbol = index;
+  return {1, intern(std::move(node))};
+}
+
+Scaled Dag::sum(const std::vector<Scaled>& terms) {
+  std::map<NodeId, cln::cl_RA> collected;
+  const auto collect = [&](NodeId node, const cln::cl_RA& coefficient) {
+    const auto [place, is_new] = collected.try_emplace(node, coefficient);
+    if (!is_new) place->second = place->second + coefficient;
+  };
+  for (const Scaled& term : terms) {
+    if ((*this)[term.node].kind != NodeKind::sum) {
+      collect(term.node, term.coefficient);
+      continue;
+    }
+    for (const Scaled& inner : (*this)[term.node].terms) {
+      collect(inner.node, term.coefficient * inner.coefficient);
+    }
+  }
+  std::vector<Scaled> result;
+  for (const auto& [node, coefficient] : collected) {
+    if (coefficient != 0) result.push_back({coefficient, node});
+  }
+  std::ranges::sort(result, [this](const Scaled& a, const Scaled& b) {
+    return compare(a.node, b.node) < 0;
+  });
+  if (result.empty()) return {0, kOne};
+  if (result.size() == 1) return result.front();
+  return primitive_sum(std::move(result));
+}
+
+Scaled Dag::primitive_sum(std::vector<Scaled> terms) {
+  cln::cl_I divisor = 0;
+  cln::cl_I multiple = 1;
+  for (const Scaled& t : terms) {
+    divisor = cln::gcd(divisor, cln::numerator(t.coefficient));
+    multiple = cln::lcm(multiple, cln::denominator(t.coefficient));
+  }
+  cln::cl_RA content = divisor / multiple;
+  if (cln::minusp(terms.front().coefficient)) content = -content;
+  Node node;
+  node.kind = NodeKind::sum;
+  for (const Scaled& t : terms) node.terms.push_back({t.coefficient / content, t.node});
+  return {content, intern(std::move(node))};
+}
+
+Scaled Dag::product(const std::vector<Scaled>& factors) {
+  cln::cl_RA coefficient = 1;
+  std::vector<Factor> collected;
+  for (const Scaled& factor : factors) multiply_in(factor, 1, coefficient, collected);
+  return assemble(coefficient, std::move(collected));
+}
+
+Scaled Dag::power(const Scaled& base, const cln::cl_RA& exponent) {
+  cln::cl_RA coefficient = 1;
+  std::vector<Factor> collected;
+  multiply_in(base, exponent, coefficient, collected);
+  return assemble(coefficient, std::move(collected));
+}
+
+void Dag::multiply_in(const Scaled& base, const cln::cl_RA& exponent, cln::cl_RA& coefficient,
+                      std::vector<Factor>& factors) {
+  if (exponent == 0) return;
+  if (base.coefficient == 0) {
+    if (cln::minusp(exponent)) throw ModelError("division by zero");
+    coefficient = 0;
+    return;
+  }
+  if (is_integer(exponent)) {
+    coefficient = coefficient * cln::expt(base.coefficient, cln::numerator(exponent));
+    for (const Factor& f : factors_of(base.node)) {
+      factors.push_back({f.node, f.exponent * exponent});
+    }
+    return;
+  }
+  multiply_root(cln::abs(base.coefficient), exponent, coefficient, factors);
+  if (cln::plusp(base.coefficient)) {
+    if (base.node != kOne) factors.push_back({base.node, exponent});
+    return;
+  }
+  if (base.node == kOne) throw ModelError("a root of a negative number appears");
+  Node negated;  // the only sums that begin with a minus: radicands
+  negated.kind = NodeKind::sum;
+  negated.terms = {{-1, base.node}};
+  if ((*this)[base.node].kind == NodeKind::sum) {
+    negated.terms.clear();
+    for (const Scaled& t : (*this)[base.node].terms) {
+      negated.terms.push_back({-t.coefficient, t.node});
+    }
+  }
+  factors.push_back({intern(std::move(negated)), exponent});
+}
+
+void Dag::multiply_root(const cln::cl_RA& base, const cln::cl_RA& exponent,
+                        cln::cl_RA& coefficient, std::vector<Factor>& factors) {
+  const auto multiply = [&](const cln::cl_I& integer, const cln::cl_RA& power) {
+    const cln::cl_I whole = cln::floor1(power);
+    const cln::cl_RA rest = power - whole;
+    coefficient = coefficient * cln::expt(cln::cl_RA(integer), whole);
+    cln::cl_I root;
+    if (rest == 0 || integer == 1) return;
+    if (cln::rootp(integer, cln::denominator(rest), &root)) {
+      coefficient = coefficient * cln::expt(cln::cl_RA(root), cln::numerator(rest));
+      return;
+    }
+    Node node;
+    node.kind = NodeKind::number;
+    node.number = integer;
+    factors.push_back({intern(std::move(node)), rest});
+  };
+  multiply(cln::numerator(base), exponent);
+  multiply(cln::denominator(base), -exponent);
+}
+
+Scaled Dag::assemble(cln::cl_RA coefficient, std::vector<Factor> factors) {
+  if (coefficient == 0) return {0, kOne};
+  std::map<NodeId, cln::cl_RA> exponents;
+  for (const Factor& f : factors) {
+    const auto [place, is_new] = exponents.try_emplace(f.node, f.exponent);
+    if (!is_new) place->second = place->second + f.exponent;
+  }
+  Node node;
+  node.kind = NodeKind::product;
+  for (const auto& [base, exponent] : exponents) {
+    if (exponent == 0) continue;
+    const Node& inner = (*this)[base];
+    if (inner.kind == NodeKind::number) {  // 2^(1/2) * 2^(1/2) = 2
+      std::vector<Factor> rest;
+      multiply_root(inner.number, exponent, coefficient, rest);
+      node.factors.insert(node.factors.end(), rest.begin(), rest.end());
+      continue;
+    }
+    const bool is_radicand = inner.kind == NodeKind::sum &&
+                             (inner.terms.size() == 1 || cln::minusp(inner.terms[0].coefficient));
+    if (is_radicand && is_integer(exponent)) {
+      const std::vector<Scaled> terms = inner.terms;
+      multiply_in(sum(terms), exponent, coefficient, node.factors);
+      continue;
+    }
+    node.factors.push_back({base, exponent});
+  }
+  std::ranges::sort(node.factors, [this](const Factor& a, const Factor& b) {
+    return compare_atoms(a.node, b.node) < 0;
+  });
+  if (node.factors.empty()) return {coefficient, kOne};
+  if (node.factors.size() == 1 && node.factors[0].exponent == 1) {
+    return {coefficient, node.factors[0].node};
+  }
+  return {coefficient, intern(std::move(node))};
+}
+
+Scaled Dag::call(Op function, std::vector<Scaled> arguments) {
+  cln::cl_RA sign = 1;
+  const bool odd = function == Op::sin || function == Op::tan || function == Op::asin;
+  if ((odd || function == Op::cos) && cln::minusp(arguments[0].coefficient)) {
+    arguments[0].coefficient = -arguments[0].coefficient;
+    if (odd) sign = -1;
+  }
+  Node node;
+  node.kind = NodeKind::function;
+  node.function = function;
+  node.terms = std::move(arguments);
+  return {sign, intern(std::move(node))};
+}
+
+NodeId Dag::intern(Node node) {
+  std::vector<NodeId>& bucket = index_[hash_of(node)];
+  for (const NodeId id : bucket) {
+    if (same((*this)[id], node)) return id;
+  }
+  node.constant = node.kind != NodeKind::symbol;
+  if (node.kind == NodeKind::symbol) {
+    node.degree = static_cast<std::size_t>(node.symbol) < coordinates_ ? 1 : 0;
+  }
+  for (std::size_t i = 0; i < node.terms.size(); ++i) {
+    const Node& inner = (*this)[node.terms[i].node];
+    node.constant = node.constant && inner.constant;
+    if (node.kind == NodeKind::sum && (i == 0 || inner.degree > node.degree)) {
+      node.degree = inner.degree;
+    }
+  }
+  for (const Factor& f : node.factors) {
+    node.constant = node.constant && (*this)[f.node].constant;
+    node.degree = node.degree + (*this)[f.node].degree * f.exponent;
+  }
+  nodes_.push_back(std::move(node));
+  bucket.push_back(static_cast<NodeId>(nodes_.size()) - 1);
+  return bucket.back();
+}
+
+// ------------------------------------------------------------------------------------------ order
+
+std::vector<Factor> Dag::factors_of(NodeId id) const {
+  if (id == kOne) return {};
+  if ((*this)[id].kind == NodeKind::product) return (*this)[id].factors;
+  return {{id, 1}};
+}
+
+int Dag::compare(NodeId a, NodeId b) const {
+  if (a == b) return 0;
+  if (const int by_degree = order((*this)[b].degree, (*this)[a].degree)) return by_degree;
+  const std::vector<Factor> left = factors_of(a);
+  const std::vector<Factor> right = factors_of(b);
+  for (std::size_t i = 0; i < std::min(left.size(), right.size()); ++i) {
+    if (const int by_base = compare_atoms(left[i].node, right[i].node)) return by_base;
+    if (const int by_power = order(right[i].exponent, left[i].exponent)) return by_power;
+  }
+  return left.size() > right.size() ? -1 : 1;
+}
+
+int Dag::compare_atoms(NodeId a, NodeId b) const {
+  if (a == b) return 0;
+  const Node& left = (*this)[a];
+  const Node& right = (*this)[b];
+  if (left.kind != right.kind) return left.kind < right.kind ? -1 : 1;
+  if (left.kind == NodeKind::symbol) return left.symbol < right.symbol ? -1 : 1;
+  if (left.kind == NodeKind::number) return cln::compare(left.number, right.number);
+  if (left.kind == NodeKind::product) return compare(a, b);  // a radicand
+  if (left.function != right.function) return left.function < right.function ? -1 : 1;
+  for (std::size_t i = 0; i < std::min(left.terms.size(), right.terms.size()); ++i) {
+    if (const int by_node = compare(left.terms[i].node, right.terms[i].node)) return by_node;
+    if (const int by_factor = order(right.terms[i].coefficient, left.terms[i].coefficient)) {
+      return by_factor;
+    }
+  }
+  return left.terms.size() > right.terms.size() ? -1 : 1;
+}
+
+}  // namespace casimir::codegen

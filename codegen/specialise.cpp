@@ -1,0 +1,356 @@
+#include "codegen/specialise.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <set>
+#include <utility>
+
+#include "codegen/canonical.hpp"
+#include "codegen/optimise.hpp"
+#include "codegen/vanishing.hpp"
+
+namespace casimir {
+
+namespace {
+
+using codegen::Dag;
+using codegen::Scaled;
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string result;
+  for (const std::string& name : names) result += (result.empty() ? "" : ", ") + name;
+  return result;
+}
+
+bool depends(const GiNaC::ex& expression, const GiNaC::symbol& symbol) {
+  return expression.has(symbol);
+}
+
+class Specialiser {
+ public:
+  Specialiser(const Model& model, const Scene& scene, const SpecialiseOptions& options)
+      : model_(model), scene_(scene), options_(options), general_dag_(general_symbols(), n()) {}
+
+  Specialisation run() {
+    describe();
+    bind();
+    select_states();
+    select_invariants();
+    write_programs();
+    note_vanishing_terms();
+    return std::move(result_);
+  }
+
+ private:
+  std::size_t n() const { return model_.variables.size(); }
+
+  std::vector<GiNaC::symbol> general_symbols() const {
+    std::vector<GiNaC::symbol> symbols = model_.variables;
+    symbols.insert(symbols.end(), model_.parameters.begin(), model_.parameters.end());
+    if (model_.time) symbols.push_back(*model_.time);
+    return symbols;
+  }
+
+  void describe() {
+    result_.case_name = model_.name;
+    result_.file = model_.file;
+    result_.scene = scene_.name;
+    result_.title = model_.title;
+    result_.source = model_.source;
+    if (model_.time) result_.time = model_.time->get_name();
+    if (model_.hamiltonian) {
+      result_.hamiltonian = within("H", [&] {
+        return general_dag_.text(general_dag_.convert(*model_.hamiltonian));
+      });
+    }
+    for (std::size_t i = 0; i < model_.parameters.size(); ++i) {
+      const std::string name = model_.parameters[i].get_name();
+      const std::string value = within(name, [&] {
+        return general_dag_.text(general_dag_.convert(scene_.parameters.at(i)));
+      });
+      result_.values.emplace_back(name, value);
+      if (options_.fold_parameters) {
+        leave_out("parameter", name, "folded to " + value);
+      } else {
+        result_.parameters.push_back(name);
+      }
+    }
+  }
+
+  void leave_out(std::string kind, std::string name, std::string reason) {
+    result_.left_out.push_back({std::move(kind), std::move(name), std::move(reason)});
+  }
+
+  /// Runs an algebraic step and says where it failed.
+  template <class Step>
+  auto within(const std::string& what, const Step& step) -> decltype(step()) {
+    try {
+      return step();
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& e) {
+      std::string values;
+      for (const auto& [name, value] : result_.values) {
+        values += (values.empty() ? "" : ", ") + name + " = " + value;
+      }
+      throw ModelError("scene \"" + printable(scene_.name) + "\"" +
+                       (values.empty() ? "" : " (" + values + ")") + ": " + what +
+                       " cannot be computed: " + reason_of(e.what()));
+    }
+  }
+
+  static std::string reason_of(const std::string& text) {
+    const bool pole = text.find("division by zero") != std::string::npos ||
+                      text.find("pole") != std::string::npos;
+    return pole ? "division by zero" : text;
+  }
+
+  GiNaC::ex bound(const std::string& what, const GiNaC::ex& expression) {
+    if (!options_.fold_parameters) return expression;
+    return within(what, [&] { return model_.at_parameters(expression, scene_); });
+  }
+
+  void bind() {
+    for (std::size_t i = 0; i < n(); ++i) {
+      field_.push_back(bound(derivative_name(i), model_.field.at(i)));
+    }
+    const auto add = [this](const std::string& name, const GiNaC::ex& value) {
+      const auto same_name = [&](const auto& known) { return known.first == name; };
+      if (std::ranges::none_of(invariants_, same_name)) {
+        invariants_.emplace_back(name, bound(name, value));
+      }
+    };
+    const bool conserved = model_.hamiltonian && !(model_.time && depends_on_time());
+    if (conserved) add("H", *model_.hamiltonian);
+    for (const NamedExpression& casimir : model_.casimirs) add(casimir.name, casimir.value);
+    for (const NamedExpression& integral : model_.integrals) add(integral.name, integral.value);
+  }
+
+  bool depends_on_time() {
+    return depends(bound("H", *model_.hamiltonian), *model_.time);
+  }
+
+  std::string derivative_name(std::size_t i) const { return "d" + model_.variables[i].get_name(); }
+
+  // --- which states are needed
+
+  void select_states() {
+    const std::vector<std::string> observed = options_.observe.value_or(scene_.observe);
+    std::vector<bool> needed(n(), observed.empty());
+    for (const std::string& name : observed) mark(name, needed);
+    close_under_dependence(needed);
+    for (std::size_t i = 0; i < n(); ++i) {
+      const std::string name = model_.variables[i].get_name();
+      if (needed[i]) {
+        result_.states.push_back(name);
+        result_.state_indices.push_back(static_cast<int>(i));
+      } else {
+        leave_out("state", name, "not needed for " + joined(observed));
+      }
+    }
+  }
+
+  void mark(const std::string& name, std::vector<bool>& needed) {
+    std::vector<std::string> known;
+    for (std::size_t i = 0; i < n(); ++i) {
+      known.push_back(model_.variables[i].get_name());
+      if (known.back() == name) {
+        needed[i] = true;
+        return;
+      }
+    }
+    for (const auto& [invariant, value] : invariants_) {
+      known.push_back(invariant);
+      if (invariant != name) continue;
+      for (std::size_t i = 0; i < n(); ++i) {
+        if (depends(value, model_.variables[i])) needed[i] = true;
+      }
+      return;
+    }
+    const std::string hint = suggest(name, known);
+    throw ModelError("cannot observe '" + printable(name) + "': no variable or invariant has that name" +
+                     (hint.empty() ? "" : "; " + hint));
+  }
+
+  void close_under_dependence(std::vector<bool>& needed) {
+    const bool everything = std::ranges::all_of(needed, [](bool one) { return one; });
+    for (bool grown = !everything; grown;) {
+      grown = false;
+      for (std::size_t i = 0; i < n(); ++i) {
+        if (!needed[i]) continue;
+        for (std::size_t j = 0; j < n(); ++j) {
+          if (needed[j] || !really_depends(i, j)) continue;
+          needed[j] = true;
+          grown = true;
+        }
+      }
+    }
+  }
+
+  /// Whether dx_i/dt depends on x_j; (x + y)*z - y*z does not depend on y.
+  bool really_depends(std::size_t i, std::size_t j) {
+    if (!depends(field_[i], model_.variables[j])) return false;
+    const GiNaC::ex expanded = field_[i].expand();
+    if (depends(expanded, model_.variables[j])) return true;
+    field_[i] = expanded;
+    return false;
+  }
+
+  bool is_kept(std::size_t variable) const {
+    return std::ranges::find(result_.state_indices, static_cast<int>(variable)) !=
+           result_.state_indices.end();
+  }
+
+  void select_invariants() {
+    if (!options_.invariants) invariants_.clear();
+    std::erase_if(invariants_, [this](const auto& invariant) {
+      std::vector<std::string> missing;
+      bool varies = false;
+      for (std::size_t i = 0; i < n(); ++i) {
+        if (!depends(invariant.second, model_.variables[i])) continue;
+        varies = true;
+        if (!is_kept(i)) missing.push_back(model_.variables[i].get_name());
+      }
+      if (!missing.empty()) {
+        leave_out("invariant", invariant.first, "needs " + joined(missing));
+      } else if (!varies) {
+        leave_out("invariant", invariant.first, "a constant for these parameters");
+      }
+      return !missing.empty() || !varies;
+    });
+    for (const auto& invariant : invariants_) result_.invariant_names.push_back(invariant.first);
+  }
+
+  // --- programs
+
+  /// The inputs of the generated programs, as symbols; the time comes last.
+  std::vector<GiNaC::symbol> kept_symbols() const {
+    std::vector<GiNaC::symbol> symbols;
+    for (const int i : result_.state_indices) {
+      symbols.push_back(model_.variables[static_cast<std::size_t>(i)]);
+    }
+    if (!options_.fold_parameters) {
+      symbols.insert(symbols.end(), model_.parameters.begin(), model_.parameters.end());
+    }
+    symbols.push_back(model_.time ? *model_.time : GiNaC::symbol("t"));
+    return symbols;
+  }
+
+  void write_programs() {
+    const std::vector<GiNaC::symbol> symbols = kept_symbols();
+    Dag dag(symbols, result_.states.size());
+    std::vector<std::string> inputs;
+    for (const GiNaC::symbol& symbol : symbols) inputs.push_back(symbol.get_name());
+
+    std::vector<Scaled> field;
+    std::vector<std::string> names;
+    for (const int i : result_.state_indices) {
+      const auto index = static_cast<std::size_t>(i);
+      names.push_back(derivative_name(index));
+      field.push_back(within(names.back(), [&] { return dag.convert(field_[index]); }));
+    }
+    result_.rhs = codegen::optimised(dag, field, inputs, names);
+    result_.specialised = count_operations(result_.rhs);
+
+    std::vector<Scaled> invariants;
+    for (const auto& [name, value] : invariants_) {
+      invariants.push_back(within(name, [&] { return dag.convert(value); }));
+    }
+    result_.invariants = codegen::optimised(dag, invariants, inputs, result_.invariant_names);
+    if (options_.jacobian) write_jacobian(dag, inputs);
+    note_time(dag, field, invariants);
+    write_start();
+  }
+
+  void write_jacobian(Dag& dag, const std::vector<std::string>& inputs) {
+    std::vector<Scaled> values;
+    std::vector<std::string> names;
+    const auto count = static_cast<int>(result_.states.size());
+    for (int column = 0; column < count; ++column) {
+      const auto by = static_cast<std::size_t>(result_.state_indices[column]);
+      for (int row = 0; row < count; ++row) {
+        const auto of = static_cast<std::size_t>(result_.state_indices[row]);
+        const std::string name = derivative_name(of) + "/d" + result_.states[column];
+        const Scaled entry = within(name, [&] {
+          return dag.convert(field_[of].diff(model_.variables[by]));
+        });
+        if (codegen::vanishes(dag, entry, inputs.size())) continue;
+        result_.jacobian.entries.emplace_back(row, column);
+        values.push_back(entry);
+        names.push_back(name);
+      }
+    }
+    result_.jacobian.program = codegen::optimised(dag, values, inputs, names);
+    result_.has_jacobian = true;
+  }
+
+  void note_time(const Dag& dag, const std::vector<Scaled>& field,
+                 const std::vector<Scaled>& invariants) {
+    const auto time = static_cast<int>(result_.states.size() + result_.parameters.size());
+    const auto uses = [&](const Scaled& e) { return dag.contains(e, time); };
+    result_.uses_time = std::ranges::any_of(field, uses) || std::ranges::any_of(invariants, uses);
+    if (model_.time && !result_.uses_time) {
+      leave_out("time", result_.time, "the equations do not depend on it");
+    }
+  }
+
+  void write_start() {
+    Dag dag({}, 0);
+    std::vector<Scaled> values;
+    std::vector<std::string> names;
+    const auto add = [&](const std::string& name, const GiNaC::ex& value) {
+      values.push_back(within(name, [&] { return dag.convert(value); }));
+      names.push_back(name);
+    };
+    for (std::size_t i = 0; i < result_.states.size(); ++i) {
+      const auto index = static_cast<std::size_t>(result_.state_indices[i]);
+      add(result_.states[i], scene_.initial.at(index));
+    }
+    for (std::size_t i = 0; i < result_.parameters.size(); ++i) {
+      add(result_.parameters[i], scene_.parameters.at(i));
+    }
+    add("duration", scene_.duration);
+    result_.start = codegen::lowered(codegen::system_of(dag, 0, values), {}, names);
+  }
+
+  // --- what the specialisation saves
+
+  void note_vanishing_terms() {
+    std::vector<Scaled> general;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < n(); ++i) {
+      names.push_back(derivative_name(i));
+      general.push_back(within(names.back(), [&] { return general_dag_.convert(model_.field[i]); }));
+    }
+    std::vector<std::string> inputs;
+    for (const GiNaC::symbol& symbol : general_symbols()) inputs.push_back(symbol.get_name());
+    result_.general = count_operations(codegen::optimised(general_dag_, general, inputs, names));
+    if (!options_.fold_parameters || model_.parameters.empty()) return;
+    for (const int i : result_.state_indices) {
+      const auto index = static_cast<std::size_t>(i);
+      const Scaled folded =
+          within(names[index], [&] { return general_dag_.convert(field_[index]); });
+      for (const codegen::VanishingTerm& term :
+           codegen::vanishing_terms(general_dag_, general[index], folded, n(), inputs.size())) {
+        leave_out("term", term.product + " in " + names[index],
+                  "vanishes: coefficient " + term.coefficient + " = 0");
+      }
+    }
+  }
+
+  const Model& model_;
+  const Scene& scene_;
+  const SpecialiseOptions& options_;
+  Dag general_dag_;
+  std::vector<GiNaC::ex> field_;
+  std::vector<std::pair<std::string, GiNaC::ex>> invariants_;
+  Specialisation result_;
+};
+
+}  // namespace
+
+Specialisation specialise(const Model& model, const Scene& scene, const SpecialiseOptions& options) {
+  return Specialiser(model, scene, options).run();
+}
+
+}  // namespace casimir

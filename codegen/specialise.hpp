@@ -1,0 +1,75 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "codegen/lower.hpp"
+#include "runtime/program.hpp"
+#include "symbolic/model.hpp"
+
+namespace casimir {
+
+using codegen::OperationCount;
+
+/// Something that the case file has and the generated code does not.
+struct LeftOut {
+  std::string kind;    ///< "parameter", "state", "invariant", "term", "time"
+  std::string name;    ///< "r", "g3", "K", "M1*M2 in dM3", "t"
+  std::string reason;  ///< "folded to 1", "not needed for M1, g1", ..
+};
+
+/// The entries of a matrix that are not identically zero.
+struct SparseProgram {
+  std::vector<std::pair<int, int>> entries;  ///< row and column of each output of the program
+  Program program;
+};
+
+struct SpecialiseOptions {
+  /// Replace the parameters by the scene's values; otherwise they are inputs at run time.
+  bool fold_parameters = true;
+  /// States or invariants that are wanted; none: those of the scene; empty: everything.
+  std::optional<std::vector<std::string>> observe;
+  bool invariants = true;
+  bool jacobian = true;
+};
+
+/// What is generated for one scene of a case: exact straight-line programs and where they come from.
+///
+/// The inputs of the programs are the kept states, the run-time parameters and the time. Everything
+/// is the same in every process: nothing follows GiNaC's order of terms.
+struct Specialisation {
+  std::string case_name, file, scene, title, source;
+  std::string hamiltonian;  ///< over the symbols of the file; empty for a system given by equations
+  std::vector<std::pair<std::string, std::string>> values;  ///< each parameter and its exact value
+  std::string time;                     ///< what the file calls it, or empty
+  bool uses_time = false;               ///< some program depends on the time
+
+  std::vector<std::string> states;      ///< the kept ones, in the order of the file
+  std::vector<int> state_indices;       ///< their indices in Model::variables
+  std::vector<std::string> parameters;  ///< inputs at run time: all of them, or none when folded
+  std::vector<std::string> invariant_names;  ///< "H" first, then Casimirs and integrals
+
+  Program rhs;             ///< outputs "dM1", ..: the time derivatives of the kept states
+  Program invariants;      ///< one output for each of `invariant_names`
+  SparseProgram jacobian;  ///< d rhs_row / d state_column
+  bool has_jacobian = false;
+
+  /// No inputs; outputs: initial values of the kept states, values of the run-time parameters, and
+  /// the duration.
+  Program start;
+
+  OperationCount general;      ///< one right-hand side of the case as it is in the file
+  OperationCount specialised;  ///< `rhs`
+  std::vector<LeftOut> left_out;
+};
+
+/// Binds the parameters of a scene exactly, drops what its observed quantities do not need, and
+/// writes the rest as short programs.
+/// \throws ModelError  for an unknown observed name, and where the values of the parameters make an
+///                     expression undefined; the text names the function and the values.
+Specialisation specialise(const Model& model, const Scene& scene,
+                          const SpecialiseOptions& options = {});
+
+}  // namespace casimir
