@@ -224,6 +224,12 @@ class Builder {
   }
 
   void read_claims() {
+    if (!model_.poisson && !file_.casimirs.empty()) {
+      throw file_.casimirs[0].first.error("a Casimir function needs a bracket, which this phase space does not have");
+    }
+    if (!model_.poisson && !file_.maps.empty()) {
+      throw file_.maps[0].name.error("a Poisson map needs a bracket, which this phase space does not have");
+    }
     model_.casimirs = read_named(file_.casimirs);
     model_.integrals = read_named(file_.integrals);
     for (const LevelText& text : file_.conditionals) model_.conditionals.push_back(read_level(text));
@@ -371,6 +377,18 @@ class Builder {
 
 }  // namespace
 
+std::vector<ex> PoissonMap::composed_brackets() const {
+  GiNaC::exmap values;
+  for (std::size_t i = 0; i < expressions.size(); ++i) values[target.coordinates()[i]] = expressions[i];
+  std::vector<ex> result;
+  for (std::size_t i = 0; i < expressions.size(); ++i) {
+    for (std::size_t j = i + 1; j < expressions.size(); ++j) {
+      result.push_back(target(i, j).subs(values, GiNaC::subs_options::no_pattern));
+    }
+  }
+  return result;
+}
+
 bool Assumption::holds_at(const GiNaC::exmap& point) const {
   ex value;
   try {
@@ -415,7 +433,7 @@ GiNaC::ex Model::parse(const Text& text) const {
   };
   for (const GiNaC::symbol& s : variables) names.add(s.get_name(), Quantity::symbol(s));
   for (const GiNaC::symbol& s : parameters) names.add(s.get_name(), Quantity::symbol(s));
-  for (const auto& [name, value] : fixed) names.add(name.value, {value, 64, 0, 1});
+  for (const auto& [parameter, value] : fixed) names.add(parameter.value, {value, 64, 0, 1});
   if (time) names.add(time->get_name(), Quantity::symbol(*time));
   add(definitions);
   add(casimirs);

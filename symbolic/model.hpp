@@ -60,6 +60,9 @@ struct PoissonMap {
   std::vector<GiNaC::ex> expressions;    ///< one for each coordinate of the target
   std::vector<NamedExpression> on;
   int sign = 1;
+
+  /// The target's brackets {y_i, y_j}, i < j, with the expressions put in for its coordinates.
+  std::vector<GiNaC::ex> composed_brackets() const;
 };
 
 /// Initial data for a run. All values are exact constants (rational, or such as sqrt(2)).

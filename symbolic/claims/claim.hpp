@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "symbolic/prover.hpp"
+
+namespace casimir {
+
+/// A statement about a case and how to decide it.
+struct Claim {
+  std::string kind;
+  std::string name;
+  bool fact = false;
+  std::function<void(Prover&, Proof&)> decide;
+};
+
+/// Reads the claims of one kind off a case. A new kind is one new file with such a function, and
+/// one line in `kClaimKinds`.
+using ClaimKind = std::vector<Claim> (*)(const Model&);
+
+std::vector<Claim> skew_claims(const Model& model);
+std::vector<Claim> jacobi_claims(const Model& model);
+std::vector<Claim> casimir_claims(const Model& model);
+std::vector<Claim> integral_claims(const Model& model);
+std::vector<Claim> conditional_claims(const Model& model);
+std::vector<Claim> invariant_relation_claims(const Model& model);
+std::vector<Claim> lax_claims(const Model& model);
+std::vector<Claim> map_claims(const Model& model);
+std::vector<Claim> measure_claims(const Model& model);
+std::vector<Claim> involution_claims(const Model& model);
+std::vector<Claim> independence_claims(const Model& model);
+std::vector<Claim> rank_claims(const Model& model);
+std::vector<Claim> liouville_claims(const Model& model);
+
+/// In the order in which they are reported.
+inline constexpr ClaimKind kClaimKinds[] = {
+    skew_claims,        jacobi_claims, casimir_claims, integral_claims, conditional_claims,
+    invariant_relation_claims, lax_claims, map_claims,     measure_claims,  involution_claims,
+    independence_claims, rank_claims,  liouville_claims,
+};
+
+/// {x_i, f} for every coordinate, on a level if one is given.
+Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
+/// df/dt = 0, on an invariant level if one is given (kind "conditional" then).
+Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
+/// f = 0 is preserved, on the level of `on` if one is given.
+Claim invariant_relation_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
+
+}  // namespace casimir

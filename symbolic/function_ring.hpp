@@ -1,0 +1,120 @@
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "symbolic/model.hpp"
+#include "symbolic/polynomial.hpp"
+
+namespace casimir {
+
+/// An expression that exact algebra cannot treat within the size limits of this program.
+class TooLarge : public ModelError {
+  using ModelError::ModelError;
+};
+
+/// The functions of a case as polynomials: symbols are variables of the ring, and every sine,
+/// root, denominator .. is one more variable (a generator) with its derivation and, where it has
+/// one, its algebraic relation:
+///
+///   s = sin v, c = cos v    Ds = c Dv, Dc = -s Dv          c^2 = 1 - s^2
+///   e = exp v               De = e Dv
+///   l = log v               Dl = Dv / v
+///   u = b^(1/q)             Du = u Db / (q b)              u^q = b
+///   y = 1/d                 Dy = -y^2 Dd                   y d = 1
+///   a = |b|                 Da = b Db / a                  a^2 = b^2
+///   inverse functions by their derivatives                 I^2 = -1
+///
+/// Angles and exponents are split into independent ones first (sums, multiples), denominators into
+/// irreducible factors, and roots lose their square factors, under the declared signs. What reduces
+/// to zero is identically zero: that is a proof. What does not is not zero in the ring; whether it
+/// is not zero as a function is for a witness to show.
+class FunctionRing {
+ public:
+  /// \param symbols      independent symbols: variables, parameters, time, a spectral parameter.
+  /// \param assumptions  decide the signs of square factors of roots.
+  /// \param expressions  everything that will be converted later.
+  /// \throws ModelError  for a denominator that is identically zero; TooLarge.
+  FunctionRing(std::vector<GiNaC::symbol> symbols, const std::vector<Assumption>& assumptions,
+               const std::vector<GiNaC::ex>& expressions);
+  ~FunctionRing();
+  FunctionRing(const FunctionRing&) = delete;
+  FunctionRing& operator=(const FunctionRing&) = delete;
+
+  /// \param expression  one of those given to the constructor, or made of their parts.
+  Polynomial convert(const GiNaC::ex& expression);
+
+  /// dp/ds where s is the i-th symbol, through all generators.
+  Polynomial derivative(const Polynomial& p, std::size_t symbol) const;
+
+  /// The numerator of `p` over the common denominator of its terms, reduced by all relations: zero
+  /// exactly when `p` is zero modulo the relations.
+  Polynomial numerator(const Polynomial& p) const;
+
+  GiNaC::ex expression(const Polynomial& p) const;
+
+  /// Text with terms in the ring's order: the same in every run, unlike GiNaC's.
+  std::string text(const Polynomial& p) const;
+
+  /// Given values of the symbols in point[0..symbols), fills in values of the generators that obey
+  /// all relations; sines and exponentials, which are independent of their arguments, are drawn
+  /// from `draw`. False where a denominator vanishes or a root is not rational.
+  bool complete(std::vector<cln::cl_RA>& point, const std::function<cln::cl_RA()>& draw) const;
+
+  /// The denominators in what was converted: where one of them vanishes, nothing is claimed.
+  std::vector<Polynomial> denominators() const;
+
+  const std::vector<GiNaC::symbol>& symbols() const { return symbols_; }
+  const PolynomialRing& ring() const { return *ring_; }
+  /// True where `p` is a polynomial in the symbols alone.
+  bool is_polynomial(const Polynomial& p) const;
+
+ private:
+  enum class Kind { sine, cosine, exponential, root, inverse, absolute, imaginary, function };
+  struct Generator {
+    Kind kind;
+    GiNaC::ex value;
+    Polynomial base;          ///< radicand, denominator or argument
+    unsigned long order = 1;  ///< q of a root
+    std::vector<Polynomial> derivatives;  ///< with respect to each symbol
+  };
+  struct Full {};  ///< more generators are needed than the ring has room for
+
+  void build(const std::vector<GiNaC::ex>& expressions);
+  Polynomial convert_new(const GiNaC::ex& e);
+  Polynomial convert_power(const GiNaC::ex& base, const GiNaC::ex& exponent);
+  Polynomial convert_function(const GiNaC::function& f);
+  Polynomial generator(Kind kind, const GiNaC::ex& value, const Polynomial& base, unsigned long order,
+                       const std::function<Polynomial(const Polynomial& slope)>& derivative_of);
+  const Generator* find(Kind kind, const Polynomial& base, unsigned long order, std::size_t* index) const;
+  std::string name(const Generator& g) const;
+  std::vector<Polynomial> slopes(const Polynomial& p) const;
+  Polynomial checked_product(const Polynomial& a, const Polynomial& b) const;
+  Polynomial power(const Polynomial& p, unsigned long exponent) const;
+  Polynomial inverse(const Polynomial& p);
+  Polynomial root(const Polynomial& p, unsigned long q);
+  Polynomial plain_root(const Polynomial& primitive, unsigned long q);
+  Polynomial absolute(const Polynomial& p);
+  int known_sign(const Polynomial& p) const;
+  std::pair<Polynomial, Polynomial> sine_cosine(const Polynomial& angle);
+  Polynomial exponential(const Polynomial& exponent);
+  std::pair<Polynomial, Polynomial> fraction(const Polynomial& p) const;
+  std::pair<Polynomial, cln::cl_I> unit_of(const std::vector<unsigned long>& monomial, const cln::cl_RA& coefficient);
+
+  std::vector<GiNaC::symbol> symbols_;
+  std::vector<Assumption> assumptions_;
+  std::size_t capacity_ = 0;
+  std::unique_ptr<PolynomialRing> ring_;
+  std::vector<Generator> generators_;
+  std::map<GiNaC::ex, Polynomial, GiNaC::ex_is_less> known_;
+  std::vector<std::pair<Polynomial, int>> signs_;  ///< polynomials whose sign is assumed
+  /// For a monomial in an angle or exponent: the least common denominator of its coefficients.
+  std::vector<std::pair<GiNaC::ex, cln::cl_I>> units_;
+};
+
+}  // namespace casimir

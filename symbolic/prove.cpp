@@ -1,0 +1,142 @@
+#include "symbolic/prove.hpp"
+
+#include <chrono>
+#include <stdexcept>
+
+#include "symbolic/claims/claim.hpp"
+
+namespace casimir {
+namespace {
+
+NamedExpression read(const Model& model, const Text& text) { return {text.value, model.parse(text), text.where}; }
+
+std::vector<NamedExpression> read(const Model& model, const std::vector<Text>& texts) {
+  std::vector<NamedExpression> result;
+  for (const Text& text : texts) result.push_back(read(model, text));
+  return result;
+}
+
+struct Work {
+  std::vector<Claim> claims;
+  std::vector<std::vector<std::string>> on;
+  std::vector<GiNaC::ex> expressions;  ///< of candidates, which the model does not hold
+};
+
+Work work_of(const Model& model, const Candidates& candidates) {
+  Work work;
+  if (candidates.empty()) {
+    for (const ClaimKind& kind : kClaimKinds) {
+      for (Claim& claim : kind(model)) work.claims.push_back(std::move(claim));
+    }
+    return work;
+  }
+  const std::vector<NamedExpression> on = read(model, candidates.on);
+  const auto add = [&](const std::vector<Text>& texts, auto make_claim) {
+    for (const NamedExpression& f : read(model, texts)) {
+      work.claims.push_back(make_claim(f, on));
+      work.expressions.push_back(f.value);
+    }
+  };
+  if (!model.poisson && !candidates.casimirs.empty()) {
+    throw candidates.casimirs[0].error("a Casimir function needs a bracket, which this case does not have");
+  }
+  add(candidates.casimirs, casimir_claim);
+  add(candidates.integrals, integral_claim);
+  add(candidates.invariant_relations, invariant_relation_claim);
+  for (const NamedExpression& f : on) work.expressions.push_back(f.value);
+  return work;
+}
+
+std::vector<std::string> level_names(const Model& model, const Claim& claim, const Candidates& candidates) {
+  std::vector<std::string> names;
+  if (!candidates.empty()) {
+    for (const Text& text : candidates.on) names.push_back(text.value);
+    return names;
+  }
+  const auto* level = claim.kind == "conditional"          ? &model.conditionals
+                      : claim.kind == "invariant_relation" ? &model.invariant_relations
+                                                           : nullptr;
+  if (level == nullptr) return names;
+  for (const LevelClaim& candidate : *level) {
+    if (candidate.expression.name != claim.name) continue;
+    for (const NamedExpression& f : candidate.on) names.push_back(f.name);
+  }
+  return names;
+}
+
+Proof decide(Prover& prover, const Claim& claim) {
+  Proof proof;
+  proof.kind = claim.kind;
+  proof.name = claim.name;
+  proof.fact = claim.fact;
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    claim.decide(prover, proof);
+  } catch (const TooLarge& limit) {
+    proof.verdict = Verdict::undecided;
+    proof.reason = limit.what();
+  } catch (const std::overflow_error& limit) {
+    proof.verdict = Verdict::undecided;
+    proof.reason = limit.what();
+  }
+  proof.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return proof;
+}
+
+/// What a proof attempt is worth when not even the expressions of the case fit.
+std::vector<Proof> all_undecided(const Work& work, const std::string& reason, const std::function<bool(const Proof&)>& report) {
+  std::vector<Proof> proofs;
+  for (const Claim& claim : work.claims) {
+    Proof proof;
+    proof.kind = claim.kind;
+    proof.name = claim.name;
+    proof.fact = claim.fact;
+    proof.reason = reason;
+    proofs.push_back(proof);
+    if (report && !report(proofs.back())) break;
+  }
+  return proofs;
+}
+
+}  // namespace
+
+std::string to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::proved:
+      return "proved";
+    case Verdict::refuted:
+      return "refuted";
+    case Verdict::undecided:
+      break;
+  }
+  return "undecided";
+}
+
+std::vector<Proof> prove(const Model& model, const Candidates& candidates, const std::function<bool(const Proof&)>& report) {
+  const Work work = work_of(model, candidates);
+  std::optional<Prover> prover;
+  try {
+    prover.emplace(model, work.expressions);
+  } catch (const TooLarge& limit) {
+    return all_undecided(work, limit.what(), report);
+  }
+  std::vector<Proof> proofs;
+  for (const Claim& claim : work.claims) {
+    proofs.push_back(decide(*prover, claim));
+    proofs.back().on = level_names(model, claim, candidates);
+    if (report && !report(proofs.back())) break;
+  }
+  return proofs;
+}
+
+Verdict overall(const Model& model, const std::vector<Proof>& proofs) {
+  Verdict worst = Verdict::proved;
+  for (const Proof& proof : proofs) {
+    if (proof.fact && !model.integrable) continue;
+    if (proof.verdict == Verdict::refuted) return Verdict::refuted;
+    if (proof.verdict == Verdict::undecided) worst = Verdict::undecided;
+  }
+  return worst;
+}
+
+}  // namespace casimir

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "symbolic/model.hpp"
+
+namespace casimir {
+
+/// The outcome of a proof attempt. "Undecided" is an answer of its own and never shown as another.
+enum class Verdict { proved, undecided, refuted };
+
+/// "proved", "undecided" or "refuted".
+std::string to_string(Verdict verdict);
+
+/// A point at which a claimed identity fails.
+struct Witness {
+  std::vector<std::pair<std::string, std::string>> point;  ///< exact value of every symbol
+  std::string value;                                       ///< of the residual there; not zero
+};
+
+/// What came of a claim.
+struct Proof {
+  std::string kind;  ///< "casimir", "integral", ..: the kinds of the interface
+  std::string name;
+  Verdict verdict = Verdict::undecided;
+  bool fact = false;  ///< about the system; counts only where the file claims `integrable`
+  double seconds = 0;
+  std::vector<std::string> on;          ///< the relations that define the level, as written
+  std::string evidence;                 ///< for what is proved: what was found, in words
+  std::string residual;                 ///< what should have been zero
+  std::string reason;                   ///< for what is not proved
+  std::optional<Witness> witness;
+  std::vector<std::string> nonzero;     ///< what was divided by
+};
+
+/// What a user wants to know beyond, or instead of, the claims of the file.
+struct Candidates {
+  std::vector<Text> integrals, casimirs, invariant_relations;
+  std::vector<Text> on;
+  bool empty() const { return integrals.empty() && casimirs.empty() && invariant_relations.empty(); }
+};
+
+/// Proves or refutes every claim of the case file and the facts about it, in the order of the
+/// file; or, where `candidates` has any, those instead. `report` is called with each as it is done
+/// and may return false to stop.
+/// \throws CaseError   for a candidate that cannot be read
+/// \throws ModelError  for a case that has no meaning, as a division by zero
+std::vector<Proof> prove(const Model& model, const Candidates& candidates = {},
+                         const std::function<bool(const Proof&)>& report = {});
+
+/// The worst verdict among the claims; facts count where the file claims integrability.
+Verdict overall(const Model& model, const std::vector<Proof>& proofs);
+
+}  // namespace casimir
