@@ -15,6 +15,13 @@
 
 namespace casimir_kernel {
 
+// Before a loop over the components: written out in full for small systems, also at -O2.
+#ifdef __clang__
+#define CASIMIR_UNROLL _Pragma("unroll 16")
+#else
+#define CASIMIR_UNROLL _Pragma("GCC unroll 16")
+#endif
+
 constexpr double kEpsilon = 0x1p-52;
 constexpr double kSmallest = 0x1p-1022;  // the smallest normal number
 
@@ -63,6 +70,13 @@ inline double rough_root(double a, int k) {
   return m * (1 + part * (0.6565 + 0.3435 * part));
 }
 
+/// The right-hand side where it is evaluated once: not worth a copy of its text.
+template <class System>
+__attribute__((cold, noinline)) void cold_rhs(double t, const double* x, const double* p,
+                                              double* dx) {
+  System::rhs(t, x, p, dx);
+}
+
 /// The local error allowed to a component of size |a|. Never zero.
 inline double allowed_error(const casimir_run* run, double a) {
   return larger(run->atol + run->rtol * magnitude(a), kSmallest);
@@ -72,8 +86,8 @@ inline double allowed_error(const casimir_run* run, double a) {
 /// the state and of its first two derivatives (after Hairer, Norsett, Wanner I, II.4, but with the
 /// time scale of the solution as the unit). Costs one evaluation.
 template <class System>
-double first_step(const casimir_run* run, const double* x, const double* f, double span,
-                  int order) {
+__attribute__((cold, noinline)) double first_step(const casimir_run* run, const double* x,
+                                                  const double* f, double span, int order) {
   constexpr int n = System::n;
   double size = 0, speed = 0, bend = 0;
   double moved[n], g[n];
@@ -88,7 +102,7 @@ double first_step(const casimir_run* run, const double* x, const double* f, doub
   if (!(h > 0)) return span;
   const double signed_h = span < 0 ? -h : h;
   for (int i = 0; i < n; ++i) moved[i] = x[i] + signed_h * f[i];
-  System::rhs(run->t_begin + signed_h, moved, run->parameters, g);
+  cold_rhs<System>(run->t_begin + signed_h, moved, run->parameters, g);
   if (!all_finite<n>(g)) return signed_h;
   for (int i = 0; i < n; ++i)
     bend = larger(bend, magnitude(g[i] - f[i]) / h / allowed_error(run, x[i]));
@@ -103,7 +117,8 @@ double first_step(const casimir_run* run, const double* x, const double* f, doub
 /// Why a run ends whose step has shrunk to nothing: a singularity if the solution now changes by
 /// its own size in a vanishing part of the time passed, else whatever made the step shrink.
 template <int n>
-int status_of_vanished_step(double elapsed, const double* x, const double* f, int failure) {
+__attribute__((cold, noinline)) int status_of_vanished_step(double elapsed, const double* x,
+                                                            const double* f, int failure) {
   const double passes = largest<n>(f) / largest<n>(x) * magnitude(elapsed);
   return passes > 1e6 ? CASIMIR_SINGULARITY : failure;
 }

@@ -16,13 +16,12 @@ namespace dop853 {
 template <class System>
 struct Step {
   static constexpr int n = System::n;
-  static constexpr int m = (n + 3) / 4 * 4;  // whole vectors; what is beyond n stays zero
   static constexpr int power = 8;
 
-  alignas(64) double x[m] = {}, f[m] = {}, y[m] = {};
-  alignas(64) double k2[m] = {}, k3[m] = {}, k4[m] = {}, k5[m] = {}, k6[m] = {}, k7[m] = {},
-                     k8[m] = {}, k9[m] = {}, k10[m] = {}, k11[m] = {}, k12[m] = {}, k13[m] = {};
-  alignas(64) double increment[m] = {};
+  double x[n] = {}, f[n] = {};
+  double k2[n] = {}, k3[n] = {}, k4[n] = {}, k5[n] = {}, k6[n] = {}, k7[n] = {}, k8[n] = {},
+         k9[n] = {}, k10[n] = {}, k11[n] = {}, k12[n] = {}, k13[n] = {};
+  double increment[n] = {};
   double r4[n], r5[n], r6[n], r7[n];  // of the dense output
   double h = 0, error = 0;
   const double* p = nullptr;
@@ -40,45 +39,58 @@ struct Step {
 
   Trial attempt(double t, const double* start, const double*, double size, bool) {
     const double* k1 = f;
+    double y[n];
     h = size;
     extended = false;
+    CASIMIR_UNROLL
     for (int i = 0; i < n; ++i) x[i] = start[i];
-    for (int i = 0; i < m; ++i) y[i] = x[i] + h * (a21 * k1[i]);
+    CASIMIR_UNROLL
+    for (int i = 0; i < n; ++i) y[i] = x[i] + h * (a21 * k1[i]);
     System::rhs(t + c2 * h, y, p, k2);
-    for (int i = 0; i < m; ++i) y[i] = x[i] + h * (a31 * k1[i] + a32 * k2[i]);
+    CASIMIR_UNROLL
+    for (int i = 0; i < n; ++i) y[i] = x[i] + h * (a31 * k1[i] + a32 * k2[i]);
     System::rhs(t + c3 * h, y, p, k3);
-    for (int i = 0; i < m; ++i) y[i] = x[i] + h * (a41 * k1[i] + a43 * k3[i]);
+    CASIMIR_UNROLL
+    for (int i = 0; i < n; ++i) y[i] = x[i] + h * (a41 * k1[i] + a43 * k3[i]);
     System::rhs(t + c4 * h, y, p, k4);
-    for (int i = 0; i < m; ++i) y[i] = x[i] + h * (a51 * k1[i] + a53 * k3[i] + a54 * k4[i]);
+    CASIMIR_UNROLL
+    for (int i = 0; i < n; ++i) y[i] = x[i] + h * (a51 * k1[i] + a53 * k3[i] + a54 * k4[i]);
     System::rhs(t + c5 * h, y, p, k5);
-    for (int i = 0; i < m; ++i) y[i] = x[i] + h * (a61 * k1[i] + a64 * k4[i] + a65 * k5[i]);
+    CASIMIR_UNROLL
+    for (int i = 0; i < n; ++i) y[i] = x[i] + h * (a61 * k1[i] + a64 * k4[i] + a65 * k5[i]);
     System::rhs(t + h * (1. / 3), y, p, k6);
-    for (int i = 0; i < m; ++i)
+    CASIMIR_UNROLL
+    for (int i = 0; i < n; ++i)
       y[i] = x[i] + h * (a71 * k1[i] + a74 * k4[i] + a75 * k5[i] + a76 * k6[i]);
     System::rhs(t + 0.25 * h, y, p, k7);
-    for (int i = 0; i < m; ++i)
+    CASIMIR_UNROLL
+    for (int i = 0; i < n; ++i)
       y[i] = x[i] + h * (a81 * k1[i] + a84 * k4[i] + a85 * k5[i] + a86 * k6[i] + a87 * k7[i]);
     System::rhs(t + h * (4. / 13), y, p, k8);
-    for (int i = 0; i < m; ++i)
+    CASIMIR_UNROLL
+    for (int i = 0; i < n; ++i)
       y[i] = x[i] + h * (a91 * k1[i] + a94 * k4[i] + a95 * k5[i] + a96 * k6[i] + a97 * k7[i] +
                          a98 * k8[i]);
     System::rhs(t + h * (127. / 195), y, p, k9);
-    for (int i = 0; i < m; ++i)
+    CASIMIR_UNROLL
+    for (int i = 0; i < n; ++i)
       y[i] = x[i] + h * (a10_1 * k1[i] + a10_4 * k4[i] + a10_5 * k5[i] + a10_6 * k6[i] +
                          a10_7 * k7[i] + a10_8 * k8[i] + a10_9 * k9[i]);
     System::rhs(t + 0.6 * h, y, p, k10);
-    for (int i = 0; i < m; ++i)
+    CASIMIR_UNROLL
+    for (int i = 0; i < n; ++i)
       y[i] = x[i] + h * (a11_1 * k1[i] + a11_4 * k4[i] + a11_5 * k5[i] + a11_6 * k6[i] +
                          a11_7 * k7[i] + a11_8 * k8[i] + a11_9 * k9[i] + a11_10 * k10[i]);
     System::rhs(t + h * (6. / 7), y, p, k11);
-    for (int i = 0; i < m; ++i)
+    CASIMIR_UNROLL
+    for (int i = 0; i < n; ++i)
       y[i] = x[i] +
              h * (a12_1 * k1[i] + a12_4 * k4[i] + a12_5 * k5[i] + a12_6 * k6[i] + a12_7 * k7[i] +
                   a12_8 * k8[i] + a12_9 * k9[i] + a12_10 * k10[i] + a12_11 * k11[i]);
     System::rhs(t + h, y, p, k12);
     evaluations += 11;
     double squares5 = 0, squares3 = 0;
-    for (int i = 0; i < m; ++i) {
+    for (int i = 0; i < n; ++i) {
       y[i] = b1 * k1[i] + b6 * k6[i] + b7 * k7[i] + b8 * k8[i] + b9 * k9[i] + b10 * k10[i] +
              b11 * k11[i] + b12 * k12[i];
       increment[i] = h * y[i];
@@ -105,22 +117,23 @@ struct Step {
   }
 
   void accept() {
-    for (int i = 0; i < m; ++i) f[i] = k13[i];
+    for (int i = 0; i < n; ++i) f[i] = k13[i];
   }
 
-  void extend(const casimir_step* step) {
+  __attribute__((cold, noinline)) void extend(const casimir_step* step) {
     const double t = step->t0;
     const double* k1 = f;
-    alignas(64) double k14[m] = {}, k15[m] = {}, k16[m] = {};
-    for (int i = 0; i < m; ++i)
+    double y[n];
+    double k14[n] = {}, k15[n] = {}, k16[n] = {};
+    for (int i = 0; i < n; ++i)
       y[i] = x[i] + h * (a14_1 * k1[i] + a14_7 * k7[i] + a14_8 * k8[i] + a14_9 * k9[i] +
                          a14_10 * k10[i] + a14_11 * k11[i] + a14_12 * k12[i] + a14_13 * k13[i]);
     System::rhs(t + 0.1 * h, y, p, k14);
-    for (int i = 0; i < m; ++i)
+    for (int i = 0; i < n; ++i)
       y[i] = x[i] + h * (a15_1 * k1[i] + a15_6 * k6[i] + a15_7 * k7[i] + a15_8 * k8[i] +
                          a15_11 * k11[i] + a15_12 * k12[i] + a15_13 * k13[i] + a15_14 * k14[i]);
     System::rhs(t + 0.2 * h, y, p, k15);
-    for (int i = 0; i < m; ++i)
+    for (int i = 0; i < n; ++i)
       y[i] = x[i] + h * (a16_1 * k1[i] + a16_6 * k6[i] + a16_7 * k7[i] + a16_8 * k8[i] +
                          a16_9 * k9[i] + a16_13 * k13[i] + a16_14 * k14[i] + a16_15 * k15[i]);
     System::rhs(t + h * (7. / 9), y, p, k16);
@@ -142,7 +155,7 @@ struct Step {
     extended = true;
   }
 
-  static void dense(const casimir_step* step, double t, double* at) {
+  __attribute__((cold)) static void dense(const casimir_step* step, double t, double* at) {
     Step* self = static_cast<Step*>(const_cast<void*>(step->data));
     if (!self->extended) self->extend(step);
     const double s = (t - step->t0) / self->h, r = 1 - s;
