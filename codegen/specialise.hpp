@@ -12,6 +12,7 @@
 namespace casimir {
 
 using codegen::OperationCount;
+using codegen::count_operations;
 
 /// Something that the case file has and the generated code does not.
 struct LeftOut {

@@ -1,0 +1,161 @@
+// The text of a loadable module.
+#include <utility>
+#include <vector>
+
+#include "codegen/emit_cpp.hpp"
+#include "codegen/names.hpp"
+#include "codegen/statements.hpp"
+#include "runtime/module_abi.h"
+
+namespace casimir {
+
+using codegen::Names;
+using codegen::StatementStyle;
+
+namespace {
+
+std::string counted(int count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+std::string state_list(const Specialisation& spec) {
+  std::string result;
+  for (const std::string& state : spec.states) result += " " + state;
+  return result;
+}
+
+std::string binding_text(const Specialisation& spec) {
+  std::string result;
+  for (const auto& [name, value] : spec.values) {
+    result += (result.empty() ? " (" : ", ") + name + " = " + value;
+  }
+  return result.empty() ? "" : result + ")";
+}
+
+class ModuleWriter {
+ public:
+  explicit ModuleWriter(const Specialisation& spec) : spec_(spec) {
+    for (std::size_t i = 0; i < spec.states.size(); ++i) {
+      sources_.push_back("x[" + std::to_string(i) + "]");
+    }
+    for (std::size_t i = 0; i < spec.parameters.size(); ++i) {
+      sources_.push_back("p[" + std::to_string(i) + "]");
+    }
+    Names names;
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+      names_.push_back(names.unique(spec.rhs.inputs[i]));
+    }
+    sources_.push_back("t");
+    names_.push_back("t");
+    style_.call_prefix = "__builtin_";
+    style_.indent = "    ";
+  }
+
+  std::string run(const std::string& kernel) {
+    std::string text = codegen::head_comment(spec_) + "\n";
+    if (!kernel.empty()) text += kernel + (kernel.ends_with('\n') ? "\n" : "\n\n");
+    text += "namespace {\n\nstruct System {\n  static constexpr int n = " +
+            std::to_string(spec_.states.size()) + ";\n\n";
+    text += function("rhs", "dx", spec_.rhs, "");
+    if (spec_.has_jacobian) {
+      text += "\n  // By columns: J[i + n*j] = d(dx[i]/dt)/dx[j].\n" +
+              function("jacobian", "J", spec_.jacobian.program, jacobian_zeros());
+    }
+    text += "\n" + function("invariants", "values", spec_.invariants, "");
+    text += "};\n\n}  // namespace\n\n";
+    return text + exports(!kernel.empty());
+  }
+
+ private:
+  std::string jacobian_zeros() const {
+    const std::size_t n = spec_.states.size();
+    if (spec_.jacobian.entries.size() == n * n) return "";
+    return "    for (int i = 0; i < n * n; ++i) J[i] = 0;\n";
+  }
+
+  std::string function(const std::string& name, const std::string& target, const Program& program,
+                       const std::string& before) const {
+    const std::size_t n = spec_.states.size();
+    std::vector<std::string> targets;
+    for (std::size_t k = 0; k < program.outputs.size(); ++k) {
+      std::size_t place = k;
+      if (target == "J") {
+        const auto& [row, column] = spec_.jacobian.entries[k];
+        place = static_cast<std::size_t>(row) + n * static_cast<std::size_t>(column);
+      }
+      targets.push_back(target + "[" + std::to_string(place) + "]");
+    }
+    return "  static inline void " + name + "([[maybe_unused]] double t, [[maybe_unused]] const double* x,\n" +
+           std::string(23 + name.size(), ' ') + "[[maybe_unused]] const double* p, [[maybe_unused]] double* " +
+           target + ") {\n" + before +
+           codegen::statements(program, sources_, names_, targets, style_) + "  }\n";
+  }
+
+  std::string exports(bool with_kernel) const {
+    const auto constant = [](const std::string& name, std::size_t value) {
+      return "int " + name + "(void) { return " + std::to_string(value) + "; }\n";
+    };
+    const auto forwarded = [](const std::string& name, const std::string& target) {
+      return "void casimir_" + name + "(double t, const double* x, const double* p, double* " +
+             target + ") {\n  System::" + name + "(t, x, p, " + target + ");\n}\n";
+    };
+    std::string text = "extern \"C\" {\n\n";
+    text += constant("casimir_abi_version", CASIMIR_ABI_VERSION);
+    text += constant("casimir_dimension", spec_.states.size());
+    text += constant("casimir_parameter_count", spec_.parameters.size());
+    text += constant("casimir_invariant_count", spec_.invariant_names.size());
+    text += forwarded("rhs", "dx");
+    if (spec_.has_jacobian) text += forwarded("jacobian", "J");
+    text += forwarded("invariants", "values");
+    if (with_kernel) {
+      text += "void casimir_integrate(const struct casimir_run* run, double* x,\n"
+              "                       struct casimir_outcome* outcome) {\n"
+              "  casimir_kernel::integrate<System>(run, x, outcome);\n}\n";
+    }
+    return text + "\n}  // extern \"C\"\n";
+  }
+
+  const Specialisation& spec_;
+  std::vector<std::string> sources_;
+  std::vector<std::string> names_;
+  StatementStyle style_;
+};
+
+}  // namespace
+
+std::string cost_text(const OperationCount& count) {
+  return counted(count.mul, "multiplication") + ", " + counted(count.add, "addition") + ", " +
+         counted(count.div, "division") + ", " + counted(count.calls, "call");
+}
+
+std::string codegen::head_comment(const Specialisation& spec) {
+  std::string text = comment_lines("Written by casimir from case \"" + spec.case_name +
+                                   "\", scene \"" + spec.scene + "\"" + binding_text(spec) +
+                                   ". Do not edit: edit the case.");
+  text += comment_lines(spec.title);
+  if (!spec.source.empty()) text += comment_lines("Source: " + spec.source);
+  if (!spec.states.empty()) {
+    text += comment_lines("State x[0.." + std::to_string(spec.states.size() - 1) + "] =" +
+                          state_list(spec) + ".");
+  }
+  text += comment_lines("Cost of rhs: " + cost_text(spec.specialised) + "; of the general case: " +
+                        cost_text(spec.general) + ".");
+  if (!spec.hamiltonian.empty()) {
+    text += comment_lines("dx/dt = {x, H},  H = " + spec.hamiltonian);
+  }
+  for (const LeftOut& left : spec.left_out) {
+    text += comment_lines("Left out: " + left.kind + " " + left.name + ", " + left.reason + ".");
+  }
+  return text;
+}
+
+bool needs_math_library(const Specialisation& spec) {
+  return codegen::calls_functions(spec.rhs) || codegen::calls_functions(spec.invariants) ||
+         codegen::calls_functions(spec.jacobian.program);
+}
+
+std::string emit_module(const Specialisation& spec, const std::string& kernel_source) {
+  return ModuleWriter(spec).run(kernel_source);
+}
+
+}  // namespace casimir
