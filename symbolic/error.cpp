@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <numeric>
 #include <utility>
 
@@ -22,8 +23,8 @@ std::string message(const Location& where, const std::string& text, const std::s
     const std::size_t from = at > kWidth / 2 && excerpt.size() > kWidth ? at - kWidth / 2 : 0;
     const std::string head = printable(excerpt.substr(from, at - from), kWidth);
     const std::string tail = printable(excerpt.substr(at), kWidth - std::min(kWidth, head.size()) + 3);
-    result += "\n  " + std::string(from > 0 ? "..." : "") + head + tail;
-    result += "\n  " + std::string(head.size() + (from > 0 ? 3 : 0), ' ') + "^";
+    const char* const cut = from > 0 ? "..." : "";
+    result += fmt::format("\n  {}{}{}\n  {:>{}}", cut, head, tail, '^', head.size() + std::strlen(cut) + 1);
   }
   if (!hint.empty()) result += "\n  hint: " + hint;
   return result;

@@ -106,8 +106,8 @@ class Parser {
   }
 
   Quantity checked(Quantity q, std::size_t offset) const {
-    if (q.bits > kMaxBits) fail_at(offset, fmt::format("a number here would have more than {:.0f} bits", kMaxBits));
     if (q.degree > kMaxDegree) fail_at(offset, fmt::format("the degree here exceeds {:.0f}", kMaxDegree));
+    if (q.bits > kMaxBits) fail_at(offset, fmt::format("a number here would have more than {:.0f} bits", kMaxBits));
     if (q.nodes > kMaxNodes) fail_at(offset, fmt::format("the expression has more than {:.0f} terms and factors", kMaxNodes));
     return q;
   }

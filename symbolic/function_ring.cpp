@@ -339,12 +339,31 @@ Polynomial FunctionRing::root(const Polynomial& p, unsigned long q) {
     if (!keep && exponent >= q) factor = checked_product(factor, outside(f, exponent / q));
   }
   // The positive constant factor has a root of its own, so that sqrt(2 x) = sqrt(2) sqrt(x).
-  const cln::cl_RA content = cln::abs(inside.term_list()[0].first);
-  const ex number = GiNaC::pow(GiNaC::numeric(content), GiNaC::numeric(1, static_cast<long>(q)));
-  if (inside.is_constant() && cln::plusp(inside.term_list()[0].first) && GiNaC::is_a<GiNaC::numeric>(number)) {
-    return factor.scaled(rational(GiNaC::ex_to<GiNaC::numeric>(number)));
+  const cln::cl_RA content = cln::abs(inside.content());
+  factor = checked_product(factor, number_root(content, q));
+  inside = inside.scaled(1 / content);
+  return inside == ring_->constant(1) ? factor : checked_product(factor, plain_root(inside, q));
+}
+
+/// r^(1/q) for r > 0, by roots of primes: so that sqrt(6) = sqrt(2) sqrt(3).
+Polynomial FunctionRing::number_root(const cln::cl_RA& r, unsigned long q) {
+  const cln::cl_I denominator = cln::denominator(r);
+  cln::cl_I rest = cln::numerator(r) * cln::expt_pos(denominator, cln::cl_I(q - 1));
+  Polynomial result = ring_->constant(1 / cln::cl_RA(denominator));
+  const auto take = [&](const cln::cl_I& p, unsigned long times) {
+    result = result.scaled(cln::expt(p, cln::cl_I(times / q)));
+    if (times % q != 0) result = checked_product(result, plain_root(ring_->constant(p), q).pow(times % q));
+  };
+  constexpr long kTrialDivisors = 2000;
+  for (long p = 2; p < kTrialDivisors && rest > 1; ++p) {
+    unsigned long times = 0;
+    for (; cln::zerop(cln::mod(rest, p)); ++times) rest = cln::exquo(rest, cln::cl_I(p));
+    if (times > 0) take(p, times);
   }
-  return checked_product(factor, plain_root(inside, q));
+  cln::cl_I whole;
+  if (cln::rootp(rest, static_cast<unsigned>(q), &whole)) return result.scaled(whole);
+  take(rest, 1);
+  return result;
 }
 
 Polynomial FunctionRing::plain_root(const Polynomial& radicand, unsigned long q) {

@@ -98,6 +98,7 @@ class FunctionRing {
   Polynomial power(const Polynomial& p, unsigned long exponent) const;
   Polynomial inverse(const Polynomial& p);
   Polynomial root(const Polynomial& p, unsigned long q);
+  Polynomial number_root(const cln::cl_RA& r, unsigned long q);
   Polynomial plain_root(const Polynomial& primitive, unsigned long q);
   Polynomial absolute(const Polynomial& p);
   int known_sign(const Polynomial& p) const;

@@ -114,7 +114,7 @@ class Builder {
       names_.declare(file_.phase_space.variables[i], "a variable", Quantity::symbol(model_.variables[i]));
     }
     if (const auto& time = file_.phase_space.time) {
-      model_.time = GiNaC::realsymbol(time->value);
+      model_.time = GiNaC::symbol(time->value);
       names_.declare(*time, "the time", Quantity::symbol(*model_.time));
     }
     std::vector<std::string> known;
@@ -126,7 +126,7 @@ class Builder {
         model_.fixed.emplace_back(parameter.name, value);
         continue;
       }
-      model_.parameters.push_back(GiNaC::realsymbol(parameter.name.value));
+      model_.parameters.push_back(GiNaC::symbol(parameter.name.value));
       names_.declare(parameter.name, "a parameter", Quantity::symbol(model_.parameters.back()));
     }
     for (const auto& [name, value] : fixed_) {

@@ -137,7 +137,7 @@ std::vector<GiNaC::symbol> make_variables(const PhaseSpaceText& text) {
     for (const GiNaC::symbol& other : result) {
       if (other.get_name() == name.value) throw name.error(fmt::format("'{}' is declared twice", name.value));
     }
-    result.push_back(GiNaC::realsymbol(name.value));
+    result.push_back(GiNaC::symbol(name.value));
   }
   return result;
 }

@@ -224,6 +224,17 @@ Polynomial Polynomial::gcd(const Polynomial& a, const Polynomial& b) {
   return result;
 }
 
+cln::cl_RA Polynomial::content() const {
+  Rational result;
+  if (!is_zero()) {
+    fmpq_mpoly_content(result.get(), value_, ring_->context());
+    Rational leading;
+    fmpq_mpoly_get_term_coeff_fmpq(leading.get(), value_, 0, ring_->context());
+    if (fmpq_sgn(leading.get()) < 0) fmpq_neg(result.get(), result.get());
+  }
+  return result.number();
+}
+
 bool Polynomial::divide(const Polynomial& divisor, Polynomial* quotient) const {
   return fmpq_mpoly_divides(quotient->value_, value_, divisor.value_, ring_->context()) != 0;
 }

@@ -74,6 +74,10 @@ class Polynomial {
   /// The greatest common divisor, with leading coefficient 1.
   static Polynomial gcd(const Polynomial& a, const Polynomial& b);
 
+  /// The rational c for which the polynomial is c times a primitive one with a positive leading
+  /// coefficient; 0 for the zero polynomial.
+  cln::cl_RA content() const;
+
   /// Exact quotient; false if `divisor` does not divide.
   bool divide(const Polynomial& divisor, Polynomial* quotient) const;
 

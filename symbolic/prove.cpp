@@ -18,7 +18,6 @@ std::vector<NamedExpression> read(const Model& model, const std::vector<Text>& t
 
 struct Work {
   std::vector<Claim> claims;
-  std::vector<std::vector<std::string>> on;
   std::vector<GiNaC::ex> expressions;  ///< of candidates, which the model does not hold
 };
 
@@ -26,7 +25,9 @@ Work work_of(const Model& model, const Candidates& candidates) {
   Work work;
   if (candidates.empty()) {
     for (const ClaimKind& kind : kClaimKinds) {
-      for (Claim& claim : kind(model)) work.claims.push_back(std::move(claim));
+      for (Claim& claim : kind(model)) {
+        if (candidates.only.empty() || candidates.only == claim.kind) work.claims.push_back(std::move(claim));
+      }
     }
     return work;
   }
@@ -64,11 +65,16 @@ std::vector<std::string> level_names(const Model& model, const Claim& claim, con
   return names;
 }
 
-Proof decide(Prover& prover, const Claim& claim) {
+Proof undecided(const Model& model, const Claim& claim, const Candidates& candidates) {
   Proof proof;
   proof.kind = claim.kind;
   proof.name = claim.name;
   proof.fact = claim.fact;
+  proof.on = level_names(model, claim, candidates);
+  return proof;
+}
+
+void decide(Prover& prover, const Claim& claim, Proof& proof) {
   const auto start = std::chrono::steady_clock::now();
   try {
     claim.decide(prover, proof);
@@ -80,22 +86,6 @@ Proof decide(Prover& prover, const Claim& claim) {
     proof.reason = limit.what();
   }
   proof.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return proof;
-}
-
-/// What a proof attempt is worth when not even the expressions of the case fit.
-std::vector<Proof> all_undecided(const Work& work, const std::string& reason, const std::function<bool(const Proof&)>& report) {
-  std::vector<Proof> proofs;
-  for (const Claim& claim : work.claims) {
-    Proof proof;
-    proof.kind = claim.kind;
-    proof.name = claim.name;
-    proof.fact = claim.fact;
-    proof.reason = reason;
-    proofs.push_back(proof);
-    if (report && !report(proofs.back())) break;
-  }
-  return proofs;
 }
 
 }  // namespace
@@ -112,18 +102,26 @@ std::string to_string(Verdict verdict) {
   return "undecided";
 }
 
+std::vector<Proof> pending(const Model& model, const Candidates& candidates) {
+  std::vector<Proof> proofs;
+  for (const Claim& claim : work_of(model, candidates).claims) proofs.push_back(undecided(model, claim, candidates));
+  return proofs;
+}
+
 std::vector<Proof> prove(const Model& model, const Candidates& candidates, const std::function<bool(const Proof&)>& report) {
   const Work work = work_of(model, candidates);
   std::optional<Prover> prover;
+  std::string too_large;  // not even the expressions of the case fit
   try {
     prover.emplace(model, work.expressions);
   } catch (const TooLarge& limit) {
-    return all_undecided(work, limit.what(), report);
+    too_large = limit.what();
   }
   std::vector<Proof> proofs;
   for (const Claim& claim : work.claims) {
-    proofs.push_back(decide(*prover, claim));
-    proofs.back().on = level_names(model, claim, candidates);
+    proofs.push_back(undecided(model, claim, candidates));
+    proofs.back().reason = too_large;
+    if (prover) decide(*prover, claim, proofs.back());
     if (report && !report(proofs.back())) break;
   }
   return proofs;

@@ -42,6 +42,7 @@ struct Proof {
 struct Candidates {
   std::vector<Text> integrals, casimirs, invariant_relations;
   std::vector<Text> on;
+  std::string only;  ///< without candidates: only claims and facts of this kind, or all if empty
   bool empty() const { return integrals.empty() && casimirs.empty() && invariant_relations.empty(); }
 };
 
@@ -52,6 +53,9 @@ struct Candidates {
 /// \throws ModelError  for a case that has no meaning, as a division by zero
 std::vector<Proof> prove(const Model& model, const Candidates& candidates = {},
                          const std::function<bool(const Proof&)>& report = {});
+
+/// What `prove` would decide, in its order, all still undecided.
+std::vector<Proof> pending(const Model& model, const Candidates& candidates = {});
 
 /// The worst verdict among the claims; facts count where the file claims integrability.
 Verdict overall(const Model& model, const std::vector<Proof>& proofs);

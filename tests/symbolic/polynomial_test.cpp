@@ -1,0 +1,76 @@
+#include "symbolic/polynomial.hpp"
+
+#include <gtest/gtest.h>
+
+#include "symbolic/ideal.hpp"
+
+namespace casimir {
+namespace {
+
+class Ring3 : public testing::Test {
+ protected:
+  PolynomialRing ring_{3};
+  Polynomial x_ = ring_.variable(0), y_ = ring_.variable(1), z_ = ring_.variable(2);
+  Polynomial one_ = ring_.constant(1);
+};
+
+TEST_F(Ring3, ArithmeticIsExact) {
+  const Polynomial p = (x_ + y_).pow(2) - x_ * x_ - y_ * y_;
+  EXPECT_EQ(p, (x_ * y_).scaled(2));
+  EXPECT_TRUE((p - x_ * y_ - y_ * x_).is_zero());
+  const cln::cl_RA huge = cln::expt_pos(cln::cl_I(10), 60);
+  EXPECT_EQ(ring_.constant(huge).scaled(1 / huge), one_);
+}
+
+TEST_F(Ring3, EvaluatesAndDifferentiates) {
+  const Polynomial p = x_.pow(3) * y_ + z_.scaled(cln::cl_RA(1) / 2);
+  EXPECT_EQ(p.evaluate({2, 3, 5}), 24 + cln::cl_RA(5) / 2);
+  EXPECT_EQ(p.derivative(0), (x_.pow(2) * y_).scaled(3));
+  EXPECT_EQ(p.degree(0), 3);
+  EXPECT_EQ(Polynomial(ring_).degree(0), -1);
+}
+
+TEST_F(Ring3, CoefficientsPutTheirPolynomialTogetherAgain) {
+  const Polynomial p = (x_ + y_ * z_ + one_).pow(4);
+  const std::vector<Polynomial> parts = p.coefficients(1);
+  Polynomial sum(ring_);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    EXPECT_FALSE(parts[k].uses(1));
+    sum += parts[k] * y_.pow(k);
+  }
+  EXPECT_EQ(sum, p);
+}
+
+TEST_F(Ring3, FactorsMultiplyBackToThePolynomial) {
+  const Polynomial p = ((x_ - y_).pow(3) * (x_ + z_)).scaled(-6);
+  Polynomial product = one_;
+  std::size_t factors = 0;
+  for (const auto& [f, k] : p.factors()) {
+    product *= f.pow(k);
+    factors += f.is_constant() ? 0 : 1;
+  }
+  EXPECT_EQ(product, p);
+  EXPECT_EQ(factors, 2U);
+}
+
+TEST_F(Ring3, GroebnerBasisDecidesMembershipThatDivisionAloneDoesNot) {
+  // x*y - 1 and y^2 - 1 generate x - y, which no single division shows.
+  const std::vector<Polynomial> generators{x_ * y_ - one_, y_ * y_ - one_};
+  std::vector<Polynomial> quotients;
+  EXPECT_FALSE((x_ - y_).remainder(generators, &quotients).is_zero());
+  const std::vector<Polynomial> basis = groebner_basis(generators);
+  EXPECT_TRUE((x_ - y_).remainder(basis, &quotients).is_zero());
+  EXPECT_FALSE((x_ - z_).remainder(basis, &quotients).is_zero());
+}
+
+TEST_F(Ring3, QuotientsAndRemainderPutTheDividendTogether) {
+  const std::vector<Polynomial> divisors{x_ * y_ - z_, y_ * y_ + one_};
+  const Polynomial p = (x_ + y_ + z_).pow(4);
+  std::vector<Polynomial> quotients;
+  Polynomial sum = p.remainder(divisors, &quotients);
+  for (std::size_t i = 0; i < divisors.size(); ++i) sum += quotients[i] * divisors[i];
+  EXPECT_EQ(sum, p);
+}
+
+}  // namespace
+}  // namespace casimir

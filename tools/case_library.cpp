@@ -1,0 +1,61 @@
+#include "tools/case_library.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <sstream>
+
+namespace casimir::tools {
+namespace fs = std::filesystem;
+
+std::vector<fs::path> case_folders() {
+  std::vector<fs::path> folders;
+  if (const char* list = std::getenv("CASIMIR_CASES")) {
+    std::istringstream stream(list);
+    for (std::string folder; std::getline(stream, folder, ':');) {
+      if (!folder.empty()) folders.emplace_back(folder);
+    }
+  }
+  std::error_code problem;
+  const fs::path program = fs::read_symlink("/proc/self/exe", problem);
+  if (!problem) {
+    folders.push_back(program.parent_path() / ".." / "share" / "casimir" / "cases");
+    folders.push_back(program.parent_path() / "cases");
+  }
+  return folders;
+}
+
+std::vector<fs::path> bundled_cases() {
+  std::map<std::string, fs::path> found;
+  for (const fs::path& folder : case_folders()) {
+    std::error_code problem;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, problem)) {
+      if (entry.path().extension() == ".toml") found.try_emplace(entry.path().stem().string(), entry.path());
+    }
+  }
+  std::vector<fs::path> result;
+  for (const auto& [name, path] : found) result.push_back(path);
+  return result;
+}
+
+CaseFile load_case(const std::string& argument) {
+  if (argument == "-") {
+    const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
+    return parse_case(text, "<standard input>");
+  }
+  if (argument.find('/') != std::string::npos || argument.ends_with(".toml")) return read_case(argument);
+  std::vector<std::string> names;
+  for (const fs::path& path : bundled_cases()) {
+    if (path.stem() == argument) return read_case(path);
+    names.push_back(path.stem().string());
+  }
+  std::string hint = suggest(argument, names);
+  if (hint.empty()) hint = "'casimir list' shows the bundled cases; a path needs a '/' or ends in '.toml'";
+  throw CaseError({argument}, "there is no bundled case of this name", {}, hint);
+}
+
+}  // namespace casimir::tools

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "symbolic/case_file.hpp"
+#include "symbolic/model.hpp"
+
+namespace casimir::tools {
+
+/// The folders that hold bundled cases: those of CASIMIR_CASES (a list like PATH), the installed
+/// ones and those of the build tree, both found from where this program is.
+std::vector<std::filesystem::path> case_folders();
+
+/// Every bundled case file by name; of two with one name the first folder's counts.
+std::vector<std::filesystem::path> bundled_cases();
+
+/// The case file that a user means: a path (with `/` or ending in `.toml`), `-` for standard input,
+/// or the name of a bundled case.
+/// \throws CaseError  with the nearest names if there is none.
+CaseFile load_case(const std::string& argument);
+
+}  // namespace casimir::tools

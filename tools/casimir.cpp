@@ -1,0 +1,74 @@
+// The command line: reads it, runs one command, and maps every kind of failure to its exit status.
+#include <fmt/format.h>
+
+#include <iostream>
+#include <new>
+
+#include "codegen/compile.hpp"
+#include "symbolic/error.hpp"
+#include "tools/cli.hpp"
+#include "tools/output.hpp"
+
+namespace {
+
+using namespace casimir;
+using namespace casimir::tools;
+
+int fail(Exit status, const std::string& message) {
+  std::cout.flush();
+  std::cerr << message << '\n';
+  return status;
+}
+
+/// CLI11 reports an unknown command as an extra argument; a near name helps more.
+std::string usage_message(const CLI::App& program, const CLI::ParseError& problem, int argc, char** argv) {
+  std::string message = fmt::format("casimir: error: {}", printable(problem.what(), 500));
+  const auto chosen = program.get_subcommands();
+  if (!chosen.empty()) return message + fmt::format("\n  see 'casimir {} --help'", chosen.front()->get_name());
+  if (argc > 1) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : program.get_subcommands(nullptr)) names.push_back(command->get_name());
+    message = fmt::format("casimir: error: there is no command '{}'", printable(argv[1]));
+    const std::string hint = suggest(argv[1], names);
+    if (!hint.empty()) message += "\n  hint: " + hint;
+  }
+  return message + "\n  see 'casimir --help'";
+}
+
+int run(int argc, char** argv) {
+  CLI::App program("Proves the integrals of Hamiltonian systems, writes their equations as C++ and integrates them.", "casimir");
+  program.set_version_flag("--version", CASIMIR_VERSION);
+  program.require_subcommand(1);
+  program.failure_message(CLI::FailureMessage::simple);
+  Action action;
+  for (const Register add : kCommands) add(program, action);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return program.exit(help);
+  } catch (const CLI::ParseError& problem) {
+    return fail(kBadInput, usage_message(program, problem, argc, argv));
+  }
+  return action();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  install_interrupt_handler();
+  try {
+    return run(argc, argv);
+  } catch (const CaseError& problem) {
+    return fail(kBadInput, problem.what());
+  } catch (const UsageError& problem) {
+    return fail(kBadInput, fmt::format("casimir: error: {}", problem.what()));
+  } catch (const ModelError& problem) {
+    return fail(kBadInput, fmt::format("casimir: error: {}", problem.what()));
+  } catch (const EnvironmentError& problem) {
+    return fail(kEnvironment, fmt::format("casimir: error: {}", problem.what()));
+  } catch (const SystemError& problem) {
+    return fail(kEnvironment, fmt::format("casimir: error: {}", problem.what()));
+  } catch (const std::bad_alloc&) {
+    return fail(kEnvironment, "casimir: error: out of memory");
+  }
+}

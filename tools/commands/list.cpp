@@ -1,0 +1,65 @@
+// casimir list: the bundled cases.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "tools/case_library.hpp"
+#include "tools/cli.hpp"
+
+namespace casimir::tools {
+namespace {
+
+struct Options {
+  Common common;
+  std::string tag;
+};
+
+std::string claims_of(const Model& model) {
+  std::vector<std::string> names;
+  for (const auto* list : {&model.casimirs, &model.integrals}) {
+    for (const NamedExpression& f : *list) names.push_back(f.name);
+  }
+  for (const auto* list : {&model.conditionals, &model.invariant_relations}) {
+    for (const LevelClaim& claim : *list) names.push_back(claim.expression.name + (claim.on.empty() ? "" : "|"));
+  }
+  if (!model.lax_pairs.empty()) names.emplace_back("Lax pair");
+  return fmt::format("{}", fmt::join(names, " "));
+}
+
+std::vector<std::string> scene_names(const Model& model) {
+  std::vector<std::string> names;
+  for (const Scene& scene : model.scenes) names.push_back(scene.name);
+  return names;
+}
+
+int list(const Options& options) {
+  nlohmann::ordered_json cases = nlohmann::json::array();
+  for (const std::filesystem::path& path : bundled_cases()) {
+    const Model model = build_model(read_case(path));
+    const bool tagged = std::find(model.tags.begin(), model.tags.end(), options.tag) != model.tags.end();
+    if (!options.tag.empty() && !tagged) continue;
+    if (options.common.json) {
+      cases.push_back({{"name", model.name}, {"title", model.title}, {"source", model.source}, {"tags", model.tags},
+                       {"dimension", model.variables.size()}, {"phase_space", model.phase_space}, {"scenes", scene_names(model)}});
+    } else if (!options.common.quiet) {
+      fmt::print("{:<22} {}\n{:<22} {}, {} variables; claims {}\n{:<22} scenes: {}\n", model.name, model.title, "",
+                 model.phase_space, model.variables.size(), claims_of(model), "", fmt::join(scene_names(model), "; "));
+    }
+  }
+  if (options.common.json) std::cout << nlohmann::ordered_json{{"cases", cases}}.dump(2) << '\n';
+  return kDone;
+}
+
+}  // namespace
+
+void register_list(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("list", "The bundled cases");
+  add_common(*command, options->common);
+  command->add_option("--tag", options->tag, "Only cases with this tag")->type_name("TAG");
+  command->callback([options, &action] { action = [options] { return list(*options); }; });
+}
+
+}  // namespace casimir::tools

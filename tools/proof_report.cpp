@@ -1,0 +1,86 @@
+#include "tools/proof_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace casimir::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string witness_text(const Witness& witness) {
+  std::string text;
+  for (const auto& [name, value] : witness.point) text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, value);
+  return text;
+}
+
+}  // namespace
+
+Json to_json(const Proof& proof) {
+  Json json = {{"kind", proof.kind}, {"name", proof.name}, {"verdict", to_string(proof.verdict)}, {"seconds", proof.seconds}};
+  if (!proof.on.empty()) json["on"] = proof.on;
+  if (!proof.evidence.empty()) json["evidence"] = proof.evidence;
+  if (!proof.nonzero.empty()) json["nonzero"] = proof.nonzero;
+  if (!proof.residual.empty()) json["residual"] = proof.residual;
+  if (!proof.reason.empty()) json["reason"] = proof.reason;
+  if (proof.witness) {
+    Json witness = Json::object();
+    for (const auto& [name, value] : proof.witness->point) witness[name] = value;
+    witness["value"] = proof.witness->value;
+    json["witness"] = witness;
+  }
+  return json;
+}
+
+Proof proof_from_json(const Json& json) {
+  Proof proof;
+  proof.kind = json.at("kind");
+  proof.name = json.at("name");
+  const std::string verdict = json.at("verdict");
+  proof.verdict = verdict == "proved" ? Verdict::proved : verdict == "refuted" ? Verdict::refuted : Verdict::undecided;
+  proof.seconds = json.at("seconds");
+  proof.on = json.value("on", std::vector<std::string>{});
+  proof.evidence = json.value("evidence", "");
+  proof.nonzero = json.value("nonzero", std::vector<std::string>{});
+  proof.residual = json.value("residual", "");
+  proof.reason = json.value("reason", "");
+  if (json.contains("witness")) {
+    Witness witness;
+    for (const auto& [name, value] : json.at("witness").items()) {
+      if (name != "value") witness.point.emplace_back(name, value.get<std::string>());
+    }
+    witness.value = json.at("witness").at("value");
+    proof.witness = std::move(witness);
+  }
+  return proof;
+}
+
+Json to_json(const Model& model, const std::vector<Proof>& proofs, double seconds) {
+  Json claims = Json::array();
+  Json facts = Json::array();
+  for (const Proof& proof : proofs) (proof.fact ? facts : claims).push_back(to_json(proof));
+  return {{"case", model.name}, {"verdict", to_string(overall(model, proofs))}, {"seconds", seconds}, {"claims", claims}, {"facts", facts}};
+}
+
+std::string verdict_text(Verdict verdict, bool colour) {
+  const char* code = verdict == Verdict::proved ? "32" : verdict == Verdict::refuted ? "31" : "33";
+  const std::string word = fmt::format("{:<9}", to_string(verdict));
+  return colour ? fmt::format("\x1b[{}m{}\x1b[0m", code, word) : word;
+}
+
+std::string to_text(const Proof& proof, bool colour) {
+  const std::string on = proof.on.empty() ? "" : fmt::format("  on {} = 0", fmt::join(proof.on, " = "));
+  std::string text = fmt::format("  {} {:<18} {}{}\n", verdict_text(proof.verdict, colour), proof.kind, proof.name, on);
+  const auto detail = [&](const std::string& line) { text += fmt::format("            {}\n", line); };
+  if (!proof.evidence.empty()) detail(proof.evidence);
+  if (!proof.reason.empty()) detail(proof.reason);
+  if (!proof.residual.empty()) detail("it is  " + proof.residual);
+  if (proof.witness) {
+    detail("at  " + witness_text(*proof.witness));
+    detail("its value is  " + proof.witness->value);
+  }
+  if (!proof.nonzero.empty()) detail(fmt::format("where {} != 0", fmt::join(proof.nonzero, " != 0, ")));
+  return text;
+}
+
+}  // namespace casimir::tools
