@@ -39,7 +39,9 @@ class HeaderWriter {
   std::string run() {
     Names namespaces({"state_names", "invariant_names", "initial_state"});
     const std::string scope = namespaces.unique(spec_.case_name);
-    std::string text = codegen::head_comment(spec_) + "#pragma once\n\n" + includes();
+    const std::string guard = guard_of(scope);
+    std::string text = codegen::head_comment(spec_) + "#ifndef " + guard + "\n#define " + guard +
+                       "\n\n" + includes();
     text += "namespace " + scope + " {\n\n" + constants();
     text += function({"rhs", "dx", "The time derivatives of the state.", spec_.rhs});
     if (!spec_.invariant_names.empty()) {
@@ -50,10 +52,17 @@ class HeaderWriter {
       text += function({"jacobian", "J", "J[i + dimension*j] = d(dx[i])/d(x[j]), all entries.",
                         spec_.jacobian.program});
     }
-    return text + adapters() + "}  // namespace " + scope + "\n";
+    return text + adapters() + "}  // namespace " + scope + "\n\n#endif  // " + guard + "\n";
   }
 
  private:
+  /// `#pragma once` would be a warning where the header is compiled alone.
+  static std::string guard_of(const std::string& scope) {
+    std::string result = "CASIMIR_GENERATED_";
+    for (const char c : scope) result += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    return result + (result.ends_with('_') ? "HPP" : "_HPP");
+  }
+
   bool has_parameters() const { return !spec_.parameters.empty(); }
 
   void name_inputs() {
