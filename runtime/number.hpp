@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cln/float.h>
+#include <cln/integer.h>
+#include <cln/rational.h>
+#include <cln/real.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace casimir {
+
+/// What generic code needs of a number type: exact constants and the elementary functions, with a
+/// refusal (std::domain_error) where the result would not be a number of that type.
+template <class Number>
+struct Arithmetic;
+
+/// Built-in floating point. Follows IEEE arithmetic: nothing throws, NaN and infinities propagate.
+template <class Real>
+struct IeeeArithmetic {
+  static Real from(const cln::cl_RA& value) { return static_cast<Real>(cln::double_approx(value)); }
+  static Real pi() { return static_cast<Real>(3.14159265358979323846264338327950288L); }
+  static Real divide(Real a, Real b) { return a / b; }
+  static Real sqrt(Real a) { return std::sqrt(a); }
+  static Real power(Real a, const cln::cl_RA& e) { return std::pow(a, from(e)); }
+  static Real sin(Real a) { return std::sin(a); }
+  static Real cos(Real a) { return std::cos(a); }
+  static Real tan(Real a) { return std::tan(a); }
+  static Real exp(Real a) { return std::exp(a); }
+  static Real log(Real a) { return std::log(a); }
+  static Real asin(Real a) { return std::asin(a); }
+  static Real acos(Real a) { return std::acos(a); }
+  static Real atan2(Real y, Real x) { return std::atan2(y, x); }
+};
+
+template <>
+struct Arithmetic<double> : IeeeArithmetic<double> {};
+
+/// Exact rationals: the four operations only.
+template <>
+struct Arithmetic<cln::cl_RA> {
+  using N = cln::cl_RA;
+  static N from(const cln::cl_RA& value) { return value; }
+  static N divide(const N& a, const N& b) {
+    if (cln::zerop(b)) throw std::domain_error("division by zero");
+    return a / b;
+  }
+  static N pi() { return none(); }
+  static N sqrt(const N& a) {
+    N root;
+    if (cln::minusp(a) || !cln::sqrtp(a, &root)) none();
+    return root;
+  }
+  static N power(const N&, const cln::cl_RA&) { return none(); }
+  static N sin(const N&) { return none(); }
+  static N cos(const N&) { return none(); }
+  static N tan(const N&) { return none(); }
+  static N exp(const N&) { return none(); }
+  static N log(const N&) { return none(); }
+  static N asin(const N&) { return none(); }
+  static N acos(const N&) { return none(); }
+  static N atan2(const N&, const N&) { return none(); }
+
+ private:
+  static N none() { throw std::domain_error("the value is not a rational number"); }
+};
+
+/// CLN's floating-point numbers of one precision. The precision is part of every number; `digits`
+/// decimal digits of it are held by the object.
+template <>
+struct Arithmetic<cln::cl_F> {
+  using N = cln::cl_F;
+  explicit Arithmetic(int digits) : format(cln::float_format(static_cast<uintE>(digits))) {}
+  N from(const cln::cl_RA& value) const { return cln::cl_float(value, format); }
+  N from(const cln::cl_R& value) const { return cln::cl_float(value, format); }
+  N pi() const { return cln::pi(format); }
+  N divide(const N& a, const N& b) const {
+    if (cln::zerop(b)) throw std::domain_error("division by zero");
+    return a / b;
+  }
+  N sqrt(const N& a) const {
+    if (cln::minusp(a)) throw std::domain_error("square root of a negative number");
+    return cln::sqrt(a);
+  }
+  N power(const N& a, const cln::cl_RA& e) const {
+    if (!cln::plusp(a)) throw std::domain_error("broken power of a number that is not positive");
+    return cln::exp(cln::ln(a) * from(e));
+  }
+  N sin(const N& a) const { return cln::cl_float(cln::sin(a), format); }
+  N cos(const N& a) const { return cln::cl_float(cln::cos(a), format); }
+  N tan(const N& a) const { return divide(sin(a), cos(a)); }
+  N exp(const N& a) const { return cln::cl_float(cln::exp(a), format); }
+  N log(const N& a) const {
+    if (!cln::plusp(a)) throw std::domain_error("logarithm of a number that is not positive");
+    return cln::cl_float(cln::ln(a), format);
+  }
+  N asin(const N& a) const { return atan2(a, sqrt(from(cln::cl_RA(1)) - a * a)); }
+  N acos(const N& a) const { return atan2(sqrt(from(cln::cl_RA(1)) - a * a), a); }
+  /// The angle of the point (x, y).
+  N atan2(const N& y, const N& x) const {
+    if (cln::zerop(y) && cln::zerop(x)) throw std::domain_error("the angle of the origin");
+    return cln::cl_float(cln::atan(x, y), format);
+  }
+
+  cln::float_format_t format;
+};
+
+}  // namespace casimir

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cln/float.h>
+#include <cln/real.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "runtime/program.hpp"
+
+namespace casimir {
+
+/// A solution that errors are measured against, with a bound of its own error.
+struct Reference {
+  bool reached = false;             ///< the end was reached; else `reason` says why not
+  std::string reason;
+  std::vector<cln::cl_F> state;     ///< at `time`
+  cln::cl_R time;
+  /// The largest relative difference of any component to a second run with more digits and a
+  /// higher order: what the first run had wrong, so a bound for the second, which is returned.
+  double error_bound = 0;
+  int digits = 0;                   ///< of the second run
+  unsigned long steps = 0;
+};
+
+/// Integrates from time 0 by Taylor series of high order over CLN floats, on the very program that
+/// the generated code is written from. Two runs, the second with more digits and order.
+/// \param initial   one number for each state; exact numbers stay exact until they are rounded to
+///                  the working precision.
+/// \param digits    decimal digits asked for; at least 20.
+/// \param give_up   is asked now and then; true ends the computation (`reached` is false).
+Reference reference_solution(const Program& rhs, const std::vector<cln::cl_R>& initial, const cln::cl_R& duration,
+                             int digits = 30, const std::vector<cln::cl_R>& parameters = {},
+                             const std::function<bool()>& give_up = {});
+
+}  // namespace casimir
