@@ -1,1 +1,82 @@
+// casimir generate: a self-contained C++ header specialised to one scene.
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <iostream>
+
+#include "codegen/emit_cpp.hpp"
+#include "tools/case_library.hpp"
+#include "tools/cli.hpp"
+#include "tools/generated_report.hpp"
+#include "tools/output.hpp"
+
+namespace casimir::tools {
+namespace {
+
+const std::map<std::string, Scalar> kScalars = {{"double", Scalar::real64},
+                                                {"float", Scalar::real32},
+                                                {"long-double", Scalar::long_double},
+                                                {"float128", Scalar::float128},
+                                                {"template", Scalar::templated}};
+
+struct Options {
+  Common common;
+  std::string case_name, output;
+  std::vector<std::string> with{"rhs", "invariants", "jacobian"};
+  std::vector<std::string> observe;
+  Scalar scalar = Scalar::real64;
+  bool keep_params = false;
+};
+
+int generate(const Options& options) {
+  if (options.output.empty() && options.common.json) throw UsageError("generate --json needs --output FILE for the header");
+  const Model model = build_model(load_case(options.case_name), options.common.parameter_values());
+  const auto wanted = [&](const char* name) { return std::find(options.with.begin(), options.with.end(), name) != options.with.end(); };
+  SpecialiseOptions what;
+  what.fold_parameters = !options.keep_params;
+  what.invariants = wanted("invariants");
+  what.jacobian = wanted("jacobian");
+  if (!options.observe.empty()) what.observe = options.observe;
+  const Specialisation specialisation = specialise(model, model.scene(options.common.scene), what);
+  const std::string header = emit_header(specialisation, {.scalar = options.scalar});
+  if (options.output.empty()) {
+    std::cout << header;
+    return kDone;
+  }
+  OutputFile file(options.output);
+  file.stream() << header;
+  file.commit();
+  if (options.common.json) {
+    std::cout << nlohmann::ordered_json{{"case", model.name}, {"scene", specialisation.scene}, {"file", options.output},
+                                        {"operations", {{"general", to_json(specialisation.general)}, {"specialised", to_json(specialisation.specialised)}}},
+                                        {"left_out", left_out_json(specialisation)}}.dump(2) << '\n';
+  } else if (!options.common.quiet) {
+    fmt::print("wrote {}\n{}", options.output, generated_text(specialisation));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void register_generate(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("generate", "Write a self-contained C++20 header specialised to a scene");
+  add_common(*command, options->common);
+  command->add_option("CASE", options->case_name, "A bundled case, a case file, or - for standard input")->required();
+  command->add_option("-o,--output", options->output, "The header to write (default: standard output)")->type_name("FILE");
+  command->add_option("--with", options->with, "Of rhs,invariants,jacobian (default: all; rhs always)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"rhs", "invariants", "jacobian"}));
+  command->add_option("--observe", options->observe, "States that must be computed; what they do not need is left out")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("A,B");
+  command->add_option("--scalar", options->scalar, "Number type: double, float, long-double, float128 or template")
+      ->transform(CLI::CheckedTransformer(kScalars, CLI::ignore_case).description(""))
+      ->type_name("TYPE");
+  command->add_flag("--keep-params", options->keep_params, "Keep the parameters as arguments at run time");
+  command->callback([options, &action] { action = [options] { return generate(*options); }; });
+}
+
+}  // namespace casimir::tools

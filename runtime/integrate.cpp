@@ -1,0 +1,139 @@
+#include "runtime/integrate.hpp"
+
+#include <Eigen/LU>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "runtime/cvode.hpp"
+#include "runtime/observer.hpp"
+
+namespace casimir {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+Status status_of(int status) {
+  switch (status) {
+    case CASIMIR_OK: return Status::ok;
+    case CASIMIR_NON_FINITE: return Status::non_finite;
+    case CASIMIR_SINGULARITY: return Status::singularity;
+    case CASIMIR_MAX_STEPS: return Status::max_steps;
+    case CASIMIR_NO_CONVERGENCE: return Status::no_convergence;
+    case CASIMIR_STOPPED: return Status::stopped;
+    default: return Status::step_underflow;
+  }
+}
+
+std::string reason_of(Status status) {
+  switch (status) {
+    case Status::ok: return "";
+    case Status::singularity: return "the solution grows without bound or meets a pole of the equations";
+    case Status::non_finite: return "the state or its derivative is not a finite number";
+    case Status::step_underflow: return "the step that the tolerance asks for is lost in rounding";
+    case Status::max_steps: return "the limit on the number of steps was reached";
+    case Status::no_convergence: return "the implicit equations of a step could not be solved";
+    case Status::drift_exceeded: return "an invariant drifted by more than the tolerance allows";
+    case Status::stopped: return "the run was stopped";
+  }
+  return "";
+}
+
+/// Eigen's dense factorisation behind the C interface of the kernels.
+struct DenseSolver {
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu;
+
+  static int factor(void* self, int n, const double* matrix) {
+    auto& lu = static_cast<DenseSolver*>(self)->lu;
+    lu.compute(Eigen::Map<const Eigen::MatrixXd>(matrix, n, n));
+    const auto diagonal = lu.matrixLU().diagonal();
+    return diagonal.allFinite() && (diagonal.array() != 0).all() ? 0 : 1;
+  }
+  static void solve(void* self, double* b) {
+    const auto& lu = static_cast<const DenseSolver*>(self)->lu;
+    Eigen::Map<Eigen::VectorXd> right(b, lu.rows());
+    right = lu.solve(right).eval();
+  }
+};
+
+int observe(void* data, const casimir_step* step) {
+  const auto state_at = [step](double t, double* x) { step->dense(step, t, x); };
+  return static_cast<Observer*>(data)->step(step->t1, step->x1, state_at) ? 0 : 1;
+}
+
+void check(const Module& module, const Method& method, const Settings& s, std::size_t states, std::size_t parameters) {
+  const auto refuse = [](const std::string& text) { throw std::invalid_argument(text); };
+  if (states != static_cast<std::size_t>(module.dimension())) refuse("the initial state has the wrong number of entries");
+  if (parameters != static_cast<std::size_t>(module.functions().parameter_count)) refuse("the wrong number of parameters");
+  if (!std::isfinite(s.duration)) refuse("the duration must be a finite number");
+  if (!(s.rtol >= 0) || !(s.atol >= 0) || !(s.rtol + s.atol > 0) || !std::isfinite(s.rtol) || !std::isfinite(s.atol)) {
+    refuse("tolerances must be positive finite numbers");
+  }
+  if (s.rtol < kLeastTolerance && !(s.fixed_step > 0)) refuse("a relative tolerance below 1e-15 is more than double precision can give; use --digits");
+  if (!(s.fixed_step >= 0) || !std::isfinite(s.fixed_step)) refuse("the step must be a positive finite number");
+  if (s.fixed_step > 0 && !method.constant_step) refuse(std::string(method.name) + " has no constant step");
+  if (!(s.sample_every >= 0)) refuse("the time between samples must be positive");
+}
+
+void run_kernel(const Module& module, const Settings& s, const double* parameters, Observer& observer, Trajectory& trajectory) {
+  DenseSolver solver;
+  casimir_run run = {};
+  run.t_end = s.duration;
+  run.parameters = parameters;
+  run.rtol = s.rtol;
+  run.atol = s.atol;
+  run.fixed_step = s.fixed_step;
+  run.max_steps = s.max_steps;
+  run.observe = observer.needed() ? observe : nullptr;
+  run.observer = &observer;
+  run.factor = DenseSolver::factor;
+  run.solve = DenseSolver::solve;
+  run.solver = &solver;
+  casimir_outcome outcome = {};
+  const auto start = Clock::now();
+  module.functions().integrate(&run, trajectory.state.data(), &outcome);
+  trajectory.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  trajectory.status = status_of(outcome.status);
+  trajectory.time = outcome.t;
+  trajectory.steps = outcome.steps;
+  trajectory.rejected = outcome.rejected;
+  trajectory.evaluations = outcome.evaluations;
+  trajectory.jacobians = outcome.jacobians;
+}
+
+}  // namespace
+
+std::string to_string(Status status) {
+  switch (status) {
+    case Status::ok: return "ok";
+    case Status::singularity: return "singularity";
+    case Status::non_finite: return "non_finite";
+    case Status::step_underflow: return "step_underflow";
+    case Status::max_steps: return "max_steps";
+    case Status::no_convergence: return "no_convergence";
+    case Status::drift_exceeded: return "drift_exceeded";
+    case Status::stopped: return "stopped";
+  }
+  return "";
+}
+
+Trajectory integrate(const Module& module, const Method& method, const Settings& settings, const std::vector<double>& initial,
+                     const std::vector<double>& parameters) {
+  check(module, method, settings, initial.size(), parameters.size());
+  Trajectory trajectory;
+  trajectory.state = initial;
+  const double* const p = parameters.empty() ? nullptr : parameters.data();
+  Observer observer(module, settings, p, initial);
+  if (!method.library.empty()) {
+    integrate_with_cvode(module, method, settings, p, observer, trajectory);
+  } else if (module.functions().integrate == nullptr) {
+    throw std::invalid_argument("the module was compiled without a kernel");
+  } else {
+    run_kernel(module, settings, p, observer, trajectory);
+  }
+  trajectory.reason = reason_of(trajectory.status);
+  observer.finish(trajectory);
+  return trajectory;
+}
+
+}  // namespace casimir

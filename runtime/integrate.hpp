@@ -1,0 +1,72 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "runtime/methods.hpp"
+#include "runtime/module.hpp"
+
+namespace casimir {
+
+/// How an integration ended.
+enum class Status {
+  ok,
+  singularity,
+  non_finite,
+  step_underflow,
+  max_steps,
+  no_convergence,
+  drift_exceeded,
+  stopped,
+};
+
+/// "ok", "singularity", ..: as the interface spells them.
+std::string to_string(Status status);
+
+struct Settings {
+  double duration = 0;     ///< may be negative: backwards in time
+  double rtol = 1e-10;     ///< local error per component: atol + rtol |x_i|
+  double atol = 1e-12;
+  double fixed_step = 0;   ///< > 0: constant step, no error control
+  unsigned long long max_steps = 0;  ///< 0: no limit
+  double sample_every = 0;           ///< > 0: states at these times, from the dense output
+  bool monitor = true;               ///< follow the invariants at every step
+  /// For each invariant the size of its largest term, so that drift is not measured against a zero;
+  /// empty: its own size alone.
+  std::vector<double> invariant_scales;
+  std::function<bool()> give_up;     ///< asked after each step; true ends the run as `stopped`
+};
+
+struct InvariantRecord {
+  double initial = 0;
+  double final = 0;
+  double drift = 0;  ///< largest |I(t) - I(0)| / max(|I(0)|, its scale) at the end of any step
+};
+
+/// What came of a run. Where it stopped early, `time` and `state` are those of the last good step.
+struct Trajectory {
+  Status status = Status::ok;
+  std::string reason;  ///< a sentence, where the status is not ok
+  double time = 0;
+  std::vector<double> state;
+  std::vector<double> sample_times;
+  std::vector<std::vector<double>> samples;
+  std::vector<InvariantRecord> invariants;
+  unsigned long long steps = 0, rejected = 0, evaluations = 0, jacobians = 0;
+  double seconds = 0;  ///< of the integration alone
+};
+
+/// Integrates from time 0.
+/// \param module      with the method's kernel, or with only the right-hand side for a method of
+///                    another library.
+/// \param initial     one number for each state.
+/// \throws std::invalid_argument  for tolerances that are not positive or below what double
+///                    precision can give, a duration that is not finite, wrong sizes.
+Trajectory integrate(const Module& module, const Method& method, const Settings& settings,
+                     const std::vector<double>& initial, const std::vector<double>& parameters = {});
+
+/// The least relative tolerance that double precision can give a meaning.
+inline constexpr double kLeastTolerance = 1e-15;
+
+}  // namespace casimir

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "runtime/integrate.hpp"
+
+namespace casimir {
+
+/// Watches a run step by step: records samples and the drift of the invariants, whichever library
+/// makes the steps.
+class Observer {
+ public:
+  Observer(const Module& module, const Settings& settings, const double* parameters, const std::vector<double>& initial);
+
+  /// True if there is anything to do after each step.
+  bool needed() const;
+
+  /// \param state_at  writes the state at a time inside the step.
+  /// \return          whether the run shall go on.
+  bool step(double t1, const double* x1, const std::function<void(double t, double* x)>& state_at);
+
+  /// Puts samples and invariants into the trajectory, whose time and state are set.
+  void finish(Trajectory& trajectory);
+
+ private:
+  void record_drift(double t, const double* x);
+
+  const Module& module_;
+  const Settings& settings_;
+  const double* parameters_;
+  std::vector<double> initial_invariants_, values_, scratch_;
+  std::vector<InvariantRecord> invariants_;
+  std::vector<double> times_;
+  std::vector<std::vector<double>> samples_;
+  unsigned long long next_sample_ = 1;
+};
+
+}  // namespace casimir
