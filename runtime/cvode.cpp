@@ -31,7 +31,8 @@ int rhs(realtype t, N_Vector y, N_Vector dy, void* data) {
   return 0;
 }
 
-int jacobian(realtype t, N_Vector y, N_Vector, SUNMatrix j, void* data, N_Vector, N_Vector, N_Vector) {
+int jacobian(realtype t, N_Vector y, N_Vector, SUNMatrix j, void* data, N_Vector, N_Vector,
+             N_Vector) {
   const auto* problem = static_cast<const Problem*>(data);
   problem->functions->jacobian(t, N_VGetArrayPointer(y), problem->parameters, SM_DATA_D(j));
   return 0;
@@ -40,7 +41,8 @@ int jacobian(realtype t, N_Vector y, N_Vector, SUNMatrix j, void* data, N_Vector
 /// The objects of one CVODE run.
 class Solver {
  public:
-  Solver(const Module& module, const Method& method, const Settings& settings, Problem& problem, const std::vector<double>& initial) {
+  Solver(const Module& module, const Method& method, const Settings& settings, Problem& problem,
+         const std::vector<double>& initial) {
     const bool stiff = method.name == "cvode-bdf";
     SUNContext raw = nullptr;
     if (SUNContext_Create(nullptr, &raw) != 0) throw std::bad_alloc();
@@ -49,7 +51,8 @@ class Solver {
     std::copy(initial.begin(), initial.end(), N_VGetArrayPointer(state_.get()));
     memory_ = CVodeCreate(stiff ? CV_BDF : CV_ADAMS, raw);
     if (memory_ == nullptr) throw std::bad_alloc();
-    CVodeSetErrHandlerFn(memory_, [](int, const char*, const char*, char*, void*) {}, nullptr);
+    CVodeSetErrHandlerFn(
+        memory_, [](int, const char*, const char*, char*, void*) {}, nullptr);
     CVodeInit(memory_, rhs, 0, state_.get());
     CVodeSStolerances(memory_, settings.rtol, settings.atol);
     CVodeSetUserData(memory_, &problem);
@@ -123,11 +126,12 @@ void read_counts(void* memory, Trajectory& trajectory) {
 
 }  // namespace
 
-void integrate_with_cvode(const Module& module, const Method& method, const Settings& settings, const double* parameters,
-                          Observer& observer, Trajectory& trajectory) {
+void integrate_with_cvode(const Module& module, const Method& method, const Settings& settings,
+                          const double* parameters, Observer& observer, Trajectory& trajectory) {
   Problem problem{&module.functions(), parameters};
   Solver solver(module, method, settings, problem, trajectory.state);
-  const std::unique_ptr<std::remove_pointer_t<N_Vector>, void (*)(N_Vector)> between(N_VClone(solver.state()), N_VDestroy);
+  const std::unique_ptr<std::remove_pointer_t<N_Vector>, void (*)(N_Vector)> between(
+      N_VClone(solver.state()), N_VDestroy);
   const double* const x = N_VGetArrayPointer(solver.state());
   const auto n = static_cast<std::ptrdiff_t>(trajectory.state.size());
   const auto state_at = [&](double t, double* out) {
@@ -155,7 +159,8 @@ void integrate_with_cvode(const Module& module, const Method& method, const Sett
       break;
     }
   }
-  trajectory.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  trajectory.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   read_counts(solver.memory(), trajectory);
 }
 

@@ -15,26 +15,41 @@ using Clock = std::chrono::steady_clock;
 
 Status status_of(int status) {
   switch (status) {
-    case CASIMIR_OK: return Status::ok;
-    case CASIMIR_NON_FINITE: return Status::non_finite;
-    case CASIMIR_SINGULARITY: return Status::singularity;
-    case CASIMIR_MAX_STEPS: return Status::max_steps;
-    case CASIMIR_NO_CONVERGENCE: return Status::no_convergence;
-    case CASIMIR_STOPPED: return Status::stopped;
-    default: return Status::step_underflow;
+    case CASIMIR_OK:
+      return Status::ok;
+    case CASIMIR_NON_FINITE:
+      return Status::non_finite;
+    case CASIMIR_SINGULARITY:
+      return Status::singularity;
+    case CASIMIR_MAX_STEPS:
+      return Status::max_steps;
+    case CASIMIR_NO_CONVERGENCE:
+      return Status::no_convergence;
+    case CASIMIR_STOPPED:
+      return Status::stopped;
+    default:
+      return Status::step_underflow;
   }
 }
 
 std::string reason_of(Status status) {
   switch (status) {
-    case Status::ok: return "";
-    case Status::singularity: return "the solution grows without bound or meets a pole of the equations";
-    case Status::non_finite: return "the state or its derivative is not a finite number";
-    case Status::step_underflow: return "the step that the tolerance asks for is lost in rounding";
-    case Status::max_steps: return "the limit on the number of steps was reached";
-    case Status::no_convergence: return "the implicit equations of a step could not be solved";
-    case Status::drift_exceeded: return "an invariant drifted by more than the tolerance allows";
-    case Status::stopped: return "the run was stopped";
+    case Status::ok:
+      return "";
+    case Status::singularity:
+      return "the solution grows without bound or meets a pole of the equations";
+    case Status::non_finite:
+      return "the state or its derivative is not a finite number";
+    case Status::step_underflow:
+      return "the step that the tolerance asks for is lost in rounding";
+    case Status::max_steps:
+      return "the limit on the number of steps was reached";
+    case Status::no_convergence:
+      return "the implicit equations of a step could not be solved";
+    case Status::drift_exceeded:
+      return "an invariant drifted by more than the tolerance allows";
+    case Status::stopped:
+      return "the run was stopped";
   }
   return "";
 }
@@ -61,21 +76,29 @@ int observe(void* data, const casimir_step* step) {
   return static_cast<Observer*>(data)->step(step->t1, step->x1, state_at) ? 0 : 1;
 }
 
-void check(const Module& module, const Method& method, const Settings& s, std::size_t states, std::size_t parameters) {
+void check(const Module& module, const Method& method, const Settings& s, std::size_t states,
+           std::size_t parameters) {
   const auto refuse = [](const std::string& text) { throw std::invalid_argument(text); };
-  if (states != static_cast<std::size_t>(module.dimension())) refuse("the initial state has the wrong number of entries");
-  if (parameters != static_cast<std::size_t>(module.functions().parameter_count)) refuse("the wrong number of parameters");
+  if (states != static_cast<std::size_t>(module.dimension()))
+    refuse("the initial state has the wrong number of entries");
+  if (parameters != static_cast<std::size_t>(module.functions().parameter_count))
+    refuse("the wrong number of parameters");
   if (!std::isfinite(s.duration)) refuse("the duration must be a finite number");
-  if (!(s.rtol >= 0) || !(s.atol >= 0) || !(s.rtol + s.atol > 0) || !std::isfinite(s.rtol) || !std::isfinite(s.atol)) {
+  if (!(s.rtol >= 0) || !(s.atol >= 0) || !(s.rtol + s.atol > 0) || !std::isfinite(s.rtol) ||
+      !std::isfinite(s.atol)) {
     refuse("tolerances must be positive finite numbers");
   }
-  if (s.rtol < kLeastTolerance && !(s.fixed_step > 0)) refuse("a relative tolerance below 1e-15 is more than double precision can give; use --digits");
-  if (!(s.fixed_step >= 0) || !std::isfinite(s.fixed_step)) refuse("the step must be a positive finite number");
-  if (s.fixed_step > 0 && !method.constant_step) refuse(std::string(method.name) + " has no constant step");
+  if (s.rtol < kLeastTolerance && !(s.fixed_step > 0))
+    refuse("a relative tolerance below 1e-15 is more than double precision can give; use --digits");
+  if (!(s.fixed_step >= 0) || !std::isfinite(s.fixed_step))
+    refuse("the step must be a positive finite number");
+  if (s.fixed_step > 0 && !method.constant_step)
+    refuse(std::string(method.name) + " has no constant step");
   if (!(s.sample_every >= 0)) refuse("the time between samples must be positive");
 }
 
-void run_kernel(const Module& module, const Settings& s, const double* parameters, Observer& observer, Trajectory& trajectory) {
+void run_kernel(const Module& module, const Settings& s, const double* parameters,
+                Observer& observer, Trajectory& trajectory) {
   DenseSolver solver;
   casimir_run run = {};
   run.t_end = s.duration;
@@ -105,20 +128,28 @@ void run_kernel(const Module& module, const Settings& s, const double* parameter
 
 std::string to_string(Status status) {
   switch (status) {
-    case Status::ok: return "ok";
-    case Status::singularity: return "singularity";
-    case Status::non_finite: return "non_finite";
-    case Status::step_underflow: return "step_underflow";
-    case Status::max_steps: return "max_steps";
-    case Status::no_convergence: return "no_convergence";
-    case Status::drift_exceeded: return "drift_exceeded";
-    case Status::stopped: return "stopped";
+    case Status::ok:
+      return "ok";
+    case Status::singularity:
+      return "singularity";
+    case Status::non_finite:
+      return "non_finite";
+    case Status::step_underflow:
+      return "step_underflow";
+    case Status::max_steps:
+      return "max_steps";
+    case Status::no_convergence:
+      return "no_convergence";
+    case Status::drift_exceeded:
+      return "drift_exceeded";
+    case Status::stopped:
+      return "stopped";
   }
   return "";
 }
 
-Trajectory integrate(const Module& module, const Method& method, const Settings& settings, const std::vector<double>& initial,
-                     const std::vector<double>& parameters) {
+Trajectory integrate(const Module& module, const Method& method, const Settings& settings,
+                     const std::vector<double>& initial, const std::vector<double>& parameters) {
   check(module, method, settings, initial.size(), parameters.size());
   Trajectory trajectory;
   trajectory.state = initial;

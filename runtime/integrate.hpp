@@ -25,23 +25,23 @@ enum class Status {
 std::string to_string(Status status);
 
 struct Settings {
-  double duration = 0;     ///< may be negative: backwards in time
-  double rtol = 1e-10;     ///< local error per component: atol + rtol |x_i|
+  double duration = 0;  ///< may be negative: backwards in time
+  double rtol = 1e-10;  ///< local error per component: atol + rtol |x_i|
   double atol = 1e-12;
-  double fixed_step = 0;   ///< > 0: constant step, no error control
+  double fixed_step = 0;             ///< > 0: constant step, no error control
   unsigned long long max_steps = 0;  ///< 0: no limit
   double sample_every = 0;           ///< > 0: states at these times, from the dense output
   bool monitor = true;               ///< follow the invariants at every step
-  /// For each invariant the size of its largest term, so that drift is not measured against a zero;
-  /// empty: its own size alone.
-  std::vector<double> invariant_scales;
-  std::function<bool()> give_up;     ///< asked after each step; true ends the run as `stopped`
+  /// Writes for each invariant the size of its largest term at a state, so that drift is not
+  /// measured against a zero. Called at the start, after 1, 2, 4, 8, .. steps and at the end.
+  std::function<void(double t, const double* x, double* sizes)> invariant_sizes;
+  std::function<bool()> give_up;  ///< asked after each step; true ends the run as `stopped`
 };
 
 struct InvariantRecord {
   double initial = 0;
   double final = 0;
-  double drift = 0;  ///< largest |I(t) - I(0)| / max(|I(0)|, its scale) at the end of any step
+  double drift = 0;  ///< largest |I(t) - I(0)| after any step / max(|I(0)|, size of its terms)
 };
 
 /// What came of a run. Where it stopped early, `time` and `state` are those of the last good step.
@@ -64,7 +64,8 @@ struct Trajectory {
 /// \throws std::invalid_argument  for tolerances that are not positive or below what double
 ///                    precision can give, a duration that is not finite, wrong sizes.
 Trajectory integrate(const Module& module, const Method& method, const Settings& settings,
-                     const std::vector<double>& initial, const std::vector<double>& parameters = {});
+                     const std::vector<double>& initial,
+                     const std::vector<double>& parameters = {});
 
 /// The least relative tolerance that double precision can give a meaning.
 inline constexpr double kLeastTolerance = 1e-15;

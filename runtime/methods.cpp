@@ -1,42 +1,59 @@
 #include "runtime/methods.hpp"
 
-#include <algorithm>
-#include <array>
+#include <cassert>
 #include <set>
-#include <sstream>
 
-#include "runtime/embedded.hpp"
+#include "runtime/kernel_text.hpp"
 
 namespace casimir {
 namespace {
 
-constexpr std::array kMethods = {
-    Method{"dop853", 8, "dop853.hpp", "dop853::integrate<System>", "", false, false, true,
-           "Dormand-Prince 8(5,3), explicit, with dense output"},
-    Method{"gauss4", 4, "gauss.hpp", "gauss::integrate<System, 2>", "", true, true, true,
-           "Gauss-Legendre collocation with 2 stages, symplectic for a constant step"},
-    Method{"gauss6", 6, "gauss.hpp", "gauss::integrate<System, 3>", "", true, true, true,
-           "Gauss-Legendre collocation with 3 stages, symplectic for a constant step"},
-    Method{"gauss8", 8, "gauss.hpp", "gauss::integrate<System, 4>", "", true, true, true,
-           "Gauss-Legendre collocation with 4 stages, symplectic for a constant step"},
-    Method{"cvode-adams", 12, "", "", "SUNDIALS CVODE", false, false, false,
-           "Adams-Moulton of order 1 to 12, functional iteration"},
-    Method{"cvode-bdf", 5, "", "", "SUNDIALS CVODE", true, false, false,
-           "backward differentiation of order 1 to 5, Newton iteration"},
+constexpr std::string_view kGaussText = "collocation at the Gauss nodes, symplectic and A-stable";
+constexpr std::string_view kGaussBook =
+    "Hairer, Lubich, Wanner: Geometric Numerical Integration (2006), II.1.3";
+constexpr std::string_view kGauss = "runtime/kernels/gauss.hpp";
+
+// name, order, implicit, needs J, uses J, quadratic, fixed step, outside, header, entry, ..
+constexpr Method kMethods[] = {
+    {"dop853", 8, false, false, false, false, true, "", "runtime/kernels/dop853.hpp",
+     "dop853::integrate<System>", "explicit Runge-Kutta method of Dormand and Prince",
+     "Hairer, Norsett, Wanner: Solving Ordinary Differential Equations I (1993), II.5, II.10"},
+    {"gauss4", 4, true, false, true, true, true, "", kGauss, "gauss::integrate<System, 2>",
+     kGaussText, kGaussBook},
+    {"gauss6", 6, true, false, true, true, true, "", kGauss, "gauss::integrate<System, 3>",
+     kGaussText, kGaussBook},
+    {"gauss8", 8, true, false, true, true, true, "", kGauss, "gauss::integrate<System, 4>",
+     kGaussText, kGaussBook},
+    {"gauss12", 12, true, false, true, true, true, "", kGauss, "gauss::integrate<System, 6>",
+     kGaussText, kGaussBook},
+    {"gauss16", 16, true, false, true, true, true, "", kGauss, "gauss::integrate<System, 8>",
+     kGaussText, kGaussBook},
+    {"cvode-adams", 0, false, false, false, false, false, "SUNDIALS", "", "",
+     "CVODE, Adams-Moulton methods of order 1 to 12 with functional iteration",
+     "Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363"},
+    {"cvode-bdf", 0, true, false, true, false, false, "SUNDIALS", "", "",
+     "CVODE, backward differentiation formulas of order 1 to 5 with Newton iteration",
+     "Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363"},
 };
 
-/// Appends the text of a file of this stage, with its includes put in place, each once.
-void append(std::string& text, const std::string& file, std::set<std::string>& seen) {
-  if (!seen.insert(file).second) return;
-  std::istringstream lines{std::string(embedded_file(file))};
-  const std::string include = "#include \"";
-  for (std::string line; std::getline(lines, line);) {
-    if (line == "#pragma once") continue;
-    if (line.starts_with(include)) {
-      append(text, line.substr(include.size(), line.rfind('"') - include.size()), seen);
-    } else {
-      text += line + '\n';
+/// Appends the text of a header after those it includes, each header once.
+void append_header(std::string_view name, std::set<std::string>& seen, std::string& out) {
+  if (!seen.emplace(name).second) return;
+  const KernelText* found = nullptr;
+  for (int i = 0; i < kKernelTextCount; ++i)
+    if (name == kKernelTexts[i].name) found = kKernelTexts + i;
+  assert(found && "a kernel includes what is not embedded");
+  std::string_view text = found->text;
+  constexpr std::string_view kInclude = "#include \"";
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    if (line.starts_with(kInclude)) {
+      append_header(line.substr(kInclude.size(), line.rfind('"') - kInclude.size()), seen, out);
+    } else if (!line.starts_with("#pragma once")) {
+      out.append(line).push_back('\n');
     }
+    text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
   }
 }
 
@@ -45,20 +62,27 @@ void append(std::string& text, const std::string& file, std::set<std::string>& s
 std::span<const Method> methods() { return kMethods; }
 
 const Method* find_method(std::string_view name) {
-  const auto it = std::find_if(kMethods.begin(), kMethods.end(), [&](const Method& m) { return m.name == name; });
-  return it == kMethods.end() ? nullptr : &*it;
+  for (const Method& method : kMethods)
+    if (method.name == name) return &method;
+  return nullptr;
+}
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const Method& method : kMethods) names.emplace_back(method.name);
+  return names;
 }
 
 std::string kernel_source(const Method& method) {
-  std::string text;
+  std::string out;
   std::set<std::string> seen;
-  append(text, "runtime/module_abi.h", seen);
-  if (method.kernel.empty()) return text;
-  append(text, "runtime/kernels/" + std::string(method.kernel), seen);
-  text += "\nnamespace casimir_kernel {\ntemplate <class System>\n"
-          "void integrate(const casimir_run* run, double* x, casimir_outcome* out) {\n  " +
-          std::string(method.call) + "(run, x, out);\n}\n}  // namespace casimir_kernel\n";
-  return text;
+  append_header("runtime/module_abi.h", seen, out);
+  if (method.header.empty()) return out;
+  append_header(method.header, seen, out);
+  out.append("\nnamespace casimir_kernel {\n\ntemplate <class System>\n");
+  out.append("void integrate(const casimir_run* run, double* x, casimir_outcome* out) {\n  ");
+  out.append(method.entry).append("(run, x, out);\n}\n\n}  // namespace casimir_kernel\n");
+  return out;
 }
 
 }  // namespace casimir

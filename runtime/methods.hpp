@@ -3,31 +3,43 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace casimir {
 
-/// An integration method, as data. A new one is a kernel in `runtime/kernels` and a line in
-/// `methods.cpp`; one of another library is a file here and a line there.
+/// A numerical method as users name it, with the properties that other parts rely on.
 struct Method {
   std::string_view name;
-  int order;
-  std::string_view kernel;   ///< file in runtime/kernels; empty for a method of another library
-  std::string_view call;     ///< what `integrate<System>` of a module calls
-  std::string_view library;  ///< "SUNDIALS CVODE", ..; empty for our own
-  bool implicit;
-  bool keeps_quadratic;      ///< quadratic invariants stay at rounding level, whatever the step
-  bool constant_step;        ///< can run with a constant step
+  int order;                 ///< of the global error; 0 = variable
+  bool implicit;             ///< solves equations in every step; suited to stiff systems
+  bool needs_jacobian;       ///< cannot do without the Jacobian of the module
+  bool uses_jacobian;        ///< is faster or more robust with it
+  bool preserves_quadratic;  ///< keeps quadratic invariants up to rounding
+  bool fixed_step_ok;        ///< accepts Settings::fixed_step
+  std::string_view outside;  ///< the library that does it, or empty: a kernel of our own
+  std::string_view header;   ///< of the kernel, as #include says it; empty for outside methods
+  std::string_view entry;    ///< the function template of the kernel, called with <System ..>
   std::string_view description;
+  std::string_view literature;
 };
 
-/// All of them, in the order in which tables show them.
+/// All methods, own ones first. A new one is a header in `kernels/` and a line in methods.cpp.
 std::span<const Method> methods();
 
-/// The method of that name, or null.
+/// The method of this name, or null.
 const Method* find_method(std::string_view name);
 
-/// C++ text to stand before a generated system: the interface, what the kernel includes, the kernel
-/// and `casimir_kernel::integrate<System>`. For a method of another library only the interface.
+/// The names, for messages.
+std::vector<std::string> method_names();
+
+/// The text to compile in front of a generated right-hand side: the plain C interface and the
+/// kernel, without any #include, ending in
+///
+///   namespace casimir_kernel {
+///   template <class System> void integrate(const casimir_run*, double*, casimir_outcome*);
+///   }
+///
+/// For an outside method the interface alone. The same text every time.
 std::string kernel_source(const Method& method);
 
 }  // namespace casimir

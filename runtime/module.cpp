@@ -3,45 +3,64 @@
 #include <dlfcn.h>
 
 #include <stdexcept>
-#include <string>
 
 namespace casimir {
 namespace {
 
 template <class Function>
-Function* entry(void* handle, const char* name, bool required = true) {
-  void* address = dlsym(handle, name);
-  if (address == nullptr && required) throw std::runtime_error(std::string("the module has no ") + name);
-  return reinterpret_cast<Function*>(address);
+void find(void* handle, const char* name, Function*& function) {
+  function = reinterpret_cast<Function*>(dlsym(handle, name));
+}
+
+int number(void* handle, const std::string& path, const char* name) {
+  int (*function)(void) = nullptr;
+  find(handle, name, function);
+  if (!function) throw std::runtime_error(path + ": the module lacks " + name);
+  return function();
 }
 
 }  // namespace
 
-Module Module::load(const std::filesystem::path& shared_object) {
+void Module::Close::operator()(void* handle) const { dlclose(handle); }
+
+Module Module::from_functions(const ModuleFunctions& functions) {
+  if (functions.dimension <= 0 || functions.parameter_count < 0 || functions.invariant_count < 0)
+    throw std::invalid_argument("module: dimension " + std::to_string(functions.dimension) + ", " +
+                                std::to_string(functions.parameter_count) + " parameters, " +
+                                std::to_string(functions.invariant_count) + " invariants");
+  if (!functions.rhs) throw std::invalid_argument("module: no right-hand side");
+  if (functions.invariant_count > 0 && !functions.invariants)
+    throw std::invalid_argument("module: no function for its invariants");
   Module module;
-  module.handle_ = std::shared_ptr<void>(dlopen(shared_object.c_str(), RTLD_NOW | RTLD_LOCAL), [](void* handle) {
-    if (handle != nullptr) dlclose(handle);
-  });
-  void* const handle = module.handle_.get();
-  if (handle == nullptr) throw std::runtime_error(std::string("cannot load a compiled module: ") + dlerror());
-  const int version = entry<int()>(handle, "casimir_abi_version")();
-  if (version != CASIMIR_ABI_VERSION) {
-    throw std::runtime_error("the module has interface " + std::to_string(version) + ", this program has " + std::to_string(CASIMIR_ABI_VERSION));
-  }
-  ModuleFunctions& f = module.functions_;
-  f.dimension = entry<int()>(handle, "casimir_dimension")();
-  f.parameter_count = entry<int()>(handle, "casimir_parameter_count")();
-  f.invariant_count = entry<int()>(handle, "casimir_invariant_count")();
-  f.rhs = entry<void(double, const double*, const double*, double*)>(handle, "casimir_rhs");
-  f.invariants = entry<void(double, const double*, const double*, double*)>(handle, "casimir_invariants");
-  f.jacobian = entry<void(double, const double*, const double*, double*)>(handle, "casimir_jacobian", false);
-  f.integrate = entry<void(const casimir_run*, double*, casimir_outcome*)>(handle, "casimir_integrate", false);
+  module.functions_ = functions;
   return module;
 }
 
-Module Module::from_functions(const ModuleFunctions& functions) {
-  Module module;
-  module.functions_ = functions;
+Module Module::load(const std::string& path) {
+  // A name without a slash would be searched for in the system's folders.
+  const std::string name = path.find('/') == std::string::npos ? "./" + path : path;
+  std::unique_ptr<void, Close> handle(dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL));
+  if (!handle) {
+    const char* reason = dlerror();
+    throw std::runtime_error(
+        path + ": the module cannot be loaded: " + (reason ? reason : "unknown reason"));
+  }
+  const int version = number(handle.get(), path, "casimir_abi_version");
+  if (version != CASIMIR_ABI_VERSION)
+    throw std::runtime_error(path + ": the module has interface version " +
+                             std::to_string(version) + ", expected " +
+                             std::to_string(CASIMIR_ABI_VERSION));
+  ModuleFunctions functions;
+  functions.dimension = number(handle.get(), path, "casimir_dimension");
+  functions.parameter_count = number(handle.get(), path, "casimir_parameter_count");
+  functions.invariant_count = number(handle.get(), path, "casimir_invariant_count");
+  find(handle.get(), "casimir_rhs", functions.rhs);
+  find(handle.get(), "casimir_jacobian", functions.jacobian);
+  find(handle.get(), "casimir_invariants", functions.invariants);
+  find(handle.get(), "casimir_integrate", functions.integrate);
+  if (!functions.rhs) throw std::runtime_error(path + ": the module lacks casimir_rhs");
+  Module module = from_functions(functions);
+  module.handle_ = std::move(handle);
   return module;
 }
 

@@ -1,40 +1,51 @@
 #pragma once
 
-#include <filesystem>
 #include <memory>
-#include <vector>
+#include <string>
 
 #include "runtime/module_abi.h"
 
 namespace casimir {
 
-/// The entry points of a module, as runtime/module_abi.h names them. Null where it has none.
+/// The entry points of a module, as module_abi.h describes them.
 struct ModuleFunctions {
-  int dimension = 0;
-  int parameter_count = 0;
+  int dimension = 0;        ///< number of states n
+  int parameter_count = 0;  ///< number of run-time parameters
   int invariant_count = 0;
   void (*rhs)(double t, const double* x, const double* p, double* dx) = nullptr;
-  void (*jacobian)(double t, const double* x, const double* p, double* J) = nullptr;
+  void (*jacobian)(double t, const double* x, const double* p, double* J) = nullptr;  ///< or null
   void (*invariants)(double t, const double* x, const double* p, double* values) = nullptr;
-  void (*integrate)(const casimir_run* run, double* x, casimir_outcome* outcome) = nullptr;
+  void (*integrate)(const casimir_run*, double* x, casimir_outcome*) = nullptr;  ///< or null
 };
 
-/// A loaded module. Owns the shared object; copies share it.
+/// A compiled system: a shared object, or functions of the program itself.
+///
+/// Movable, not copyable. The functions live as long as the module.
 class Module {
  public:
-  /// \throws std::runtime_error  if it cannot be loaded, lacks an entry point, or was written for
-  ///                             another version of the interface.
-  static Module load(const std::filesystem::path& shared_object);
+  /// Opens a shared object.
+  /// \throws std::runtime_error  naming the file and the reason: it cannot be loaded, was made for
+  ///                             another version of the interface, or lacks an entry point.
+  static Module load(const std::string& path);
 
-  /// A module of functions that are part of the program itself.
+  /// \throws std::invalid_argument  if the dimension is not positive, a count is negative, the
+  ///                                right-hand side is missing, or invariants are but counted.
   static Module from_functions(const ModuleFunctions& functions);
 
   const ModuleFunctions& functions() const { return functions_; }
   int dimension() const { return functions_.dimension; }
+  int parameter_count() const { return functions_.parameter_count; }
+  int invariant_count() const { return functions_.invariant_count; }
+  bool has_jacobian() const { return functions_.jacobian != nullptr; }
+  bool has_integrate() const { return functions_.integrate != nullptr; }
 
  private:
+  struct Close {
+    void operator()(void* handle) const;
+  };
+  Module() = default;
+  std::unique_ptr<void, Close> handle_;
   ModuleFunctions functions_;
-  std::shared_ptr<void> handle_;
 };
 
 }  // namespace casimir

@@ -1,21 +1,28 @@
 #include "runtime/observer.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
 namespace casimir {
 
-Observer::Observer(const Module& module, const Settings& settings, const double* parameters, const std::vector<double>& initial)
+Observer::Observer(const Module& module, const Settings& settings, const double* parameters,
+                   const std::vector<double>& initial)
     : module_(module),
       settings_(settings),
       parameters_(parameters),
-      initial_invariants_(static_cast<std::size_t>(module.functions().invariant_count)),
-      values_(initial_invariants_.size()),
+      values_(static_cast<std::size_t>(module.functions().invariant_count)),
+      sizes_(values_.size()),
+      changes_(values_.size()),
       scratch_(initial.size()),
-      invariants_(initial_invariants_.size()) {
-  module.functions().invariants(0, initial.data(), parameters, initial_invariants_.data());
-  for (std::size_t i = 0; i < invariants_.size(); ++i) invariants_[i].initial = invariants_[i].final = initial_invariants_[i];
+      invariants_(values_.size()) {
+  module.functions().invariants(0, initial.data(), parameters, values_.data());
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    invariants_[i].initial = invariants_[i].final = values_[i];
+    sizes_[i] = std::abs(values_[i]);
+  }
+  record_sizes(0, initial.data());
   if (settings.sample_every > 0) {
     times_.push_back(0);
     samples_.push_back(initial);
@@ -26,22 +33,27 @@ bool Observer::needed() const {
   return settings_.monitor || settings_.sample_every > 0 || static_cast<bool>(settings_.give_up);
 }
 
-void Observer::record_drift(double t, const double* x) {
+void Observer::record_sizes(double t, const double* x) {
+  if (!settings_.invariant_sizes || sizes_.empty()) return;
+  settings_.invariant_sizes(t, x, values_.data());
+  for (std::size_t i = 0; i < sizes_.size(); ++i) sizes_[i] = std::max(sizes_[i], values_[i]);
+}
+
+void Observer::record_change(double t, const double* x) {
   module_.functions().invariants(t, x, parameters_, values_.data());
   for (std::size_t i = 0; i < values_.size(); ++i) {
-    InvariantRecord& record = invariants_[i];
-    double scale = std::abs(record.initial);
-    if (i < settings_.invariant_scales.size()) scale = std::max(scale, settings_.invariant_scales[i]);
-    const double change = std::abs(values_[i] - record.initial);
-    const double drift = change == 0 ? 0 : change / scale;
-    // A value that overflowed is no small drift: it must not be lost in a comparison with NaN.
-    record.drift = std::isnan(drift) ? std::numeric_limits<double>::infinity() : std::max(record.drift, drift);
-    record.final = values_[i];
+    const double change = std::abs(values_[i] - invariants_[i].initial);
+    // A value that overflowed is no small change: it must not be lost in a comparison with NaN.
+    changes_[i] = std::isnan(change) ? std::numeric_limits<double>::infinity()
+                                     : std::max(changes_[i], change);
+    invariants_[i].final = values_[i];
   }
 }
 
-bool Observer::step(double t1, const double* x1, const std::function<void(double t, double* x)>& state_at) {
-  if (settings_.monitor) record_drift(t1, x1);
+bool Observer::step(double t1, const double* x1,
+                    const std::function<void(double t, double* x)>& state_at) {
+  if (settings_.monitor) record_change(t1, x1);
+  if (settings_.monitor && std::has_single_bit(++steps_)) record_sizes(t1, x1);
   if (settings_.sample_every > 0) {
     const double direction = settings_.duration < 0 ? -1 : 1;
     for (;; ++next_sample_) {
@@ -56,7 +68,10 @@ bool Observer::step(double t1, const double* x1, const std::function<void(double
 }
 
 void Observer::finish(Trajectory& trajectory) {
-  if (!settings_.monitor) record_drift(trajectory.time, trajectory.state.data());
+  record_change(trajectory.time, trajectory.state.data());
+  record_sizes(trajectory.time, trajectory.state.data());
+  for (std::size_t i = 0; i < invariants_.size(); ++i)
+    invariants_[i].drift = changes_[i] == 0 ? 0 : changes_[i] / sizes_[i];
   if (settings_.sample_every > 0 && trajectory.time != times_.back()) {
     times_.push_back(trajectory.time);
     samples_.push_back(trajectory.state);

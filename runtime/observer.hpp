@@ -10,7 +10,8 @@ namespace casimir {
 /// makes the steps.
 class Observer {
  public:
-  Observer(const Module& module, const Settings& settings, const double* parameters, const std::vector<double>& initial);
+  Observer(const Module& module, const Settings& settings, const double* parameters,
+           const std::vector<double>& initial);
 
   /// True if there is anything to do after each step.
   bool needed() const;
@@ -23,16 +24,18 @@ class Observer {
   void finish(Trajectory& trajectory);
 
  private:
-  void record_drift(double t, const double* x);
+  void record_change(double t, const double* x);
+  void record_sizes(double t, const double* x);
 
   const Module& module_;
   const Settings& settings_;
   const double* parameters_;
-  std::vector<double> initial_invariants_, values_, scratch_;
+  std::vector<double> values_, sizes_, changes_, scratch_;
   std::vector<InvariantRecord> invariants_;
   std::vector<double> times_;
   std::vector<std::vector<double>> samples_;
   unsigned long long next_sample_ = 1;
+  unsigned long long steps_ = 0;
 };
 
 }  // namespace casimir

@@ -20,13 +20,15 @@ constexpr unsigned long kMaxSteps = 2000000;
 double log2_of(const cln::cl_F& x) {
   if (cln::zerop(x)) return -std::numeric_limits<double>::infinity();
   const cln::decoded_float parts = cln::decode_float(x);
-  return static_cast<double>(cln::cl_I_to_long(parts.exponent)) + std::log2(cln::double_approx(parts.mantissa));
+  return static_cast<double>(cln::cl_I_to_long(parts.exponent)) +
+         std::log2(cln::double_approx(parts.mantissa));
 }
 
 /// 2^e for a double e of any size.
 cln::cl_F power_of_two(double e, const Arithmetic<cln::cl_F>& arithmetic) {
   const double whole = std::floor(e);
-  return cln::scale_float(arithmetic.from(cln::rational(cln::cl_DF(std::exp2(e - whole)))), cln::cl_I(static_cast<long>(whole)));
+  return cln::scale_float(arithmetic.from(cln::rational(cln::cl_DF(std::exp2(e - whole)))),
+                          cln::cl_I(static_cast<long>(whole)));
 }
 
 /// The step from the last two coefficients: the first terms left out are about as large as the
@@ -62,8 +64,9 @@ cln::cl_F horner(const std::vector<cln::cl_F>& series, const cln::cl_F& h) {
   return value;
 }
 
-Run integrate(const Program& rhs, const std::vector<cln::cl_R>& initial, const cln::cl_R& duration, int digits,
-              const std::vector<cln::cl_R>& parameters, const std::function<bool()>& give_up) {
+Run integrate(const Program& rhs, const std::vector<cln::cl_R>& initial, const cln::cl_R& duration,
+              int digits, const std::vector<cln::cl_R>& parameters,
+              const std::function<bool()>& give_up) {
   const int working = digits + kGuardDigits;
   const Arithmetic<cln::cl_F> arithmetic(working);
   const int order = static_cast<int>(1.15 * working) + 4;
@@ -90,7 +93,8 @@ Run integrate(const Program& rhs, const std::vector<cln::cl_R>& initial, const c
     const cln::cl_F left = end - run.time;
     const double step = log2_step(*series, log2_tolerance);
     // A step that no longer moves the time means that the solution has no value further on.
-    if (step < log2_of(end) - (working - 2) * kLog2Of10 || std::isnan(step)) return run.reason = "the solution has a singularity here", run;
+    if (step < log2_of(end) - (working - 2) * kLog2Of10 || std::isnan(step))
+      return run.reason = "the solution has a singularity here", run;
     const bool last = step >= log2_of(left);
     const cln::cl_F h = last ? left : power_of_two(step, arithmetic);
     for (std::size_t i = 0; i < run.state.size(); ++i) run.state[i] = horner((*series)[i], h);
@@ -116,15 +120,19 @@ double relative_difference(const std::vector<cln::cl_F>& a, const std::vector<cl
 
 }  // namespace
 
-Reference reference_solution(const Program& rhs, const std::vector<cln::cl_R>& initial, const cln::cl_R& duration, int digits,
-                             const std::vector<cln::cl_R>& parameters, const std::function<bool()>& give_up) {
+Reference reference_solution(const Program& rhs, const std::vector<cln::cl_R>& initial,
+                             const cln::cl_R& duration, int digits,
+                             const std::vector<cln::cl_R>& parameters,
+                             const std::function<bool()>& give_up) {
   constexpr int kLeastDigits = 20;
   constexpr int kMoreDigits = 10;
   digits = std::max(digits, kLeastDigits);
   const Run first = integrate(rhs, initial, duration, digits, parameters, give_up);
   Reference reference;
   reference.digits = digits + kMoreDigits;
-  Run second = first.reached ? integrate(rhs, initial, duration, reference.digits, parameters, give_up) : first;
+  Run second = first.reached
+                   ? integrate(rhs, initial, duration, reference.digits, parameters, give_up)
+                   : first;
   reference.reached = second.reached;
   reference.reason = second.reason;
   reference.time = second.time;

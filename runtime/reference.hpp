@@ -13,14 +13,14 @@ namespace casimir {
 
 /// A solution that errors are measured against, with a bound of its own error.
 struct Reference {
-  bool reached = false;             ///< the end was reached; else `reason` says why not
+  bool reached = false;  ///< the end was reached; else `reason` says why not
   std::string reason;
-  std::vector<cln::cl_F> state;     ///< at `time`
+  std::vector<cln::cl_F> state;  ///< at `time`
   cln::cl_R time;
   /// The largest relative difference of any component to a second run with more digits and a
   /// higher order: what the first run had wrong, so a bound for the second, which is returned.
   double error_bound = 0;
-  int digits = 0;                   ///< of the second run
+  int digits = 0;  ///< of the second run
   unsigned long steps = 0;
 };
 
@@ -30,8 +30,9 @@ struct Reference {
 ///                  the working precision.
 /// \param digits    decimal digits asked for; at least 20.
 /// \param give_up   is asked now and then; true ends the computation (`reached` is false).
-Reference reference_solution(const Program& rhs, const std::vector<cln::cl_R>& initial, const cln::cl_R& duration,
-                             int digits = 30, const std::vector<cln::cl_R>& parameters = {},
+Reference reference_solution(const Program& rhs, const std::vector<cln::cl_R>& initial,
+                             const cln::cl_R& duration, int digits = 30,
+                             const std::vector<cln::cl_R>& parameters = {},
                              const std::function<bool()>& give_up = {});
 
 }  // namespace casimir

@@ -18,8 +18,12 @@ template <class Number>
 class TaylorJet {
  public:
   /// \param parameters  values of the inputs between the states and the time.
-  TaylorJet(const Program& program, Arithmetic<Number> arithmetic, std::vector<Number> parameters, int order)
-      : program_(program), arithmetic_(std::move(arithmetic)), parameters_(std::move(parameters)), order_(order) {
+  TaylorJet(const Program& program, Arithmetic<Number> arithmetic, std::vector<Number> parameters,
+            int order)
+      : program_(program),
+        arithmetic_(std::move(arithmetic)),
+        parameters_(std::move(parameters)),
+        order_(order) {
     assert(program.outputs.size() + parameters_.size() + 1 == program.inputs.size());
     for (int k = 0; k <= order; ++k) integers_.push_back(arithmetic_.from(cln::cl_RA(k)));
     const auto lines = program.code.size();
@@ -40,7 +44,8 @@ class TaylorJet {
     for (int k = 0; k < order_; ++k) {
       for (std::size_t i = 0; i < program_.code.size(); ++i) extend(i, k, t);
       for (std::size_t i = 0; i < x.size(); ++i) {
-        const Number& rate = series_[static_cast<std::size_t>(program_.outputs[i])][static_cast<std::size_t>(k)];
+        const Number& rate =
+            series_[static_cast<std::size_t>(program_.outputs[i])][static_cast<std::size_t>(k)];
         states_[i].push_back(rate / integer(k + 1));
       }
     }
@@ -54,8 +59,11 @@ class TaylorJet {
 
   bool is_constant(const Instruction& line) const {
     if (line.op == Op::constant || line.op == Op::pi) return true;
-    if (line.op == Op::input) return line.a >= static_cast<int>(program_.outputs.size()) && line.a + 1 < static_cast<int>(program_.inputs.size());
-    return constant_[static_cast<std::size_t>(line.a)] && (line.b < 0 || constant_[static_cast<std::size_t>(line.b)]);
+    if (line.op == Op::input)
+      return line.a >= static_cast<int>(program_.outputs.size()) &&
+             line.a + 1 < static_cast<int>(program_.inputs.size());
+    return constant_[static_cast<std::size_t>(line.a)] &&
+           (line.b < 0 || constant_[static_cast<std::size_t>(line.b)]);
   }
 
   Number zero() const { return integers_[0]; }
@@ -63,21 +71,25 @@ class TaylorJet {
   /// sum over j = from..to of u_j v_{k-j}
   Number convolution(const Series& u, const Series& v, int k, int from, int to) const {
     Number sum = zero();
-    for (int j = from; j <= to; ++j) sum = sum + u[static_cast<std::size_t>(j)] * v[static_cast<std::size_t>(k - j)];
+    for (int j = from; j <= to; ++j)
+      sum = sum + u[static_cast<std::size_t>(j)] * v[static_cast<std::size_t>(k - j)];
     return sum;
   }
 
   /// sum over j = from..to of j u_j v_{k-j}
   Number weighted(const Series& u, const Series& v, int k, int from, int to) const {
     Number sum = zero();
-    for (int j = from; j <= to; ++j) sum = sum + integer(j) * u[static_cast<std::size_t>(j)] * v[static_cast<std::size_t>(k - j)];
+    for (int j = from; j <= to; ++j)
+      sum = sum + integer(j) * u[static_cast<std::size_t>(j)] * v[static_cast<std::size_t>(k - j)];
     return sum;
   }
 
   Number input(int index, int k, const Number& t) const {
     const int states = static_cast<int>(states_.size());
-    if (index < states) return states_[static_cast<std::size_t>(index)][static_cast<std::size_t>(k)];
-    if (index + 1 < static_cast<int>(program_.inputs.size())) return k == 0 ? parameters_[static_cast<std::size_t>(index - states)] : zero();
+    if (index < states)
+      return states_[static_cast<std::size_t>(index)][static_cast<std::size_t>(k)];
+    if (index + 1 < static_cast<int>(program_.inputs.size()))
+      return k == 0 ? parameters_[static_cast<std::size_t>(index - states)] : zero();
     return k == 0 ? t : k == 1 ? integer(1) : zero();
   }
 
@@ -93,22 +105,41 @@ class TaylorJet {
     const Series* const b = line.b >= 0 ? &series_[static_cast<std::size_t>(line.b)] : nullptr;
     const auto n = static_cast<std::size_t>(k);
     switch (line.op) {
-      case Op::input: s.push_back(input(line.a, k, t)); break;
-      case Op::constant: s.push_back(arithmetic_.from(program_.constants[static_cast<std::size_t>(line.a)])); break;
-      case Op::pi: s.push_back(arithmetic_.pi()); break;
-      case Op::add: s.push_back((*a)[n] + (*b)[n]); break;
-      case Op::sub: s.push_back((*a)[n] - (*b)[n]); break;
-      case Op::neg: s.push_back(-(*a)[n]); break;
+      case Op::input:
+        s.push_back(input(line.a, k, t));
+        break;
+      case Op::constant:
+        s.push_back(arithmetic_.from(program_.constants[static_cast<std::size_t>(line.a)]));
+        break;
+      case Op::pi:
+        s.push_back(arithmetic_.pi());
+        break;
+      case Op::add:
+        s.push_back((*a)[n] + (*b)[n]);
+        break;
+      case Op::sub:
+        s.push_back((*a)[n] - (*b)[n]);
+        break;
+      case Op::neg:
+        s.push_back(-(*a)[n]);
+        break;
       case Op::mul:
-        if (constant_[static_cast<std::size_t>(line.a)]) s.push_back((*a)[0] * (*b)[n]);
-        else if (constant_[static_cast<std::size_t>(line.b)]) s.push_back((*a)[n] * (*b)[0]);
-        else s.push_back(convolution(*a, *b, k, 0, k));
+        if (constant_[static_cast<std::size_t>(line.a)])
+          s.push_back((*a)[0] * (*b)[n]);
+        else if (constant_[static_cast<std::size_t>(line.b)])
+          s.push_back((*a)[n] * (*b)[0]);
+        else
+          s.push_back(convolution(*a, *b, k, 0, k));
         break;
       case Op::div:
-        if (constant_[static_cast<std::size_t>(line.b)]) s.push_back(arithmetic_.divide((*a)[n], (*b)[0]));
-        else s.push_back(arithmetic_.divide((*a)[n] - convolution(*b, s, k, 1, k), (*b)[0]));
+        if (constant_[static_cast<std::size_t>(line.b)])
+          s.push_back(arithmetic_.divide((*a)[n], (*b)[0]));
+        else
+          s.push_back(arithmetic_.divide((*a)[n] - convolution(*b, s, k, 1, k), (*b)[0]));
         break;
-      default: s.push_back(k == 0 ? start_function(i, line) : next_function(i, line, *a, b, k)); break;
+      default:
+        s.push_back(k == 0 ? start_function(i, line) : next_function(i, line, *a, b, k));
+        break;
     }
   }
 
@@ -120,12 +151,20 @@ class TaylorJet {
     Series& u = first_auxiliary_[i];
     Series& w = second_auxiliary_[i];
     switch (line.op) {
-      case Op::sqrt: return m.sqrt(a);
-      case Op::pow: return m.power(a, exponent(line));
-      case Op::exp: return m.exp(a);
-      case Op::log: return m.log(a);
-      case Op::sin: u.push_back(m.cos(a)); return m.sin(a);
-      case Op::cos: u.push_back(m.sin(a)); return m.cos(a);
+      case Op::sqrt:
+        return m.sqrt(a);
+      case Op::pow:
+        return m.power(a, exponent(line));
+      case Op::exp:
+        return m.exp(a);
+      case Op::log:
+        return m.log(a);
+      case Op::sin:
+        u.push_back(m.cos(a));
+        return m.sin(a);
+      case Op::cos:
+        u.push_back(m.sin(a));
+        return m.cos(a);
       case Op::tan: {
         const Number tangent = m.tan(a);
         u.push_back(one + tangent * tangent);
@@ -141,30 +180,39 @@ class TaylorJet {
         u.push_back(x * x + a * a);
         return m.atan2(a, x);
       }
-      default: assert(false); return a;
+      default:
+        assert(false);
+        return a;
     }
   }
 
   const cln::cl_RA& exponent(const Instruction& line) const {
-    return program_.constants[static_cast<std::size_t>(program_.code[static_cast<std::size_t>(line.b)].a)];
+    return program_
+        .constants[static_cast<std::size_t>(program_.code[static_cast<std::size_t>(line.b)].a)];
   }
 
   /// Coefficient k > 0 of a function of the series a (and, for atan2, of x = b).
-  Number next_function(std::size_t i, const Instruction& line, const Series& a, const Series* b, int k) {
+  Number next_function(std::size_t i, const Instruction& line, const Series& a, const Series* b,
+                       int k) {
     const auto n = static_cast<std::size_t>(k);
     Series& s = series_[i];
     Series& u = first_auxiliary_[i];
     Series& w = second_auxiliary_[i];
     const Number two = integer(1) + integer(1);
     switch (line.op) {
-      case Op::sqrt: return arithmetic_.divide(a[n] - convolution(s, s, k, 1, k - 1), two * s[0]);
+      case Op::sqrt:
+        return arithmetic_.divide(a[n] - convolution(s, s, k, 1, k - 1), two * s[0]);
       case Op::pow: {
         // a s' = e a' s
         const Number e = arithmetic_.from(exponent(line));
-        return arithmetic_.divide(e * weighted(a, s, k, 1, k) - weighted(s, a, k, 1, k - 1), integer(k) * a[0]);
+        return arithmetic_.divide(e * weighted(a, s, k, 1, k) - weighted(s, a, k, 1, k - 1),
+                                  integer(k) * a[0]);
       }
-      case Op::exp: return weighted(a, s, k, 1, k) / integer(k);
-      case Op::log: return arithmetic_.divide(integer(k) * a[n] - weighted(s, a, k, 1, k - 1), integer(k) * a[0]);
+      case Op::exp:
+        return weighted(a, s, k, 1, k) / integer(k);
+      case Op::log:
+        return arithmetic_.divide(integer(k) * a[n] - weighted(s, a, k, 1, k - 1),
+                                  integer(k) * a[0]);
       case Op::sin: {
         const Number next = weighted(a, u, k, 1, k) / integer(k);
         u.push_back(-(weighted(a, s, k, 1, k) / integer(k)));
@@ -187,15 +235,20 @@ class TaylorJet {
         w.push_back(-convolution(a, a, k, 0, k));
         u.push_back(arithmetic_.divide(w[n] - convolution(u, u, k, 1, k - 1), two * u[0]));
         const Number slope = line.op == Op::asin ? a[n] : -a[n];
-        return arithmetic_.divide(integer(k) * slope - weighted(s, u, k, 1, k - 1), integer(k) * u[0]);
+        return arithmetic_.divide(integer(k) * slope - weighted(s, u, k, 1, k - 1),
+                                  integer(k) * u[0]);
       }
       case Op::atan2: {
         // r s' = x y' - y x', r = x^2 + y^2
         const Series& x = *b;
         u.push_back(convolution(x, x, k, 0, k) + convolution(a, a, k, 0, k));
-        return arithmetic_.divide(weighted(a, x, k, 1, k) - weighted(x, a, k, 1, k) - weighted(s, u, k, 1, k - 1), integer(k) * u[0]);
+        return arithmetic_.divide(
+            weighted(a, x, k, 1, k) - weighted(x, a, k, 1, k) - weighted(s, u, k, 1, k - 1),
+            integer(k) * u[0]);
       }
-      default: assert(false); return a[n];
+      default:
+        assert(false);
+        return a[n];
     }
   }
 

@@ -18,8 +18,9 @@ double error_of(const std::vector<double>& x, const Truth& truth) {
   return largest;
 }
 
-Sample measure(const Module& module, const Method& method, const Settings& settings, const std::vector<double>& initial,
-               const std::vector<double>& parameters, const Truth& truth, double least_seconds, int most_runs) {
+Sample measure(const Module& module, const Method& method, const Settings& settings,
+               const std::vector<double>& initial, const std::vector<double>& parameters,
+               const Truth& truth, double least_seconds, int most_runs) {
   Settings watched = settings;
   watched.monitor = true;
   const Trajectory first = integrate(module, method, watched, initial, parameters);
@@ -29,9 +30,11 @@ Sample measure(const Module& module, const Method& method, const Settings& setti
   sample.status = first.status;
   sample.steps = first.steps;
   sample.evaluations = first.evaluations;
-  for (const InvariantRecord& record : first.invariants) sample.drift = std::max(sample.drift, record.drift);
+  for (const InvariantRecord& record : first.invariants)
+    sample.drift = std::max(sample.drift, record.drift);
   // A state at another time than the reference's has no error.
-  sample.error = first.status == Status::ok ? error_of(first.state, truth) : std::numeric_limits<double>::quiet_NaN();
+  sample.error = first.status == Status::ok ? error_of(first.state, truth)
+                                            : std::numeric_limits<double>::quiet_NaN();
 
   Settings bare = settings;
   bare.monitor = false;
@@ -39,7 +42,8 @@ Sample measure(const Module& module, const Method& method, const Settings& setti
   std::vector<double> seconds;
   double spent = 0;
   constexpr int kLeastRuns = 3;
-  while (static_cast<int>(seconds.size()) < kLeastRuns || (spent < least_seconds && static_cast<int>(seconds.size()) < most_runs)) {
+  while (static_cast<int>(seconds.size()) < kLeastRuns ||
+         (spent < least_seconds && static_cast<int>(seconds.size()) < most_runs)) {
     seconds.push_back(integrate(module, method, bare, initial, parameters).seconds);
     spent += seconds.back();
     if (settings.give_up && settings.give_up()) break;

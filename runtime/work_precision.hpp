@@ -30,7 +30,8 @@ double error_of(const std::vector<double>& x, const Truth& truth);
 
 /// One sample: runs until at least `least_seconds` have been spent or `most_runs` made, at least
 /// three times.
-Sample measure(const Module& module, const Method& method, const Settings& settings, const std::vector<double>& initial,
-               const std::vector<double>& parameters, const Truth& truth, double least_seconds = 0.05, int most_runs = 200);
+Sample measure(const Module& module, const Method& method, const Settings& settings,
+               const std::vector<double>& initial, const std::vector<double>& parameters,
+               const Truth& truth, double least_seconds = 0.05, int most_runs = 200);
 
 }  // namespace casimir

@@ -153,6 +153,11 @@ void march(const casimir_run* run, double* x, casimir_outcome* out) {
   double t = run->t_begin, t_carry = 0;
   const double span = run->t_end - run->t_begin;
   const bool adaptive = !(run->fixed_step > 0);
+  casimir_run asked = *run;
+  if (!adaptive) {  // then `error` is measured against the state itself
+    asked.rtol = 1;
+    asked.atol = largest<n>(x);
+  }
   unsigned long long steps = 0, rejected = 0;
   out->steps = out->rejected = out->evaluations = out->jacobians = 0;
   out->t = t;
@@ -163,7 +168,7 @@ void march(const casimir_run* run, double* x, casimir_outcome* out) {
 
   double h = span, pieces = 0;
   int status = CASIMIR_OK;
-  if (!step.begin(run, span, x)) status = CASIMIR_NON_FINITE;
+  if (!step.begin(&asked, span, x)) status = CASIMIR_NON_FINITE;
   if (!adaptive) {
     pieces = __builtin_ceil(magnitude(span) / run->fixed_step * (1 - 4 * kEpsilon));
     pieces = larger(pieces, 1);
@@ -179,7 +184,7 @@ void march(const casimir_run* run, double* x, casimir_outcome* out) {
   }
   for (int i = 0; i < n; ++i) carry[i] = 0;
 
-  double most = kGrow;
+  double most = kGrow, ceiling = magnitude(span);
   int failure = CASIMIR_STEP_UNDERFLOW;
   bool there = false;
   while (status == CASIMIR_OK && !there) {
@@ -209,7 +214,7 @@ void march(const casimir_run* run, double* x, casimir_outcome* out) {
     if (there) t1 = run->t_end;
 
     Trial result = step.attempt(t, x, carry, trial, adaptive);
-    bool good = result == Trial::done && (!adaptive || step.error <= 1);
+    bool good = result == Trial::done && step.error <= 1;
     if (good) {
       for (int i = 0; i < n; ++i) {
         next[i] = x[i];
@@ -221,20 +226,24 @@ void march(const casimir_run* run, double* x, casimir_outcome* out) {
         result = Trial::not_finite;
       }
     }
-    if (result == Trial::done && adaptive && !(step.error <= 1e300)) result = Trial::not_finite;
+    if (result == Trial::done && !(step.error <= 1e300)) result = Trial::not_finite;
     if (!good) {
       ++rejected;
       there = false;
-      failure = result == Trial::not_finite   ? CASIMIR_NON_FINITE
-                : result == Trial::not_solved ? CASIMIR_NO_CONVERGENCE
-                                              : CASIMIR_STEP_UNDERFLOW;
+      failure = result == Trial::not_finite                ? CASIMIR_NON_FINITE
+                : result == Trial::not_solved || !adaptive ? CASIMIR_NO_CONVERGENCE
+                                                           : CASIMIR_STEP_UNDERFLOW;
       if (!adaptive) {
         status = status_of_vanished_step<n>(t - run->t_begin, x, step.f, failure);
         break;
       }
       const double factor = kSafety / rough_root(step.error, Step::power);
-      h = trial * (result != Trial::done ? 0.25 : factor < kShrink ? kShrink : factor);
+      h = trial * (result == Trial::not_solved ? 0.5
+                   : result != Trial::done     ? 0.25
+                   : factor < kShrink          ? kShrink
+                                               : factor);
       most = 1;
+      if (result == Trial::not_solved) ceiling = magnitude(trial) / 2;
       continue;
     }
     ++steps;
@@ -254,7 +263,8 @@ void march(const casimir_run* run, double* x, casimir_outcome* out) {
     if (adaptive) {
       const double factor = kSafety / rough_root(step.error, Step::power);
       h = trial * (factor > most ? most : factor < kShrink ? kShrink : factor);
-      if (magnitude(h) > magnitude(span)) h = span;
+      if (magnitude(h) > ceiling) h = span < 0 ? -ceiling : ceiling;
+      if (ceiling < magnitude(span)) ceiling *= 1.1;
       most = kGrow;
       failure = CASIMIR_STEP_UNDERFLOW;
     }
