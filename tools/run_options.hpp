@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "runtime/methods.hpp"
+#include "tools/cli.hpp"
+#include "tools/scene_run.hpp"
+
+namespace casimir::tools {
+
+/// The options of a run that `integrate`, `conserve` and `bench` share.
+struct RunOptions {
+  std::optional<double> rtol, atol, tolerance, step;
+  std::optional<std::string> duration;
+  unsigned long long max_steps = 0;
+};
+
+void add_run_options(CLI::App& command, RunOptions& options);
+
+/// Settings for a scene. Without `--atol`, the absolute tolerance is the relative one times the
+/// size of the initial state where that is below 1: a tiny scene is not all tolerance.
+/// \throws UsageError  for a duration that is no number.
+Settings settings_for(const RunOptions& options, const SceneRun& run, double default_tolerance = 1e-10);
+
+/// The method of that name; "auto" is resolved. \throws UsageError  with the nearest name.
+const Method& method_named(const std::string& name);
+
+/// All names, for help texts.
+std::string method_list();
+
+}  // namespace casimir::tools

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <iosfwd>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "runtime/integrate.hpp"
+
+namespace casimir::tools {
+
+/// One row of `conserve`, `bench` and `stress`.
+struct Row {
+  std::string case_name, scene, method;
+  std::string code = "specialised";  ///< or "general": parameters at run time, nothing left out
+  double tolerance = 0;
+  double error = std::numeric_limits<double>::quiet_NaN();  ///< not a number: there is no reference
+  double drift = 0;
+  double seconds = 0;
+  double spread = 0;
+  unsigned long long steps = 0, evaluations = 0;
+  std::string status = "ok";  ///< a Status, "wrong", or "refused: why"
+  bool failed = false;
+};
+
+/// {"rows": [..], "failed": N}.
+nlohmann::ordered_json to_json(const std::vector<Row>& rows);
+
+/// The same columns as CSV.
+void write_csv(std::ostream& stream, const std::vector<Row>& rows);
+
+/// A table for people. Case and scene stand in lines of their own.
+std::string to_text(const std::vector<Row>& rows, bool with_error);
+
+/// 17 significant digits: reads back as the same double.
+std::string exact_text(double value);
+
+/// "12.3 us", "4.5 ms", "1.2 s".
+std::string duration_text(double seconds);
+
+}  // namespace casimir::tools

@@ -1,0 +1,127 @@
+#include "tools/scene_run.hpp"
+
+#include <cln/float_io.h>
+#include <cln/real.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "codegen/compile.hpp"
+#include "codegen/emit_cpp.hpp"
+#include "codegen/literal.hpp"
+#include "runtime/evaluate.hpp"
+#include "runtime/methods.hpp"
+#include "runtime/term_size.hpp"
+
+namespace casimir::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Digits to which constants such as sqrt(2)/2 are evaluated before they are rounded to double.
+constexpr int kConstantDigits = 60;
+
+std::vector<cln::cl_F> evaluate_start(const Specialisation& specialisation, int digits) {
+  return evaluate(specialisation.start, {}, Arithmetic<cln::cl_F>(digits));
+}
+
+double rounded(const cln::cl_F& value) { return codegen::nearest<double>(cln::rational(value)); }
+
+}  // namespace
+
+SceneRun prepare(const Model& model, const Scene& scene, const SceneOptions& options) {
+  const auto start = Clock::now();
+  SpecialiseOptions what;
+  what.fold_parameters = options.fold_parameters;
+  what.observe = options.observe;
+  SceneRun run;
+  run.specialisation = specialise(model, scene, what);
+  const Specialisation& s = run.specialisation;
+  const std::vector<cln::cl_F> values = evaluate_start(s, kConstantDigits);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < s.states.size(); ++i) run.initial.push_back(rounded(values[next++]));
+  for (std::size_t i = 0; i < s.parameters.size(); ++i) run.parameters.push_back(rounded(values[next++]));
+  run.duration = rounded(values[next]);
+  run.generate_seconds = seconds_since(start);
+  return run;
+}
+
+std::function<void(double, const double*, double*)> SceneRun::invariant_sizes() const {
+  return [this](double t, const double* x, double* sizes) {
+    std::vector<SizedNumber> inputs;
+    for (std::size_t i = 0; i < initial.size(); ++i) inputs.push_back(Arithmetic<SizedNumber>::plain(x[i]));
+    for (const double p : parameters) inputs.push_back(Arithmetic<SizedNumber>::plain(p));
+    inputs.push_back(Arithmetic<SizedNumber>::plain(t));
+    const std::vector<SizedNumber> values = evaluate(specialisation.invariants, inputs);
+    for (std::size_t i = 0; i < values.size(); ++i) sizes[i] = std::abs(values[i].size);
+  };
+}
+
+CompiledModule compile_for(const SceneRun& run, const Method& method) {
+  const auto start = Clock::now();
+  // A method of another library only calls the right-hand side: one module serves them all.
+  const CompiledObject object = compile(emit_module(run.specialisation, method.outside.empty() ? kernel_source(method) : std::string{}));
+  return {Module::load(object.path), seconds_since(start), object.from_cache};
+}
+
+TruthOrReason truth_of(const Model& model, const Scene& scene, const SceneRun& run, int digits, const std::function<bool()>& give_up) {
+  const Specialisation& s = run.specialisation;
+  TruthOrReason result;
+  std::vector<cln::cl_F> state;
+  const bool in_file = !scene.reference.empty() &&
+                       std::all_of(s.state_indices.begin(), s.state_indices.end(), [&](int i) { return scene.reference[static_cast<std::size_t>(i)].has_value(); });
+  if (in_file) {
+    const Arithmetic<cln::cl_F> arithmetic(kConstantDigits);
+    for (const int i : s.state_indices) {
+      const GiNaC::ex value = *scene.reference[static_cast<std::size_t>(i)];
+      if (!GiNaC::is_a<GiNaC::numeric>(value)) throw ModelError("a reference state must be given by numbers");
+      state.push_back(arithmetic.from(cln::the<cln::cl_R>(GiNaC::ex_to<GiNaC::numeric>(value).to_cl_N())));
+    }
+    result.source = "the case file";
+  } else {
+    const std::vector<cln::cl_F> values = evaluate_start(s, digits + kConstantDigits);
+    const auto n = static_cast<std::ptrdiff_t>(s.states.size());
+    const std::vector<cln::cl_R> initial(values.begin(), values.begin() + n);
+    const std::vector<cln::cl_R> parameters(values.begin() + n, values.end() - 1);
+    const Reference reference = reference_solution(s.rhs, initial, values.back(), digits, parameters, give_up);
+    if (!reference.reached) {
+      result.reason = fmt::format("there is no reference state: {} (t = {:.6g})", reference.reason, cln::double_approx(reference.time));
+      return result;
+    }
+    constexpr double kGood = 1e-18;
+    if (reference.error_bound > kGood) {
+      result.reason = fmt::format("two multiprecision runs differ by {:.1e}: more digits are needed for a reference", reference.error_bound);
+      return result;
+    }
+    state = reference.state;
+    result.source = fmt::format("our own Taylor series with {} digits, checked to {:.0e}", reference.digits, reference.error_bound);
+  }
+  Truth truth;
+  double largest = 0;
+  for (const cln::cl_F& x : state) {
+    truth.state.push_back(rounded(x));
+    truth.rest.push_back(cln::double_approx(x - cln::cl_float(cln::cl_DF(truth.state.back()), x)));
+    largest = std::max(largest, std::abs(truth.state.back()));
+  }
+  for (std::size_t i = 0; i < run.initial.size(); ++i) largest = std::max(largest, std::abs(run.initial[i]));
+  // A component near a zero is measured against its start, and never against less than a
+  // thousandth of the whole state.
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    truth.scale.push_back(std::max({std::abs(truth.state[i]), std::abs(run.initial[i]), 1e-3 * largest}));
+    if (truth.scale.back() == 0) truth.scale.back() = 1;
+  }
+  result.truth = std::move(truth);
+  return result;
+}
+
+std::function<bool()> time_limit(double seconds) {
+  if (seconds <= 0) return {};
+  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  return [end] { return Clock::now() > end; };
+}
+
+}  // namespace casimir::tools
