@@ -92,7 +92,7 @@ void check(const Module& module, const Method& method, const Settings& s, std::s
     refuse("a relative tolerance below 1e-15 is more than double precision can give; use --digits");
   if (!(s.fixed_step >= 0) || !std::isfinite(s.fixed_step))
     refuse("the step must be a positive finite number");
-  if (s.fixed_step > 0 && !method.constant_step)
+  if (s.fixed_step > 0 && !method.fixed_step_ok)
     refuse(std::string(method.name) + " has no constant step");
   if (!(s.sample_every >= 0)) refuse("the time between samples must be positive");
 }
@@ -155,7 +155,7 @@ Trajectory integrate(const Module& module, const Method& method, const Settings&
   trajectory.state = initial;
   const double* const p = parameters.empty() ? nullptr : parameters.data();
   Observer observer(module, settings, p, initial);
-  if (!method.library.empty()) {
+  if (!method.outside.empty()) {
     integrate_with_cvode(module, method, settings, p, observer, trajectory);
   } else if (module.functions().integrate == nullptr) {
     throw std::invalid_argument("the module was compiled without a kernel");
