@@ -77,7 +77,8 @@ std::string digest(const std::vector<std::string>& parts) {
   unsigned char bytes[kDigestDigits / 2];
   crypto_generichash_init(&state, nullptr, 0, sizeof bytes);
   const auto add = [&](const std::string& text) {
-    crypto_generichash_update(&state, reinterpret_cast<const unsigned char*>(text.data()), text.size());
+    crypto_generichash_update(&state, reinterpret_cast<const unsigned char*>(text.data()),
+                              text.size());
   };
   for (const std::string& part : parts) {
     add(std::to_string(part.size()) + ":");
@@ -180,12 +181,14 @@ fs::path Cache::store(const std::string& key, const fs::path& object) const {
 void Cache::tidy() const {
   std::error_code ignored;
   std::vector<std::pair<time_t, fs::path>> objects;
-  for (fs::directory_iterator i(folder_, ignored), end; !ignored && i != end; i.increment(ignored)) {
+  for (fs::directory_iterator i(folder_, ignored), end; !ignored && i != end;
+       i.increment(ignored)) {
     const std::string name = i->path().filename().string();
     std::error_code failed;
     if (name.starts_with("work-") && is_abandoned(i->path())) fs::remove_all(i->path(), failed);
     if (name.ends_with(".so")) objects.emplace_back(age_of(i->path()), i->path());
-    if (name.starts_with("failed-") && age_of(i->path()) > kForgottenSeconds) unlink(i->path().c_str());
+    if (name.starts_with("failed-") && age_of(i->path()) > kForgottenSeconds)
+      unlink(i->path().c_str());
   }
   if (objects.size() <= kMostObjects) return;
   std::ranges::sort(objects);
@@ -208,8 +211,9 @@ Workspace::Workspace(const Cache& cache) {
   static std::atomic<int> count{0};
   timespec now{};
   clock_gettime(CLOCK_REALTIME, &now);
-  folder_ = cache.folder() / ("work-" + std::to_string(getpid()) + "-" + std::to_string(now.tv_sec) +
-                              "-" + std::to_string(now.tv_nsec) + "-" + std::to_string(++count));
+  folder_ =
+      cache.folder() / ("work-" + std::to_string(getpid()) + "-" + std::to_string(now.tv_sec) +
+                        "-" + std::to_string(now.tv_nsec) + "-" + std::to_string(++count));
   if (mkdir(folder_.c_str(), 0700) != 0) fail("cannot make the folder", folder_);
 }
 

@@ -31,8 +31,8 @@ class Cache {
   std::filesystem::path folder_;
 };
 
-/// Held while an object is being made, so that others wait for it instead of making it too. Released
-/// by the system when its process dies. Where the file system has no locks, nobody waits.
+/// Held while an object is being made, so that others wait for it instead of making it too.
+/// Released by the system when its process dies. Where the file system has no locks, nobody waits.
 class CacheLock {
  public:
   CacheLock(const Cache& cache, const std::string& key);

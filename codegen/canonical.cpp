@@ -61,7 +61,20 @@ bool same(const Node& a, const Node& b) {
          std::ranges::equal(a.factors, b.factors, same_factor);
 }
 
-int order(const cln::cl_RA& a, const cln::cl_RA& b) { return cln::compare(a, b); }
+/// Splits the q-th powers of small numbers off, as in 72 = 2 * 6^2, and returns their root.
+cln::cl_I divide_out_powers(cln::cl_I& integer, const cln::cl_I& q) {
+  constexpr int kLargestFactor = 100;
+  cln::cl_I root = 1;
+  if (q > 64) return root;
+  for (int factor = 2; factor <= kLargestFactor; ++factor) {
+    const cln::cl_I power = cln::expt_pos(cln::cl_I(factor), q);
+    while (integer >= power && cln::mod(integer, power) == 0) {
+      integer = cln::exquo(integer, power);
+      root = root * factor;
+    }
+  }
+  return root;
+}
 
 }  // namespace
 
@@ -131,9 +144,9 @@ Scaled Dag::convert_new(const GiNaC::ex& e) {
 
 Scaled Dag::convert_function(const GiNaC::ex& e) {
   static const std::map<std::string, Op> kKnown{
-      {"sin", Op::sin},   {"cos", Op::cos},   {"tan", Op::tan},   {"exp", Op::exp},
-      {"log", Op::log},   {"asin", Op::asin}, {"acos", Op::acos}, {"atan2", Op::atan2},
-      {"atan", Op::atan2}};
+      {"sin", Op::sin},   {"cos", Op::cos},     {"tan", Op::tan},
+      {"exp", Op::exp},   {"log", Op::log},     {"asin", Op::asin},
+      {"acos", Op::acos}, {"atan2", Op::atan2}, {"atan", Op::atan2}};
   const std::string name = GiNaC::ex_to<GiNaC::function>(e).get_name();
   const auto known = kKnown.find(name);
   if (known == kKnown.end()) throw ModelError("unknown function '" + name + "'");
@@ -171,9 +184,8 @@ Scaled Dag::sum(const std::vector<Scaled>& terms) {
   for (const auto& [node, coefficient] : collected) {
     if (coefficient != 0) result.push_back({coefficient, node});
   }
-  std::ranges::sort(result, [this](const Scaled& a, const Scaled& b) {
-    return compare(a.node, b.node) < 0;
-  });
+  std::ranges::sort(
+      result, [this](const Scaled& a, const Scaled& b) { return compare(a.node, b.node) < 0; });
   if (result.empty()) return {0, kOne};
   if (result.size() == 1) return result.front();
   return primitive_sum(std::move(result));
@@ -228,7 +240,10 @@ void Dag::multiply_in(const Scaled& base, const cln::cl_RA& exponent, cln::cl_RA
     if (base.node != kOne) factors.push_back({base.node, exponent});
     return;
   }
-  if (base.node == kOne) throw ModelError("a root of a negative number appears");
+  if (base.node == kOne) {
+    throw ModelError("a root of the negative number " + text(base) +
+                     " appears: every expression must be real");
+  }
   Node negated;  // the only sums that begin with a minus: radicands
   negated.kind = NodeKind::sum;
   negated.terms = {{-1, base.node}};
@@ -241,14 +256,17 @@ void Dag::multiply_in(const Scaled& base, const cln::cl_RA& exponent, cln::cl_RA
   factors.push_back({intern(std::move(negated)), exponent});
 }
 
-void Dag::multiply_root(const cln::cl_RA& base, const cln::cl_RA& exponent,
-                        cln::cl_RA& coefficient, std::vector<Factor>& factors) {
-  const auto multiply = [&](const cln::cl_I& integer, const cln::cl_RA& power) {
+void Dag::multiply_root(const cln::cl_RA& base, const cln::cl_RA& exponent, cln::cl_RA& coefficient,
+                        std::vector<Factor>& factors) {
+  const auto multiply = [&](cln::cl_I integer, const cln::cl_RA& power) {
     const cln::cl_I whole = cln::floor1(power);
     const cln::cl_RA rest = power - whole;
     coefficient = coefficient * cln::expt(cln::cl_RA(integer), whole);
     cln::cl_I root;
     if (rest == 0 || integer == 1) return;
+    const cln::cl_I outside = divide_out_powers(integer, cln::denominator(rest));
+    coefficient = coefficient * cln::expt(cln::cl_RA(outside), cln::numerator(rest));
+    if (integer == 1) return;
     if (cln::rootp(integer, cln::denominator(rest), &root)) {
       coefficient = coefficient * cln::expt(cln::cl_RA(root), cln::numerator(rest));
       return;
@@ -336,44 +354,6 @@ NodeId Dag::intern(Node node) {
   nodes_.push_back(std::move(node));
   bucket.push_back(static_cast<NodeId>(nodes_.size()) - 1);
   return bucket.back();
-}
-
-// ------------------------------------------------------------------------------------------ order
-
-std::vector<Factor> Dag::factors_of(NodeId id) const {
-  if (id == kOne) return {};
-  if ((*this)[id].kind == NodeKind::product) return (*this)[id].factors;
-  return {{id, 1}};
-}
-
-int Dag::compare(NodeId a, NodeId b) const {
-  if (a == b) return 0;
-  if (const int by_degree = order((*this)[b].degree, (*this)[a].degree)) return by_degree;
-  const std::vector<Factor> left = factors_of(a);
-  const std::vector<Factor> right = factors_of(b);
-  for (std::size_t i = 0; i < std::min(left.size(), right.size()); ++i) {
-    if (const int by_base = compare_atoms(left[i].node, right[i].node)) return by_base;
-    if (const int by_power = order(right[i].exponent, left[i].exponent)) return by_power;
-  }
-  return left.size() > right.size() ? -1 : 1;
-}
-
-int Dag::compare_atoms(NodeId a, NodeId b) const {
-  if (a == b) return 0;
-  const Node& left = (*this)[a];
-  const Node& right = (*this)[b];
-  if (left.kind != right.kind) return left.kind < right.kind ? -1 : 1;
-  if (left.kind == NodeKind::symbol) return left.symbol < right.symbol ? -1 : 1;
-  if (left.kind == NodeKind::number) return cln::compare(left.number, right.number);
-  if (left.kind == NodeKind::product) return compare(a, b);  // a radicand
-  if (left.function != right.function) return left.function < right.function ? -1 : 1;
-  for (std::size_t i = 0; i < std::min(left.terms.size(), right.terms.size()); ++i) {
-    if (const int by_node = compare(left.terms[i].node, right.terms[i].node)) return by_node;
-    if (const int by_factor = order(right.terms[i].coefficient, left.terms[i].coefficient)) {
-      return by_factor;
-    }
-  }
-  return left.terms.size() > right.terms.size() ? -1 : 1;
 }
 
 }  // namespace casimir::codegen

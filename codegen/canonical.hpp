@@ -46,8 +46,8 @@ struct Node {
   cln::cl_I number = 0;
   std::vector<Scaled> terms;
   std::vector<Factor> factors;
-  cln::cl_RA degree = 0;   ///< in the coordinates; a function counts as 0
-  bool constant = true;    ///< free of symbols
+  cln::cl_RA degree = 0;  ///< in the coordinates; a function counts as 0
+  bool constant = true;   ///< free of symbols
 };
 
 /// Expressions in a normal form that does not depend on memory addresses, unlike GiNaC's.

@@ -30,14 +30,22 @@ std::string at_least(Binding needed, const Text& part) {
 
 const char* function_name(Op op) {
   switch (op) {
-    case Op::sin: return "sin";
-    case Op::cos: return "cos";
-    case Op::tan: return "tan";
-    case Op::exp: return "exp";
-    case Op::log: return "log";
-    case Op::asin: return "asin";
-    case Op::acos: return "acos";
-    default: return "atan2";
+    case Op::sin:
+      return "sin";
+    case Op::cos:
+      return "cos";
+    case Op::tan:
+      return "tan";
+    case Op::exp:
+      return "exp";
+    case Op::log:
+      return "log";
+    case Op::asin:
+      return "asin";
+    case Op::acos:
+      return "acos";
+    default:
+      return "atan2";
   }
 }
 
@@ -76,12 +84,18 @@ class Printer {
 
   Text atom(const Node& n) const {
     switch (n.kind) {
-      case NodeKind::symbol: return {dag_.symbol_name(n.symbol), kAtom};
-      case NodeKind::pi: return {"Pi", kAtom};
-      case NodeKind::number: return {shown(n.number), kAtom};
-      case NodeKind::sum: return sum(n.terms, 1);
-      case NodeKind::product: return product(n.factors, 1);
-      default: break;
+      case NodeKind::symbol:
+        return {dag_.symbol_name(n.symbol), kAtom};
+      case NodeKind::pi:
+        return {"Pi", kAtom};
+      case NodeKind::number:
+        return {shown(n.number), kAtom};
+      case NodeKind::sum:
+        return sum(n.terms, 1);
+      case NodeKind::product:
+        return product(n.factors, 1);
+      default:
+        break;
     }
     std::string inside;
     for (const Scaled& argument : n.terms) {
@@ -134,6 +148,8 @@ class Printer {
 
 }  // namespace
 
-std::string Dag::text(const Scaled& expression) const { return Printer(*this).scaled(expression).text; }
+std::string Dag::text(const Scaled& expression) const {
+  return Printer(*this).scaled(expression).text;
+}
 
 }  // namespace casimir::codegen

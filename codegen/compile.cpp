@@ -19,26 +19,39 @@ using codegen::CompilerRun;
 /// -nostdlib and no unwind tables: half the time of the compiler goes into what these leave out.
 /// The functions of the mathematical library are linked only if they are called.
 const std::vector<std::string>& usual_flags() {
-  static const std::vector<std::string> flags{
-      "-x",          "c++",       "-std=c++20",      "-O2",
-      "-march=native", "-fno-math-errno", "-fno-exceptions", "-fno-rtti",
-      "-fno-asynchronous-unwind-tables", "-fno-stack-protector", "-fPIC", "-shared",
-      "-nostdlib",   "-pipe",     "-w",              "-Wl,--build-id=none"};
+  static const std::vector<std::string> flags{"-x",
+                                              "c++",
+                                              "-std=c++20",
+                                              "-O2",
+                                              "-march=native",
+                                              "-fno-math-errno",
+                                              "-fno-exceptions",
+                                              "-fno-rtti",
+                                              "-fno-asynchronous-unwind-tables",
+                                              "-fno-stack-protector",
+                                              "-fPIC",
+                                              "-shared",
+                                              "-nostdlib",
+                                              "-pipe",
+                                              "-w",
+                                              "-Wl,--build-id=none"};
   return flags;
 }
 
 std::vector<std::string> arguments_for(const CompileOptions& options, const fs::path& folder) {
   std::vector<std::string> result = usual_flags();
   result.insert(result.end(), options.flags.begin(), options.flags.end());
-  for (const std::string& last : {(folder / "source.cpp").string(), std::string("-x"), std::string("none"),
-                                  std::string("-Wl,--as-needed"), std::string("-lm"), std::string("-o"),
-                                  (folder / "object.so").string()}) {
+  for (const std::string& last :
+       {(folder / "source.cpp").string(), std::string("-x"), std::string("none"),
+        std::string("-Wl,--as-needed"), std::string("-lm"), std::string("-o"),
+        (folder / "object.so").string()}) {
     result.push_back(last);
   }
   return result;
 }
 
-std::string key_of(const std::string& text, const Compiler& compiler, const CompileOptions& options) {
+std::string key_of(const std::string& text, const Compiler& compiler,
+                   const CompileOptions& options) {
   std::vector<std::string> parts{text, compiler.identity, codegen::processor_identity()};
   for (const auto* list : {&compiler.arguments, &usual_flags(), &options.flags}) {
     parts.push_back(std::to_string(list->size()));
@@ -54,9 +67,9 @@ std::string key_of(const std::string& text, const Compiler& compiler, const Comp
   }
   if (run.messages.find("cc1plus") != std::string::npos &&
       run.messages.find("No such file") != std::string::npos) {
-    throw CompilerMissing("the compiler " + compiler.program.string() +
-                          " cannot compile C++; install it, for instance with: apt-get install g++\n" +
-                          run.messages);
+    throw CompilerMissing(
+        "the compiler " + compiler.program.string() +
+        " cannot compile C++; install it, for instance with: apt-get install g++\n" + run.messages);
   }
   const fs::path kept = cache.folder() / ("failed-" + key.substr(0, 16) + ".cpp");
   codegen::write_file(kept, text);
@@ -77,8 +90,8 @@ fs::path build(const std::string& text, const std::string& key, const Compiler& 
   const codegen::Workspace workspace(cache);
   const Abandonable abandonable(workspace.folder());
   codegen::write_file(workspace.folder() / "source.cpp", text);
-  const CompilerRun run =
-      codegen::run_compiler(compiler, arguments_for(options, workspace.folder()), workspace.folder());
+  const CompilerRun run = codegen::run_compiler(
+      compiler, arguments_for(options, workspace.folder()), workspace.folder());
   if (!run.succeeded) report(run, compiler, cache, key, text);
   return cache.store(key, workspace.folder() / "object.so");
 }

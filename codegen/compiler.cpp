@@ -159,7 +159,8 @@ std::string processor_identity() {
   std::ifstream in("/proc/cpuinfo");
   std::string result;
   for (std::string line; std::getline(in, line) && !line.empty();) {
-    for (const char* key : {"vendor_id", "cpu family", "model", "stepping", "flags", "Features", "CPU "}) {
+    for (const char* key :
+         {"vendor_id", "cpu family", "model", "stepping", "flags", "Features", "CPU "}) {
       if (line.starts_with(key)) result += line + "\n";
     }
   }
@@ -173,8 +174,8 @@ CompilerRun run_compiler(const Compiler& compiler, const std::vector<std::string
   all.insert(all.end(), arguments.begin(), arguments.end());
   pid_t child = 0;
   if (const int failure = spawn(child, compiler, std::move(all), folder)) {
-    throw CompilerMissing("the C++ compiler " + compiler.program.string() + " cannot be started: " +
-                          std::strerror(failure) + "; " + kInstall);
+    throw CompilerMissing("the C++ compiler " + compiler.program.string() +
+                          " cannot be started: " + std::strerror(failure) + "; " + kInstall);
   }
   running = child;
   int status = 0;

@@ -26,10 +26,14 @@ cln::cl_RA rational_value(const Program& program, int i) {
   if (code.op == Op::constant) return number(program, code);
   const cln::cl_RA a = rational_value(program, code.a);
   switch (code.op) {
-    case Op::neg: return -a;
-    case Op::add: return a + rational_value(program, code.b);
-    case Op::sub: return a - rational_value(program, code.b);
-    case Op::mul: return a * rational_value(program, code.b);
+    case Op::neg:
+      return -a;
+    case Op::add:
+      return a + rational_value(program, code.b);
+    case Op::sub:
+      return a - rational_value(program, code.b);
+    case Op::mul:
+      return a * rational_value(program, code.b);
     default: {
       const cln::cl_RA b = rational_value(program, code.b);
       if (b == 0) throw ModelError("division by zero in a constant");
@@ -39,7 +43,7 @@ cln::cl_RA rational_value(const Program& program, int i) {
 }
 
 cln::cl_R real(const cln::cl_N& value, const Program& program, int i) {
-  if (!cln::instanceof(value, cln::cl_R_ring)) {
+  if (!cln:: instanceof (value, cln::cl_R_ring)) {
     throw ModelError("the constant " + constant_text(program, i) + " is not a real number");
   }
   return cln::the<cln::cl_R>(value);
@@ -52,23 +56,37 @@ cln::cl_R approximate(const Program& program, int i, const cln::float_format_t& 
   const cln::cl_R a = approximate(program, code.a, format);
   const cln::cl_R b = code.b < 0 ? cln::cl_R(0) : approximate(program, code.b, format);
   switch (code.op) {
-    case Op::add: return a + b;
-    case Op::sub: return a - b;
-    case Op::mul: return a * b;
+    case Op::add:
+      return a + b;
+    case Op::sub:
+      return a - b;
+    case Op::mul:
+      return a * b;
     case Op::div:
       if (cln::zerop(b)) throw ModelError("division by zero in a constant");
       return a / b;
-    case Op::neg: return -a;
-    case Op::pow: return real(cln::expt(cln::cl_N(a), number(program, at(program, code.b))), program, i);
-    case Op::sqrt: return real(cln::sqrt(cln::cl_N(a)), program, i);
-    case Op::sin: return cln::sin(a);
-    case Op::cos: return cln::cos(a);
-    case Op::tan: return cln::tan(a);
-    case Op::exp: return cln::exp(a);
-    case Op::log: return real(cln::log(cln::cl_N(a)), program, i);
-    case Op::asin: return real(cln::asin(cln::cl_N(a)), program, i);
-    case Op::acos: return real(cln::acos(cln::cl_N(a)), program, i);
-    default: return cln::atan(b, a);
+    case Op::neg:
+      return -a;
+    case Op::pow:
+      return real(cln::expt(cln::cl_N(a), number(program, at(program, code.b))), program, i);
+    case Op::sqrt:
+      return real(cln::sqrt(cln::cl_N(a)), program, i);
+    case Op::sin:
+      return cln::sin(a);
+    case Op::cos:
+      return cln::cos(a);
+    case Op::tan:
+      return cln::tan(a);
+    case Op::exp:
+      return cln::exp(a);
+    case Op::log:
+      return real(cln::log(cln::cl_N(a)), program, i);
+    case Op::asin:
+      return real(cln::asin(cln::cl_N(a)), program, i);
+    case Op::acos:
+      return real(cln::acos(cln::cl_N(a)), program, i);
+    default:
+      return cln::atan(b, a);
   }
 }
 
@@ -81,13 +99,17 @@ std::string binary(const Program& program, const Instruction& code, const char* 
 bool is_rational(const Program& program, int i) {
   const Instruction& code = at(program, i);
   switch (code.op) {
-    case Op::constant: return true;
-    case Op::neg: return is_rational(program, code.a);
+    case Op::constant:
+      return true;
+    case Op::neg:
+      return is_rational(program, code.a);
     case Op::add:
     case Op::sub:
     case Op::mul:
-    case Op::div: return is_rational(program, code.a) && is_rational(program, code.b);
-    default: return false;
+    case Op::div:
+      return is_rational(program, code.a) && is_rational(program, code.b);
+    default:
+      return false;
   }
 }
 
@@ -105,7 +127,8 @@ cln::cl_RA constant_value(const Program& program, int i) {
 }
 
 std::string constant_text(const Program& program, int i) {
-  static constexpr const char* kNames[] = {"sqrt", "sin", "cos", "tan", "exp", "log", "asin", "acos"};
+  static constexpr const char* kNames[] = {"sqrt", "sin", "cos",  "tan",
+                                           "exp",  "log", "asin", "acos"};
   const Instruction& code = at(program, i);
   switch (code.op) {
     case Op::constant: {
@@ -113,15 +136,24 @@ std::string constant_text(const Program& program, int i) {
       out << number(program, code);
       return printable(out.str());
     }
-    case Op::pi: return "Pi";
-    case Op::add: return binary(program, code, " + ");
-    case Op::sub: return binary(program, code, " - ");
-    case Op::mul: return constant_text(program, code.a) + "*" + constant_text(program, code.b);
-    case Op::div: return constant_text(program, code.a) + "/" + constant_text(program, code.b);
-    case Op::pow: return constant_text(program, code.a) + "^(" + constant_text(program, code.b) + ")";
-    case Op::neg: return "-" + constant_text(program, code.a);
-    case Op::atan2: return "atan2" + binary(program, code, ", ");
-    default: break;
+    case Op::pi:
+      return "Pi";
+    case Op::add:
+      return binary(program, code, " + ");
+    case Op::sub:
+      return binary(program, code, " - ");
+    case Op::mul:
+      return constant_text(program, code.a) + "*" + constant_text(program, code.b);
+    case Op::div:
+      return constant_text(program, code.a) + "/" + constant_text(program, code.b);
+    case Op::pow:
+      return constant_text(program, code.a) + "^(" + constant_text(program, code.b) + ")";
+    case Op::neg:
+      return "-" + constant_text(program, code.a);
+    case Op::atan2:
+      return "atan2" + binary(program, code, ", ");
+    default:
+      break;
   }
   const auto index = static_cast<int>(code.op) - static_cast<int>(Op::sqrt);
   return std::string(kNames[index]) + "(" + constant_text(program, code.a) + ")";

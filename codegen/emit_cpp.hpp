@@ -15,8 +15,8 @@ struct HeaderOptions {
 /// `dimension`, the names and initial values of the states, `duration`, `rhs`, `invariants` and
 /// `jacobian` (by columns) as far as the specialisation has them, and adapters:
 /// `system` is a right-hand side for Boost.Odeint, `stiff_system` one for its Rosenbrock methods,
-/// `sundials_rhs<N_Vector>` and `sundials_jacobian<N_Vector, SUNMatrix>` are for CVODE (double only).
-/// Run-time parameters come as a struct whose defaults are the values of the scene.
+/// `sundials_rhs<N_Vector>` and `sundials_jacobian<N_Vector, SUNMatrix>` are for CVODE (double
+/// only). Run-time parameters come as a struct whose defaults are the values of the scene.
 ///
 /// Compiles alone and without warnings; includes <cmath> only where a function is called, and
 /// <quadmath.h> for float128. The same bytes in every process.
@@ -25,11 +25,12 @@ std::string emit_header(const Specialisation& specialisation, const HeaderOption
 
 /// The text of a module as in runtime/module_abi.h, in double. It includes nothing.
 /// \param kernel_source  C++ text that holds the interface and a template
-///        `casimir_kernel::integrate<System>(const casimir_run*, double*, casimir_outcome*)`; empty:
-///        the module has no `casimir_integrate`.
-/// `System` has `n`, `rhs(t, x, p, dx)` and, where the specialisation has it, `jacobian(t, x, p, J)`
-/// by columns, all entries.
-std::string emit_module(const Specialisation& specialisation, const std::string& kernel_source = {});
+///        `casimir_kernel::integrate<System>(const casimir_run*, double*, casimir_outcome*)`;
+///        empty: the module has no `casimir_integrate`.
+/// `System` has `n`, `rhs(t, x, p, dx)` and, where the specialisation has it, `jacobian(t, x, p,
+/// J)` by columns, all entries.
+std::string emit_module(const Specialisation& specialisation,
+                        const std::string& kernel_source = {});
 
 /// Whether the code of the specialisation calls functions of the mathematical library.
 bool needs_math_library(const Specialisation& specialisation);

@@ -45,8 +45,8 @@ class HeaderWriter {
     text += "namespace " + scope + " {\n\n" + constants();
     text += function({"rhs", "dx", "The time derivatives of the state.", spec_.rhs});
     if (!spec_.invariant_names.empty()) {
-      text += function({"invariants", "values", "Conserved along solutions: " + invariant_list() + ".",
-                        spec_.invariants});
+      text += function({"invariants", "values",
+                        "Conserved along solutions: " + invariant_list() + ".", spec_.invariants});
     }
     if (spec_.has_jacobian) {
       text += function({"jacobian", "J", "J[i + dimension*j] = d(dx[i])/d(x[j]), all entries.",
@@ -59,7 +59,8 @@ class HeaderWriter {
   /// `#pragma once` would be a warning where the header is compiled alone.
   static std::string guard_of(const std::string& scope) {
     std::string result = "CASIMIR_GENERATED_";
-    for (const char c : scope) result += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    for (const char c : scope)
+      result += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
     return result + (result.ends_with('_') ? "HPP" : "_HPP");
   }
 
@@ -97,7 +98,8 @@ class HeaderWriter {
 
   std::string invariant_list() const {
     std::string result;
-    for (const std::string& name : spec_.invariant_names) result += (result.empty() ? "" : ", ") + name;
+    for (const std::string& name : spec_.invariant_names)
+      result += (result.empty() ? "" : ", ") + name;
     return result;
   }
 
@@ -117,7 +119,8 @@ class HeaderWriter {
     // Start values of a template are doubles.
     const Scalar scalar = is_template_ ? Scalar::real64 : style_.scalar;
     return codegen::number_text(codegen::constant_value(spec_.start, i), scalar,
-                                rational ? "" : codegen::constant_text(spec_.start, i)).text;
+                                rational ? "" : codegen::constant_text(spec_.start, i))
+        .text;
   }
 
   std::string constants() const {
@@ -133,8 +136,10 @@ class HeaderWriter {
     for (std::size_t i = 0; i < spec_.states.size(); ++i) {
       initial += (i == 0 ? "" : ", ") + start_value(i);
     }
-    text += codegen::wrapped("inline constexpr " + real + " initial_state[] = {" + initial + "};") + "\n";
-    text += "inline constexpr " + real + " duration = " + start_value(spec_.start.outputs.size() - 1) + ";\n\n";
+    text += codegen::wrapped("inline constexpr " + real + " initial_state[] = {" + initial + "};") +
+            "\n";
+    text += "inline constexpr " + real +
+            " duration = " + start_value(spec_.start.outputs.size() - 1) + ";\n\n";
     return text + parameter_struct();
   }
 
@@ -160,8 +165,9 @@ class HeaderWriter {
 
   std::string signature(const Function& f) const {
     const std::vector<bool> used = codegen::used_inputs(f.program);
-    const bool reads_state = std::any_of(used.begin(), used.begin() + static_cast<long>(spec_.states.size()),
-                                         [](bool one) { return one; });
+    const bool reads_state =
+        std::any_of(used.begin(), used.begin() + static_cast<long>(spec_.states.size()),
+                    [](bool one) { return one; });
     const bool reads_parameters = std::any_of(used.begin() + static_cast<long>(spec_.states.size()),
                                               used.end() - 1, [](bool one) { return one; });
     const auto named = [](bool is_used, const std::string& type, const std::string& name) {
@@ -170,7 +176,8 @@ class HeaderWriter {
     std::string text = "inline void " + f.name + "(";
     if (spec_.uses_time) text += named(used.back(), style_.real, "t") + ", ";
     text += named(reads_state, "const " + style_.real + "*", "x") + ", ";
-    if (has_parameters()) text += named(reads_parameters, "const " + parameter_type() + "&", "p") + ", ";
+    if (has_parameters())
+      text += named(reads_parameters, "const " + parameter_type() + "&", "p") + ", ";
     return text + named(writes(f), style_.real + "*", f.target) + ") {\n";
   }
 
@@ -182,11 +189,13 @@ class HeaderWriter {
       std::size_t place = k;
       if (f.target == "J") {
         const auto& [row, column] = spec_.jacobian.entries[k];
-        place = static_cast<std::size_t>(row) + spec_.states.size() * static_cast<std::size_t>(column);
+        place =
+            static_cast<std::size_t>(row) + spec_.states.size() * static_cast<std::size_t>(column);
       }
       targets.push_back(f.target + "[" + std::to_string(place) + "]");
     }
-    std::string text = codegen::comment_lines(f.comment) + (is_template_ ? "template <class Real>\n" : "");
+    std::string text =
+        codegen::comment_lines(f.comment) + (is_template_ ? "template <class Real>\n" : "");
     text += signature(f) + using_declarations(f.program);
     const std::size_t n = spec_.states.size();
     if (f.target == "J" && spec_.jacobian.entries.size() < n * n) {
@@ -199,13 +208,13 @@ class HeaderWriter {
   std::string using_declarations(const Program& program) const {
     if (!is_template_) return "";
     static constexpr std::pair<Op, const char*> kFunctions[] = {
-        {Op::pow, "pow"},   {Op::sqrt, "sqrt"}, {Op::sin, "sin"},   {Op::cos, "cos"},
-        {Op::tan, "tan"},   {Op::exp, "exp"},   {Op::log, "log"},   {Op::asin, "asin"},
+        {Op::pow, "pow"},   {Op::sqrt, "sqrt"}, {Op::sin, "sin"},    {Op::cos, "cos"},
+        {Op::tan, "tan"},   {Op::exp, "exp"},   {Op::log, "log"},    {Op::asin, "asin"},
         {Op::acos, "acos"}, {Op::pi, "acos"},   {Op::atan2, "atan2"}};
     std::string text;
     for (const auto& [op, name] : kFunctions) {
-      const bool called = std::ranges::any_of(
-          program.code, [op = op](const Instruction& c) { return c.op == op; });
+      const bool called =
+          std::ranges::any_of(program.code, [op = op](const Instruction& c) { return c.op == op; });
       const std::string line = std::string("  using std::") + name + ";\n";
       if (called && text.find(line) == std::string::npos) text += line;
     }
@@ -228,23 +237,33 @@ class HeaderWriter {
   }
 
   std::string odeint_system() const {
-    std::string text = "// For Boost.Odeint: integrate_adaptive(stepper, system{}, x, t0, t1, dt).\n";
+    std::string text =
+        "// For Boost.Odeint: integrate_adaptive(stepper, system{}, x, t0, t1, dt).\n";
     if (is_template_ && has_parameters()) text += "template <class Real>\n";
     const std::string time = spec_.uses_time ? " t" : " /*t*/";
     text += "struct system {\n" + member() +
             "  template <class State, class Derivative, class Time>\n"
-            "  void operator()(const State& x, Derivative& dxdt, Time" + time + ") const {\n"
-            "    rhs(" + arguments("&x[0]") + "&dxdt[0]);\n  }\n};\n\n";
+            "  void operator()(const State& x, Derivative& dxdt, Time" +
+            time +
+            ") const {\n"
+            "    rhs(" +
+            arguments("&x[0]") + "&dxdt[0]);\n  }\n};\n\n";
     return text;
   }
 
   std::string stiff_system() const {
     return "// For the implicit steppers of Boost.Odeint: std::pair(system{}, stiff_system{}).\n"
-           "struct stiff_system {\n" + member() +
+           "struct stiff_system {\n" +
+           member() +
            "  template <class State, class Matrix, class Time, class Derivative>\n"
-           "  void operator()(const State& x, Matrix& J, const Time& /*t*/, Derivative& dfdt) const {\n"
-           "    " + style_.real + " columns[dimension * dimension];\n"
-           "    jacobian(" + arguments("&x[0]") + "columns);\n"
+           "  void operator()(const State& x, Matrix& J, const Time& /*t*/, Derivative& dfdt) "
+           "const {\n"
+           "    " +
+           style_.real +
+           " columns[dimension * dimension];\n"
+           "    jacobian(" +
+           arguments("&x[0]") +
+           "columns);\n"
            "    for (unsigned j = 0; j < dimension; ++j) {\n"
            "      for (unsigned i = 0; i < dimension; ++i) J(i, j) = columns[i + dimension * j];\n"
            "      dfdt[j] = 0;\n"
@@ -255,22 +274,25 @@ class HeaderWriter {
   std::string sundials() const {
     const std::string user = has_parameters() ? "void* user" : "void* /*user*/";
     const std::string time = spec_.uses_time ? "double t" : "double /*t*/";
-    const std::string parameters =
-        has_parameters()
-            ? "  const parameters p = user ? *static_cast<const parameters*>(user) : parameters{};\n"
-            : "";
+    const std::string parameters = has_parameters()
+                                       ? "  const parameters p = user ? *static_cast<const "
+                                         "parameters*>(user) : parameters{};\n"
+                                       : "";
     std::string text = "// For CVODE: CVodeInit(memory, sundials_rhs<N_Vector>, t0, y).";
     text += has_parameters() ? " User data: parameters, or null.\n" : "\n";
-    text += "template <class Vector>\nint sundials_rhs(" + time + ", Vector y, Vector ydot, " + user +
-            ") {\n" + parameters + "  rhs(" + arguments("N_VGetArrayPointer(y)") +
+    text += "template <class Vector>\nint sundials_rhs(" + time + ", Vector y, Vector ydot, " +
+            user + ") {\n" + parameters + "  rhs(" + arguments("N_VGetArrayPointer(y)") +
             "N_VGetArrayPointer(ydot));\n  return 0;\n}\n\n";
     if (!spec_.has_jacobian) return text;
-    text += "// For CVODE: CVodeSetJacFn(memory, sundials_jacobian<N_Vector, SUNMatrix>), dense matrices.\n"
-            "template <class Vector, class Matrix>\nint sundials_jacobian(" + time +
-            ", Vector y, Vector /*fy*/, Matrix J, " + user + ",\n"
-            "                      Vector /*tmp1*/, Vector /*tmp2*/, Vector /*tmp3*/) {\n" + parameters +
-            "  jacobian(" + arguments("N_VGetArrayPointer(y)") +
-            "SUNDenseMatrix_Data(J));\n  return 0;\n}\n\n";
+    text +=
+        "// For CVODE: CVodeSetJacFn(memory, sundials_jacobian<N_Vector, SUNMatrix>), dense "
+        "matrices.\n"
+        "template <class Vector, class Matrix>\nint sundials_jacobian(" +
+        time + ", Vector y, Vector /*fy*/, Matrix J, " + user +
+        ",\n"
+        "                      Vector /*tmp1*/, Vector /*tmp2*/, Vector /*tmp3*/) {\n" +
+        parameters + "  jacobian(" + arguments("N_VGetArrayPointer(y)") +
+        "SUNDenseMatrix_Data(J));\n  return 0;\n}\n\n";
     return text;
   }
 

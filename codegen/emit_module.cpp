@@ -85,10 +85,11 @@ class ModuleWriter {
       }
       targets.push_back(target + "[" + std::to_string(place) + "]");
     }
-    return "  static inline void " + name + "([[maybe_unused]] double t, [[maybe_unused]] const double* x,\n" +
-           std::string(23 + name.size(), ' ') + "[[maybe_unused]] const double* p, [[maybe_unused]] double* " +
-           target + ") {\n" + before +
-           codegen::statements(program, sources_, names_, targets, style_) + "  }\n";
+    return "  static inline void " + name +
+           "([[maybe_unused]] double t, [[maybe_unused]] const double* x,\n" +
+           std::string(23 + name.size(), ' ') +
+           "[[maybe_unused]] const double* p, [[maybe_unused]] double* " + target + ") {\n" +
+           before + codegen::statements(program, sources_, names_, targets, style_) + "  }\n";
   }
 
   std::string exports(bool with_kernel) const {
@@ -108,9 +109,10 @@ class ModuleWriter {
     if (spec_.has_jacobian) text += forwarded("jacobian", "J");
     text += forwarded("invariants", "values");
     if (with_kernel) {
-      text += "void casimir_integrate(const struct casimir_run* run, double* x,\n"
-              "                       struct casimir_outcome* outcome) {\n"
-              "  casimir_kernel::integrate<System>(run, x, outcome);\n}\n";
+      text +=
+          "void casimir_integrate(const struct casimir_run* run, double* x,\n"
+          "                       struct casimir_outcome* outcome) {\n"
+          "  casimir_kernel::integrate<System>(run, x, outcome);\n}\n";
     }
     return text + "\n}  // extern \"C\"\n";
   }
@@ -129,17 +131,17 @@ std::string cost_text(const OperationCount& count) {
 }
 
 std::string codegen::head_comment(const Specialisation& spec) {
-  std::string text = comment_lines("Written by casimir from case \"" + spec.case_name +
-                                   "\", scene \"" + spec.scene + "\"" + binding_text(spec) +
-                                   ". Do not edit: edit the case.");
+  std::string text =
+      comment_lines("Written by casimir from case \"" + spec.case_name + "\", scene \"" +
+                    spec.scene + "\"" + binding_text(spec) + ". Do not edit: edit the case.");
   text += comment_lines(spec.title);
   if (!spec.source.empty()) text += comment_lines("Source: " + spec.source);
   if (!spec.states.empty()) {
-    text += comment_lines("State x[0.." + std::to_string(spec.states.size() - 1) + "] =" +
-                          state_list(spec) + ".");
+    text += comment_lines("State x[0.." + std::to_string(spec.states.size() - 1) +
+                          "] =" + state_list(spec) + ".");
   }
-  text += comment_lines("Cost of rhs: " + cost_text(spec.specialised) + "; of the general case: " +
-                        cost_text(spec.general) + ".");
+  text += comment_lines("Cost of rhs: " + cost_text(spec.specialised) +
+                        "; of the general case: " + cost_text(spec.general) + ".");
   if (!spec.hamiltonian.empty()) {
     text += comment_lines("dx/dt = {x, H},  H = " + spec.hamiltonian);
   }

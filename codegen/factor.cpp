@@ -11,7 +11,7 @@ namespace casimir::codegen {
 
 namespace {
 
-constexpr std::size_t kMostPairs = 400'000;
+constexpr std::size_t kMostPairs = 100'000;
 
 int chain(int exponent) {
   const auto e = static_cast<unsigned>(exponent);
@@ -202,10 +202,11 @@ class Factoring {
       const int gain = evaluate(key).gain;
       if (gain <= 0) continue;
       const bool is_product = key[2] == kProduct;
-      const bool first = preference_ == Preference::best ? !is_product
-                                                         : is_product == (preference_ == Preference::products);
-      const Rank rank = preference_ == Preference::best ? Rank{-gain, first ? 0 : 1}
-                                                        : Rank{first ? 0 : 1, -gain};
+      const bool first = preference_ == Preference::best
+                             ? !is_product
+                             : is_product == (preference_ == Preference::products);
+      const Rank rank =
+          preference_ == Preference::best ? Rank{-gain, first ? 0 : 1} : Rank{first ? 0 : 1, -gain};
       rank_[key] = rank;
       ranking_.insert({rank, key});
     }
@@ -234,7 +235,8 @@ class Factoring {
       Monomial divisor = definition.monomial;
       if (key[0] < 0) replaced.coefficient = cln::minusp(term.coefficient) ? -1 : 1;
       int times = 1;
-      while (key[0] >= 0 && quotient_exists(replaced.monomial, multiply(divisor, definition.monomial))) {
+      while (key[0] >= 0 &&
+             quotient_exists(replaced.monomial, multiply(divisor, definition.monomial))) {
         divisor = multiply(divisor, definition.monomial);
         ++times;
       }

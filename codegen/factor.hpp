@@ -16,9 +16,9 @@ enum class Preference {
 /// factors that occur more than once, while that saves operations. Common sums of more terms and
 /// multivariate Horner forms arise by repetition.
 ///
-/// The greedy double- and single-cube extraction of logic synthesis (Rajski & Vasudevamurthy, 1992),
-/// over the rationals. Deterministic. Cost: about quadratic in the terms of each polynomial; systems
-/// with very many terms are factored by products only.
+/// The greedy double- and single-cube extraction of logic synthesis (Rajski & Vasudevamurthy,
+/// 1992), over the rationals. Deterministic. Cost: about quadratic in the terms of each polynomial;
+/// systems with very many terms are factored by products only.
 TermSystem factored(const TermSystem& system, Preference preference);
 
 }  // namespace casimir::codegen

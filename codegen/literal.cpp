@@ -59,9 +59,12 @@ const char* suffix(Scalar scalar) {
 
 std::string shortest(const cln::cl_RA& value, Scalar scalar) {
   switch (scalar) {
-    case Scalar::real32: return shortest(nearest<float>(value)) + suffix(scalar);
-    case Scalar::long_double: return shortest(nearest<long double>(value)) + suffix(scalar);
-    default: return shortest(nearest<double>(value));
+    case Scalar::real32:
+      return shortest(nearest<float>(value)) + suffix(scalar);
+    case Scalar::long_double:
+      return shortest(nearest<long double>(value)) + suffix(scalar);
+    default:
+      return shortest(nearest<double>(value));
   }
 }
 
@@ -80,8 +83,9 @@ cln::cl_RA decimal_value(const std::string& text) {
     digits = digits * 10 + (text[i] - '0');
     exponent -= after_point ? 1 : 0;
   }
-  const cln::cl_RA size = exponent < 0 ? digits / cln::expt(cln::cl_RA(10), static_cast<int>(-exponent))
-                                       : digits * cln::expt(cln::cl_RA(10), static_cast<int>(exponent));
+  const cln::cl_RA size = exponent < 0
+                              ? digits / cln::expt(cln::cl_RA(10), static_cast<int>(-exponent))
+                              : digits * cln::expt(cln::cl_RA(10), static_cast<int>(exponent));
   return text.starts_with('-') ? -size : size;
 }
 
@@ -130,11 +134,13 @@ Real nearest(const cln::cl_RA& value) {
   if (exponent > kLargestExponent || exponent < -kLargestExponent) {
     throw ModelError("the number " + brief(value) + " is outside the range of the number type");
   }
-  const long shift = std::max<long>(exponent - Limits::digits, Limits::min_exponent - Limits::digits);
+  const long shift =
+      std::max<long>(exponent - Limits::digits, Limits::min_exponent - Limits::digits);
   const cln::cl_I mantissa = scaled_integer(size, shift);
   std::uint64_t bits = 0;
   for (int i = 0; i < 65; ++i) {
-    if (cln::logbitp(static_cast<unsigned long>(i), mantissa)) bits |= i < 64 ? std::uint64_t{1} << i : 0;
+    if (cln::logbitp(static_cast<unsigned long>(i), mantissa))
+      bits |= i < 64 ? std::uint64_t{1} << i : 0;
   }
   // Rounding up may reach 2^digits, which for 64 digits does not fit the machine word.
   const bool carried = cln::logbitp(64, mantissa);
@@ -156,7 +162,9 @@ NumberText number_text(const cln::cl_RA& value, Scalar scalar, const std::string
   if (integer && fits(cln::numerator(value), plain_bits)) return {shown(value), true, ""};
   if (scalar == Scalar::float128 || scalar == Scalar::templated) {
     NumberText result = wide_text(value, scalar);
-    if (!comment.empty()) result = {sum_of_doubles(value, scalar == Scalar::float128 ? "real" : "Real"), false, comment};
+    if (!comment.empty())
+      result = {sum_of_doubles(value, scalar == Scalar::float128 ? "real" : "Real"), false,
+                comment};
     return result;
   }
   const std::string text = shortest(value, scalar);

@@ -21,9 +21,9 @@ Real nearest(const cln::cl_RA& value);
 
 /// A number as C++ writes it.
 struct NumberText {
-  std::string text;      ///< may begin with a minus
-  bool is_plain;         ///< short and exact: reads well inside a formula
-  std::string comment;   ///< the exact value where `text` is rounded, e.g. "1/3"; else empty
+  std::string text;     ///< may begin with a minus
+  bool is_plain;        ///< short and exact: reads well inside a formula
+  std::string comment;  ///< the exact value where `text` is rounded, e.g. "1/3"; else empty
 };
 
 /// Integers as they are, others as the shortest decimal that reads back as the nearest number.

@@ -23,8 +23,8 @@ class Writer {
 
   int emit(Op op, int a = -1, int b = -1) {
     const bool commutes = op == Op::add || op == Op::mul;
-    const auto key = commutes ? std::make_tuple(op, std::min(a, b), std::max(a, b))
-                              : std::make_tuple(op, a, b);
+    const auto key =
+        commutes ? std::make_tuple(op, std::min(a, b), std::max(a, b)) : std::make_tuple(op, a, b);
     const auto [place, is_new] = known_.try_emplace(key, static_cast<int>(program_.code.size()));
     if (is_new) program_.code.push_back({op, a, b});
     return place->second;
@@ -48,7 +48,9 @@ class Writer {
 class Lowering {
  public:
   explicit Lowering(const TermSystem& system)
-      : system_(system), writer_(program_), values_(system.variables.size(), -1),
+      : system_(system),
+        writer_(program_),
+        values_(system.variables.size(), -1),
         monomials_with_(system.variables.size(), 0) {}
 
   Program run(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
@@ -90,17 +92,25 @@ class Lowering {
 
   int new_value(const Variable& v) {
     switch (v.kind) {
-      case Variable::Kind::input: return writer_.emit(Op::input, v.input);
-      case Variable::Kind::pi: return writer_.emit(Op::pi);
-      case Variable::Kind::polynomial: return polynomial(v.value);
-      case Variable::Kind::function: break;
+      case Variable::Kind::input:
+        return writer_.emit(Op::input, v.input);
+      case Variable::Kind::pi:
+        return writer_.emit(Op::pi);
+      case Variable::Kind::polynomial:
+        return polynomial(v.value);
+      case Variable::Kind::function:
+        break;
     }
     const int first = value(v.arguments[0]);
     switch (v.function) {
-      case Op::div: return writer_.emit(Op::div, writer_.number(1), first);
-      case Op::pow: return writer_.emit(Op::pow, first, writer_.number(v.exponent));
-      case Op::atan2: return writer_.emit(Op::atan2, first, value(v.arguments[1]));
-      default: return writer_.emit(v.function, first);
+      case Op::div:
+        return writer_.emit(Op::div, writer_.number(1), first);
+      case Op::pow:
+        return writer_.emit(Op::pow, first, writer_.number(v.exponent));
+      case Op::atan2:
+        return writer_.emit(Op::atan2, first, value(v.arguments[1]));
+      default:
+        return writer_.emit(v.function, first);
     }
   }
 
@@ -180,13 +190,22 @@ OperationCount count_operations(const Program& program) {
     switch (program.code[i].op) {
       case Op::input:
       case Op::constant:
-      case Op::pi: break;
-      case Op::mul: ++result.mul; break;
-      case Op::div: ++result.div; break;
+      case Op::pi:
+        break;
+      case Op::mul:
+        ++result.mul;
+        break;
+      case Op::div:
+        ++result.div;
+        break;
       case Op::add:
       case Op::sub:
-      case Op::neg: ++result.add; break;
-      default: ++result.calls; break;
+      case Op::neg:
+        ++result.add;
+        break;
+      default:
+        ++result.calls;
+        break;
     }
   }
   return result;
@@ -212,7 +231,8 @@ Program without_dead_code(const Program& program) {
     if (!live[i]) continue;
     Instruction code = program.code[i];
     if (code.op == Op::constant) {
-      const auto [place, is_new] = constants.try_emplace(code.a, static_cast<int>(constants.size()));
+      const auto [place, is_new] =
+          constants.try_emplace(code.a, static_cast<int>(constants.size()));
       if (is_new) result.constants.push_back(program.constants[static_cast<std::size_t>(code.a)]);
       code.a = place->second;
     } else if (has_operands(code.op)) {

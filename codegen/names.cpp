@@ -13,13 +13,13 @@ constexpr std::array kReserved{
     "case", "catch", "char", "char16_t", "char32_t", "char8_t", "class", "co_await", "co_return",
     "co_yield", "compl", "concept", "const", "const_cast", "consteval", "constexpr", "constinit",
     "continue", "decltype", "default", "delete", "do", "double", "dynamic_cast", "else", "enum",
-    "explicit", "export", "extern", "false", "float", "for", "friend", "goto", "if", "inline", "int",
-    "long", "mutable", "namespace", "new", "noexcept", "not", "not_eq", "nullptr", "operator", "or",
-    "or_eq", "private", "protected", "public", "register", "reinterpret_cast", "requires", "return",
-    "short", "signed", "sizeof", "static", "static_assert", "static_cast", "struct", "switch",
-    "template", "this", "thread_local", "throw", "true", "try", "typedef", "typeid", "typename",
-    "union", "unsigned", "using", "virtual", "void", "volatile", "wchar_t", "while", "xor", "xor_eq",
-    "typeof", "restrict",
+    "explicit", "export", "extern", "false", "float", "for", "friend", "goto", "if", "inline",
+    "int", "long", "mutable", "namespace", "new", "noexcept", "not", "not_eq", "nullptr",
+    "operator", "or", "or_eq", "private", "protected", "public", "register", "reinterpret_cast",
+    "requires", "return", "short", "signed", "sizeof", "static", "static_assert", "static_cast",
+    "struct", "switch", "template", "this", "thread_local", "throw", "true", "try", "typedef",
+    "typeid", "typename", "union", "unsigned", "using", "virtual", "void", "volatile", "wchar_t",
+    "while", "xor", "xor_eq", "typeof", "restrict",
     // macros of common headers and compilers
     "NULL", "I", "EOF", "NAN", "INFINITY", "HUGE_VAL", "HUGE_VALF", "HUGE_VALL", "errno", "assert",
     "complex", "imaginary", "M_E", "M_LOG2E", "M_LOG10E", "M_LN2", "M_LN10", "M_PI", "M_PI_2",
@@ -31,9 +31,9 @@ constexpr std::array kReserved{
     // names of this code and of what it calls
     "x", "dx", "dxdt", "t", "p", "n", "J", "y", "ydot", "fy", "dfdt", "state", "values", "real",
     "Real", "State", "Derivative", "Matrix", "Vector", "System", "system", "parameters", "rhs",
-    "invariants", "jacobian", "dimension", "duration", "std", "main", "i", "j", "user", "sin", "cos",
-    "tan", "exp", "log", "asin", "acos", "atan2", "sqrt", "pow", "j0", "j1", "jn", "y0", "y1", "yn",
-    "gamma", "signgam", "tmp1", "tmp2", "tmp3", "buffer"};
+    "invariants", "jacobian", "dimension", "duration", "std", "main", "i", "j", "user", "sin",
+    "cos", "tan", "exp", "log", "asin", "acos", "atan2", "sqrt", "pow", "j0", "j1", "jn", "y0",
+    "y1", "yn", "gamma", "signgam", "tmp1", "tmp2", "tmp3", "buffer"};
 
 bool is_plain(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
@@ -80,7 +80,8 @@ std::string comment_text(const std::string& text) {
     const char shown = c == '\n' || c == '\t' || c == '\r' ? ' ' : printable_ascii ? c : '.';
     const char safe = shown == '\\' ? '|' : shown;
     const char last = result.empty() ? ' ' : result.back();
-    const bool joins = (last == '*' && safe == '/') || (last == '/' && (safe == '*' || safe == '/')) ||
+    const bool joins = (last == '*' && safe == '/') ||
+                       (last == '/' && (safe == '*' || safe == '/')) ||
                        (last == '?' && safe == '?');
     if (joins) result += ' ';
     result += safe;

@@ -1,5 +1,6 @@
 #include "codegen/optimise.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -10,7 +11,16 @@ namespace casimir::codegen {
 
 namespace {
 
-constexpr std::size_t kMostTerms = 3000;  // beyond this an expansion is not worth its time
+// An expansion that is much longer than what it expands loses, and takes long to lose.
+constexpr std::size_t kAlwaysTried = 150;
+constexpr std::size_t kMostTerms = 1500;
+constexpr std::size_t kMostGrowth = 4;
+
+std::size_t term_count(const TermSystem& system) {
+  std::size_t result = 0;
+  for (const Variable& v : system.variables) result += v.value.size();
+  return result;
+}
 
 }  // namespace
 
@@ -29,7 +39,9 @@ Program optimised(const Dag& dag, const std::vector<Scaled>& expressions,
   constexpr Preference kPreferences[] = {Preference::best, Preference::sums, Preference::products};
   for (const Preference preference : kPreferences) consider(factored(structural, preference));
   consider(structural);
-  if (const auto expansion = expanded(structural, kMostTerms)) {
+  const std::size_t limit =
+      std::min(kMostTerms, std::max(kAlwaysTried, kMostGrowth * term_count(structural)));
+  if (const auto expansion = expanded(structural, limit)) {
     for (const Preference preference : kPreferences) consider(factored(*expansion, preference));
   }
   return without_dead_code(*best);

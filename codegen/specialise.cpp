@@ -59,15 +59,13 @@ class Specialiser {
     result_.source = model_.source;
     if (model_.time) result_.time = model_.time->get_name();
     if (model_.hamiltonian) {
-      result_.hamiltonian = within("H", [&] {
-        return general_dag_.text(general_dag_.convert(*model_.hamiltonian));
-      });
+      result_.hamiltonian =
+          within("H", [&] { return general_dag_.text(general_dag_.convert(*model_.hamiltonian)); });
     }
     for (std::size_t i = 0; i < model_.parameters.size(); ++i) {
       const std::string name = model_.parameters[i].get_name();
-      const std::string value = within(name, [&] {
-        return general_dag_.text(general_dag_.convert(scene_.parameters.at(i)));
-      });
+      const std::string value = within(
+          name, [&] { return general_dag_.text(general_dag_.convert(scene_.parameters.at(i))); });
       result_.values.emplace_back(name, value);
       if (options_.fold_parameters) {
         leave_out("parameter", name, "folded to " + value);
@@ -126,9 +124,7 @@ class Specialiser {
     for (const NamedExpression& integral : model_.integrals) add(integral.name, integral.value);
   }
 
-  bool depends_on_time() {
-    return depends(bound("H", *model_.hamiltonian), *model_.time);
-  }
+  bool depends_on_time() { return depends(bound("H", *model_.hamiltonian), *model_.time); }
 
   std::string derivative_name(std::size_t i) const { return "d" + model_.variables[i].get_name(); }
 
@@ -168,7 +164,8 @@ class Specialiser {
       return;
     }
     const std::string hint = suggest(name, known);
-    throw ModelError("cannot observe '" + printable(name) + "': no variable or invariant has that name" +
+    throw ModelError("cannot observe '" + printable(name) +
+                     "': no variable or invariant has that name" +
                      (hint.empty() ? "" : "; " + hint));
   }
 
@@ -271,9 +268,8 @@ class Specialiser {
       for (int row = 0; row < count; ++row) {
         const auto of = static_cast<std::size_t>(result_.state_indices[row]);
         const std::string name = derivative_name(of) + "/d" + result_.states[column];
-        const Scaled entry = within(name, [&] {
-          return dag.convert(field_[of].diff(model_.variables[by]));
-        });
+        const Scaled entry =
+            within(name, [&] { return dag.convert(field_[of].diff(model_.variables[by])); });
         if (codegen::vanishes(dag, entry, inputs.size())) continue;
         result_.jacobian.entries.emplace_back(row, column);
         values.push_back(entry);
@@ -320,7 +316,8 @@ class Specialiser {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < n(); ++i) {
       names.push_back(derivative_name(i));
-      general.push_back(within(names.back(), [&] { return general_dag_.convert(model_.field[i]); }));
+      general.push_back(
+          within(names.back(), [&] { return general_dag_.convert(model_.field[i]); }));
     }
     std::vector<std::string> inputs;
     for (const GiNaC::symbol& symbol : general_symbols()) inputs.push_back(symbol.get_name());
@@ -349,7 +346,8 @@ class Specialiser {
 
 }  // namespace
 
-Specialisation specialise(const Model& model, const Scene& scene, const SpecialiseOptions& options) {
+Specialisation specialise(const Model& model, const Scene& scene,
+                          const SpecialiseOptions& options) {
   return Specialiser(model, scene, options).run();
 }
 

@@ -11,8 +11,8 @@
 
 namespace casimir {
 
-using codegen::OperationCount;
 using codegen::count_operations;
+using codegen::OperationCount;
 
 /// Something that the case file has and the generated code does not.
 struct LeftOut {
@@ -36,7 +36,8 @@ struct SpecialiseOptions {
   bool jacobian = true;
 };
 
-/// What is generated for one scene of a case: exact straight-line programs and where they come from.
+/// What is generated for one scene of a case: exact straight-line programs and where they come
+/// from.
 ///
 /// The inputs of the programs are the kept states, the run-time parameters and the time. Everything
 /// is the same in every process: nothing follows GiNaC's order of terms.
@@ -44,8 +45,8 @@ struct Specialisation {
   std::string case_name, file, scene, title, source;
   std::string hamiltonian;  ///< over the symbols of the file; empty for a system given by equations
   std::vector<std::pair<std::string, std::string>> values;  ///< each parameter and its exact value
-  std::string time;                     ///< what the file calls it, or empty
-  bool uses_time = false;               ///< some program depends on the time
+  std::string time;                                         ///< what the file calls it, or empty
+  bool uses_time = false;                                   ///< some program depends on the time
 
   std::vector<std::string> states;      ///< the kept ones, in the order of the file
   std::vector<int> state_indices;       ///< their indices in Model::variables

@@ -31,8 +31,11 @@ class StatementWriter {
  public:
   StatementWriter(const Program& program, const std::vector<std::string>& names,
                   const StatementStyle& style)
-      : program_(program), style_(style), constant_(constant_instructions(program)),
-        names_(program.code.size()), uses_(program.code.size(), 0),
+      : program_(program),
+        style_(style),
+        constant_(constant_instructions(program)),
+        names_(program.code.size()),
+        uses_(program.code.size(), 0),
         outputs_of_(program.code.size()) {
     // In a template, irrational constants are computed in its number type.
     if (style.scalar == Scalar::templated) {
@@ -87,9 +90,7 @@ class StatementWriter {
            (code(i).op == Op::neg && is_leaf(code(static_cast<std::size_t>(code(i).a)).op));
   }
 
-  bool is_named(std::size_t i) const {
-    return uses_[i] > 1 && !constant_[i] && !is_simple(i);
-  }
+  bool is_named(std::size_t i) const { return uses_[i] > 1 && !constant_[i] && !is_simple(i); }
 
   std::string name_shared(std::size_t i) {
     const std::string name = "t" + std::to_string(++shared_count_);
@@ -99,7 +100,8 @@ class StatementWriter {
     std::string note;
     for (const std::size_t k : outputs_of_[i]) {
       note += (note.empty() ? "used in " : ", ") + program_.output_names[k];
-      if (note.size() > 60 || (outputs_of_[i].size() > kNamesInNote && k == *outputs_of_[i].begin())) {
+      if (note.size() > 60 ||
+          (outputs_of_[i].size() > kNamesInNote && k == *outputs_of_[i].begin())) {
         note += " and others";
         break;
       }
@@ -266,9 +268,9 @@ std::string wrapped(const std::string& text, std::size_t width) {
     // Break before an operator or after a comma: at a space followed or preceded by one.
     std::size_t place = std::string::npos;
     for (std::size_t i = std::min(width, rest.size() - 1); i > continuation.size(); --i) {
-      const bool operator_follows =
-          i + 2 < rest.size() && std::string("+-*/").find(rest[i + 1]) != std::string::npos &&
-          rest[i + 2] == ' ';
+      const bool operator_follows = i + 2 < rest.size() &&
+                                    std::string("+-*/").find(rest[i + 1]) != std::string::npos &&
+                                    rest[i + 2] == ' ';
       if (rest[i] == ' ' && (operator_follows || rest[i - 1] == ',')) {
         place = i;
         break;

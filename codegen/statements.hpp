@@ -17,8 +17,8 @@ struct StatementStyle {
   std::string indent = "  ";
 };
 
-/// The statements of a program: the inputs it uses as named locals, shared values as t1, t2, .. with
-/// a note where they are used, then one assignment for each output with its name as a comment.
+/// The statements of a program: the inputs it uses as named locals, shared values as t1, t2, ..
+/// with a note where they are used, then one assignment for each output with its name as a comment.
 /// Values that are used once stand where they are used, with the parentheses that C++ needs to
 /// compute in the order of the program and no others. Lines have at most 100 columns.
 /// \param sources  for each input, the expression that holds it, e.g. "x[0]".

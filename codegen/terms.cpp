@@ -25,11 +25,12 @@ int small(const cln::cl_RA& value) {
 /// Orders polynomials for look-up only.
 struct PolynomialLess {
   bool operator()(const Polynomial& a, const Polynomial& b) const {
-    return std::lexicographical_compare(
-        a.begin(), a.end(), b.begin(), b.end(), [](const Term& s, const Term& t) {
-          if (s.monomial != t.monomial) return s.monomial < t.monomial;
-          return s.coefficient < t.coefficient;
-        });
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
+                                        [](const Term& s, const Term& t) {
+                                          if (s.monomial != t.monomial)
+                                            return s.monomial < t.monomial;
+                                          return s.coefficient < t.coefficient;
+                                        });
   }
 };
 
@@ -133,20 +134,23 @@ class Builder {
   int new_variable_of(NodeId id) {
     const Node& node = dag_[id];
     switch (node.kind) {
-      case NodeKind::symbol: return node.symbol;
+      case NodeKind::symbol:
+        return node.symbol;
       case NodeKind::pi: {
         Variable pi;
         pi.kind = Variable::Kind::pi;
         pi.constant = true;
         return system_.add(std::move(pi));
       }
-      case NodeKind::number: return constant({{node.number, {}}});
+      case NodeKind::number:
+        return constant({{node.number, {}}});
       case NodeKind::function: {
         std::vector<int> arguments;
         for (const Scaled& t : node.terms) arguments.push_back(argument(t));
         return function(node.function, std::move(arguments));
       }
-      default: return polynomial({1, id});
+      default:
+        return polynomial({1, id});
     }
   }
 
@@ -181,8 +185,8 @@ class Builder {
   }
 
   int function(Op op, std::vector<int> arguments, const cln::cl_RA& exponent = 1) {
-    const auto key = std::make_tuple(op, arguments, cln::numerator(exponent),
-                                     cln::denominator(exponent));
+    const auto key =
+        std::make_tuple(op, arguments, cln::numerator(exponent), cln::denominator(exponent));
     if (const auto found = functions_.find(key); found != functions_.end()) return found->second;
     Variable variable;
     variable.kind = Variable::Kind::function;

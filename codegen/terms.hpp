@@ -28,7 +28,7 @@ using Polynomial = std::vector<Term>;
 /// A quantity of a TermSystem: an input, a function of other variables, or a polynomial.
 struct Variable {
   enum class Kind {
-    input,       ///< input number `input`
+    input,  ///< input number `input`
     pi,
     function,    ///< `function` of `arguments`; Op::div is 1/argument, Op::pow has `exponent`
     polynomial,  ///< `value`

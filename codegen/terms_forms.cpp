@@ -158,7 +158,8 @@ TermSystem flattened(TermSystem system) {
         ++i;
         continue;
       }
-      Polynomial inner = system.variables[static_cast<std::size_t>(term.monomial[0].variable)].value;
+      Polynomial inner =
+          system.variables[static_cast<std::size_t>(term.monomial[0].variable)].value;
       for (Term& t : inner) t.coefficient = t.coefficient * term.coefficient;
       const auto place = variable.value.erase(variable.value.begin() + static_cast<long>(i));
       variable.value.insert(place, inner.begin(), inner.end());

@@ -71,7 +71,8 @@ std::vector<VanishingTerm> vanishing_terms(Dag& dag, const Scaled& general, cons
   }
   std::vector<VanishingTerm> result;
   for (const Monomial& product : order) {
-    result.push_back({dag.text(power_product(product, 1)), dag.text(dag.sum(coefficients[product]))});
+    result.push_back(
+        {dag.text(power_product(product, 1)), dag.text(dag.sum(coefficients[product]))});
   }
   return result;
 }
