@@ -12,6 +12,7 @@
 #include <cmath>
 #include <memory>
 #include <new>
+#include <vector>
 
 namespace casimir {
 namespace {
@@ -20,6 +21,7 @@ namespace {
 struct Problem {
   const ModuleFunctions* functions;
   const double* parameters;
+  unsigned long long jacobians = 0;
 };
 
 int rhs(realtype t, N_Vector y, N_Vector dy, void* data) {
@@ -33,7 +35,8 @@ int rhs(realtype t, N_Vector y, N_Vector dy, void* data) {
 
 int jacobian(realtype t, N_Vector y, N_Vector, SUNMatrix j, void* data, N_Vector, N_Vector,
              N_Vector) {
-  const auto* problem = static_cast<const Problem*>(data);
+  auto* problem = static_cast<Problem*>(data);
+  ++problem->jacobians;
   problem->functions->jacobian(t, N_VGetArrayPointer(y), problem->parameters, SM_DATA_D(j));
   return 0;
 }
@@ -96,7 +99,23 @@ class Solver {
   void* memory_ = nullptr;
 };
 
-Status status_of(int flag) {
+bool all_finite(const double* x, std::ptrdiff_t n) {
+  return std::all_of(x, x + n, [](double v) { return std::isfinite(v); });
+}
+
+/// Like the kernels: a run that can go no further at a place where the solution changes by its own
+/// size in a vanishing part of the time passed has met a singularity.
+Status status_of(int flag, const Problem& problem, const Trajectory& trajectory) {
+  std::vector<double> slope(trajectory.state.size());
+  problem.functions->rhs(trajectory.time, trajectory.state.data(), problem.parameters,
+                         slope.data());
+  double size = 0, speed = 0;
+  for (std::size_t i = 0; i < slope.size(); ++i) {
+    size = std::max(size, std::abs(trajectory.state[i]));
+    speed = std::max(speed, std::abs(slope[i]));
+  }
+  constexpr double kVanishing = 1e-6;
+  if (size < kVanishing * speed * std::abs(trajectory.time)) return Status::singularity;
   switch (flag) {
     case CV_RHSFUNC_FAIL:
     case CV_FIRST_RHSFUNC_ERR:
@@ -119,9 +138,11 @@ void read_counts(void* memory, Trajectory& trajectory) {
   CVodeGetNumSteps(memory, &steps);
   CVodeGetNumErrTestFails(memory, &failures);
   CVodeGetNumRhsEvals(memory, &evaluations);
+  long for_jacobian = 0;
+  CVodeGetNumLinRhsEvals(memory, &for_jacobian);  // leaves zero where there is no linear solver
   trajectory.steps = static_cast<unsigned long long>(steps);
   trajectory.rejected = static_cast<unsigned long long>(failures);
-  trajectory.evaluations = static_cast<unsigned long long>(evaluations);
+  trajectory.evaluations = static_cast<unsigned long long>(evaluations + for_jacobian);
 }
 
 }  // namespace
@@ -129,11 +150,18 @@ void read_counts(void* memory, Trajectory& trajectory) {
 void integrate_with_cvode(const Module& module, const Method& method, const Settings& settings,
                           const double* parameters, Observer& observer, Trajectory& trajectory) {
   Problem problem{&module.functions(), parameters};
+  const auto n = static_cast<std::ptrdiff_t>(trajectory.state.size());
+  std::vector<double> slope(trajectory.state.size());
+  problem.functions->rhs(0, trajectory.state.data(), parameters, slope.data());
+  if (!all_finite(trajectory.state.data(), n) ||
+      (settings.duration != 0 && !all_finite(slope.data(), n))) {
+    trajectory.status = Status::non_finite;
+    return;
+  }
   Solver solver(module, method, settings, problem, trajectory.state);
   const std::unique_ptr<std::remove_pointer_t<N_Vector>, void (*)(N_Vector)> between(
       N_VClone(solver.state()), N_VDestroy);
   const double* const x = N_VGetArrayPointer(solver.state());
-  const auto n = static_cast<std::ptrdiff_t>(trajectory.state.size());
   const auto state_at = [&](double t, double* out) {
     CVodeGetDky(solver.memory(), t, 0, between.get());
     std::copy_n(N_VGetArrayPointer(between.get()), n, out);
@@ -146,9 +174,9 @@ void integrate_with_cvode(const Module& module, const Method& method, const Sett
       break;
     }
     const int flag = CVode(solver.memory(), settings.duration, solver.state(), &t, CV_ONE_STEP);
-    const bool finite = std::all_of(x, x + n, [](double v) { return std::isfinite(v); });
-    if (flag < 0 || !finite) {
-      trajectory.status = flag < 0 ? status_of(flag) : Status::non_finite;
+    // A step that does not move the time is lost in rounding.
+    if (flag < 0 || t == trajectory.time || !all_finite(x, n)) {
+      trajectory.status = status_of(flag, problem, trajectory);
       break;
     }
     std::copy_n(x, n, trajectory.state.begin());
@@ -162,6 +190,7 @@ void integrate_with_cvode(const Module& module, const Method& method, const Sett
   trajectory.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   read_counts(solver.memory(), trajectory);
+  trajectory.jacobians = problem.jacobians;
 }
 
 }  // namespace casimir

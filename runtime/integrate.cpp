@@ -54,6 +54,9 @@ std::string reason_of(Status status) {
   return "";
 }
 
+/// More samples than this are a mistake, and would fill the memory.
+constexpr double kMostSamples = 1e8;
+
 /// Eigen's dense factorisation behind the C interface of the kernels.
 struct DenseSolver {
   Eigen::PartialPivLU<Eigen::MatrixXd> lu;
@@ -95,6 +98,8 @@ void check(const Module& module, const Method& method, const Settings& s, std::s
   if (s.fixed_step > 0 && !method.fixed_step_ok)
     refuse(std::string(method.name) + " has no constant step");
   if (!(s.sample_every >= 0)) refuse("the time between samples must be positive");
+  if (s.sample_every > 0 && !(std::abs(s.duration) / s.sample_every <= kMostSamples))
+    refuse("the time between samples is so small that there would be more than 1e8 of them");
 }
 
 void run_kernel(const Module& module, const Settings& s, const double* parameters,

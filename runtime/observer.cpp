@@ -17,7 +17,8 @@ Observer::Observer(const Module& module, const Settings& settings, const double*
       changes_(values_.size()),
       scratch_(initial.size()),
       invariants_(values_.size()) {
-  module.functions().invariants(0, initial.data(), parameters, values_.data());
+  if (!values_.empty())
+    module.functions().invariants(0, initial.data(), parameters, values_.data());
   for (std::size_t i = 0; i < values_.size(); ++i) {
     invariants_[i].initial = invariants_[i].final = values_[i];
     sizes_[i] = std::abs(values_[i]);
@@ -40,6 +41,7 @@ void Observer::record_sizes(double t, const double* x) {
 }
 
 void Observer::record_change(double t, const double* x) {
+  if (values_.empty()) return;
   module_.functions().invariants(t, x, parameters_, values_.data());
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const double change = std::abs(values_[i] - invariants_[i].initial);
@@ -73,6 +75,12 @@ void Observer::finish(Trajectory& trajectory) {
   for (std::size_t i = 0; i < invariants_.size(); ++i)
     invariants_[i].drift = changes_[i] == 0 ? 0 : changes_[i] / sizes_[i];
   if (settings_.sample_every > 0 && trajectory.time != times_.back()) {
+    // A multiple that differs from the end by rounding only is the end.
+    const double gap = std::abs(trajectory.time - times_.back());
+    if (times_.size() > 1 && gap < 1e-10 * settings_.sample_every) {
+      times_.pop_back();
+      samples_.pop_back();
+    }
     times_.push_back(trajectory.time);
     samples_.push_back(trajectory.state);
   }

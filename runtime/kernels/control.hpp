@@ -105,9 +105,9 @@ __attribute__((cold, noinline)) double first_step(const casimir_run* run, const 
   cold_rhs<System>(run->t_begin + signed_h, moved, run->parameters, g);
   if (!all_finite<n>(g)) return signed_h;
   for (int i = 0; i < n; ++i)
-    bend = larger(bend, magnitude(g[i] - f[i]) / h / allowed_error(run, x[i]));
+    bend = larger(bend, magnitude(g[i] - f[i]) / allowed_error(run, x[i]));
   size = larger(size, speed * h);
-  const double rate = larger(speed / size, __builtin_sqrt(bend / size));
+  const double rate = larger(speed / size, __builtin_sqrt(bend / size) / __builtin_sqrt(h));
   double best = rough_root(larger(size, 1) * 100, order) * rate;
   best = best * longest > 1 ? 1 / best : longest;
   best = best > 1000 * h ? 1000 * h : best;
