@@ -42,7 +42,7 @@ struct Proof {
 struct Candidates {
   std::vector<Text> integrals, casimirs, invariant_relations;
   std::vector<Text> on;
-  std::string only;  ///< without candidates: only claims and facts of this kind, or all if empty
+  std::string only{};  ///< without candidates: only claims and facts of this kind, or all if empty
   bool empty() const { return integrals.empty() && casimirs.empty() && invariant_relations.empty(); }
 };
 

@@ -68,7 +68,7 @@ CompiledModule compile_for(const SceneRun& run, const Method& method) {
   return {Module::load(object.path), seconds_since(start), object.from_cache};
 }
 
-TruthOrReason truth_of(const Model& model, const Scene& scene, const SceneRun& run, int digits, const std::function<bool()>& give_up) {
+TruthOrReason truth_of(const Scene& scene, const SceneRun& run, int digits, const std::function<bool()>& give_up) {
   const Specialisation& s = run.specialisation;
   TruthOrReason result;
   std::vector<cln::cl_F> state;
@@ -101,21 +101,33 @@ TruthOrReason truth_of(const Model& model, const Scene& scene, const SceneRun& r
     result.source = fmt::format("our own Taylor series with {} digits, checked to {:.0e}", reference.digits, reference.error_bound);
   }
   Truth truth;
-  double largest = 0;
   for (const cln::cl_F& x : state) {
     truth.state.push_back(rounded(x));
     truth.rest.push_back(cln::double_approx(x - cln::cl_float(cln::cl_DF(truth.state.back()), x)));
-    largest = std::max(largest, std::abs(truth.state.back()));
   }
-  for (std::size_t i = 0; i < run.initial.size(); ++i) largest = std::max(largest, std::abs(run.initial[i]));
-  // A component near a zero is measured against its start, and never against less than a
-  // thousandth of the whole state.
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    truth.scale.push_back(std::max({std::abs(truth.state[i]), std::abs(run.initial[i]), 1e-3 * largest}));
-    if (truth.scale.back() == 0) truth.scale.back() = 1;
-  }
+  truth.scale = state_sizes(run);
   result.truth = std::move(truth);
   return result;
+}
+
+std::vector<double> state_sizes(const SceneRun& run) {
+  const Method& method = *find_method("dop853");
+  Settings settings;
+  settings.duration = run.duration;
+  settings.rtol = 1e-8;
+  settings.atol = 1e-8 * *std::max_element(run.initial.begin(), run.initial.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  settings.atol = std::max(std::abs(settings.atol), 1e-300);
+  settings.sample_every = std::abs(run.duration) / 200;
+  settings.monitor = false;
+  const Trajectory trajectory = integrate(compile_for(run, method).module, method, settings, run.initial, run.parameters);
+  std::vector<double> sizes(run.initial.size());
+  for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::abs(run.initial[i]);
+  for (const std::vector<double>& x : trajectory.samples) {
+    for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::max(sizes[i], std::abs(x[i]));
+  }
+  const double largest = *std::max_element(sizes.begin(), sizes.end());
+  for (double& size : sizes) size = largest == 0 ? 1 : std::max(size, 1e-6 * largest);
+  return sizes;
 }
 
 std::function<bool()> time_limit(double seconds) {

@@ -49,7 +49,7 @@ Row conserve_one(const Model& model, const Scene& scene, const Method& method, c
   row.evaluations = trajectory.evaluations;
   row.status = to_string(trajectory.status);
   if (trajectory.status == Status::ok && !scene.reference.empty() && !options.run.duration) {
-    const TruthOrReason truth = truth_of(model, scene, run, 30, give_up);
+    const TruthOrReason truth = truth_of(scene, run, 30, give_up);
     if (truth.truth) row.error = error_of(trajectory.state, *truth.truth);
   }
   // Written so that a drift that is not a number fails too.

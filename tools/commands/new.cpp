@@ -10,7 +10,7 @@
 namespace casimir::tools {
 namespace {
 
-constexpr const char* kTemplate = R"(# A case file: a system, what is claimed about it, and scenes to integrate.
+constexpr const char* kTemplate = R"case(# A case file: a system, what is claimed about it, and scenes to integrate.
 # Expressions are strings: + - * / ^, exact numbers (0.5 is 1/2), sqrt sin cos tan exp log atan2
 # asin acos, Pi. This one is the Euler top; 'casimir verify {0}.toml' proves its claims.
 title = "{0}"
@@ -41,7 +41,7 @@ name = "default"
 parameters = {{ a1 = "1", a2 = "1/2", a3 = "1/3" }}
 initial = {{ M1 = "1", M2 = "1/2", M3 = "1/3" }}
 duration = "100"
-)";
+)case";
 
 struct Options {
   Common common;

@@ -34,7 +34,7 @@ std::vector<Text> texts(const std::vector<std::string>& values, const std::strin
 
 Candidates candidates_of(const Options& options) {
   return {texts(options.integrals, "--integral"), texts(options.casimirs, "--casimir"),
-          texts(options.invariant_relations, "--invariant-relation"), texts(options.on, "--on")};
+          texts(options.invariant_relations, "--invariant-relation"), texts(options.on, "--on"), {}};
 }
 
 struct Verified {
