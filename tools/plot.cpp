@@ -24,6 +24,12 @@ namespace {
 /// told apart without colour.
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9"};
 
+/// gnuplot's numbers of marks that have an open and a filled form.
+struct Mark {
+  int open, filled;
+};
+constexpr Mark kMarks[] = {{4, 5}, {6, 7}, {8, 9}, {10, 11}, {12, 13}};
+
 /// Text for gnuplot: plain characters only, so that nothing of a case file is a command there.
 std::string quoted(const std::string& text) {
   std::string result = "'";
@@ -37,11 +43,10 @@ std::string script(const Plot& plot, const std::string& terminal, const std::str
   std::string text = fmt::format("set terminal {} noenhanced\nset output {}\n", terminal, quoted(output));
   text += fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n", quoted(plot.title), quoted(plot.x_label), quoted(plot.y_label));
   text += "set grid lc rgb '#d0d0d0'\nset key outside right top\nset tics nomirror\nset border 3\n";
-  if (plot.log_x) text += "set logscale x\nset format x '10^{%T}'\n";
-  if (plot.log_y) text += "set logscale y\nset format y '10^{%T}'\n";
-  // Powers of ten are the one place where marked-up text is wanted.
-  text += "set xtics enhanced\nset ytics enhanced\n";
+  if (plot.log_x) text += "set logscale x\nset format x '1e%T'\n";
+  if (plot.log_y) text += "set logscale y\nset format y '1e%T'\n";
   std::string commands;
+  std::size_t group = 0;
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
     const Curve& curve = plot.curves[i];
     text += fmt::format("$curve{} << EOD\n", i);
@@ -50,8 +55,11 @@ std::string script(const Plot& plot, const std::string& terminal, const std::str
       if (drawn) text += fmt::format("{:.9g} {:.9g}\n", x, y);
     }
     text += "EOD\n";
-    commands += fmt::format("{}$curve{} using 1:2 with linespoints lw 1.6 dt {} pt {} ps 0.7 lc rgb '{}' title {}", i == 0 ? "plot " : ", \\\n     ", i,
-                            curve.dashed ? 2 : 1, 4 + i, kColours[i % std::size(kColours)], quoted(curve.name));
+    if (i > 0 && !curve.variant) ++group;
+    const std::size_t mark = group % std::size(kMarks);
+    const std::string style = curve.variant ? fmt::format("points lw 1.4 pt {} ps 1.6", kMarks[mark].open) : fmt::format("linespoints lw 1.8 pt {} ps 0.9", kMarks[mark].filled);
+    commands += fmt::format("{}$curve{} using 1:2 with {} lc rgb '{}' title {}", i == 0 ? "plot " : ", \\\n     ", i, style,
+                            kColours[group % std::size(kColours)], quoted(curve.name));
   }
   return text + commands + "\n";
 }

@@ -10,7 +10,8 @@ namespace casimir::tools {
 struct Curve {
   std::string name;
   std::vector<std::pair<double, double>> points;
-  bool dashed = false;
+  /// A variant of the curve before it: the same colour, larger open marks, no line of its own.
+  bool variant = false;
 };
 
 struct Plot {

@@ -103,7 +103,7 @@ std::string ratios(const std::vector<Row>& rows) {
 }
 
 Plot work_precision_plot(const std::vector<Row>& rows, const Model& model, const Scene& scene) {
-  Plot plot{fmt::format("{}, scene {}: error against run time", model.title, scene.name), "error at the end, relative to the size of each variable", "run time, seconds", true, true, {}};
+  Plot plot{fmt::format("{}, scene {}: error against run time", model.title, scene.name), "error at the end, relative to the size of each variable along the run", "run time, seconds", true, true, {}};
   for (const Row& row : rows) {
     const std::string label = row.method + (row.code == "general" ? " general" : "");
     if (plot.curves.empty() || plot.curves.back().name != label) plot.curves.push_back({label, {}, row.code == "general"});
