@@ -14,7 +14,7 @@ constexpr double kCalibration = s == 2   ? 1
                                 : s == 3 ? 0.25
                                 : s == 4 ? 0.1
                                 : s == 6 ? 0.02
-                                         : 0.005;
+                                         : 0.02;
 
 /// One step of the Gauss collocation method with s stages.
 ///
@@ -114,10 +114,11 @@ struct Step {
       for (int i = 0; i < n; ++i) {
         double unit = magnitude(x[i]);
         for (int j = 0; j < s; ++j) unit = larger(unit, magnitude(L[j * n + i]));
+        const bool grows = delta[i] > 1e3 * best[i] && delta[i] > 64 * kEpsilon * unit;
         unit = larger(unit, 1e-2 * all);
         if (delta[i] != 0 && delta[i] < best[i]) progress = true;
         if (delta[i] < best[i]) best[i] = delta[i];
-        if (delta[i] > 1e3 * best[i] || !(delta[i] < 1e300)) level = 1;
+        if (grows || !(delta[i] <= 1e300 * unit)) level = 1;
         if (unit > 0) level = larger(level, delta[i] / unit);
       }
       if (progress) return go_on;

@@ -62,7 +62,8 @@ TEST_P(Order, EulerTopAgainstEllipticFunctions) {
   const auto error = [&](double h) {
     return fixed_step_error<Euler>(GetParam(), h, 8, euler_solution(0), euler_solution(8));
   };
-  expect_order(error(step_), error(step_ / 2));
+  const double step = method_.order > 12 ? 4 : step_;
+  expect_order(error(step), error(step / 2));
 }
 
 TEST_P(Order, TimeDependentRightHandSide) {

@@ -1,0 +1,254 @@
+#include "runtime/methods.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+
+#include "runtime/module.hpp"
+#include "tests/runtime/systems.hpp"
+
+namespace casimir::test {
+namespace {
+
+using Rows = std::map<int, std::map<int, double>>;
+
+Rows dop853_rows() {
+  using namespace casimir_kernel::dop853;
+  return {
+      {2, {{1, a21}}},
+      {3, {{1, a31}, {2, a32}}},
+      {4, {{1, a41}, {3, a43}}},
+      {5, {{1, a51}, {3, a53}, {4, a54}}},
+      {6, {{1, a61}, {4, a64}, {5, a65}}},
+      {7, {{1, a71}, {4, a74}, {5, a75}, {6, a76}}},
+      {8, {{1, a81}, {4, a84}, {5, a85}, {6, a86}, {7, a87}}},
+      {9, {{1, a91}, {4, a94}, {5, a95}, {6, a96}, {7, a97}, {8, a98}}},
+      {10, {{1, a10_1}, {4, a10_4}, {5, a10_5}, {6, a10_6}, {7, a10_7}, {8, a10_8}, {9, a10_9}}},
+      {11,
+       {{1, a11_1},
+        {4, a11_4},
+        {5, a11_5},
+        {6, a11_6},
+        {7, a11_7},
+        {8, a11_8},
+        {9, a11_9},
+        {10, a11_10}}},
+      {12,
+       {{1, a12_1},
+        {4, a12_4},
+        {5, a12_5},
+        {6, a12_6},
+        {7, a12_7},
+        {8, a12_8},
+        {9, a12_9},
+        {10, a12_10},
+        {11, a12_11}}}};
+}
+
+const std::map<int, double> kWeights = {
+    {1, casimir_kernel::dop853::b1},   {6, casimir_kernel::dop853::b6},
+    {7, casimir_kernel::dop853::b7},   {8, casimir_kernel::dop853::b8},
+    {9, casimir_kernel::dop853::b9},   {10, casimir_kernel::dop853::b10},
+    {11, casimir_kernel::dop853::b11}, {12, casimir_kernel::dop853::b12}};
+
+/// A rooted tree: its subtrees, each by its index in the list of all trees.
+struct Tree {
+  std::vector<int> branches;
+  int size;
+  double density;  // gamma
+};
+
+/// All rooted trees with at most `most` nodes: 1, 1, 2, 4, 9, 20, 48, 115, .. of each size.
+std::vector<Tree> rooted_trees(int most) {
+  std::vector<Tree> trees;
+  for (int size = 1; size <= most; ++size) {
+    const int known = static_cast<int>(trees.size());
+    std::vector<Tree> fresh;
+    std::vector<int> chosen;
+    const std::function<void(int, int)> choose = [&](int rest, int largest) {
+      if (rest == 0) {
+        double density = size;
+        for (const int b : chosen) density *= trees[static_cast<std::size_t>(b)].density;
+        fresh.push_back({chosen, size, density});
+        return;
+      }
+      for (int b = largest; b >= 0; --b) {
+        if (trees[static_cast<std::size_t>(b)].size > rest) continue;
+        chosen.push_back(b);
+        choose(rest - trees[static_cast<std::size_t>(b)].size, b);
+        chosen.pop_back();
+      }
+    };
+    choose(size - 1, known - 1);
+    trees.insert(trees.end(), fresh.begin(), fresh.end());
+  }
+  return trees;
+}
+
+/// The largest defect of the order conditions of each order 1..most.
+std::vector<double> order_defects(const Rows& rows, const std::map<int, double>& weights,
+                                  int stages, int most) {
+  const std::vector<Tree> trees = rooted_trees(most);
+  std::vector<std::vector<double>> values;
+  std::vector<double> defects(static_cast<std::size_t>(most) + 1);
+  for (const Tree& tree : trees) {
+    std::vector<double> value(static_cast<std::size_t>(stages) + 1, 1);
+    for (const int b : tree.branches)
+      for (int i = 1; i <= stages; ++i) {
+        double sum = 0;
+        if (const auto row = rows.find(i); row != rows.end())
+          for (const auto& [j, a] : row->second)
+            sum += a * values[static_cast<std::size_t>(b)][static_cast<std::size_t>(j)];
+        value[static_cast<std::size_t>(i)] *= sum;
+      }
+    double sum = 0;
+    for (const auto& [j, weight] : weights) sum += weight * value[static_cast<std::size_t>(j)];
+    double& defect = defects[static_cast<std::size_t>(tree.size)];
+    defect = std::max(defect, std::abs(sum - 1 / tree.density));
+    values.push_back(value);
+  }
+  return defects;
+}
+
+TEST(Tableau, Dop853FulfilsAllConditionsOfOrderEight) {
+  EXPECT_EQ(rooted_trees(8).size(), 200u);
+  const std::vector<double> defects = order_defects(dop853_rows(), kWeights, 12, 9);
+  for (std::size_t order = 1; order <= 8; ++order) EXPECT_LT(defects[order], 1e-14) << order;
+  EXPECT_GT(defects[9], 1e-5);  // the twin: it is no method of order 9
+  Rows bent = dop853_rows();
+  bent[9][7] += 1e-9;
+  EXPECT_GT(order_defects(bent, kWeights, 12, 8)[8], 1e-13);
+}
+
+TEST(Tableau, EstimatorsHaveOrderFiveAndThree) {
+  using namespace casimir_kernel::dop853;
+  const std::map<int, double> e5 = {{1, e5_1}, {6, e5_6},   {7, e5_7},   {8, e5_8},
+                                    {9, e5_9}, {10, e5_10}, {11, e5_11}, {12, e5_12}};
+  const std::map<int, double> e3 = {{1, e3_1}, {6, e3_6},   {7, e3_7},   {8, e3_8},
+                                    {9, e3_9}, {10, e3_10}, {11, e3_11}, {12, e3_12}};
+  const auto defects = [&](std::map<int, double> difference) {
+    std::map<int, double> weights = kWeights;
+    for (const auto& [j, d] : difference) weights[j] -= d;
+    return order_defects(dop853_rows(), weights, 12, 6);
+  };
+  EXPECT_LT(defects(e5)[5], 1e-14);
+  EXPECT_GT(defects(e5)[6], 1e-5);
+  EXPECT_LT(defects(e3)[3], 1e-14);
+  EXPECT_GT(defects(e3)[4], 1e-3);
+}
+
+template <int s>
+void check_gauss() {
+  using Table = casimir_kernel::gauss::Tableau<s>;
+  const auto mu = casimir_kernel::gauss::Step<Euler, s>::mu_table;
+  for (int i = 0; i < s; ++i)
+    for (int j = 0; j < s; ++j) EXPECT_EQ(mu[i * s + j] + mu[j * s + i], 1);  // exactly: symplectic
+  for (int power = 0; power <= 2 * s; ++power) {
+    double sum = 0;  // sum b_j c_j^power = 1 / (power + 1) for a quadrature of order 2s
+    for (int j = 0; j < s; ++j) sum += Table::b[j] * std::pow(Table::c[j], power);
+    const double defect = std::abs(sum - 1. / (power + 1));
+    if (power < 2 * s)
+      EXPECT_LT(defect, 1e-15) << s << ' ' << power;
+    else
+      EXPECT_GT(defect, 1e-12) << s;
+  }
+  for (int power = 1; power <= s; ++power)
+    for (int i = 0; i < s; ++i) {
+      double sum = 0;  // collocation: sum a_ij c_j^(power-1) = c_i^power / power
+      for (int j = 0; j < s; ++j)
+        sum += mu[i * s + j] * Table::b[j] * std::pow(Table::c[j], power - 1);
+      EXPECT_NEAR(sum, std::pow(Table::c[i], power) / power, 1e-15);
+    }
+}
+TEST(Tableau, GaussIsSymplecticCollocationOfOrderTwoS) {
+  check_gauss<2>();
+  check_gauss<3>();
+  check_gauss<4>();
+  check_gauss<6>();
+  check_gauss<8>();
+}
+
+TEST(Methods, NamesAreFoundAndUnique) {
+  for (const Method& method : methods()) EXPECT_EQ(find_method(method.name), &method);
+  EXPECT_EQ(find_method("dop854"), nullptr);
+  EXPECT_EQ(method_names().size(), methods().size());
+}
+
+/// A folder of this process, removed at the end.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "casimir-XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+    path_ = name;
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  std::string operator/(const char* name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+constexpr const char* kSystem = R"(
+struct System {
+  static constexpr int n = 2;
+  static void rhs(double, const double* x, const double*, double* dx) { dx[0] = x[1]; dx[1] = -x[0]; }
+  static void jacobian(double, const double*, const double*, double* J) {
+    J[0] = J[3] = 0; J[1] = -1; J[2] = 1;
+  }
+};
+extern "C" {
+int casimir_abi_version(void) { return CASIMIR_ABI_VERSION; }
+int casimir_dimension(void) { return 2; }
+int casimir_parameter_count(void) { return 0; }
+int casimir_invariant_count(void) { return 0; }
+void casimir_rhs(double t, const double* x, const double* p, double* dx) { System::rhs(t, x, p, dx); }
+void casimir_integrate(const casimir_run* run, double* x, casimir_outcome* out) {
+  casimir_kernel::integrate<System>(run, x, out);
+}
+}
+)";
+
+// The text of every kernel compiles by itself, without a warning and without any header, and what
+// it makes is a module that integrates.
+TEST(Methods, KernelTextsCompileWithoutHeaders) {
+  const char* given = std::getenv("CXX");
+  const std::string compiler = given ? given : "c++";
+  const Folder folder;
+  for (const Method& method : methods()) {
+    const std::string text = kernel_source(method);
+    EXPECT_EQ(text.find("#include"), std::string::npos);
+    EXPECT_EQ(text.find("#pragma once"), std::string::npos);
+    EXPECT_EQ(text, kernel_source(method));
+    if (!method.outside.empty()) continue;
+    std::ofstream(folder / "module.cpp") << text << kSystem;
+    const std::string command = compiler +
+                                " -std=c++20 -O1 -Wall -Wextra -Werror -nostdinc -shared -fPIC " +
+                                (folder / "module.cpp") + " -o " + (folder / "module.so");
+    ASSERT_EQ(std::system(command.c_str()), 0) << method.name;
+    const Module module = Module::load(folder / "module.so");
+    Settings settings;
+    settings.duration = 3;
+    const Trajectory orbit = integrate(module, method, settings, {1, 0});
+    EXPECT_EQ(orbit.status, Status::ok);
+    EXPECT_NEAR(orbit.state[0], std::cos(3.), 1e-8) << method.name;
+    std::filesystem::remove(folder / "module.so");
+  }
+  // The twin: another version of the interface, and a file that is no module.
+  std::ofstream(folder / "old.cpp")
+      << "extern \"C\" int casimir_abi_version(void) { return -1; }\n";
+  ASSERT_EQ(std::system(
+                (compiler + " -shared -fPIC " + (folder / "old.cpp") + " -o " + (folder / "old.so"))
+                    .c_str()),
+            0);
+  EXPECT_THROW(Module::load(folder / "old.so"), std::runtime_error);
+  EXPECT_THROW(Module::load(folder / "old.cpp"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace casimir::test
