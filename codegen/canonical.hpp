@@ -82,6 +82,9 @@ class Dag {
   /// The expression in the notation of case files, e.g. "M1^2/2 - r*g1".
   std::string text(const Scaled& expression) const;
 
+  /// The same for LaTeX in mathematical mode, e.g. "\frac{1}{2} M_{1}^{2} - r g_{1}".
+  std::string latex(const Scaled& expression) const;
+
   const std::string& symbol_name(int symbol) const;
   /// Whether the symbol of that index occurs in the expression.
   bool contains(const Scaled& expression, int symbol) const;
@@ -106,5 +109,8 @@ class Dag {
   std::vector<Node> nodes_;
   std::unordered_map<std::size_t, std::vector<NodeId>> index_;
 };
+
+/// A name for LaTeX: "M1" is M with the index 1, "p_theta" is p with a Greek index.
+std::string latex_name(const std::string& name);
 
 }  // namespace casimir::codegen

@@ -18,6 +18,9 @@ struct HeaderOptions {
 /// `sundials_rhs<N_Vector>` and `sundials_jacobian<N_Vector, SUNMatrix>` are for CVODE (double
 /// only). Run-time parameters come as a struct whose defaults are the values of the scene.
 ///
+/// Where they were asked for: `variational` carries a small deviation along with the state, and
+/// `taylor<Order>` writes the Taylor coefficients of the solution.
+///
 /// Compiles alone and without warnings; includes <cmath> only where a function is called, and
 /// <quadmath.h> for float128. The same bytes in every process.
 /// \throws ModelError  for a number outside the range of the number type.

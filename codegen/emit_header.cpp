@@ -4,11 +4,13 @@
 #include <vector>
 
 #include "codegen/emit_cpp.hpp"
+#include "codegen/header_context.hpp"
 #include "codegen/names.hpp"
 #include "codegen/statements.hpp"
 
 namespace casimir {
 
+using codegen::HeaderContext;
 using codegen::Names;
 using codegen::StatementStyle;
 
@@ -24,17 +26,7 @@ struct Function {
 
 class HeaderWriter {
  public:
-  HeaderWriter(const Specialisation& spec, Scalar scalar)
-      : spec_(spec), is_template_(scalar == Scalar::templated) {
-    style_.scalar = scalar;
-    style_.real = scalar == Scalar::real64 ? "double" : is_template_ ? "Real" : "real";
-    if (is_template_) style_.call_prefix.clear();
-    if (scalar == Scalar::float128) {
-      style_.call_prefix.clear();
-      style_.call_suffix = "q";
-    }
-    name_inputs();
-  }
+  HeaderWriter(const Specialisation& spec, Scalar scalar) : context_(spec, scalar) {}
 
   std::string run() {
     Names namespaces({"state_names", "invariant_names", "initial_state"});
@@ -52,7 +44,11 @@ class HeaderWriter {
       text += function({"jacobian", "J", "J[i + dimension*j] = d(dx[i])/d(x[j]), all entries.",
                         spec_.jacobian.program});
     }
-    return text + adapters() + "}  // namespace " + scope + "\n\n#endif  // " + guard + "\n";
+    if (is_template_) text += start_function();
+    if (spec_.has_variational) text += variational();
+    if (spec_.taylor) text += codegen::taylor(context_);
+    return text + codegen::adapters(context_) + "}  // namespace " + scope + "\n\n#endif  // " +
+           guard + "\n";
   }
 
  private:
@@ -62,22 +58,6 @@ class HeaderWriter {
     for (const char c : scope)
       result += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
     return result + (result.ends_with('_') ? "HPP" : "_HPP");
-  }
-
-  bool has_parameters() const { return !spec_.parameters.empty(); }
-
-  void name_inputs() {
-    Names names({"state_names", "invariant_names", "initial_state"});
-    for (std::size_t i = 0; i < spec_.states.size(); ++i) {
-      sources_.push_back("x[" + std::to_string(i) + "]");
-      names_.push_back(names.unique(spec_.states[i]));
-    }
-    for (const std::string& parameter : spec_.parameters) {
-      names_.push_back(names.unique(parameter));
-      sources_.push_back("p." + names_.back());
-    }
-    sources_.push_back("t");
-    names_.push_back("t");
   }
 
   std::string includes() const {
@@ -93,7 +73,7 @@ class HeaderWriter {
     return std::ranges::any_of(spec_.rhs.code, is_function) ||
            std::ranges::any_of(spec_.invariants.code, is_function) ||
            std::ranges::any_of(spec_.jacobian.program.code, is_function) ||
-           std::ranges::any_of(spec_.start.code, is_function);
+           std::ranges::any_of(spec_.variational.code, is_function);
   }
 
   std::string invariant_list() const {
@@ -113,18 +93,18 @@ class HeaderWriter {
   }
 
   /// The number that output k of Specialisation::start is.
-  std::string start_value(std::size_t k) const {
+  std::string start_value(std::size_t k, Scalar scalar) const {
     const int i = spec_.start.outputs[k];
     const bool rational = codegen::is_rational(spec_.start, i);
-    // Start values of a template are doubles.
-    const Scalar scalar = is_template_ ? Scalar::real64 : style_.scalar;
     return codegen::number_text(codegen::constant_value(spec_.start, i), scalar,
                                 rational ? "" : codegen::constant_text(spec_.start, i))
         .text;
   }
 
   std::string constants() const {
+    // Those of a template are doubles; `start` has them in its number type.
     const std::string real = is_template_ ? "double" : style_.real;
+    const Scalar scalar = is_template_ ? Scalar::real64 : style_.scalar;
     std::string text;
     if (style_.scalar == Scalar::float128) text += "__extension__ typedef __float128 real;\n";
     if (style_.scalar == Scalar::long_double) text += "using real = long double;\n";
@@ -134,33 +114,25 @@ class HeaderWriter {
     text += names_array("invariant_names", spec_.invariant_names);
     std::string initial;
     for (std::size_t i = 0; i < spec_.states.size(); ++i) {
-      initial += (i == 0 ? "" : ", ") + start_value(i);
+      initial += (i == 0 ? "" : ", ") + start_value(i, scalar);
     }
     text += codegen::wrapped("inline constexpr " + real + " initial_state[] = {" + initial + "};") +
             "\n";
     text += "inline constexpr " + real +
-            " duration = " + start_value(spec_.start.outputs.size() - 1) + ";\n\n";
+            " duration = " + start_value(spec_.start.outputs.size() - 1, scalar) + ";\n\n";
     return text + parameter_struct();
   }
 
   std::string parameter_struct() const {
-    if (!has_parameters()) return "";
+    if (!context_.has_parameters()) return "";
     std::string text = "// What may be chosen at run time; the defaults are those of the scene.\n";
     if (is_template_) text += "template <class Real>\n";
     text += "struct parameters {\n";
     for (std::size_t i = 0; i < spec_.parameters.size(); ++i) {
-      const std::string value = start_value(spec_.states.size() + i);
-      text += "  " + style_.real + " " + names_[spec_.states.size() + i] + " = " +
-              (is_template_ ? "Real(" + value + ")" : value) + ";\n";
+      const std::string value = start_value(spec_.states.size() + i, style_.scalar);
+      text += "  " + style_.real + " " + names_[spec_.states.size() + i] + " = " + value + ";\n";
     }
     return text + "};\n\n";
-  }
-
-  std::string parameter_type() const { return is_template_ ? "parameters<Real>" : "parameters"; }
-
-  /// "t, x, p, " as far as the functions take them.
-  std::string arguments(const std::string& state) const {
-    return (spec_.uses_time ? "t, " : "") + state + ", " + (has_parameters() ? "p, " : "");
   }
 
   std::string signature(const Function& f) const {
@@ -176,9 +148,48 @@ class HeaderWriter {
     std::string text = "inline void " + f.name + "(";
     if (spec_.uses_time) text += named(used.back(), style_.real, "t") + ", ";
     text += named(reads_state, "const " + style_.real + "*", "x") + ", ";
-    if (has_parameters())
-      text += named(reads_parameters, "const " + parameter_type() + "&", "p") + ", ";
+    if (context_.has_parameters())
+      text += named(reads_parameters, "const " + context_.parameter_type() + "&", "p") + ", ";
     return text + named(writes(f), style_.real + "*", f.target) + ") {\n";
+  }
+
+  /// The exact initial state in the number type of a template.
+  std::string start_function() const {
+    std::string text =
+        "// The initial state in that number type.\ntemplate <class Real>\n"
+        "inline void start(Real* x) {\n";
+    for (std::size_t i = 0; i < spec_.states.size(); ++i) {
+      text += "  x[" + std::to_string(i) + "] = " + start_value(i, style_.scalar) + ";\n";
+    }
+    return text + "}\n\n";
+  }
+
+  std::string variational() const {
+    const std::size_t n = spec_.states.size();
+    std::vector<std::string> sources(sources_.begin(), sources_.begin() + static_cast<long>(n));
+    std::vector<std::string> names(names_.begin(), names_.begin() + static_cast<long>(n));
+    std::vector<std::string> targets;
+    Names more(names_);
+    for (std::size_t i = 0; i < n; ++i) {
+      sources.push_back("delta_x[" + std::to_string(i) + "]");
+      names.push_back(more.unique("delta_" + names_[i]));
+      targets.push_back("dx[" + std::to_string(i) + "]");
+    }
+    for (std::size_t i = 0; i < n; ++i) targets.push_back("ddelta_x[" + std::to_string(i) + "]");
+    sources.insert(sources.end(), sources_.begin() + static_cast<long>(n), sources_.end());
+    names.insert(names.end(), names_.begin() + static_cast<long>(n), names_.end());
+    const std::string real = style_.real;
+    const std::string unused = "[[maybe_unused]] ";
+    std::string text =
+        "// The rhs, and the derivative of a small deviation delta_x carried along.\n";
+    if (is_template_) text += "template <class Real>\n";
+    text += codegen::wrapped(
+        "inline void variational(" + (spec_.uses_time ? unused + real + " t, " : "") + unused +
+        "const " + real + "* x, " + unused + "const " + real + "* delta_x, " +
+        (context_.has_parameters() ? unused + "const " + context_.parameter_type() + "& p, " : "") +
+        real + "* dx, " + real + "* ddelta_x) {");
+    return text + "\n" + using_declarations(spec_.variational) +
+           codegen::statements(spec_.variational, sources, names, targets, style_) + "}\n\n";
   }
 
   bool writes(const Function& f) const { return !f.program.outputs.empty() || f.target == "J"; }
@@ -204,103 +215,16 @@ class HeaderWriter {
     return text + codegen::statements(f.program, sources_, names_, targets, style_) + "}\n\n";
   }
 
-  /// Functions of the number type of a template are found beside it, those of double in std.
   std::string using_declarations(const Program& program) const {
-    if (!is_template_) return "";
-    static constexpr std::pair<Op, const char*> kFunctions[] = {
-        {Op::pow, "pow"},   {Op::sqrt, "sqrt"}, {Op::sin, "sin"},    {Op::cos, "cos"},
-        {Op::tan, "tan"},   {Op::exp, "exp"},   {Op::log, "log"},    {Op::asin, "asin"},
-        {Op::acos, "acos"}, {Op::pi, "acos"},   {Op::atan2, "atan2"}};
-    std::string text;
-    for (const auto& [op, name] : kFunctions) {
-      const bool called =
-          std::ranges::any_of(program.code, [op = op](const Instruction& c) { return c.op == op; });
-      const std::string line = std::string("  using std::") + name + ";\n";
-      if (called && text.find(line) == std::string::npos) text += line;
-    }
-    return text;
+    return is_template_ ? codegen::using_declarations(program) : "";
   }
 
-  // --- adapters
-
-  std::string adapters() const {
-    std::string text = odeint_system();
-    if (spec_.has_jacobian && !spec_.uses_time && !is_template_) text += stiff_system();
-    if (style_.scalar == Scalar::real64) text += sundials();
-    return text;
-  }
-
-  /// How an adapter that holds p hands it on: a template deduces it from the state.
-  std::string member() const {
-    if (!has_parameters()) return "";
-    return is_template_ ? "  parameters<Real> p{};\n\n" : "  parameters p{};\n\n";
-  }
-
-  std::string odeint_system() const {
-    std::string text =
-        "// For Boost.Odeint: integrate_adaptive(stepper, system{}, x, t0, t1, dt).\n";
-    if (is_template_ && has_parameters()) text += "template <class Real>\n";
-    const std::string time = spec_.uses_time ? " t" : " /*t*/";
-    text += "struct system {\n" + member() +
-            "  template <class State, class Derivative, class Time>\n"
-            "  void operator()(const State& x, Derivative& dxdt, Time" +
-            time +
-            ") const {\n"
-            "    rhs(" +
-            arguments("&x[0]") + "&dxdt[0]);\n  }\n};\n\n";
-    return text;
-  }
-
-  std::string stiff_system() const {
-    return "// For the implicit steppers of Boost.Odeint: std::pair(system{}, stiff_system{}).\n"
-           "struct stiff_system {\n" +
-           member() +
-           "  template <class State, class Matrix, class Time, class Derivative>\n"
-           "  void operator()(const State& x, Matrix& J, const Time& /*t*/, Derivative& dfdt) "
-           "const {\n"
-           "    " +
-           style_.real +
-           " columns[dimension * dimension];\n"
-           "    jacobian(" +
-           arguments("&x[0]") +
-           "columns);\n"
-           "    for (unsigned j = 0; j < dimension; ++j) {\n"
-           "      for (unsigned i = 0; i < dimension; ++i) J(i, j) = columns[i + dimension * j];\n"
-           "      dfdt[j] = 0;\n"
-           "    }\n"
-           "  }\n};\n\n";
-  }
-
-  std::string sundials() const {
-    const std::string user = has_parameters() ? "void* user" : "void* /*user*/";
-    const std::string time = spec_.uses_time ? "double t" : "double /*t*/";
-    const std::string parameters = has_parameters()
-                                       ? "  const parameters p = user ? *static_cast<const "
-                                         "parameters*>(user) : parameters{};\n"
-                                       : "";
-    std::string text = "// For CVODE: CVodeInit(memory, sundials_rhs<N_Vector>, t0, y).";
-    text += has_parameters() ? " User data: parameters, or null.\n" : "\n";
-    text += "template <class Vector>\nint sundials_rhs(" + time + ", Vector y, Vector ydot, " +
-            user + ") {\n" + parameters + "  rhs(" + arguments("N_VGetArrayPointer(y)") +
-            "N_VGetArrayPointer(ydot));\n  return 0;\n}\n\n";
-    if (!spec_.has_jacobian) return text;
-    text +=
-        "// For CVODE: CVodeSetJacFn(memory, sundials_jacobian<N_Vector, SUNMatrix>), dense "
-        "matrices.\n"
-        "template <class Vector, class Matrix>\nint sundials_jacobian(" +
-        time + ", Vector y, Vector /*fy*/, Matrix J, " + user +
-        ",\n"
-        "                      Vector /*tmp1*/, Vector /*tmp2*/, Vector /*tmp3*/) {\n" +
-        parameters + "  jacobian(" + arguments("N_VGetArrayPointer(y)") +
-        "SUNDenseMatrix_Data(J));\n  return 0;\n}\n\n";
-    return text;
-  }
-
-  const Specialisation& spec_;
-  bool is_template_;
-  StatementStyle style_;
-  std::vector<std::string> sources_;
-  std::vector<std::string> names_;
+  const HeaderContext context_;
+  const Specialisation& spec_ = context_.spec;
+  const StatementStyle& style_ = context_.style;
+  const std::vector<std::string>& sources_ = context_.sources;
+  const std::vector<std::string>& names_ = context_.names;
+  const bool is_template_ = context_.is_template;
 };
 
 }  // namespace

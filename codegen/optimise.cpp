@@ -15,6 +15,8 @@ namespace {
 constexpr std::size_t kAlwaysTried = 150;
 constexpr std::size_t kMostTerms = 1500;
 constexpr std::size_t kMostGrowth = 4;
+// Of long systems only the best bet is factored.
+constexpr std::size_t kLong = 400;
 
 std::size_t term_count(const TermSystem& system) {
   std::size_t result = 0;
@@ -36,14 +38,17 @@ Program optimised(const Dag& dag, const std::vector<Scaled>& expressions,
     best = std::move(candidate);
     least = cost;
   };
-  constexpr Preference kPreferences[] = {Preference::best, Preference::sums, Preference::products};
-  for (const Preference preference : kPreferences) consider(factored(structural, preference));
+  const auto consider_factored = [&](const TermSystem& system) {
+    consider(factored(system, Preference::best));
+    if (term_count(system) > kLong) return;
+    consider(factored(system, Preference::sums));
+    consider(factored(system, Preference::products));
+  };
+  consider_factored(structural);
   consider(structural);
   const std::size_t limit =
       std::min(kMostTerms, std::max(kAlwaysTried, kMostGrowth * term_count(structural)));
-  if (const auto expansion = expanded(structural, limit)) {
-    for (const Preference preference : kPreferences) consider(factored(*expansion, preference));
-  }
+  if (const auto expansion = expanded(structural, limit)) consider_factored(*expansion);
   return without_dead_code(*best);
 }
 

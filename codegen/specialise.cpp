@@ -56,6 +56,7 @@ class Specialiser {
     result_.file = model_.file;
     result_.scene = scene_.name;
     result_.title = model_.title;
+    result_.taylor = options_.taylor;
     result_.source = model_.source;
     if (model_.time) result_.time = model_.time->get_name();
     if (model_.hamiltonian) {
@@ -256,6 +257,7 @@ class Specialiser {
     result_.invariants = codegen::optimised(dag, invariants, inputs, result_.invariant_names);
     if (options_.jacobian) write_jacobian(dag, inputs);
     note_time(dag, field, invariants);
+    if (options_.variational) write_variational(symbols, inputs);
     write_start();
   }
 
@@ -278,6 +280,35 @@ class Specialiser {
     }
     result_.jacobian.program = codegen::optimised(dag, values, inputs, names);
     result_.has_jacobian = true;
+  }
+
+  void write_variational(std::vector<GiNaC::symbol> symbols, std::vector<std::string> inputs) {
+    const std::size_t count = result_.states.size();
+    std::vector<GiNaC::symbol> deviations;
+    std::vector<std::string> names;
+    for (const std::string& state : result_.states) {
+      names.push_back("delta_" + state);
+      deviations.emplace_back(names.back());
+    }
+    const auto place = static_cast<std::ptrdiff_t>(count);
+    symbols.insert(symbols.begin() + place, deviations.begin(), deviations.end());
+    inputs.insert(inputs.begin() + place, names.begin(), names.end());
+    Dag dag(symbols, 2 * count);
+    std::vector<Scaled> field;
+    std::vector<Scaled> deviation_field;
+    std::vector<std::string> outputs;
+    for (std::size_t i = 0; i < count; ++i) {
+      const GiNaC::ex& rate = field_[static_cast<std::size_t>(result_.state_indices[i])];
+      GiNaC::ex along = 0;
+      for (std::size_t j = 0; j < count; ++j) along += rate.diff(symbols[j]) * deviations[j];
+      outputs.push_back("d" + result_.states[i]);
+      field.push_back(within(outputs.back(), [&] { return dag.convert(rate); }));
+      deviation_field.push_back(within("d" + names[i], [&] { return dag.convert(along); }));
+    }
+    field.insert(field.end(), deviation_field.begin(), deviation_field.end());
+    for (const std::string& name : names) outputs.push_back("d" + name);
+    result_.variational = codegen::optimised(dag, field, inputs, outputs);
+    result_.has_variational = true;
   }
 
   void note_time(const Dag& dag, const std::vector<Scaled>& field,

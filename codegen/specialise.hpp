@@ -34,6 +34,8 @@ struct SpecialiseOptions {
   std::optional<std::vector<std::string>> observe;
   bool invariants = true;
   bool jacobian = true;
+  bool variational = false;
+  bool taylor = false;  ///< emitted headers shall have the Taylor coefficients of solutions
 };
 
 /// What is generated for one scene of a case: exact straight-line programs and where they come
@@ -57,6 +59,11 @@ struct Specialisation {
   Program invariants;      ///< one output for each of `invariant_names`
   SparseProgram jacobian;  ///< d rhs_row / d state_column
   bool has_jacobian = false;
+  /// `rhs` and the variational equations, as the right-hand side of a system of twice the size: its
+  /// states are the kept ones and a deviation from each, named "delta_M1", ..
+  Program variational;
+  bool has_variational = false;
+  bool taylor = false;
 
   /// No inputs; outputs: initial values of the kept states, values of the run-time parameters, and
   /// the duration.
