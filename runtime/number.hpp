@@ -18,7 +18,14 @@ struct Arithmetic;
 /// Built-in floating point. Follows IEEE arithmetic: nothing throws, NaN and infinities propagate.
 template <class Real>
 struct IeeeArithmetic {
-  static Real from(const cln::cl_RA& value) { return static_cast<Real>(cln::double_approx(value)); }
+  /// Rounded twice for types wider than double: by at most two units in the last place.
+  static Real from(const cln::cl_RA& value) {
+    const double high = cln::double_approx(value);
+    if constexpr (sizeof(Real) <= sizeof(double)) return static_cast<Real>(high);
+    if (!std::isfinite(high)) return static_cast<Real>(high);
+    return static_cast<Real>(high) +
+           static_cast<Real>(cln::double_approx(value - cln::rational(cln::cl_DF(high))));
+  }
   static Real pi() { return static_cast<Real>(3.14159265358979323846264338327950288L); }
   static Real divide(Real a, Real b) { return a / b; }
   static Real sqrt(Real a) { return std::sqrt(a); }
@@ -35,6 +42,8 @@ struct IeeeArithmetic {
 
 template <>
 struct Arithmetic<double> : IeeeArithmetic<double> {};
+template <>
+struct Arithmetic<long double> : IeeeArithmetic<long double> {};
 
 /// Exact rationals: the four operations only.
 template <>

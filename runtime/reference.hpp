@@ -17,17 +17,23 @@ struct Reference {
   std::string reason;
   std::vector<cln::cl_F> state;  ///< at `time`
   cln::cl_R time;
-  /// The largest relative difference of any component to a second run with more digits and a
-  /// higher order: what the first run had wrong, so a bound for the second, which is returned.
+  /// A bound of the largest relative error of a component (of those tiny beside the others,
+  /// relative to them): the difference to a run with ten digits less, times 1e-6.
   double error_bound = 0;
   int digits = 0;  ///< of the second run
   unsigned long steps = 0;
 };
 
+/// Cost: about order^2 products of long numbers per multiplication of the program and step; 30
+/// digits of Kovalevskaya's top over 100 time units take 0.7 s.
+///
 /// Integrates from time 0 by Taylor series of high order over CLN floats, on the very program that
-/// the generated code is written from. Two runs, the second with more digits and order.
+/// the generated code is written from. Two runs, the second with more digits and order, and further
+/// ones (four at most) with as many more as were lost, until two agree to the digits asked for; if
+/// they never do, `error_bound` says so.
 /// \param initial   one number for each state; exact numbers stay exact until they are rounded to
 ///                  the working precision.
+/// \param duration  may be negative or zero.
 /// \param digits    decimal digits asked for; at least 20.
 /// \param give_up   is asked now and then; true ends the computation (`reached` is false).
 Reference reference_solution(const Program& rhs, const std::vector<cln::cl_R>& initial,

@@ -13,7 +13,7 @@ template <int s>
 constexpr double kCalibration = s == 2   ? 1
                                 : s == 3 ? 0.25
                                 : s == 4 ? 0.1
-                                : s == 6 ? 0.02
+                                : s == 6 ? 0.04
                                          : 0.02;
 
 /// One step of the Gauss collocation method with s stages.
