@@ -32,7 +32,7 @@ cln::cl_F power_of_two(double e, const Arithmetic<cln::cl_F>& arithmetic) {
 }
 
 /// The step after which the first terms left out are as large as the tolerance times the state: by
-/// the root test on the upper half of the coefficients, so that gaps in a series do not deceive.
+/// the root test on the last quarter of the coefficients, so that gaps in a series do not deceive.
 double log2_step(const std::vector<std::vector<cln::cl_F>>& series, double log2_tolerance) {
   const std::size_t order = series[0].size() - 1;
   const auto size_of = [&](std::size_t k) {
@@ -45,7 +45,7 @@ double log2_step(const std::vector<std::vector<cln::cl_F>>& series, double log2_
   while (first < order && std::isinf(size_of(first))) ++first;
   const double size = size_of(first);
   double log2_radius = std::numeric_limits<double>::infinity();
-  for (std::size_t k = std::max(first + 1, order / 2); k <= order; ++k)
+  for (std::size_t k = std::max(first + 1, order - order / 4); k <= order; ++k)
     log2_radius = std::min(log2_radius, (size - size_of(k)) / static_cast<double>(k - first));
   return log2_radius +
          log2_tolerance / static_cast<double>(std::max<std::size_t>(order - first, 1));

@@ -24,13 +24,11 @@ struct Reference {
   unsigned long steps = 0;
 };
 
-/// Cost: about order^2 products of long numbers per multiplication of the program and step; 30
-/// digits of Kovalevskaya's top over 100 time units take 0.7 s.
-///
 /// Integrates from time 0 by Taylor series of high order over CLN floats, on the very program that
 /// the generated code is written from. Two runs, the second with more digits and order, and further
 /// ones (four at most) with as many more as were lost, until two agree to the digits asked for; if
-/// they never do, `error_bound` says so.
+/// they never do, `error_bound` says so. Cost: about order^2 products of long numbers for each
+/// multiplication of the program and step; order and steps grow like the digits.
 /// \param initial   one number for each state; exact numbers stay exact until they are rounded to
 ///                  the working precision.
 /// \param duration  may be negative or zero.
