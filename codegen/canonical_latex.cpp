@@ -43,7 +43,7 @@ class Typesetter {
 
   std::string scaled(const Scaled& e) const {
     if (e.node != Dag::kOne && dag_[e.node].kind == NodeKind::sum) {
-      if (e.coefficient == 1) return sum(dag_[e.node].terms, 1);
+      if (cln::abs(e.coefficient) == 1) return sum(dag_[e.node].terms, e.coefficient);
       // 1/2 (a + b) reads better than a/2 + b/2.
       return sign(e.coefficient) + term({cln::abs(e.coefficient), e.node});
     }
@@ -75,7 +75,8 @@ class Typesetter {
     std::string result;
     for (const Scaled& t : terms) {
       const cln::cl_RA c = t.coefficient * factor;
-      result += result.empty() ? sign(c) : cln::minusp(c) ? " - " : " + ";
+      if (result.empty()) result = sign(c);
+      else result += cln::minusp(c) ? " - " : " + ";
       result += term({cln::abs(c), t.node});
     }
     return result;

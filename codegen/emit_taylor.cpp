@@ -82,7 +82,8 @@ class TaylorWriter {
         unique_(context.names),
         varies_(program_.code.size(), false),
         series_(program_.code.size()),
-        fixed_(program_.code.size()) {
+        fixed_(program_.code.size()),
+        inlined_(program_.code.size()) {
     const std::size_t n = context.spec.states.size();
     for (std::size_t i = 0; i < program_.code.size(); ++i) {
       const Instruction& c = code(i);
@@ -97,8 +98,10 @@ class TaylorWriter {
   }
 
   std::string run() {
+    const std::vector<bool> kept = kept_values();
     for (std::size_t i = 0; i < program_.code.size(); ++i) {
-      if (varies_[i] && code(i).op != Op::input) write(i);
+      if (!varies_[i] || code(i).op == Op::input) continue;
+      kept[i] ? write(i) : static_cast<void>(inlined_[i] = sum_or_product(code(i)));
     }
     const std::string steps = state_steps();
     const std::string text = signature() + start() + fixed_values() + arrays_ +
@@ -140,14 +143,49 @@ class TaylorWriter {
   std::string fixed(int i) {
     std::string& name = fixed_[index(i)];
     if (name.empty()) {
+      const Instruction& c = code(index(i));
+      if (c.op == Op::constant) {
+        const NumberText number =
+            number_text(program_.constants[index(c.a)], context_.style.scalar);
+        if (number.is_plain && number.text[0] != '-') return name = number.text;
+      }
       name = unique_.unique("fixed_" + std::to_string(fixed_order_.size() + 1));
       fixed_order_.push_back(i);
     }
     return name;
   }
 
-  /// The current coefficient of an operand.
-  std::string term(int i) {
+  /// Whether a value must be kept for later powers of the time: as an operand of anything but a
+  /// sum, or because it is used more than once.
+  std::vector<bool> kept_values() const {
+    std::vector<int> uses(program_.code.size(), 0);
+    std::vector<bool> kept(program_.code.size(), false);
+    for (const int output : program_.outputs) ++uses[index(output)];
+    for (std::size_t i = 0; i < program_.code.size(); ++i) {
+      const Instruction& c = code(i);
+      if (c.op == Op::input || c.op == Op::constant || c.op == Op::pi) continue;
+      const bool linear = c.op == Op::add || c.op == Op::sub || c.op == Op::neg ||
+                          (c.op == Op::mul && !(varies_[index(c.a)] && varies_[index(c.b)]));
+      const bool itself = c.op != Op::mul && !linear;  // recurrences in their own coefficients
+      kept[i] = kept[i] || itself;
+      for (const int operand : {c.a, c.b}) {
+        if (operand < 0) continue;
+        ++uses[index(operand)];
+        if (!linear) kept[index(operand)] = true;
+      }
+    }
+    for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = kept[i] || uses[i] > 1;
+    return kept;
+  }
+
+  /// The current coefficient of an operand; in parentheses if it is a sum and they are needed.
+  std::string term(int i, bool needs_parentheses = false) {
+    const std::string& text = inlined_[index(i)];
+    if (!text.empty()) {
+      const Op op = code(index(i)).op;
+      const bool is_sum = op == Op::add || op == Op::sub || op == Op::neg;
+      return is_sum && needs_parentheses ? "(" + text + ")" : text;
+    }
     return varies_[index(i)] ? series_[index(i)] + "[degree]"
                              : "(degree == 0 ? " + fixed(i) + " : 0)";
   }
@@ -173,13 +211,10 @@ class TaylorWriter {
     series_[i] = y;
     switch (c.op) {
       case Op::add:
-        return assign(y, term(c.a) + " + " + term(c.b));
       case Op::sub:
-        return assign(y, term(c.a) + " - " + term(c.b));
       case Op::neg:
-        return assign(y, "-" + term(c.a));
       case Op::mul:
-        return assign(y, product(c));
+        return assign(y, sum_or_product(c));
       case Op::div:
         if (!varies_[index(c.b)]) return assign(y, term(c.a) + " / " + fixed(c.b));
         return assign(
@@ -189,9 +224,12 @@ class TaylorWriter {
     }
   }
 
-  std::string product(const Instruction& c) {
-    if (!varies_[index(c.a)]) return fixed(c.a) + " * " + term(c.b);
-    if (!varies_[index(c.b)]) return term(c.a) + " * " + fixed(c.b);
+  std::string sum_or_product(const Instruction& c) {
+    if (c.op == Op::add) return term(c.a) + " + " + term(c.b, true);
+    if (c.op == Op::sub) return term(c.a) + " - " + term(c.b, true);
+    if (c.op == Op::neg) return "-" + term(c.a, true);
+    if (!varies_[index(c.a)]) return fixed(c.a) + " * " + term(c.b, true);
+    if (!varies_[index(c.b)]) return term(c.a, true) + " * " + fixed(c.b);
     return call("taylor_product", series(c.a) + ", " + series(c.b));
   }
 
@@ -322,12 +360,12 @@ class TaylorWriter {
   }
 
   std::string state_steps() {
+    const std::string divisor = unique_.unique("next");
     std::string text = loop_.empty() ? "" : "\n";
+    text += "    const " + real() + " " + divisor + " = static_cast<" + real() + ">(degree + 1);\n";
     for (std::size_t i = 0; i < program_.outputs.size(); ++i) {
-      const std::string rate = term(program_.outputs[i]);
-      text += wrapped("    " + state(i) + "[degree + 1] = " + rate + " / static_cast<" + real() +
-                      ">(degree + 1);") +
-              "\n";
+      const std::string rate = term(program_.outputs[i], true);
+      text += wrapped("    " + state(i) + "[degree + 1] = " + rate + " / " + divisor + ";") + "\n";
     }
     for (std::size_t i = 0; i < program_.outputs.size(); ++i) {
       text += "    coefficients[dimension * (degree + 1) + " + std::to_string(i) +
@@ -343,6 +381,7 @@ class TaylorWriter {
   std::vector<std::string> series_;
   std::vector<std::string> fixed_;
   std::vector<int> fixed_order_;
+  std::vector<std::string> inlined_;
   std::map<int, std::pair<std::string, std::string>> pairs_;
   std::set<std::string> used_;
   std::string arrays_;

@@ -231,6 +231,28 @@ std::string input_locals(const Program& program, const std::vector<std::string>&
   return result.empty() ? "" : wrapped(result + ";") + "\n";
 }
 
+/// The space before an operator or after a comma where a line is best broken: in as few parentheses
+/// as possible, then far to the right.
+std::size_t break_before(const std::string& line, std::size_t indent, std::size_t width) {
+  std::size_t best = std::string::npos;
+  int least = 0;
+  int depth = 0;
+  for (std::size_t i = indent; i + 2 < line.size() && i <= width; ++i) {
+    depth += line[i] == '(' ? 1 : line[i] == ')' ? -1 : 0;
+    if (line[i] != ' ' || i <= indent + 1) continue;
+    const bool operator_follows =
+        std::string("+-*/").find(line[i + 1]) != std::string::npos && line[i + 2] == ' ';
+    if (!operator_follows && line[i - 1] != ',') continue;
+    // The left half of a line is a last resort.
+    const int cost = depth + (i < width / 2 ? 1000 : 0);
+    if (best == std::string::npos || cost <= least) {
+      best = i;
+      least = cost;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 std::vector<bool> used_inputs(const Program& program) {
@@ -260,22 +282,11 @@ std::string statements(const Program& program, const std::vector<std::string>& s
 }
 
 std::string wrapped(const std::string& text, std::size_t width) {
-  const std::size_t indent = text.find_first_not_of(' ');
-  const std::string continuation(indent + 4, ' ');
+  const std::string continuation(text.find_first_not_of(' ') + 4, ' ');
   std::string result;
   std::string rest = text;
   while (rest.size() > width) {
-    // Break before an operator or after a comma: at a space followed or preceded by one.
-    std::size_t place = std::string::npos;
-    for (std::size_t i = std::min(width, rest.size() - 1); i > continuation.size(); --i) {
-      const bool operator_follows = i + 2 < rest.size() &&
-                                    std::string("+-*/").find(rest[i + 1]) != std::string::npos &&
-                                    rest[i + 2] == ' ';
-      if (rest[i] == ' ' && (operator_follows || rest[i - 1] == ',')) {
-        place = i;
-        break;
-      }
-    }
+    const std::size_t place = break_before(rest, continuation.size(), width);
     if (place == std::string::npos) break;
     result += rest.substr(0, place) + "\n";
     rest = continuation + rest.substr(place + 1);
