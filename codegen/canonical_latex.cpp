@@ -100,11 +100,13 @@ class Typesetter {
   std::string power(const Node& base, const cln::cl_RA& exponent) const {
     const std::string inner = atom(base);
     if (exponent == cln::cl_RA(1) / 2) return "\\sqrt{" + inner + "}";
-    const bool compound = base.kind == NodeKind::sum || base.kind == NodeKind::product ||
-                          base.kind == NodeKind::function;
-    const std::string shell = base.kind == NodeKind::function && exponent == 1 ? inner
-                              : compound                                       ? bracketed(inner)
-                                                                               : inner;
+    // sin^2(x), as people write it.
+    if (base.kind == NodeKind::function && exponent != 1 && cln::denominator(exponent) == 1) {
+      const std::size_t end = inner.find("\\left(");
+      return inner.substr(0, end) + "^{" + shown(exponent) + "}" + inner.substr(end);
+    }
+    const bool compound = base.kind == NodeKind::sum || base.kind == NodeKind::product;
+    const std::string shell = compound ? bracketed(inner) : inner;
     return exponent == 1 ? shell : shell + "^{" + shown(exponent) + "}";
   }
 

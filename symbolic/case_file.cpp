@@ -67,7 +67,8 @@ class Reader {
   /// file as it is; otherwise (escapes, several lines) positions inside it are not known.
   static Text inside_quotes(Text text) {
     const std::size_t start = static_cast<std::size_t>(std::max(text.where.column, 1));
-    if (text.excerpt.compare(std::min(start, text.excerpt.size()), text.value.size(), text.value) == 0) {
+    if (text.excerpt.compare(std::min(start, text.excerpt.size()), text.value.size(), text.value) ==
+        0) {
       text.where.column += 1;
     }
     return text;
@@ -84,7 +85,8 @@ class Reader {
     }
   }
 
-  const toml::node& required(const toml::table& table, const char* key, const std::string& where) const {
+  const toml::node& required(const toml::table& table, const char* key,
+                             const std::string& where) const {
     const toml::node* node = table.get(key);
     if (node == nullptr) fail(table.source(), fmt::format("{} needs a key '{}'", where, key));
     return *node;
@@ -130,7 +132,8 @@ class Reader {
 
   std::vector<std::vector<Text>> matrix(const toml::table& table, const char* key) const {
     std::vector<std::vector<Text>> rows;
-    for (const toml::node& item : as_array(required(table, key, "[[lax]]"), fmt::format("'{}'", key))) {
+    for (const toml::node& item :
+         as_array(required(table, key, "[[lax]]"), fmt::format("'{}'", key))) {
       std::vector<Text> row;
       for (const toml::node& entry : as_array(item, fmt::format("each row of '{}'", key))) {
         row.push_back(text(entry, fmt::format("each entry of '{}'", key)));
@@ -138,7 +141,8 @@ class Reader {
       rows.push_back(std::move(row));
     }
     for (const std::vector<Text>& row : rows) {
-      if (row.size() != rows.size()) fail(table.get(key)->source(), fmt::format("'{}' must be square", key));
+      if (row.size() != rows.size())
+        fail(table.get(key)->source(), fmt::format("'{}' must be square", key));
     }
     return rows;
   }
@@ -147,7 +151,8 @@ class Reader {
   std::vector<Entry> entries(const toml::node& node, const std::string& what) const {
     std::vector<Entry> result;
     for (const auto& [key, value] : as_table(node, what)) {
-      result.emplace_back(key_text(key), text(value, fmt::format("'{}'", printable(std::string(key.str())))));
+      result.emplace_back(key_text(key),
+                          text(value, fmt::format("'{}'", printable(std::string(key.str())))));
     }
     std::sort(result.begin(), result.end(), [](const Entry& a, const Entry& b) {
       return std::pair(a.first.where.line, a.first.where.column) <
@@ -182,7 +187,8 @@ class Reader {
 
 PhaseSpaceText Reader::phase_space(const toml::table& table, const std::string& what) const {
   allow(table, what,
-        {"variables", "algebra", "canonical", "brackets", "structure_constants", "sign", "domain", "time"});
+        {"variables", "algebra", "canonical", "brackets", "structure_constants", "sign", "domain",
+         "time"});
   PhaseSpaceText space;
   space.where = place(table.source());
   required(table, "variables", what);
@@ -222,7 +228,8 @@ MapText Reader::map(const toml::table& table, const std::string& what) const {
 }
 
 SceneText Reader::scene(const toml::table& table, const std::string& what) const {
-  allow(table, what, {"name", "parameters", "initial", "duration", "observe", "extreme", "reference"});
+  allow(table, what,
+        {"name", "parameters", "initial", "duration", "observe", "extreme", "reference"});
   SceneText result;
   result.name = text(required(table, "name", what), "'name'");
   result.parameters = optional_entries(table, "parameters");
@@ -291,7 +298,8 @@ CaseFile Reader::read(const toml::table& root) {
   });
   each(root, "lax", [&](const toml::table& table, const std::string& what) {
     allow(table, what, {"spectral", "L", "A"});
-    result.lax.push_back({optional_text(table, "spectral"), matrix(table, "L"), matrix(table, "A")});
+    result.lax.push_back(
+        {optional_text(table, "spectral"), matrix(table, "L"), matrix(table, "A")});
   });
   each(root, "map", [&](const toml::table& table, const std::string& what) {
     result.maps.push_back(map(table, what));

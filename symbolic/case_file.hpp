@@ -17,7 +17,8 @@ struct Text {
   std::string excerpt;  ///< the source line, if `value` stands in it unchanged
 
   /// The error that something is wrong at `offset` bytes into this text.
-  CaseError error(const std::string& what, std::size_t offset = 0, const std::string& hint = {}) const;
+  CaseError error(const std::string& what, std::size_t offset = 0,
+                  const std::string& hint = {}) const;
 };
 
 using Entry = std::pair<Text, Text>;  ///< key and value
@@ -48,8 +49,8 @@ struct LaxText {
 
 struct MapText {
   Text name;
-  std::optional<Text> to;                    ///< an algebra or a case
-  std::optional<PhaseSpaceText> to_table;    ///< or a phase space written out
+  std::optional<Text> to;                  ///< an algebra or a case
+  std::optional<PhaseSpaceText> to_table;  ///< or a phase space written out
   std::vector<Entry> expressions;
   std::vector<Text> on;
   std::optional<Text> sign;

@@ -22,9 +22,11 @@ std::string message(const Location& where, const std::string& text, const std::s
     const std::size_t at = std::min<std::size_t>(where.column - 1, excerpt.size());
     const std::size_t from = at > kWidth / 2 && excerpt.size() > kWidth ? at - kWidth / 2 : 0;
     const std::string head = printable(excerpt.substr(from, at - from), kWidth);
-    const std::string tail = printable(excerpt.substr(at), kWidth - std::min(kWidth, head.size()) + 3);
+    const std::string tail =
+        printable(excerpt.substr(at), kWidth - std::min(kWidth, head.size()) + 3);
     const char* const cut = from > 0 ? "..." : "";
-    result += fmt::format("\n  {}{}{}\n  {:>{}}", cut, head, tail, '^', head.size() + std::strlen(cut) + 1);
+    result += fmt::format("\n  {}{}{}\n  {:>{}}", cut, head, tail, '^',
+                          head.size() + std::strlen(cut) + 1);
   }
   if (!hint.empty()) result += "\n  hint: " + hint;
   return result;
@@ -48,7 +50,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 std::size_t utf8_length(const std::string& text, std::size_t i) {
   const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
   const unsigned char lead = byte(i);
-  const std::size_t length = lead < 0x80                  ? 1
+  const std::size_t length = lead < 0x80                   ? 1
                              : lead >= 0xC2 && lead < 0xE0 ? 2
                              : lead >= 0xE0 && lead < 0xF0 ? 3
                              : lead >= 0xF0 && lead < 0xF5 ? 4
@@ -89,11 +91,13 @@ std::string printable(const std::string& text, std::size_t limit) {
     const std::size_t length = utf8_length(text, i);
     const unsigned char lead = static_cast<unsigned char>(text[i]);
     // C0 and C1 control characters can drive a terminal; so can a raw 0x80..0x9f.
-    const bool control = lead < 0x20 || lead == 0x7F ||
-                         (length == 2 && lead == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0);
+    const bool control =
+        lead < 0x20 || lead == 0x7F ||
+        (length == 2 && lead == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0);
     if (length == 0 || control) {
       result += fmt::format("\\x{:02x}", lead);
-      if (control && length == 2) result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[i + 1]));
+      if (control && length == 2)
+        result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[i + 1]));
       i += std::max<std::size_t>(length, 1);
     } else {
       result += text.substr(i, length);

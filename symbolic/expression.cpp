@@ -99,16 +99,21 @@ class Parser {
   std::string here() {
     if (peek() == '\0' && at_ >= end_) return "end of the expression";
     std::size_t length = 1;
-    while (at_ + length < end_ && (static_cast<unsigned char>(text_.value[at_ + length]) & 0xC0) == 0x80) {
+    while (at_ + length < end_ &&
+           (static_cast<unsigned char>(text_.value[at_ + length]) & 0xC0) == 0x80) {
       ++length;  // the rest of a UTF-8 sequence
     }
     return "'" + printable(text_.value.substr(at_, length)) + "'";
   }
 
   Quantity checked(Quantity q, std::size_t offset) const {
-    if (q.degree > kMaxDegree) fail_at(offset, fmt::format("the degree here exceeds {:.0f}", kMaxDegree));
-    if (q.bits > kMaxBits) fail_at(offset, fmt::format("a number here would have more than {:.0f} bits", kMaxBits));
-    if (q.nodes > kMaxNodes) fail_at(offset, fmt::format("the expression has more than {:.0f} terms and factors", kMaxNodes));
+    if (q.degree > kMaxDegree)
+      fail_at(offset, fmt::format("the degree here exceeds {:.0f}", kMaxDegree));
+    if (q.bits > kMaxBits)
+      fail_at(offset, fmt::format("a number here would have more than {:.0f} bits", kMaxBits));
+    if (q.nodes > kMaxNodes)
+      fail_at(offset,
+              fmt::format("the expression has more than {:.0f} terms and factors", kMaxNodes));
     return q;
   }
 
@@ -126,7 +131,8 @@ class Parser {
       checked({0, 0, total.degree, total.nodes}, offset);
     }
     if (terms.size() > 1) {
-      total.bits -= static_cast<double>(terms.size()) - 1 - std::ceil(std::log2(static_cast<double>(terms.size())));
+      total.bits -= static_cast<double>(terms.size()) - 1 -
+                    std::ceil(std::log2(static_cast<double>(terms.size())));
       total.value = GiNaC::add(terms);
     }
     return total;
@@ -137,7 +143,8 @@ class Parser {
     GiNaC::exvector factors{total.value};
     for (char c = peek(); c == '*' || c == '/'; c = peek()) {
       const std::size_t offset = at_++;
-      if (c == '*' && at_ < end_ && text_.value[at_] == '*') fail("unexpected '**'", "write a power as x^2");
+      if (c == '*' && at_ < end_ && text_.value[at_] == '*')
+        fail("unexpected '**'", "write a power as x^2");
       const Quantity next = unary();
       if (c == '/' && next.value.is_zero()) fail_at(offset, "division by zero");
       factors.push_back(c == '*' ? next.value : GiNaC::pow(next.value, -1));
@@ -169,7 +176,8 @@ class Parser {
     Quantity q{0, base.bits, base.degree, base.nodes + exponent.nodes};
     if (GiNaC::is_a<GiNaC::numeric>(exponent.value)) {
       const GiNaC::numeric e = GiNaC::ex_to<GiNaC::numeric>(exponent.value);
-      if (base.value.is_zero() && !e.is_positive()) fail_at(offset, "zero to a power that is not positive");
+      if (base.value.is_zero() && !e.is_positive())
+        fail_at(offset, "zero to a power that is not positive");
       const double size = std::max(1.0, std::abs(e.to_double()));
       q.bits *= size;
       q.degree *= size;
@@ -227,12 +235,16 @@ class Parser {
       mantissa += fraction;
     }
     if (mantissa.empty()) fail_at(start, "a decimal point without digits");
-    if (at_ < end_ && (text_.value[at_] == 'e' || text_.value[at_] == 'E')) exponent += exponent_part(start);
-    if (at_ < end_ && is_name_start(text_.value[at_])) fail("unexpected " + here() + " after a number", "write products with '*'");
-    const double bits = (static_cast<double>(mantissa.size()) + std::abs(static_cast<double>(exponent))) * 3.33;
+    if (at_ < end_ && (text_.value[at_] == 'e' || text_.value[at_] == 'E'))
+      exponent += exponent_part(start);
+    if (at_ < end_ && is_name_start(text_.value[at_]))
+      fail("unexpected " + here() + " after a number", "write products with '*'");
+    const double bits =
+        (static_cast<double>(mantissa.size()) + std::abs(static_cast<double>(exponent))) * 3.33;
     checked({0, bits, 0, 1}, start);
     const GiNaC::numeric digits_value(mantissa.c_str());
-    const GiNaC::numeric value = digits_value * GiNaC::pow(GiNaC::numeric(10), GiNaC::numeric(exponent));
+    const GiNaC::numeric value =
+        digits_value * GiNaC::pow(GiNaC::numeric(10), GiNaC::numeric(exponent));
     return {value, std::max(1.0, bit_length(value)), 0, 1};
   }
 
@@ -242,7 +254,8 @@ class Parser {
     if (at_ < end_ && (text_.value[at_] == '-' || text_.value[at_] == '+')) ++at_;
     const std::string value = digits();
     if (value.empty()) fail_at(start, "a number with an empty exponent");
-    if (value.size() > 6) fail_at(start, fmt::format("a number here would have more than {:.0f} bits", kMaxBits));
+    if (value.size() > 6)
+      fail_at(start, fmt::format("a number here would have more than {:.0f} bits", kMaxBits));
     return (negative ? -1 : 1) * std::stol(value);
   }
 
@@ -254,16 +267,19 @@ class Parser {
     if (peek() == '(' && names_.find(word) == nullptr) {
       std::vector<std::string> functions;
       for (const Function& f : kFunctions) functions.emplace_back(f.name);
-      fail_at(start, fmt::format("unknown function '{}'", printable(word)), suggest(word, functions));
+      fail_at(start, fmt::format("unknown function '{}'", printable(word)),
+              suggest(word, functions));
     }
     if (word == "Pi") return {GiNaC::Pi, 1, 0, 1};
     if (word == "I") return {GiNaC::I, 1, 0, 1};
     if (const Quantity* known = names_.find(word)) return *known;
-    fail_at(start, fmt::format("'{}' is not declared", printable(word)), suggest(word, names_.known()));
+    fail_at(start, fmt::format("'{}' is not declared", printable(word)),
+            suggest(word, names_.known()));
   }
 
   Quantity call(const Function& function, std::size_t start) {
-    if (!accept('(')) fail_at(start, fmt::format("'{}' is a function and needs '('", function.name));
+    if (!accept('('))
+      fail_at(start, fmt::format("'{}' is a function and needs '('", function.name));
     std::vector<Quantity> arguments;
     if (peek() != ')') {
       do {
@@ -272,12 +288,13 @@ class Parser {
     }
     if (!accept(')')) fail("unexpected " + here() + ", expected ',' or ')'");
     if (arguments.size() != function.arity) {
-      fail_at(start, fmt::format("'{}' takes {} argument{}, {} given", function.name, function.arity,
-                                 function.arity == 1 ? "" : "s", arguments.size()));
+      fail_at(start, fmt::format("'{}' takes {} argument{}, {} given", function.name,
+                                 function.arity, function.arity == 1 ? "" : "s", arguments.size()));
     }
     const Quantity& first = arguments.front();
     const Quantity& last = arguments.back();
-    Quantity q{0, first.bits + last.bits, std::max(1.0, first.degree + last.degree), 1 + first.nodes + last.nodes};
+    Quantity q{0, first.bits + last.bits, std::max(1.0, first.degree + last.degree),
+               1 + first.nodes + last.nodes};
     q.value = evaluated(start, [&] { return function.apply(first.value, last.value); });
     return checked(q, start);
   }
@@ -291,24 +308,45 @@ class Parser {
 
 Quantity parse_range(const Text& text, Names& names, std::size_t begin, std::size_t end) {
   if (text.value.size() > kMaxExpressionBytes) {
-    throw text.error(fmt::format("the expression has {} bytes; the limit is {}", text.value.size(), kMaxExpressionBytes));
+    throw text.error(fmt::format("the expression has {} bytes; the limit is {}", text.value.size(),
+                                 kMaxExpressionBytes));
   }
   return Parser(text, names, begin, end).parse();
 }
 
 const std::set<std::string_view>& cpp_keywords() {
   static const std::set<std::string_view> words = {
-      "alignas", "alignof", "and", "and_eq", "asm", "auto", "bitand", "bitor", "bool", "break",
-      "case", "catch", "char", "char8_t", "char16_t", "char32_t", "class", "compl", "concept",
-      "const", "consteval", "constexpr", "constinit", "const_cast", "continue", "co_await",
-      "co_return", "co_yield", "decltype", "default", "delete", "do", "double", "dynamic_cast",
-      "else", "enum", "explicit", "export", "extern", "false", "float", "for", "friend", "goto",
-      "if", "inline", "int", "long", "mutable", "namespace", "new", "noexcept", "not", "not_eq",
-      "nullptr", "operator", "or", "or_eq", "private", "protected", "public", "register",
-      "reinterpret_cast", "requires", "return", "short", "signed", "sizeof", "static",
-      "static_assert", "static_cast", "struct", "switch", "template", "this", "thread_local",
-      "throw", "true", "try", "typedef", "typeid", "typename", "union", "unsigned", "using",
-      "virtual", "void", "volatile", "wchar_t", "while", "xor", "xor_eq"};
+      "alignas",       "alignof",     "and",
+      "and_eq",        "asm",         "auto",
+      "bitand",        "bitor",       "bool",
+      "break",         "case",        "catch",
+      "char",          "char8_t",     "char16_t",
+      "char32_t",      "class",       "compl",
+      "concept",       "const",       "consteval",
+      "constexpr",     "constinit",   "const_cast",
+      "continue",      "co_await",    "co_return",
+      "co_yield",      "decltype",    "default",
+      "delete",        "do",          "double",
+      "dynamic_cast",  "else",        "enum",
+      "explicit",      "export",      "extern",
+      "false",         "float",       "for",
+      "friend",        "goto",        "if",
+      "inline",        "int",         "long",
+      "mutable",       "namespace",   "new",
+      "noexcept",      "not",         "not_eq",
+      "nullptr",       "operator",    "or",
+      "or_eq",         "private",     "protected",
+      "public",        "register",    "reinterpret_cast",
+      "requires",      "return",      "short",
+      "signed",        "sizeof",      "static",
+      "static_assert", "static_cast", "struct",
+      "switch",        "template",    "this",
+      "thread_local",  "throw",       "true",
+      "try",           "typedef",     "typeid",
+      "typename",      "union",       "unsigned",
+      "using",         "virtual",     "void",
+      "volatile",      "wchar_t",     "while",
+      "xor",           "xor_eq"};
   return words;
 }
 
@@ -356,7 +394,8 @@ void check_name(const Text& name, const std::string& what) {
                      "a name is an ASCII letter or '_', then letters, digits and '_'");
   }
   if (s.size() > kMaxNameLength) {
-    throw name.error(fmt::format("the name '{}' is longer than {} characters", shown, kMaxNameLength));
+    throw name.error(
+        fmt::format("the name '{}' is longer than {} characters", shown, kMaxNameLength));
   }
   if (find_function(s) != nullptr || s == "Pi" || s == "I") {
     throw name.error(fmt::format("'{}' is a function or constant and cannot name {}", s, what));

@@ -17,16 +17,20 @@ constexpr double kMaxTerms = 5e6;
 constexpr long kMaxMultiple = 64;
 
 cln::cl_RA rational(const GiNaC::numeric& number) {
-  if (!number.is_rational()) throw ModelError("a number that is not rational in an exact expression");
+  if (!number.is_rational())
+    throw ModelError("a number that is not rational in an exact expression");
   return cln::the<cln::cl_RA>(number.to_cl_N());
 }
 
 /// log of binomial(n + k, k): the number of terms of a general polynomial.
-double log_binomial(double n, double k) { return std::lgamma(n + k + 1) - std::lgamma(n + 1) - std::lgamma(k + 1); }
+double log_binomial(double n, double k) {
+  return std::lgamma(n + k + 1) - std::lgamma(n + 1) - std::lgamma(k + 1);
+}
 
 }  // namespace
 
-FunctionRing::FunctionRing(std::vector<GiNaC::symbol> symbols, const std::vector<Assumption>& assumptions,
+FunctionRing::FunctionRing(std::vector<GiNaC::symbol> symbols,
+                           const std::vector<Assumption>& assumptions,
                            const std::vector<ex>& expressions)
     : symbols_(std::move(symbols)), assumptions_(assumptions) {
   build(expressions);
@@ -84,7 +88,8 @@ Polynomial FunctionRing::convert_new(const ex& e) {
     const Polynomial minus_one = ring_->constant(-1);
     const Polynomial i = find(Kind::imaginary, minus_one, 2, &index) != nullptr
                              ? ring_->variable(symbols_.size() + index)
-                             : generator(Kind::imaginary, GiNaC::I, minus_one, 2, [&](const Polynomial&) { return Polynomial(*ring_); });
+                             : generator(Kind::imaginary, GiNaC::I, minus_one, 2,
+                                         [&](const Polynomial&) { return Polynomial(*ring_); });
     return ring_->constant(rational(number.real())) + i.scaled(rational(number.imag()));
   }
   if (GiNaC::is_a<GiNaC::add>(e)) {
@@ -102,8 +107,10 @@ Polynomial FunctionRing::convert_new(const ex& e) {
   if (GiNaC::is_a<GiNaC::constant>(e)) {
     const Polynomial one = ring_->constant(1);
     std::size_t index = 0;
-    if (find(Kind::function, one, 0, &index) != nullptr) return ring_->variable(symbols_.size() + index);
-    return generator(Kind::function, e, one, 0, [&](const Polynomial&) { return Polynomial(*ring_); });
+    if (find(Kind::function, one, 0, &index) != nullptr)
+      return ring_->variable(symbols_.size() + index);
+    return generator(Kind::function, e, one, 0,
+                     [&](const Polynomial&) { return Polynomial(*ring_); });
   }
   throw ModelError("an expression that exact algebra does not know");
 }
@@ -116,18 +123,21 @@ Polynomial FunctionRing::checked_product(const Polynomial& a, const Polynomial& 
 }
 
 Polynomial FunctionRing::power(const Polynomial& p, unsigned long exponent) const {
-  if (p.terms() > 1 && log_binomial(static_cast<double>(p.terms()) - 1, static_cast<double>(exponent)) > std::log(kMaxTerms)) {
+  if (p.terms() > 1 && log_binomial(static_cast<double>(p.terms()) - 1,
+                                    static_cast<double>(exponent)) > std::log(kMaxTerms)) {
     // The bound by the number of monomials of that degree may be smaller.
     double used = 0;
     for (std::size_t i = 0; i < ring_->size(); ++i) used += p.uses(i) ? 1 : 0;
     const double degree = static_cast<double>(p.total_degree()) * static_cast<double>(exponent);
-    if (log_binomial(used, degree) > std::log(kMaxTerms)) throw TooLarge("an expanded power would have too many terms");
+    if (log_binomial(used, degree) > std::log(kMaxTerms))
+      throw TooLarge("an expanded power would have too many terms");
   }
   return p.pow(exponent);
 }
 
 Polynomial FunctionRing::convert_power(const ex& base, const ex& exponent) {
-  if (!GiNaC::is_a<GiNaC::numeric>(exponent)) return convert(GiNaC::exp(exponent * GiNaC::log(base)));
+  if (!GiNaC::is_a<GiNaC::numeric>(exponent))
+    return convert(GiNaC::exp(exponent * GiNaC::log(base)));
   const cln::cl_RA e = rational(GiNaC::ex_to<GiNaC::numeric>(exponent));
   const Polynomial b = convert(base);
   const cln::cl_I whole = cln::floor1(e);
@@ -155,8 +165,10 @@ Polynomial FunctionRing::convert_function(const GiNaC::function& f) {
   const Polynomial one = ring_->constant(1);
   const auto opaque = [&](const Polynomial& factor, const Polynomial& key, unsigned long tag) {
     std::size_t index = 0;
-    if (find(Kind::function, key, tag, &index) != nullptr) return ring_->variable(symbols_.size() + index);
-    return generator(Kind::function, f, key, tag, [&](const Polynomial& slope) { return slope * factor; });
+    if (find(Kind::function, key, tag, &index) != nullptr)
+      return ring_->variable(symbols_.size() + index);
+    return generator(Kind::function, f, key, tag,
+                     [&](const Polynomial& slope) { return slope * factor; });
   };
   if (name == "log") return opaque(inverse(v), v, 1);
   if (name == "atan") return opaque(inverse(one + v * v), v, 2);
@@ -173,14 +185,16 @@ Polynomial FunctionRing::convert_function(const GiNaC::function& f) {
     for (std::size_t i = 0; i < symbols_.size(); ++i) {
       derivatives.push_back((x * derivative(v, i) - v * derivative(x, i)) * scale);
     }
-    const Polynomial g = generator(Kind::function, f, one, 5, [&](const Polynomial&) { return Polynomial(*ring_); });
+    const Polynomial g =
+        generator(Kind::function, f, one, 5, [&](const Polynomial&) { return Polynomial(*ring_); });
     generators_.back().derivatives = std::move(derivatives);
     return g;
   }
   throw ModelError("the function " + name + " has no derivation here");
 }
 
-const FunctionRing::Generator* FunctionRing::find(Kind kind, const Polynomial& base, unsigned long order, std::size_t* index) const {
+const FunctionRing::Generator* FunctionRing::find(Kind kind, const Polynomial& base,
+                                                  unsigned long order, std::size_t* index) const {
   for (std::size_t i = 0; i < generators_.size(); ++i) {
     const Generator& g = generators_[i];
     if (g.kind == kind && g.order == order && g.base == base) {
@@ -197,8 +211,9 @@ std::vector<Polynomial> FunctionRing::slopes(const Polynomial& p) const {
   return result;
 }
 
-Polynomial FunctionRing::generator(Kind kind, const ex& value, const Polynomial& base, unsigned long order,
-                                   const std::function<Polynomial(const Polynomial& slope)>& derivative_of) {
+Polynomial FunctionRing::generator(
+    Kind kind, const ex& value, const Polynomial& base, unsigned long order,
+    const std::function<Polynomial(const Polynomial& slope)>& derivative_of) {
   if (generators_.size() == capacity_) {
     capacity_ = capacity_ == 0 ? 4 : capacity_ + capacity_ / 2;
     throw Full{};
@@ -233,7 +248,8 @@ std::pair<Polynomial, Polynomial> FunctionRing::fraction(const Polynomial& p) co
     const std::vector<Polynomial> parts = top.coefficients(symbols_.size() + g);
     if (parts.size() == 1) continue;
     Polynomial sum = parts[0];
-    for (std::size_t k = 1; k < parts.size(); ++k) sum = checked_product(sum, generators_[g].base) + parts[k];
+    for (std::size_t k = 1; k < parts.size(); ++k)
+      sum = checked_product(sum, generators_[g].base) + parts[k];
     top = std::move(sum);
     bottom = checked_product(bottom, generators_[g].base.pow(parts.size() - 1));
   }
@@ -250,9 +266,10 @@ Polynomial FunctionRing::numerator(const Polynomial& p) const {
     const std::vector<Polynomial> parts = result.coefficients(variable);
     Polynomial reduced(*ring_);
     if (generator.kind == Kind::inverse) {
-      for (const Polynomial& part : parts) reduced = checked_product(reduced, generator.base) + part;
-    } else if (generator.kind == Kind::cosine || generator.kind == Kind::root || generator.kind == Kind::absolute ||
-               generator.kind == Kind::imaginary) {
+      for (const Polynomial& part : parts)
+        reduced = checked_product(reduced, generator.base) + part;
+    } else if (generator.kind == Kind::cosine || generator.kind == Kind::root ||
+               generator.kind == Kind::absolute || generator.kind == Kind::imaginary) {
       const Polynomial x = ring_->variable(variable);
       for (std::size_t k = parts.size(); k-- > 0;) {
         reduced += parts[k] * generator.base.pow(k / generator.order) * x.pow(k % generator.order);
@@ -268,7 +285,8 @@ Polynomial FunctionRing::numerator(const Polynomial& p) const {
 /// The generators 1/f of the irreducible factors f of a denominator.
 Polynomial FunctionRing::inverse(const Polynomial& p) {
   const auto [top, bottom] = fraction(p);
-  if (numerator(top).is_zero()) throw ModelError("division by an expression that is identically zero");
+  if (numerator(top).is_zero())
+    throw ModelError("division by an expression that is identically zero");
   Polynomial result = bottom;
   for (const auto& [factor, exponent] : top.factors()) {
     if (factor.is_constant()) {
@@ -280,7 +298,8 @@ Polynomial FunctionRing::inverse(const Polynomial& p) {
     if (find(Kind::inverse, factor, 1, &index) != nullptr) {
       y = ring_->variable(symbols_.size() + index);
     } else {
-      const Polynomial next = ring_->variable(std::min(symbols_.size() + generators_.size(), ring_->size() - 1));
+      const Polynomial next =
+          ring_->variable(std::min(symbols_.size() + generators_.size(), ring_->size() - 1));
       y = generator(Kind::inverse, 1 / expression(factor), factor, 1,
                     [&](const Polynomial& slope) { return -(slope * next * next); });
     }
@@ -303,11 +322,14 @@ Polynomial FunctionRing::absolute(const Polynomial& p) {
   if (sign != 0) return sign > 0 ? p : -p;
   std::size_t index = 0;
   const Polynomial square = p * p;
-  if (find(Kind::absolute, square, 2, &index) != nullptr) return ring_->variable(symbols_.size() + index);
+  if (find(Kind::absolute, square, 2, &index) != nullptr)
+    return ring_->variable(symbols_.size() + index);
   const Polynomial over = inverse(square);
-  const Polynomial next = ring_->variable(std::min(symbols_.size() + generators_.size(), ring_->size() - 1));
-  return generator(Kind::absolute, GiNaC::sqrt(expression(square)), square, 2,
-                   [&](const Polynomial& slope) { return (slope * next * over).scaled(cln::cl_RA(1) / 2); });
+  const Polynomial next =
+      ring_->variable(std::min(symbols_.size() + generators_.size(), ring_->size() - 1));
+  return generator(
+      Kind::absolute, GiNaC::sqrt(expression(square)), square, 2,
+      [&](const Polynomial& slope) { return (slope * next * over).scaled(cln::cl_RA(1) / 2); });
 }
 
 /// p^(1/q): over a common denominator, and with q-th powers taken out of the radicand.
@@ -352,7 +374,8 @@ Polynomial FunctionRing::number_root(const cln::cl_RA& r, unsigned long q) {
   Polynomial result = ring_->constant(1 / cln::cl_RA(denominator));
   const auto take = [&](const cln::cl_I& p, unsigned long times) {
     result = result.scaled(cln::expt(p, cln::cl_I(times / q)));
-    if (times % q != 0) result = checked_product(result, plain_root(ring_->constant(p), q).pow(times % q));
+    if (times % q != 0)
+      result = checked_product(result, plain_root(ring_->constant(p), q).pow(times % q));
   };
   constexpr long kTrialDivisors = 2000;
   for (long p = 2; p < kTrialDivisors && rest > 1; ++p) {
@@ -368,21 +391,28 @@ Polynomial FunctionRing::number_root(const cln::cl_RA& r, unsigned long q) {
 
 Polynomial FunctionRing::plain_root(const Polynomial& radicand, unsigned long q) {
   std::size_t index = 0;
-  if (find(Kind::root, radicand, q, &index) != nullptr) return ring_->variable(symbols_.size() + index);
+  if (find(Kind::root, radicand, q, &index) != nullptr)
+    return ring_->variable(symbols_.size() + index);
   const Polynomial over = radicand.is_constant() ? radicand : inverse(radicand);
-  const Polynomial next = ring_->variable(std::min(symbols_.size() + generators_.size(), ring_->size() - 1));
-  return generator(Kind::root, GiNaC::pow(expression(radicand), GiNaC::numeric(1, static_cast<long>(q))), radicand, q,
-                   [&](const Polynomial& slope) { return (slope * next * over).scaled(cln::cl_RA(1) / static_cast<long>(q)); });
+  const Polynomial next =
+      ring_->variable(std::min(symbols_.size() + generators_.size(), ring_->size() - 1));
+  return generator(Kind::root,
+                   GiNaC::pow(expression(radicand), GiNaC::numeric(1, static_cast<long>(q))),
+                   radicand, q, [&](const Polynomial& slope) {
+                     return (slope * next * over).scaled(cln::cl_RA(1) / static_cast<long>(q));
+                   });
 }
 
 /// The unit m/L of a monomial m in an angle or exponent, and how often the term contains it.
-std::pair<Polynomial, cln::cl_I> FunctionRing::unit_of(const std::vector<unsigned long>& monomial, const cln::cl_RA& coefficient) {
+std::pair<Polynomial, cln::cl_I> FunctionRing::unit_of(const std::vector<unsigned long>& monomial,
+                                                       const cln::cl_RA& coefficient) {
   Polynomial m = ring_->constant(1);
   for (std::size_t i = 0; i < monomial.size(); ++i) {
     if (monomial[i] > 0) m *= ring_->variable(i).pow(monomial[i]);
   }
   const ex key = expression(m);
-  auto it = std::find_if(units_.begin(), units_.end(), [&](const auto& unit) { return unit.first.is_equal(key); });
+  auto it = std::find_if(units_.begin(), units_.end(),
+                         [&](const auto& unit) { return unit.first.is_equal(key); });
   if (it == units_.end()) {
     units_.emplace_back(key, cln::denominator(coefficient));
     it = units_.end() - 1;
@@ -447,7 +477,8 @@ Polynomial FunctionRing::exponential(const Polynomial& exponent) {
     if (find(Kind::exponential, unit, 1, &index) != nullptr) {
       e = ring_->variable(symbols_.size() + index);
     } else {
-      const Polynomial next = ring_->variable(std::min(symbols_.size() + generators_.size(), ring_->size() - 1));
+      const Polynomial next =
+          ring_->variable(std::min(symbols_.size() + generators_.size(), ring_->size() - 1));
       e = generator(Kind::exponential, GiNaC::exp(expression(unit)), unit, 1,
                     [&](const Polynomial& slope) { return slope * next; });
     }
@@ -463,7 +494,8 @@ ex FunctionRing::expression(const Polynomial& p) const {
     GiNaC::exvector factors{GiNaC::numeric(coefficient)};
     for (std::size_t i = 0; i < exponents.size(); ++i) {
       if (exponents[i] == 0) continue;
-      const ex base = i < symbols_.size() ? ex(symbols_[i]) : generators_[i - symbols_.size()].value;
+      const ex base =
+          i < symbols_.size() ? ex(symbols_[i]) : generators_[i - symbols_.size()].value;
       factors.push_back(GiNaC::pow(base, static_cast<long>(exponents[i])));
     }
     terms.push_back(GiNaC::mul(factors));
@@ -478,13 +510,15 @@ std::string FunctionRing::text(const Polynomial& p) const {
     for (std::size_t i = 0; i < exponents.size(); ++i) {
       if (exponents[i] == 0) continue;
       if (!factors.empty()) factors += "*";
-      factors += i < symbols_.size() ? symbols_[i].get_name() : name(generators_[i - symbols_.size()]);
+      factors +=
+          i < symbols_.size() ? symbols_[i].get_name() : name(generators_[i - symbols_.size()]);
       if (exponents[i] > 1) factors += "^" + std::to_string(exponents[i]);
     }
     std::ostringstream number;
     number << cln::abs(coefficient);
     const bool unit = cln::abs(coefficient) == 1 && !factors.empty();
-    const std::string sign = cln::minusp(coefficient) ? (result.empty() ? "-" : " - ") : (result.empty() ? "" : " + ");
+    const std::string sign =
+        cln::minusp(coefficient) ? (result.empty() ? "-" : " - ") : (result.empty() ? "" : " + ");
     result += sign + (unit ? "" : number.str()) + (unit || factors.empty() ? "" : "*") + factors;
   }
   return result.empty() ? "0" : result;
@@ -502,7 +536,8 @@ std::string FunctionRing::name(const Generator& g) const {
     case Kind::exponential:
       return "exp(" + text(g.base) + ")";
     case Kind::root:
-      return g.order == 2 ? "sqrt(" + text(g.base) + ")" : "(" + text(g.base) + ")^(1/" + std::to_string(g.order) + ")";
+      return g.order == 2 ? "sqrt(" + text(g.base) + ")"
+                          : "(" + text(g.base) + ")^(1/" + std::to_string(g.order) + ")";
     case Kind::inverse:
       return "(1/(" + text(g.base) + "))";
     case Kind::absolute:
@@ -517,7 +552,8 @@ std::string FunctionRing::name(const Generator& g) const {
   return stream.str();
 }
 
-bool FunctionRing::complete(std::vector<cln::cl_RA>& point, const std::function<cln::cl_RA()>& draw) const {
+bool FunctionRing::complete(std::vector<cln::cl_RA>& point,
+                            const std::function<cln::cl_RA()>& draw) const {
   point.resize(ring_->size(), 0);
   for (std::size_t g = 0; g < generators_.size(); ++g) {
     const Generator& generator = generators_[g];

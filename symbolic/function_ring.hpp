@@ -79,8 +79,8 @@ class FunctionRing {
   struct Generator {
     Kind kind;
     GiNaC::ex value;
-    Polynomial base;          ///< radicand, denominator or argument
-    unsigned long order = 1;  ///< q of a root
+    Polynomial base;                      ///< radicand, denominator or argument
+    unsigned long order = 1;              ///< q of a root
     std::vector<Polynomial> derivatives;  ///< with respect to each symbol
   };
   struct Full {};  ///< more generators are needed than the ring has room for
@@ -89,9 +89,11 @@ class FunctionRing {
   Polynomial convert_new(const GiNaC::ex& e);
   Polynomial convert_power(const GiNaC::ex& base, const GiNaC::ex& exponent);
   Polynomial convert_function(const GiNaC::function& f);
-  Polynomial generator(Kind kind, const GiNaC::ex& value, const Polynomial& base, unsigned long order,
+  Polynomial generator(Kind kind, const GiNaC::ex& value, const Polynomial& base,
+                       unsigned long order,
                        const std::function<Polynomial(const Polynomial& slope)>& derivative_of);
-  const Generator* find(Kind kind, const Polynomial& base, unsigned long order, std::size_t* index) const;
+  const Generator* find(Kind kind, const Polynomial& base, unsigned long order,
+                        std::size_t* index) const;
   std::string name(const Generator& g) const;
   std::vector<Polynomial> slopes(const Polynomial& p) const;
   Polynomial checked_product(const Polynomial& a, const Polynomial& b) const;
@@ -105,7 +107,8 @@ class FunctionRing {
   std::pair<Polynomial, Polynomial> sine_cosine(const Polynomial& angle);
   Polynomial exponential(const Polynomial& exponent);
   std::pair<Polynomial, Polynomial> fraction(const Polynomial& p) const;
-  std::pair<Polynomial, cln::cl_I> unit_of(const std::vector<unsigned long>& monomial, const cln::cl_RA& coefficient);
+  std::pair<Polynomial, cln::cl_I> unit_of(const std::vector<unsigned long>& monomial,
+                                           const cln::cl_RA& coefficient);
 
   std::vector<GiNaC::symbol> symbols_;
   std::vector<Assumption> assumptions_;

@@ -22,21 +22,26 @@ Rows evaluate(const PolynomialRows& rows, const std::vector<cln::cl_RA>& point) 
 }
 
 /// Rows and columns of a regular minor of full rank.
-std::pair<std::vector<std::size_t>, std::vector<std::size_t>> regular_minor(const Rows& values, std::size_t size) {
+std::pair<std::vector<std::size_t>, std::vector<std::size_t>> regular_minor(const Rows& values,
+                                                                            std::size_t size) {
   std::vector<std::size_t> rows;
   Rows chosen;
   for (std::size_t i = 0; i < values.size() && rows.size() < size; ++i) {
     chosen.push_back(values[i]);
-    if (rank(chosen) == chosen.size()) rows.push_back(i);
-    else chosen.pop_back();
+    if (rank(chosen) == chosen.size())
+      rows.push_back(i);
+    else
+      chosen.pop_back();
   }
   std::vector<std::size_t> columns;
   Rows transposed;
   for (std::size_t j = 0; j < values[0].size() && columns.size() < size; ++j) {
     transposed.emplace_back();
     for (const std::size_t i : rows) transposed.back().push_back(values[i][j]);
-    if (rank(transposed) == transposed.size()) columns.push_back(j);
-    else transposed.pop_back();
+    if (rank(transposed) == transposed.size())
+      columns.push_back(j);
+    else
+      transposed.pop_back();
   }
   return {rows, columns};
 }
@@ -53,13 +58,16 @@ std::optional<Polynomial> determinant(const PolynomialRows& rows, const std::vec
     rest_columns.erase(rest_columns.begin() + static_cast<std::ptrdiff_t>(k));
     const std::optional<Polynomial> minor = determinant(rows, rest_rows, rest_columns);
     if (!minor || minor->terms() * rows[r[0]][c[k]].terms() > kMaxMinorTerms) return std::nullopt;
-    if (k % 2 == 0) sum += rows[r[0]][c[k]] * *minor;
-    else sum -= rows[r[0]][c[k]] * *minor;
+    if (k % 2 == 0)
+      sum += rows[r[0]][c[k]] * *minor;
+    else
+      sum -= rows[r[0]][c[k]] * *minor;
   }
   return sum;
 }
 
-bool bordered_minors_vanish(Prover& prover, const PolynomialRows& rows, const Rows& values, std::size_t size) {
+bool bordered_minors_vanish(Prover& prover, const PolynomialRows& rows, const Rows& values,
+                            std::size_t size) {
   constexpr std::size_t kMaxSize = 7;
   if (size >= kMaxSize) return false;
   const auto [r, c] = regular_minor(values, size);
@@ -100,7 +108,8 @@ std::optional<GenericRank> generic_rank(Prover& prover, const PolynomialRows& ro
 
 std::string point_text(const Prover& prover, const std::vector<cln::cl_RA>& point) {
   std::string text;
-  for (const auto& [name, value] : prover.describe(point)) text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, value);
+  for (const auto& [name, value] : prover.describe(point))
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, value);
   return text;
 }
 

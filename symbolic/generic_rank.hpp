@@ -11,9 +11,9 @@ using PolynomialRows = std::vector<std::vector<Polynomial>>;
 
 /// The rank of a matrix of functions at generic points, with what shows it.
 struct GenericRank {
-  std::size_t rank = 0;        ///< the rank at `point`, so a lower bound for the generic one
+  std::size_t rank = 0;  ///< the rank at `point`, so a lower bound for the generic one
   std::vector<cln::cl_RA> point;
-  bool exact = false;          ///< no point has a larger rank: full, or all larger minors vanish
+  bool exact = false;  ///< no point has a larger rank: full, or all larger minors vanish
 };
 
 /// Empty if no exact point was found. The rank at a point bounds the generic rank from below;

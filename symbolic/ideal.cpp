@@ -52,7 +52,8 @@ std::vector<Polynomial> groebner_basis(const std::vector<Polynomial>& generators
     if (!g.is_zero()) insert(g);
   }
   std::vector<Polynomial> quotients;
-  for (std::size_t done = 0; !pairs.empty() && done < kMaxPairs && basis.size() < kMaxBasis; ++done) {
+  for (std::size_t done = 0; !pairs.empty() && done < kMaxPairs && basis.size() < kMaxBasis;
+       ++done) {
     const auto [i, j] = pairs.front();
     pairs.pop_front();
     Polynomial rest = s_polynomial(basis[i], basis[j]);

@@ -58,8 +58,10 @@ LieAlgebra orthogonal(std::string name, int n, bool translations) {
   // {J_ab, J_cd} with exactly one common index; J_ba = -J_ab gives the signs.
   for (const auto& [ab, x] : index) {
     for (const auto& [cd, y] : index) {
-      for (const auto& [a, b, s] : {std::tuple(ab.first, ab.second, 1), std::tuple(ab.second, ab.first, -1)}) {
-        for (const auto& [c, d, t] : {std::tuple(cd.first, cd.second, 1), std::tuple(cd.second, cd.first, -1)}) {
+      for (const auto& [a, b, s] :
+           {std::tuple(ab.first, ab.second, 1), std::tuple(ab.second, ab.first, -1)}) {
+        for (const auto& [c, d, t] :
+             {std::tuple(cd.first, cd.second, 1), std::tuple(cd.second, cd.first, -1)}) {
           if (b != c || a == d) continue;
           add(x, y, index.at(std::minmax(a, d)), s * t * (a < d ? 1 : -1));
         }
@@ -109,7 +111,8 @@ std::optional<LieAlgebra> find_lie_algebra(const std::string& name) {
   if (key == "so(3,1)") return rotations(key, 1, -1);
   if (key == "l(7)") return quaternions();
   // [h,e] = 2e, [h,f] = -2f, [e,f] = h; and [x,y] = z. The bracket of the dual has the other sign.
-  if (key == "sl(2)") return LieAlgebra{key, "h e f", 3, {{0, 1, 1, -2}, {0, 2, 2, 2}, {1, 2, 0, -1}}};
+  if (key == "sl(2)")
+    return LieAlgebra{key, "h e f", 3, {{0, 1, 1, -2}, {0, 2, 2, 2}, {1, 2, 0, -1}}};
   if (key == "h(3)") return LieAlgebra{key, "x y z", 3, {{0, 1, 2, -1}}};
 
   std::smatch match;
@@ -127,7 +130,8 @@ std::optional<LieAlgebra> find_lie_algebra(const std::string& name) {
 }
 
 std::vector<std::string> lie_algebra_names() {
-  return {"so(3)", "e(3)", "so(4)", "so(3,1)", "so(n)", "e(n)", "so(3)+k*R3", "l(7)", "sl(2)", "h(3)"};
+  return {"so(3)", "e(3)",       "so(4)", "so(3,1)", "so(n)",
+          "e(n)",  "so(3)+k*R3", "l(7)",  "sl(2)",   "h(3)"};
 }
 
 }  // namespace casimir

@@ -36,7 +36,9 @@ class CaseNames : public Names {
   }
 
   /// Names an expression already read, unless the name is taken: for use in further expressions.
-  void alias(const std::string& name, Quantity quantity) { table_.try_emplace(name, std::move(quantity)); }
+  void alias(const std::string& name, Quantity quantity) {
+    table_.try_emplace(name, std::move(quantity));
+  }
 
   const Quantity* find(const std::string& name) override {
     const auto known = table_.find(name);
@@ -46,8 +48,9 @@ class CaseNames : public Names {
     const Entry& entry = *waiting->second;
     constexpr std::size_t kMaxChain = 100;
     if (open_.contains(name) || open_.size() > kMaxChain) {
-      throw entry.second.error(fmt::format("the definition of '{}' {}", name,
-                                           open_.contains(name) ? "uses itself" : "is nested too deep"));
+      throw entry.second.error(
+          fmt::format("the definition of '{}' {}", name,
+                      open_.contains(name) ? "uses itself" : "is nested too deep"));
     }
     open_.insert(name);
     Quantity value = parse_expression(entry.second, *this);
@@ -111,7 +114,8 @@ class Builder {
   void declare_names() {
     model_.variables = make_variables(file_.phase_space);
     for (std::size_t i = 0; i < model_.variables.size(); ++i) {
-      names_.declare(file_.phase_space.variables[i], "a variable", Quantity::symbol(model_.variables[i]));
+      names_.declare(file_.phase_space.variables[i], "a variable",
+                     Quantity::symbol(model_.variables[i]));
     }
     if (const auto& time = file_.phase_space.time) {
       model_.time = GiNaC::symbol(time->value);
@@ -131,13 +135,14 @@ class Builder {
     }
     for (const auto& [name, value] : fixed_) {
       if (std::find(known.begin(), known.end(), name.value) == known.end()) {
-        throw name.error(fmt::format("'{}' is not a parameter of this case", printable(name.value)), 0,
-                         suggest(name.value, known));
+        throw name.error(fmt::format("'{}' is not a parameter of this case", printable(name.value)),
+                         0, suggest(name.value, known));
       }
     }
     for (const Entry& definition : file_.definitions) names_.define(definition);
     for (const Entry& definition : file_.definitions) {
-      model_.definitions.push_back(named(definition.first, names_.find(definition.first.value)->value));
+      model_.definitions.push_back(
+          named(definition.first, names_.find(definition.first.value)->value));
     }
     for (const ParameterText& parameter : file_.parameters) {
       for (const Text& text : parameter.assume) read_assumption(text);
@@ -159,15 +164,20 @@ class Builder {
     const Location where = file_.phase_space.where;
     if (file_.equations) {
       if (model_.poisson || file_.hamiltonian) {
-        throw CaseError(where, "a system is given either by [equations] or by a bracket and a hamiltonian, not by both");
+        throw CaseError(where,
+                        "a system is given either by [equations] or by a bracket and a "
+                        "hamiltonian, not by both");
       }
       read_explicit_field();
       return;
     }
     if (!model_.poisson) {
-      throw CaseError(where, "the phase space needs a bracket: one of 'algebra', 'canonical', 'brackets' and 'structure_constants'; or the file a table [equations]");
+      throw CaseError(where,
+                      "the phase space needs a bracket: one of 'algebra', 'canonical', 'brackets' "
+                      "and 'structure_constants'; or the file a table [equations]");
     }
-    if (!file_.hamiltonian) throw CaseError({file_.file, 1, 1}, "the case file needs a key 'hamiltonian'");
+    if (!file_.hamiltonian)
+      throw CaseError({file_.file, 1, 1}, "the case file needs a key 'hamiltonian'");
     model_.hamiltonian = parse_expression(*file_.hamiltonian, names_).value;
     model_.field = model_.poisson->flow(*model_.hamiltonian);
   }
@@ -181,13 +191,16 @@ class Builder {
     for (const GiNaC::symbol& x : model_.variables) {
       const auto it = given.find(x.get_name());
       if (it == given.end()) {
-        throw CaseError(file_.phase_space.where, fmt::format("[equations] has no equation for '{}'", x.get_name()));
+        throw CaseError(file_.phase_space.where,
+                        fmt::format("[equations] has no equation for '{}'", x.get_name()));
       }
       model_.field.push_back(parse_expression(*it->second, names_).value);
     }
   }
 
-  std::size_t variable_position(const Text& name) const { return position(name, model_.variables, "variable"); }
+  std::size_t variable_position(const Text& name) const {
+    return position(name, model_.variables, "variable");
+  }
 
   static std::size_t position(const Text& name, const std::vector<GiNaC::symbol>& symbols,
                               const std::string& what) {
@@ -200,7 +213,9 @@ class Builder {
                      suggest(name.value, known));
   }
 
-  static NamedExpression named(const Text& name, const ex& value) { return {name.value, value, name.where}; }
+  static NamedExpression named(const Text& name, const ex& value) {
+    return {name.value, value, name.where};
+  }
 
   NamedExpression anonymous(const Text& text) {
     return {text.value, parse_expression(text, names_).value, text.where};
@@ -225,33 +240,42 @@ class Builder {
 
   void read_claims() {
     if (!model_.poisson && !file_.casimirs.empty()) {
-      throw file_.casimirs[0].first.error("a Casimir function needs a bracket, which this phase space does not have");
+      throw file_.casimirs[0].first.error(
+          "a Casimir function needs a bracket, which this phase space does not have");
     }
     if (!model_.poisson && !file_.maps.empty()) {
-      throw file_.maps[0].name.error("a Poisson map needs a bracket, which this phase space does not have");
+      throw file_.maps[0].name.error(
+          "a Poisson map needs a bracket, which this phase space does not have");
     }
     model_.casimirs = read_named(file_.casimirs);
     model_.integrals = read_named(file_.integrals);
-    for (const LevelText& text : file_.conditionals) model_.conditionals.push_back(read_level(text));
-    for (const LevelText& text : file_.invariant_relations) model_.invariant_relations.push_back(read_level(text));
+    for (const LevelText& text : file_.conditionals)
+      model_.conditionals.push_back(read_level(text));
+    for (const LevelText& text : file_.invariant_relations)
+      model_.invariant_relations.push_back(read_level(text));
     for (const LaxText& text : file_.lax) read_lax(text);
     for (const MapText& text : file_.maps) read_map(text);
     for (const Text& text : file_.measures) model_.measures.push_back(anonymous(text));
     if (!file_.section) return;
     Section section{parse_expression(file_.section->function, names_).value, true, {}};
     if (const auto& direction = file_.section->direction) {
-      if (direction->value != "up" && direction->value != "down") throw direction->error("'direction' must be \"up\" or \"down\"");
+      if (direction->value != "up" && direction->value != "down")
+        throw direction->error("'direction' must be \"up\" or \"down\"");
       section.upwards = direction->value == "up";
     }
-    for (const Text& text : file_.section->plot) section.plot.push_back(parse_expression(text, names_).value);
+    for (const Text& text : file_.section->plot)
+      section.plot.push_back(parse_expression(text, names_).value);
     model_.section = section;
   }
 
   /// Names of the case and one more symbol.
   class Extended : public Names {
    public:
-    Extended(Names& base, const GiNaC::symbol& extra) : base_(base), name_(extra.get_name()), extra_(Quantity::symbol(extra)) {}
-    const Quantity* find(const std::string& name) override { return name == name_ ? &extra_ : base_.find(name); }
+    Extended(Names& base, const GiNaC::symbol& extra)
+        : base_(base), name_(extra.get_name()), extra_(Quantity::symbol(extra)) {}
+    const Quantity* find(const std::string& name) override {
+      return name == name_ ? &extra_ : base_.find(name);
+    }
     std::vector<std::string> known() const override {
       std::vector<std::string> names = base_.known();
       names.push_back(name_);
@@ -267,14 +291,17 @@ class Builder {
   void read_lax(const LaxText& text) {
     const std::size_t n = text.l.size();
     if (n == 0 || text.a.size() != n) {
-      throw CaseError({file_.file, text.l.empty() || text.l[0].empty() ? 1 : text.l[0][0].where.line, 1},
-                      "the matrices L and A of a Lax pair must have the same size");
+      throw CaseError(
+          {file_.file, text.l.empty() || text.l[0].empty() ? 1 : text.l[0][0].where.line, 1},
+          "the matrices L and A of a Lax pair must have the same size");
     }
-    LaxPair pair{std::nullopt, GiNaC::matrix(unsigned(n), unsigned(n)), GiNaC::matrix(unsigned(n), unsigned(n))};
+    LaxPair pair{std::nullopt, GiNaC::matrix(unsigned(n), unsigned(n)),
+                 GiNaC::matrix(unsigned(n), unsigned(n))};
     pair.spectral = GiNaC::symbol(text.spectral ? text.spectral->value : "(none)");
     if (text.spectral) {
       check_name(*text.spectral, "the spectral parameter");
-      if (names_.find(text.spectral->value) != nullptr) throw text.spectral->error(fmt::format("'{}' is declared twice", text.spectral->value));
+      if (names_.find(text.spectral->value) != nullptr)
+        throw text.spectral->error(fmt::format("'{}' is declared twice", text.spectral->value));
     }
     Extended names(names_, *pair.spectral);
     for (unsigned i = 0; i < n; ++i) {
@@ -301,7 +328,8 @@ class Builder {
     for (const GiNaC::symbol& s : coordinates) names.add(s.get_name(), Quantity::symbol(s));
     const std::optional<PoissonStructure> bracket = make_bracket(target, coordinates, names);
     if (!bracket) throw CaseError(target.where, "the phase space of 'to' needs a bracket");
-    PoissonMap map{text.name.value, text.name.where, *bracket, std::vector<ex>(coordinates.size()), {}, 1};
+    PoissonMap map{
+        text.name.value, text.name.where, *bracket, std::vector<ex>(coordinates.size()), {}, 1};
     std::vector<bool> seen(coordinates.size());
     for (const auto& [name, value] : text.expressions) {
       const std::size_t i = position(name, coordinates, "variable");
@@ -309,16 +337,21 @@ class Builder {
       seen[i] = true;
     }
     for (std::size_t i = 0; i < seen.size(); ++i) {
-      if (!seen[i]) throw text.name.error(fmt::format("the map gives no expression for '{}'", coordinates[i].get_name()));
+      if (!seen[i])
+        throw text.name.error(
+            fmt::format("the map gives no expression for '{}'", coordinates[i].get_name()));
     }
     for (const Text& relation : text.on) map.on.push_back(anonymous(relation));
-    if (text.sign && text.sign->value == "-") map.sign = -1;
-    else if (text.sign && text.sign->value != "+") throw text.sign->error("'sign' must be \"+\" or \"-\"");
+    if (text.sign && text.sign->value == "-")
+      map.sign = -1;
+    else if (text.sign && text.sign->value != "+")
+      throw text.sign->error("'sign' must be \"+\" or \"-\"");
     model_.maps.push_back(std::move(map));
   }
 
   /// The values of a scene's table, one for each symbol.
-  std::vector<std::optional<ex>> values(const std::vector<Entry>& entries, const std::vector<GiNaC::symbol>& symbols,
+  std::vector<std::optional<ex>> values(const std::vector<Entry>& entries,
+                                        const std::vector<GiNaC::symbol>& symbols,
                                         const std::string& what) const {
     std::vector<std::optional<ex>> result(symbols.size());
     for (const auto& [name, text] : entries) {
@@ -333,13 +366,17 @@ class Builder {
     scene.name = text.name.value;
     scene.where = text.name.where;
     for (const Scene& other : model_.scenes) {
-      if (other.name == scene.name) throw text.name.error(fmt::format("the scene '{}' is given twice", printable(scene.name)));
+      if (other.name == scene.name)
+        throw text.name.error(fmt::format("the scene '{}' is given twice", printable(scene.name)));
     }
-    const auto complete = [&](const std::vector<Entry>& entries, const std::vector<GiNaC::symbol>& symbols, const std::string& what) {
+    const auto complete = [&](const std::vector<Entry>& entries,
+                              const std::vector<GiNaC::symbol>& symbols, const std::string& what) {
       std::vector<ex> result;
       const auto given = values(entries, symbols, what);
       for (std::size_t i = 0; i < given.size(); ++i) {
-        if (!given[i]) throw text.name.error(fmt::format("the scene '{}' has no value for the {} '{}'", printable(scene.name), what, symbols[i].get_name()));
+        if (!given[i])
+          throw text.name.error(fmt::format("the scene '{}' has no value for the {} '{}'",
+                                            printable(scene.name), what, symbols[i].get_name()));
         result.push_back(*given[i]);
       }
       return result;
@@ -347,25 +384,30 @@ class Builder {
     scene.parameters = complete(text.parameters, model_.parameters, "parameter");
     scene.initial = complete(text.initial, model_.variables, "variable");
     scene.duration = real_constant(*text.duration);
-    if (GiNaC::ex_to<GiNaC::numeric>(scene.duration.evalf()).is_negative()) throw text.duration->error("the duration must not be negative");
+    if (GiNaC::ex_to<GiNaC::numeric>(scene.duration.evalf()).is_negative())
+      throw text.duration->error("the duration must not be negative");
     for (const Text& name : text.observe) {
       variable_position(name);
       scene.observe.push_back(name.value);
     }
     if (text.extreme) scene.extreme = text.extreme->value;
-    if (!text.reference.empty()) scene.reference = values(text.reference, model_.variables, "variable");
+    if (!text.reference.empty())
+      scene.reference = values(text.reference, model_.variables, "variable");
     check_assumptions(text.name, scene);
     model_.scenes.push_back(std::move(scene));
   }
 
   void check_assumptions(const Text& name, const Scene& scene) const {
     GiNaC::exmap point;
-    for (std::size_t i = 0; i < model_.parameters.size(); ++i) point[model_.parameters[i]] = scene.parameters[i];
-    for (std::size_t i = 0; i < model_.variables.size(); ++i) point[model_.variables[i]] = scene.initial[i];
+    for (std::size_t i = 0; i < model_.parameters.size(); ++i)
+      point[model_.parameters[i]] = scene.parameters[i];
+    for (std::size_t i = 0; i < model_.variables.size(); ++i)
+      point[model_.variables[i]] = scene.initial[i];
     for (const Assumption& assumption : model_.assumptions) {
       const ex value = assumption.difference.subs(point, GiNaC::subs_options::no_pattern).evalf();
       if (!GiNaC::is_a<GiNaC::numeric>(value) || assumption.holds_at(point)) continue;
-      throw name.error(fmt::format("the scene '{}' is outside the assumption '{}'", printable(scene.name), printable(assumption.text)));
+      throw name.error(fmt::format("the scene '{}' is outside the assumption '{}'",
+                                   printable(scene.name), printable(assumption.text)));
     }
   }
 
@@ -379,7 +421,8 @@ class Builder {
 
 std::vector<ex> PoissonMap::composed_brackets() const {
   GiNaC::exmap values;
-  for (std::size_t i = 0; i < expressions.size(); ++i) values[target.coordinates()[i]] = expressions[i];
+  for (std::size_t i = 0; i < expressions.size(); ++i)
+    values[target.coordinates()[i]] = expressions[i];
   std::vector<ex> result;
   for (std::size_t i = 0; i < expressions.size(); ++i) {
     for (std::size_t j = i + 1; j < expressions.size(); ++j) {
@@ -417,7 +460,8 @@ const Scene& Model::scene(const std::string& scene_name) const {
     if (candidate.name == scene_name) return candidate;
     known.push_back(candidate.name);
   }
-  if (scenes.empty()) throw CaseError({file}, "the case has no [[scene]], which this command needs");
+  if (scenes.empty())
+    throw CaseError({file}, "the case has no [[scene]], which this command needs");
   if (scene_name == "default") return scenes.front();
   std::string hint = suggest(scene_name, known);
   if (hint.empty()) hint = fmt::format("scenes of this case: {}", fmt::join(known, "; "));

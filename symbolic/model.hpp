@@ -56,8 +56,8 @@ struct Section {
 struct PoissonMap {
   std::string name;
   Location where;
-  PoissonStructure target;               ///< over its own symbols
-  std::vector<GiNaC::ex> expressions;    ///< one for each coordinate of the target
+  PoissonStructure target;             ///< over its own symbols
+  std::vector<GiNaC::ex> expressions;  ///< one for each coordinate of the target
   std::vector<NamedExpression> on;
   int sign = 1;
 
@@ -72,8 +72,8 @@ struct Scene {
   std::vector<GiNaC::ex> parameters;  ///< one for each of Model::parameters
   std::vector<GiNaC::ex> initial;     ///< one for each of Model::variables
   GiNaC::ex duration;
-  std::vector<std::string> observe;              ///< empty: everything
-  std::string extreme;                           ///< empty, "separatrix", "stiff", "scale", ..
+  std::vector<std::string> observe;                 ///< empty: everything
+  std::string extreme;                              ///< empty, "separatrix", "stiff", "scale", ..
   std::vector<std::optional<GiNaC::ex>> reference;  ///< empty, or one for each variable
 };
 
@@ -93,9 +93,9 @@ struct Model {
   std::optional<GiNaC::symbol> time;  ///< set where the file names it
   std::vector<Assumption> assumptions;
 
-  std::optional<PoissonStructure> poisson;    ///< none for a system given by [equations]
-  std::optional<GiNaC::ex> hamiltonian;       ///< none for a system given by [equations]
-  std::vector<GiNaC::ex> field;               ///< dx_i/dt for each variable, not expanded
+  std::optional<PoissonStructure> poisson;  ///< none for a system given by [equations]
+  std::optional<GiNaC::ex> hamiltonian;     ///< none for a system given by [equations]
+  std::vector<GiNaC::ex> field;             ///< dx_i/dt for each variable, not expanded
 
   std::vector<NamedExpression> definitions;
   std::vector<std::pair<Text, GiNaC::ex>> fixed;  ///< parameters replaced by ParameterValues

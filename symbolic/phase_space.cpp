@@ -20,8 +20,10 @@ class UpperTriangle {
   explicit UpperTriangle(std::size_t n) : n_(n), entries_(n * (n - 1) / 2) {}
   ex& at(std::size_t i, std::size_t j) { return entries_[i * n_ - i * (i + 1) / 2 + (j - i - 1)]; }
   void add(std::size_t i, std::size_t j, const ex& value) {
-    if (i < j) at(i, j) += value;
-    else at(j, i) -= value;
+    if (i < j)
+      at(i, j) += value;
+    else
+      at(j, i) -= value;
   }
   std::vector<ex> entries() const { return entries_; }
 
@@ -57,7 +59,9 @@ std::vector<ex> algebra_brackets(const PhaseSpaceText& text, const Symbols& x) {
 
 std::vector<ex> canonical_brackets(const PhaseSpaceText& text, const Symbols& x) {
   if (x.size() % 2 != 0) {
-    throw CaseError(text.where, fmt::format("canonical variables come in pairs q1..qn, p1..pn; {} given", x.size()));
+    throw CaseError(
+        text.where,
+        fmt::format("canonical variables come in pairs q1..qn, p1..pn; {} given", x.size()));
   }
   UpperTriangle upper(x.size());
   for (std::size_t i = 0; i < x.size() / 2; ++i) upper.at(i, i + x.size() / 2) = sign_of(text);
@@ -65,13 +69,15 @@ std::vector<ex> canonical_brackets(const PhaseSpaceText& text, const Symbols& x)
 }
 
 /// The index of the variable that `name` means.
-std::size_t variable_index(const Text& key, const std::string& name, std::size_t offset, const Symbols& x) {
+std::size_t variable_index(const Text& key, const std::string& name, std::size_t offset,
+                           const Symbols& x) {
   std::vector<std::string> known;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (x[i].get_name() == name) return i;
     known.push_back(x[i].get_name());
   }
-  throw key.error(fmt::format("'{}' is not one of the variables", printable(name)), offset, suggest(name, known));
+  throw key.error(fmt::format("'{}' is not one of the variables", printable(name)), offset,
+                  suggest(name, known));
 }
 
 std::pair<std::size_t, std::size_t> pair_of(const Text& key, const Symbols& x) {
@@ -93,11 +99,13 @@ void check_linear(const Text& text, const ex& value, const Symbols& x) {
   for (const GiNaC::symbol& v : x) {
     const ex slope = value.diff(v);
     for (const GiNaC::symbol& w : x) {
-      if (slope.has(w)) throw text.error("a structure constant must be a linear form in the variables");
+      if (slope.has(w))
+        throw text.error("a structure constant must be a linear form in the variables");
     }
     rest -= slope * v;
   }
-  if (!rest.expand().is_zero()) throw text.error("a structure constant must be a linear form without a constant term");
+  if (!rest.expand().is_zero())
+    throw text.error("a structure constant must be a linear form without a constant term");
 }
 
 std::vector<ex> explicit_brackets(const std::vector<Entry>& entries, bool linear, int sign,
@@ -109,7 +117,8 @@ std::vector<ex> explicit_brackets(const std::vector<Entry>& entries, bool linear
     const ex value = sign * parse_expression(text, names).value;
     if (linear) check_linear(text, value, x);
     if (i == j && !value.expand().is_zero()) {
-      throw key.error(fmt::format("the bracket is not skew: {{{0},{0}}} must be 0", x[i].get_name()));
+      throw key.error(
+          fmt::format("the bracket is not skew: {{{0},{0}}} must be 0", x[i].get_name()));
     }
     if (given.contains({i, j})) throw key.error("this bracket is given twice");
     const auto mirrored = given.find({j, i});
@@ -126,16 +135,19 @@ std::vector<ex> explicit_brackets(const std::vector<Entry>& entries, bool linear
 }  // namespace
 
 std::vector<GiNaC::symbol> make_variables(const PhaseSpaceText& text) {
-  if (text.variables.empty()) throw CaseError(text.where, "'variables' must name at least one variable");
+  if (text.variables.empty())
+    throw CaseError(text.where, "'variables' must name at least one variable");
   constexpr std::size_t kMaxVariables = 200;
   if (text.variables.size() > kMaxVariables) {
-    throw CaseError(text.where, fmt::format("{} variables given; the limit is {}", text.variables.size(), kMaxVariables));
+    throw CaseError(text.where, fmt::format("{} variables given; the limit is {}",
+                                            text.variables.size(), kMaxVariables));
   }
   Symbols result;
   for (const Text& name : text.variables) {
     check_name(name, "a variable");
     for (const GiNaC::symbol& other : result) {
-      if (other.get_name() == name.value) throw name.error(fmt::format("'{}' is declared twice", name.value));
+      if (other.get_name() == name.value)
+        throw name.error(fmt::format("'{}' is declared twice", name.value));
     }
     result.push_back(GiNaC::symbol(name.value));
   }
@@ -147,21 +159,26 @@ std::optional<PoissonStructure> make_bracket(const PhaseSpaceText& text, const S
   const int forms = int(text.algebra.has_value()) + int(text.canonical) +
                     int(text.brackets.has_value()) + int(text.structure_constants.has_value());
   if (forms > 1) {
-    throw CaseError(text.where, "the phase space must have exactly one of 'algebra', 'canonical', 'brackets' and 'structure_constants'");
+    throw CaseError(text.where,
+                    "the phase space must have exactly one of 'algebra', 'canonical', 'brackets' "
+                    "and 'structure_constants'");
   }
   if (text.algebra) return PoissonStructure(variables, algebra_brackets(text, variables));
   if (text.canonical) return PoissonStructure(variables, canonical_brackets(text, variables));
   if (text.brackets) {
-    return PoissonStructure(variables, explicit_brackets(*text.brackets, false, sign_of(text), variables, names));
+    return PoissonStructure(
+        variables, explicit_brackets(*text.brackets, false, sign_of(text), variables, names));
   }
   if (text.structure_constants) {
-    return PoissonStructure(variables, explicit_brackets(*text.structure_constants, true, sign_of(text), variables, names));
+    return PoissonStructure(variables, explicit_brackets(*text.structure_constants, true,
+                                                         sign_of(text), variables, names));
   }
   return std::nullopt;
 }
 
 std::string describe(const PhaseSpaceText& text) {
-  if (text.algebra) return text.algebra->value + (text.sign && text.sign->value == "+" ? ", plus sign" : "");
+  if (text.algebra)
+    return text.algebra->value + (text.sign && text.sign->value == "+" ? ", plus sign" : "");
   if (text.canonical) return "canonical";
   if (text.brackets) return "brackets";
   if (text.structure_constants) return "structure constants";

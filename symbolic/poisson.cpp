@@ -17,7 +17,8 @@ PoissonStructure::PoissonStructure(std::vector<GiNaC::symbol> coordinates,
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (coordinates_[i].is_equal(coordinates_[j])) {
-        throw ModelError(fmt::format("the coordinate {} is listed twice", coordinates_[i].get_name()));
+        throw ModelError(
+            fmt::format("the coordinate {} is listed twice", coordinates_[i].get_name()));
       }
     }
   }

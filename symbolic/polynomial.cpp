@@ -42,7 +42,9 @@ class Rational {
   Rational(const Rational&) = delete;
   Rational& operator=(const Rational&) = delete;
   fmpq* get() { return value_; }
-  cln::cl_RA number() const { return from_fmpz(fmpq_numref(value_)) / from_fmpz(fmpq_denref(value_)); }
+  cln::cl_RA number() const {
+    return from_fmpz(fmpq_numref(value_)) / from_fmpz(fmpq_denref(value_));
+  }
 
  private:
   fmpq_t value_;
@@ -70,7 +72,9 @@ Polynomial PolynomialRing::variable(std::size_t i) const {
   return result;
 }
 
-Polynomial::Polynomial(const PolynomialRing& ring) : ring_(&ring) { fmpq_mpoly_init(value_, ring.context()); }
+Polynomial::Polynomial(const PolynomialRing& ring) : ring_(&ring) {
+  fmpq_mpoly_init(value_, ring.context());
+}
 
 Polynomial::Polynomial(const Polynomial& other) : Polynomial(*other.ring_) {
   fmpq_mpoly_set(value_, other.value_, ring_->context());
@@ -152,14 +156,17 @@ long Polynomial::degree(std::size_t variable) const {
   return fmpq_mpoly_degree_si(value_, static_cast<slong>(variable), ring_->context());
 }
 
-long Polynomial::total_degree() const { return fmpq_mpoly_total_degree_si(value_, ring_->context()); }
+long Polynomial::total_degree() const {
+  return fmpq_mpoly_total_degree_si(value_, ring_->context());
+}
 
 std::vector<std::pair<cln::cl_RA, std::vector<unsigned long>>> Polynomial::term_list() const {
   std::vector<std::pair<cln::cl_RA, std::vector<unsigned long>>> result;
   for (std::size_t k = 0; k < terms(); ++k) {
     Rational coefficient;
     std::vector<unsigned long> exponents(ring_->size());
-    fmpq_mpoly_get_term_coeff_fmpq(coefficient.get(), value_, static_cast<slong>(k), ring_->context());
+    fmpq_mpoly_get_term_coeff_fmpq(coefficient.get(), value_, static_cast<slong>(k),
+                                   ring_->context());
     fmpq_mpoly_get_term_exp_ui(exponents.data(), value_, static_cast<slong>(k), ring_->context());
     result.emplace_back(coefficient.number(), std::move(exponents));
   }
@@ -167,14 +174,17 @@ std::vector<std::pair<cln::cl_RA, std::vector<unsigned long>>> Polynomial::term_
 }
 
 std::vector<Polynomial> Polynomial::coefficients(std::size_t variable) const {
-  std::vector<Polynomial> result(static_cast<std::size_t>(std::max(degree(variable), 0L)) + 1, Polynomial(*ring_));
+  std::vector<Polynomial> result(static_cast<std::size_t>(std::max(degree(variable), 0L)) + 1,
+                                 Polynomial(*ring_));
   std::vector<unsigned long> exponents(ring_->size());
   for (std::size_t k = 0; k < terms(); ++k) {
     Rational coefficient;
-    fmpq_mpoly_get_term_coeff_fmpq(coefficient.get(), value_, static_cast<slong>(k), ring_->context());
+    fmpq_mpoly_get_term_coeff_fmpq(coefficient.get(), value_, static_cast<slong>(k),
+                                   ring_->context());
     fmpq_mpoly_get_term_exp_ui(exponents.data(), value_, static_cast<slong>(k), ring_->context());
     const unsigned long power = std::exchange(exponents[variable], 0);
-    fmpq_mpoly_push_term_fmpq_ui(result[power].value_, coefficient.get(), exponents.data(), ring_->context());
+    fmpq_mpoly_push_term_fmpq_ui(result[power].value_, coefficient.get(), exponents.data(),
+                                 ring_->context());
   }
   for (Polynomial& p : result) fmpq_mpoly_sort_terms(p.value_, ring_->context());
   return result;
@@ -208,7 +218,8 @@ std::vector<std::pair<Polynomial, unsigned long>> Polynomial::factors() const {
     for (slong i = 0; i < fmpq_mpoly_factor_length(factorisation, ring_->context()); ++i) {
       Polynomial base(*ring_);
       fmpq_mpoly_factor_get_base(base.value_, factorisation, i, ring_->context());
-      result.emplace_back(std::move(base), static_cast<unsigned long>(fmpq_mpoly_factor_get_exp_si(factorisation, i, ring_->context())));
+      result.emplace_back(std::move(base), static_cast<unsigned long>(fmpq_mpoly_factor_get_exp_si(
+                                               factorisation, i, ring_->context())));
     }
   }
   fmpq_mpoly_factor_clear(factorisation, ring_->context());
@@ -239,7 +250,8 @@ bool Polynomial::divide(const Polynomial& divisor, Polynomial* quotient) const {
   return fmpq_mpoly_divides(quotient->value_, value_, divisor.value_, ring_->context()) != 0;
 }
 
-Polynomial Polynomial::remainder(const std::vector<Polynomial>& divisors, std::vector<Polynomial>* quotients) const {
+Polynomial Polynomial::remainder(const std::vector<Polynomial>& divisors,
+                                 std::vector<Polynomial>* quotients) const {
   Polynomial rest(*ring_);
   quotients->assign(divisors.size(), Polynomial(*ring_));
   std::vector<fmpq_mpoly_struct*> q;
@@ -249,7 +261,8 @@ Polynomial Polynomial::remainder(const std::vector<Polynomial>& divisors, std::v
     // FLINT's signature lacks a const; the divisors are only read.
     d.push_back(const_cast<fmpq_mpoly_struct*>(divisors[i].value_));
   }
-  fmpq_mpoly_divrem_ideal(q.data(), rest.value_, value_, d.data(), static_cast<slong>(d.size()), ring_->context());
+  fmpq_mpoly_divrem_ideal(q.data(), rest.value_, value_, d.data(), static_cast<slong>(d.size()),
+                          ring_->context());
   return rest;
 }
 

@@ -82,7 +82,8 @@ class Polynomial {
   bool divide(const Polynomial& divisor, Polynomial* quotient) const;
 
   /// Division by a list: *this = sum quotients[i] * divisors[i] + remainder.
-  Polynomial remainder(const std::vector<Polynomial>& divisors, std::vector<Polynomial>* quotients) const;
+  Polynomial remainder(const std::vector<Polynomial>& divisors,
+                       std::vector<Polynomial>* quotients) const;
 
   /// Each term as its coefficient and one exponent for each variable, in the ring's order.
   std::vector<std::pair<cln::cl_RA, std::vector<unsigned long>>> term_list() const;

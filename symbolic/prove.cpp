@@ -8,7 +8,9 @@
 namespace casimir {
 namespace {
 
-NamedExpression read(const Model& model, const Text& text) { return {text.value, model.parse(text), text.where}; }
+NamedExpression read(const Model& model, const Text& text) {
+  return {text.value, model.parse(text), text.where};
+}
 
 std::vector<NamedExpression> read(const Model& model, const std::vector<Text>& texts) {
   std::vector<NamedExpression> result;
@@ -26,7 +28,8 @@ Work work_of(const Model& model, const Candidates& candidates) {
   if (candidates.empty()) {
     for (const ClaimKind& kind : kClaimKinds) {
       for (Claim& claim : kind(model)) {
-        if (candidates.only.empty() || candidates.only == claim.kind) work.claims.push_back(std::move(claim));
+        if (candidates.only.empty() || candidates.only == claim.kind)
+          work.claims.push_back(std::move(claim));
       }
     }
     return work;
@@ -39,7 +42,8 @@ Work work_of(const Model& model, const Candidates& candidates) {
     }
   };
   if (!model.poisson && !candidates.casimirs.empty()) {
-    throw candidates.casimirs[0].error("a Casimir function needs a bracket, which this case does not have");
+    throw candidates.casimirs[0].error(
+        "a Casimir function needs a bracket, which this case does not have");
   }
   add(candidates.casimirs, casimir_claim);
   add(candidates.integrals, integral_claim);
@@ -48,7 +52,8 @@ Work work_of(const Model& model, const Candidates& candidates) {
   return work;
 }
 
-std::vector<std::string> level_names(const Model& model, const Claim& claim, const Candidates& candidates) {
+std::vector<std::string> level_names(const Model& model, const Claim& claim,
+                                     const Candidates& candidates) {
   std::vector<std::string> names;
   if (!candidates.empty()) {
     for (const Text& text : candidates.on) names.push_back(text.value);
@@ -104,11 +109,13 @@ std::string to_string(Verdict verdict) {
 
 std::vector<Proof> pending(const Model& model, const Candidates& candidates) {
   std::vector<Proof> proofs;
-  for (const Claim& claim : work_of(model, candidates).claims) proofs.push_back(undecided(model, claim, candidates));
+  for (const Claim& claim : work_of(model, candidates).claims)
+    proofs.push_back(undecided(model, claim, candidates));
   return proofs;
 }
 
-std::vector<Proof> prove(const Model& model, const Candidates& candidates, const std::function<bool(const Proof&)>& report) {
+std::vector<Proof> prove(const Model& model, const Candidates& candidates,
+                         const std::function<bool(const Proof&)>& report) {
   const Work work = work_of(model, candidates);
   std::optional<Prover> prover;
   std::string too_large;  // not even the expressions of the case fit

@@ -30,12 +30,12 @@ struct Proof {
   Verdict verdict = Verdict::undecided;
   bool fact = false;  ///< about the system; counts only where the file claims `integrable`
   double seconds = 0;
-  std::vector<std::string> on;          ///< the relations that define the level, as written
-  std::string evidence;                 ///< for what is proved: what was found, in words
-  std::string residual;                 ///< what should have been zero
-  std::string reason;                   ///< for what is not proved
+  std::vector<std::string> on;  ///< the relations that define the level, as written
+  std::string evidence;         ///< for what is proved: what was found, in words
+  std::string residual;         ///< what should have been zero
+  std::string reason;           ///< for what is not proved
   std::optional<Witness> witness;
-  std::vector<std::string> nonzero;     ///< what was divided by
+  std::vector<std::string> nonzero;  ///< what was divided by
 };
 
 /// What a user wants to know beyond, or instead of, the claims of the file.
@@ -43,7 +43,9 @@ struct Candidates {
   std::vector<Text> integrals, casimirs, invariant_relations;
   std::vector<Text> on;
   std::string only{};  ///< without candidates: only claims and facts of this kind, or all if empty
-  bool empty() const { return integrals.empty() && casimirs.empty() && invariant_relations.empty(); }
+  bool empty() const {
+    return integrals.empty() && casimirs.empty() && invariant_relations.empty();
+  }
 };
 
 /// Proves or refutes every claim of the case file and the facts about it, in the order of the

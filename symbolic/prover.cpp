@@ -68,7 +68,8 @@ std::vector<ex> Prover::expressions_of(const Model& model, const std::vector<ex>
   if (model.hamiltonian) all.push_back(*model.hamiltonian);
   if (model.poisson) {
     for (std::size_t i = 0; i < model.variables.size(); ++i) {
-      for (std::size_t j = i + 1; j < model.variables.size(); ++j) all.push_back((*model.poisson)(i, j));
+      for (std::size_t j = i + 1; j < model.variables.size(); ++j)
+        all.push_back((*model.poisson)(i, j));
     }
   } else {
     all.insert(all.end(), model.field.begin(), model.field.end());
@@ -113,7 +114,8 @@ Prover::Prover(const Model& model, const std::vector<ex>& further)
   for (std::size_t i = 0; i < n; ++i) {
     Polynomial rate(ring_.ring());
     for (std::size_t j = 0; j < n; ++j) {
-      if (!bracket_entry(i, j).is_zero() && !slope[j].is_zero()) rate += bracket_entry(i, j) * slope[j];
+      if (!bracket_entry(i, j).is_zero() && !slope[j].is_zero())
+        rate += bracket_entry(i, j) * slope[j];
     }
     field_.push_back(std::move(rate));
   }
@@ -156,7 +158,8 @@ Polynomial Prover::divergence() const {
 
 ex Prover::rate_by_ginac(const ex& f) const {
   ex sum = 0;
-  for (std::size_t i = 0; i < dimension(); ++i) sum += f.diff(model_.variables[i]) * model_.field[i];
+  for (std::size_t i = 0; i < dimension(); ++i)
+    sum += f.diff(model_.variables[i]) * model_.field[i];
   if (model_.time) sum += f.diff(*model_.time);
   return sum;
 }
@@ -176,7 +179,8 @@ std::vector<Residual> Prover::level_rates(const Level& level) {
   std::vector<Residual> result;
   for (std::size_t i = 0; i < level.functions.size(); ++i) {
     const ex f = level.functions[i];
-    result.push_back({fmt::format("d({})/dt", level.texts[i]), rate(ring_.convert(f)), [this, f] { return rate_by_ginac(f); }});
+    result.push_back({fmt::format("d({})/dt", level.texts[i]), rate(ring_.convert(f)),
+                      [this, f] { return rate_by_ginac(f); }});
   }
   return result;
 }
@@ -193,7 +197,8 @@ void Prover::decide(Proof& proof, const std::vector<Residual>& residuals, const 
           if (cofactors[i].is_zero()) continue;
           if (!proof.evidence.empty()) proof.evidence += "; ";
           proof.evidence += fmt::format("{} has the cofactor {} of {}", residual.label,
-                                        shortened(ring_.text(cofactors[i]), cofactors[i].terms()), level.texts[i]);
+                                        shortened(ring_.text(cofactors[i]), cofactors[i].terms()),
+                                        level.texts[i]);
         }
       }
     }
@@ -204,7 +209,10 @@ void Prover::decide(Proof& proof, const std::vector<Residual>& residuals, const 
     proof.verdict = found ? Verdict::refuted : Verdict::undecided;
     proof.residual = shortened(ring_.text(rest), rest.terms());
     proof.reason = found ? fmt::format("{} is not zero", residual.label)
-                         : fmt::format("{} does not reduce to zero, and no exact point was found at which it is not zero", residual.label);
+                         : fmt::format(
+                               "{} does not reduce to zero, and no exact point was found at which "
+                               "it is not zero",
+                               residual.label);
     proof.witness = std::move(found);
     if (proof.witness) break;
   }
@@ -244,7 +252,8 @@ bool Prover::solve_level(Point& point, const Level& level) {
 
 GiNaC::exmap Prover::substitution(const Point& point) const {
   GiNaC::exmap values;
-  for (std::size_t i = 0; i < ring_.symbols().size(); ++i) values[ring_.symbols()[i]] = GiNaC::numeric(point[i]);
+  for (std::size_t i = 0; i < ring_.symbols().size(); ++i)
+    values[ring_.symbols()[i]] = GiNaC::numeric(point[i]);
   return values;
 }
 
@@ -278,7 +287,8 @@ std::vector<std::pair<std::string, std::string>> Prover::describe(const Point& p
 
 /// A point where the residual, evaluated anew by GiNaC's own substitution, is a rational number
 /// other than zero.
-std::optional<Witness> Prover::witness(const Residual& residual, const Polynomial& numerator, const Level& level) {
+std::optional<Witness> Prover::witness(const Residual& residual, const Polynomial& numerator,
+                                       const Level& level) {
   const ex check = residual.by_ginac();
   constexpr int kTrials = 60;
   for (int trial = 0; trial < kTrials; ++trial) {
@@ -289,9 +299,9 @@ std::optional<Witness> Prover::witness(const Residual& residual, const Polynomia
     ex value;
     try {
       value = check.subs(values, GiNaC::subs_options::no_pattern);
-      const bool on_level = std::all_of(level.functions.begin(), level.functions.end(), [&](const ex& f) {
-        return f.subs(values, GiNaC::subs_options::no_pattern).is_zero();
-      });
+      const bool on_level = std::all_of(
+          level.functions.begin(), level.functions.end(),
+          [&](const ex& f) { return f.subs(values, GiNaC::subs_options::no_pattern).is_zero(); });
       if (!on_level) continue;
     } catch (const std::exception&) {
       continue;  // a pole at this point
@@ -315,7 +325,8 @@ std::size_t rank(std::vector<std::vector<cln::cl_RA>> rows) {
     for (std::size_t i = rank + 1; i < rows.size(); ++i) {
       const cln::cl_RA factor = rows[i][column] / rows[rank][column];
       if (cln::zerop(factor)) continue;
-      for (std::size_t j = column; j < columns; ++j) rows[i][j] = rows[i][j] - factor * rows[rank][j];
+      for (std::size_t j = column; j < columns; ++j)
+        rows[i][j] = rows[i][j] - factor * rows[rank][j];
     }
     ++rank;
   }

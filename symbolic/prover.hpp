@@ -14,9 +14,9 @@ namespace casimir {
 
 /// Something that a claim says is zero.
 struct Residual {
-  std::string label;                     ///< as "{M1, F1}"
-  Polynomial value;                      ///< in the prover's ring
-  std::function<GiNaC::ex()> by_ginac;   ///< the same by GiNaC alone: re-evaluates a witness
+  std::string label;                    ///< as "{M1, F1}"
+  Polynomial value;                     ///< in the prover's ring
+  std::function<GiNaC::ex()> by_ginac;  ///< the same by GiNaC alone: re-evaluates a witness
 };
 
 /// The common zero level of some functions.
@@ -39,7 +39,9 @@ class Prover {
   FunctionRing& ring() { return ring_; }
   std::size_t dimension() const { return model_.variables.size(); }
 
-  const Polynomial& bracket_entry(std::size_t i, std::size_t j) const { return brackets_[i * dimension() + j]; }
+  const Polynomial& bracket_entry(std::size_t i, std::size_t j) const {
+    return brackets_[i * dimension() + j];
+  }
   Polynomial bracket(const Polynomial& f, const Polynomial& g) const;
   /// df/dt along the flow, with the explicit dependence on time.
   Polynomial rate(const Polynomial& f) const;
@@ -61,16 +63,19 @@ class Prover {
   std::optional<std::vector<cln::cl_RA>> random_point(const Level& level);
 
   /// Exact values of the symbols of such a point, by name; variables first.
-  std::vector<std::pair<std::string, std::string>> describe(const std::vector<cln::cl_RA>& point) const;
+  std::vector<std::pair<std::string, std::string>> describe(
+      const std::vector<cln::cl_RA>& point) const;
 
  private:
   static std::vector<GiNaC::symbol> symbols_of(const Model& model);
-  static std::vector<GiNaC::ex> expressions_of(const Model& model, const std::vector<GiNaC::ex>& further);
+  static std::vector<GiNaC::ex> expressions_of(const Model& model,
+                                               const std::vector<GiNaC::ex>& further);
   cln::cl_RA draw();
   bool solve_level(std::vector<cln::cl_RA>& point, const Level& level);
   GiNaC::exmap substitution(const std::vector<cln::cl_RA>& point) const;
   bool inside_assumptions(const std::vector<cln::cl_RA>& point) const;
-  std::optional<Witness> witness(const Residual& residual, const Polynomial& numerator, const Level& level);
+  std::optional<Witness> witness(const Residual& residual, const Polynomial& numerator,
+                                 const Level& level);
 
   const Model& model_;
   FunctionRing ring_;

@@ -34,7 +34,8 @@ std::vector<fs::path> bundled_cases() {
   for (const fs::path& folder : case_folders()) {
     std::error_code problem;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, problem)) {
-      if (entry.path().extension() == ".toml") found.try_emplace(entry.path().stem().string(), entry.path());
+      if (entry.path().extension() == ".toml")
+        found.try_emplace(entry.path().stem().string(), entry.path());
     }
   }
   std::vector<fs::path> result;
@@ -47,14 +48,16 @@ CaseFile load_case(const std::string& argument) {
     const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
     return parse_case(text, "<standard input>");
   }
-  if (argument.find('/') != std::string::npos || argument.ends_with(".toml")) return read_case(argument);
+  if (argument.find('/') != std::string::npos || argument.ends_with(".toml"))
+    return read_case(argument);
   std::vector<std::string> names;
   for (const fs::path& path : bundled_cases()) {
     if (path.stem() == argument) return read_case(path);
     names.push_back(path.stem().string());
   }
   std::string hint = suggest(argument, names);
-  if (hint.empty()) hint = "'casimir list' shows the bundled cases; a path needs a '/' or ends in '.toml'";
+  if (hint.empty())
+    hint = "'casimir list' shows the bundled cases; a path needs a '/' or ends in '.toml'";
   throw CaseError({argument}, "there is no bundled case of this name", {}, hint);
 }
 

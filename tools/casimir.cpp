@@ -21,13 +21,16 @@ int fail(Exit status, const std::string& message) {
 }
 
 /// CLI11 reports an unknown command as an extra argument; a near name helps more.
-std::string usage_message(const CLI::App& program, const CLI::ParseError& problem, int argc, char** argv) {
+std::string usage_message(const CLI::App& program, const CLI::ParseError& problem, int argc,
+                          char** argv) {
   std::string message = fmt::format("casimir: error: {}", printable(problem.what(), 500));
   const auto chosen = program.get_subcommands();
-  if (!chosen.empty()) return message + fmt::format("\n  see 'casimir {} --help'", chosen.front()->get_name());
+  if (!chosen.empty())
+    return message + fmt::format("\n  see 'casimir {} --help'", chosen.front()->get_name());
   if (argc > 1) {
     std::vector<std::string> names;
-    for (const CLI::App* command : program.get_subcommands(nullptr)) names.push_back(command->get_name());
+    for (const CLI::App* command : program.get_subcommands(nullptr))
+      names.push_back(command->get_name());
     message = fmt::format("casimir: error: there is no command '{}'", printable(argv[1]));
     const std::string hint = suggest(argv[1], names);
     if (!hint.empty()) message += "\n  hint: " + hint;
@@ -36,7 +39,10 @@ std::string usage_message(const CLI::App& program, const CLI::ParseError& proble
 }
 
 int run(int argc, char** argv) {
-  CLI::App program("Proves the integrals of Hamiltonian systems, writes their equations as C++ and integrates them.", "casimir");
+  CLI::App program(
+      "Proves the integrals of Hamiltonian systems, writes their equations as C++ and integrates "
+      "them.",
+      "casimir");
   program.set_version_flag("--version", CASIMIR_VERSION);
   program.require_subcommand(1);
   program.failure_message(CLI::FailureMessage::simple);

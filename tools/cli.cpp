@@ -9,12 +9,14 @@ ParameterValues Common::parameter_values() const {
   for (const std::string& text : params) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) {
-      throw UsageError(fmt::format("--param '{}': expected NAME=VALUE, such as --param r=1/2", printable(text)));
+      throw UsageError(
+          fmt::format("--param '{}': expected NAME=VALUE, such as --param r=1/2", printable(text)));
     }
     const Text name{text.substr(0, equals), {"--param", 1, 1}, text};
     const Text value{text.substr(equals + 1), {"--param", 1, static_cast<int>(equals) + 2}, text};
     for (const auto& [other, ignored] : result) {
-      if (other.value == name.value) throw UsageError(fmt::format("--param {} is given twice", printable(name.value)));
+      if (other.value == name.value)
+        throw UsageError(fmt::format("--param {} is given twice", printable(name.value)));
     }
     result.emplace_back(name, value);
   }
@@ -24,16 +26,19 @@ ParameterValues Common::parameter_values() const {
 void add_common(CLI::App& command, Common& common) {
   command.add_flag("--json", common.json, "One JSON document on standard output and nothing else");
   command.add_flag("--quiet", common.quiet, "Print nothing; only the exit status tells");
-  command.add_option("--param", common.params, "NAME=VALUE: replace a parameter by an exact number (repeatable)")
+  command
+      .add_option("--param", common.params,
+                  "NAME=VALUE: replace a parameter by an exact number (repeatable)")
       ->allow_extra_args(false)
       ->type_name("NAME=VALUE");
-  command.add_option_function<std::string>(
-             "--scene",
-             [&common](const std::string& name) {
-               common.scene = name;
-               common.scene_given = true;
-             },
-             "Which scene of the case (default: 'default', or the first)")
+  command
+      .add_option_function<std::string>(
+          "--scene",
+          [&common](const std::string& name) {
+            common.scene = name;
+            common.scene_given = true;
+          },
+          "Which scene of the case (default: 'default', or the first)")
       ->type_name("NAME");
   command.add_option("--time-limit", common.time_limit, "Stop after this many seconds")
       ->type_name("SECONDS")

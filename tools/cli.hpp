@@ -26,7 +26,8 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Something outside this program that does not work: a file that cannot be written, a missing tool.
+/// Something outside this program that does not work: a file that cannot be written, a missing
+/// tool.
 class SystemError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -20,10 +20,15 @@ nlohmann::ordered_json left_out_json(const Specialisation& specialisation) {
 }
 
 std::string generated_text(const Specialisation& specialisation) {
-  std::string text = fmt::format("  scene      {}\n  states     {}\n", specialisation.scene, fmt::join(specialisation.states, " "));
-  if (!specialisation.parameters.empty()) text += fmt::format("  parameters {}, at run time\n", fmt::join(specialisation.parameters, " "));
-  text += fmt::format("  one right-hand side, general      {}\n", cost_text(specialisation.general));
-  text += fmt::format("  one right-hand side, specialised  {}\n", cost_text(specialisation.specialised));
+  std::string text = fmt::format("  scene      {}\n  states     {}\n", specialisation.scene,
+                                 fmt::join(specialisation.states, " "));
+  if (!specialisation.parameters.empty())
+    text +=
+        fmt::format("  parameters {}, at run time\n", fmt::join(specialisation.parameters, " "));
+  text +=
+      fmt::format("  one right-hand side, general      {}\n", cost_text(specialisation.general));
+  text += fmt::format("  one right-hand side, specialised  {}\n",
+                      cost_text(specialisation.specialised));
   text += specialisation.left_out.empty() ? "  nothing was left out\n" : "  left out\n";
   for (const LeftOut& item : specialisation.left_out) {
     text += fmt::format("    {:<10} {:<16} {}\n", item.kind, item.name, item.reason);

@@ -46,10 +46,12 @@ void send(int descriptor, const std::string& line) {
 }
 
 /// Reads lines until the worker ends or the time is up; false in the latter case.
-bool read_lines(int descriptor, Clock::time_point deadline, const std::function<void(const std::string&)>& handle) {
+bool read_lines(int descriptor, Clock::time_point deadline,
+                const std::function<void(const std::string&)>& handle) {
   std::string buffer;
   for (;;) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
     if (left <= 0) return false;
     pollfd waiting{descriptor, POLLIN, 0};
     const int ready = poll(&waiting, 1, static_cast<int>(std::min<long>(left, 1000)));
@@ -79,7 +81,8 @@ std::vector<Proof> prove_within(double seconds, const Model& model, const Candid
   }
   std::vector<Proof> proofs = pending(model, candidates);
   int ends[2];
-  if (pipe(ends) != 0) throw SystemError(fmt::format("cannot start a worker: {}", std::strerror(errno)));
+  if (pipe(ends) != 0)
+    throw SystemError(fmt::format("cannot start a worker: {}", std::strerror(errno)));
   const pid_t worker = fork();
   if (worker < 0) throw SystemError(fmt::format("cannot start a worker: {}", std::strerror(errno)));
   if (worker == 0) {
@@ -89,7 +92,8 @@ std::vector<Proof> prove_within(double seconds, const Model& model, const Candid
   close(ends[1]);
   std::size_t done = 0;
   std::string error;
-  const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                           std::chrono::duration<double>(seconds));
   const bool finished = read_lines(ends[0], deadline, [&](const std::string& line) {
     const auto json = nlohmann::ordered_json::parse(line);
     if (json.contains("error")) {

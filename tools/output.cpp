@@ -56,7 +56,8 @@ OutputFile::OutputFile(std::filesystem::path path)
   if (!stream_) {
     const int reason = errno;
     release_slot(temporary_.string());
-    throw SystemError(fmt::format("cannot write '{}': {}", printable(path_.string(), 200), std::strerror(reason)));
+    throw SystemError(fmt::format("cannot write '{}': {}", printable(path_.string(), 200),
+                                  std::strerror(reason)));
   }
 }
 
@@ -71,9 +72,13 @@ OutputFile::~OutputFile() {
 void OutputFile::commit() {
   stream_.close();
   std::error_code problem;
-  if (!stream_) throw SystemError(fmt::format("cannot write all of '{}': {}", printable(path_.string(), 200), std::strerror(errno)));
+  if (!stream_)
+    throw SystemError(fmt::format("cannot write all of '{}': {}", printable(path_.string(), 200),
+                                  std::strerror(errno)));
   std::filesystem::rename(temporary_, path_, problem);
-  if (problem) throw SystemError(fmt::format("cannot write '{}': {}", printable(path_.string(), 200), problem.message()));
+  if (problem)
+    throw SystemError(
+        fmt::format("cannot write '{}': {}", printable(path_.string(), 200), problem.message()));
   done_ = true;
   release_slot(temporary_.string());
 }

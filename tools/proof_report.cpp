@@ -10,14 +10,18 @@ using Json = nlohmann::ordered_json;
 
 std::string witness_text(const Witness& witness) {
   std::string text;
-  for (const auto& [name, value] : witness.point) text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, value);
+  for (const auto& [name, value] : witness.point)
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, value);
   return text;
 }
 
 }  // namespace
 
 Json to_json(const Proof& proof) {
-  Json json = {{"kind", proof.kind}, {"name", proof.name}, {"verdict", to_string(proof.verdict)}, {"seconds", proof.seconds}};
+  Json json = {{"kind", proof.kind},
+               {"name", proof.name},
+               {"verdict", to_string(proof.verdict)},
+               {"seconds", proof.seconds}};
   if (!proof.on.empty()) json["on"] = proof.on;
   if (!proof.evidence.empty()) json["evidence"] = proof.evidence;
   if (!proof.nonzero.empty()) json["nonzero"] = proof.nonzero;
@@ -37,7 +41,9 @@ Proof proof_from_json(const Json& json) {
   proof.kind = json.at("kind");
   proof.name = json.at("name");
   const std::string verdict = json.at("verdict");
-  proof.verdict = verdict == "proved" ? Verdict::proved : verdict == "refuted" ? Verdict::refuted : Verdict::undecided;
+  proof.verdict = verdict == "proved"    ? Verdict::proved
+                  : verdict == "refuted" ? Verdict::refuted
+                                         : Verdict::undecided;
   proof.seconds = json.at("seconds");
   proof.on = json.value("on", std::vector<std::string>{});
   proof.evidence = json.value("evidence", "");
@@ -59,7 +65,11 @@ Json to_json(const Model& model, const std::vector<Proof>& proofs, double second
   Json claims = Json::array();
   Json facts = Json::array();
   for (const Proof& proof : proofs) (proof.fact ? facts : claims).push_back(to_json(proof));
-  return {{"case", model.name}, {"verdict", to_string(overall(model, proofs))}, {"seconds", seconds}, {"claims", claims}, {"facts", facts}};
+  return {{"case", model.name},
+          {"verdict", to_string(overall(model, proofs))},
+          {"seconds", seconds},
+          {"claims", claims},
+          {"facts", facts}};
 }
 
 std::string verdict_text(Verdict verdict, bool colour) {
@@ -69,9 +79,13 @@ std::string verdict_text(Verdict verdict, bool colour) {
 }
 
 std::string to_text(const Proof& proof, bool colour) {
-  const std::string on = proof.on.empty() ? "" : fmt::format("  on {} = 0", fmt::join(proof.on, " = "));
-  std::string text = fmt::format("  {} {:<18} {}{}\n", verdict_text(proof.verdict, colour), proof.kind, proof.name, on);
-  const auto detail = [&](const std::string& line) { text += fmt::format("            {}\n", line); };
+  const std::string on =
+      proof.on.empty() ? "" : fmt::format("  on {} = 0", fmt::join(proof.on, " = "));
+  std::string text = fmt::format("  {} {:<18} {}{}\n", verdict_text(proof.verdict, colour),
+                                 proof.kind, proof.name, on);
+  const auto detail = [&](const std::string& line) {
+    text += fmt::format("            {}\n", line);
+  };
   if (!proof.evidence.empty()) detail(proof.evidence);
   if (!proof.reason.empty()) detail(proof.reason);
   if (!proof.residual.empty()) detail("it is  " + proof.residual);
@@ -79,7 +93,8 @@ std::string to_text(const Proof& proof, bool colour) {
     detail("at  " + witness_text(*proof.witness));
     detail("its value is  " + proof.witness->value);
   }
-  if (!proof.nonzero.empty()) detail(fmt::format("where {} != 0", fmt::join(proof.nonzero, " != 0, ")));
+  if (!proof.nonzero.empty())
+    detail(fmt::format("where {} != 0", fmt::join(proof.nonzero, " != 0, ")));
   return text;
 }
 

@@ -12,7 +12,8 @@ nlohmann::ordered_json to_json(const Proof& proof);
 Proof proof_from_json(const nlohmann::ordered_json& json);
 
 /// The interface's document for `verify`: case, verdict, seconds, claims, facts.
-nlohmann::ordered_json to_json(const Model& model, const std::vector<Proof>& proofs, double seconds);
+nlohmann::ordered_json to_json(const Model& model, const std::vector<Proof>& proofs,
+                               double seconds);
 
 /// One line a claim, and below it what shows the verdict: witness, residual, evidence.
 std::string to_text(const Proof& proof, bool colour);

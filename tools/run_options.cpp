@@ -17,26 +17,33 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   };
   positive("--rtol", options.rtol, "Relative tolerance of a step");
   positive("--atol", options.atol, "Absolute tolerance of a step");
-  positive("--tolerance", options.tolerance, "Sets both tolerances; the absolute one relative to the initial state if that is small");
+  positive("--tolerance", options.tolerance,
+           "Sets both tolerances; the absolute one relative to the initial state if that is small");
   positive("--step", options.step, "Constant step instead of error control");
-  command.add_option("--duration", options.duration, "Duration of the run (default: the scene's)")->type_name("T");
-  command.add_option("--max-steps", options.max_steps, "Limit on the number of steps")->type_name("N")->check(CLI::PositiveNumber);
+  command.add_option("--duration", options.duration, "Duration of the run (default: the scene's)")
+      ->type_name("T");
+  command.add_option("--max-steps", options.max_steps, "Limit on the number of steps")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
 }
 
 Settings settings_for(const RunOptions& options, const SceneRun& run, double default_tolerance) {
   Settings settings;
   settings.duration = run.duration;
   if (options.duration) {
-    const GiNaC::ex value = parse_constant({*options.duration, {"--duration", 1, 1}, *options.duration}).evalf();
+    const GiNaC::ex value =
+        parse_constant({*options.duration, {"--duration", 1, 1}, *options.duration}).evalf();
     if (!GiNaC::is_a<GiNaC::numeric>(value) || !GiNaC::ex_to<GiNaC::numeric>(value).is_real()) {
-      throw UsageError(fmt::format("--duration '{}': expected a real number", printable(*options.duration)));
+      throw UsageError(
+          fmt::format("--duration '{}': expected a real number", printable(*options.duration)));
     }
     settings.duration = GiNaC::ex_to<GiNaC::numeric>(value).to_double();
   }
   settings.rtol = options.rtol.value_or(options.tolerance.value_or(default_tolerance));
   double size = 0;
   for (const double x : run.initial) size = std::max(size, std::abs(x));
-  settings.atol = options.atol.value_or(options.tolerance.value_or(settings.rtol) * (size > 0 ? std::min(size, 1.0) : 1.0));
+  settings.atol = options.atol.value_or(options.tolerance.value_or(settings.rtol) *
+                                        (size > 0 ? std::min(size, 1.0) : 1.0));
   settings.fixed_step = options.step.value_or(0);
   settings.max_steps = options.max_steps;
   settings.invariant_sizes = run.invariant_sizes();
@@ -50,7 +57,8 @@ const Method& method_named(const std::string& name) {
   std::vector<std::string> known = method_names();
   known.emplace_back("auto");
   const std::string hint = suggest(name, known);
-  throw UsageError(fmt::format("there is no method '{}'; {}", printable(name), hint.empty() ? "known: " + method_list() : hint));
+  throw UsageError(fmt::format("there is no method '{}'; {}", printable(name),
+                               hint.empty() ? "known: " + method_list() : hint));
 }
 
 std::string method_list() { return fmt::format("{}", fmt::join(method_names(), ", ")); }

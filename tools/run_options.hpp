@@ -21,7 +21,8 @@ void add_run_options(CLI::App& command, RunOptions& options);
 /// Settings for a scene. Without `--atol`, the absolute tolerance is the relative one times the
 /// size of the initial state where that is below 1: a tiny scene is not all tolerance.
 /// \throws UsageError  for a duration that is no number.
-Settings settings_for(const RunOptions& options, const SceneRun& run, double default_tolerance = 1e-10);
+Settings settings_for(const RunOptions& options, const SceneRun& run,
+                      double default_tolerance = 1e-10);
 
 /// The method of that name; "auto" is resolved. \throws UsageError  with the nearest name.
 const Method& method_named(const std::string& name);

@@ -12,7 +12,9 @@ using Json = nlohmann::ordered_json;
 
 Json number(double value) { return std::isfinite(value) ? Json(exact_text(value)) : Json(nullptr); }
 
-std::string short_number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.1e}", value); }
+std::string short_number(double value) {
+  return std::isnan(value) ? "-" : fmt::format("{:.1e}", value);
+}
 
 /// A CSV field: quoted where it has to be.
 std::string field(const std::string& text) {
@@ -29,20 +31,31 @@ Json to_json(const std::vector<Row>& rows) {
   int failed = 0;
   for (const Row& row : rows) {
     failed += row.failed ? 1 : 0;
-    list.push_back({{"case", row.case_name}, {"scene", row.scene}, {"method", row.method}, {"code", row.code},
-                    {"tolerance", row.tolerance}, {"error", number(row.error)}, {"drift", number(row.drift)},
-                    {"seconds", row.seconds}, {"spread", row.spread}, {"steps", row.steps}, {"evaluations", row.evaluations},
-                    {"status", row.status}, {"failed", row.failed}});
+    list.push_back({{"case", row.case_name},
+                    {"scene", row.scene},
+                    {"method", row.method},
+                    {"code", row.code},
+                    {"tolerance", row.tolerance},
+                    {"error", number(row.error)},
+                    {"drift", number(row.drift)},
+                    {"seconds", row.seconds},
+                    {"spread", row.spread},
+                    {"steps", row.steps},
+                    {"evaluations", row.evaluations},
+                    {"status", row.status},
+                    {"failed", row.failed}});
   }
   return {{"rows", list}, {"failed", failed}};
 }
 
 void write_csv(std::ostream& stream, const std::vector<Row>& rows) {
-  stream << "case,scene,method,code,tolerance,error,drift,seconds,spread,steps,evaluations,status\n";
+  stream
+      << "case,scene,method,code,tolerance,error,drift,seconds,spread,steps,evaluations,status\n";
   for (const Row& row : rows) {
-    stream << fmt::format("{},{},{},{},{:g},{},{},{:.6g},{:.3g},{},{},{}\n", field(row.case_name), field(row.scene), row.method, row.code,
-                          row.tolerance, std::isnan(row.error) ? "" : exact_text(row.error), exact_text(row.drift), row.seconds, row.spread, row.steps,
-                          row.evaluations, field(row.status));
+    stream << fmt::format("{},{},{},{},{:g},{},{},{:.6g},{:.3g},{},{},{}\n", field(row.case_name),
+                          field(row.scene), row.method, row.code, row.tolerance,
+                          std::isnan(row.error) ? "" : exact_text(row.error), exact_text(row.drift),
+                          row.seconds, row.spread, row.steps, row.evaluations, field(row.status));
   }
 }
 
@@ -53,12 +66,15 @@ std::string to_text(const std::vector<Row>& rows, bool with_error) {
     const std::string title = fmt::format("{}, scene '{}'\n", row.case_name, row.scene);
     if (title != head) {
       head = title;
-      text += title + fmt::format("  {:<18} {:<12} {:>9} {}{:>9} {:>10} {:>9} {:>11}  {}\n", "method", "code", "tolerance",
-                                  with_error ? "    error  " : "", "drift", "time", "steps", "evaluations", "status");
+      text += title + fmt::format("  {:<18} {:<12} {:>9} {}{:>9} {:>10} {:>9} {:>11}  {}\n",
+                                  "method", "code", "tolerance", with_error ? "    error  " : "",
+                                  "drift", "time", "steps", "evaluations", "status");
     }
-    text += fmt::format("  {:<18} {:<12} {:>9.0e} {}{:>9} {:>10} {:>9} {:>11}  {}\n", row.method, row.code, row.tolerance,
-                        with_error ? fmt::format("{:>9}  ", short_number(row.error)) : "", short_number(row.drift), duration_text(row.seconds),
-                        row.steps, row.evaluations, row.status);
+    text += fmt::format("  {:<18} {:<12} {:>9.0e} {}{:>9} {:>10} {:>9} {:>11}  {}\n", row.method,
+                        row.code, row.tolerance,
+                        with_error ? fmt::format("{:>9}  ", short_number(row.error)) : "",
+                        short_number(row.drift), duration_text(row.seconds), row.steps,
+                        row.evaluations, row.status);
   }
   return text;
 }

@@ -20,7 +20,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// Digits to which constants such as sqrt(2)/2 are evaluated before they are rounded to double.
 constexpr int kConstantDigits = 60;
@@ -44,7 +46,8 @@ SceneRun prepare(const Model& model, const Scene& scene, const SceneOptions& opt
   const std::vector<cln::cl_F> values = evaluate_start(s, kConstantDigits);
   std::size_t next = 0;
   for (std::size_t i = 0; i < s.states.size(); ++i) run.initial.push_back(rounded(values[next++]));
-  for (std::size_t i = 0; i < s.parameters.size(); ++i) run.parameters.push_back(rounded(values[next++]));
+  for (std::size_t i = 0; i < s.parameters.size(); ++i)
+    run.parameters.push_back(rounded(values[next++]));
   run.duration = rounded(values[next]);
   run.generate_seconds = seconds_since(start);
   return run;
@@ -53,7 +56,8 @@ SceneRun prepare(const Model& model, const Scene& scene, const SceneOptions& opt
 std::function<void(double, const double*, double*)> SceneRun::invariant_sizes() const {
   return [this](double t, const double* x, double* sizes) {
     std::vector<SizedNumber> inputs;
-    for (std::size_t i = 0; i < initial.size(); ++i) inputs.push_back(Arithmetic<SizedNumber>::plain(x[i]));
+    for (std::size_t i = 0; i < initial.size(); ++i)
+      inputs.push_back(Arithmetic<SizedNumber>::plain(x[i]));
     for (const double p : parameters) inputs.push_back(Arithmetic<SizedNumber>::plain(p));
     inputs.push_back(Arithmetic<SizedNumber>::plain(t));
     const std::vector<SizedNumber> values = evaluate(specialisation.invariants, inputs);
@@ -64,22 +68,28 @@ std::function<void(double, const double*, double*)> SceneRun::invariant_sizes() 
 CompiledModule compile_for(const SceneRun& run, const Method& method) {
   const auto start = Clock::now();
   // A method of another library only calls the right-hand side: one module serves them all.
-  const CompiledObject object = compile(emit_module(run.specialisation, method.outside.empty() ? kernel_source(method) : std::string{}));
+  const CompiledObject object = compile(emit_module(
+      run.specialisation, method.outside.empty() ? kernel_source(method) : std::string{}));
   return {Module::load(object.path), seconds_since(start), object.from_cache};
 }
 
-TruthOrReason truth_of(const Scene& scene, const SceneRun& run, int digits, const std::function<bool()>& give_up) {
+TruthOrReason truth_of(const Scene& scene, const SceneRun& run, int digits,
+                       const std::function<bool()>& give_up) {
   const Specialisation& s = run.specialisation;
   TruthOrReason result;
   std::vector<cln::cl_F> state;
   const bool in_file = !scene.reference.empty() &&
-                       std::all_of(s.state_indices.begin(), s.state_indices.end(), [&](int i) { return scene.reference[static_cast<std::size_t>(i)].has_value(); });
+                       std::all_of(s.state_indices.begin(), s.state_indices.end(), [&](int i) {
+                         return scene.reference[static_cast<std::size_t>(i)].has_value();
+                       });
   if (in_file) {
     const Arithmetic<cln::cl_F> arithmetic(kConstantDigits);
     for (const int i : s.state_indices) {
       const GiNaC::ex value = *scene.reference[static_cast<std::size_t>(i)];
-      if (!GiNaC::is_a<GiNaC::numeric>(value)) throw ModelError("a reference state must be given by numbers");
-      state.push_back(arithmetic.from(cln::the<cln::cl_R>(GiNaC::ex_to<GiNaC::numeric>(value).to_cl_N())));
+      if (!GiNaC::is_a<GiNaC::numeric>(value))
+        throw ModelError("a reference state must be given by numbers");
+      state.push_back(
+          arithmetic.from(cln::the<cln::cl_R>(GiNaC::ex_to<GiNaC::numeric>(value).to_cl_N())));
     }
     result.source = "the case file";
   } else {
@@ -87,18 +97,23 @@ TruthOrReason truth_of(const Scene& scene, const SceneRun& run, int digits, cons
     const auto n = static_cast<std::ptrdiff_t>(s.states.size());
     const std::vector<cln::cl_R> initial(values.begin(), values.begin() + n);
     const std::vector<cln::cl_R> parameters(values.begin() + n, values.end() - 1);
-    const Reference reference = reference_solution(s.rhs, initial, values.back(), digits, parameters, give_up);
+    const Reference reference =
+        reference_solution(s.rhs, initial, values.back(), digits, parameters, give_up);
     if (!reference.reached) {
-      result.reason = fmt::format("there is no reference state: {} (t = {:.6g})", reference.reason, cln::double_approx(reference.time));
+      result.reason = fmt::format("there is no reference state: {} (t = {:.6g})", reference.reason,
+                                  cln::double_approx(reference.time));
       return result;
     }
     constexpr double kGood = 1e-18;
     if (reference.error_bound > kGood) {
-      result.reason = fmt::format("two multiprecision runs differ by {:.1e}: more digits are needed for a reference", reference.error_bound);
+      result.reason = fmt::format(
+          "two multiprecision runs differ by {:.1e}: more digits are needed for a reference",
+          reference.error_bound);
       return result;
     }
     state = reference.state;
-    result.source = fmt::format("our own Taylor series with {} digits, checked to {:.0e}", reference.digits, reference.error_bound);
+    result.source = fmt::format("our own Taylor series with {} digits, checked to {:.0e}",
+                                reference.digits, reference.error_bound);
   }
   Truth truth;
   for (const cln::cl_F& x : state) {
@@ -115,11 +130,14 @@ std::vector<double> state_sizes(const SceneRun& run) {
   Settings settings;
   settings.duration = run.duration;
   settings.rtol = 1e-8;
-  settings.atol = 1e-8 * *std::max_element(run.initial.begin(), run.initial.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  settings.atol =
+      1e-8 * *std::max_element(run.initial.begin(), run.initial.end(),
+                               [](double a, double b) { return std::abs(a) < std::abs(b); });
   settings.atol = std::max(std::abs(settings.atol), 1e-300);
   settings.sample_every = std::abs(run.duration) / 200;
   settings.monitor = false;
-  const Trajectory trajectory = integrate(compile_for(run, method).module, method, settings, run.initial, run.parameters);
+  const Trajectory trajectory =
+      integrate(compile_for(run, method).module, method, settings, run.initial, run.parameters);
   std::vector<double> sizes(run.initial.size());
   for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::abs(run.initial[i]);
   for (const std::vector<double>& x : trajectory.samples) {
@@ -132,7 +150,8 @@ std::vector<double> state_sizes(const SceneRun& run) {
 
 std::function<bool()> time_limit(double seconds) {
   if (seconds <= 0) return {};
-  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(seconds));
   return [end] { return Clock::now() > end; };
 }
 

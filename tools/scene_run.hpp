@@ -49,7 +49,8 @@ struct TruthOrReason {
   std::string source;  ///< "the case file", or "our own, 40 digits, error below 1e-30"
   std::string reason;
 };
-TruthOrReason truth_of(const Scene& scene, const SceneRun& run, int digits, const std::function<bool()>& give_up);
+TruthOrReason truth_of(const Scene& scene, const SceneRun& run, int digits,
+                       const std::function<bool()>& give_up);
 
 /// The largest value that each state takes along a run in double precision, at 200 times; at least
 /// a millionth of the largest of all. What errors are measured against.

@@ -12,9 +12,10 @@ Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>
             for (std::size_t i = 0; i < prover.dimension(); ++i) {
               const GiNaC::symbol x = prover.model().variables[i];
               const GiNaC::ex value = f.value;
-              residuals.push_back({fmt::format("{{{}, {}}}", x.get_name(), f.name),
-                                   prover.bracket(prover.ring().ring().variable(i), c),
-                                   [&prover, x, value] { return prover.model().poisson->bracket(x, value); }});
+              residuals.push_back(
+                  {fmt::format("{{{}, {}}}", x.get_name(), f.name),
+                   prover.bracket(prover.ring().ring().variable(i), c),
+                   [&prover, x, value] { return prover.model().poisson->bracket(x, value); }});
             }
             prover.decide(proof, residuals, prover.level(on));
           }};

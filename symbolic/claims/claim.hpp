@@ -36,9 +36,11 @@ std::vector<Claim> liouville_claims(const Model& model);
 
 /// In the order in which they are reported.
 inline constexpr ClaimKind kClaimKinds[] = {
-    skew_claims,        jacobi_claims, casimir_claims, integral_claims, conditional_claims,
-    invariant_relation_claims, lax_claims, map_claims,     measure_claims,  involution_claims,
-    independence_claims, rank_claims,  liouville_claims,
+    skew_claims,       jacobi_claims,       casimir_claims,
+    integral_claims,   conditional_claims,  invariant_relation_claims,
+    lax_claims,        map_claims,          measure_claims,
+    involution_claims, independence_claims, rank_claims,
+    liouville_claims,
 };
 
 /// {x_i, f} for every coordinate, on a level if one is given.

@@ -11,7 +11,8 @@
 namespace casimir {
 namespace {
 
-std::vector<NamedExpression> with_hamiltonian(const Model& model, std::vector<NamedExpression> functions) {
+std::vector<NamedExpression> with_hamiltonian(const Model& model,
+                                              std::vector<NamedExpression> functions) {
   if (model.hamiltonian && !model.time) functions.push_back({"H", *model.hamiltonian, {}});
   functions.insert(functions.end(), model.integrals.begin(), model.integrals.end());
   return functions;
@@ -25,7 +26,8 @@ std::string names_of(const std::vector<NamedExpression>& functions) {
 
 PolynomialRows gradients(Prover& prover, const std::vector<NamedExpression>& functions) {
   PolynomialRows rows;
-  for (const NamedExpression& f : functions) rows.push_back(prover.gradient(prover.ring().convert(f.value)));
+  for (const NamedExpression& f : functions)
+    rows.push_back(prover.gradient(prover.ring().convert(f.value)));
   return rows;
 }
 
@@ -33,12 +35,14 @@ PolynomialRows structure_matrix(Prover& prover) {
   PolynomialRows rows;
   for (std::size_t i = 0; i < prover.dimension(); ++i) {
     rows.emplace_back();
-    for (std::size_t j = 0; j < prover.dimension(); ++j) rows.back().push_back(prover.bracket_entry(i, j));
+    for (std::size_t j = 0; j < prover.dimension(); ++j)
+      rows.back().push_back(prover.bracket_entry(i, j));
   }
   return rows;
 }
 
-void decide_independence(Prover& prover, Proof& proof, const std::vector<NamedExpression>& functions) {
+void decide_independence(Prover& prover, Proof& proof,
+                         const std::vector<NamedExpression>& functions) {
   const auto found = generic_rank(prover, gradients(prover, functions));
   if (!found) {
     proof.reason = "no exact point was found to take the gradients at";
@@ -47,8 +51,10 @@ void decide_independence(Prover& prover, Proof& proof, const std::vector<NamedEx
     proof.evidence = "the gradients are independent at " + point_text(prover, found->point);
   } else if (found->exact) {
     proof.verdict = Verdict::refuted;
-    proof.reason = fmt::format("only {} of the {} functions are independent: every larger minor of their gradients vanishes identically",
-                               found->rank, functions.size());
+    proof.reason = fmt::format(
+        "only {} of the {} functions are independent: every larger minor of their gradients "
+        "vanishes identically",
+        found->rank, functions.size());
   } else {
     proof.reason = fmt::format("the gradients have rank {} at the points tried", found->rank);
   }
@@ -60,18 +66,23 @@ void decide_rank(Prover& prover, Proof& proof) {
     proof.reason = "no exact point was found to take the rank at";
     return;
   }
-  const auto casimirs = prover.model().casimirs.empty() ? std::nullopt : generic_rank(prover, gradients(prover, prover.model().casimirs));
+  const auto casimirs = prover.model().casimirs.empty()
+                            ? std::nullopt
+                            : generic_rank(prover, gradients(prover, prover.model().casimirs));
   const std::size_t independent = casimirs ? casimirs->rank : 0;
   const bool exact = found->exact || found->rank + independent == prover.dimension();
   proof.name = fmt::format("rank {}", found->rank);
   if (!exact) {
-    proof.reason = fmt::format("the rank is at least {}, with {} independent Casimir functions known in dimension {}",
-                               found->rank, independent, prover.dimension());
+    proof.reason = fmt::format(
+        "the rank is at least {}, with {} independent Casimir functions known in dimension {}",
+        found->rank, independent, prover.dimension());
     return;
   }
   proof.verdict = Verdict::proved;
-  proof.evidence = fmt::format("leaves of dimension {} in dimension {}, {} independent Casimir function{}; rank taken at {}", found->rank,
-                               prover.dimension(), independent, independent == 1 ? "" : "s", point_text(prover, found->point));
+  proof.evidence = fmt::format(
+      "leaves of dimension {} in dimension {}, {} independent Casimir function{}; rank taken at {}",
+      found->rank, prover.dimension(), independent, independent == 1 ? "" : "s",
+      point_text(prover, found->point));
 }
 
 /// The vector fields J grad F.
@@ -81,7 +92,8 @@ PolynomialRows fields(Prover& prover, const PolynomialRows& slopes) {
     rows.emplace_back();
     for (std::size_t i = 0; i < prover.dimension(); ++i) {
       Polynomial sum(prover.ring().ring());
-      for (std::size_t j = 0; j < prover.dimension(); ++j) sum += prover.bracket_entry(i, j) * slope[j];
+      for (std::size_t j = 0; j < prover.dimension(); ++j)
+        sum += prover.bracket_entry(i, j) * slope[j];
       rows.back().push_back(std::move(sum));
     }
   }
@@ -100,13 +112,18 @@ void decide_liouville(Prover& prover, Proof& proof) {
   const std::size_t count = functions.size();
   constexpr std::size_t kMaxFunctions = 16;
   if (count > kMaxFunctions) {
-    proof.reason = fmt::format("more than {} integrals: their choice is not searched", kMaxFunctions);
+    proof.reason =
+        fmt::format("more than {} integrals: their choice is not searched", kMaxFunctions);
     return;
   }
   std::vector<unsigned> commutes(count);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = 0; j < count; ++j) {
-      const bool zero = i == j || prover.ring().numerator(prover.bracket(prover.ring().convert(functions[i].value), prover.ring().convert(functions[j].value))).is_zero();
+      const bool zero =
+          i == j || prover.ring()
+                        .numerator(prover.bracket(prover.ring().convert(functions[i].value),
+                                                  prover.ring().convert(functions[j].value)))
+                        .is_zero();
       if (zero) commutes[i] |= 1U << j;
     }
   }
@@ -129,11 +146,14 @@ void decide_liouville(Prover& prover, Proof& proof) {
     best = rows.size();
     if (best < needed) continue;
     proof.verdict = Verdict::proved;
-    proof.evidence = fmt::format("{} are in involution and independent on leaves of dimension {} (at {})", names_of(chosen), leaf->rank,
-                                 point_text(prover, independent->point));
+    proof.evidence =
+        fmt::format("{} are in involution and independent on leaves of dimension {} (at {})",
+                    names_of(chosen), leaf->rank, point_text(prover, independent->point));
     return;
   }
-  proof.reason = fmt::format("leaves of dimension {} or more need {} independent integrals in involution; {} known", leaf->rank, needed, best);
+  proof.reason = fmt::format(
+      "leaves of dimension {} or more need {} independent integrals in involution; {} known",
+      leaf->rank, needed, best);
 }
 
 }  // namespace
@@ -141,8 +161,9 @@ void decide_liouville(Prover& prover, Proof& proof) {
 std::vector<Claim> independence_claims(const Model& model) {
   const std::vector<NamedExpression> functions = with_hamiltonian(model, model.casimirs);
   if (functions.size() < 2) return {};
-  return {{"independence", names_of(functions), true,
-           [functions](Prover& prover, Proof& proof) { decide_independence(prover, proof, functions); }}};
+  return {{"independence", names_of(functions), true, [functions](Prover& prover, Proof& proof) {
+             decide_independence(prover, proof, functions);
+           }}};
 }
 
 std::vector<Claim> rank_claims(const Model& model) {

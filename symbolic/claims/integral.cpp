@@ -14,7 +14,8 @@ Residual rate_of(Prover& prover, const NamedExpression& f) {
 }
 
 /// Are `residuals` zero on the level, and is the level itself invariant?
-void decide_on_invariant_level(Prover& prover, Proof& proof, const std::vector<Residual>& residuals, const Level& level) {
+void decide_on_invariant_level(Prover& prover, Proof& proof, const std::vector<Residual>& residuals,
+                               const Level& level) {
   Proof invariance;
   prover.decide(invariance, prover.level_rates(level), level);
   if (invariance.verdict == Verdict::proved) {
@@ -23,7 +24,8 @@ void decide_on_invariant_level(Prover& prover, Proof& proof, const std::vector<R
   }
   proof.verdict = invariance.verdict;
   proof.reason = "the level is not shown to be invariant: " + invariance.reason;
-  if (invariance.verdict == Verdict::refuted) proof.reason = "the level is not invariant: " + invariance.reason;
+  if (invariance.verdict == Verdict::refuted)
+    proof.reason = "the level is not invariant: " + invariance.reason;
   proof.residual = invariance.residual;
   proof.witness = invariance.witness;
   proof.nonzero = invariance.nonzero;

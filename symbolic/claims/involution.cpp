@@ -14,12 +14,15 @@ std::vector<Claim> involution_claims(const Model& model) {
       const NamedExpression f = model.integrals[i];
       const NamedExpression g = model.integrals[j];
       const std::string name = fmt::format("{{{}, {}}}", f.name, g.name);
-      claims.push_back({"involution", name, true, [f, g, name](Prover& prover, Proof& proof) {
-                          prover.decide(proof,
-                                        {{name, prover.bracket(prover.ring().convert(f.value), prover.ring().convert(g.value)),
-                                          [&prover, f, g] { return prover.model().poisson->bracket(f.value, g.value); }}},
-                                        {});
-                        }});
+      claims.push_back(
+          {"involution", name, true, [f, g, name](Prover& prover, Proof& proof) {
+             prover.decide(
+                 proof,
+                 {{name,
+                   prover.bracket(prover.ring().convert(f.value), prover.ring().convert(g.value)),
+                   [&prover, f, g] { return prover.model().poisson->bracket(f.value, g.value); }}},
+                 {});
+           }});
     }
   }
   return claims;

@@ -14,12 +14,15 @@ void decide_map(Prover& prover, Proof& proof, const PoissonMap& map) {
   for (std::size_t i = 0; i < y.size(); ++i) {
     for (std::size_t j = i + 1; j < y.size(); ++j, ++index) {
       const GiNaC::ex expected = map.sign * target[index];
-      residuals.push_back({fmt::format("{{{0}, {1}}} less its image", y[i].get_name(), y[j].get_name()),
-                           prover.bracket(prover.ring().convert(map.expressions[i]), prover.ring().convert(map.expressions[j])) -
-                               prover.ring().convert(expected),
-                           [&prover, &map, i, j, expected] {
-                             return prover.model().poisson->bracket(map.expressions[i], map.expressions[j]) - expected;
-                           }});
+      residuals.push_back(
+          {fmt::format("{{{0}, {1}}} less its image", y[i].get_name(), y[j].get_name()),
+           prover.bracket(prover.ring().convert(map.expressions[i]),
+                          prover.ring().convert(map.expressions[j])) -
+               prover.ring().convert(expected),
+           [&prover, &map, i, j, expected] {
+             return prover.model().poisson->bracket(map.expressions[i], map.expressions[j]) -
+                    expected;
+           }});
     }
   }
   prover.decide(proof, residuals, prover.level(map.on));

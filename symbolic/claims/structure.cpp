@@ -12,9 +12,10 @@ std::vector<Claim> skew_claims(const Model& model) {
              const PoissonStructure& structure = *prover.model().poisson;
              for (std::size_t i = 0; i < prover.dimension(); ++i) {
                for (std::size_t j = 0; j <= i; ++j) {
-                 residuals.push_back({fmt::format("{{x{0},x{1}}} + {{x{1},x{0}}}", i + 1, j + 1),
-                                      prover.bracket_entry(i, j) + prover.bracket_entry(j, i),
-                                      [&structure, i, j] { return structure(i, j) + structure(j, i); }});
+                 residuals.push_back(
+                     {fmt::format("{{x{0},x{1}}} + {{x{1},x{0}}}", i + 1, j + 1),
+                      prover.bracket_entry(i, j) + prover.bracket_entry(j, i),
+                      [&structure, i, j] { return structure(i, j) + structure(j, i); }});
                }
              }
              prover.decide(proof, residuals, {});
@@ -45,9 +46,11 @@ std::vector<Claim> jacobi_claims(const Model& model) {
              for (std::size_t i = 0; i < x.size(); ++i) {
                for (std::size_t j = i + 1; j < x.size(); ++j) {
                  for (std::size_t k = j + 1; k < x.size(); ++k) {
-                   residuals.push_back({fmt::format("{{{0},{{{1},{2}}}}} + cyclic", x[i].get_name(), x[j].get_name(), x[k].get_name()),
-                                        jacobi_defect(prover, i, j, k),
-                                        [&prover, i, j, k] { return prover.model().poisson->jacobi_defect(i, j, k); }});
+                   residuals.push_back({fmt::format("{{{0},{{{1},{2}}}}} + cyclic", x[i].get_name(),
+                                                    x[j].get_name(), x[k].get_name()),
+                                        jacobi_defect(prover, i, j, k), [&prover, i, j, k] {
+                                          return prover.model().poisson->jacobi_defect(i, j, k);
+                                        }});
                  }
                }
              }

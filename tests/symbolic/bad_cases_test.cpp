@@ -23,12 +23,14 @@ Expected expectation(const std::filesystem::path& path) {
   head.erase(0, mark.size());
   const std::size_t first = head.find(':');
   const std::size_t second = head.find(':', first + 1);
-  return {head.substr(0, first), head.substr(first + 1, second - first - 1), head.substr(second + 2)};
+  return {head.substr(0, first), head.substr(first + 1, second - first - 1),
+          head.substr(second + 2)};
 }
 
 std::vector<std::filesystem::path> bad_cases() {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(CASIMIR_SOURCE_DIR "/tests/bad_cases")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(CASIMIR_SOURCE_DIR "/tests/bad_cases")) {
     if (entry.path().extension() == ".toml") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
@@ -39,7 +41,8 @@ class BadCase : public testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(BadCase, IsRefusedWithThePlaceOfTheError) {
   const Expected expected = expectation(GetParam());
-  ASSERT_FALSE(expected.fragment.empty()) << "the file must begin with '# expect: LINE:COLUMN: text'";
+  ASSERT_FALSE(expected.fragment.empty())
+      << "the file must begin with '# expect: LINE:COLUMN: text'";
   try {
     build_model(read_case(GetParam()));
     FAIL() << "accepted";
@@ -56,7 +59,9 @@ TEST_P(BadCase, IsRefusedWithThePlaceOfTheError) {
 
 INSTANTIATE_TEST_SUITE_P(Files, BadCase, testing::ValuesIn(bad_cases()), [](const auto& file) {
   std::string name = file.param.stem().string();
-  std::replace_if(name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); },
+      '_');
   return name;
 });
 
@@ -65,7 +70,8 @@ TEST(ReadCase, NamesTheFileThatDoesNotExist) {
     read_case("/no/such/case.toml");
     FAIL();
   } catch (const CaseError& error) {
-    EXPECT_STREQ(error.what(), "/no/such/case.toml: error: the case file does not exist or cannot be read");
+    EXPECT_STREQ(error.what(),
+                 "/no/such/case.toml: error: the case file does not exist or cannot be read");
   }
 }
 

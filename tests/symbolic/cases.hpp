@@ -12,13 +12,15 @@ namespace casimir::test {
 std::vector<std::filesystem::path> case_files();
 
 /// A case written in a test.
-inline Model model_of(const std::string& toml) { return build_model(parse_case(toml, "test.toml")); }
+inline Model model_of(const std::string& toml) {
+  return build_model(parse_case(toml, "test.toml"));
+}
 
 /// Euler's top on so(3) with some lines added.
 inline Model euler_with(const std::string& more) {
-  return model_of(
-      "hamiltonian = \"(a1*M1^2 + a2*M2^2 + a3*M3^2)/2\"\n" + more +
-      "\n[phase_space]\nvariables = [\"M1\", \"M2\", \"M3\"]\nalgebra = \"so(3)\"\n[parameters]\na1 = {}\na2 = {}\na3 = {}\n");
+  return model_of("hamiltonian = \"(a1*M1^2 + a2*M2^2 + a3*M3^2)/2\"\n" + more +
+                  "\n[phase_space]\nvariables = [\"M1\", \"M2\", \"M3\"]\nalgebra = "
+                  "\"so(3)\"\n[parameters]\na1 = {}\na2 = {}\na3 = {}\n");
 }
 
 }  // namespace casimir::test

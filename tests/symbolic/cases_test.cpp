@@ -28,7 +28,8 @@ TEST_P(EveryCase, IsProved) {
   EXPECT_EQ(overall(model, proofs), Verdict::proved);
   for (const Proof& proof : proofs) {
     if (proof.fact && !model.integrable) continue;
-    EXPECT_EQ(proof.verdict, Verdict::proved) << proof.kind << ' ' << proof.name << ": " << proof.reason << ' ' << proof.residual;
+    EXPECT_EQ(proof.verdict, Verdict::proved)
+        << proof.kind << ' ' << proof.name << ": " << proof.reason << ' ' << proof.residual;
   }
 }
 
@@ -87,7 +88,9 @@ TEST_P(EveryCase, WitnessOfAFalseCasimirReEvaluatesToItsValue) {
 
 INSTANTIATE_TEST_SUITE_P(Cases, EveryCase, testing::ValuesIn(case_files()), [](const auto& file) {
   std::string name = file.param.stem().string();
-  std::replace_if(name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); },
+      '_');
   return name;
 });
 

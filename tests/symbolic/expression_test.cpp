@@ -13,7 +13,9 @@ class Expression : public testing::Test {
     names_.add("x", Quantity::symbol(x_));
     names_.add("y", Quantity::symbol(y_));
   }
-  GiNaC::ex parse(const std::string& text) { return parse_expression({text, {"test", 1, 1}, text}, names_).value; }
+  GiNaC::ex parse(const std::string& text) {
+    return parse_expression({text, {"test", 1, 1}, text}, names_).value;
+  }
   std::string error_of(const std::string& text) {
     try {
       parse(text);
@@ -58,7 +60,8 @@ TEST_F(Expression, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(error_of("atan2(x)"), "1: 'atan2' takes 2 arguments, 1 given");
   EXPECT_EQ(error_of("1/0"), "2: division by zero");
   EXPECT_EQ(error_of("1/(x-x)"), "2: division by zero");
-  EXPECT_EQ(error_of("x +"), "4: unexpected end of the expression, expected a number, a name or '('");
+  EXPECT_EQ(error_of("x +"),
+            "4: unexpected end of the expression, expected a number, a name or '('");
   EXPECT_EQ(error_of("(x"), "3: unexpected end of the expression, expected ')'");
   EXPECT_EQ(error_of("2x"), "2: unexpected 'x' after a number");
   EXPECT_EQ(error_of("x ** 2"), "4: unexpected '**'");
@@ -67,8 +70,11 @@ TEST_F(Expression, SaysWhatIsWrongAndWhere) {
 }
 
 TEST_F(Expression, RefusesGiantsByAStatedLimit) {
-  EXPECT_NE(error_of(std::string(100000, '(') + "x" + std::string(100000, ')')).find("nested more than 200 deep"), std::string::npos);
-  EXPECT_NE(error_of(std::string(100000, '-') + "x").find("nested more than 200 deep"), std::string::npos);
+  EXPECT_NE(error_of(std::string(100000, '(') + "x" + std::string(100000, ')'))
+                .find("nested more than 200 deep"),
+            std::string::npos);
+  EXPECT_NE(error_of(std::string(100000, '-') + "x").find("nested more than 200 deep"),
+            std::string::npos);
   std::string sum = "x";
   while (sum.size() < (1U << 20)) sum += "+x";
   EXPECT_NE(error_of(sum).find("the limit is 262144"), std::string::npos);
@@ -88,7 +94,8 @@ TEST_F(Expression, LongFlatSumIsReadInLinearTime) {
 TEST_F(Expression, RandomTreesKeepTheirValue) {
   std::mt19937 random(7);
   const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
-  const std::function<std::pair<std::string, GiNaC::numeric>(int)> tree = [&](int depth) -> std::pair<std::string, GiNaC::numeric> {
+  const std::function<std::pair<std::string, GiNaC::numeric>(int)> tree =
+      [&](int depth) -> std::pair<std::string, GiNaC::numeric> {
     if (depth == 0) {
       const int k = pick(4);
       if (k == 0) return {"x", GiNaC::numeric(3, 7)};
@@ -123,7 +130,8 @@ TEST_F(Expression, RandomTreesKeepTheirValue) {
 }
 
 TEST(Names, KeywordsFunctionsAndOddCharactersAreRefused) {
-  for (const char* bad : {"int", "double", "sin", "Pi", "I", "1x", "a b", "", "x;", "t\xC3\xA9ta", "co_await"}) {
+  for (const char* bad :
+       {"int", "double", "sin", "Pi", "I", "1x", "a b", "", "x;", "t\xC3\xA9ta", "co_await"}) {
     EXPECT_THROW(check_name({bad, {"test", 1, 1}, bad}, "a variable"), CaseError) << bad;
   }
   EXPECT_THROW(check_name({std::string(10000, 'a'), {"test", 1, 1}, ""}, "a variable"), CaseError);
@@ -133,7 +141,9 @@ TEST(Names, KeywordsFunctionsAndOddCharactersAreRefused) {
 TEST(Printable, EscapesWhatCouldDriveATerminal) {
   EXPECT_EQ(printable("a\x1b[31mb"), "a\\x1b[31mb");
   EXPECT_EQ(printable("a\nb"), "a\\x0ab");
-  EXPECT_EQ(printable("\xC2\x9B" "31m"), "\\xc2\\x9b31m");
+  EXPECT_EQ(printable("\xC2\x9B"
+                      "31m"),
+            "\\xc2\\x9b31m");
   EXPECT_EQ(printable("\xCE\xB8"), "\xCE\xB8");
   EXPECT_EQ(printable("\xFF"), "\\xff");
   EXPECT_EQ(printable("abcdef", 3), "abc...");

@@ -14,7 +14,8 @@ std::string space(const std::string& algebra, std::size_t dimension, const std::
   return text + "]\nalgebra = \"" + algebra + "\"\n";
 }
 
-class NamedAlgebra : public testing::TestWithParam<std::tuple<const char*, std::size_t, const char*>> {};
+class NamedAlgebra
+    : public testing::TestWithParam<std::tuple<const char*, std::size_t, const char*>> {};
 
 TEST_P(NamedAlgebra, SatisfiesJacobiAndHasItsRank) {
   const auto [name, dimension, rank] = GetParam();
@@ -29,11 +30,14 @@ TEST_P(NamedAlgebra, SatisfiesJacobiAndHasItsRank) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, NamedAlgebra,
-                         testing::Values(std::tuple("so(3)", 3, "rank 2"), std::tuple("e(3)", 6, "rank 4"), std::tuple("so(4)", 6, "rank 4"),
-                                         std::tuple("so(3,1)", 6, "rank 4"), std::tuple("l(7)", 7, "rank 6"), std::tuple("so(5)", 10, "rank 8"),
-                                         std::tuple("so(6)", 15, "rank 12"), std::tuple("e(4)", 10, "rank 8"), std::tuple("so(3)+3*R3", 12, "rank 6"),
-                                         std::tuple("so(3) + 2*R3", 9, "rank 6"), std::tuple("sl(2)", 3, "rank 2"), std::tuple("h(3)", 3, "rank 2")));
+INSTANTIATE_TEST_SUITE_P(
+    All, NamedAlgebra,
+    testing::Values(std::tuple("so(3)", 3, "rank 2"), std::tuple("e(3)", 6, "rank 4"),
+                    std::tuple("so(4)", 6, "rank 4"), std::tuple("so(3,1)", 6, "rank 4"),
+                    std::tuple("l(7)", 7, "rank 6"), std::tuple("so(5)", 10, "rank 8"),
+                    std::tuple("so(6)", 15, "rank 12"), std::tuple("e(4)", 10, "rank 8"),
+                    std::tuple("so(3)+3*R3", 12, "rank 6"), std::tuple("so(3) + 2*R3", 9, "rank 6"),
+                    std::tuple("sl(2)", 3, "rank 2"), std::tuple("h(3)", 3, "rank 2")));
 
 TEST(LieAlgebra, BodyFrameConvention) {
   // {M1,M2} = -M3, {M1,g2} = -g3, and for so(4) {g1,g2} = -M3.
@@ -64,7 +68,8 @@ TEST(LieAlgebra, OtherSignConventionFlipsEveryBracket) {
 }
 
 TEST(LieAlgebra, UnknownNamesAreNotGuessed) {
-  for (const char* name : {"so(2)", "so(99)", "e(2)", "E(3)", "so(3)+0*R3", "so(3)+R4", "", "so(3"}) {
+  for (const char* name :
+       {"so(2)", "so(99)", "e(2)", "E(3)", "so(3)+0*R3", "so(3)+R4", "", "so(3"}) {
     EXPECT_FALSE(find_lie_algebra(name).has_value()) << name;
   }
 }

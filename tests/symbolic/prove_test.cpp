@@ -10,7 +10,8 @@ namespace {
 
 Text typed(const std::string& text) { return {text, {"--integral", 1, 1}, text}; }
 
-Proof test_integral(const Model& model, const std::string& f, const std::vector<std::string>& on = {}) {
+Proof test_integral(const Model& model, const std::string& f,
+                    const std::vector<std::string>& on = {}) {
   Candidates candidates;
   candidates.integrals = {typed(f)};
   for (const std::string& g : on) candidates.on.push_back(typed(g));
@@ -19,18 +20,21 @@ Proof test_integral(const Model& model, const std::string& f, const std::vector<
 
 Model kovalevskaya() {
   return model_of(
-      "hamiltonian = \"(M1^2 + M2^2 + 2*M3^2)/2 - r*g1\"\n[phase_space]\nvariables = [\"M1\",\"M2\",\"M3\",\"g1\",\"g2\",\"g3\"]\n"
+      "hamiltonian = \"(M1^2 + M2^2 + 2*M3^2)/2 - r*g1\"\n[phase_space]\nvariables = "
+      "[\"M1\",\"M2\",\"M3\",\"g1\",\"g2\",\"g3\"]\n"
       "algebra = \"e(3)\"\n[parameters]\nr = {}\n");
 }
 
 TEST(Prove, KovalevskayaIntegral) {
-  const Proof proof = test_integral(kovalevskaya(), "(M1^2 - M2^2 + 2*r*g1)^2 + (2*M1*M2 + 2*r*g2)^2");
+  const Proof proof =
+      test_integral(kovalevskaya(), "(M1^2 - M2^2 + 2*r*g1)^2 + (2*M1*M2 + 2*r*g2)^2");
   EXPECT_EQ(proof.verdict, Verdict::proved);
   EXPECT_FALSE(proof.witness.has_value());
 }
 
 TEST(Prove, KovalevskayaWithOneSignFlippedIsRefuted) {
-  const Proof proof = test_integral(kovalevskaya(), "(M1^2 - M2^2 - 2*r*g1)^2 + (2*M1*M2 + 2*r*g2)^2");
+  const Proof proof =
+      test_integral(kovalevskaya(), "(M1^2 - M2^2 - 2*r*g1)^2 + (2*M1*M2 + 2*r*g2)^2");
   ASSERT_EQ(proof.verdict, Verdict::refuted);
   ASSERT_TRUE(proof.witness.has_value());
   EXPECT_EQ(proof.witness->point.size(), 7U);
@@ -41,15 +45,18 @@ TEST(Prove, KovalevskayaWithOneSignFlippedIsRefuted) {
 TEST(Prove, BranchOfARootDecides) {
   const char* const h = "[integrals]\nF = \"sqrt(M3^2)\"\n";
   const std::string body = "hamiltonian = \"(M1^2 + M2^2 + 2*M3^2)/2\"\n";
-  const std::string space = "[phase_space]\nvariables = [\"M1\",\"M2\",\"M3\"]\nalgebra = \"so(3)\"\n";
-  // M3 is an integral of the symmetric top, so both signs of the root are; M3 - sqrt(M3^2) is one too.
+  const std::string space =
+      "[phase_space]\nvariables = [\"M1\",\"M2\",\"M3\"]\nalgebra = \"so(3)\"\n";
+  // M3 is an integral of the symmetric top, so both signs of the root are; M3 - sqrt(M3^2) is one
+  // too.
   EXPECT_EQ(test_integral(model_of(body + space), "sqrt(M3^2) - M3").verdict, Verdict::proved);
   EXPECT_EQ(test_integral(model_of(body + h + space), "sqrt(M1^2)").verdict, Verdict::refuted);
 }
 
 TEST(Prove, BentBracketFailsJacobi) {
   const Model bent = model_of(
-      "hamiltonian = \"M1\"\n[phase_space]\nvariables = [\"M1\",\"M2\",\"M3\"]\n[phase_space.brackets]\n"
+      "hamiltonian = \"M1\"\n[phase_space]\nvariables = "
+      "[\"M1\",\"M2\",\"M3\"]\n[phase_space.brackets]\n"
       "\"M1,M2\" = \"M1^2 - M3\"\n\"M1,M3\" = \"M2\"\n\"M2,M3\" = \"-M1\"\n");
   const std::vector<Proof> proofs = prove(bent);
   ASSERT_EQ(proofs.at(1).kind, "jacobi");
@@ -59,14 +66,16 @@ TEST(Prove, BentBracketFailsJacobi) {
 
 TEST(Prove, ConditionalIntegralHoldsOnItsLevelOnly) {
   const Model chaplygin = model_of(
-      "hamiltonian = \"(M1^2 + M2^2 + 4*M3^2)/2 - r*g1\"\n[phase_space]\nvariables = [\"M1\",\"M2\",\"M3\",\"g1\",\"g2\",\"g3\"]\n"
+      "hamiltonian = \"(M1^2 + M2^2 + 4*M3^2)/2 - r*g1\"\n[phase_space]\nvariables = "
+      "[\"M1\",\"M2\",\"M3\",\"g1\",\"g2\",\"g3\"]\n"
       "algebra = \"e(3)\"\n[parameters]\nr = {}\n");
   const std::string g = "M3*(M1^2 + M2^2) + r*M1*g3";
   const Proof on = test_integral(chaplygin, g, {"M1*g1 + M2*g2 + M3*g3"});
   EXPECT_EQ(on.verdict, Verdict::proved);
   EXPECT_NE(on.evidence.find("cofactor"), std::string::npos);
   EXPECT_EQ(test_integral(chaplygin, g).verdict, Verdict::refuted);
-  const Proof wrong = test_integral(chaplygin, "M3*(M1^2 + M2^2) - r*M1*g3", {"M1*g1 + M2*g2 + M3*g3"});
+  const Proof wrong =
+      test_integral(chaplygin, "M3*(M1^2 + M2^2) - r*M1*g3", {"M1*g1 + M2*g2 + M3*g3"});
   ASSERT_EQ(wrong.verdict, Verdict::refuted);
 }
 
@@ -78,8 +87,10 @@ TEST(Prove, LevelThatIsNotInvariantIsSaidSo) {
 
 TEST(Prove, WitnessLiesInsideEveryAssumption) {
   const Model model = model_of(
-      "hamiltonian = \"(M1^2 + M2^2 + 2*M3^2)/2 - r*g1\"\n[phase_space]\nvariables = [\"M1\",\"M2\",\"M3\",\"g1\",\"g2\",\"g3\"]\n"
-      "algebra = \"e(3)\"\ndomain = [\"M3 > 1\", \"g1 < 0\"]\n[parameters]\nr = { assume = \"r > 2\" }\n");
+      "hamiltonian = \"(M1^2 + M2^2 + 2*M3^2)/2 - r*g1\"\n[phase_space]\nvariables = "
+      "[\"M1\",\"M2\",\"M3\",\"g1\",\"g2\",\"g3\"]\n"
+      "algebra = \"e(3)\"\ndomain = [\"M3 > 1\", \"g1 < 0\"]\n[parameters]\nr = { assume = \"r > "
+      "2\" }\n");
   const Proof proof = test_integral(model, "M1");
   ASSERT_EQ(proof.verdict, Verdict::refuted);
   for (const auto& [name, value] : proof.witness->point) {
@@ -103,7 +114,9 @@ TEST(Prove, GiantIsUndecidedNotWrong) {
 }
 
 TEST(Prove, RankAndIndependenceCountForIntegrableSystems) {
-  const Model dependent = euler_with("integrable = true\n[casimirs]\nF = \"M1^2 + M2^2 + M3^2\"\n[integrals]\nG = \"(M1^2 + M2^2 + M3^2)^2\"\n");
+  const Model dependent = euler_with(
+      "integrable = true\n[casimirs]\nF = \"M1^2 + M2^2 + M3^2\"\n[integrals]\nG = \"(M1^2 + M2^2 "
+      "+ M3^2)^2\"\n");
   const std::vector<Proof> proofs = prove(dependent);
   EXPECT_EQ(overall(dependent, proofs), Verdict::refuted);
   for (const Proof& proof : proofs) {
@@ -123,28 +136,34 @@ TEST(Prove, LiouvilleSaysWhatIsMissing) {
   for (const Proof& proof : prove(kovalevskaya())) {
     if (proof.kind != "liouville") continue;
     EXPECT_EQ(proof.verdict, Verdict::undecided);
-    EXPECT_EQ(proof.reason, "leaves of dimension 4 or more need 2 independent integrals in involution; 1 known");
+    EXPECT_EQ(proof.reason,
+              "leaves of dimension 4 or more need 2 independent integrals in involution; 1 known");
   }
 }
 
 TEST(Prove, SystemsWithoutABracket) {
   const Model lotka = model_of(
-      "[phase_space]\nvariables = [\"x\",\"y\"]\n[equations]\nx = \"x*(1 - y)\"\ny = \"y*(x - 1)\"\n[integrals]\nF = \"x + y - log(x*y)\"\n"
+      "[phase_space]\nvariables = [\"x\",\"y\"]\n[equations]\nx = \"x*(1 - y)\"\ny = \"y*(x - "
+      "1)\"\n[integrals]\nF = \"x + y - log(x*y)\"\n"
       "[[measure]]\ndensity = \"1/(x*y)\"\n");
-  for (const Proof& proof : prove(lotka)) EXPECT_EQ(proof.verdict, Verdict::proved) << proof.kind << proof.residual;
+  for (const Proof& proof : prove(lotka))
+    EXPECT_EQ(proof.verdict, Verdict::proved) << proof.kind << proof.residual;
   EXPECT_EQ(test_integral(lotka, "x + y").verdict, Verdict::refuted);
 }
 
 TEST(Prove, TimeDependentIntegral) {
   const Model free = model_of(
-      "hamiltonian = \"p^2/2\"\n[phase_space]\nvariables = [\"q\",\"p\"]\ncanonical = true\ntime = \"t\"\n[integrals]\nF = \"q - p*t\"\n");
+      "hamiltonian = \"p^2/2\"\n[phase_space]\nvariables = [\"q\",\"p\"]\ncanonical = true\ntime = "
+      "\"t\"\n[integrals]\nF = \"q - p*t\"\n");
   EXPECT_EQ(overall(free, prove(free)), Verdict::proved);
   EXPECT_EQ(test_integral(free, "q + p*t").verdict, Verdict::refuted);
 }
 
 TEST(Prove, LaxPairAndItsBentTwin) {
-  const std::string lax = "[[lax]]\nL = [[\"0\",\"M3\",\"-M2\"],[\"-M3\",\"0\",\"M1\"],[\"M2\",\"-M1\",\"0\"]]\n"
-                          "A = [[\"0\",\"-a3*M3\",\"a2*M2\"],[\"a3*M3\",\"0\",\"-a1*M1\"],[\"-a2*M2\",\"a1*M1\",\"0\"]]\n";
+  const std::string lax =
+      "[[lax]]\nL = [[\"0\",\"M3\",\"-M2\"],[\"-M3\",\"0\",\"M1\"],[\"M2\",\"-M1\",\"0\"]]\n"
+      "A = "
+      "[[\"0\",\"-a3*M3\",\"a2*M2\"],[\"a3*M3\",\"0\",\"-a1*M1\"],[\"-a2*M2\",\"a1*M1\",\"0\"]]\n";
   std::string bent = lax;
   bent.replace(bent.find("-a3*M3"), 6, "+a3*M3");
   const Model right = euler_with(lax);
@@ -157,8 +176,11 @@ TEST(Prove, PoissonMapAndItsBentTwin) {
   // Canonical variables on the symplectic leaves of so(3) by a map from R^4 (Schwinger).
   const auto schwinger = [](const std::string& third) {
     return model_of(
-        "hamiltonian = \"q1^2\"\n[phase_space]\nvariables = [\"q1\",\"q2\",\"p1\",\"p2\"]\ncanonical = true\n[[map]]\nname = \"spin\"\nto = \"so(3)\"\n"
-        "expressions = { S1 = \"(q1*q2 + p1*p2)/2\", S2 = \"(q2*p1 - q1*p2)/2\", S3 = \"" + third + "\" }\n");
+        "hamiltonian = \"q1^2\"\n[phase_space]\nvariables = "
+        "[\"q1\",\"q2\",\"p1\",\"p2\"]\ncanonical = true\n[[map]]\nname = \"spin\"\nto = "
+        "\"so(3)\"\n"
+        "expressions = { S1 = \"(q1*q2 + p1*p2)/2\", S2 = \"(q2*p1 - q1*p2)/2\", S3 = \"" +
+        third + "\" }\n");
   };
   const Model right = schwinger("(q1^2 + p1^2 - q2^2 - p2^2)/4");
   const Model wrong = schwinger("(q1^2 + p1^2 + q2^2 - p2^2)/4");
@@ -168,8 +190,11 @@ TEST(Prove, PoissonMapAndItsBentTwin) {
 
 TEST(Prove, FixedParameterIsReplacedBeforeAnythingElse) {
   const CaseFile file = parse_case(
-      "hamiltonian = \"(M1^2 + M2^2 + a3*M3^2)/2 - r*g1\"\n[phase_space]\nvariables = [\"M1\",\"M2\",\"M3\",\"g1\",\"g2\",\"g3\"]\n"
-      "algebra = \"e(3)\"\n[parameters]\nr = {}\na3 = {}\n[integrals]\nK = \"(M1^2 - M2^2 + 2*r*g1)^2 + (2*M1*M2 + 2*r*g2)^2\"\n", "test.toml");
+      "hamiltonian = \"(M1^2 + M2^2 + a3*M3^2)/2 - r*g1\"\n[phase_space]\nvariables = "
+      "[\"M1\",\"M2\",\"M3\",\"g1\",\"g2\",\"g3\"]\n"
+      "algebra = \"e(3)\"\n[parameters]\nr = {}\na3 = {}\n[integrals]\nK = \"(M1^2 - M2^2 + "
+      "2*r*g1)^2 + (2*M1*M2 + 2*r*g2)^2\"\n",
+      "test.toml");
   const auto with = [&](const std::string& value) {
     return build_model(file, {{{"a3", {"--param", 1, 1}, ""}, {value, {"--param", 1, 4}, ""}}});
   };

@@ -32,14 +32,19 @@ double largest_drift(const Trajectory& trajectory) {
   return drift;
 }
 
-Row conserve_one(const Model& model, const Scene& scene, const Method& method, const Options& options, const std::function<bool()>& give_up) {
+Row conserve_one(const Model& model, const Scene& scene, const Method& method,
+                 const Options& options, const std::function<bool()>& give_up) {
   const SceneRun run = prepare(model, scene, {.observe = std::vector<std::string>{}});
   Settings settings = settings_for(options.run, run, kTolerance);
   settings.give_up = give_up;
-  Row row{.case_name = model.name, .scene = scene.name, .method = std::string(method.name), .tolerance = settings.rtol};
+  Row row{.case_name = model.name,
+          .scene = scene.name,
+          .method = std::string(method.name),
+          .tolerance = settings.rtol};
   Trajectory trajectory;
   try {
-    trajectory = integrate(compile_for(run, method).module, method, settings, run.initial, run.parameters);
+    trajectory =
+        integrate(compile_for(run, method).module, method, settings, run.initial, run.parameters);
   } catch (const std::invalid_argument& problem) {
     throw UsageError(problem.what());
   }
@@ -54,23 +59,29 @@ Row conserve_one(const Model& model, const Scene& scene, const Method& method, c
   }
   // Written so that a drift that is not a number fails too.
   row.failed = trajectory.status != Status::ok || !(row.drift <= options.bound);
-  if (trajectory.status == Status::ok && row.failed) row.status = fmt::format("drift above {:g}", options.bound);
+  if (trajectory.status == Status::ok && row.failed)
+    row.status = fmt::format("drift above {:g}", options.bound);
   return row;
 }
 
-void conserve_case(const CaseFile& file, const Options& options, const std::function<bool()>& give_up, std::vector<Row>& rows) {
+void conserve_case(const CaseFile& file, const Options& options,
+                   const std::function<bool()>& give_up, std::vector<Row>& rows) {
   const Model model = build_model(file, options.common.parameter_values());
   std::vector<const Scene*> scenes;
-  if (options.common.scene_given) scenes.push_back(&model.scene(options.common.scene));
-  else for (const Scene& scene : model.scenes) scenes.push_back(&scene);
+  if (options.common.scene_given)
+    scenes.push_back(&model.scene(options.common.scene));
+  else
+    for (const Scene& scene : model.scenes) scenes.push_back(&scene);
   if (scenes.empty() && !options.all) model.scene("default");  // throws: there is none
   for (const Scene* scene : scenes) {
-    for (const std::string& method : options.methods) rows.push_back(conserve_one(model, *scene, method_named(method), options, give_up));
+    for (const std::string& method : options.methods)
+      rows.push_back(conserve_one(model, *scene, method_named(method), options, give_up));
   }
 }
 
 int conserve(const Options& options) {
-  if (options.all == !options.case_name.empty()) throw UsageError("conserve needs either a CASE or --all");
+  if (options.all == !options.case_name.empty())
+    throw UsageError("conserve needs either a CASE or --all");
   const std::function<bool()> give_up = time_limit(options.common.time_limit);
   std::vector<Row> rows;
   if (options.all) {
@@ -83,13 +94,16 @@ int conserve(const Options& options) {
     write_csv(file.stream(), rows);
     file.commit();
   }
-  const auto failed = std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.failed; });
+  const auto failed =
+      std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.failed; });
   if (options.common.json) {
     std::cout << to_json(rows).dump(2) << '\n';
   } else if (!options.common.quiet) {
-    const bool with_error = std::any_of(rows.begin(), rows.end(), [](const Row& row) { return !std::isnan(row.error); });
+    const bool with_error = std::any_of(rows.begin(), rows.end(),
+                                        [](const Row& row) { return !std::isnan(row.error); });
     std::cout << to_text(rows, with_error);
-    fmt::print("{} of {} runs keep every invariant to {:g}\n", rows.size() - static_cast<std::size_t>(failed), rows.size(), options.bound);
+    fmt::print("{} of {} runs keep every invariant to {:g}\n",
+               rows.size() - static_cast<std::size_t>(failed), rows.size(), options.bound);
   }
   return failed == 0 ? kDone : kFailed;
 }
@@ -98,14 +112,22 @@ int conserve(const Options& options) {
 
 void register_conserve(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("conserve", "Check the drift of the Hamiltonian, Casimirs and integrals along every scene");
+  CLI::App* command = program.add_subcommand(
+      "conserve", "Check the drift of the Hamiltonian, Casimirs and integrals along every scene");
   add_common(*command, options->common);
-  command->add_option("CASE", options->case_name, "A bundled case, a case file, or - for standard input");
+  command->add_option("CASE", options->case_name,
+                      "A bundled case, a case file, or - for standard input");
   command->add_flag("--all", options->all, "Every bundled case");
-  command->add_option("--bound", options->bound, "Largest drift allowed (default 1e-9)")->type_name("X")->check(CLI::PositiveNumber);
-  command->add_option("--method", options->methods, "Methods to run (default: dop853,gauss8)")->delimiter(',')->allow_extra_args(false)->type_name("A,B");
+  command->add_option("--bound", options->bound, "Largest drift allowed (default 1e-9)")
+      ->type_name("X")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--method", options->methods, "Methods to run (default: dop853,gauss8)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("A,B");
   add_run_options(*command, options->run);
-  command->add_option("--output", options->output, "Write the rows to this CSV file")->type_name("FILE.csv");
+  command->add_option("--output", options->output, "Write the rows to this CSV file")
+      ->type_name("FILE.csv");
   command->callback([options, &action] { action = [options] { return conserve(*options); }; });
 }
 

@@ -29,9 +29,12 @@ struct Options {
 };
 
 int generate(const Options& options) {
-  if (options.output.empty() && options.common.json) throw UsageError("generate --json needs --output FILE for the header");
+  if (options.output.empty() && options.common.json)
+    throw UsageError("generate --json needs --output FILE for the header");
   const Model model = build_model(load_case(options.case_name), options.common.parameter_values());
-  const auto wanted = [&](const char* name) { return std::find(options.with.begin(), options.with.end(), name) != options.with.end(); };
+  const auto wanted = [&](const char* name) {
+    return std::find(options.with.begin(), options.with.end(), name) != options.with.end();
+  };
   SpecialiseOptions what;
   what.fold_parameters = !options.keep_params;
   what.invariants = wanted("invariants");
@@ -47,9 +50,15 @@ int generate(const Options& options) {
   file.stream() << header;
   file.commit();
   if (options.common.json) {
-    std::cout << nlohmann::ordered_json{{"case", model.name}, {"scene", specialisation.scene}, {"file", options.output},
-                                        {"operations", {{"general", to_json(specialisation.general)}, {"specialised", to_json(specialisation.specialised)}}},
-                                        {"left_out", left_out_json(specialisation)}}.dump(2) << '\n';
+    std::cout << nlohmann::ordered_json{{"case", model.name},
+                                        {"scene", specialisation.scene},
+                                        {"file", options.output},
+                                        {"operations",
+                                         {{"general", to_json(specialisation.general)},
+                                          {"specialised", to_json(specialisation.specialised)}}},
+                                        {"left_out", left_out_json(specialisation)}}
+                     .dump(2)
+              << '\n';
   } else if (!options.common.quiet) {
     fmt::print("wrote {}\n{}", options.output, generated_text(specialisation));
   }
@@ -60,22 +69,34 @@ int generate(const Options& options) {
 
 void register_generate(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("generate", "Write a self-contained C++20 header specialised to a scene");
+  CLI::App* command = program.add_subcommand(
+      "generate", "Write a self-contained C++20 header specialised to a scene");
   add_common(*command, options->common);
-  command->add_option("CASE", options->case_name, "A bundled case, a case file, or - for standard input")->required();
-  command->add_option("-o,--output", options->output, "The header to write (default: standard output)")->type_name("FILE");
-  command->add_option("--with", options->with, "Of rhs,invariants,jacobian (default: all; rhs always)")
+  command
+      ->add_option("CASE", options->case_name,
+                   "A bundled case, a case file, or - for standard input")
+      ->required();
+  command
+      ->add_option("-o,--output", options->output, "The header to write (default: standard output)")
+      ->type_name("FILE");
+  command
+      ->add_option("--with", options->with, "Of rhs,invariants,jacobian (default: all; rhs always)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::IsMember({"rhs", "invariants", "jacobian"}));
-  command->add_option("--observe", options->observe, "States that must be computed; what they do not need is left out")
+  command
+      ->add_option("--observe", options->observe,
+                   "States that must be computed; what they do not need is left out")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("A,B");
-  command->add_option("--scalar", options->scalar, "Number type: double, float, long-double, float128 or template")
+  command
+      ->add_option("--scalar", options->scalar,
+                   "Number type: double, float, long-double, float128 or template")
       ->transform(CLI::CheckedTransformer(kScalars, CLI::ignore_case).description(""))
       ->type_name("TYPE");
-  command->add_flag("--keep-params", options->keep_params, "Keep the parameters as arguments at run time");
+  command->add_flag("--keep-params", options->keep_params,
+                    "Keep the parameters as arguments at run time");
   command->callback([options, &action] { action = [options] { return generate(*options); }; });
 }
 

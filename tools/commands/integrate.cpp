@@ -44,7 +44,8 @@ std::string advice(Status status) {
   switch (status) {
     case Status::singularity:
     case Status::non_finite:
-      return "the motion has no value further on in these variables: shorten --duration, or use other variables";
+      return "the motion has no value further on in these variables: shorten --duration, or use "
+             "other variables";
     case Status::step_underflow:
       return "loosen --tolerance or try another --method";
     case Status::max_steps:
@@ -58,43 +59,65 @@ std::string advice(Status status) {
   }
 }
 
-Json to_json(const Model& model, const SceneRun& run, const Method& method, const Settings& settings, const CompiledModule& compiled,
-             const Trajectory& trajectory, const std::vector<std::string>& warnings) {
+Json to_json(const Model& model, const SceneRun& run, const Method& method,
+             const Settings& settings, const CompiledModule& compiled, const Trajectory& trajectory,
+             const std::vector<std::string>& warnings) {
   const Specialisation& s = run.specialisation;
-  Json json = {{"case", model.name}, {"scene", s.scene}, {"method", method.name}, {"tolerance", settings.rtol}, {"rtol", settings.rtol}, {"atol", settings.atol},
-               {"status", to_string(trajectory.status)}, {"t", exact_text(trajectory.time)}};
+  Json json = {{"case", model.name},
+               {"scene", s.scene},
+               {"method", method.name},
+               {"tolerance", settings.rtol},
+               {"rtol", settings.rtol},
+               {"atol", settings.atol},
+               {"status", to_string(trajectory.status)},
+               {"t", exact_text(trajectory.time)}};
   json["state"] = Json::object();
-  for (std::size_t i = 0; i < s.states.size(); ++i) json["state"][s.states[i]] = exact_text(trajectory.state[i]);
+  for (std::size_t i = 0; i < s.states.size(); ++i)
+    json["state"][s.states[i]] = exact_text(trajectory.state[i]);
   json["invariants"] = Json::object();
   for (std::size_t i = 0; i < s.invariant_names.size(); ++i) {
     const InvariantRecord& record = trajectory.invariants[i];
-    json["invariants"][s.invariant_names[i]] = {{"initial", exact_text(record.initial)}, {"final", exact_text(record.final)}, {"drift", exact_text(record.drift)}};
+    json["invariants"][s.invariant_names[i]] = {{"initial", exact_text(record.initial)},
+                                                {"final", exact_text(record.final)},
+                                                {"drift", exact_text(record.drift)}};
   }
   json["steps"] = trajectory.steps;
   json["rejected"] = trajectory.rejected;
   json["evaluations"] = trajectory.evaluations;
-  json["seconds"] = {{"generate", run.generate_seconds}, {"compile", compiled.seconds}, {"integrate", trajectory.seconds}};
+  json["seconds"] = {{"generate", run.generate_seconds},
+                     {"compile", compiled.seconds},
+                     {"integrate", trajectory.seconds}};
   json["from_cache"] = compiled.from_cache;
   json["left_out"] = left_out_json(s);
   json["warnings"] = warnings;
   if (trajectory.status != Status::ok) {
-    json["stopped"] = {{"time", exact_text(trajectory.time)}, {"reason", trajectory.reason}, {"advice", advice(trajectory.status)}};
+    json["stopped"] = {{"time", exact_text(trajectory.time)},
+                       {"reason", trajectory.reason},
+                       {"advice", advice(trajectory.status)}};
   }
   return json;
 }
 
-void print_text(const SceneRun& run, const Method& method, const Settings& settings, const CompiledModule& compiled, const Trajectory& trajectory) {
+void print_text(const SceneRun& run, const Method& method, const Settings& settings,
+                const CompiledModule& compiled, const Trajectory& trajectory) {
   const Specialisation& s = run.specialisation;
-  fmt::print("{}, scene '{}', {} at tolerance {:g}\n", s.case_name, printable(s.scene), method.name, settings.rtol);
-  fmt::print("  generated in {}, {} in {}, integrated in {}: {} steps, {} rejected, {} evaluations\n", duration_text(run.generate_seconds),
-             compiled.from_cache ? "fetched from the cache" : "compiled", duration_text(compiled.seconds), duration_text(trajectory.seconds), trajectory.steps,
-             trajectory.rejected, trajectory.evaluations);
+  fmt::print("{}, scene '{}', {} at tolerance {:g}\n", s.case_name, printable(s.scene), method.name,
+             settings.rtol);
+  fmt::print(
+      "  generated in {}, {} in {}, integrated in {}: {} steps, {} rejected, {} evaluations\n",
+      duration_text(run.generate_seconds),
+      compiled.from_cache ? "fetched from the cache" : "compiled", duration_text(compiled.seconds),
+      duration_text(trajectory.seconds), trajectory.steps, trajectory.rejected,
+      trajectory.evaluations);
   fmt::print("  t = {}\n", exact_text(trajectory.time));
-  for (std::size_t i = 0; i < s.states.size(); ++i) fmt::print("  {:<10} {:>25}\n", s.states[i], exact_text(trajectory.state[i]));
+  for (std::size_t i = 0; i < s.states.size(); ++i)
+    fmt::print("  {:<10} {:>25}\n", s.states[i], exact_text(trajectory.state[i]));
   for (std::size_t i = 0; i < s.invariant_names.size(); ++i) {
-    fmt::print("  {:<10} {:>25}   drift {:.1e}\n", s.invariant_names[i], exact_text(trajectory.invariants[i].final), trajectory.invariants[i].drift);
+    fmt::print("  {:<10} {:>25}   drift {:.1e}\n", s.invariant_names[i],
+               exact_text(trajectory.invariants[i].final), trajectory.invariants[i].drift);
   }
-  for (const LeftOut& item : s.left_out) fmt::print("  left out: {} {}, {}\n", item.kind, item.name, item.reason);
+  for (const LeftOut& item : s.left_out)
+    fmt::print("  left out: {} {}, {}\n", item.kind, item.name, item.reason);
 }
 
 int integrate_case(const Options& options) {
@@ -108,8 +131,10 @@ int integrate_case(const Options& options) {
   const SceneRun run = prepare(model, scene, how);
   Settings settings = settings_for(options.run, run);
   settings.give_up = time_limit(options.common.time_limit);
-  if (!options.output.empty()) settings.sample_every = options.every > 0 ? options.every : std::abs(settings.duration) / 1000;
-  if (options.every > 0 && options.output.empty()) throw UsageError("--every needs --output FILE.csv");
+  if (!options.output.empty())
+    settings.sample_every = options.every > 0 ? options.every : std::abs(settings.duration) / 1000;
+  if (options.every > 0 && options.output.empty())
+    throw UsageError("--every needs --output FILE.csv");
   const CompiledModule compiled = compile_for(run, method);
   Trajectory trajectory;
   try {
@@ -120,19 +145,23 @@ int integrate_case(const Options& options) {
   std::vector<std::string> warnings;
   if (!options.output.empty()) write_samples(options.output, run, trajectory);
   if (options.common.json) {
-    std::cout << to_json(model, run, method, settings, compiled, trajectory, warnings).dump(2) << '\n';
+    std::cout << to_json(model, run, method, settings, compiled, trajectory, warnings).dump(2)
+              << '\n';
   } else if (!options.common.quiet) {
     print_text(run, method, settings, compiled, trajectory);
-    if (!options.output.empty()) fmt::print("  wrote {} states to {}\n", trajectory.samples.size(), options.output);
+    if (!options.output.empty())
+      fmt::print("  wrote {} states to {}\n", trajectory.samples.size(), options.output);
   }
   if (trajectory.status == Status::ok) return kDone;
   std::string state;
   for (std::size_t i = 0; i < run.specialisation.states.size(); ++i) {
-    state += fmt::format("{}{} = {:.6g}", i == 0 ? "" : ", ", run.specialisation.states[i], trajectory.state[i]);
+    state += fmt::format("{}{} = {:.6g}", i == 0 ? "" : ", ", run.specialisation.states[i],
+                         trajectory.state[i]);
   }
   std::cout.flush();
-  std::cerr << fmt::format("casimir: error: the integration stopped at t = {}: {}\n  last good state: {}\n  hint: {}\n", exact_text(trajectory.time), trajectory.reason,
-                           state, advice(trajectory.status));
+  std::cerr << fmt::format(
+      "casimir: error: the integration stopped at t = {}: {}\n  last good state: {}\n  hint: {}\n",
+      exact_text(trajectory.time), trajectory.reason, state, advice(trajectory.status));
   return kNotContinued;
 }
 
@@ -140,21 +169,33 @@ int integrate_case(const Options& options) {
 
 void register_integrate(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("integrate", "Compile the specialised module of a scene and integrate it");
+  CLI::App* command = program.add_subcommand(
+      "integrate", "Compile the specialised module of a scene and integrate it");
   add_common(*command, options->common);
-  command->add_option("CASE", options->case_name, "A bundled case, a case file, or - for standard input")->required();
-  command->add_option("--method", options->method, "A method, or auto: " + method_list())->type_name("NAME");
+  command
+      ->add_option("CASE", options->case_name,
+                   "A bundled case, a case file, or - for standard input")
+      ->required();
+  command->add_option("--method", options->method, "A method, or auto: " + method_list())
+      ->type_name("NAME");
   add_run_options(*command, options->run);
-  command->add_option("--output", options->output, "Write states to this CSV file")->type_name("FILE.csv");
-  command->add_option("--every", options->every, "Time between the states written (default: a thousandth of the duration)")
+  command->add_option("--output", options->output, "Write states to this CSV file")
+      ->type_name("FILE.csv");
+  command
+      ->add_option("--every", options->every,
+                   "Time between the states written (default: a thousandth of the duration)")
       ->type_name("DT")
       ->check(CLI::PositiveNumber);
-  command->add_option("--observe", options->observe, "States that must be computed; what they do not need is left out")
+  command
+      ->add_option("--observe", options->observe,
+                   "States that must be computed; what they do not need is left out")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("A,B");
-  command->add_flag("--general", options->general, "Parameters at run time and nothing left out, for comparison");
-  command->callback([options, &action] { action = [options] { return integrate_case(*options); }; });
+  command->add_flag("--general", options->general,
+                    "Parameters at run time and nothing left out, for comparison");
+  command->callback(
+      [options, &action] { action = [options] { return integrate_case(*options); }; });
 }
 
 }  // namespace casimir::tools

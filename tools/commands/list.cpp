@@ -22,7 +22,8 @@ std::string claims_of(const Model& model) {
     for (const NamedExpression& f : *list) names.push_back(f.name);
   }
   for (const auto* list : {&model.conditionals, &model.invariant_relations}) {
-    for (const LevelClaim& claim : *list) names.push_back(claim.expression.name + (claim.on.empty() ? "" : "|"));
+    for (const LevelClaim& claim : *list)
+      names.push_back(claim.expression.name + (claim.on.empty() ? "" : "|"));
   }
   if (!model.lax_pairs.empty()) names.emplace_back("Lax pair");
   return fmt::format("{}", fmt::join(names, " "));
@@ -38,14 +39,21 @@ int list(const Options& options) {
   nlohmann::ordered_json cases = nlohmann::json::array();
   for (const std::filesystem::path& path : bundled_cases()) {
     const Model model = build_model(read_case(path));
-    const bool tagged = std::find(model.tags.begin(), model.tags.end(), options.tag) != model.tags.end();
+    const bool tagged =
+        std::find(model.tags.begin(), model.tags.end(), options.tag) != model.tags.end();
     if (!options.tag.empty() && !tagged) continue;
     if (options.common.json) {
-      cases.push_back({{"name", model.name}, {"title", model.title}, {"source", model.source}, {"tags", model.tags},
-                       {"dimension", model.variables.size()}, {"phase_space", model.phase_space}, {"scenes", scene_names(model)}});
+      cases.push_back({{"name", model.name},
+                       {"title", model.title},
+                       {"source", model.source},
+                       {"tags", model.tags},
+                       {"dimension", model.variables.size()},
+                       {"phase_space", model.phase_space},
+                       {"scenes", scene_names(model)}});
     } else if (!options.common.quiet) {
-      fmt::print("{:<22} {}\n{:<22} {}, {} variables; claims {}\n{:<22} scenes: {}\n", model.name, model.title, "",
-                 model.phase_space, model.variables.size(), claims_of(model), "", fmt::join(scene_names(model), "; "));
+      fmt::print("{:<22} {}\n{:<22} {}, {} variables; claims {}\n{:<22} scenes: {}\n", model.name,
+                 model.title, "", model.phase_space, model.variables.size(), claims_of(model), "",
+                 fmt::join(scene_names(model), "; "));
     }
   }
   if (options.common.json) std::cout << nlohmann::ordered_json{{"cases", cases}}.dump(2) << '\n';

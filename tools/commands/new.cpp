@@ -10,7 +10,8 @@
 namespace casimir::tools {
 namespace {
 
-constexpr const char* kTemplate = R"case(# A case file: a system, what is claimed about it, and scenes to integrate.
+constexpr const char* kTemplate =
+    R"case(# A case file: a system, what is claimed about it, and scenes to integrate.
 # Expressions are strings: + - * / ^, exact numbers (0.5 is 1/2), sqrt sin cos tan exp log atan2
 # asin acos, Pi. This one is the Euler top; 'casimir verify {0}.toml' proves its claims.
 title = "{0}"
@@ -51,10 +52,16 @@ struct Options {
 int create(const Options& options) {
   std::string stem = options.name;
   if (stem.ends_with(".toml")) stem.resize(stem.size() - 5);
-  const bool plain = !stem.empty() && stem.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
-  if (!plain) throw UsageError(fmt::format("'{}' cannot name a case: letters, digits, '_' and '-' only", printable(stem)));
+  const bool plain =
+      !stem.empty() &&
+      stem.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") ==
+          std::string::npos;
+  if (!plain)
+    throw UsageError(
+        fmt::format("'{}' cannot name a case: letters, digits, '_' and '-' only", printable(stem)));
   const std::filesystem::path path = stem + ".toml";
-  if (std::filesystem::exists(path)) throw UsageError(fmt::format("'{}' exists already", path.string()));
+  if (std::filesystem::exists(path))
+    throw UsageError(fmt::format("'{}' exists already", path.string()));
   OutputFile file(path);
   file.stream() << fmt::format(kTemplate, stem);
   file.commit();

@@ -1,10 +1,10 @@
 // casimir verify: proves or refutes the claims of a case, or candidates typed on the command line.
 #include <fmt/format.h>
 
+#include <unistd.h>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
-#include <unistd.h>
 
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
@@ -24,7 +24,9 @@ struct Options {
   std::vector<std::string> integrals, casimirs, invariant_relations, on;
 };
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 std::vector<Text> texts(const std::vector<std::string>& values, const std::string& option) {
   std::vector<Text> result;
@@ -33,8 +35,11 @@ std::vector<Text> texts(const std::vector<std::string>& values, const std::strin
 }
 
 Candidates candidates_of(const Options& options) {
-  return {texts(options.integrals, "--integral"), texts(options.casimirs, "--casimir"),
-          texts(options.invariant_relations, "--invariant-relation"), texts(options.on, "--on"), {}};
+  return {texts(options.integrals, "--integral"),
+          texts(options.casimirs, "--casimir"),
+          texts(options.invariant_relations, "--invariant-relation"),
+          texts(options.on, "--on"),
+          {}};
 }
 
 struct Verified {
@@ -45,7 +50,8 @@ struct Verified {
 };
 
 std::string head(const Model& model) {
-  return fmt::format("{} ({}, {}, {} variables)\n", model.title.empty() ? model.name : printable(model.title, 200), model.name,
+  return fmt::format("{} ({}, {}, {} variables)\n",
+                     model.title.empty() ? model.name : printable(model.title, 200), model.name,
                      model.phase_space, model.variables.size());
 }
 
@@ -54,21 +60,26 @@ Verified verify_one(const CaseFile& file, const Options& options, double time_li
   const bool colour = may_colour(STDOUT_FILENO);
   const Model model = build_model(file, options.common.parameter_values());
   if (options.common.scene_given) model.scene(options.common.scene);
-  if (lines) std::cout << head(model) << std::flush;
   const auto start = Clock::now();
+  bool begun = false;
   bool facts = false;
-  const std::vector<Proof> proofs = prove_within(time_limit, model, candidates_of(options), [&](const Proof& proof) {
-    if (!lines) return;
-    if (proof.fact && !facts) std::cout << (model.integrable ? "  facts, which count as claims here\n" : "  facts\n");
-    facts = facts || proof.fact;
-    std::cout << to_text(proof, colour) << std::flush;
-  });
+  const std::vector<Proof> proofs =
+      prove_within(time_limit, model, candidates_of(options), [&](const Proof& proof) {
+        if (!lines) return;
+        if (!begun) std::cout << head(model);
+        begun = true;
+        if (proof.fact && !facts)
+          std::cout << (model.integrable ? "  facts, which count as claims here\n" : "  facts\n");
+        facts = facts || proof.fact;
+        std::cout << to_text(proof, colour) << std::flush;
+      });
   const double seconds = seconds_since(start);
   const Verdict verdict = overall(model, proofs);
   if (lines) {
     std::size_t claims = 0;
     for (const Proof& proof : proofs) claims += proof.fact ? 0 : 1;
-    fmt::print("{} ({} claim{}, {:.1f} ms)\n", verdict_text(verdict, colour), claims, claims == 1 ? "" : "s", seconds * 1e3);
+    fmt::print("{} ({} claim{}, {:.1f} ms)\n", verdict_text(verdict, colour), claims,
+               claims == 1 ? "" : "s", seconds * 1e3);
     std::fflush(stdout);
   }
   return {model.name, verdict, to_json(model, proofs, seconds), seconds};
@@ -85,19 +96,26 @@ int verify_all(const Options& options) {
   Verdict worst = Verdict::proved;
   for (const std::filesystem::path& path : bundled_cases()) {
     double left = 0;
-    if (options.common.time_limit > 0) left = std::max(options.common.time_limit - seconds_since(start), 1e-3);
+    if (options.common.time_limit > 0)
+      left = std::max(options.common.time_limit - seconds_since(start), 1e-3);
     const Verified result = verify_one(read_case(path), options, left, false);
     if (result.verdict == Verdict::refuted) worst = Verdict::refuted;
-    if (result.verdict == Verdict::undecided && worst == Verdict::proved) worst = Verdict::undecided;
+    if (result.verdict == Verdict::undecided && worst == Verdict::proved)
+      worst = Verdict::undecided;
     if (!options.common.json && !options.common.quiet) {
-      fmt::print("{} {:<28} {:3} claims {:8.1f} ms\n", verdict_text(result.verdict, colour), result.name,
-                 result.json["claims"].size(), result.seconds * 1e3);
+      fmt::print("{} {:<28} {:3} claims {:8.1f} ms\n", verdict_text(result.verdict, colour),
+                 result.name, result.json["claims"].size(), result.seconds * 1e3);
     }
     cases.push_back(result.json);
   }
-  if (cases.empty()) throw SystemError("no bundled cases were found; CASIMIR_CASES can name their folder");
+  if (cases.empty())
+    throw SystemError("no bundled cases were found; CASIMIR_CASES can name their folder");
   if (options.common.json) {
-    std::cout << nlohmann::ordered_json{{"cases", cases}, {"verdict", to_string(worst)}, {"seconds", seconds_since(start)}}.dump(2) << '\n';
+    std::cout << nlohmann::ordered_json{{"cases", cases},
+                                        {"verdict", to_string(worst)},
+                                        {"seconds", seconds_since(start)}}
+                     .dump(2)
+              << '\n';
   }
   return exit_status(worst);
 }
@@ -105,13 +123,15 @@ int verify_all(const Options& options) {
 int verify(const Options& options) {
   if (options.all && !options.case_name.empty()) throw UsageError("--all takes no CASE");
   if (!options.all && options.case_name.empty()) throw UsageError("verify needs a CASE, or --all");
-  if (options.all && !candidates_of(options).empty()) throw UsageError("--all verifies the claims of the files; candidates need a CASE");
+  if (options.all && !candidates_of(options).empty())
+    throw UsageError("--all verifies the claims of the files; candidates need a CASE");
   if (candidates_of(options).empty() && !options.on.empty()) {
     throw UsageError("--on needs a candidate: --integral, --casimir or --invariant-relation");
   }
   if (options.all) return verify_all(options);
   const bool lines = !options.common.json && !options.common.quiet;
-  const Verified result = verify_one(load_case(options.case_name), options, options.common.time_limit, lines);
+  const Verified result =
+      verify_one(load_case(options.case_name), options, options.common.time_limit, lines);
   if (options.common.json) std::cout << result.json.dump(2) << '\n';
   return exit_status(result.verdict);
 }
@@ -120,16 +140,22 @@ int verify(const Options& options) {
 
 void register_verify(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("verify", "Prove or refute the claims of a case, or candidates");
+  CLI::App* command =
+      program.add_subcommand("verify", "Prove or refute the claims of a case, or candidates");
   add_common(*command, options->common);
-  command->add_option("CASE", options->case_name, "A bundled case, a case file, or - for standard input");
+  command->add_option("CASE", options->case_name,
+                      "A bundled case, a case file, or - for standard input");
   command->add_flag("--all", options->all, "Every bundled case");
-  const auto repeatable = [&](const char* name, std::vector<std::string>& target, const char* text) {
+  const auto repeatable = [&](const char* name, std::vector<std::string>& target,
+                              const char* text) {
     command->add_option(name, target, text)->allow_extra_args(false)->type_name("EXPR");
   };
-  repeatable("--integral", options->integrals, "Test this as a first integral instead (repeatable)");
-  repeatable("--casimir", options->casimirs, "Test this as a Casimir function instead (repeatable)");
-  repeatable("--invariant-relation", options->invariant_relations, "Test whether its zero level is invariant (repeatable)");
+  repeatable("--integral", options->integrals,
+             "Test this as a first integral instead (repeatable)");
+  repeatable("--casimir", options->casimirs,
+             "Test this as a Casimir function instead (repeatable)");
+  repeatable("--invariant-relation", options->invariant_relations,
+             "Test whether its zero level is invariant (repeatable)");
   repeatable("--on", options->on, "Only on the common zero level of these (repeatable)");
   command->callback([options, &action] { action = [options] { return verify(*options); }; });
 }

@@ -1,0 +1,101 @@
+// Bad input: exit status 2, the place, the text, a hint; nothing crashes and nothing is written.
+#include <gtest/gtest.h>
+
+#include "tests/tools/program.hpp"
+
+namespace casimir::test {
+namespace {
+
+struct Bad {
+  const char* name;
+  std::vector<std::string> arguments;
+  const char* expected;
+};
+
+class BadCommandLine : public testing::TestWithParam<Bad> {};
+
+TEST_P(BadCommandLine, IsRefused) {
+  const Folder folder;
+  const Outcome outcome = run_in(folder, GetParam().arguments);
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find(GetParam().expected), std::string::npos) << outcome.err;
+  EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+  EXPECT_EQ(folder.files(), 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadCommandLine,
+    testing::Values(
+        Bad{"NoCommand", {}, "casimir --help"},
+        Bad{"UnknownCommand", {"verfy", "euler"}, "did you mean 'verify'?"},
+        Bad{"UnknownCase", {"verify", "kovalevskaja"}, "did you mean 'kovalevskaya'?"},
+        Bad{"MissingFile",
+            {"verify", "./none.toml"},
+            "./none.toml: error: the case file does not exist"},
+        Bad{"UnknownOption", {"verify", "euler", "--integrall", "M1"}, "--integrall"},
+        Bad{"Undeclared",
+            {"verify", "euler", "--integral", "M1 + M5"},
+            "--integral:1:6: error: 'M5' is not declared"},
+        Bad{"DivisionByZero",
+            {"verify", "euler", "--integral", "1/0"},
+            "--integral:1:2: error: division by zero"},
+        Bad{"HiddenDivisionByZero",
+            {"verify", "euler", "--integral", "1/((M1+M2)^2-M1^2-M2^2-2*M1*M2)"},
+            "identically zero"},
+        Bad{"NegativeTolerance", {"integrate", "euler", "--tolerance", "-1"}, "--tolerance"},
+        Bad{"ZeroTolerance", {"integrate", "euler", "--tolerance", "0"}, "--tolerance"},
+        Bad{"NanTolerance",
+            {"integrate", "euler", "--tolerance", "nan"},
+            "tolerances must be positive"},
+        Bad{"TooSmallTolerance",
+            {"integrate", "euler", "--tolerance", "1e-20"},
+            "double precision"},
+        Bad{"WordAsTolerance", {"integrate", "euler", "--tolerance", "small"}, "--tolerance"},
+        Bad{"UnknownMethod",
+            {"integrate", "euler", "--method", "dop583"},
+            "did you mean 'dop853'?"},
+        Bad{"UnknownScene", {"integrate", "euler", "--scene", "genric"}, "did you mean 'generic'?"},
+        Bad{"BadDuration", {"integrate", "euler", "--duration", "1/0"}, "division by zero"},
+        Bad{"BadParameter",
+            {"verify", "euler", "--param", "a1=x"},
+            "--param:1:4: error: 'x' is not declared"},
+        Bad{"BadPlotName", {"bench", "euler", "--plot", "b.pdf"}, ".svg or .png"},
+        Bad{"JsonWithoutFile", {"generate", "euler", "--json"}, "--output"},
+        Bad{"AllAndCase", {"verify", "euler", "--all"}, "--all takes no CASE"},
+        Bad{"OnWithoutCandidate", {"verify", "euler", "--on", "M1"}, "--on needs a candidate"},
+        Bad{"Folder", {"verify", "./"}, "this is a folder"}),
+    [](const auto& bad) { return bad.param.name; });
+
+std::string case_with(const std::string& hamiltonian) {
+  return "hamiltonian = \"" + hamiltonian +
+         "\"\n[phase_space]\nvariables = [\"q\", \"p\"]\ncanonical = true\n";
+}
+
+TEST(BadFile, MegabyteOfExpressionIsRefusedByAStatedLimit) {
+  std::string sum = "q";
+  while (sum.size() < (1U << 20)) sum += " + q*p";
+  const Outcome outcome = run({"verify", "-"}, case_with(sum));
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("<standard input>:1:16: error: the expression has"), std::string::npos)
+      << outcome.err;
+  EXPECT_LT(outcome.err.size(), 1000U);
+}
+
+TEST(BadFile, DeepNestingIsRefusedByAStatedLimit) {
+  const std::string deep = std::string(100000, '(') + "q" + std::string(100000, ')');
+  const Outcome outcome = run({"verify", "-"}, case_with(deep));
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("nested more than 200 deep"), std::string::npos) << outcome.err;
+  EXPECT_EQ(run({"verify", "-"}, "x = " + std::string(100000, '[')).status, 2);
+}
+
+TEST(BadFile, TerminalEscapesAreNotPassedOn) {
+  const Outcome outcome = run({"verify", "euler", "--integral", "M1 + \x1b[31mM2"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.err.find('\x1b'), std::string::npos) << outcome.err;
+  const Outcome title = run({"verify", "-"}, "title = \"a\\u001b[31mb\"\n" + case_with("q^2"));
+  EXPECT_EQ(title.out.find('\x1b'), std::string::npos) << title.out;
+}
+
+}  // namespace
+}  // namespace casimir::test

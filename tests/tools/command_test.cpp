@@ -1,0 +1,278 @@
+// What each command prints, writes and returns, as the interface promises.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "tests/tools/program.hpp"
+
+namespace casimir::test {
+namespace {
+
+TEST(List, NamesEveryCaseAndItsScenes) {
+  const Outcome outcome = run({"list", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  std::vector<std::string> names;
+  const auto json = outcome.json();
+  for (const auto& entry : json.at("cases")) {
+    names.push_back(entry.at("name"));
+    EXPECT_GT(entry.at("dimension"), 0);
+    EXPECT_TRUE(entry.at("tags").is_array());
+    EXPECT_EQ(entry.at("scenes").at(0), "default") << names.back();
+  }
+  for (const char* name : {"kovalevskaya", "clebsch", "steklov", "euler", "lagrange"}) {
+    EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+  }
+  EXPECT_LT(run({"list", "--tag", "kirchhoff", "--json"}).json().at("cases").size(), names.size());
+}
+
+TEST(List, CasesOfAFolderInTheEnvironmentComeFirst) {
+  const Folder folder;
+  folder.write(
+      "mine.toml",
+      "hamiltonian = \"p^2\"\n[phase_space]\nvariables = [\"q\",\"p\"]\ncanonical = true\n");
+  const Outcome outcome = run({"verify", "mine"}, {}, {{"CASIMIR_CASES", folder.path().string()}});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
+TEST(Show, PrintsBracketsHamiltonianAndEquations) {
+  const Outcome text = run({"show", "kovalevskaya"});
+  EXPECT_EQ(text.status, 0);
+  EXPECT_NE(text.out.find("{M1,M2} = -M3"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("dM1/dt = M2*M3"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("rank 4"), std::string::npos);
+  const Outcome latex = run({"show", "kovalevskaya", "--format", "latex"});
+  EXPECT_EQ(latex.status, 0);
+  EXPECT_NE(latex.out.find("\\dot{M}_{1} &= M_{2} M_{3}"), std::string::npos) << latex.out;
+  EXPECT_NE(latex.out.find("\\dot{M}_{2} &= -M_{1} M_{3} - g_{3} r"), std::string::npos)
+      << latex.out;
+  EXPECT_EQ(run({"show", "kovalevskaya", "--format", "json"}).json(),
+            run({"show", "kovalevskaya", "--json"}).json());
+}
+
+TEST(Show, IsTheSameInEveryRun) {
+  const std::string first = run({"show", "clebsch"}).out;
+  for (int k = 0; k < 5; ++k) EXPECT_EQ(run({"show", "clebsch"}).out, first);
+}
+
+TEST(Verify, ExitStatusFollowsTheVerdict) {
+  EXPECT_EQ(run({"verify", "kovalevskaya", "--quiet"}).status, 0);
+  EXPECT_EQ(run({"verify", "kovalevskaya", "--integral", "M1"}).status, 1);
+  EXPECT_EQ(run({"verify", "kovalevskaya", "--integral", "(M1+M2+M3+g1+g2+g3+r)^300"}).status, 3);
+  EXPECT_EQ(run({"verify", "kovalevskaya", "--integral", "M4"}).status, 2);
+}
+
+TEST(Verify, JsonHasTheKeysOfTheInterface) {
+  const Outcome outcome = run({"verify", "kovalevskaya", "--json"});
+  const auto json = outcome.json();
+  EXPECT_EQ(json.at("case"), "kovalevskaya");
+  EXPECT_EQ(json.at("verdict"), "proved");
+  EXPECT_GT(json.at("seconds"), 0);
+  for (const auto& claim : json.at("claims")) EXPECT_EQ(claim.at("verdict"), "proved");
+  std::vector<std::string> facts;
+  for (const auto& fact : json.at("facts")) facts.push_back(fact.at("kind"));
+  EXPECT_EQ(facts, (std::vector<std::string>{"independence", "rank", "liouville"}));
+}
+
+TEST(Verify, RefutedCandidateCarriesAWitness) {
+  const auto json = run({"verify", "kovalevskaya", "--json", "--integral", "M1^2 + g1"}).json();
+  const auto& claim = json.at("claims").at(0);
+  EXPECT_EQ(claim.at("kind"), "integral");
+  EXPECT_EQ(claim.at("verdict"), "refuted");
+  for (const char* name : {"M1", "M2", "M3", "g1", "g2", "g3", "r"})
+    EXPECT_TRUE(claim.at("witness").contains(name)) << name;
+  EXPECT_NE(claim.at("witness").at("value"), "0");
+  EXPECT_FALSE(claim.at("residual").get<std::string>().empty());
+}
+
+TEST(Verify, CandidatesOnALevel) {
+  const std::string g = "M3*(M1^2 + M2^2) + r*M1*g3";
+  EXPECT_EQ(run({"verify", "goryachev-chaplygin", "--integral", g, "--on", "M1*g1 + M2*g2 + M3*g3"})
+                .status,
+            0);
+  EXPECT_EQ(run({"verify", "goryachev-chaplygin", "--integral", g}).status, 1);
+  EXPECT_EQ(run({"verify", "euler", "--casimir", "M1^2 + M2^2 + M3^2", "--casimir", "M1^2"}).status,
+            1);
+}
+
+TEST(Verify, AllCasesAreProvedAndTheDocumentIsTheWholeOutput) {
+  const Outcome outcome = run({"verify", "--all", "--json"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.json().at("verdict"), "proved");
+  EXPECT_GE(outcome.json().at("cases").size(), 10U);
+  EXPECT_TRUE(outcome.err.empty()) << outcome.err;
+}
+
+TEST(Verify, ParametersCanBeFixed) {
+  const std::string k = "(M1^2 - M2^2 + 2*r*g1)^2 + (2*M1*M2 + 2*r*g2)^2";
+  EXPECT_EQ(run({"verify", "kovalevskaya", "--param", "r=0.5", "--integral", k}).status, 0);
+  EXPECT_EQ(run({"verify", "kovalevskaya", "--param", "q=1"}).status, 2);
+  EXPECT_EQ(run({"verify", "kovalevskaya", "--param", "r"}).status, 2);
+}
+
+TEST(Verify, TimeLimitLeavesTheRestUndecided) {
+  const Outcome outcome = run({"verify", "kovalevskaya", "--json", "--time-limit", "0.2",
+                               "--integral", "(M1+2*M2+3*M3+5*g1+7*g2+11*g3+r)^18"});
+  EXPECT_EQ(outcome.status, 3) << outcome.out;
+  EXPECT_EQ(outcome.json().at("claims").at(0).at("verdict"), "undecided");
+  const Outcome fast = run({"verify", "kovalevskaya", "--json", "--time-limit", "60"});
+  EXPECT_EQ(fast.status, 0);
+  EXPECT_EQ(fast.json().at("facts").size(), 3U);
+}
+
+TEST(Verify, CaseFromStandardInput) {
+  const std::string text = file_text(CASIMIR_SOURCE_DIR "/cases/euler.toml");
+  EXPECT_EQ(run({"verify", "-"}, text).status, 0);
+  EXPECT_EQ(run({"verify", "-"}, "title = ").status, 2);
+}
+
+TEST(Verify, CtrlCExitsWith130WithinASecond) {
+  const Folder folder;
+  const pid_t child = start(
+      {"verify", "kovalevskaya", "--integral", "(M1+2*M2+3*M3+5*g1+7*g2+11*g3+r)^22"}, folder);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const auto start = std::chrono::steady_clock::now();
+  kill(child, SIGINT);
+  EXPECT_EQ(finish(child, folder).status, 130);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
+}
+
+TEST(Generate, WritesAHeaderAndSaysWhatWasLeftOut) {
+  const Folder folder;
+  const auto json = run_in(folder, {"generate", "kovalevskaya", "-o", "k.hpp", "--json"}).json();
+  EXPECT_EQ(json.at("case"), "kovalevskaya");
+  EXPECT_EQ(json.at("scene"), "default");
+  EXPECT_EQ(json.at("file"), "k.hpp");
+  EXPECT_EQ(json.at("left_out").at(0).at("name"), "r");
+  EXPECT_LT(json.at("operations").at("specialised").at("mul"),
+            json.at("operations").at("general").at("mul"));
+  EXPECT_NE(file_text(folder.path() / "k.hpp").find("inline void rhs(const double* x, double* dx)"),
+            std::string::npos);
+  EXPECT_EQ(folder.files(), 1U);
+}
+
+TEST(Generate, LeavesOutTheStatesThatAreNotObserved) {
+  const Folder folder;
+  const auto json =
+      run_in(folder, {"generate", "euler-poisson", "--observe", "M1", "-o", "e.hpp", "--json"})
+          .json();
+  std::vector<std::string> states;
+  for (const auto& item : json.at("left_out")) {
+    if (item.at("kind") == "state") states.push_back(item.at("name"));
+  }
+  EXPECT_EQ(states, (std::vector<std::string>{"g1", "g2", "g3"}));
+  EXPECT_EQ(run({"generate", "euler-poisson", "--observe", "M9"}).status, 2);
+}
+
+TEST(Integrate, ReachesTheReferenceState) {
+  const Folder folder;
+  const auto json = run_in(folder, {"integrate", "kovalevskaya", "--scene", "generic",
+                                    "--tolerance", "1e-12", "--json"})
+                        .json();
+  EXPECT_EQ(json.at("status"), "ok");
+  EXPECT_EQ(json.at("t"), "100");
+  // Reference: two Taylor series in 45 and 90 digits.
+  EXPECT_NEAR(std::stod(json.at("state").at("M1").get<std::string>()), 0.9314032994660502, 1e-9);
+  EXPECT_NEAR(std::stod(json.at("state").at("g3").get<std::string>()), -0.7221564930330076, 1e-9);
+  for (const char* key : {"steps", "rejected", "evaluations", "left_out", "warnings"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  for (const char* key : {"generate", "compile", "integrate"})
+    EXPECT_GE(json.at("seconds").at(key), 0) << key;
+  EXPECT_LT(std::stod(json.at("invariants").at("K").at("drift").get<std::string>()), 1e-9);
+}
+
+TEST(Integrate, EveryMethodAgrees) {
+  const Folder folder;
+  for (const char* method : {"dop853", "gauss4", "gauss6", "gauss8", "gauss12", "gauss16",
+                             "cvode-adams", "cvode-bdf", "auto"}) {
+    const Outcome outcome = run_in(folder, {"integrate", "clebsch", "--method", method,
+                                            "--tolerance", "1e-9", "--duration", "5", "--json"});
+    ASSERT_EQ(outcome.status, 0) << method << outcome.err;
+    static const double expected =
+        std::stod(outcome.json().at("state").at("M1").get<std::string>());
+    EXPECT_NEAR(std::stod(outcome.json().at("state").at("M1").get<std::string>()), expected, 1e-6)
+        << method;
+  }
+}
+
+TEST(Integrate, WritesStatesAtTheTimesAskedFor) {
+  const Folder folder;
+  const Outcome outcome = run_in(
+      folder, {"integrate", "euler", "--duration", "1", "--every", "0.25", "--output", "e.csv"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  std::istringstream csv(file_text(folder.path() / "e.csv"));
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_EQ(line, "t,M1,M2,M3");
+  std::vector<double> times;
+  while (std::getline(csv, line)) times.push_back(std::stod(line));
+  EXPECT_EQ(times, (std::vector<double>{0, 0.25, 0.5, 0.75, 1}));
+}
+
+TEST(Integrate, StopsAtASingularityWithTheTimeAndTheState) {
+  const Folder folder;
+  const std::string blowup =
+      folder.write("blowup.toml",
+                   "[phase_space]\nvariables = [\"x\"]\n[equations]\nx = \"x^2\"\n[[scene]]\nname "
+                   "= \"default\"\ninitial = { x = \"1\" }\nduration = \"2\"\n");
+  const Outcome outcome = run_in(folder, {"integrate", blowup, "--json"});
+  EXPECT_EQ(outcome.status, 5);
+  const auto json = outcome.json();
+  EXPECT_EQ(json.at("status"), "singularity");
+  EXPECT_NEAR(std::stod(json.at("stopped").at("time").get<std::string>()), 1, 1e-3);
+  EXPECT_FALSE(json.at("stopped").at("advice").get<std::string>().empty());
+  EXPECT_NE(outcome.err.find("stopped at t = "), std::string::npos) << outcome.err;
+  EXPECT_EQ(run_in(folder, {"integrate", blowup, "--duration", "1/2"}).status, 0);
+}
+
+TEST(Conserve, PassesAndFailsByItsBound) {
+  const Folder folder;
+  const Outcome good = run_in(folder, {"conserve", "clebsch", "--scene", "default", "--json"});
+  EXPECT_EQ(good.status, 0) << good.err;
+  EXPECT_EQ(good.json().at("failed"), 0);
+  EXPECT_EQ(good.json().at("rows").size(), 2U);
+  const Outcome strict = run_in(folder, {"conserve", "clebsch", "--scene", "default", "--method",
+                                         "dop853", "--tolerance", "1e-4", "--json"});
+  EXPECT_EQ(strict.status, 1);
+  EXPECT_EQ(strict.json().at("failed"), 1);
+}
+
+TEST(Bench, ReportsErrorBesideTime) {
+  const Folder folder;
+  const Outcome outcome = run_in(
+      folder, {"bench", "euler", "--scene", "generic", "--method", "dop853,cvode-adams",
+               "--tolerances", "1e-6,1e-10", "--json", "--output", "b.csv", "--plot", "b.svg"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  double loose = 0;
+  const auto json = outcome.json();
+  for (const auto& row : json.at("rows")) {
+    const double error = std::stod(row.at("error").get<std::string>());
+    EXPECT_GT(row.at("seconds"), 0);
+    if (row.at("tolerance") == 1e-6)
+      loose = error;
+    else
+      EXPECT_LT(error, loose) << row;
+  }
+  EXPECT_EQ(outcome.json().at("rows").size(), 6U);
+  const std::string csv = file_text(folder.path() / "b.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
+  const std::string svg = file_text(folder.path() / "b.svg");
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+  EXPECT_NE(svg.find("cvode-adams"), std::string::npos);
+  EXPECT_EQ(folder.files(), 2U);
+}
+
+TEST(New, WritesACaseThatIsProved) {
+  const Folder folder;
+  EXPECT_EQ(run_in(folder, {"new", "mine"}).status, 0);
+  EXPECT_EQ(run_in(folder, {"verify", "mine.toml"}).status, 0);
+  EXPECT_EQ(run_in(folder, {"conserve", "./mine.toml"}).status, 0);
+  EXPECT_EQ(run_in(folder, {"new", "mine"}).status, 2) << "must not overwrite";
+  EXPECT_EQ(run_in(folder, {"new", "../mine"}).status, 2);
+}
+
+}  // namespace
+}  // namespace casimir::test

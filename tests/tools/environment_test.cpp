@@ -1,0 +1,81 @@
+// The environment at fault: exit status 4, what is missing and what to do; results are not lost.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "tests/tools/program.hpp"
+
+namespace casimir::test {
+namespace {
+
+TEST(Environment, NoCompilerSaysWhatToInstall) {
+  const Folder folder;
+  const Folder cache;
+  const Outcome outcome =
+      run_in(folder, {"integrate", "euler"}, {},
+             {{"PATH", "/nonexistent"}, {"CXX", ""}, {"CASIMIR_CACHE", cache.path().string()}});
+  EXPECT_EQ(outcome.status, 4) << outcome.err;
+  EXPECT_NE(outcome.err.find("g++"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+}
+
+TEST(Environment, ProofsNeedNoCompiler) {
+  EXPECT_EQ(run({"verify", "euler", "--quiet"}, {}, {{"PATH", "/nonexistent"}, {"CXX", ""}}).status,
+            0);
+}
+
+TEST(Environment, CompilerThatFailsIsReported) {
+  const Folder cache;
+  const Outcome outcome = run({"integrate", "euler"}, {},
+                              {{"CXX", "/bin/false"}, {"CASIMIR_CACHE", cache.path().string()}});
+  EXPECT_EQ(outcome.status, 4) << outcome.err;
+}
+
+TEST(Environment, FolderThatCannotBeWrittenIsReported) {
+  const Outcome outcome = run({"generate", "euler", "-o", "/proc/none/e.hpp"});
+  EXPECT_EQ(outcome.status, 4);
+  EXPECT_NE(outcome.err.find("cannot write '/proc/none/e.hpp'"), std::string::npos) << outcome.err;
+}
+
+TEST(Environment, MissingGnuplotLosesNoRow) {
+  const Folder folder;
+  const Folder tools;
+  std::filesystem::create_symlink("/usr/bin/g++", tools.path() / "g++");
+  for (const char* tool : {"as", "ld", "cc1plus"}) {
+    if (std::filesystem::exists(std::string("/usr/bin/") + tool))
+      std::filesystem::create_symlink(std::string("/usr/bin/") + tool, tools.path() / tool);
+  }
+  const Outcome outcome = run_in(folder,
+                                 {"bench", "euler", "--method", "dop853", "--tolerances", "1e-6",
+                                  "--output", "b.csv", "--plot", "b.svg"},
+                                 {}, {{"PATH", tools.path().string()}});
+  EXPECT_EQ(outcome.status, 4) << outcome.err;
+  EXPECT_NE(outcome.err.find("apt-get install gnuplot-nox"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find("dop853"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "b.csv"));
+  EXPECT_EQ(folder.files(), 1U);
+}
+
+TEST(Environment, SecondRunComesFromTheCache) {
+  const Folder folder;
+  const Folder cache;
+  const Environment environment{{"CASIMIR_CACHE", (cache.path() / "c").string()}};
+  EXPECT_EQ(
+      run_in(folder, {"integrate", "euler", "--json"}, {}, environment).json().at("from_cache"),
+      false);
+  EXPECT_EQ(
+      run_in(folder, {"integrate", "euler", "--json"}, {}, environment).json().at("from_cache"),
+      true);
+}
+
+TEST(Environment, CacheOfSomebodyElseIsRefused) {
+  const Folder cache;
+  const std::filesystem::path open_to_all = cache.path() / "open";
+  std::filesystem::create_directory(open_to_all);
+  chmod(open_to_all.c_str(), 0777);
+  const Outcome outcome =
+      run({"integrate", "euler"}, {}, {{"CASIMIR_CACHE", open_to_all.string()}});
+  EXPECT_EQ(outcome.status, 4) << outcome.err;
+}
+
+}  // namespace
+}  // namespace casimir::test
