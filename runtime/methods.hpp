@@ -10,15 +10,16 @@ namespace casimir {
 /// A numerical method as users name it, with the properties that other parts rely on.
 struct Method {
   std::string_view name;
-  int order;                 ///< of the global error; 0 = variable
-  bool implicit;             ///< solves equations in every step; suited to stiff systems
-  bool needs_jacobian;       ///< cannot do without the Jacobian of the module
-  bool uses_jacobian;        ///< is faster or more robust with it
-  bool preserves_quadratic;  ///< keeps quadratic invariants up to rounding
-  bool fixed_step_ok;        ///< accepts Settings::fixed_step
-  std::string_view outside;  ///< the library that does it, or empty: a kernel of our own
-  std::string_view header;   ///< of the kernel, as #include says it; empty for outside methods
-  std::string_view entry;    ///< the function template of the kernel, called with <System ..>
+  int order;                  ///< of the global error; 0 = variable
+  bool implicit;              ///< solves equations in every step; suited to stiff systems
+  bool needs_jacobian;        ///< cannot do without the Jacobian of the module
+  bool uses_jacobian;         ///< is faster or more robust with it
+  bool preserves_quadratic;   ///< keeps quadratic invariants up to rounding
+  bool fixed_step_ok;         ///< accepts Settings::fixed_step
+  std::string_view outside;   ///< the library that does it, or empty: a kernel of our own
+  std::string_view header;    ///< of the kernel, as #include says it; empty for outside methods
+  std::string_view entry;     ///< the function template of the kernel, called with <System ..>
+  std::string_view optimise;  ///< options of GCC under which the kernel is fastest, or empty
   std::string_view description;
   std::string_view literature;
 };

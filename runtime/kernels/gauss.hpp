@@ -66,7 +66,7 @@ struct Step {
   }
 
   /// Lagrange's polynomials of the nodes at `at`, s values.
-  static void lagrange(double at, double* values) {
+  __attribute__((noinline)) static void lagrange(double at, double* values) {
     for (int k = 0; k < s; ++k) {
       double top = 1, bottom = 1;
       for (int m = 0; m < s; ++m) {
@@ -100,38 +100,42 @@ struct Step {
 
   /// Watches the corrections of an iteration: smaller and smaller until they are rounding errors.
   struct Watch {
-    double best[n];
+    double best[n], noise[n], scale[n];
     double level = 0;  // the largest correction, relative to the state
     int bad = 0;       // sweeps without progress above the level of rounding
-    Watch() {
-      for (int i = 0; i < n; ++i) best[i] = __builtin_inf();
-    }
-    enum Answer { go_on, solved, hopeless };
-    Answer see(const double* delta, const double* L, const double* x) {
-      bool progress = false;
-      const double all = largest<n>(x);
-      level = 0;
+    Watch(const double* L, const double* x) {
+      const double all = 1e-2 * largest<n>(x);
       for (int i = 0; i < n; ++i) {
         double unit = magnitude(x[i]);
         for (int j = 0; j < s; ++j) unit = larger(unit, magnitude(L[j * n + i]));
-        const bool grows = delta[i] > 1e3 * best[i] && delta[i] > 64 * kEpsilon * unit;
-        unit = larger(unit, 1e-2 * all);
-        if (delta[i] != 0 && delta[i] < best[i]) progress = true;
-        if (delta[i] < best[i]) best[i] = delta[i];
-        if (grows || !(delta[i] <= 1e300 * unit)) level = 1;
-        if (unit > 0) level = larger(level, delta[i] / unit);
+        best[i] = __builtin_inf();
+        noise[i] = 64 * kEpsilon * unit;
+        scale[i] = 1 / larger(larger(unit, all), kSmallest);
+      }
+    }
+    enum Answer { go_on, solved, hopeless };
+    Answer see(const double* delta) {
+      bool progress = false, grows = false;
+      level = 0;
+      CASIMIR_UNROLL
+      for (int i = 0; i < n; ++i) {
+        const bool smaller = delta[i] < best[i];
+        progress |= smaller && delta[i] != 0;
+        grows |= delta[i] > 1e3 * best[i] && delta[i] > noise[i];
+        best[i] = smaller ? delta[i] : best[i];
+        level = larger(level, delta[i] * scale[i]);
       }
       if (progress) return go_on;
-      if (level <= 4096 * kEpsilon) return solved;
+      if (level <= 4096 * kEpsilon && !grows) return solved;
       return ++bad < 3 ? go_on : hopeless;
     }
   };
 
   /// Solves for the stages from the guess in `stages->L`. Leaves derivatives and products there.
-  Trial solve(double t, const double* x, const double* carry, double step, const double* hb,
-              Stages* stages) {
-    Watch watch;
+  __attribute__((noinline)) Trial solve(double t, const double* x, const double* carry, double step,
+                                        const double* hb, Stages* stages) {
     double* L = stages->L;
+    Watch watch(L, x);
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       double delta[n] = {};
       for (int j = 0; j < s; ++j) {
@@ -148,7 +152,7 @@ struct Step {
       }
       evaluations += s;
       if (!all_finite<size>(L)) return Trial::not_finite;
-      const typename Watch::Answer answer = watch.see(delta, L, x);
+      const typename Watch::Answer answer = watch.see(delta);
       if (answer == Watch::solved) return Trial::done;
       if (answer == Watch::hopeless) return Trial::not_solved;
       // A crawling iteration is for Newton's method, or for a smaller step.
@@ -158,8 +162,9 @@ struct Step {
   }
 
   /// Simplified Newton iteration with the Jacobian at the start of the step.
-  __attribute__((noinline)) Trial solve_by_newton(double t, const double* x, const double* carry,
-                                                  double step, const double* hb, Stages* stages) {
+  __attribute__((cold, noinline)) Trial solve_by_newton(double t, const double* x,
+                                                        const double* carry, double step,
+                                                        const double* hb, Stages* stages) {
     if constexpr (size <= 256 && requires(double* J) { System::jacobian(0., J, J, J); }) {
       double J[n * n], matrix[size * size];
       System::jacobian(t, x, run->parameters, J);
@@ -171,8 +176,8 @@ struct Step {
               matrix[(k * n + d) * size + j * n + c] =
                   (j == k && c == d ? 1. : 0.) - hb[j] * mu_table[j * s + k] * J[d * n + c];
       if (run->factor(run->solver, size, matrix)) return Trial::not_solved;
-      Watch watch;
       double* L = stages->L;
+      Watch watch(L, x);
       for (int sweep = 0; sweep < kSweeps; ++sweep) {
         double residual[size], delta[n] = {};
         for (int j = 0; j < s; ++j) {
@@ -190,7 +195,7 @@ struct Step {
             delta[i] = larger(delta[i], magnitude(residual[j * n + i]));
             L[j * n + i] += residual[j * n + i];
           }
-        const typename Watch::Answer answer = watch.see(delta, L, x);
+        const typename Watch::Answer answer = watch.see(delta);
         if (answer == Watch::solved) return Trial::done;
         if (answer == Watch::hopeless) return Trial::not_solved;
       }
@@ -203,8 +208,8 @@ struct Step {
 
   /// The stages of a step of size `step`, guessed from `known` by the weights w (s rows of s), or
   /// from the derivative at the start where w is null.
-  Trial find(double t, const double* x, const double* carry, double step, const Stages* known,
-             const double* w, Stages* stages) {
+  __attribute__((noinline)) Trial find(double t, const double* x, const double* carry, double step,
+                                       const Stages* known, const double* w, Stages* stages) {
     double hb[s];
     scaled_weights(step, hb);
     auto guess = [&] {
@@ -278,7 +283,7 @@ struct Step {
     for (int i = 0; i < n; ++i) f[i] = f1[i];
   }
 
-  static void dense(const casimir_step* step, double t, double* at) {
+  __attribute__((cold)) static void dense(const casimir_step* step, double t, double* at) {
     Step* self = static_cast<Step*>(const_cast<void*>(step->data));
     const double part = (t - step->t0) / self->h, none[n] = {};
     double w[s * s];
