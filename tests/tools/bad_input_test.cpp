@@ -12,6 +12,8 @@ struct Bad {
   const char* expected;
 };
 
+void PrintTo(const Bad& bad, std::ostream* stream) { *stream << bad.name; }
+
 class BadCommandLine : public testing::TestWithParam<Bad> {};
 
 TEST_P(BadCommandLine, IsRefused) {
