@@ -39,6 +39,8 @@ int generate(const Options& options) {
   what.fold_parameters = !options.keep_params;
   what.invariants = wanted("invariants");
   what.jacobian = wanted("jacobian");
+  what.taylor = wanted("taylor");
+  what.variational = wanted("variational");
   if (!options.observe.empty()) what.observe = options.observe;
   const Specialisation specialisation = specialise(model, model.scene(options.common.scene), what);
   const std::string header = emit_header(specialisation, {.scalar = options.scalar});
@@ -80,10 +82,12 @@ void register_generate(CLI::App& program, Action& action) {
       ->add_option("-o,--output", options->output, "The header to write (default: standard output)")
       ->type_name("FILE");
   command
-      ->add_option("--with", options->with, "Of rhs,invariants,jacobian (default: all; rhs always)")
+      ->add_option(
+          "--with", options->with,
+          "Of rhs,invariants,jacobian,taylor,variational (default: the first three; rhs always)")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember({"rhs", "invariants", "jacobian"}));
+      ->check(CLI::IsMember({"rhs", "invariants", "jacobian", "taylor", "variational"}));
   command
       ->add_option("--observe", options->observe,
                    "States that must be computed; what they do not need is left out")

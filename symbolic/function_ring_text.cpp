@@ -1,0 +1,128 @@
+// A FunctionRing's elements as expressions, as text, and at rational points.
+#include <cln/integer.h>
+#include <cln/rational.h>
+#include <cln/rational_io.h>
+
+#include <sstream>
+
+#include "symbolic/function_ring.hpp"
+
+namespace casimir {
+
+using GiNaC::ex;
+
+ex FunctionRing::expression(const Polynomial& p) const {
+  GiNaC::exvector terms;
+  for (const auto& [coefficient, exponents] : p.term_list()) {
+    GiNaC::exvector factors{GiNaC::numeric(coefficient)};
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
+      if (exponents[i] == 0) continue;
+      const ex base =
+          i < symbols_.size() ? ex(symbols_[i]) : generators_[i - symbols_.size()].value;
+      factors.push_back(GiNaC::pow(base, static_cast<long>(exponents[i])));
+    }
+    terms.push_back(GiNaC::mul(factors));
+  }
+  return GiNaC::add(terms);
+}
+
+std::string FunctionRing::text(const Polynomial& p) const {
+  std::string result;
+  for (const auto& [coefficient, exponents] : p.term_list()) {
+    std::string factors;
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
+      if (exponents[i] == 0) continue;
+      if (!factors.empty()) factors += "*";
+      factors +=
+          i < symbols_.size() ? symbols_[i].get_name() : name(generators_[i - symbols_.size()]);
+      if (exponents[i] > 1) factors += "^" + std::to_string(exponents[i]);
+    }
+    std::ostringstream number;
+    number << cln::abs(coefficient);
+    const bool unit = cln::abs(coefficient) == 1 && !factors.empty();
+    const std::string sign =
+        cln::minusp(coefficient) ? (result.empty() ? "-" : " - ") : (result.empty() ? "" : " + ");
+    result += sign + (unit ? "" : number.str()) + (unit || factors.empty() ? "" : "*") + factors;
+  }
+  return result.empty() ? "0" : result;
+}
+
+std::string FunctionRing::name(const Generator& g) const {
+  switch (g.kind) {
+    case Kind::sine:
+      return "sin(" + text(g.base) + ")";
+    case Kind::cosine: {
+      // Its sine stands just before it and has the angle.
+      const auto index = static_cast<std::size_t>(&g - generators_.data());
+      return "cos(" + text(generators_[index - 1].base) + ")";
+    }
+    case Kind::exponential:
+      return "exp(" + text(g.base) + ")";
+    case Kind::root:
+      return g.order == 2 ? "sqrt(" + text(g.base) + ")"
+                          : "(" + text(g.base) + ")^(1/" + std::to_string(g.order) + ")";
+    case Kind::inverse:
+      return "(1/(" + text(g.base) + "))";
+    case Kind::absolute:
+      return "sqrt(" + text(g.base) + ")";
+    case Kind::imaginary:
+      return "I";
+    case Kind::function:
+      break;
+  }
+  std::ostringstream stream;
+  stream << g.value;
+  return stream.str();
+}
+
+bool FunctionRing::complete(std::vector<cln::cl_RA>& point,
+                            const std::function<cln::cl_RA()>& draw) const {
+  point.resize(ring_->size(), 0);
+  for (std::size_t g = 0; g < generators_.size(); ++g) {
+    const Generator& generator = generators_[g];
+    cln::cl_RA& value = point[symbols_.size() + g];
+    switch (generator.kind) {
+      case Kind::sine: {
+        const cln::cl_RA t = draw();
+        value = 2 * t / (1 + t * t);
+        point[symbols_.size() + g + 1] = (1 - t * t) / (1 + t * t);
+        break;
+      }
+      case Kind::cosine:
+        break;
+      case Kind::exponential:
+        value = cln::abs(draw());
+        if (cln::zerop(value)) return false;
+        break;
+      case Kind::function:
+        value = draw();
+        break;
+      case Kind::imaginary:
+        return false;
+      case Kind::inverse: {
+        const cln::cl_RA d = generator.base.evaluate(point);
+        if (cln::zerop(d)) return false;
+        value = 1 / d;
+        break;
+      }
+      case Kind::root:
+      case Kind::absolute: {
+        const cln::cl_RA b = generator.base.evaluate(point);
+        if (cln::minusp(b)) return false;
+        if (!cln::rootp(b, static_cast<unsigned>(generator.order), &value)) return false;
+        break;
+      }
+    }
+  }
+  return true;
+}
+
+std::vector<Polynomial> FunctionRing::denominators() const {
+  std::vector<Polynomial> result;
+  for (const Generator& g : generators_) {
+    if (g.kind == Kind::inverse) result.push_back(g.base);
+  }
+  return result;
+}
+
+}  // namespace casimir
