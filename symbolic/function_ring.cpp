@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace casimir {
 namespace {
@@ -91,12 +92,13 @@ Polynomial FunctionRing::convert_new(const ex& e) {
   }
   if (GiNaC::is_a<GiNaC::add>(e)) {
     Polynomial sum(*ring_);
-    for (std::size_t i = 0; i < e.nops(); ++i) sum += convert(e.op(i));
+    for (const ex& term : ordered_operands(e)) sum += convert(term);
     return sum;
   }
   if (GiNaC::is_a<GiNaC::mul>(e)) {
     Polynomial product = ring_->constant(1);
-    for (std::size_t i = 0; i < e.nops(); ++i) product = checked_product(product, convert(e.op(i)));
+    for (const ex& factor : ordered_operands(e))
+      product = checked_product(product, convert(factor));
     return product;
   }
   if (GiNaC::is_a<GiNaC::power>(e)) return convert_power(e.op(0), e.op(1));
@@ -110,6 +112,39 @@ Polynomial FunctionRing::convert_new(const ex& e) {
                      [&](const Polynomial&) { return Polynomial(*ring_); });
   }
   throw ModelError("an expression that exact algebra does not know");
+}
+
+/// Text that orders expressions, the same in every process.
+const std::string& FunctionRing::order_key(const ex& e) {
+  const auto known = order_keys_.find(e);
+  if (known != order_keys_.end()) return known->second;
+  std::string key;
+  if (e.nops() == 0) {
+    std::ostringstream stream;
+    stream << e;
+    key = stream.str();
+  } else {
+    std::vector<std::string> parts;
+    for (std::size_t i = 0; i < e.nops(); ++i) parts.push_back(order_key(e.op(i)));
+    const bool commutes = GiNaC::is_a<GiNaC::add>(e) || GiNaC::is_a<GiNaC::mul>(e);
+    if (commutes) std::sort(parts.begin(), parts.end());
+    key = GiNaC::is_a<GiNaC::add>(e)        ? "+"
+          : GiNaC::is_a<GiNaC::mul>(e)      ? "*"
+          : GiNaC::is_a<GiNaC::function>(e) ? GiNaC::ex_to<GiNaC::function>(e).get_name()
+                                            : "^";
+    for (const std::string& part : parts) key += "(" + part + ")";
+  }
+  return order_keys_.emplace(e, std::move(key)).first->second;
+}
+
+/// Terms or factors. GiNaC orders them by memory addresses; where generators are made, their
+/// numbers, and with them every printed text, would depend on that.
+GiNaC::exvector FunctionRing::ordered_operands(const ex& e) {
+  GiNaC::exvector operands(e.begin(), e.end());
+  if (capacity_ == 0) return operands;
+  std::sort(operands.begin(), operands.end(),
+            [this](const ex& a, const ex& b) { return order_key(a) < order_key(b); });
+  return operands;
 }
 
 Polynomial FunctionRing::checked_product(const Polynomial& a, const Polynomial& b) const {

@@ -87,6 +87,8 @@ class FunctionRing {
 
   void build(const std::vector<GiNaC::ex>& expressions);
   Polynomial convert_new(const GiNaC::ex& e);
+  GiNaC::exvector ordered_operands(const GiNaC::ex& e);
+  const std::string& order_key(const GiNaC::ex& e);
   Polynomial convert_power(const GiNaC::ex& base, const GiNaC::ex& exponent);
   Polynomial convert_function(const GiNaC::function& f);
   Polynomial generator(Kind kind, const GiNaC::ex& value, const Polynomial& base,
@@ -116,6 +118,7 @@ class FunctionRing {
   std::unique_ptr<PolynomialRing> ring_;
   std::vector<Generator> generators_;
   std::map<GiNaC::ex, Polynomial, GiNaC::ex_is_less> known_;
+  std::map<GiNaC::ex, std::string, GiNaC::ex_is_less> order_keys_;
   std::vector<std::pair<Polynomial, int>> signs_;  ///< polynomials whose sign is assumed
   /// For a monomial in an angle or exponent: the least common denominator of its coefficients.
   std::vector<std::pair<GiNaC::ex, cln::cl_I>> units_;
