@@ -24,9 +24,13 @@ fail() {
   exit "$status"
 }
 
-# show_log LOG: the errors in it with the lines around them, or else its end.
+# show_log LOG: what ninja says of the first step that failed, less its command line; or else the
+# errors in it with the lines that follow; or else its end.
 show_log() {
-  if grep -q -m1 -E '(error:|Error at|^E: )' "$1"; then
+  if grep -q -m1 '^FAILED: ' "$1"; then
+    awk '/^FAILED: / {if (shown++) exit; print; getline; next} /^\[[0-9]+\// && shown {exit}
+         shown && lines++ < 40 {print substr($0, 1, 300)}' "$1" >&2
+  elif grep -q -m1 -E '(error:|Error at|^E: )' "$1"; then
     grep -E -A4 '(error:|Error at|^E: )' "$1" | head -n 40 >&2
   else
     tail -n 20 "$1" >&2
