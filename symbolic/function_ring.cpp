@@ -314,11 +314,4 @@ Polynomial FunctionRing::numerator(const Polynomial& p) const {
   return result;
 }
 
-bool FunctionRing::is_polynomial(const Polynomial& p) const {
-  for (std::size_t g = 0; g < generators_.size(); ++g) {
-    if (p.uses(symbols_.size() + g)) return false;
-  }
-  return true;
-}
-
 }  // namespace casimir

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,18 +62,43 @@ class FunctionRing {
   /// Text with terms in the ring's order: the same in every run, unlike GiNaC's.
   std::string text(const Polynomial& p) const;
 
+  /// How `complete` may choose the values of sines and exponentials.
+  struct Freedom {
+    /// Freely: they are algebraically independent of their arguments, so that what holds at such a
+    /// point (a rank) holds at generic points. Logarithms and inverse functions are not drawn.
+    bool formal = false;
+    /// Not formal: symbols that occur as they are, so that they keep their rational values. An
+    /// angle of any other symbol is drawn, and the symbol has the value that belongs to it.
+    std::vector<bool> bare{};
+  };
+
   /// Given values of the symbols in point[0..symbols), fills in values of the generators that obey
-  /// all relations; sines and exponentials, which are independent of their arguments, are drawn
-  /// from `draw`. False where a denominator vanishes or a root is not rational.
-  bool complete(std::vector<cln::cl_RA>& point, const std::function<cln::cl_RA()>& draw) const;
+  bool complete(std::vector<cln::cl_RA>& point, const std::function<cln::cl_RA()>& draw,
+                const Freedom& freedom) const;
+
+  /// Whether `p` has a value at a completed point: logarithms, inverse functions and I have none.
+  bool has_value(const Polynomial& p) const;
+
+  /// Which symbols occur as they are in `p` or in any generator, and not only as plain angles.
+  std::vector<bool> bare_symbols(const Polynomial& p) const;
+
+  /// An angle or exponent `factor * symbol` with its value at a completed point.
+  struct PlainArgument {
+    std::size_t symbol;
+    cln::cl_RA factor;
+    bool angle;               ///< else an exponent
+    cln::cl_RA sine, cosine;  ///< of an angle
+    cln::cl_RA exponential;   ///< of an exponent
+  };
+  std::vector<PlainArgument> plain_arguments(const std::vector<cln::cl_RA>& point) const;
 
   /// The denominators in what was converted: where one of them vanishes, nothing is claimed.
   std::vector<Polynomial> denominators() const;
 
   const std::vector<GiNaC::symbol>& symbols() const { return symbols_; }
   const PolynomialRing& ring() const { return *ring_; }
-  /// True where `p` is a polynomial in the symbols alone.
-  bool is_polynomial(const Polynomial& p) const;
+  /// True where everything that was converted is a polynomial in the symbols.
+  bool is_polynomial() const { return generators_.empty(); }
 
  private:
   enum class Kind { sine, cosine, exponential, root, inverse, absolute, imaginary, function };
@@ -97,6 +123,9 @@ class FunctionRing {
   const Generator* find(Kind kind, const Polynomial& base, unsigned long order,
                         std::size_t* index) const;
   std::string name(const Generator& g) const;
+  bool complete_argument(std::size_t g, std::vector<cln::cl_RA>& point, std::vector<bool>& chosen,
+                         const std::function<cln::cl_RA()>& draw, const Freedom& freedom) const;
+  std::optional<std::pair<std::size_t, cln::cl_RA>> plain_symbol(const Polynomial& p) const;
   std::vector<Polynomial> slopes(const Polynomial& p) const;
   Polynomial checked_product(const Polynomial& a, const Polynomial& b) const;
   Polynomial power(const Polynomial& p, unsigned long exponent) const;

@@ -75,48 +75,6 @@ std::string FunctionRing::name(const Generator& g) const {
   return stream.str();
 }
 
-bool FunctionRing::complete(std::vector<cln::cl_RA>& point,
-                            const std::function<cln::cl_RA()>& draw) const {
-  point.resize(ring_->size(), 0);
-  for (std::size_t g = 0; g < generators_.size(); ++g) {
-    const Generator& generator = generators_[g];
-    cln::cl_RA& value = point[symbols_.size() + g];
-    switch (generator.kind) {
-      case Kind::sine: {
-        const cln::cl_RA t = draw();
-        value = 2 * t / (1 + t * t);
-        point[symbols_.size() + g + 1] = (1 - t * t) / (1 + t * t);
-        break;
-      }
-      case Kind::cosine:
-        break;
-      case Kind::exponential:
-        value = cln::abs(draw());
-        if (cln::zerop(value)) return false;
-        break;
-      case Kind::function:
-        value = draw();
-        break;
-      case Kind::imaginary:
-        return false;
-      case Kind::inverse: {
-        const cln::cl_RA d = generator.base.evaluate(point);
-        if (cln::zerop(d)) return false;
-        value = 1 / d;
-        break;
-      }
-      case Kind::root:
-      case Kind::absolute: {
-        const cln::cl_RA b = generator.base.evaluate(point);
-        if (cln::minusp(b)) return false;
-        if (!cln::rootp(b, static_cast<unsigned>(generator.order), &value)) return false;
-        break;
-      }
-    }
-  }
-  return true;
-}
-
 std::vector<Polynomial> FunctionRing::denominators() const {
   std::vector<Polynomial> result;
   for (const Generator& g : generators_) {

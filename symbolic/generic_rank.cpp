@@ -89,6 +89,11 @@ bool bordered_minors_vanish(Prover& prover, const PolynomialRows& rows, const Ro
 }  // namespace
 
 std::optional<GenericRank> generic_rank(Prover& prover, const PolynomialRows& rows) {
+  for (const auto& row : rows) {
+    for (const Polynomial& entry : row) {
+      if (!prover.ring().has_value(entry)) return std::nullopt;
+    }
+  }
   std::optional<GenericRank> best;
   Rows values;
   const std::size_t full = rows.empty() ? 0 : std::min(rows.size(), rows[0].size());

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "symbolic/exact_point.hpp"
 #include "symbolic/ideal.hpp"
 
 namespace casimir {
@@ -188,6 +189,7 @@ std::vector<Residual> Prover::level_rates(const Level& level) {
 void Prover::decide(Proof& proof, const std::vector<Residual>& residuals, const Level& level) {
   proof.verdict = Verdict::proved;
   std::vector<Polynomial> cofactors;
+  int searches = 0;
   for (const Residual& residual : residuals) {
     Polynomial rest = ring_.numerator(residual.value);
     if (!rest.is_zero() && !level.empty()) {
@@ -204,7 +206,10 @@ void Prover::decide(Proof& proof, const std::vector<Residual>& residuals, const 
     }
     if (rest.is_zero()) continue;
     const bool first = proof.verdict == Verdict::proved;
-    std::optional<Witness> found = witness(residual, rest, level);
+    // A level on which no exact point is found the first time is not searched again and again.
+    constexpr int kSearches = 2;
+    std::optional<Witness> found;
+    if (searches++ < kSearches || level.empty()) found = witness(residual, rest, level);
     if (!first && !found) continue;
     proof.verdict = found ? Verdict::refuted : Verdict::undecided;
     proof.residual = shortened(ring_.text(rest), rest.terms());
@@ -265,13 +270,24 @@ bool Prover::inside_assumptions(const Point& point) const {
 }
 
 std::optional<Point> Prover::random_point(const Level& level) {
+  return random_point(level, {.formal = true});
+}
+
+std::optional<Point> Prover::random_point(const Level& level,
+                                          const FunctionRing::Freedom& freedom) {
   const int trials = level.empty() ? kPointTrials : 20 * kPointTrials;
   for (int trial = 0; trial < trials; ++trial) {
     Point point(ring_.ring().size(), 0);
-    for (std::size_t i = 0; i < ring_.symbols().size(); ++i) point[i] = draw();
+    for (std::size_t i = 0; i < ring_.symbols().size(); ++i) {
+      // Functions whose arguments are not plain symbols have rational values at zero at best.
+      const bool at_zero = !freedom.formal && !ring_.is_polynomial() && trial % 4 == 3;
+      point[i] = at_zero && i < dimension() && freedom.bare[i] ? 0 : draw();
+    }
     if (!level.empty() && !solve_level(point, level)) continue;
     if (!inside_assumptions(point)) continue;
-    if (!ring_.complete(point, [this] { return draw(); })) continue;
+    if (!ring_.complete(
+            point, [this] { return draw(); }, freedom))
+      continue;
     return point;
   }
   return std::nullopt;
@@ -289,19 +305,27 @@ std::vector<std::pair<std::string, std::string>> Prover::describe(const Point& p
 /// other than zero.
 std::optional<Witness> Prover::witness(const Residual& residual, const Polynomial& numerator,
                                        const Level& level) {
+  if (!ring_.has_value(numerator)) return std::nullopt;
+  FunctionRing::Freedom freedom{false, ring_.bare_symbols(numerator)};
+  const auto keep = [&](const ex& e) {
+    for (std::size_t i = 0; i < freedom.bare.size(); ++i) {
+      freedom.bare[i] = freedom.bare[i] || e.has(ring_.symbols()[i]);
+    }
+  };
+  for (const ex& f : level.functions) keep(f);
+  for (const Assumption& a : model_.assumptions) keep(a.difference);
   const ex check = residual.by_ginac();
   constexpr int kTrials = 60;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const std::optional<Point> point = random_point(level);
+    const std::optional<Point> point = random_point(level, freedom);
     if (!point) return std::nullopt;
-    if (ring_.is_polynomial(numerator) && cln::zerop(numerator.evaluate(*point))) continue;
-    const GiNaC::exmap values = substitution(*point);
+    if (cln::zerop(numerator.evaluate(*point))) continue;
+    const ExactPoint exact(ring_, *point, freedom.bare);
     ex value;
     try {
-      value = check.subs(values, GiNaC::subs_options::no_pattern);
-      const bool on_level = std::all_of(
-          level.functions.begin(), level.functions.end(),
-          [&](const ex& f) { return f.subs(values, GiNaC::subs_options::no_pattern).is_zero(); });
+      value = exact.evaluate(check);
+      const bool on_level = std::all_of(level.functions.begin(), level.functions.end(),
+                                        [&](const ex& f) { return exact.evaluate(f).is_zero(); });
       if (!on_level) continue;
     } catch (const std::exception&) {
       continue;  // a pole at this point
@@ -309,7 +333,7 @@ std::optional<Witness> Prover::witness(const Residual& residual, const Polynomia
     if (!GiNaC::is_a<GiNaC::numeric>(value) || value.is_zero()) continue;
     const GiNaC::numeric number = GiNaC::ex_to<GiNaC::numeric>(value);
     if (!number.is_rational()) continue;
-    return Witness{describe(*point), number_text(cln::the<cln::cl_RA>(number.to_cl_N()))};
+    return Witness{exact.coordinates(), number_text(cln::the<cln::cl_RA>(number.to_cl_N()))};
   }
   return std::nullopt;
 }

@@ -61,6 +61,8 @@ class Prover {
   /// A point of the ring at which no denominator vanishes, every assumption holds and the level's
   /// functions are zero; empty if none was found.
   std::optional<std::vector<cln::cl_RA>> random_point(const Level& level);
+  std::optional<std::vector<cln::cl_RA>> random_point(const Level& level,
+                                                      const FunctionRing::Freedom& freedom);
 
   /// Exact values of the symbols of such a point, by name; variables first.
   std::vector<std::pair<std::string, std::string>> describe(

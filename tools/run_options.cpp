@@ -42,8 +42,12 @@ Settings settings_for(const RunOptions& options, const SceneRun& run, double def
   settings.rtol = options.rtol.value_or(options.tolerance.value_or(default_tolerance));
   double size = 0;
   for (const double x : run.initial) size = std::max(size, std::abs(x));
-  settings.atol = options.atol.value_or(options.tolerance.value_or(settings.rtol) *
-                                        (size > 0 ? std::min(size, 1.0) : 1.0));
+  const double unit = size > 0 ? std::min(size, 1.0) : 1.0;
+  // Small components beside large ones keep three digits more than the large ones need.
+  constexpr double kSmallComponents = 1e-3;
+  settings.atol = options.atol        ? *options.atol
+                  : options.tolerance ? *options.tolerance * unit
+                                      : settings.rtol * unit * kSmallComponents;
   settings.fixed_step = options.step.value_or(0);
   settings.max_steps = options.max_steps;
   settings.invariant_sizes = run.invariant_sizes();

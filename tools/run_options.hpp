@@ -18,8 +18,9 @@ struct RunOptions {
 
 void add_run_options(CLI::App& command, RunOptions& options);
 
-/// Settings for a scene. Without `--atol`, the absolute tolerance is the relative one times the
-/// size of the initial state where that is below 1: a tiny scene is not all tolerance.
+/// Settings for a scene. The absolute tolerance of `--tolerance` is in units of the initial state
+/// where that is smaller than 1: a tiny scene is not all tolerance. Without any option it is a
+/// thousandth of that.
 /// \throws UsageError  for a duration that is no number.
 Settings settings_for(const RunOptions& options, const SceneRun& run,
                       double default_tolerance = 1e-10);

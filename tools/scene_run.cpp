@@ -31,6 +31,11 @@ std::vector<cln::cl_F> evaluate_start(const Specialisation& specialisation, int 
   return evaluate(specialisation.start, {}, Arithmetic<cln::cl_F>(digits));
 }
 
+/// What is left of a value when its nearest double is taken away.
+double remainder(const cln::cl_F& value, double nearest) {
+  return cln::double_approx(value - cln::cl_float(cln::cl_DF(nearest), value));
+}
+
 double rounded(const cln::cl_F& value) { return codegen::nearest<double>(cln::rational(value)); }
 
 }  // namespace
@@ -45,7 +50,10 @@ SceneRun prepare(const Model& model, const Scene& scene, const SceneOptions& opt
   const Specialisation& s = run.specialisation;
   const std::vector<cln::cl_F> values = evaluate_start(s, kConstantDigits);
   std::size_t next = 0;
-  for (std::size_t i = 0; i < s.states.size(); ++i) run.initial.push_back(rounded(values[next++]));
+  for (std::size_t i = 0; i < s.states.size(); ++i, ++next) {
+    run.initial.push_back(rounded(values[next]));
+    run.rounding.push_back(remainder(values[next], run.initial.back()));
+  }
   for (std::size_t i = 0; i < s.parameters.size(); ++i)
     run.parameters.push_back(rounded(values[next++]));
   run.duration = rounded(values[next]);
@@ -118,7 +126,7 @@ TruthOrReason truth_of(const Scene& scene, const SceneRun& run, int digits,
   Truth truth;
   for (const cln::cl_F& x : state) {
     truth.state.push_back(rounded(x));
-    truth.rest.push_back(cln::double_approx(x - cln::cl_float(cln::cl_DF(truth.state.back()), x)));
+    truth.rest.push_back(remainder(x, truth.state.back()));
   }
   truth.scale = state_sizes(run);
   result.truth = std::move(truth);

@@ -17,6 +17,7 @@ namespace casimir::tools {
 struct SceneRun {
   Specialisation specialisation;
   std::vector<double> initial;     ///< of the kept states
+  std::vector<double> rounding;    ///< what rounding them to double left out
   std::vector<double> parameters;  ///< at run time; empty when folded
   double duration = 0;
 

@@ -159,6 +159,34 @@ TEST(Prove, TimeDependentIntegral) {
   EXPECT_EQ(test_integral(free, "q + p*t").verdict, Verdict::refuted);
 }
 
+TEST(Prove, AnglesAndExponentialsHaveExactWitnesses) {
+  const Model pendulum = model_of(
+      "hamiltonian = \"p^2/2 - w*cos(q)\"\n[phase_space]\nvariables = [\"q\",\"p\"]\n"
+      "canonical = true\n[parameters]\nw = { assume = \"w > 0\" }\n");
+  EXPECT_EQ(test_integral(pendulum, "p^2/2 - w*(1 - 2*sin(q/2)^2)").verdict, Verdict::proved);
+  const Proof wrong = test_integral(pendulum, "p^2/2 + w*cos(q)");
+  ASSERT_EQ(wrong.verdict, Verdict::refuted);
+  EXPECT_NE(wrong.witness->point.at(0).second.find("atan"), std::string::npos);
+  // An angle that also occurs outside of its sine keeps a rational value, which only 0 can be.
+  EXPECT_EQ(test_integral(pendulum, "q*cos(q)").verdict, Verdict::refuted);
+  const Model toda = model_of(
+      "hamiltonian = \"p^2/2 + exp(2*q)\"\n[phase_space]\nvariables = [\"q\",\"p\"]\n"
+      "canonical = true\n");
+  EXPECT_EQ(test_integral(toda, "p^2 + 2*exp(q)^2").verdict, Verdict::proved);
+  EXPECT_EQ(test_integral(toda, "p^2 + 2*exp(q)").verdict, Verdict::refuted);
+}
+
+TEST(Prove, DependentLogarithmsAreNotCalledIndependent) {
+  const Model model = model_of(
+      "[phase_space]\nvariables = [\"x\",\"y\",\"z\"]\n[equations]\nx = \"0\"\ny = \"0\"\nz = "
+      "\"0\"\n[integrals]\nF = \"x*log(x*y)\"\nG = \"x*log(x) + x*log(y)\"\n");
+  for (const Proof& proof : prove(model)) {
+    if (proof.kind == "independence") {
+      EXPECT_NE(proof.verdict, Verdict::proved);
+    }
+  }
+}
+
 TEST(Prove, LaxPairAndItsBentTwin) {
   const std::string lax =
       "[[lax]]\nL = [[\"0\",\"M3\",\"-M2\"],[\"-M3\",\"0\",\"M1\"],[\"M2\",\"-M1\",\"0\"]]\n"

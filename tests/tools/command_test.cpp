@@ -184,6 +184,28 @@ TEST(Integrate, ReachesTheReferenceState) {
   EXPECT_LT(std::stod(json.at("invariants").at("K").at("drift").get<std::string>()), 1e-9);
 }
 
+TEST(Integrate, SaysHowFarTheResultCanBeTrusted) {
+  const auto good = run({"integrate", "kovalevskaya", "--scene", "generic", "--json"}).json();
+  const double estimate = std::stod(good.at("trust").at("error_estimate").get<std::string>());
+  const double error =
+      std::abs(std::stod(good.at("state").at("M1").get<std::string>()) - 0.9314032994660502);
+  EXPECT_LE(error, 3 * estimate);
+  EXPECT_LT(estimate, 1e-5);
+  EXPECT_EQ(good.at("trust").at("beyond_double"), false);
+  EXPECT_TRUE(good.at("warnings").empty());
+  // The instability of the middle axis, for long enough to lose every digit.
+  const Folder folder;
+  const std::string hard = folder.write(
+      "hard.toml",
+      "hamiltonian = \"(M1^2 + 2*M2^2 + 3*M3^2)/2\"\n[phase_space]\nvariables = "
+      "[\"M1\",\"M2\",\"M3\"]\nalgebra = \"so(3)\"\n[[scene]]\nname = \"default\"\ninitial = { M1 "
+      "= \"10^(-13)\", M2 = \"1\", M3 = \"10^(-13)\" }\nduration = \"150\"\n");
+  const auto doubtful =
+      run_in(folder, {"integrate", hard, "--tolerance", "1e-10", "--json"}).json();
+  EXPECT_EQ(doubtful.at("status"), "ok");
+  EXPECT_FALSE(doubtful.at("warnings").empty());
+}
+
 TEST(Integrate, EveryMethodAgrees) {
   const Folder folder;
   for (const char* method : {"dop853", "gauss4", "gauss6", "gauss8", "gauss12", "gauss16",

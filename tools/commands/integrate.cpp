@@ -12,6 +12,7 @@
 #include "tools/run_options.hpp"
 #include "tools/run_report.hpp"
 #include "tools/scene_run.hpp"
+#include "tools/trust.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -61,7 +62,7 @@ std::string advice(Status status) {
 
 Json to_json(const Model& model, const SceneRun& run, const Method& method,
              const Settings& settings, const CompiledModule& compiled, const Trajectory& trajectory,
-             const std::vector<std::string>& warnings) {
+             const Trust& trust) {
   const Specialisation& s = run.specialisation;
   Json json = {{"case", model.name},
                {"scene", s.scene},
@@ -89,7 +90,8 @@ Json to_json(const Model& model, const SceneRun& run, const Method& method,
                      {"integrate", trajectory.seconds}};
   json["from_cache"] = compiled.from_cache;
   json["left_out"] = left_out_json(s);
-  json["warnings"] = warnings;
+  json["warnings"] = warnings_of(trust);
+  json["trust"] = tools::to_json(trust);
   if (trajectory.status != Status::ok) {
     json["stopped"] = {{"time", exact_text(trajectory.time)},
                        {"reason", trajectory.reason},
@@ -142,13 +144,13 @@ int integrate_case(const Options& options) {
   } catch (const std::invalid_argument& problem) {
     throw UsageError(problem.what());
   }
-  std::vector<std::string> warnings;
+  const Trust trust = assess(run, compiled, method, settings, trajectory);
   if (!options.output.empty()) write_samples(options.output, run, trajectory);
   if (options.common.json) {
-    std::cout << to_json(model, run, method, settings, compiled, trajectory, warnings).dump(2)
-              << '\n';
+    std::cout << to_json(model, run, method, settings, compiled, trajectory, trust).dump(2) << '\n';
   } else if (!options.common.quiet) {
     print_text(run, method, settings, compiled, trajectory);
+    for (const std::string& warning : warnings_of(trust)) fmt::print("  warning: {}\n", warning);
     if (!options.output.empty())
       fmt::print("  wrote {} states to {}\n", trajectory.samples.size(), options.output);
   }

@@ -1,0 +1,106 @@
+#include "tools/trust.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/run_report.hpp"
+
+namespace casimir::tools {
+namespace {
+
+constexpr double kUnitRoundoff = 0x1p-53;
+/// Relative change of a state whose growth is measured: half of the digits of a double.
+constexpr double kChange = 0x1p-26;
+/// Rounding errors that grow to this size leave no digits to speak of.
+constexpr double kSpoiled = 1e-3;
+
+std::vector<double> sizes_of(const Trajectory& trajectory, const std::vector<double>& initial) {
+  std::vector<double> sizes;
+  double largest = 0;
+  for (std::size_t i = 0; i < initial.size(); ++i) {
+    sizes.push_back(std::max(std::abs(initial[i]), std::abs(trajectory.state[i])));
+    largest = std::max(largest, sizes.back());
+  }
+  for (double& size : sizes) size = largest == 0 ? 1 : std::max(size, 1e-3 * largest);
+  return sizes;
+}
+
+double distance(const std::vector<double>& a, const std::vector<double>& b,
+                const std::vector<double>& sizes) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    largest = std::max(largest, std::abs(a[i] - b[i]) / sizes[i]);
+  }
+  return largest;
+}
+
+}  // namespace
+
+Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& method,
+             const Settings& settings, const Trajectory& trajectory, double budget) {
+  Trust trust;
+  const std::size_t n = run.initial.size();
+  if (trajectory.status != Status::ok) return trust;
+  if (trajectory.seconds * static_cast<double>(n + 2) > budget) return trust;
+  const std::vector<double> sizes = sizes_of(trajectory, run.initial);
+  Settings bare = settings;
+  bare.monitor = false;
+  bare.sample_every = 0;
+  const auto end_of = [&](const Settings& how, const std::vector<double>& from) {
+    return integrate(compiled.module, method, how, from, run.parameters);
+  };
+  Settings tight = bare;
+  tight.rtol = std::max(settings.rtol / 100, 2 * kLeastTolerance);
+  tight.atol = settings.atol / 100;
+  tight.fixed_step = settings.fixed_step / 2;
+  const Trajectory better = end_of(tight, run.initial);
+  if (better.status != Status::ok) return trust;
+  for (std::size_t j = 0; j < n; ++j) {
+    std::vector<double> moved = run.initial;
+    moved[j] += kChange * sizes[j];
+    const Trajectory neighbour = end_of(bare, moved);
+    if (neighbour.status != Status::ok) return trust;
+    const double growth = distance(neighbour.state, trajectory.state, sizes) / kChange;
+    trust.conditioning = std::max(trust.conditioning, growth);
+    trust.input_rounding += growth * std::abs(run.rounding[j]) / sizes[j];
+  }
+  trust.known = true;
+  trust.error_estimate = distance(better.state, trajectory.state, sizes) +
+                         trust.conditioning * kUnitRoundoff + trust.input_rounding;
+  trust.beyond_double = !(trust.conditioning * kUnitRoundoff < kSpoiled);
+  return trust;
+}
+
+nlohmann::ordered_json to_json(const Trust& trust) {
+  if (!trust.known) {
+    return {{"conditioning", nullptr},
+            {"input_rounding", nullptr},
+            {"error_estimate", nullptr},
+            {"beyond_double", nullptr}};
+  }
+  return {{"conditioning", exact_text(trust.conditioning)},
+          {"input_rounding", exact_text(trust.input_rounding)},
+          {"error_estimate", exact_text(trust.error_estimate)},
+          {"beyond_double", trust.beyond_double}};
+}
+
+std::vector<std::string> warnings_of(const Trust& trust) {
+  std::vector<std::string> warnings;
+  if (!trust.known) return warnings;
+  if (trust.beyond_double) {
+    warnings.push_back(
+        fmt::format("small changes of the initial state grow {:.0e} times: double precision "
+                    "cannot hold this motion to its end",
+                    trust.conditioning));
+  } else if (!(trust.error_estimate < kSpoiled)) {
+    warnings.push_back(
+        fmt::format("a run with a hundredth of the tolerance ends elsewhere, by {:.0e} of the "
+                    "state: tighten --tolerance",
+                    trust.error_estimate));
+  }
+  return warnings;
+}
+
+}  // namespace casimir::tools

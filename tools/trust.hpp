@@ -1,0 +1,33 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "runtime/integrate.hpp"
+#include "tools/scene_run.hpp"
+
+namespace casimir::tools {
+
+/// How far the end state of a run can be believed. Relative to the size of each state.
+struct Trust {
+  bool known = false;          ///< false: the further runs would have taken too long, or failed
+  double conditioning = 0;     ///< largest growth of a small change of the initial state
+  double input_rounding = 0;   ///< error from rounding the scene's exact data to double
+  double error_estimate = 0;   ///< difference to a run with a hundredth of the tolerance, and
+                               ///< what double arithmetic alone costs
+  bool beyond_double = false;  ///< rounding alone spoils all but a few digits
+};
+
+/// Repeats a finished run: once with a tighter tolerance and once for each state with that state
+/// changed a little. Only where all of that takes about `budget` seconds at most.
+Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& method,
+             const Settings& settings, const Trajectory& trajectory, double budget = 1);
+
+/// The interface's keys; null where it is not known.
+nlohmann::ordered_json to_json(const Trust& trust);
+
+/// Sentences for the user where the result is in doubt.
+std::vector<std::string> warnings_of(const Trust& trust);
+
+}  // namespace casimir::tools
