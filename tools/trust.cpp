@@ -11,8 +11,10 @@ namespace casimir::tools {
 namespace {
 
 constexpr double kUnitRoundoff = 0x1p-53;
-/// Relative change of a state whose growth is measured: half of the digits of a double.
-constexpr double kChange = 0x1p-26;
+/// Relative changes of a state whose growth is measured. The first that stays small is taken: where
+/// a change grows to the size of the state itself, it says too little about smaller ones.
+constexpr double kChanges[] = {0x1p-26, 0x1p-36, 0x1p-46};
+constexpr double kSmall = 0.05;
 /// Rounding errors that grow to this size leave no digits to speak of.
 constexpr double kSpoiled = 1e-3;
 
@@ -58,11 +60,16 @@ Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& 
   const Trajectory better = end_of(tight, run.initial);
   if (better.status != Status::ok) return trust;
   for (std::size_t j = 0; j < n; ++j) {
-    std::vector<double> moved = run.initial;
-    moved[j] += kChange * sizes[j];
-    const Trajectory neighbour = end_of(bare, moved);
-    if (neighbour.status != Status::ok) return trust;
-    const double growth = distance(neighbour.state, trajectory.state, sizes) / kChange;
+    double growth = 0;
+    for (const double change : kChanges) {
+      std::vector<double> moved = run.initial;
+      moved[j] += change * sizes[j];
+      const Trajectory neighbour = end_of(tight, moved);
+      if (neighbour.status != Status::ok) return trust;
+      const double apart = distance(neighbour.state, better.state, sizes);
+      growth = std::max(growth, apart / change);
+      if (apart < kSmall) break;
+    }
     trust.conditioning = std::max(trust.conditioning, growth);
     trust.input_rounding += growth * std::abs(run.rounding[j]) / sizes[j];
   }

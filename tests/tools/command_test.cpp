@@ -199,7 +199,7 @@ TEST(Integrate, SaysHowFarTheResultCanBeTrusted) {
       "hard.toml",
       "hamiltonian = \"(M1^2 + 2*M2^2 + 3*M3^2)/2\"\n[phase_space]\nvariables = "
       "[\"M1\",\"M2\",\"M3\"]\nalgebra = \"so(3)\"\n[[scene]]\nname = \"default\"\ninitial = { M1 "
-      "= \"10^(-13)\", M2 = \"1\", M3 = \"10^(-13)\" }\nduration = \"150\"\n");
+      "= \"10^(-14)\", M2 = \"1\", M3 = \"10^(-14)\" }\nduration = \"33\"\n");
   const auto doubtful =
       run_in(folder, {"integrate", hard, "--tolerance", "1e-10", "--json"}).json();
   EXPECT_EQ(doubtful.at("status"), "ok");
