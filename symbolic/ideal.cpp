@@ -65,4 +65,48 @@ std::vector<Polynomial> groebner_basis(const std::vector<Polynomial>& generators
   return basis;
 }
 
+std::vector<SolvedRelation> triangular_set(std::vector<Polynomial> relations,
+                                           std::size_t coordinates) {
+  std::vector<SolvedRelation> set;
+  const auto uses_coordinates = [&](const Polynomial& p) {
+    for (std::size_t i = 0; i < coordinates; ++i) {
+      if (p.uses(i)) return true;
+    }
+    return false;
+  };
+  const auto pick = [&]() -> bool {
+    for (std::size_t k = 0; k < relations.size(); ++k) {
+      for (std::size_t v = 0; v < coordinates; ++v) {
+        if (!relations[k].uses(v)) continue;
+        const bool alone = std::count_if(relations.begin(), relations.end(),
+                                         [&](const Polynomial& f) { return f.uses(v); }) == 1;
+        Polynomial leading = relations[k].coefficients(v).back();
+        if (!alone || uses_coordinates(leading)) continue;
+        set.push_back({relations[k], v, std::move(leading)});
+        relations.erase(relations.begin() + static_cast<std::ptrdiff_t>(k));
+        return true;
+      }
+    }
+    return false;
+  };
+  while (!relations.empty()) {
+    if (!pick()) return {};
+  }
+  return set;
+}
+
+Polynomial pseudo_remainder(const Polynomial& p, const std::vector<SolvedRelation>& set) {
+  Polynomial rest = p;
+  for (const SolvedRelation& solved : set) {
+    const long degree = solved.relation.degree(solved.variable);
+    for (long k = rest.degree(solved.variable); k >= degree; k = rest.degree(solved.variable)) {
+      const Polynomial top = rest.coefficients(solved.variable).back();
+      const Polynomial shift =
+          p.ring().variable(solved.variable).pow(static_cast<unsigned long>(k - degree));
+      rest = rest * solved.leading - top * shift * solved.relation;
+    }
+  }
+  return rest;
+}
+
 }  // namespace casimir

@@ -11,4 +11,22 @@ namespace casimir {
 /// generates the same ideal, so that remainder zero modulo it always proves membership.
 std::vector<Polynomial> groebner_basis(const std::vector<Polynomial>& generators);
 
+/// A polynomial equation seen as one for its main variable.
+struct SolvedRelation {
+  Polynomial relation;
+  std::size_t variable;
+  Polynomial leading;  ///< coefficient of the variable's highest power; free of the coordinates
+};
+
+/// Orders the relations so that each has a main variable, one of the first `coordinates`, that no
+/// later one contains, with a leading coefficient free of the coordinates. Empty if that is
+/// impossible. Where the leading coefficients are not zero, reduction by such a set decides
+/// membership in the ideal.
+std::vector<SolvedRelation> triangular_set(std::vector<Polynomial> relations,
+                                           std::size_t coordinates);
+
+/// The remainder of pseudo-division by all of the set: zero exactly when some product of the
+/// leading coefficients times `p` lies in the ideal.
+Polynomial pseudo_remainder(const Polynomial& p, const std::vector<SolvedRelation>& set);
+
 }  // namespace casimir

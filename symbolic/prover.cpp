@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "symbolic/exact_point.hpp"
-#include "symbolic/ideal.hpp"
 
 namespace casimir {
 namespace {
@@ -172,7 +171,8 @@ Level Prover::level(const std::vector<NamedExpression>& on) {
     result.functions.push_back(f.value);
     result.numerators.push_back(ring_.numerator(ring_.convert(f.value)));
   }
-  if (!result.numerators.empty()) result.basis = groebner_basis(result.numerators);
+  result.solved = triangular_set(result.numerators, dimension());
+  if (result.solved.empty()) result.basis = groebner_basis(result.numerators);
   return result;
 }
 
@@ -186,24 +186,44 @@ std::vector<Residual> Prover::level_rates(const Level& level) {
   return result;
 }
 
+/// Is the residual in the ideal of the level's functions? `rest` becomes what is left of it.
+bool Prover::vanishes_on(const Residual& residual, Polynomial& rest, const Level& level,
+                         Proof& proof) {
+  std::vector<Polynomial> cofactors;
+  const Polynomial plain = rest.remainder(level.numerators, &cofactors);
+  if (plain.is_zero()) {
+    for (std::size_t i = 0; i < cofactors.size(); ++i) {
+      if (cofactors[i].is_zero()) continue;
+      if (!proof.evidence.empty()) proof.evidence += "; ";
+      proof.evidence +=
+          fmt::format("{} has the cofactor {} of {}", residual.label,
+                      shortened(ring_.text(cofactors[i]), cofactors[i].terms()), level.texts[i]);
+    }
+    rest = plain;
+    return true;
+  }
+  if (level.solved.empty()) {
+    rest = plain.remainder(level.basis, &cofactors);
+    return rest.is_zero();
+  }
+  rest = pseudo_remainder(rest, level.solved);
+  if (!rest.is_zero()) return false;
+  for (const SolvedRelation& solved : level.solved) {
+    if (solved.leading.is_constant()) continue;
+    const std::string text = ring_.text(solved.leading);
+    if (std::find(proof.nonzero.begin(), proof.nonzero.end(), text) == proof.nonzero.end()) {
+      proof.nonzero.push_back(text);
+    }
+  }
+  return true;
+}
+
 void Prover::decide(Proof& proof, const std::vector<Residual>& residuals, const Level& level) {
   proof.verdict = Verdict::proved;
-  std::vector<Polynomial> cofactors;
   int searches = 0;
   for (const Residual& residual : residuals) {
     Polynomial rest = ring_.numerator(residual.value);
-    if (!rest.is_zero() && !level.empty()) {
-      rest = rest.remainder(level.basis, &cofactors);
-      if (rest.is_zero() && level.basis.size() == level.functions.size()) {
-        for (std::size_t i = 0; i < cofactors.size(); ++i) {
-          if (cofactors[i].is_zero()) continue;
-          if (!proof.evidence.empty()) proof.evidence += "; ";
-          proof.evidence += fmt::format("{} has the cofactor {} of {}", residual.label,
-                                        shortened(ring_.text(cofactors[i]), cofactors[i].terms()),
-                                        level.texts[i]);
-        }
-      }
-    }
+    if (!rest.is_zero() && !level.empty() && vanishes_on(residual, rest, level, proof)) continue;
     if (rest.is_zero()) continue;
     const bool first = proof.verdict == Verdict::proved;
     // A level on which no exact point is found the first time is not searched again and again.

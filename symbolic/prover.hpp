@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "symbolic/function_ring.hpp"
+#include "symbolic/ideal.hpp"
 #include "symbolic/model.hpp"
 #include "symbolic/prove.hpp"
 
@@ -24,7 +25,8 @@ struct Level {
   std::vector<std::string> texts;
   std::vector<GiNaC::ex> functions;
   std::vector<Polynomial> numerators;  ///< of the functions
-  std::vector<Polynomial> basis;       ///< generates the same ideal, or as much of it as was found
+  std::vector<SolvedRelation> solved;  ///< the same relations as a triangular set, if they are one
+  std::vector<Polynomial> basis;       ///< else a Groebner basis of their ideal
   bool empty() const { return functions.empty(); }
 };
 
@@ -69,6 +71,7 @@ class Prover {
       const std::vector<cln::cl_RA>& point) const;
 
  private:
+  bool vanishes_on(const Residual& residual, Polynomial& rest, const Level& level, Proof& proof);
   static std::vector<GiNaC::symbol> symbols_of(const Model& model);
   static std::vector<GiNaC::ex> expressions_of(const Model& model,
                                                const std::vector<GiNaC::ex>& further);
