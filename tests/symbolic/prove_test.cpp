@@ -79,6 +79,19 @@ TEST(Prove, ConditionalIntegralHoldsOnItsLevelOnly) {
   ASSERT_EQ(wrong.verdict, Verdict::refuted);
 }
 
+TEST(Prove, LeadingCoefficientsOfALevelAreAssumptionsOfTheProof) {
+  Candidates candidates;
+  candidates.invariant_relations = {typed("M1^2 - M2^2 + 2*r*g1")};
+  candidates.on = {typed("r*(M1*M2 + r*g2)")};
+  const Model model = kovalevskaya();
+  const Proof proof = prove(model, candidates).at(0);
+  EXPECT_EQ(proof.verdict, Verdict::proved) << proof.reason;
+  ASSERT_FALSE(proof.nonzero.empty());
+  EXPECT_EQ(proof.nonzero.back(), "r^2");
+  candidates.on = {typed("r*(M1*M2 - r*g2)")};
+  EXPECT_EQ(prove(model, candidates).at(0).verdict, Verdict::refuted);
+}
+
 TEST(Prove, LevelThatIsNotInvariantIsSaidSo) {
   const Proof proof = test_integral(kovalevskaya(), "M1", {"M1"});
   EXPECT_EQ(proof.verdict, Verdict::refuted);
