@@ -2,10 +2,14 @@
 #include <fmt/format.h>
 
 #include <unistd.h>
+#include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 
+#include "symbolic/certificate.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
 #include "tools/limited_prove.hpp"
@@ -22,6 +26,7 @@ struct Options {
   std::string case_name;
   bool all = false;
   std::vector<std::string> integrals, casimirs, invariant_relations, on;
+  std::string certificate;
 };
 
 double seconds_since(Clock::time_point start) {
@@ -55,6 +60,34 @@ std::string head(const Model& model) {
                      model.phase_space, model.variables.size());
 }
 
+/// Coq makes the name of the file the name of a module.
+void check_certificate_name(const std::string& path) {
+  const std::filesystem::path file(path);
+  const std::string stem = file.stem().string();
+  const bool identifier = !stem.empty() &&
+                          (std::isalpha(static_cast<unsigned char>(stem[0])) != 0) &&
+                          std::all_of(stem.begin(), stem.end(), [](char c) {
+                            return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+                          });
+  if (file.extension() != ".v" || !identifier) {
+    throw UsageError(fmt::format(
+        "'{}': the name of a certificate is a letter, then letters, digits and '_', and ends in .v",
+        printable(path, 200)));
+  }
+}
+
+/// Only what is proved has a certificate.
+void write_certificate(const Model& model, const Options& options, Verdict verdict) {
+  if (verdict != Verdict::proved) {
+    std::cerr << "casimir: no certificate was written: not every claim is proved\n";
+    return;
+  }
+  const std::string text = coq_certificate(model, candidates_of(options));
+  OutputFile file(options.certificate);
+  file.stream() << text;
+  file.commit();
+}
+
 /// Proves one case; its lines appear as they are decided, unless only a summary or JSON is wanted.
 Verified verify_one(const CaseFile& file, const Options& options, double time_limit, bool lines) {
   const bool colour = may_colour(STDOUT_FILENO);
@@ -82,6 +115,7 @@ Verified verify_one(const CaseFile& file, const Options& options, double time_li
                claims == 1 ? "" : "s", seconds * 1e3);
     std::fflush(stdout);
   }
+  if (!options.certificate.empty()) write_certificate(model, options, verdict);
   return {model.name, verdict, to_json(model, proofs, seconds), seconds};
 }
 
@@ -128,6 +162,8 @@ int verify(const Options& options) {
   if (candidates_of(options).empty() && !options.on.empty()) {
     throw UsageError("--on needs a candidate: --integral, --casimir or --invariant-relation");
   }
+  if (options.all && !options.certificate.empty()) throw UsageError("--certificate needs a CASE");
+  if (!options.certificate.empty()) check_certificate_name(options.certificate);
   if (options.all) return verify_all(options);
   const bool lines = !options.common.json && !options.common.quiet;
   const Verified result =
@@ -157,6 +193,10 @@ void register_verify(CLI::App& program, Action& action) {
   repeatable("--invariant-relation", options->invariant_relations,
              "Test whether its zero level is invariant (repeatable)");
   repeatable("--on", options->on, "Only on the common zero level of these (repeatable)");
+  command
+      ->add_option("--certificate", options->certificate,
+                   "Write a proof that coqc accepts, if every claim is proved")
+      ->type_name("FILE.v");
   command->callback([options, &action] { action = [options] { return verify(*options); }; });
 }
 
