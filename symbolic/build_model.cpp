@@ -392,10 +392,23 @@ class Builder {
       scene.observe.push_back(name.value);
     }
     if (text.extreme) scene.extreme = text.extreme->value;
-    if (!text.reference.empty())
+    if (!text.reference.empty() && keeps_its_parameters(text)) {
       scene.reference = values(text.reference, model_.variables, "variable");
+    }
     check_assumptions(text.name, scene);
     model_.scenes.push_back(std::move(scene));
+  }
+
+  /// Whether the parameters fixed from outside have the values that the scene gives them: only then
+  /// is its reference state that of the motion.
+  bool keeps_its_parameters(const SceneText& text) const {
+    return std::all_of(fixed_.begin(), fixed_.end(), [&](const auto& pair) {
+      const auto own =
+          std::find_if(text.parameters.begin(), text.parameters.end(),
+                       [&](const Entry& entry) { return entry.first.value == pair.first.value; });
+      return own != text.parameters.end() &&
+             (real_constant(own->second) - real_constant(pair.second)).expand().is_zero();
+    });
   }
 
   void check_assumptions(const Text& name, const Scene& scene) const {

@@ -250,6 +250,29 @@ TEST(Integrate, StopsAtASingularityWithTheTimeAndTheState) {
   EXPECT_EQ(run_in(folder, {"integrate", blowup, "--duration", "1/2"}).status, 0);
 }
 
+TEST(Integrate, TimeLimitEndsWithTheStateReached) {
+  const Folder folder;
+  const Outcome outcome = run_in(
+      folder, {"integrate", "kovalevskaya", "--duration", "1e9", "--time-limit", "0.3", "--json"});
+  EXPECT_EQ(outcome.status, 4);
+  const auto json = outcome.json();
+  EXPECT_EQ(json.at("status"), "stopped");
+  EXPECT_GT(std::stod(json.at("t").get<std::string>()), 0);
+}
+
+TEST(Conserve, ReferenceBelongsToItsParameters) {
+  // With r = 2 the motion is another one: the state in the file is no reference for it.
+  const Folder folder;
+  const auto own = run_in(folder, {"conserve", "kovalevskaya", "--scene", "default", "--param",
+                                   "r=1", "--method", "dop853", "--json"})
+                       .json();
+  EXPECT_LT(std::stod(own.at("rows").at(0).at("error").get<std::string>()), 1e-8);
+  const auto other = run_in(folder, {"conserve", "kovalevskaya", "--scene", "default", "--param",
+                                     "r=2", "--method", "dop853", "--json"})
+                         .json();
+  EXPECT_TRUE(other.at("rows").at(0).at("error").is_null());
+}
+
 TEST(Conserve, PassesAndFailsByItsBound) {
   const Folder folder;
   const Outcome good = run_in(folder, {"conserve", "clebsch", "--scene", "default", "--json"});

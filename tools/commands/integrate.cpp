@@ -164,7 +164,7 @@ int integrate_case(const Options& options) {
   std::cerr << fmt::format(
       "casimir: error: the integration stopped at t = {}: {}\n  last good state: {}\n  hint: {}\n",
       exact_text(trajectory.time), trajectory.reason, state, advice(trajectory.status));
-  return kNotContinued;
+  return trajectory.status == Status::stopped ? kEnvironment : kNotContinued;
 }
 
 }  // namespace

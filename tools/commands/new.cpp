@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "symbolic/expression.hpp"
 #include "tools/cli.hpp"
@@ -65,7 +67,10 @@ int create(const Options& options) {
   OutputFile file(path);
   file.stream() << fmt::format(kTemplate, stem);
   file.commit();
-  if (!options.common.quiet) fmt::print("wrote {0}; next: casimir verify {0}\n", path.string());
+  if (options.common.json) {
+    std::cout << nlohmann::ordered_json{{"file", path.string()}}.dump(2) << '\n';
+  } else if (!options.common.quiet)
+    fmt::print("wrote {0}; next: casimir verify {0}\n", path.string());
   return kDone;
 }
 
