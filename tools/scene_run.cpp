@@ -86,7 +86,8 @@ TruthOrReason truth_of(const Scene& scene, const SceneRun& run, int digits,
   const Specialisation& s = run.specialisation;
   TruthOrReason result;
   std::vector<cln::cl_F> state;
-  const bool in_file = !scene.reference.empty() &&
+  const bool at_its_time = rounded(evaluate_start(s, kConstantDigits).back()) == run.duration;
+  const bool in_file = at_its_time && !scene.reference.empty() &&
                        std::all_of(s.state_indices.begin(), s.state_indices.end(), [&](int i) {
                          return scene.reference[static_cast<std::size_t>(i)].has_value();
                        });
@@ -105,8 +106,12 @@ TruthOrReason truth_of(const Scene& scene, const SceneRun& run, int digits,
     const auto n = static_cast<std::ptrdiff_t>(s.states.size());
     const std::vector<cln::cl_R> initial(values.begin(), values.begin() + n);
     const std::vector<cln::cl_R> parameters(values.begin() + n, values.end() - 1);
+    // A duration from the command line is the double that the integrators get.
+    const bool own = rounded(values.back()) == run.duration;
+    const cln::cl_R duration =
+        own ? cln::cl_R(values.back()) : cln::cl_R(cln::rational(cln::cl_DF(run.duration)));
     const Reference reference =
-        reference_solution(s.rhs, initial, values.back(), digits, parameters, give_up);
+        reference_solution(s.rhs, initial, duration, digits, parameters, give_up);
     if (!reference.reached) {
       result.reason = fmt::format("there is no reference state: {} (t = {:.6g})", reference.reason,
                                   cln::double_approx(reference.time));

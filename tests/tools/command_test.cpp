@@ -310,6 +310,15 @@ TEST(Bench, ReportsErrorBesideTime) {
   EXPECT_EQ(folder.files(), 2U);
 }
 
+TEST(Bench, ReferenceIsAtTheDurationAskedFor) {
+  const Folder folder;
+  const auto json = run_in(folder, {"bench", "kovalevskaya", "--duration", "7.5", "--method",
+                                    "dop853", "--tolerances", "1e-12", "--json"})
+                        .json();
+  EXPECT_NE(json.at("reference"), "the case file");
+  EXPECT_LT(std::stod(json.at("rows").at(0).at("error").get<std::string>()), 1e-9);
+}
+
 TEST(New, WritesACaseThatIsProved) {
   const Folder folder;
   EXPECT_EQ(run_in(folder, {"new", "mine"}).status, 0);

@@ -134,13 +134,10 @@ int bench(const Options& options) {
   const Model model = build_model(load_case(options.case_name), options.common.parameter_values());
   const Scene& scene = model.scene(options.common.scene);
   const std::function<bool()> give_up = time_limit(options.common.time_limit);
-  const SceneRun specialised = prepare(model, scene);
-  const SceneRun general =
+  SceneRun specialised = prepare(model, scene);
+  SceneRun general =
       prepare(model, scene, {.fold_parameters = false, .observe = std::vector<std::string>{}});
-  if (options.run.duration && !scene.reference.empty())
-    throw UsageError(
-        "bench measures against the scene's reference state, which is at the scene's duration: "
-        "leave --duration out");
+  specialised.duration = general.duration = settings_for(options.run, specialised).duration;
   const TruthOrReason truth = truth_of(scene, specialised, options.digits, give_up);
   if (!truth.truth) throw UsageError("bench needs a reference: " + truth.reason);
   const bool same_states = general.specialisation.states == specialised.specialisation.states;
