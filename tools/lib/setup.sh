@@ -117,28 +117,23 @@ jobs() {
   printf '%s\n' "$cores"
 }
 
-# Passes a log through to a file; on a terminal it also shows the latest "[3/40] .." line.
+# Copies ninja's output to a file. Says so when there is work to do, which a dry run would not tell
+# (it takes a folder to be checked for new files for a change); on a terminal also shows each step.
 progress() {
-  local log=$1 line
-  if [[ ! -t 1 ]]; then
-    cat >"$log"
-    return
-  fi
+  local log=$1 line announced=''
   while IFS= read -r line; do
-    printf '%s\n' "$line"
-    [[ $line == \[*\]* ]] && printf '\r\033[K  %.76s' "$line" >&3
-  done 3>&1 >"$log"
-  printf '\r\033[K'
+    printf '%s\n' "$line" >&3
+    [[ $line == \[[1-9]* ]] || continue
+    [[ -n $announced ]] || say "Building (a few minutes the first time)"
+    announced=yes
+    [[ ! -t 1 ]] || printf '\r\033[K  %.76s' "$line"
+  done 3>"$log"
+  if [[ -n $announced && -t 1 ]]; then printf '\r\033[K'; fi
 }
 
 # compile TARGET: prints something only where there is work to do.
 compile() {
-  local target=$1 log=$logs/build.log pending
-  # A single step is ninja's own check whether to configure again.
-  pending=$(ninja -C "$build" -n "$target" 2>&1 || true)
-  if [[ $pending != *"no work to do"* ]]; then
-    say "Building (a few minutes the first time)"
-  fi
+  local target=$1 log=$logs/build.log
   if ! ninja -C "$build" -j "$(jobs)" "$target" 2>&1 | progress "$log"; then
     show_log "$log"
     fail 1 "The build failed."
