@@ -114,8 +114,13 @@ TEST_P(Outcome, ScaleOfTheStateDoesNotMatter) {
 }
 
 TEST_P(Outcome, TinyAndHugeTimes) {
-  if (!own()) GTEST_SKIP() << "CVODE takes so short an interval for rounding";
   const Trajectory tiny = run<Oscillator>(GetParam(), settings_for(1e-300), {1, 0});
+  if (!own()) {
+    // CVODE takes so short an interval for rounding, and says so: no number is made up.
+    EXPECT_EQ(tiny.status, Status::step_underflow);
+    EXPECT_EQ(tiny.state, (std::vector<double>{1, 0}));
+    return;
+  }
   EXPECT_EQ(tiny.status, Status::ok);
   EXPECT_EQ(tiny.state[0], 1);
   EXPECT_NEAR(tiny.state[1] / -1e-300, 1, 1e-9);
