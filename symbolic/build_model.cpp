@@ -391,12 +391,22 @@ class Builder {
       variable_position(name);
       scene.observe.push_back(name.value);
     }
-    if (text.extreme) scene.extreme = text.extreme->value;
+    if (text.extreme) scene.extreme = kind_of_extreme(*text.extreme);
     if (!text.reference.empty() && keeps_its_parameters(text)) {
       scene.reference = values(text.reference, model_.variables, "variable");
     }
     check_assumptions(text.name, scene);
     model_.scenes.push_back(std::move(scene));
+  }
+
+  static std::string kind_of_extreme(const Text& text) {
+    const std::vector<std::string> kinds = {"separatrix", "stiff", "scale",
+                                            "gimbal",     "long",  "blowup"};
+    if (std::find(kinds.begin(), kinds.end(), text.value) != kinds.end()) return text.value;
+    std::string hint = suggest(text.value, kinds);
+    if (hint.empty()) hint = fmt::format("known: {}", fmt::join(kinds, ", "));
+    throw text.error(fmt::format("unknown kind of extreme scene '{}'", printable(text.value)), 0,
+                     hint);
   }
 
   /// Whether the parameters fixed from outside have the values that the scene gives them: only then
