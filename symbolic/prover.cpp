@@ -314,11 +314,8 @@ std::optional<Point> Prover::random_point(const Level& level,
 }
 
 std::vector<std::pair<std::string, std::string>> Prover::describe(const Point& point) const {
-  std::vector<std::pair<std::string, std::string>> result;
-  for (std::size_t i = 0; i < ring_.symbols().size(); ++i) {
-    result.emplace_back(ring_.symbols()[i].get_name(), number_text(point[i]));
-  }
-  return result;
+  // The sines of a formal point are drawn; the angles to print are those that belong to them.
+  return ExactPoint(ring_, point, std::vector<bool>(ring_.symbols().size())).coordinates();
 }
 
 /// A point where the residual, evaluated anew by GiNaC's own substitution, is a rational number

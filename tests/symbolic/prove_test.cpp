@@ -189,6 +189,18 @@ TEST(Prove, AnglesAndExponentialsHaveExactWitnesses) {
   EXPECT_EQ(test_integral(toda, "p^2 + 2*exp(q)").verdict, Verdict::refuted);
 }
 
+TEST(Prove, PointOfARankIsThePointWhereItWasTaken) {
+  const Model pendulum = model_of(
+      "hamiltonian = \"p1^2/2 + p2^2/2 - cos(q1)\"\n[phase_space]\nvariables = "
+      "[\"q1\",\"q2\",\"p1\",\"p2\"]\ncanonical = true\n[integrals]\nP = \"p2\"\n");
+  for (const Proof& proof : prove(pendulum)) {
+    if (proof.kind != "independence") continue;
+    EXPECT_EQ(proof.verdict, Verdict::proved);
+    // The sine of q1 is rational there, so q1 itself is not.
+    EXPECT_NE(proof.evidence.find("q1 = 2*atan("), std::string::npos) << proof.evidence;
+  }
+}
+
 TEST(Prove, DependentLogarithmsAreNotCalledIndependent) {
   const Model model = model_of(
       "[phase_space]\nvariables = [\"x\",\"y\",\"z\"]\n[equations]\nx = \"0\"\ny = \"0\"\nz = "
