@@ -4,11 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
-#include <set>
 
+#include "symbolic/build_scene.hpp"
+#include "symbolic/case_names.hpp"
 #include "symbolic/expression.hpp"
+#include "symbolic/lie_algebra.hpp"
 #include "symbolic/model.hpp"
+#include "symbolic/model_dynamics.hpp"
 #include "symbolic/phase_space.hpp"
 
 namespace casimir {
@@ -16,82 +20,18 @@ namespace {
 
 using GiNaC::ex;
 
-/// The names of a case file. A definition is read when it is first used, so that their order does
-/// not matter; one that uses itself is an error.
-class CaseNames : public Names {
- public:
-  void declare(const Text& name, const std::string& what, Quantity quantity) {
-    check_name(name, what);
-    if (table_.contains(name.value) || pending_.contains(name.value)) {
-      throw name.error(fmt::format("'{}' is declared twice", name.value));
-    }
-    table_[name.value] = std::move(quantity);
-  }
-
-  void define(const Entry& entry) {
-    check_name(entry.first, "a definition");
-    if (table_.contains(entry.first.value)) {
-      throw entry.first.error(fmt::format("'{}' is declared twice", entry.first.value));
-    }
-    pending_[entry.first.value] = &entry;
-  }
-
-  /// Names an expression already read, unless the name is taken: for use in further expressions.
-  void alias(const std::string& name, Quantity quantity) {
-    table_.try_emplace(name, std::move(quantity));
-  }
-
-  const Quantity* find(const std::string& name) override {
-    const auto known = table_.find(name);
-    if (known != table_.end()) return &known->second;
-    const auto waiting = pending_.find(name);
-    if (waiting == pending_.end()) return nullptr;
-    const Entry& entry = *waiting->second;
-    constexpr std::size_t kMaxChain = 100;
-    if (open_.contains(name) || open_.size() > kMaxChain) {
-      throw entry.second.error(
-          fmt::format("the definition of '{}' {}", name,
-                      open_.contains(name) ? "uses itself" : "is nested too deep"));
-    }
-    open_.insert(name);
-    Quantity value = parse_expression(entry.second, *this);
-    open_.erase(name);
-    return &(table_[name] = std::move(value));
-  }
-
-  std::vector<std::string> known() const override {
-    std::vector<std::string> names;
-    for (const auto& [name, quantity] : table_) names.push_back(name);
-    for (const auto& [name, entry] : pending_) names.push_back(name);
-    return names;
-  }
-
- private:
-  std::map<std::string, Quantity> table_;
-  std::map<std::string, const Entry*> pending_;
-  std::set<std::string> open_;
-};
-
-/// An exact real constant.
-ex real_constant(const Text& text) {
-  const ex value = parse_constant(text);
-  const ex number = value.evalf();
-  if (!GiNaC::is_a<GiNaC::numeric>(number) || !GiNaC::ex_to<GiNaC::numeric>(number).is_real()) {
-    throw text.error("expected a real constant, such as 3/5 or sqrt(2)/2");
-  }
-  return value;
-}
-
 class Builder {
  public:
-  Builder(const CaseFile& file, const ParameterValues& fixed) : file_(file), fixed_(fixed) {}
+  Builder(const CaseFile& file, const ParameterValues& fixed, const FindCase& find_case)
+      : file_(file), fixed_(fixed), find_case_(find_case), dynamics_(model_) {}
 
   Model build() {
     copy_texts();
     declare_names();
     read_equations();
     read_claims();
-    for (const SceneText& scene : file_.scenes) read_scene(scene);
+    for (const SceneText& scene : file_.scenes)
+      model_.scenes.push_back(read_scene(scene, model_, fixed_));
     return std::move(model_);
   }
 
@@ -126,7 +66,7 @@ class Builder {
     for (const ParameterText& parameter : file_.parameters) {
       known.push_back(parameter.name.value);
       if (const Text* text = fixed_value(parameter.name.value)) {
-        const ex value = real_constant(*text);
+        const ex value = parse_real_constant(*text);
         names_.declare(parameter.name, "a parameter", {value, 64, 0, 1});
         model_.fixed.emplace_back(parameter.name, value);
         continue;
@@ -141,10 +81,6 @@ class Builder {
       }
     }
     for (const Entry& definition : file_.definitions) names_.define(definition);
-    for (const Entry& definition : file_.definitions) {
-      model_.definitions.push_back(
-          named(definition.first, names_.find(definition.first.value)->value));
-    }
     for (const ParameterText& parameter : file_.parameters) {
       for (const Text& text : parameter.assume) read_assumption(text);
     }
@@ -161,26 +97,67 @@ class Builder {
   }
 
   void read_equations() {
-    model_.poisson = make_bracket(file_.phase_space, model_.variables, names_);
-    const Location where = file_.phase_space.where;
+    model_.frame = make_frame(file_.phase_space, model_.variables, model_.parameters, names_);
+    model_.linear_bracket = file_.phase_space.algebra || file_.phase_space.structure_constants;
+    model_.poisson = make_bracket(file_.phase_space, model_.variables, names_, model_.frame);
     if (file_.equations) {
       if (model_.poisson || file_.hamiltonian) {
-        throw CaseError(where,
+        throw CaseError(file_.phase_space.where,
                         "a system is given either by [equations] or by a bracket and a "
                         "hamiltonian, not by both");
       }
       read_explicit_field();
-      return;
+    } else {
+      if (!model_.poisson) {
+        throw CaseError(
+            file_.phase_space.where,
+            "the phase space needs a bracket: one of 'algebra', 'canonical', 'brackets', "
+            "'structure_constants' and 'vector_fields'; or the file a table [equations]");
+      }
+      read_hamiltonian();
+      model_.field = model_.poisson->flow(*model_.hamiltonian);
     }
-    if (!model_.poisson) {
-      throw CaseError(where,
-                      "the phase space needs a bracket: one of 'algebra', 'canonical', 'brackets' "
-                      "and 'structure_constants'; or the file a table [equations]");
+    names_.allow(&dynamics_);
+    for (const Entry& definition : file_.definitions) {
+      model_.definitions.push_back(
+          named(definition.first, names_.find(definition.first.value)->value));
     }
-    if (!file_.hamiltonian)
+  }
+
+  void read_hamiltonian() {
+    if (file_.lagrangian) read_lagrangian(*file_.lagrangian);
+    if (file_.hamiltonian) {
+      model_.hamiltonian = parse_expression(*file_.hamiltonian, names_).value;
+    } else if (file_.lagrangian) {
+      model_.hamiltonian = legendre_transform(*model_.frame, *file_.lagrangian);
+    } else {
       throw CaseError({file_.file, 1, 1}, "the case file needs a key 'hamiltonian'");
-    model_.hamiltonian = parse_expression(*file_.hamiltonian, names_).value;
-    model_.field = model_.poisson->flow(*model_.hamiltonian);
+    }
+  }
+
+  /// In the quasi-velocities, by default w1, w2, ..
+  void read_lagrangian(const Text& text) {
+    if (!model_.frame) {
+      throw text.error(
+          "a Lagrangian needs [phase_space.vector_fields], the frame whose "
+          "quasi-velocities it is written in");
+    }
+    const std::vector<Text>& given = file_.phase_space.vector_fields->velocities;
+    const std::size_t k = model_.frame->momenta.size();
+    if (!given.empty() && given.size() != k) {
+      throw given[0].error(fmt::format("{} velocities given for {} momenta", given.size(), k));
+    }
+    for (std::size_t s = 0; s < k; ++s) {
+      const Text name = given.empty() ? Text{fmt::format("w{}", s + 1), {}, {}} : given[s];
+      check_name(name, "a velocity");
+      if (names_.find(name.value) != nullptr)
+        throw(given.empty() ? text : name)
+            .error(fmt::format("'{}' is declared twice", name.value), 0,
+                   "'velocities' in [phase_space.vector_fields] names the quasi-velocities");
+      model_.frame->velocities.push_back(GiNaC::symbol(name.value));
+    }
+    ExtendedNames names(names_, model_.frame->velocities);
+    model_.frame->lagrangian = parse_expression(text, names).value;
   }
 
   void read_explicit_field() {
@@ -200,18 +177,7 @@ class Builder {
   }
 
   std::size_t variable_position(const Text& name) const {
-    return position(name, model_.variables, "variable");
-  }
-
-  static std::size_t position(const Text& name, const std::vector<GiNaC::symbol>& symbols,
-                              const std::string& what) {
-    std::vector<std::string> known;
-    for (std::size_t i = 0; i < symbols.size(); ++i) {
-      if (symbols[i].get_name() == name.value) return i;
-      known.push_back(symbols[i].get_name());
-    }
-    throw name.error(fmt::format("'{}' is not a {} of this case", printable(name.value), what), 0,
-                     suggest(name.value, known));
+    return symbol_position(name, name.value, 0, model_.variables, "a variable of this case");
   }
 
   static NamedExpression named(const Text& name, const ex& value) {
@@ -256,7 +222,20 @@ class Builder {
       model_.invariant_relations.push_back(read_level(text));
     for (const LaxText& text : file_.lax) read_lax(text);
     for (const MapText& text : file_.maps) read_map(text);
-    for (const Text& text : file_.measures) model_.measures.push_back(anonymous(text));
+    for (const MeasureText& text : file_.measures) {
+      if (text.every_hamiltonian && !model_.poisson)
+        throw text.density.error("'every_hamiltonian' needs a bracket");
+      model_.measures.push_back({anonymous(text.density), text.every_hamiltonian});
+    }
+    for (const IdentityText& text : file_.identities) {
+      Identity identity{text.name.value,
+                        text.name.where,
+                        parse_expression(text.left, names_).value,
+                        text.right ? parse_expression(*text.right, names_).value : ex(0),
+                        {}};
+      for (const Text& relation : text.on) identity.on.push_back(anonymous(relation));
+      model_.identities.push_back(std::move(identity));
+    }
     if (!file_.section) return;
     Section section{parse_expression(file_.section->function, names_).value, true, {}};
     if (const auto& direction = file_.section->direction) {
@@ -268,26 +247,6 @@ class Builder {
       section.plot.push_back(parse_expression(text, names_).value);
     model_.section = section;
   }
-
-  /// Names of the case and one more symbol.
-  class Extended : public Names {
-   public:
-    Extended(Names& base, const GiNaC::symbol& extra)
-        : base_(base), name_(extra.get_name()), extra_(Quantity::symbol(extra)) {}
-    const Quantity* find(const std::string& name) override {
-      return name == name_ ? &extra_ : base_.find(name);
-    }
-    std::vector<std::string> known() const override {
-      std::vector<std::string> names = base_.known();
-      names.push_back(name_);
-      return names;
-    }
-
-   private:
-    Names& base_;
-    std::string name_;
-    Quantity extra_;
-  };
 
   void read_lax(const LaxText& text) {
     const std::size_t n = text.l.size();
@@ -304,7 +263,7 @@ class Builder {
       if (names_.find(text.spectral->value) != nullptr)
         throw text.spectral->error(fmt::format("'{}' is declared twice", text.spectral->value));
     }
-    Extended names(names_, *pair.spectral);
+    ExtendedNames names(names_, {*pair.spectral});
     for (unsigned i = 0; i < n; ++i) {
       for (unsigned j = 0; j < n; ++j) {
         pair.l(i, j) = parse_expression(text.l[i][j], names).value;
@@ -315,25 +274,49 @@ class Builder {
     model_.lax_pairs.push_back(std::move(pair));
   }
 
-  void read_map(const MapText& text) {
-    PhaseSpaceText target;
-    if (text.to_table) {
-      target = *text.to_table;
-    } else {
-      target.where = text.to->where;
-      target.algebra = text.to;
-      for (const Entry& entry : text.expressions) target.variables.push_back(entry.first);
+  /// The phase space that a map leads to: written out, an algebra, or that of another case.
+  PhaseSpaceText target_of(const MapText& text) const {
+    if (text.to_table) return *text.to_table;
+    if (!find_lie_algebra(text.to->value)) {
+      if (const auto found = find_case(text.to->value)) {
+        PhaseSpaceText target = found->phase_space;
+        target.domain.clear();
+        return target;
+      }
     }
+    PhaseSpaceText target;
+    target.where = text.to->where;
+    target.algebra = text.to;
+    for (const Entry& entry : text.expressions) target.variables.push_back(entry.first);
+    return target;
+  }
+
+  std::optional<CaseFile> find_case(const std::string& name) const {
+    if (find_case_) return find_case_(name);
+    if (name.find('/') != std::string::npos) return std::nullopt;
+    const auto path = std::filesystem::path(file_.file).parent_path() / (name + ".toml");
+    std::error_code problem;
+    if (!std::filesystem::is_regular_file(path, problem)) return std::nullopt;
+    return read_case(path);
+  }
+
+  void read_map(const MapText& text) {
+    const PhaseSpaceText target = target_of(text);
     const std::vector<GiNaC::symbol> coordinates = make_variables(target);
-    NameTable names;
+    NameTable names;  // the bracket of the target may have the parameters of this case
+    for (const GiNaC::symbol& s : model_.parameters) names.add(s.get_name(), Quantity::symbol(s));
+    for (const auto& [parameter, value] : model_.fixed)
+      names.add(parameter.value, {value, 64, 0, 1});
     for (const GiNaC::symbol& s : coordinates) names.add(s.get_name(), Quantity::symbol(s));
-    const std::optional<PoissonStructure> bracket = make_bracket(target, coordinates, names);
+    const std::optional<Frame> frame = make_frame(target, coordinates, model_.parameters, names);
+    const std::optional<PoissonStructure> bracket = make_bracket(target, coordinates, names, frame);
     if (!bracket) throw CaseError(target.where, "the phase space of 'to' needs a bracket");
     PoissonMap map{
         text.name.value, text.name.where, *bracket, std::vector<ex>(coordinates.size()), {}, 1};
     std::vector<bool> seen(coordinates.size());
     for (const auto& [name, value] : text.expressions) {
-      const std::size_t i = position(name, coordinates, "variable");
+      const std::size_t i = symbol_position(name, name.value, 0, coordinates,
+                                            "a variable of the phase space of 'to'");
       map.expressions[i] = parse_expression(value, names_).value;
       seen[i] = true;
     }
@@ -350,101 +333,18 @@ class Builder {
     model_.maps.push_back(std::move(map));
   }
 
-  /// The values of a scene's table, one for each symbol.
-  std::vector<std::optional<ex>> values(const std::vector<Entry>& entries,
-                                        const std::vector<GiNaC::symbol>& symbols,
-                                        const std::string& what) const {
-    std::vector<std::optional<ex>> result(symbols.size());
-    for (const auto& [name, text] : entries) {
-      if (what == "parameter" && fixed_value(name.value) != nullptr) continue;
-      result[position(name, symbols, what)] = real_constant(text);
-    }
-    return result;
-  }
-
-  void read_scene(const SceneText& text) {
-    Scene scene;
-    scene.name = text.name.value;
-    scene.where = text.name.where;
-    for (const Scene& other : model_.scenes) {
-      if (other.name == scene.name)
-        throw text.name.error(fmt::format("the scene '{}' is given twice", printable(scene.name)));
-    }
-    const auto complete = [&](const std::vector<Entry>& entries,
-                              const std::vector<GiNaC::symbol>& symbols, const std::string& what) {
-      std::vector<ex> result;
-      const auto given = values(entries, symbols, what);
-      for (std::size_t i = 0; i < given.size(); ++i) {
-        if (!given[i])
-          throw text.name.error(fmt::format("the scene '{}' has no value for the {} '{}'",
-                                            printable(scene.name), what, symbols[i].get_name()));
-        result.push_back(*given[i]);
-      }
-      return result;
-    };
-    scene.parameters = complete(text.parameters, model_.parameters, "parameter");
-    scene.initial = complete(text.initial, model_.variables, "variable");
-    scene.duration = real_constant(*text.duration);
-    if (GiNaC::ex_to<GiNaC::numeric>(scene.duration.evalf()).is_negative())
-      throw text.duration->error("the duration must not be negative");
-    for (const Text& name : text.observe) {
-      variable_position(name);
-      scene.observe.push_back(name.value);
-    }
-    if (text.extreme) scene.extreme = kind_of_extreme(*text.extreme);
-    if (!text.reference.empty() && keeps_its_parameters(text)) {
-      scene.reference = values(text.reference, model_.variables, "variable");
-    }
-    check_assumptions(text.name, scene);
-    model_.scenes.push_back(std::move(scene));
-  }
-
-  static std::string kind_of_extreme(const Text& text) {
-    const std::vector<std::string> kinds = {"separatrix", "stiff", "scale",
-                                            "gimbal",     "long",  "blowup"};
-    if (std::find(kinds.begin(), kinds.end(), text.value) != kinds.end()) return text.value;
-    std::string hint = suggest(text.value, kinds);
-    if (hint.empty()) hint = fmt::format("known: {}", fmt::join(kinds, ", "));
-    throw text.error(fmt::format("unknown kind of extreme scene '{}'", printable(text.value)), 0,
-                     hint);
-  }
-
-  /// Whether the parameters fixed from outside have the values that the scene gives them: only then
-  /// is its reference state that of the motion.
-  bool keeps_its_parameters(const SceneText& text) const {
-    return std::all_of(fixed_.begin(), fixed_.end(), [&](const auto& pair) {
-      const auto own =
-          std::find_if(text.parameters.begin(), text.parameters.end(),
-                       [&](const Entry& entry) { return entry.first.value == pair.first.value; });
-      return own != text.parameters.end() &&
-             (real_constant(own->second) - real_constant(pair.second)).expand().is_zero();
-    });
-  }
-
-  void check_assumptions(const Text& name, const Scene& scene) const {
-    GiNaC::exmap point;
-    for (std::size_t i = 0; i < model_.parameters.size(); ++i)
-      point[model_.parameters[i]] = scene.parameters[i];
-    for (std::size_t i = 0; i < model_.variables.size(); ++i)
-      point[model_.variables[i]] = scene.initial[i];
-    for (const Assumption& assumption : model_.assumptions) {
-      const ex value = assumption.difference.subs(point, GiNaC::subs_options::no_pattern).evalf();
-      if (!GiNaC::is_a<GiNaC::numeric>(value) || assumption.holds_at(point)) continue;
-      throw name.error(fmt::format("the scene '{}' is outside the assumption '{}'",
-                                   printable(scene.name), printable(assumption.text)));
-    }
-  }
-
   const CaseFile& file_;
   const ParameterValues& fixed_;
+  const FindCase& find_case_;
   CaseNames names_;
   Model model_;
+  ModelDynamics dynamics_;
 };
 
 }  // namespace
 
-Model build_model(const CaseFile& file, const ParameterValues& fixed) {
-  return Builder(file, fixed).build();
+Model build_model(const CaseFile& file, const ParameterValues& fixed, const FindCase& find_case) {
+  return Builder(file, fixed, find_case).build();
 }
 
 }  // namespace casimir

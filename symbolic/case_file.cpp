@@ -176,6 +176,9 @@ class Reader {
   }
 
   PhaseSpaceText phase_space(const toml::table& table, const std::string& what) const;
+  VectorFieldText vector_field(const Text& momentum, const toml::node& node,
+                               const std::vector<Text>& coordinates) const;
+  VectorFieldsText vector_fields(const toml::table& table) const;
   LevelText level(const toml::table& table, const std::string& what) const;
   MapText map(const toml::table& table, const std::string& what) const;
   SceneText scene(const toml::table& table, const std::string& what) const;
@@ -188,11 +191,19 @@ class Reader {
 PhaseSpaceText Reader::phase_space(const toml::table& table, const std::string& what) const {
   allow(table, what,
         {"variables", "algebra", "canonical", "brackets", "structure_constants", "sign", "domain",
-         "time"});
+         "vector_fields", "time"});
   PhaseSpaceText space;
   space.where = place(table.source());
-  required(table, "variables", what);
-  space.variables = texts(table, "variables");
+  if (const toml::node* fields = table.get("vector_fields"))
+    space.vector_fields = vector_fields(as_table(*fields, "[phase_space.vector_fields]"));
+  if (table.contains("variables") || !space.vector_fields) {
+    required(table, "variables", what);
+    space.variables = texts(table, "variables");
+  } else {
+    space.variables = space.vector_fields->coordinates;
+    space.variables.insert(space.variables.end(), space.vector_fields->momenta.begin(),
+                           space.vector_fields->momenta.end());
+  }
   space.algebra = optional_text(table, "algebra");
   space.canonical = boolean(table, "canonical");
   if (table.contains("brackets")) space.brackets = optional_entries(table, "brackets");
@@ -203,6 +214,55 @@ PhaseSpaceText Reader::phase_space(const toml::table& table, const std::string& 
   space.domain = texts(table, "domain");
   space.time = optional_text(table, "time");
   return space;
+}
+
+/// A field by its components in the order of the coordinates, or by the names of coordinates.
+VectorFieldText Reader::vector_field(const Text& momentum, const toml::node& node,
+                                     const std::vector<Text>& coordinates) const {
+  const std::string what = fmt::format("the field of '{}'", printable(momentum.value));
+  if (node.is_table()) return {momentum, entries(node, what)};
+  const toml::array& list = as_array(node, what);
+  if (list.size() != coordinates.size()) {
+    fail(node.source(), fmt::format("{} has {} components for {} coordinates", what, list.size(),
+                                    coordinates.size()));
+  }
+  VectorFieldText field{momentum, {}};
+  for (std::size_t i = 0; i < list.size(); ++i)
+    field.components.emplace_back(coordinates[i], text(list[i], "each component of " + what));
+  return field;
+}
+
+VectorFieldsText Reader::vector_fields(const toml::table& table) const {
+  const std::string what = "[phase_space.vector_fields]";
+  VectorFieldsText result;
+  result.where = place(table.source());
+  required(table, "coordinates", what);
+  required(table, "momenta", what);
+  result.coordinates = texts(table, "coordinates");
+  result.momenta = texts(table, "momenta");
+  result.velocities = texts(table, "velocities");
+  if (const toml::node* frame = table.get("frame")) {
+    const toml::array& rows = as_array(*frame, "'frame'");
+    if (rows.size() != result.momenta.size())
+      fail(frame->source(),
+           fmt::format("'frame' has {} rows for {} momenta", rows.size(), result.momenta.size()));
+    for (std::size_t s = 0; s < rows.size(); ++s)
+      result.fields.push_back(vector_field(result.momenta[s], rows[s], result.coordinates));
+  }
+  for (const auto& [key, node] : table) {
+    const std::string name(key.str());
+    if (name == "coordinates" || name == "momenta" || name == "velocities" || name == "frame")
+      continue;
+    std::vector<std::string> known{"coordinates", "momenta", "velocities", "frame"};
+    for (const Text& momentum : result.momenta) known.push_back(momentum.value);
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      fail(key.source(),
+           fmt::format("'{}' is neither a key of {} nor one of its momenta", printable(name), what),
+           suggest(name, known));
+    }
+    result.fields.push_back(vector_field(key_text(key), node, result.coordinates));
+  }
+  return result;
 }
 
 LevelText Reader::level(const toml::table& table, const std::string& what) const {
@@ -266,10 +326,16 @@ std::vector<ParameterText> Reader::parameters(const toml::table& root) const {
 }
 
 CaseFile Reader::read(const toml::table& root) {
-  allow(root, "the case file",
-        {"title", "source", "tags", "integrable", "hamiltonian", "phase_space", "parameters",
-         "definitions", "casimirs", "integrals", "equations", "conditional", "invariant_relation",
-         "lax", "map", "measure", "section", "scene"});
+  allow(root, "the case file", {"title",       "source",
+                                "tags",        "integrable",
+                                "hamiltonian", "lagrangian",
+                                "phase_space", "parameters",
+                                "definitions", "casimirs",
+                                "integrals",   "equations",
+                                "conditional", "invariant_relation",
+                                "lax",         "map",
+                                "measure",     "identity",
+                                "section",     "scene"});
   CaseFile result;
   result.file = file_;
   result.name = std::filesystem::path(file_).stem().string();
@@ -278,6 +344,7 @@ CaseFile Reader::read(const toml::table& root) {
   for (const Text& tag : texts(root, "tags")) result.tags.push_back(tag.value);
   result.integrable = boolean(root, "integrable");
   result.hamiltonian = optional_text(root, "hamiltonian");
+  result.lagrangian = optional_text(root, "lagrangian");
   const toml::node* space = root.get("phase_space");
   if (space == nullptr) {
     throw CaseError({file_, 1, 1}, "the case file needs a table [phase_space]", line(1));
@@ -305,8 +372,15 @@ CaseFile Reader::read(const toml::table& root) {
     result.maps.push_back(map(table, what));
   });
   each(root, "measure", [&](const toml::table& table, const std::string& what) {
-    allow(table, what, {"density"});
-    result.measures.push_back(text(required(table, "density", what), "'density'"));
+    allow(table, what, {"density", "every_hamiltonian"});
+    result.measures.push_back(
+        {text(required(table, "density", what), "'density'"), boolean(table, "every_hamiltonian")});
+  });
+  each(root, "identity", [&](const toml::table& table, const std::string& what) {
+    allow(table, what, {"name", "left", "right", "on"});
+    result.identities.push_back({text(required(table, "name", what), "'name'"),
+                                 text(required(table, "left", what), "'left'"),
+                                 optional_text(table, "right"), texts(table, "on")});
   });
   if (const toml::node* section = root.get("section")) {
     const toml::table& table = as_table(*section, "[section]");

@@ -23,6 +23,21 @@ struct Text {
 
 using Entry = std::pair<Text, Text>;  ///< key and value
 
+/// The vector field that belongs to a quasi-velocity: its components along some coordinates (the
+/// others are zero), filed under the momentum conjugate to that quasi-velocity.
+struct VectorFieldText {
+  Text momentum;
+  std::vector<Entry> components;  ///< coordinate and expression
+};
+
+/// The frame of the Poincare-Chetaev equations.
+struct VectorFieldsText {
+  Location where;
+  std::vector<Text> coordinates, momenta;
+  std::vector<Text> velocities;  ///< names of the quasi-velocities, for a Lagrangian; may be empty
+  std::vector<VectorFieldText> fields;
+};
+
 /// The phase space as written: which of its forms is used is for the model to decide.
 struct PhaseSpaceText {
   Location where;
@@ -31,6 +46,7 @@ struct PhaseSpaceText {
   bool canonical = false;
   std::optional<std::vector<Entry>> brackets;
   std::optional<std::vector<Entry>> structure_constants;
+  std::optional<VectorFieldsText> vector_fields;
   std::optional<Text> sign;
   std::vector<Text> domain;
   std::optional<Text> time;
@@ -39,6 +55,13 @@ struct PhaseSpaceText {
 struct LevelText {
   Text name;
   Text expression;
+  std::vector<Text> on;
+};
+
+struct IdentityText {
+  Text name;
+  Text left;
+  std::optional<Text> right;  ///< else zero
   std::vector<Text> on;
 };
 
@@ -54,6 +77,11 @@ struct MapText {
   std::vector<Entry> expressions;
   std::vector<Text> on;
   std::optional<Text> sign;
+};
+
+struct MeasureText {
+  Text density;
+  bool every_hamiltonian = false;
 };
 
 struct SectionText {
@@ -87,6 +115,7 @@ struct CaseFile {
   std::vector<std::string> tags;
   bool integrable = false;
   std::optional<Text> hamiltonian;
+  std::optional<Text> lagrangian;
   PhaseSpaceText phase_space;
   std::vector<ParameterText> parameters;
   std::vector<Entry> definitions, casimirs, integrals;
@@ -94,7 +123,8 @@ struct CaseFile {
   std::vector<LevelText> conditionals, invariant_relations;
   std::vector<LaxText> lax;
   std::vector<MapText> maps;
-  std::vector<Text> measures;  ///< densities
+  std::vector<MeasureText> measures;
+  std::vector<IdentityText> identities;
   std::optional<SectionText> section;
   std::vector<SceneText> scenes;
 };

@@ -52,7 +52,7 @@ double bit_length(const GiNaC::numeric& number) {
 /// them, since adding term by term costs quadratic time.
 class Parser {
  public:
-  Parser(const Text& text, Names& names, std::size_t begin, std::size_t end)
+  Parser(const Text& text, Scope& names, std::size_t begin, std::size_t end)
       : text_(text), names_(names), at_(begin), end_(end) {}
 
   Quantity parse() {
@@ -211,6 +211,7 @@ class Parser {
       if (!accept(')')) fail("unexpected " + here() + ", expected ')'");
       return q;
     }
+    if (c == '{') return bracket();
     if (is_digit(c) || c == '.') return number();
     if (is_name_start(c)) return name();
     const bool ascii = static_cast<unsigned char>(c) < 0x80;
@@ -265,7 +266,11 @@ class Parser {
     const std::string word = text_.value.substr(start, at_ - start);
     if (const Function* function = find_function(word)) return call(*function, start);
     if (peek() == '(' && names_.find(word) == nullptr) {
-      std::vector<std::string> functions;
+      if (word == "diff") return partial_derivative(start);
+      if (word == "rate") return rate(start);
+    }
+    if (peek() == '(' && names_.find(word) == nullptr) {
+      std::vector<std::string> functions{"diff", "rate"};
       for (const Function& f : kFunctions) functions.emplace_back(f.name);
       fail_at(start, fmt::format("unknown function '{}'", printable(word)),
               suggest(word, functions));
@@ -277,20 +282,70 @@ class Parser {
             suggest(word, names_.known()));
   }
 
-  Quantity call(const Function& function, std::size_t start) {
-    if (!accept('('))
-      fail_at(start, fmt::format("'{}' is a function and needs '('", function.name));
-    std::vector<Quantity> arguments;
+  std::vector<Quantity> arguments(std::string_view function, std::size_t arity, std::size_t start) {
+    if (!accept('(')) fail_at(start, fmt::format("'{}' is a function and needs '('", function));
+    std::vector<Quantity> given;
     if (peek() != ')') {
       do {
-        arguments.push_back(sum());
+        given.push_back(sum());
       } while (accept(','));
     }
     if (!accept(')')) fail("unexpected " + here() + ", expected ',' or ')'");
-    if (arguments.size() != function.arity) {
-      fail_at(start, fmt::format("'{}' takes {} argument{}, {} given", function.name,
-                                 function.arity, function.arity == 1 ? "" : "s", arguments.size()));
+    if (given.size() != arity) {
+      fail_at(start, fmt::format("'{}' takes {} argument{}, {} given", function, arity,
+                                 arity == 1 ? "" : "s", given.size()));
     }
+    return given;
+  }
+
+  /// What differentiating may make of an expression: each factor is differentiated in turn.
+  static double derivative_nodes(const Quantity& q) { return q.nodes * std::max(1.0, q.degree); }
+
+  /// {F, G}
+  Quantity bracket() {
+    const std::size_t start = at_++;
+    const Quantity f = sum();
+    if (!accept(',')) fail("unexpected " + here() + ", expected ',' of a bracket {F, G}");
+    const Quantity g = sum();
+    if (!accept('}')) fail("unexpected " + here() + ", expected '}'");
+    const Dynamics* dynamics = names_.dynamics();
+    if (dynamics == nullptr || !dynamics->has_bracket())
+      fail_at(start, "there is no Poisson bracket here");
+    const auto n = static_cast<double>(dynamics->dimension());
+    Quantity q{0, f.bits + g.bits, f.degree + g.degree,
+               n * n * (derivative_nodes(f) + derivative_nodes(g))};
+    checked(q, start);
+    q.value = evaluated(start, [&] { return dynamics->bracket(f.value, g.value); });
+    return q;
+  }
+
+  /// rate(F) = dF/dt
+  Quantity rate(std::size_t start) {
+    const Quantity f = arguments("rate", 1, start).front();
+    const Dynamics* dynamics = names_.dynamics();
+    if (dynamics == nullptr) fail_at(start, "the equations of motion are not known here");
+    const auto n = static_cast<double>(dynamics->dimension());
+    Quantity q{0, f.bits * 2, f.degree * 2, n * n * derivative_nodes(f)};
+    checked(q, start);
+    q.value = evaluated(start, [&] { return dynamics->rate(f.value); });
+    return q;
+  }
+
+  /// diff(F, x)
+  Quantity partial_derivative(std::size_t start) {
+    const std::vector<Quantity> given = arguments("diff", 2, start);
+    if (!GiNaC::is_a<GiNaC::symbol>(given[1].value))
+      fail_at(start, "the second argument of 'diff' must be a variable or a parameter");
+    Quantity q = given[0];
+    q.nodes = derivative_nodes(given[0]);
+    checked(q, start);
+    q.value = evaluated(
+        start, [&] { return given[0].value.diff(GiNaC::ex_to<GiNaC::symbol>(given[1].value)); });
+    return q;
+  }
+
+  Quantity call(const Function& function, std::size_t start) {
+    const std::vector<Quantity> arguments = this->arguments(function.name, function.arity, start);
     const Quantity& first = arguments.front();
     const Quantity& last = arguments.back();
     Quantity q{0, first.bits + last.bits, std::max(1.0, first.degree + last.degree),
@@ -300,13 +355,13 @@ class Parser {
   }
 
   const Text& text_;
-  Names& names_;
+  Scope& names_;
   std::size_t at_;
   std::size_t end_;
   int depth_ = 0;
 };
 
-Quantity parse_range(const Text& text, Names& names, std::size_t begin, std::size_t end) {
+Quantity parse_range(const Text& text, Scope& names, std::size_t begin, std::size_t end) {
   if (text.value.size() > kMaxExpressionBytes) {
     throw text.error(fmt::format("the expression has {} bytes; the limit is {}", text.value.size(),
                                  kMaxExpressionBytes));
@@ -314,56 +369,11 @@ Quantity parse_range(const Text& text, Names& names, std::size_t begin, std::siz
   return Parser(text, names, begin, end).parse();
 }
 
-const std::set<std::string_view>& cpp_keywords() {
-  static const std::set<std::string_view> words = {
-      "alignas",       "alignof",     "and",
-      "and_eq",        "asm",         "auto",
-      "bitand",        "bitor",       "bool",
-      "break",         "case",        "catch",
-      "char",          "char8_t",     "char16_t",
-      "char32_t",      "class",       "compl",
-      "concept",       "const",       "consteval",
-      "constexpr",     "constinit",   "const_cast",
-      "continue",      "co_await",    "co_return",
-      "co_yield",      "decltype",    "default",
-      "delete",        "do",          "double",
-      "dynamic_cast",  "else",        "enum",
-      "explicit",      "export",      "extern",
-      "false",         "float",       "for",
-      "friend",        "goto",        "if",
-      "inline",        "int",         "long",
-      "mutable",       "namespace",   "new",
-      "noexcept",      "not",         "not_eq",
-      "nullptr",       "operator",    "or",
-      "or_eq",         "private",     "protected",
-      "public",        "register",    "reinterpret_cast",
-      "requires",      "return",      "short",
-      "signed",        "sizeof",      "static",
-      "static_assert", "static_cast", "struct",
-      "switch",        "template",    "this",
-      "thread_local",  "throw",       "true",
-      "try",           "typedef",     "typeid",
-      "typename",      "union",       "unsigned",
-      "using",         "virtual",     "void",
-      "volatile",      "wchar_t",     "while",
-      "xor",           "xor_eq"};
-  return words;
-}
-
 }  // namespace
 
-const Quantity* NameTable::find(const std::string& name) {
-  const auto it = table_.find(name);
-  return it == table_.end() ? nullptr : &it->second;
-}
+bool is_function_name(const std::string& name) { return find_function(name) != nullptr; }
 
-std::vector<std::string> NameTable::known() const {
-  std::vector<std::string> names;
-  for (const auto& [name, quantity] : table_) names.push_back(name);
-  return names;
-}
-
-Quantity parse_expression(const Text& text, Names& names) {
+Quantity parse_expression(const Text& text, Scope& names) {
   return parse_range(text, names, 0, text.value.size());
 }
 
@@ -372,7 +382,16 @@ GiNaC::ex parse_constant(const Text& text) {
   return parse_expression(text, empty).value;
 }
 
-Relation parse_relation(const Text& text, Names& names) {
+GiNaC::ex parse_real_constant(const Text& text) {
+  const ex value = parse_constant(text);
+  const ex number = value.evalf();
+  if (!GiNaC::is_a<GiNaC::numeric>(number) || !GiNaC::ex_to<GiNaC::numeric>(number).is_real()) {
+    throw text.error("expected a real constant, such as 3/5 or sqrt(2)/2");
+  }
+  return value;
+}
+
+Relation parse_relation(const Text& text, Scope& names) {
   const std::string& s = text.value;
   const std::size_t at = s.find_first_of("!=<>");
   if (at == std::string::npos) {
@@ -386,23 +405,11 @@ Relation parse_relation(const Text& text, Names& names) {
           parse_range(text, names, at + (two ? 2 : 1), s.size()).value};
 }
 
-void check_name(const Text& name, const std::string& what) {
-  const std::string& s = name.value;
-  const std::string shown = printable(s);
-  if (s.empty() || !is_name_start(s[0]) || !std::all_of(s.begin(), s.end(), is_name_part)) {
-    throw name.error(fmt::format("'{}' cannot name {}", shown, what), 0,
-                     "a name is an ASCII letter or '_', then letters, digits and '_'");
-  }
-  if (s.size() > kMaxNameLength) {
-    throw name.error(
-        fmt::format("the name '{}' is longer than {} characters", shown, kMaxNameLength));
-  }
-  if (find_function(s) != nullptr || s == "Pi" || s == "I") {
-    throw name.error(fmt::format("'{}' is a function or constant and cannot name {}", s, what));
-  }
-  if (cpp_keywords().contains(s)) {
-    throw name.error(fmt::format("'{}' is a C++ keyword and cannot name {}", s, what));
-  }
+std::pair<GiNaC::ex, GiNaC::ex> parse_equation(const Text& text, Scope& names) {
+  const std::size_t at = text.value.find('=');
+  if (at == std::string::npos) return {parse_expression(text, names).value, 0};
+  return {parse_range(text, names, 0, at).value,
+          parse_range(text, names, at + 1, text.value.size()).value};
 }
 
 }  // namespace casimir

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "symbolic/case_file.hpp"
@@ -29,18 +30,32 @@ inline constexpr double kMaxDegree = 1e4;
 inline constexpr double kMaxNodes = 1e6;
 inline constexpr std::size_t kMaxNameLength = 100;
 
-/// The names that an expression may use.
-class Names {
+/// The bracket and the flow of a system, for expressions such as `{F, G}` and `rate(F)`.
+class Dynamics {
  public:
-  virtual ~Names() = default;
+  virtual ~Dynamics() = default;
+  virtual bool has_bracket() const = 0;
+  /// {f, g}; only where there is a bracket.
+  virtual GiNaC::ex bracket(const GiNaC::ex& f, const GiNaC::ex& g) const = 0;
+  /// df/dt along the flow.
+  virtual GiNaC::ex rate(const GiNaC::ex& f) const = 0;
+  virtual std::size_t dimension() const = 0;
+};
+
+/// The names that an expression may use.
+class Scope {
+ public:
+  virtual ~Scope() = default;
   /// What `name` stands for, or null. May read a definition on the way, and throw its CaseError.
   virtual const Quantity* find(const std::string& name) = 0;
   /// Every name, for the hint in an error.
   virtual std::vector<std::string> known() const = 0;
+  /// What differentiates, where the equations of motion are known; null elsewhere.
+  virtual const Dynamics* dynamics() { return nullptr; }
 };
 
 /// A fixed table of names.
-class NameTable : public Names {
+class NameTable : public Scope {
  public:
   void add(const std::string& name, Quantity quantity) { table_[name] = std::move(quantity); }
   const Quantity* find(const std::string& name) override;
@@ -51,13 +66,16 @@ class NameTable : public Names {
 };
 
 /// Reads an expression over `names`: + - * / ^, exact rationals and decimals ("0.5" is 1/2), Pi, I,
-/// sqrt sin cos tan exp log asin acos atan atan2.
+/// sqrt sin cos tan exp log asin acos atan atan2; diff(F, x) for a partial derivative; and where
+/// `names` knows the dynamics, {F, G} for the Poisson bracket and rate(F) for dF/dt.
 /// \throws CaseError  with the place inside `text`: unknown name, wrong arity, division by zero,
 ///                    syntax, or a limit exceeded.
-Quantity parse_expression(const Text& text, Names& names);
+Quantity parse_expression(const Text& text, Scope& names);
 
 /// Reads an expression without any variable.
 GiNaC::ex parse_constant(const Text& text);
+/// The same, for an exact real number.
+GiNaC::ex parse_real_constant(const Text& text);
 
 /// Two sides and the relation between them, as in "r != 0".
 struct Relation {
@@ -65,7 +83,19 @@ struct Relation {
   std::string relation;  ///< one of != == <= >= < >
   GiNaC::ex rhs;
 };
-Relation parse_relation(const Text& text, Names& names);
+Relation parse_relation(const Text& text, Scope& names);
+
+/// The two sides of "LEFT = RIGHT"; the right one is 0 where there is no sign of equality.
+std::pair<GiNaC::ex, GiNaC::ex> parse_equation(const Text& text, Scope& names);
+
+/// Whether expressions use `name` for a function, such as "sin".
+bool is_function_name(const std::string& name);
+
+/// The position of the symbol of that name.
+/// \param what    as in "'x' is not WHAT", for the error where there is none
+/// \param name    the part of `text` that starts at `offset`
+std::size_t symbol_position(const Text& text, const std::string& name, std::size_t offset,
+                            const std::vector<GiNaC::symbol>& symbols, const std::string& what);
 
 /// Throws unless `name` may name a variable, parameter or definition: letters, digits and `_`, not
 /// a function, constant or C++ keyword, at most kMaxNameLength characters.

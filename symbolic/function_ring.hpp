@@ -58,6 +58,8 @@ class FunctionRing {
   Polynomial numerator(const Polynomial& p) const;
 
   GiNaC::ex expression(const Polynomial& p) const;
+  /// p/q with both reduced by the relations and in lowest terms as polynomials.
+  GiNaC::ex quotient(const Polynomial& p, const Polynomial& q) const;
 
   /// Text with terms in the ring's order: the same in every run, unlike GiNaC's.
   std::string text(const Polynomial& p) const;

@@ -26,6 +26,18 @@ ex FunctionRing::expression(const Polynomial& p) const {
   return GiNaC::add(terms);
 }
 
+ex FunctionRing::quotient(const Polynomial& p, const Polynomial& q) const {
+  const auto [p_top, p_bottom] = fraction(p);
+  const auto [q_top, q_bottom] = fraction(q);
+  Polynomial top = numerator(checked_product(p_top, q_bottom));
+  Polynomial bottom = numerator(checked_product(q_top, p_bottom));
+  if (top.is_zero()) return 0;
+  const Polynomial common = Polynomial::gcd(top, bottom);
+  top.divide(common, &top);
+  bottom.divide(common, &bottom);
+  return expression(top) / expression(bottom);
+}
+
 std::string FunctionRing::text(const Polynomial& p) const {
   std::string result;
   for (const auto& [coefficient, exponents] : p.term_list()) {

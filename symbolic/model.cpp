@@ -4,10 +4,17 @@
 #include <fmt/ranges.h>
 
 #include "symbolic/expression.hpp"
+#include "symbolic/model_dynamics.hpp"
 
 namespace casimir {
 
 using GiNaC::ex;
+
+std::vector<std::string> names_of(const std::vector<NamedExpression>& list) {
+  std::vector<std::string> names;
+  for (const NamedExpression& item : list) names.push_back(item.name);
+  return names;
+}
 
 std::vector<ex> PoissonMap::composed_brackets() const {
   GiNaC::exmap values;
@@ -58,21 +65,55 @@ const Scene& Model::scene(const std::string& scene_name) const {
   throw CaseError({file}, fmt::format("there is no scene '{}'", printable(scene_name)), {}, hint);
 }
 
-GiNaC::ex Model::parse(const Text& text) const {
-  NameTable names;
+namespace {
+
+/// The names of a finished model.
+class ModelNames : public NameTable {
+ public:
+  explicit ModelNames(const Model& model) : dynamics_(model) {}
+  const Dynamics* dynamics() override { return &dynamics_; }
+
+ private:
+  ModelDynamics dynamics_;
+};
+
+ModelNames names_of(const Model& model) {
+  ModelNames names(model);
   const auto add = [&](const std::vector<NamedExpression>& list) {
     for (const NamedExpression& item : list) {
       if (names.find(item.name) == nullptr) names.add(item.name, {item.value, 64, 8, 64});
     }
   };
-  for (const GiNaC::symbol& s : variables) names.add(s.get_name(), Quantity::symbol(s));
-  for (const GiNaC::symbol& s : parameters) names.add(s.get_name(), Quantity::symbol(s));
-  for (const auto& [parameter, value] : fixed) names.add(parameter.value, {value, 64, 0, 1});
-  if (time) names.add(time->get_name(), Quantity::symbol(*time));
-  add(definitions);
-  add(casimirs);
-  add(integrals);
+  for (const GiNaC::symbol& s : model.variables) names.add(s.get_name(), Quantity::symbol(s));
+  for (const GiNaC::symbol& s : model.parameters) names.add(s.get_name(), Quantity::symbol(s));
+  for (const auto& [parameter, value] : model.fixed) names.add(parameter.value, {value, 64, 0, 1});
+  if (model.time) names.add(model.time->get_name(), Quantity::symbol(*model.time));
+  add(model.definitions);
+  add(model.casimirs);
+  add(model.integrals);
+  return names;
+}
+
+}  // namespace
+
+GiNaC::ex Model::parse(const Text& text) const {
+  ModelNames names = names_of(*this);
   return parse_expression(text, names).value;
+}
+
+std::pair<GiNaC::ex, GiNaC::ex> Model::parse_equation(const Text& text) const {
+  ModelNames names = names_of(*this);
+  return casimir::parse_equation(text, names);
+}
+
+ex Model::rate(const ex& f) const {
+  GiNaC::exvector terms;
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const ex slope = f.diff(variables[i]);
+    if (!slope.is_zero()) terms.push_back(slope * field[i]);
+  }
+  if (time) terms.push_back(f.diff(*time));
+  return GiNaC::add(terms);
 }
 
 GiNaC::ex Model::at_parameters(const GiNaC::ex& expression, const Scene& scene) const {

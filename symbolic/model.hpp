@@ -2,6 +2,7 @@
 
 #include <ginac/ginac.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "symbolic/case_file.hpp"
 #include "symbolic/error.hpp"
+#include "symbolic/frame.hpp"
 #include "symbolic/poisson.hpp"
 
 namespace casimir {
@@ -19,6 +21,8 @@ struct NamedExpression {
   GiNaC::ex value;
   Location where;
 };
+
+std::vector<std::string> names_of(const std::vector<NamedExpression>& list);
 
 /// A condition from an `assume` or a `domain`: `difference RELATION 0`.
 struct Assumption {
@@ -36,6 +40,20 @@ struct Assumption {
 struct LevelClaim {
   NamedExpression expression;
   std::vector<NamedExpression> on;
+};
+
+/// Two functions that are equal, where the functions `on` vanish.
+struct Identity {
+  std::string name;
+  Location where;
+  GiNaC::ex left, right;
+  std::vector<NamedExpression> on;
+};
+
+/// `density * dx` is invariant: under the flow, or under that of every Hamiltonian.
+struct Measure {
+  NamedExpression density;
+  bool every_hamiltonian = false;
 };
 
 /// dL/dt = [L, A] identically in the spectral parameter.
@@ -93,8 +111,10 @@ struct Model {
   std::optional<GiNaC::symbol> time;  ///< set where the file names it
   std::vector<Assumption> assumptions;
 
+  bool linear_bracket = false;              ///< that of a Lie algebra
   std::optional<PoissonStructure> poisson;  ///< none for a system given by [equations]
   std::optional<GiNaC::ex> hamiltonian;     ///< none for a system given by [equations]
+  std::optional<Frame> frame;               ///< set where the bracket is that of a frame
   std::vector<GiNaC::ex> field;             ///< dx_i/dt for each variable, not expanded
 
   std::vector<NamedExpression> definitions;
@@ -105,7 +125,8 @@ struct Model {
   std::vector<LevelClaim> invariant_relations;
   std::vector<LaxPair> lax_pairs;
   std::vector<PoissonMap> maps;
-  std::vector<NamedExpression> measures;  ///< densities
+  std::vector<Measure> measures;
+  std::vector<Identity> identities;
   std::optional<Section> section;
   std::vector<Scene> scenes;
 
@@ -116,6 +137,11 @@ struct Model {
   /// Reads an expression over the variables, parameters, time, definitions, and the names of the
   /// Casimirs and integrals. \throws CaseError
   GiNaC::ex parse(const Text& text) const;
+  /// The same for "LEFT = RIGHT".
+  std::pair<GiNaC::ex, GiNaC::ex> parse_equation(const Text& text) const;
+
+  /// df/dt along the flow, with the explicit dependence on time; not expanded.
+  GiNaC::ex rate(const GiNaC::ex& f) const;
 
   /// `expression` with every parameter replaced by the scene's exact value.
   GiNaC::ex at_parameters(const GiNaC::ex& expression, const Scene& scene) const;
@@ -125,8 +151,13 @@ struct Model {
 /// before anything else is read.
 using ParameterValues = std::vector<std::pair<Text, Text>>;
 
+/// Finds the case file that a map's `to` names; empty if there is none of that name. Without such a
+/// function the folder of the case file is searched.
+using FindCase = std::function<std::optional<CaseFile>(const std::string& name)>;
+
 /// Reads every expression of the case file and builds the bracket and the equations of motion.
 /// \throws CaseError  with the place of what is wrong.
-Model build_model(const CaseFile& file, const ParameterValues& fixed = {});
+Model build_model(const CaseFile& file, const ParameterValues& fixed = {},
+                  const FindCase& find_case = {});
 
 }  // namespace casimir

@@ -68,18 +68,6 @@ std::vector<ex> canonical_brackets(const PhaseSpaceText& text, const Symbols& x)
   return upper.entries();
 }
 
-/// The index of the variable that `name` means.
-std::size_t variable_index(const Text& key, const std::string& name, std::size_t offset,
-                           const Symbols& x) {
-  std::vector<std::string> known;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (x[i].get_name() == name) return i;
-    known.push_back(x[i].get_name());
-  }
-  throw key.error(fmt::format("'{}' is not one of the variables", printable(name)), offset,
-                  suggest(name, known));
-}
-
 std::pair<std::size_t, std::size_t> pair_of(const Text& key, const Symbols& x) {
   const std::string& s = key.value;
   const std::size_t comma = s.find(',');
@@ -89,7 +77,7 @@ std::pair<std::size_t, std::size_t> pair_of(const Text& key, const Symbols& x) {
   const auto trimmed = [&](std::size_t begin, std::size_t end) {
     while (begin < end && s[begin] == ' ') ++begin;
     while (end > begin && s[end - 1] == ' ') --end;
-    return variable_index(key, s.substr(begin, end - begin), begin, x);
+    return symbol_position(key, s.substr(begin, end - begin), begin, x, "one of the variables");
   };
   return {trimmed(0, comma), trimmed(comma + 1, s.size())};
 }
@@ -109,7 +97,7 @@ void check_linear(const Text& text, const ex& value, const Symbols& x) {
 }
 
 std::vector<ex> explicit_brackets(const std::vector<Entry>& entries, bool linear, int sign,
-                                  const Symbols& x, Names& names) {
+                                  const Symbols& x, Scope& names) {
   UpperTriangle upper(x.size());
   std::map<std::pair<std::size_t, std::size_t>, ex> given;
   for (const auto& [key, text] : entries) {
@@ -154,15 +142,23 @@ std::vector<GiNaC::symbol> make_variables(const PhaseSpaceText& text) {
   return result;
 }
 
+std::optional<Frame> make_frame(const PhaseSpaceText& text, const Symbols& variables,
+                                const Symbols& parameters, Scope& names) {
+  if (!text.vector_fields) return std::nullopt;
+  return make_frame(*text.vector_fields, variables, parameters, names);
+}
+
 std::optional<PoissonStructure> make_bracket(const PhaseSpaceText& text, const Symbols& variables,
-                                             Names& names) {
+                                             Scope& names, const std::optional<Frame>& frame) {
   const int forms = int(text.algebra.has_value()) + int(text.canonical) +
-                    int(text.brackets.has_value()) + int(text.structure_constants.has_value());
+                    int(text.brackets.has_value()) + int(text.structure_constants.has_value()) +
+                    int(text.vector_fields.has_value());
   if (forms > 1) {
     throw CaseError(text.where,
-                    "the phase space must have exactly one of 'algebra', 'canonical', 'brackets' "
-                    "and 'structure_constants'");
+                    "the phase space must have exactly one of 'algebra', 'canonical', 'brackets', "
+                    "'structure_constants' and 'vector_fields'");
   }
+  if (frame) return frame_bracket(*frame, variables, sign_of(text));
   if (text.algebra) return PoissonStructure(variables, algebra_brackets(text, variables));
   if (text.canonical) return PoissonStructure(variables, canonical_brackets(text, variables));
   if (text.brackets) {
@@ -182,6 +178,7 @@ std::string describe(const PhaseSpaceText& text) {
   if (text.canonical) return "canonical";
   if (text.brackets) return "brackets";
   if (text.structure_constants) return "structure constants";
+  if (text.vector_fields) return "frame";
   return "equations";
 }
 

@@ -48,34 +48,21 @@ Work work_of(const Model& model, const Candidates& candidates) {
   add(candidates.casimirs, casimir_claim);
   add(candidates.integrals, integral_claim);
   add(candidates.invariant_relations, invariant_relation_claim);
+  for (const Text& text : candidates.identities) {
+    const auto [left, right] = model.parse_equation(text);
+    work.claims.push_back(identity_claim({text.value, text.where, left, right, on}));
+  }
   for (const NamedExpression& f : on) work.expressions.push_back(f.value);
   return work;
 }
 
-std::vector<std::string> level_names(const Model& model, const Claim& claim,
-                                     const Candidates& candidates) {
-  std::vector<std::string> names;
-  if (!candidates.empty()) {
-    for (const Text& text : candidates.on) names.push_back(text.value);
-    return names;
-  }
-  const auto* level = claim.kind == "conditional"          ? &model.conditionals
-                      : claim.kind == "invariant_relation" ? &model.invariant_relations
-                                                           : nullptr;
-  if (level == nullptr) return names;
-  for (const LevelClaim& candidate : *level) {
-    if (candidate.expression.name != claim.name) continue;
-    for (const NamedExpression& f : candidate.on) names.push_back(f.name);
-  }
-  return names;
-}
-
-Proof undecided(const Model& model, const Claim& claim, const Candidates& candidates) {
+Proof undecided(const Claim& claim) {
   Proof proof;
   proof.kind = claim.kind;
   proof.name = claim.name;
   proof.fact = claim.fact;
-  proof.on = level_names(model, claim, candidates);
+  proof.note = claim.note;
+  proof.on = claim.on;
   return proof;
 }
 
@@ -109,8 +96,7 @@ std::string to_string(Verdict verdict) {
 
 std::vector<Proof> pending(const Model& model, const Candidates& candidates) {
   std::vector<Proof> proofs;
-  for (const Claim& claim : work_of(model, candidates).claims)
-    proofs.push_back(undecided(model, claim, candidates));
+  for (const Claim& claim : work_of(model, candidates).claims) proofs.push_back(undecided(claim));
   return proofs;
 }
 
@@ -120,13 +106,16 @@ std::vector<Proof> prove(const Model& model, const Candidates& candidates,
   std::optional<Prover> prover;
   std::string too_large;  // not even the expressions of the case fit
   try {
-    prover.emplace(model, work.expressions);
+    std::vector<GiNaC::ex> expressions = work.expressions;
+    for (const Claim& claim : work.claims)
+      expressions.insert(expressions.end(), claim.expressions.begin(), claim.expressions.end());
+    prover.emplace(model, expressions);
   } catch (const TooLarge& limit) {
     too_large = limit.what();
   }
   std::vector<Proof> proofs;
   for (const Claim& claim : work.claims) {
-    proofs.push_back(undecided(model, claim, candidates));
+    proofs.push_back(undecided(claim));
     proofs.back().reason = too_large;
     if (prover) decide(*prover, claim, proofs.back());
     if (report && !report(proofs.back())) break;
@@ -137,7 +126,7 @@ std::vector<Proof> prove(const Model& model, const Candidates& candidates,
 Verdict overall(const Model& model, const std::vector<Proof>& proofs) {
   Verdict worst = Verdict::proved;
   for (const Proof& proof : proofs) {
-    if (proof.fact && !model.integrable) continue;
+    if (proof.note || (proof.fact && !model.integrable)) continue;
     if (proof.verdict == Verdict::refuted) return Verdict::refuted;
     if (proof.verdict == Verdict::undecided) worst = Verdict::undecided;
   }

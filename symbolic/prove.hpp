@@ -29,6 +29,7 @@ struct Proof {
   std::string name;
   Verdict verdict = Verdict::undecided;
   bool fact = false;  ///< about the system; counts only where the file claims `integrable`
+  bool note = false;  ///< said beside the claims; never counts
   double seconds = 0;
   std::vector<std::string> on;  ///< the relations that define the level, as written
   std::string evidence;         ///< for what is proved: what was found, in words
@@ -41,10 +42,12 @@ struct Proof {
 /// What a user wants to know beyond, or instead of, the claims of the file.
 struct Candidates {
   std::vector<Text> integrals, casimirs, invariant_relations;
+  std::vector<Text> identities;  ///< "LEFT = RIGHT"
   std::vector<Text> on;
   std::string only{};  ///< without candidates: only claims and facts of this kind, or all if empty
   bool empty() const {
-    return integrals.empty() && casimirs.empty() && invariant_relations.empty();
+    return integrals.empty() && casimirs.empty() && invariant_relations.empty() &&
+           identities.empty();
   }
 };
 

@@ -76,7 +76,7 @@ std::vector<ex> Prover::expressions_of(const Model& model, const std::vector<ex>
   }
   add(model.casimirs);
   add(model.integrals);
-  add(model.measures);
+  for (const Measure& measure : model.measures) all.push_back(measure.density.value);
   for (const auto* claims : {&model.conditionals, &model.invariant_relations}) {
     for (const LevelClaim& claim : *claims) {
       all.push_back(claim.expression.value);
@@ -156,14 +156,6 @@ Polynomial Prover::divergence() const {
   return sum;
 }
 
-ex Prover::rate_by_ginac(const ex& f) const {
-  ex sum = 0;
-  for (std::size_t i = 0; i < dimension(); ++i)
-    sum += f.diff(model_.variables[i]) * model_.field[i];
-  if (model_.time) sum += f.diff(*model_.time);
-  return sum;
-}
-
 Level Prover::level(const std::vector<NamedExpression>& on) {
   Level result;
   for (const NamedExpression& f : on) {
@@ -181,7 +173,7 @@ std::vector<Residual> Prover::level_rates(const Level& level) {
   for (std::size_t i = 0; i < level.functions.size(); ++i) {
     const ex f = level.functions[i];
     result.push_back({fmt::format("d({})/dt", level.texts[i]), rate(ring_.convert(f)),
-                      [this, f] { return rate_by_ginac(f); }});
+                      [this, f] { return model_.rate(f); }});
   }
   return result;
 }
@@ -353,25 +345,6 @@ std::optional<Witness> Prover::witness(const Residual& residual, const Polynomia
     return Witness{exact.coordinates(), number_text(cln::the<cln::cl_RA>(number.to_cl_N()))};
   }
   return std::nullopt;
-}
-
-std::size_t rank(std::vector<std::vector<cln::cl_RA>> rows) {
-  std::size_t rank = 0;
-  const std::size_t columns = rows.empty() ? 0 : rows[0].size();
-  for (std::size_t column = 0; column < columns && rank < rows.size(); ++column) {
-    std::size_t pivot = rank;
-    while (pivot < rows.size() && cln::zerop(rows[pivot][column])) ++pivot;
-    if (pivot == rows.size()) continue;
-    std::swap(rows[rank], rows[pivot]);
-    for (std::size_t i = rank + 1; i < rows.size(); ++i) {
-      const cln::cl_RA factor = rows[i][column] / rows[rank][column];
-      if (cln::zerop(factor)) continue;
-      for (std::size_t j = column; j < columns; ++j)
-        rows[i][j] = rows[i][j] - factor * rows[rank][j];
-    }
-    ++rank;
-  }
-  return rank;
 }
 
 }  // namespace casimir

@@ -10,6 +10,7 @@
 #include "symbolic/ideal.hpp"
 #include "symbolic/model.hpp"
 #include "symbolic/prove.hpp"
+#include "symbolic/rational_matrix.hpp"
 
 namespace casimir {
 
@@ -47,8 +48,6 @@ class Prover {
   Polynomial bracket(const Polynomial& f, const Polynomial& g) const;
   /// df/dt along the flow, with the explicit dependence on time.
   Polynomial rate(const Polynomial& f) const;
-  /// The same by GiNaC alone.
-  GiNaC::ex rate_by_ginac(const GiNaC::ex& f) const;
   /// Of the flow: the sum of d(dx_i/dt)/dx_i.
   Polynomial divergence() const;
   std::vector<Polynomial> gradient(const Polynomial& f) const;
@@ -88,8 +87,5 @@ class Prover {
   std::vector<Polynomial> field_;
   std::mt19937 random_{20190101};
 };
-
-/// Rank of a matrix of exact rationals given by rows.
-std::size_t rank(std::vector<std::vector<cln::cl_RA>> rows);
 
 }  // namespace casimir

@@ -61,4 +61,13 @@ CaseFile load_case(const std::string& argument) {
   throw CaseError({argument}, "there is no bundled case of this name", {}, hint);
 }
 
+Model model_of(const CaseFile& file, const ParameterValues& fixed) {
+  return build_model(file, fixed, [](const std::string& name) -> std::optional<CaseFile> {
+    for (const fs::path& path : bundled_cases()) {
+      if (path.stem() == name) return read_case(path);
+    }
+    return std::nullopt;
+  });
+}
+
 }  // namespace casimir::tools

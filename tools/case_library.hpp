@@ -21,4 +21,8 @@ std::vector<std::filesystem::path> bundled_cases();
 /// \throws CaseError  with the nearest names if there is none.
 CaseFile load_case(const std::string& argument);
 
+/// The model of a case file; its maps may lead to the phase spaces of bundled cases.
+/// \throws CaseError
+Model model_of(const CaseFile& file, const ParameterValues& fixed = {});
+
 }  // namespace casimir::tools

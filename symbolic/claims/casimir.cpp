@@ -6,7 +6,8 @@
 namespace casimir {
 
 Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>& on) {
-  return {"casimir", f.name, false, [f, on](Prover& prover, Proof& proof) {
+  return {"casimir", f.name, false,
+          [f, on](Prover& prover, Proof& proof) {
             const Polynomial c = prover.ring().convert(f.value);
             std::vector<Residual> residuals;
             for (std::size_t i = 0; i < prover.dimension(); ++i) {
@@ -18,7 +19,8 @@ Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>
                    [&prover, x, value] { return prover.model().poisson->bracket(x, value); }});
             }
             prover.decide(proof, residuals, prover.level(on));
-          }};
+          },
+          names_of(on)};
 }
 
 std::vector<Claim> casimir_claims(const Model& model) {

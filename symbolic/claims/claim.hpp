@@ -14,6 +14,9 @@ struct Claim {
   std::string name;
   bool fact = false;
   std::function<void(Prover&, Proof&)> decide;
+  std::vector<std::string> on{};         ///< the level, as written
+  std::vector<GiNaC::ex> expressions{};  ///< what it is about beyond the functions of the model
+  bool note = false;                     ///< said beside the claims; never counts
 };
 
 /// Reads the claims of one kind off a case. A new kind is one new file with such a function, and
@@ -29,24 +32,40 @@ std::vector<Claim> invariant_relation_claims(const Model& model);
 std::vector<Claim> lax_claims(const Model& model);
 std::vector<Claim> map_claims(const Model& model);
 std::vector<Claim> measure_claims(const Model& model);
+std::vector<Claim> identity_claims(const Model& model);
+std::vector<Claim> frame_claims(const Model& model);
 std::vector<Claim> involution_claims(const Model& model);
 std::vector<Claim> independence_claims(const Model& model);
 std::vector<Claim> rank_claims(const Model& model);
 std::vector<Claim> liouville_claims(const Model& model);
+std::vector<Claim> unimodularity_notes(const Model& model);
 
 /// In the order in which they are reported.
 inline constexpr ClaimKind kClaimKinds[] = {
-    skew_claims,       jacobi_claims,       casimir_claims,
-    integral_claims,   conditional_claims,  invariant_relation_claims,
-    lax_claims,        map_claims,          measure_claims,
-    involution_claims, independence_claims, rank_claims,
+    skew_claims,
+    jacobi_claims,
+    frame_claims,
+    casimir_claims,
+    integral_claims,
+    conditional_claims,
+    invariant_relation_claims,
+    lax_claims,
+    map_claims,
+    measure_claims,
+    identity_claims,
+    involution_claims,
+    independence_claims,
+    rank_claims,
     liouville_claims,
+    unimodularity_notes,
 };
 
 /// {x_i, f} for every coordinate, on a level if one is given.
 Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
 /// df/dt = 0, on an invariant level if one is given (kind "conditional" then).
 Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
+/// left = right, on a level if one is given.
+Claim identity_claim(const Identity& identity);
 /// f = 0 is preserved, on the level of `on` if one is given.
 Claim invariant_relation_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
 

@@ -18,10 +18,8 @@ std::vector<NamedExpression> with_hamiltonian(const Model& model,
   return functions;
 }
 
-std::string names_of(const std::vector<NamedExpression>& functions) {
-  std::vector<std::string> names;
-  for (const NamedExpression& f : functions) names.push_back(f.name);
-  return fmt::format("{}", fmt::join(names, ", "));
+std::string listed(const std::vector<NamedExpression>& functions) {
+  return fmt::format("{}", fmt::join(names_of(functions), ", "));
 }
 
 PolynomialRows gradients(Prover& prover, const std::vector<NamedExpression>& functions) {
@@ -148,7 +146,7 @@ void decide_liouville(Prover& prover, Proof& proof) {
     proof.verdict = Verdict::proved;
     proof.evidence =
         fmt::format("{} are in involution and independent on leaves of dimension {} (at {})",
-                    names_of(chosen), leaf->rank, point_text(prover, independent->point));
+                    listed(chosen), leaf->rank, point_text(prover, independent->point));
     return;
   }
   proof.reason = fmt::format(
@@ -161,7 +159,7 @@ void decide_liouville(Prover& prover, Proof& proof) {
 std::vector<Claim> independence_claims(const Model& model) {
   const std::vector<NamedExpression> functions = with_hamiltonian(model, model.casimirs);
   if (functions.size() < 2) return {};
-  return {{"independence", names_of(functions), true, [functions](Prover& prover, Proof& proof) {
+  return {{"independence", listed(functions), true, [functions](Prover& prover, Proof& proof) {
              decide_independence(prover, proof, functions);
            }}};
 }

@@ -21,7 +21,7 @@ void decide_lax(Prover& prover, Proof& proof, const LaxPair& pair) {
       }
       residuals.push_back({fmt::format("(dL/dt - [L, A])[{},{}]", i + 1, j + 1), std::move(defect),
                            [&prover, &pair, n, i, j] {
-                             GiNaC::ex sum = prover.rate_by_ginac(pair.l(i, j));
+                             GiNaC::ex sum = prover.model().rate(pair.l(i, j));
                              for (unsigned k = 0; k < n; ++k)
                                sum -= pair.l(i, k) * pair.a(k, j) - pair.a(i, k) * pair.l(k, j);
                              return sum;

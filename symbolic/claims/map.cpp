@@ -33,9 +33,10 @@ void decide_map(Prover& prover, Proof& proof, const PoissonMap& map) {
 std::vector<Claim> map_claims(const Model& model) {
   std::vector<Claim> claims;
   for (std::size_t i = 0; i < model.maps.size(); ++i) {
-    claims.push_back({"map", model.maps[i].name, false, [i](Prover& prover, Proof& proof) {
-                        decide_map(prover, proof, prover.model().maps[i]);
-                      }});
+    claims.push_back(
+        {"map", model.maps[i].name, false,
+         [i](Prover& prover, Proof& proof) { decide_map(prover, proof, prover.model().maps[i]); },
+         names_of(model.maps[i].on)});
   }
   return claims;
 }

@@ -131,7 +131,7 @@ Plot work_precision_plot(const std::vector<Row>& rows, const Model& model, const
 
 int bench(const Options& options) {
   if (!options.plot.empty()) check_plot_name(options.plot);
-  const Model model = build_model(load_case(options.case_name), options.common.parameter_values());
+  const Model model = model_of(load_case(options.case_name), options.common.parameter_values());
   const Scene& scene = model.scene(options.common.scene);
   const std::function<bool()> give_up = time_limit(options.common.time_limit);
   SceneRun specialised = prepare(model, scene);

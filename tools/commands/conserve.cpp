@@ -66,7 +66,7 @@ Row conserve_one(const Model& model, const Scene& scene, const Method& method,
 
 void conserve_case(const CaseFile& file, const Options& options,
                    const std::function<bool()>& give_up, std::vector<Row>& rows) {
-  const Model model = build_model(file, options.common.parameter_values());
+  const Model model = model_of(file, options.common.parameter_values());
   std::vector<const Scene*> scenes;
   if (options.common.scene_given)
     scenes.push_back(&model.scene(options.common.scene));

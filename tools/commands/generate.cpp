@@ -31,7 +31,7 @@ struct Options {
 int generate(const Options& options) {
   if (options.output.empty() && options.common.json)
     throw UsageError("generate --json needs --output FILE for the header");
-  const Model model = build_model(load_case(options.case_name), options.common.parameter_values());
+  const Model model = model_of(load_case(options.case_name), options.common.parameter_values());
   const auto wanted = [&](const char* name) {
     return std::find(options.with.begin(), options.with.end(), name) != options.with.end();
   };

@@ -123,7 +123,7 @@ void print_text(const SceneRun& run, const Method& method, const Settings& setti
 }
 
 int integrate_case(const Options& options) {
-  const Model model = build_model(load_case(options.case_name), options.common.parameter_values());
+  const Model model = model_of(load_case(options.case_name), options.common.parameter_values());
   const Scene& scene = model.scene(options.common.scene);
   const Method& method = method_named(options.method);
   SceneOptions how;

@@ -38,7 +38,7 @@ std::vector<std::string> scene_names(const Model& model) {
 int list(const Options& options) {
   nlohmann::ordered_json cases = nlohmann::json::array();
   for (const std::filesystem::path& path : bundled_cases()) {
-    const Model model = build_model(read_case(path));
+    const Model model = model_of(read_case(path));
     const bool tagged =
         std::find(model.tags.begin(), model.tags.end(), options.tag) != model.tags.end();
     if (!options.tag.empty() && !tagged) continue;

@@ -165,7 +165,7 @@ void print_latex(const Model& model) {
 }
 
 int show(const Options& options) {
-  const Model model = build_model(load_case(options.case_name), options.common.parameter_values());
+  const Model model = model_of(load_case(options.case_name), options.common.parameter_values());
   if (options.format == "latex" && !options.common.json) {
     print_latex(model);
     return kDone;

@@ -25,7 +25,7 @@ struct Options {
   Common common;
   std::string case_name;
   bool all = false;
-  std::vector<std::string> integrals, casimirs, invariant_relations, on;
+  std::vector<std::string> integrals, casimirs, invariant_relations, identities, on;
   std::string certificate;
 };
 
@@ -43,6 +43,7 @@ Candidates candidates_of(const Options& options) {
   return {texts(options.integrals, "--integral"),
           texts(options.casimirs, "--casimir"),
           texts(options.invariant_relations, "--invariant-relation"),
+          texts(options.identities, "--identity"),
           texts(options.on, "--on"),
           {}};
 }
@@ -91,7 +92,7 @@ void write_certificate(const Model& model, const Options& options, Verdict verdi
 /// Proves one case; its lines appear as they are decided, unless only a summary or JSON is wanted.
 Verified verify_one(const CaseFile& file, const Options& options, double time_limit, bool lines) {
   const bool colour = may_colour(STDOUT_FILENO);
-  const Model model = build_model(file, options.common.parameter_values());
+  const Model model = model_of(file, options.common.parameter_values());
   if (options.common.scene_given) model.scene(options.common.scene);
   const auto start = Clock::now();
   bool begun = false;
@@ -160,7 +161,8 @@ int verify(const Options& options) {
   if (options.all && !candidates_of(options).empty())
     throw UsageError("--all verifies the claims of the files; candidates need a CASE");
   if (candidates_of(options).empty() && !options.on.empty()) {
-    throw UsageError("--on needs a candidate: --integral, --casimir or --invariant-relation");
+    throw UsageError(
+        "--on needs a candidate: --integral, --casimir, --invariant-relation or --identity");
   }
   if (options.all && !options.certificate.empty()) throw UsageError("--certificate needs a CASE");
   if (!options.certificate.empty()) check_certificate_name(options.certificate);
@@ -192,6 +194,8 @@ void register_verify(CLI::App& program, Action& action) {
              "Test this as a Casimir function instead (repeatable)");
   repeatable("--invariant-relation", options->invariant_relations,
              "Test whether its zero level is invariant (repeatable)");
+  repeatable("--identity", options->identities,
+             "Test whether LEFT = RIGHT; {F, G} is the bracket, rate(F) is dF/dt (repeatable)");
   repeatable("--on", options->on, "Only on the common zero level of these (repeatable)");
   command
       ->add_option("--certificate", options->certificate,

@@ -1,0 +1,63 @@
+#include "symbolic/case_names.hpp"
+
+#include <fmt/format.h>
+
+namespace casimir {
+
+void CaseNames::declare(const Text& name, const std::string& what, Quantity quantity) {
+  check_name(name, what);
+  if (table_.contains(name.value) || pending_.contains(name.value)) {
+    throw name.error(fmt::format("'{}' is declared twice", name.value));
+  }
+  table_[name.value] = std::move(quantity);
+}
+
+void CaseNames::define(const Entry& entry) {
+  check_name(entry.first, "a definition");
+  if (table_.contains(entry.first.value)) {
+    throw entry.first.error(fmt::format("'{}' is declared twice", entry.first.value));
+  }
+  pending_[entry.first.value] = &entry;
+}
+
+const Quantity* CaseNames::find(const std::string& name) {
+  const auto known = table_.find(name);
+  if (known != table_.end()) return &known->second;
+  const auto waiting = pending_.find(name);
+  if (waiting == pending_.end()) return nullptr;
+  const Entry& entry = *waiting->second;
+  constexpr std::size_t kMaxChain = 100;
+  if (open_.contains(name) || open_.size() > kMaxChain) {
+    throw entry.second.error(
+        fmt::format("the definition of '{}' {}", name,
+                    open_.contains(name) ? "uses itself" : "is nested too deep"));
+  }
+  open_.insert(name);
+  Quantity value = parse_expression(entry.second, *this);
+  open_.erase(name);
+  return &(table_[name] = std::move(value));
+}
+
+std::vector<std::string> CaseNames::known() const {
+  std::vector<std::string> names;
+  for (const auto& [name, quantity] : table_) names.push_back(name);
+  for (const auto& [name, entry] : pending_) names.push_back(name);
+  return names;
+}
+
+ExtendedNames::ExtendedNames(Scope& base, const std::vector<GiNaC::symbol>& extra) : base_(base) {
+  for (const GiNaC::symbol& s : extra) extra_.add(s.get_name(), Quantity::symbol(s));
+}
+
+const Quantity* ExtendedNames::find(const std::string& name) {
+  const Quantity* own = extra_.find(name);
+  return own != nullptr ? own : base_.find(name);
+}
+
+std::vector<std::string> ExtendedNames::known() const {
+  std::vector<std::string> names = base_.known();
+  for (const std::string& name : extra_.known()) names.push_back(name);
+  return names;
+}
+
+}  // namespace casimir

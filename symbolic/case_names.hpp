@@ -1,0 +1,52 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "symbolic/expression.hpp"
+
+namespace casimir {
+
+/// The names of a case file. A definition is read when it is first used, so that their order does
+/// not matter; one that uses itself is an error.
+class CaseNames : public Scope {
+ public:
+  /// \throws CaseError  for a name that cannot be used, or is taken.
+  void declare(const Text& name, const std::string& what, Quantity quantity);
+  void define(const Entry& entry);
+
+  /// Names an expression already read, unless the name is taken: for use in further expressions.
+  void alias(const std::string& name, Quantity quantity) {
+    table_.try_emplace(name, std::move(quantity));
+  }
+
+  const Quantity* find(const std::string& name) override;
+  std::vector<std::string> known() const override;
+
+  /// From here on expressions may use the bracket and the flow. `dynamics` is borrowed.
+  void allow(const Dynamics* dynamics) { dynamics_ = dynamics; }
+  const Dynamics* dynamics() override { return dynamics_; }
+
+ private:
+  std::map<std::string, Quantity> table_;
+  std::map<std::string, const Entry*> pending_;
+  std::set<std::string> open_;
+  const Dynamics* dynamics_ = nullptr;
+};
+
+/// The names of `base` and some more, such as a spectral parameter.
+class ExtendedNames : public Scope {
+ public:
+  ExtendedNames(Scope& base, const std::vector<GiNaC::symbol>& extra);
+  const Quantity* find(const std::string& name) override;
+  std::vector<std::string> known() const override;
+  const Dynamics* dynamics() override { return base_.dynamics(); }
+
+ private:
+  Scope& base_;
+  NameTable extra_;
+};
+
+}  // namespace casimir

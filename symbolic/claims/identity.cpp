@@ -1,0 +1,30 @@
+// Equality of two functions, on a level if one is given: what a user writes down to check.
+#include <fmt/format.h>
+
+#include "symbolic/claims/claim.hpp"
+
+namespace casimir {
+
+Claim identity_claim(const Identity& identity) {
+  Claim claim{"identity", identity.name, false, [identity](Prover& prover, Proof& proof) {
+                const GiNaC::ex defect = identity.left - identity.right;
+                prover.decide(
+                    proof,
+                    {{"left - right", prover.ring().convert(defect), [defect] { return defect; }}},
+                    prover.level(identity.on));
+              }};
+  claim.expressions = {identity.left - identity.right};
+  for (const NamedExpression& f : identity.on) {
+    claim.on.push_back(f.name);
+    claim.expressions.push_back(f.value);
+  }
+  return claim;
+}
+
+std::vector<Claim> identity_claims(const Model& model) {
+  std::vector<Claim> claims;
+  for (const Identity& identity : model.identities) claims.push_back(identity_claim(identity));
+  return claims;
+}
+
+}  // namespace casimir

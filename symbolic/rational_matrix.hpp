@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cln/rational.h>
+
+#include <optional>
+#include <vector>
+
+namespace casimir {
+
+/// A matrix of exact rationals, by rows.
+using RationalMatrix = std::vector<std::vector<cln::cl_RA>>;
+
+std::size_t rank(RationalMatrix rows);
+
+/// The solution of the equations whose rows are the coefficients and then the right-hand side;
+/// empty if there is none or more than one.
+std::optional<std::vector<cln::cl_RA>> solve_unique(RationalMatrix equations);
+
+/// The first columns, from the left, that make a regular minor of full rank.
+std::vector<std::size_t> independent_columns(RationalMatrix rows);
+
+}  // namespace casimir
