@@ -10,42 +10,19 @@
 #include <sstream>
 
 #include "symbolic/exact_point.hpp"
+#include "symbolic/witness.hpp"
 
 namespace casimir {
 namespace {
 
 using GiNaC::ex;
-using Point = std::vector<cln::cl_RA>;
 
-constexpr int kPointTrials = 400;
 constexpr std::size_t kMaxResidualText = 2000;
-
-std::string number_text(const cln::cl_RA& value) {
-  std::ostringstream stream;
-  stream << value;
-  return stream.str();
-}
 
 std::string shortened(std::string text, std::size_t terms) {
   if (text.size() <= kMaxResidualText) return text;
   const std::size_t cut = text.rfind(' ', kMaxResidualText);
   return text.substr(0, cut) + fmt::format(" ... ({} terms)", terms);
-}
-
-/// A rational root of c0 + c1 x + c2 x^2 (higher coefficients: none is looked for).
-bool rational_root(const std::vector<cln::cl_RA>& c, cln::cl_RA* root) {
-  std::size_t degree = c.size();
-  while (degree > 0 && cln::zerop(c[degree - 1])) --degree;
-  if (degree == 2) {
-    *root = -c[0] / c[1];
-    return true;
-  }
-  if (degree != 3) return false;
-  const cln::cl_RA discriminant = c[1] * c[1] - 4 * c[2] * c[0];
-  cln::cl_RA square_root;
-  if (cln::minusp(discriminant) || !cln::sqrtp(discriminant, &square_root)) return false;
-  *root = (square_root - c[1]) / (2 * c[2]);
-  return true;
 }
 
 }  // namespace
@@ -98,7 +75,9 @@ std::vector<ex> Prover::expressions_of(const Model& model, const std::vector<ex>
 }
 
 Prover::Prover(const Model& model, const std::vector<ex>& further)
-    : model_(model), ring_(symbols_of(model), model.assumptions, expressions_of(model, further)) {
+    : model_(model),
+      ring_(symbols_of(model), model.assumptions, expressions_of(model, further)),
+      points_(model, ring_) {
   const std::size_t n = dimension();
   if (!model.poisson) {
     for (const ex& rate : model.field) field_.push_back(ring_.convert(rate));
@@ -165,6 +144,7 @@ Level Prover::level(const std::vector<NamedExpression>& on) {
   }
   result.solved = triangular_set(result.numerators, dimension());
   if (result.solved.empty()) result.basis = groebner_basis(result.numerators);
+  result.orthogonal = orthogonal_vectors(result.numerators, dimension());
   return result;
 }
 
@@ -221,7 +201,9 @@ void Prover::decide(Proof& proof, const std::vector<Residual>& residuals, const 
     // A level on which no exact point is found the first time is not searched again and again.
     constexpr int kSearches = 2;
     std::optional<Witness> found;
-    if (searches++ < kSearches || level.empty()) found = witness(residual, rest, level);
+    if (searches++ < kSearches || level.empty()) {
+      found = find_witness(model_, ring_, points_, rest, residual.by_ginac, level);
+    }
     if (!first && !found) continue;
     proof.verdict = found ? Verdict::refuted : Verdict::undecided;
     proof.residual = shortened(ring_.text(rest), rest.terms());
@@ -237,114 +219,13 @@ void Prover::decide(Proof& proof, const std::vector<Residual>& residuals, const 
   for (const Polynomial& d : ring_.denominators()) proof.nonzero.push_back(ring_.text(d));
 }
 
-cln::cl_RA Prover::draw() {
-  std::uniform_int_distribution<int> numerators(-9, 9);
-  std::uniform_int_distribution<int> denominators(1, 4);
-  const int numerator = numerators(random_);
-  return cln::cl_RA(numerator) / denominators(random_);
-}
-
-/// Moves some coordinates so that the level's functions vanish: each is solved for one variable
-/// that it contains and that no earlier one was solved for.
-bool Prover::solve_level(Point& point, const Level& level) {
-  std::vector<bool> used(dimension());
-  for (const Polynomial& f : level.numerators) {
-    std::vector<std::size_t> order(dimension());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::shuffle(order.begin(), order.end(), random_);
-    bool solved = false;
-    for (const std::size_t i : order) {
-      if (used[i] || !f.uses(i) || f.degree(i) > 2) continue;
-      std::vector<cln::cl_RA> values;
-      for (const Polynomial& c : f.coefficients(i)) values.push_back(c.evaluate(point));
-      if (!rational_root(values, &point[i])) continue;
-      used[i] = solved = true;
-      break;
-    }
-    if (!solved && !cln::zerop(f.evaluate(point))) return false;
-  }
-  return std::all_of(level.numerators.begin(), level.numerators.end(),
-                     [&](const Polynomial& f) { return cln::zerop(f.evaluate(point)); });
-}
-
-GiNaC::exmap Prover::substitution(const Point& point) const {
-  GiNaC::exmap values;
-  for (std::size_t i = 0; i < ring_.symbols().size(); ++i)
-    values[ring_.symbols()[i]] = GiNaC::numeric(point[i]);
-  return values;
-}
-
-bool Prover::inside_assumptions(const Point& point) const {
-  if (model_.assumptions.empty()) return true;
-  const GiNaC::exmap values = substitution(point);
-  return std::all_of(model_.assumptions.begin(), model_.assumptions.end(),
-                     [&](const Assumption& a) { return a.holds_at(values); });
-}
-
 std::optional<Point> Prover::random_point(const Level& level) {
-  return random_point(level, {.formal = true});
-}
-
-std::optional<Point> Prover::random_point(const Level& level,
-                                          const FunctionRing::Freedom& freedom) {
-  const int trials = level.empty() ? kPointTrials : 20 * kPointTrials;
-  for (int trial = 0; trial < trials; ++trial) {
-    Point point(ring_.ring().size(), 0);
-    for (std::size_t i = 0; i < ring_.symbols().size(); ++i) {
-      // Functions whose arguments are not plain symbols have rational values at zero at best.
-      const bool at_zero = !freedom.formal && !ring_.is_polynomial() && trial % 4 == 3;
-      point[i] = at_zero && i < dimension() && freedom.bare[i] ? 0 : draw();
-    }
-    if (!level.empty() && !solve_level(point, level)) continue;
-    if (!inside_assumptions(point)) continue;
-    if (!ring_.complete(
-            point, [this] { return draw(); }, freedom))
-      continue;
-    return point;
-  }
-  return std::nullopt;
+  return points_.completed(level, {.formal = true});
 }
 
 std::vector<std::pair<std::string, std::string>> Prover::describe(const Point& point) const {
   // The sines of a formal point are drawn; the angles to print are those that belong to them.
   return ExactPoint(ring_, point, std::vector<bool>(ring_.symbols().size())).coordinates();
-}
-
-/// A point where the residual, evaluated anew by GiNaC's own substitution, is a rational number
-/// other than zero.
-std::optional<Witness> Prover::witness(const Residual& residual, const Polynomial& numerator,
-                                       const Level& level) {
-  if (!ring_.has_value(numerator)) return std::nullopt;
-  FunctionRing::Freedom freedom{false, ring_.bare_symbols(numerator)};
-  const auto keep = [&](const ex& e) {
-    for (std::size_t i = 0; i < freedom.bare.size(); ++i) {
-      freedom.bare[i] = freedom.bare[i] || e.has(ring_.symbols()[i]);
-    }
-  };
-  for (const ex& f : level.functions) keep(f);
-  for (const Assumption& a : model_.assumptions) keep(a.difference);
-  const ex check = residual.by_ginac();
-  constexpr int kTrials = 60;
-  for (int trial = 0; trial < kTrials; ++trial) {
-    const std::optional<Point> point = random_point(level, freedom);
-    if (!point) return std::nullopt;
-    if (cln::zerop(numerator.evaluate(*point))) continue;
-    const ExactPoint exact(ring_, *point, freedom.bare);
-    ex value;
-    try {
-      value = exact.evaluate(check);
-      const bool on_level = std::all_of(level.functions.begin(), level.functions.end(),
-                                        [&](const ex& f) { return exact.evaluate(f).is_zero(); });
-      if (!on_level) continue;
-    } catch (const std::exception&) {
-      continue;  // a pole at this point
-    }
-    if (!GiNaC::is_a<GiNaC::numeric>(value) || value.is_zero()) continue;
-    const GiNaC::numeric number = GiNaC::ex_to<GiNaC::numeric>(value);
-    if (!number.is_rational()) continue;
-    return Witness{exact.coordinates(), number_text(cln::the<cln::cl_RA>(number.to_cl_N()))};
-  }
-  return std::nullopt;
 }
 
 }  // namespace casimir
