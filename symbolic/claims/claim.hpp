@@ -64,6 +64,9 @@ inline constexpr ClaimKind kClaimKinds[] = {
 Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
 /// df/dt = 0, on an invariant level if one is given (kind "conditional" then).
 Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
+/// What else can be said of a candidate: Casimir function, dependent on the known integrals,
+/// an integral on a known level.
+Claim judgement_note(const NamedExpression& f);
 /// left = right, on a level if one is given.
 Claim identity_claim(const Identity& identity);
 /// f = 0 is preserved, on the level of `on` if one is given.
