@@ -1,19 +1,11 @@
 #include "tools/proof_report.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace casimir::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string witness_text(const Witness& witness) {
-  std::string text;
-  for (const auto& [name, value] : witness.point)
-    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, value);
-  return text;
-}
 
 }  // namespace
 
@@ -76,26 +68,6 @@ std::string verdict_text(Verdict verdict, bool colour) {
   const char* code = verdict == Verdict::proved ? "32" : verdict == Verdict::refuted ? "31" : "33";
   const std::string word = fmt::format("{:<9}", to_string(verdict));
   return colour ? fmt::format("\x1b[{}m{}\x1b[0m", code, word) : word;
-}
-
-std::string to_text(const Proof& proof, bool colour) {
-  const std::string on =
-      proof.on.empty() ? "" : fmt::format("  on {} = 0", fmt::join(proof.on, " = "));
-  std::string text = fmt::format("  {} {:<18} {}{}\n", verdict_text(proof.verdict, colour),
-                                 proof.kind, proof.name, on);
-  const auto detail = [&](const std::string& line) {
-    text += fmt::format("            {}\n", line);
-  };
-  if (!proof.evidence.empty()) detail(proof.evidence);
-  if (!proof.reason.empty()) detail(proof.reason);
-  if (!proof.residual.empty()) detail("it is  " + proof.residual);
-  if (proof.witness) {
-    detail("at  " + witness_text(*proof.witness));
-    detail("its value is  " + proof.witness->value);
-  }
-  if (!proof.nonzero.empty())
-    detail(fmt::format("where {} != 0", fmt::join(proof.nonzero, " != 0, ")));
-  return text;
 }
 
 }  // namespace casimir::tools

@@ -15,9 +15,6 @@ Proof proof_from_json(const nlohmann::ordered_json& json);
 nlohmann::ordered_json to_json(const Model& model, const std::vector<Proof>& proofs,
                                double seconds);
 
-/// One line a claim, and below it what shows the verdict: witness, residual, evidence.
-std::string to_text(const Proof& proof, bool colour);
-
 /// "proved" and the others, coloured for a terminal.
 std::string verdict_text(Verdict verdict, bool colour);
 
