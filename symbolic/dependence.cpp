@@ -218,7 +218,7 @@ class Relation {
       sum += (unit ? "" : number.str() + (monomial.empty() ? "" : "*")) + monomial;
     }
     if (sum.empty()) sum = "0";
-    return solved ? text_of(only_first) + " = " + sum : sum + " = 0";
+    return solved ? names_[0] + " = " + sum : sum + " = 0";
   }
 
   Prover& prover_;

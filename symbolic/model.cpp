@@ -107,6 +107,8 @@ ModelNames names_of(const Model& model) {
   add(model.definitions);
   add(model.casimirs);
   add(model.integrals);
+  if (model.hamiltonian && names.find("H") == nullptr)
+    names.add("H", {*model.hamiltonian, 64, 8, 64});
   return names;
 }
 

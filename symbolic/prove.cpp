@@ -129,10 +129,14 @@ std::vector<Proof> prove(const Model& model, const Candidates& candidates,
   return proofs;
 }
 
+bool counts(const Model& model, const Proof& proof) {
+  return !proof.note && (!proof.fact || model.integrable);
+}
+
 Verdict overall(const Model& model, const std::vector<Proof>& proofs) {
   Verdict worst = Verdict::proved;
   for (const Proof& proof : proofs) {
-    if (proof.note || (proof.fact && !model.integrable)) continue;
+    if (!counts(model, proof)) continue;
     if (proof.verdict == Verdict::refuted) return Verdict::refuted;
     if (proof.verdict == Verdict::undecided) worst = Verdict::undecided;
   }

@@ -63,6 +63,10 @@ std::vector<Proof> prove(const Model& model, const Candidates& candidates = {},
 /// What `prove` would decide, in its order, all still undecided.
 std::vector<Proof> pending(const Model& model, const Candidates& candidates = {});
 
+/// Whether the verdict of the case depends on it: a claim, or a fact where the file claims
+/// integrability.
+bool counts(const Model& model, const Proof& proof);
+
 /// The worst verdict among the claims; facts count where the file claims integrability.
 Verdict overall(const Model& model, const std::vector<Proof>& proofs);
 

@@ -102,8 +102,10 @@ std::vector<Proof> prove_within(double seconds, const Model& model, const Candid
     }
     if (done == proofs.size()) return;
     const bool fact = proofs[done].fact;
+    const bool note = proofs[done].note;
     proofs[done] = proof_from_json(json);
     proofs[done].fact = fact;
+    proofs[done].note = note;
     if (report) report(proofs[done]);
     ++done;
   });

@@ -25,6 +25,7 @@ Json to_json(const Proof& proof) {
     witness["value"] = proof.witness->value;
     json["witness"] = witness;
   }
+  for (const Proof& finding : proof.findings) json["findings"].push_back(to_json(finding));
   return json;
 }
 
@@ -50,18 +51,48 @@ Proof proof_from_json(const Json& json) {
     witness.value = json.at("witness").at("value");
     proof.witness = std::move(witness);
   }
+  if (json.contains("findings")) {
+    for (const Json& finding : json.at("findings"))
+      proof.findings.push_back(proof_from_json(finding));
+  }
   return proof;
 }
 
 Json to_json(const Model& model, const std::vector<Proof>& proofs, double seconds) {
   Json claims = Json::array();
   Json facts = Json::array();
-  for (const Proof& proof : proofs) (proof.fact ? facts : claims).push_back(to_json(proof));
-  return {{"case", model.name},
-          {"verdict", to_string(overall(model, proofs))},
-          {"seconds", seconds},
-          {"claims", claims},
-          {"facts", facts}};
+  Json notes = Json::array();
+  for (const Proof& proof : proofs)
+    (proof.note ? notes : proof.fact ? facts : claims).push_back(to_json(proof));
+  return {{"case", model.name}, {"verdict", to_string(overall(model, proofs))},
+          {"seconds", seconds}, {"claims", claims},
+          {"facts", facts},     {"notes", notes}};
+}
+
+std::vector<std::string> judgement_lines(const Proof& note) {
+  std::vector<std::string> lines;
+  for (const Proof& finding : note.findings) {
+    const bool proved = finding.verdict == Verdict::proved;
+    const bool refuted = finding.verdict == Verdict::refuted;
+    const std::string why = finding.evidence.empty() ? "" : " (" + finding.evidence + ")";
+    if (finding.kind == "integral") {
+      lines.push_back(proved    ? "it is a first integral"
+                      : refuted ? "it is no first integral: " + finding.reason
+                                : "whether it is a first integral is undecided");
+    } else if (finding.kind == "casimir") {
+      lines.push_back(proved    ? "it is a Casimir function"
+                      : refuted ? "it is no Casimir function: " + finding.reason
+                                : "whether it is a Casimir function is undecided");
+    } else if (finding.kind == "conditional") {
+      lines.push_back(
+          fmt::format("it is an integral where {} = 0{}", fmt::join(finding.on, " = "), why));
+    } else if (finding.kind == "invariant_relation") {
+      lines.push_back("its zero level is invariant" + why);
+    } else {
+      lines.push_back(proved ? finding.evidence : finding.reason);
+    }
+  }
+  return lines;
 }
 
 std::string verdict_text(Verdict verdict, bool colour) {

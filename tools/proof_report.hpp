@@ -11,9 +11,12 @@ namespace casimir::tools {
 nlohmann::ordered_json to_json(const Proof& proof);
 Proof proof_from_json(const nlohmann::ordered_json& json);
 
-/// The interface's document for `verify`: case, verdict, seconds, claims, facts.
+/// The interface's document for `verify`: case, verdict, seconds, claims, facts, notes.
 nlohmann::ordered_json to_json(const Model& model, const std::vector<Proof>& proofs,
                                double seconds);
+
+/// The findings of a judgement in words: "it is no Casimir function: ..".
+std::vector<std::string> judgement_lines(const Proof& note);
 
 /// "proved" and the others, coloured for a terminal.
 std::string verdict_text(Verdict verdict, bool colour);

@@ -48,7 +48,7 @@ std::string Tally::text() const {
 Tally tally_of(const Model& model, const std::vector<Proof>& proofs, bool counting) {
   Tally tally;
   for (const Proof& proof : proofs) {
-    if ((!proof.fact || model.integrable) == counting) tally.add(proof.verdict);
+    if (!proof.note && counts(model, proof) == counting) tally.add(proof.verdict);
   }
   return tally;
 }
@@ -88,6 +88,21 @@ std::string ProofTable::row(const Proof& proof) const {
   for (std::size_t i = 1; i < name.size(); ++i)
     text += trimmed(line(padded("", kVerdictWidth), "", name[i], "")) + '\n';
   return text + details(proof, !beside);
+}
+
+std::string ProofTable::judgement(const Proof& note) const {
+  std::string text;
+  const std::string space(indent_ + kVerdictWidth + kGap.size(), ' ');
+  const std::size_t columns = std::max(kLeastText, width_ - std::min(width_, space.size() + 2));
+  for (const std::string& line : judgement_lines(note)) {
+    bool first = true;
+    for (const std::string& part : wrapped(line, columns)) {
+      text += space + (first ? "" : "  ") + part + '\n';
+      first = false;
+    }
+  }
+  return std::string(indent_, ' ') + padded("judged", kVerdictWidth) + kGap + note.name + '\n' +
+         text;
 }
 
 std::string ProofTable::details(const Proof& proof, bool with_evidence) const {

@@ -39,6 +39,9 @@ class ProofTable {
   /// not proved the reason, the residual and the witness.
   std::string row(const Proof& proof) const;
 
+  /// What else is known of a candidate, a line for each finding.
+  std::string judgement(const Proof& note) const;
+
  private:
   std::string line(const std::string& verdict, const std::string& kind, const std::string& name,
                    const std::string& time) const;

@@ -74,9 +74,11 @@ Proof independence_finding(Prover& prover, const NamedExpression& f) {
 std::vector<Functions> known_levels(const Model& model) {
   std::vector<Functions> levels;
   const auto add = [&](Functions level) {
-    const std::vector<std::string> names = names_of(level);
     const bool known = std::any_of(levels.begin(), levels.end(), [&](const Functions& other) {
-      return names_of(other) == names;
+      return std::equal(other.begin(), other.end(), level.begin(), level.end(),
+                        [](const NamedExpression& f, const NamedExpression& g) {
+                          return (f.value - g.value).expand().is_zero();
+                        });
     });
     if (!known && !level.empty()) levels.push_back(std::move(level));
   };
@@ -101,6 +103,10 @@ void judge(Prover& prover, Proof& note, const NamedExpression& f) {
     return;
   }
   for (const Functions& level : known_levels(prover.model())) {
+    Proof vanishing;
+    const Polynomial value = prover.ring().convert(f.value);
+    prover.decide(vanishing, {{f.name, value, [&f] { return f.value; }}}, prover.level(level));
+    if (vanishing.verdict == Verdict::proved) continue;
     const Proof on_level = finding_of(prover, integral_claim(f, level), "conditional");
     if (on_level.verdict == Verdict::proved) note.findings.push_back(on_level);
   }

@@ -110,8 +110,11 @@ class CaseTable {
       std::cout << (model_.integrable
                         ? "\nfacts, which count as claims here: the case claims integrability\n"
                         : "\nfacts about the system, which do not count\n");
+    if (proof.note && !notes_) std::cout << "\nbeside\n";
     facts_ = facts_ || proof.fact;
-    std::cout << table_.row(proof) << std::flush;
+    notes_ = notes_ || proof.note;
+    std::cout << (proof.findings.empty() ? table_.row(proof) : table_.judgement(proof))
+              << std::flush;
   }
 
   void end(const std::vector<Proof>& proofs, double seconds) const {
@@ -123,6 +126,7 @@ class CaseTable {
   ProofTable table_;
   bool begun_ = false;
   bool facts_ = false;
+  bool notes_ = false;
 };
 
 /// Proves one case; its lines appear as they are decided, unless only a summary or JSON is wanted.
@@ -142,7 +146,7 @@ Verified verify_one(const CaseFile& file, const Options& options, double time_li
   if (!options.certificate.empty()) write_certificate(model, options, verdict);
   std::vector<Proof> open;
   std::ranges::copy_if(proofs, std::back_inserter(open), [&](const Proof& proof) {
-    return proof.verdict != Verdict::proved && (!proof.fact || model.integrable);
+    return proof.verdict != Verdict::proved && counts(model, proof);
   });
   return {model.name, open, tally_of(model, proofs), verdict, to_json(model, proofs, seconds),
           seconds};
