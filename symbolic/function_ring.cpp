@@ -295,23 +295,28 @@ Polynomial FunctionRing::numerator(const Polynomial& p) const {
     const Generator& generator = generators_[g];
     const std::size_t variable = symbols_.size() + g;
     if (!result.uses(variable)) continue;
-    const std::vector<Polynomial> parts = result.coefficients(variable);
-    Polynomial reduced(*ring_);
     if (generator.kind == Kind::inverse) {
-      for (const Polynomial& part : parts)
+      Polynomial reduced(*ring_);
+      for (const Polynomial& part : result.coefficients(variable))
         reduced = checked_product(reduced, generator.base) + part;
+      result = std::move(reduced);
     } else if (generator.kind == Kind::cosine || generator.kind == Kind::root ||
                generator.kind == Kind::absolute || generator.kind == Kind::imaginary) {
-      const Polynomial x = ring_->variable(variable);
-      for (std::size_t k = parts.size(); k-- > 0;) {
-        reduced += parts[k] * generator.base.pow(k / generator.order) * x.pow(k % generator.order);
-      }
-    } else {
-      continue;
+      result = reduced_power(result, g);
     }
-    result = std::move(reduced);
   }
   return result;
+}
+
+/// `p` with the relation u^q = b of one generator used up.
+Polynomial FunctionRing::reduced_power(const Polynomial& p, std::size_t g) const {
+  const Generator& generator = generators_[g];
+  const Polynomial x = ring_->variable(symbols_.size() + g);
+  const std::vector<Polynomial> parts = p.coefficients(symbols_.size() + g);
+  Polynomial reduced(*ring_);
+  for (std::size_t k = parts.size(); k-- > 0;)
+    reduced += parts[k] * generator.base.pow(k / generator.order) * x.pow(k % generator.order);
+  return reduced;
 }
 
 }  // namespace casimir

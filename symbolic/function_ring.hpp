@@ -57,6 +57,17 @@ class FunctionRing {
   /// exactly when `p` is zero modulo the relations.
   Polynomial numerator(const Polynomial& p) const;
 
+  /// a*b. \throws TooLarge
+  Polynomial checked_product(const Polynomial& a, const Polynomial& b) const;
+
+  /// A function that is constant identically in a spectral parameter has constant coefficients:
+  /// those of its powers, and of the powers of roots that contain it, after clearing denominators
+  /// that are free of the coordinates.
+  /// \param spectral     the parameter's place among the symbols
+  /// \param coordinates  the first symbols are the coordinates
+  std::vector<Polynomial> spectral_coefficients(const Polynomial& p, std::size_t spectral,
+                                                std::size_t coordinates) const;
+
   GiNaC::ex expression(const Polynomial& p) const;
   /// p/q with both reduced by the relations and in lowest terms as polynomials.
   GiNaC::ex quotient(const Polynomial& p, const Polynomial& q) const;
@@ -128,8 +139,9 @@ class FunctionRing {
   bool complete_argument(std::size_t g, std::vector<cln::cl_RA>& point, std::vector<bool>& chosen,
                          const std::function<cln::cl_RA()>& draw, const Freedom& freedom) const;
   std::optional<std::pair<std::size_t, cln::cl_RA>> plain_symbol(const Polynomial& p) const;
+  static bool depends_on(const Generator& g, std::size_t symbol);
+  Polynomial reduced_power(const Polynomial& p, std::size_t g) const;
   std::vector<Polynomial> slopes(const Polynomial& p) const;
-  Polynomial checked_product(const Polynomial& a, const Polynomial& b) const;
   Polynomial power(const Polynomial& p, unsigned long exponent) const;
   Polynomial inverse(const Polynomial& p);
   Polynomial root(const Polynomial& p, unsigned long q);

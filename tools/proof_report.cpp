@@ -25,6 +25,7 @@ Json to_json(const Proof& proof) {
     witness["value"] = proof.witness->value;
     json["witness"] = witness;
   }
+  if (!proof.integrals.empty()) json["integrals"] = proof.integrals;
   for (const Proof& finding : proof.findings) json["findings"].push_back(to_json(finding));
   return json;
 }
@@ -51,6 +52,7 @@ Proof proof_from_json(const Json& json) {
     witness.value = json.at("witness").at("value");
     proof.witness = std::move(witness);
   }
+  proof.integrals = json.value("integrals", std::vector<std::string>{});
   if (json.contains("findings")) {
     for (const Json& finding : json.at("findings"))
       proof.findings.push_back(proof_from_json(finding));

@@ -120,6 +120,7 @@ std::string ProofTable::details(const Proof& proof, bool with_evidence) const {
     }
   };
   if (with_evidence && !proof.evidence.empty()) detail("", proof.evidence);
+  for (const std::string& integral : proof.integrals) detail("gives", integral);
   if (!proof.reason.empty()) detail("reason", proof.reason);
   if (!proof.residual.empty()) detail("residual", proof.residual);
   if (proof.witness) {
