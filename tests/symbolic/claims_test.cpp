@@ -1,0 +1,182 @@
+// For each kind of claim one that holds and one that does not, by one sign, term or function.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "symbolic/prove.hpp"
+#include "tests/symbolic/cases.hpp"
+
+namespace casimir::test {
+namespace {
+
+const std::string kE3 =
+    "[phase_space]\nvariables = [\"M1\",\"M2\",\"M3\",\"g1\",\"g2\",\"g3\"]\nalgebra = \"e(3)\"\n";
+const std::string kEuler =
+    "hamiltonian = \"(a1*M1^2 + a2*M2^2 + a3*M3^2)/2\"\n[parameters]\na1 = {}\na2 = {}\na3 = {}\n";
+const std::string kSo3 = "[phase_space]\nvariables = [\"M1\",\"M2\",\"M3\"]\nalgebra = \"so(3)\"\n";
+
+/// The proof of that kind and name; the first of the kind where no name is given.
+Proof proof_of(const Model& model, const std::string& kind, const std::string& name = "") {
+  for (const Proof& proof : prove(model)) {
+    if (proof.kind == kind && (name.empty() || proof.name == name)) return proof;
+  }
+  ADD_FAILURE() << "no claim of the kind " << kind << ' ' << name;
+  return {};
+}
+
+struct Twins {
+  const char* kind;
+  std::string good, bad;
+};
+
+void PrintTo(const Twins& twins, std::ostream* stream) { *stream << twins.kind; }
+
+class ClaimKind : public testing::TestWithParam<Twins> {};
+
+TEST_P(ClaimKind, HoldsAndItsTwinIsRefutedByAWitness) {
+  const auto& [kind, good, bad] = GetParam();
+  const Proof proved = proof_of(model_of(good), kind);
+  EXPECT_EQ(proved.verdict, Verdict::proved) << proved.reason << ' ' << proved.residual;
+  const Proof refuted = proof_of(model_of(bad), kind);
+  ASSERT_EQ(refuted.verdict, Verdict::refuted) << refuted.reason << ' ' << refuted.residual;
+  const std::string kind_name = kind;
+  if (kind_name == "independence" || kind_name == "liouville") {
+    EXPECT_FALSE(refuted.reason.empty());
+    return;
+  }
+  ASSERT_TRUE(refuted.witness.has_value());
+  EXPECT_FALSE(refuted.witness->point.empty());
+  EXPECT_NE(refuted.witness->value, "0");
+}
+
+std::vector<Twins> twins() {
+  const std::string brackets =
+      "hamiltonian = \"M1\"\n[phase_space]\nvariables = [\"M1\",\"M2\",\"M3\"]\n"
+      "[phase_space.brackets]\n\"M1,M3\" = \"M2\"\n\"M2,M3\" = \"-M1\"\n";
+  const std::string goryachev = "hamiltonian = \"(M1^2 + M2^2 + 4*M3^2)/2 - r*g1\"\n" + kE3 +
+                                "[parameters]\nr = {}\n[[conditional]]\nname = \"G\"\n"
+                                "on = [\"M1*g1 + M2*g2 + M3*g3\"]\n";
+  const std::string hess = "hamiltonian = \"(M1^2 + M2^2 + 2*M3^2)/2 - r*g1\"\n" + kE3 +
+                           "[parameters]\nr = {}\n[[invariant_relation]]\nname = \"delaunay\"\n"
+                           "on = [\"M1*M2 + r*g2\"]\n";
+  const std::string lax_head = kEuler + kSo3 +
+                               "[[lax]]\nL = [[\"0\",\"M3\",\"-M2\"],[\"-M3\",\"0\",\"M1\"],"
+                               "[\"M2\",\"-M1\",\"0\"]]\n";
+  const std::string map_head = "hamiltonian = \"0\"\n" + kE3 +
+                               "[[map]]\nname = \"shift\"\nto = \"e(3)\"\nexpressions = { M1 = "
+                               "\"M1 - c*g2\", ";
+  const std::string map_rest =
+      ", M3 = \"M3\", g1 = \"g1\", g2 = \"g2\", g3 = \"g3\" }\n[parameters]\nc = {}\n";
+  const std::string two =
+      "hamiltonian = \"a11*M1^2/2 + a22*M2^2/2 + a12*M1*M2\"\n[phase_space]\n"
+      "variables = [\"M1\",\"M2\"]\nstructure_constants = { \"M1,M2\" = \"M1\" "
+      "}\n[parameters]\na11 = {}\na22 = {}\na12 = {}\n";
+  return {
+      {"jacobi", brackets + "\"M1,M2\" = \"-M3\"\n", brackets + "\"M1,M2\" = \"M1^2 - M3\"\n"},
+      {"casimir", kEuler + kSo3 + "[casimirs]\nF = \"M1^2 + M2^2 + M3^2\"\n",
+       kEuler + kSo3 + "[casimirs]\nF = \"M1^2 + M2^2 - M3^2\"\n"},
+      {"integral", kEuler + kSo3 + "[integrals]\nF = \"a1*M1^2 + a2*M2^2 + a3*M3^2\"\n",
+       kEuler + kSo3 + "[integrals]\nF = \"a1*M1^2 + a2*M2^2 + a2*M3^2\"\n"},
+      {"conditional", goryachev + "expression = \"M3*(M1^2 + M2^2) + r*M1*g3\"\n",
+       goryachev + "expression = \"M3*(M1^2 + M2^2) + r*M1*g2\"\n"},
+      {"invariant_relation", hess + "expression = \"M1^2 - M2^2 + 2*r*g1\"\n",
+       hess + "expression = \"M1^2 + M2^2 + 2*r*g1\"\n"},
+      {"lax",
+       lax_head + "A = [[\"0\",\"-a3*M3\",\"a2*M2\"],[\"a3*M3\",\"0\",\"-a1*M1\"],[\"-a2*M2\","
+                  "\"a1*M1\",\"0\"]]\n",
+       lax_head + "A = [[\"0\",\"-a3*M3\",\"a2*M2\"],[\"a3*M3\",\"0\",\"-a1*M1\"],[\"-a2*M2\","
+                  "\"a3*M1\",\"0\"]]\n"},
+      {"map", map_head + "M2 = \"M2 + c*g1\"" + map_rest,
+       map_head + "M2 = \"M2 - c*g1\"" + map_rest},
+      {"measure", two + "[[measure]]\ndensity = \"1/M1\"\n",
+       two + "[[measure]]\ndensity = \"1\"\n"},
+      {"involution", kEuler + kSo3 + "[integrals]\nF = \"M1^2 + M2^2 + M3^2\"\nG = \"M1\"\n",
+       kEuler + kSo3 + "[integrals]\nF = \"M2\"\nG = \"M1\"\n"},
+      {"independence", kEuler + kSo3 + "[casimirs]\nF = \"M1^2 + M2^2 + M3^2\"\n",
+       kEuler + kSo3 + "[casimirs]\nF = \"M1^2 + M2^2 + M3^2\"\nG = \"(M1^2 + M2^2 + M3^2)^2\"\n"},
+      {"identity",
+       kEuler + kSo3 +
+           "[[identity]]\nname = \"J\"\nleft = \"{M1, {M2, M3}} + {M2, {M3, "
+           "M1}}\"\nright = \"-{M3, {M1, M2}}\"\n",
+       kEuler + kSo3 + "[[identity]]\nname = \"J\"\nleft = \"{M1, M2}\"\nright = \"M3\"\n"},
+  };
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, ClaimKind, testing::ValuesIn(twins()),
+                         [](const auto& twins) { return std::string(twins.param.kind); });
+
+TEST(Claims, LiouvilleNamesWhatIsMissing) {
+  const std::string lagrange = "hamiltonian = \"(M1^2 + M2^2 + 2*M3^2)/2 - g3\"\n" + kE3;
+  const Proof missing = proof_of(model_of(lagrange), "liouville");
+  EXPECT_EQ(missing.verdict, Verdict::undecided);
+  EXPECT_NE(missing.reason.find("need 2 independent integrals in involution; 1 known"),
+            std::string::npos)
+      << missing.reason;
+  const Proof found = proof_of(model_of(lagrange + "[integrals]\nL = \"M3\"\n"), "liouville");
+  EXPECT_EQ(found.verdict, Verdict::proved) << found.reason;
+}
+
+TEST(Claims, AntiPoissonMapNeedsItsSign) {
+  const std::string head = "hamiltonian = \"0\"\n" + kSo3 +
+                           "[[map]]\nname = \"minus\"\nto = \"so(3)\"\nexpressions = { M1 = "
+                           "\"-M1\", M2 = \"-M2\", M3 = \"-M3\" }\n";
+  EXPECT_EQ(proof_of(model_of(head + "sign = \"-\"\n"), "map").verdict, Verdict::proved);
+  EXPECT_EQ(proof_of(model_of(head + "sign = \"+\"\n"), "map").verdict, Verdict::refuted);
+}
+
+TEST(Claims, MapOnALevelHoldsThereOnly) {
+  // Directions of a rotation: {N1, N2} = N3 needs ga = al x be.
+  const std::string head =
+      "hamiltonian = \"0\"\n[phase_space]\nvariables = [\"M1\",\"M2\",\"M3\",\"a1\",\"a2\",\"a3\","
+      "\"b1\",\"b2\",\"b3\",\"c1\",\"c2\",\"c3\"]\nalgebra = \"so(3)+3*R3\"\n[[map]]\nname = "
+      "\"N\"\nto "
+      "= \"so(3)\"\nsign = \"-\"\nexpressions = { M1 = \"M1*a1 + M2*a2 + M3*a3\", M2 = \"M1*b1 + "
+      "M2*b2 + M3*b3\", M3 = \"M1*c1 + M2*c2 + M3*c3\" }\n";
+  const std::string level =
+      "on = [\"a2*b3 - a3*b2 - c1\", \"a3*b1 - a1*b3 - c2\", \"a1*b2 - a2*b1 - c3\", "
+      "\"b2*c3 - b3*c2 - a1\", \"b3*c1 - b1*c3 - a2\", \"b1*c2 - b2*c1 - a3\", "
+      "\"c2*a3 - c3*a2 - b1\", \"c3*a1 - c1*a3 - b2\", \"c1*a2 - c2*a1 - b3\"]\n";
+  EXPECT_EQ(proof_of(model_of(head + level), "map").verdict, Verdict::proved);
+  EXPECT_EQ(proof_of(model_of(head), "map").verdict, Verdict::refuted);
+}
+
+TEST(Claims, LaxPairGivesItsIntegralsIdenticallyInTheSpectralParameter) {
+  // Manakov's pair for so(3): L = M + lambda J^2, A = w + lambda J.
+  const std::string pair =
+      "hamiltonian = \"(M1^2/(j2 + j3) + M2^2/(j1 + j3) + M3^2/(j1 + j2))/2\"\n" + kSo3 +
+      "[parameters]\nj1 = {}\nj2 = {}\nj3 = {}\n[casimirs]\nF = \"M1^2 + M2^2 + M3^2\"\n"
+      "[[lax]]\nspectral = \"z\"\nL = [[\"z*j1^2\",\"M3\",\"-M2\"],[\"-M3\",\"z*j2^2\",\"M1\"],"
+      "[\"M2\",\"-M1\",\"z*j3^2\"]]\nA = [[\"-z*j1\",\"-M3/(j1 + j2)\",\"M2/(j1 + j3)\"],"
+      "[\"M3/(j1 + j2)\",\"-z*j2\",\"-M1/(j2 + j3)\"],[\"-M2/(j1 + j3)\",\"M1/(j2 + "
+      "j3)\",\"-z*j3\"]]\n";
+  const Proof proof = proof_of(model_of(pair), "lax");
+  ASSERT_EQ(proof.verdict, Verdict::proved) << proof.residual;
+  ASSERT_EQ(proof.integrals.size(), 2U);
+  EXPECT_EQ(proof.integrals[0], "M1^2 + M2^2 + M3^2");
+  EXPECT_EQ(proof.integrals[1], "M1^2*j1^2 + M2^2*j2^2 + M3^2*j3^2");
+  EXPECT_NE(proof.evidence.find("all follow from the known ones"), std::string::npos);
+}
+
+TEST(Claims, UnimodularityOfAnAlgebraIsANote) {
+  const Proof yes = proof_of(euler_with(""), "measure", "unimodular algebra");
+  EXPECT_TRUE(yes.note);
+  EXPECT_EQ(yes.verdict, Verdict::proved);
+  const Model model = model_of(
+      "hamiltonian = \"M1^2 + M2^2\"\n[phase_space]\nvariables = "
+      "[\"M1\",\"M2\"]\nstructure_constants = { \"M1,M2\" = \"M1\" }\n");
+  EXPECT_EQ(proof_of(model, "measure", "unimodular algebra").verdict, Verdict::refuted);
+  EXPECT_EQ(overall(model, prove(model)), Verdict::proved) << "a note must not count";
+}
+
+TEST(Claims, TimeDependentIntegralNeedsItsExplicitDerivative) {
+  const std::string head =
+      "hamiltonian = \"p^2/2 + q*t\"\n[phase_space]\nvariables = [\"q\",\"p\"]\ncanonical = "
+      "true\ntime = \"t\"\n[integrals]\n";
+  EXPECT_EQ(proof_of(model_of(head + "F = \"p + t^2/2\"\n"), "integral").verdict, Verdict::proved);
+  EXPECT_EQ(proof_of(model_of(head + "F = \"p + t^2\"\n"), "integral").verdict, Verdict::refuted);
+  EXPECT_EQ(proof_of(model_of(head + "F = \"p^2/2 + q*t\"\n"), "integral").verdict,
+            Verdict::refuted);
+}
+
+}  // namespace
+}  // namespace casimir::test

@@ -1,0 +1,90 @@
+// What `verify` says of a candidate beyond the claim itself.
+#include <gtest/gtest.h>
+
+#include "symbolic/prove.hpp"
+#include "tests/symbolic/cases.hpp"
+
+namespace casimir::test {
+namespace {
+
+Model goryachev_chaplygin() {
+  return model_of(
+      "hamiltonian = \"(M1^2 + M2^2 + 4*M3^2)/2 - r*g1\"\n[phase_space]\nvariables = "
+      "[\"M1\",\"M2\",\"M3\",\"g1\",\"g2\",\"g3\"]\nalgebra = \"e(3)\"\n[parameters]\nr = {}\n"
+      "[casimirs]\nF1 = \"g1^2 + g2^2 + g3^2\"\nF2 = \"M1*g1 + M2*g2 + M3*g3\"\n");
+}
+
+Proof judgement(const Model& model, const std::string& f) {
+  Candidates candidates;
+  candidates.integrals = {{f, {"--integral", 1, 1}, f}};
+  const std::vector<Proof> proofs = prove(model, candidates);
+  EXPECT_EQ(proofs.size(), 2U);
+  EXPECT_EQ(proofs.back().kind, "judgement");
+  EXPECT_TRUE(proofs.back().note);
+  return proofs.back();
+}
+
+const Proof* finding(const Proof& judgement, const std::string& kind) {
+  for (const Proof& proof : judgement.findings) {
+    if (proof.kind == kind) return &proof;
+  }
+  return nullptr;
+}
+
+TEST(Judgement, DependentCandidateComesWithItsRelation) {
+  const Proof note = judgement(goryachev_chaplygin(), "3*H^2 - r^2*F1 + F2/2");
+  const Proof* dependence = finding(note, "independence");
+  ASSERT_NE(dependence, nullptr);
+  EXPECT_EQ(dependence->verdict, Verdict::refuted);
+  EXPECT_NE(dependence->reason.find("= 1/2*F2 + 3*H^2 - F1*r^2"), std::string::npos)
+      << dependence->reason;
+}
+
+TEST(Judgement, AlgebraicDependenceIsFoundToo) {
+  const Proof* dependence = nullptr;
+  const Proof note = judgement(goryachev_chaplygin(), "H*sqrt(F1)");
+  dependence = finding(note, "independence");
+  ASSERT_NE(dependence, nullptr);
+  EXPECT_EQ(dependence->verdict, Verdict::refuted);
+  EXPECT_NE(dependence->reason.find("(H*sqrt(F1))^2 - F1*H^2 = 0"), std::string::npos)
+      << dependence->reason;
+}
+
+TEST(Judgement, IndependentIntegralIsSaidToBeOne) {
+  const Model lagrange = model_of(
+      "hamiltonian = \"(M1^2 + M2^2 + 2*M3^2)/2 - g3\"\n[phase_space]\nvariables = "
+      "[\"M1\",\"M2\",\"M3\",\"g1\",\"g2\",\"g3\"]\nalgebra = \"e(3)\"\n");
+  const Proof note = judgement(lagrange, "M3");
+  const Proof* dependence = finding(note, "independence");
+  ASSERT_NE(dependence, nullptr);
+  EXPECT_EQ(dependence->verdict, Verdict::proved);
+  const Proof* casimir = finding(note, "casimir");
+  ASSERT_NE(casimir, nullptr);
+  EXPECT_EQ(casimir->verdict, Verdict::refuted);
+}
+
+TEST(Judgement, CasimirIsRecognised) {
+  const Proof note = judgement(goryachev_chaplygin(), "F1*F2");
+  const Proof* casimir = finding(note, "casimir");
+  ASSERT_NE(casimir, nullptr);
+  EXPECT_EQ(casimir->verdict, Verdict::proved);
+}
+
+TEST(Judgement, IntegralOnAKnownLevelIsFound) {
+  const Proof note = judgement(goryachev_chaplygin(), "M3*(M1^2 + M2^2) + r*M1*g3");
+  EXPECT_EQ(finding(note, "integral")->verdict, Verdict::refuted);
+  const Proof* on_level = finding(note, "conditional");
+  ASSERT_NE(on_level, nullptr);
+  EXPECT_EQ(on_level->on, std::vector<std::string>{"F2"});
+  // The twin: with another sign it is an integral nowhere.
+  EXPECT_EQ(finding(judgement(goryachev_chaplygin(), "M3*(M1^2 + M2^2) - r*M1*g3"), "conditional"),
+            nullptr);
+}
+
+TEST(Judgement, ConstantIsSaidToBeOne) {
+  const Proof note = judgement(goryachev_chaplygin(), "r^2 + 1");
+  EXPECT_EQ(finding(note, "independence")->reason, "it is a constant");
+}
+
+}  // namespace
+}  // namespace casimir::test
