@@ -64,6 +64,17 @@ TEST(CertificateOf, FalseClaimIsNotWritten) {
   EXPECT_EQ(folder.files(), 0U);
 }
 
+TEST(CertificateOf, ProvedClaimsOfOtherKindsAreSaidToBeLeftOut) {
+  const Folder folder;
+  const Outcome outcome =
+      run_in(folder, {"verify", "euler", "--casimir", "M1^2 + M2^2 + M3^2", "--identity",
+                      "{M1, M2} = -M3", "--certificate", "part.v"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.err.find("not in the certificate: identity {M1, M2} = -M3"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(coqc(folder, "part.v"), 0);
+}
+
 TEST(CertificateOf, WhatIsNotCoveredIsRefused) {
   const Folder folder;
   const Outcome outcome =

@@ -90,10 +90,12 @@ void write_certificate(const Model& model, const Options& options, Verdict verdi
     std::cerr << "casimir: no certificate was written: not every claim is proved\n";
     return;
   }
-  const std::string text = coq_certificate(model, candidates_of(options));
+  const Certificate certificate = coq_certificate(model, candidates_of(options));
   OutputFile file(options.certificate);
-  file.stream() << text;
+  file.stream() << certificate.text;
   file.commit();
+  for (const std::string& claim : certificate.left_out)
+    std::cerr << "casimir: proved, but not in the certificate: " << printable(claim) << '\n';
 }
 
 /// Prints the table of one case, row by row as the verdicts come.
