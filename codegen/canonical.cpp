@@ -78,7 +78,15 @@ cln::cl_I divide_out_powers(cln::cl_I& integer, const cln::cl_I& q) {
 
 }  // namespace
 
-Dag::Dag(std::vector<GiNaC::symbol> symbols, std::size_t coordinates) : coordinates_(coordinates) {
+Dag::Dag(std::vector<GiNaC::symbol> symbols, std::size_t coordinates)
+    : Dag(symbols, [&] {
+        std::vector<int> degrees(symbols.size());
+        std::fill_n(degrees.begin(), std::min(coordinates, symbols.size()), 1);
+        return degrees;
+      }()) {}
+
+Dag::Dag(std::vector<GiNaC::symbol> symbols, std::vector<int> degrees)
+    : degrees_(std::move(degrees)) {
   nodes_.emplace_back();
   for (std::size_t i = 0; i < symbols.size(); ++i) {
     names_.push_back(symbols[i].get_name());
@@ -104,6 +112,16 @@ bool Dag::contains(const Scaled& expression, int symbol) const {
     for (const Factor& f : node.factors) open.push_back(f.node);
   }
   return false;
+}
+
+bool Dag::free_of_coordinates(NodeId id) const {
+  const Node& node = (*this)[id];
+  if (node.kind == NodeKind::symbol) return degrees_[static_cast<std::size_t>(node.symbol)] == 0;
+  return node.constant ||
+         (std::ranges::all_of(node.terms,
+                              [this](const Scaled& t) { return free_of_coordinates(t.node); }) &&
+          std::ranges::all_of(node.factors,
+                              [this](const Factor& f) { return free_of_coordinates(f.node); }));
 }
 
 // ------------------------------------------------------------------------------------ conversion
@@ -338,7 +356,7 @@ NodeId Dag::intern(Node node) {
   }
   node.constant = node.kind != NodeKind::symbol;
   if (node.kind == NodeKind::symbol) {
-    node.degree = static_cast<std::size_t>(node.symbol) < coordinates_ ? 1 : 0;
+    node.degree = degrees_[static_cast<std::size_t>(node.symbol)];
   }
   for (std::size_t i = 0; i < node.terms.size(); ++i) {
     const Node& inner = (*this)[node.terms[i].node];

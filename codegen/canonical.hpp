@@ -4,6 +4,7 @@
 #include <ginac/ginac.h>
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 #include <unordered_map>
@@ -63,6 +64,11 @@ class Dag {
   /// \param coordinates  how many of them, from the first, count for the degree of a term.
   Dag(std::vector<GiNaC::symbol> symbols, std::size_t coordinates);
 
+  /// \param degrees  one for each symbol: what it adds to the degree of a term. A symbol of degree
+  /// 0
+  ///                 is a parameter.
+  Dag(std::vector<GiNaC::symbol> symbols, std::vector<int> degrees);
+
   /// \throws ModelError  for unknown symbols and functions, for numbers that are not real and
   ///                     exact, and for divisions by zero; the text names them.
   Scaled convert(const GiNaC::ex& expression);
@@ -82,12 +88,16 @@ class Dag {
   /// The expression in the notation of case files, e.g. "M1^2/2 - r*g1".
   std::string text(const Scaled& expression) const;
 
-  /// The same for LaTeX in mathematical mode, e.g. "\frac{1}{2} M_{1}^{2} - r g_{1}".
-  std::string latex(const Scaled& expression) const;
+  /// The same for LaTeX in mathematical mode, e.g. "\frac{1}{2} M_{1}^{2} - r g_{1}": parameters
+  /// before coordinates. `typeset` makes LaTeX of the name of a symbol; without it `latex_name`.
+  std::string latex(const Scaled& expression,
+                    const std::function<std::string(const std::string&)>& typeset = {}) const;
 
   const std::string& symbol_name(int symbol) const;
   /// Whether the symbol of that index occurs in the expression.
   bool contains(const Scaled& expression, int symbol) const;
+  /// Whether every symbol in it is a parameter.
+  bool free_of_coordinates(NodeId id) const;
 
  private:
   Scaled convert_new(const GiNaC::ex& expression);
@@ -103,7 +113,7 @@ class Dag {
   std::vector<Factor> factors_of(NodeId id) const;
 
   std::vector<std::string> names_;
-  std::size_t coordinates_;
+  std::vector<int> degrees_;
   std::map<GiNaC::ex, int, GiNaC::ex_is_less> ranks_;
   std::map<GiNaC::ex, Scaled, GiNaC::ex_is_less> converted_;
   std::vector<Node> nodes_;

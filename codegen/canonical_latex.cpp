@@ -2,6 +2,7 @@
 #include <cln/integer_io.h>
 #include <cln/rational_io.h>
 
+#include <algorithm>
 #include <set>
 #include <sstream>
 
@@ -39,7 +40,8 @@ const char* function_name(Op op) {
 
 class Typesetter {
  public:
-  explicit Typesetter(const Dag& dag) : dag_(dag) {}
+  using Names = std::function<std::string(const std::string&)>;
+  Typesetter(const Dag& dag, const Names& names) : dag_(dag), names_(names) {}
 
   std::string scaled(const Scaled& e) const {
     if (e.node != Dag::kOne && dag_[e.node].kind == NodeKind::sum) {
@@ -75,17 +77,25 @@ class Typesetter {
     std::string result;
     for (const Scaled& t : terms) {
       const cln::cl_RA c = t.coefficient * factor;
-      if (result.empty()) result = sign(c);
-      else result += cln::minusp(c) ? " - " : " + ";
+      if (result.empty())
+        result = sign(c);
+      else
+        result += cln::minusp(c) ? " - " : " + ";
       result += term({cln::abs(c), t.node});
     }
     return result;
   }
 
+  std::vector<Factor> parameters_first(std::vector<Factor> factors) const {
+    std::stable_partition(factors.begin(), factors.end(),
+                          [this](const Factor& f) { return dag_.free_of_coordinates(f.node); });
+    return factors;
+  }
+
   std::string product(const std::vector<Factor>& factors, const cln::cl_RA& coefficient) const {
     std::string above;
     std::string below;
-    for (const Factor& f : factors) {
+    for (const Factor& f : parameters_first(factors)) {
       std::string& place = cln::minusp(f.exponent) ? below : above;
       if (!place.empty()) place += " ";
       place += power(dag_[f.node], cln::abs(f.exponent));
@@ -113,7 +123,8 @@ class Typesetter {
   std::string atom(const Node& node) const {
     switch (node.kind) {
       case NodeKind::symbol:
-        return latex_name(dag_.symbol_name(node.symbol));
+        return names_ ? names_(dag_.symbol_name(node.symbol))
+                      : latex_name(dag_.symbol_name(node.symbol));
       case NodeKind::pi:
         return "\\pi";
       case NodeKind::number:
@@ -132,6 +143,7 @@ class Typesetter {
   }
 
   const Dag& dag_;
+  const Names& names_;
 };
 
 /// A part of a name: a Greek letter, one letter, or a word set upright.
@@ -166,8 +178,9 @@ std::string latex_name(const std::string& name) {
   return index.empty() ? head : head + "_{" + index + "}";
 }
 
-std::string Dag::latex(const Scaled& expression) const {
-  return Typesetter(*this).scaled(expression);
+std::string Dag::latex(const Scaled& expression,
+                       const std::function<std::string(const std::string&)>& typeset) const {
+  return Typesetter(*this, typeset).scaled(expression);
 }
 
 }  // namespace casimir::codegen
