@@ -24,6 +24,14 @@ std::string head(const std::string& name) {
   return name.substr(0, name.find_last_not_of("0123456789_") + 1);
 }
 
+/// A phrase beside a coefficient: in brackets if it is a vector product or a gradient.
+std::string as_factor(const std::string& phrase) {
+  const bool enclosed = phrase.front() == '(' && phrase.back() == ')';
+  const bool compound =
+      phrase.find(" x ") != std::string::npos || phrase.find('/') != std::string::npos;
+  return compound && !enclosed ? "(" + phrase + ")" : phrase;
+}
+
 std::string bold(const std::string& letters) {
   if (letters.size() == 1) return "\\boldsymbol " + letters;
   const bool command =
@@ -158,7 +166,7 @@ std::string Notation::combination(const std::vector<std::pair<ex, Phrase>>& term
       term = dag.text(product);
       const bool alone = term == kPhrase || term == "-" + kPhrase;
       term.replace(term.find(kPhrase), kPhrase.size(),
-                   alone ? phrase.text : "(" + phrase.text + ")");
+                   alone ? phrase.text : as_factor(phrase.text));
     }
     if (sum.empty())
       sum = term;

@@ -11,6 +11,35 @@ namespace {
 
 using GiNaC::ex;
 
+/// A polynomial in the parameters with their common powers taken out: a1*s*(a2 - a3).
+ex without_common_powers(const ex& sum, const std::vector<GiNaC::symbol>& parameters) {
+  ex common = 1;
+  for (const GiNaC::symbol& p : parameters) {
+    if (!sum.is_polynomial(p)) return sum;
+    common *= GiNaC::pow(p, sum.ldegree(p));
+  }
+  return common * (sum / common).expand();
+}
+
+/// The right side of an equation as a sum over the monomials in the variables, each once.
+ex grouped(const ex& field, const Model& model) {
+  const ex expanded = field.expand();
+  for (const GiNaC::symbol& x : model.variables) {
+    if (!expanded.is_polynomial(x)) return expanded;
+  }
+  GiNaC::exmap coefficients;
+  const ex terms = GiNaC::is_a<GiNaC::add>(expanded) ? expanded : GiNaC::lst{expanded};
+  for (const ex& term : terms) {
+    ex monomial = 1;
+    for (const GiNaC::symbol& x : model.variables) monomial *= GiNaC::pow(x, term.degree(x));
+    coefficients[monomial] += term / monomial;
+  }
+  ex sum = 0;
+  for (const auto& [monomial, coefficient] : coefficients)
+    sum += without_common_powers(coefficient, model.parameters) * monomial;
+  return sum;
+}
+
 /// Writes the parts of the view in one markup.
 class Writer {
  public:
@@ -99,7 +128,8 @@ void Writer::add_vector_brackets(SystemView& view) const {
 
 std::string Writer::rate(const std::string& letter) const {
   if (!latex()) return "d" + letter + "/dt";
-  const std::size_t index = letter.find('_');
+  const bool vector = letter.starts_with("\\boldsymbol");
+  const std::size_t index = vector ? std::string::npos : letter.find('_');
   return "\\dot{" + letter.substr(0, index) + "}" +
          (index == std::string::npos ? "" : letter.substr(index));
 }
@@ -108,7 +138,7 @@ void Writer::add_motion(SystemView& view) const {
   if (model_.hamiltonian) view.hamiltonian = notation_.expression(*model_.hamiltonian, markup_);
   for (std::size_t i = 0; i < model_.variables.size(); ++i) {
     view.equations.push_back(
-        {rate(view.variables[i]), notation_.components(model_.field[i].expand(), markup_)});
+        {rate(view.variables[i]), notation_.components(grouped(model_.field[i], model_), markup_)});
   }
 }
 
@@ -133,7 +163,7 @@ Phrase Writer::flow_phrase(std::size_t target, const FlowTerm& term) const {
             "\\left(" + latex + ", " + slope.latex + "\\right)"};
   }
   if (!block(term.gradient).is_vector())
-    return {slope.text + " " + text, slope.latex + " " + latex};
+    return {"(" + slope.text + ") " + text, slope.latex + " " + latex};
   return {text + " x " + slope.text, latex + " \\times " + slope.latex};
 }
 

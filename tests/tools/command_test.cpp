@@ -38,26 +38,6 @@ TEST(List, CasesOfAFolderInTheEnvironmentComeFirst) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
 }
 
-TEST(Show, PrintsBracketsHamiltonianAndEquations) {
-  const Outcome text = run({"show", "kovalevskaya"});
-  EXPECT_EQ(text.status, 0);
-  EXPECT_NE(text.out.find("{M1,M2} = -M3"), std::string::npos) << text.out;
-  EXPECT_NE(text.out.find("dM1/dt = M2*M3"), std::string::npos) << text.out;
-  EXPECT_NE(text.out.find("rank 4"), std::string::npos);
-  const Outcome latex = run({"show", "kovalevskaya", "--format", "latex"});
-  EXPECT_EQ(latex.status, 0);
-  EXPECT_NE(latex.out.find("\\dot{M}_{1} &= M_{2} M_{3}"), std::string::npos) << latex.out;
-  EXPECT_NE(latex.out.find("\\dot{M}_{2} &= -M_{1} M_{3} - g_{3} r"), std::string::npos)
-      << latex.out;
-  EXPECT_EQ(run({"show", "kovalevskaya", "--format", "json"}).json(),
-            run({"show", "kovalevskaya", "--json"}).json());
-}
-
-TEST(Show, IsTheSameInEveryRun) {
-  const std::string first = run({"show", "clebsch"}).out;
-  for (int k = 0; k < 5; ++k) EXPECT_EQ(run({"show", "clebsch"}).out, first);
-}
-
 TEST(Verify, ExitStatusFollowsTheVerdict) {
   EXPECT_EQ(run({"verify", "kovalevskaya", "--quiet"}).status, 0);
   EXPECT_EQ(run({"verify", "kovalevskaya", "--integral", "M1"}).status, 1);
