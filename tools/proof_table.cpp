@@ -57,6 +57,7 @@ ProofTable::ProofTable(const std::vector<Proof>& rows, std::size_t width, bool c
                        std::size_t indent)
     : width_(width), indent_(indent), kind_width_(5), name_width_(4), colour_(colour) {
   for (const Proof& proof : rows) {
+    if (proof.kind == "judgement") continue;  // lines of findings, not a row
     kind_width_ = std::max(kind_width_, display_width(proof.kind));
     name_width_ = std::max(name_width_, display_width(name_of(proof)));
   }
@@ -101,8 +102,12 @@ std::string ProofTable::judgement(const Proof& note) const {
       first = false;
     }
   }
-  return std::string(indent_, ' ') + padded("judged", kVerdictWidth) + kGap + note.name + '\n' +
-         text;
+  std::string head;
+  for (const std::string& part : wrapped(note.name, columns)) {
+    head += std::string(indent_, ' ') + padded(head.empty() ? "judged" : "", kVerdictWidth) + kGap +
+            part + '\n';
+  }
+  return head + text;
 }
 
 std::string ProofTable::details(const Proof& proof, bool with_evidence) const {
