@@ -21,11 +21,10 @@ ex without_common_powers(const ex& sum, const std::vector<GiNaC::symbol>& parame
   return common * (sum / common).expand();
 }
 
-/// The right side of an equation as a sum over the monomials in the variables, each once.
-ex grouped(const ex& field, const Model& model) {
-  const ex expanded = field.expand();
+/// A polynomial as a sum over the monomials in the variables, each once; none for other functions.
+std::optional<ex> grouped(const ex& expanded, const Model& model) {
   for (const GiNaC::symbol& x : model.variables) {
-    if (!expanded.is_polynomial(x)) return expanded;
+    if (!expanded.is_polynomial(x)) return std::nullopt;
   }
   GiNaC::exmap coefficients;
   const ex terms = GiNaC::is_a<GiNaC::add>(expanded) ? expanded : GiNaC::lst{expanded};
@@ -68,6 +67,7 @@ class Writer {
   Phrase gradient(std::size_t i) const;
   Phrase flow_phrase(std::size_t target, const FlowTerm& term) const;
   bool has_gradient(std::size_t i) const;
+  ex readable(const ex& field) const;
   std::string claim_name(const std::string& name) const;
   std::vector<std::string> expressions(const std::vector<NamedExpression>& list) const;
   Formula named(const NamedExpression& f) const {
@@ -134,11 +134,20 @@ std::string Writer::rate(const std::string& letter) const {
          (index == std::string::npos ? "" : letter.substr(index));
 }
 
+/// The right side of an equation as it is best read: a polynomial by its monomials, any other
+/// function in the shorter of two forms.
+ex Writer::readable(const ex& field) const {
+  const ex expanded = field.expand();
+  if (const auto polynomial = grouped(expanded, model_)) return *polynomial;
+  const auto length = [&](const ex& e) { return notation_.components(e, Markup::text).size(); };
+  return length(field) < length(expanded) ? field : expanded;
+}
+
 void Writer::add_motion(SystemView& view) const {
   if (model_.hamiltonian) view.hamiltonian = notation_.expression(*model_.hamiltonian, markup_);
   for (std::size_t i = 0; i < model_.variables.size(); ++i) {
     view.equations.push_back(
-        {rate(view.variables[i]), notation_.components(grouped(model_.field[i], model_), markup_)});
+        {rate(view.variables[i]), notation_.components(readable(model_.field[i]), markup_)});
   }
 }
 
