@@ -48,15 +48,15 @@ Work work_of(const Model& model, const Candidates& candidates) {
   add(candidates.casimirs, casimir_claim);
   add(candidates.integrals, integral_claim);
   add(candidates.invariant_relations, invariant_relation_claim);
+  for (const Text& text : candidates.identities) {
+    const auto [left, right] = model.parse_equation(text);
+    work.claims.push_back(identity_claim({text.value, text.where, left, right, on}));
+  }
   if (on.empty()) {
     for (const auto* texts :
          {&candidates.casimirs, &candidates.integrals, &candidates.invariant_relations}) {
       for (const NamedExpression& f : read(model, *texts)) work.claims.push_back(judgement_note(f));
     }
-  }
-  for (const Text& text : candidates.identities) {
-    const auto [left, right] = model.parse_equation(text);
-    work.claims.push_back(identity_claim({text.value, text.where, left, right, on}));
   }
   for (const NamedExpression& f : on) work.expressions.push_back(f.value);
   return work;

@@ -36,9 +36,9 @@ struct Proof {
   std::string residual;         ///< what should have been zero
   std::string reason;           ///< for what is not proved
   std::optional<Witness> witness;
-  std::vector<std::string> nonzero;  ///< what was divided by
+  std::vector<std::string> nonzero;    ///< what was divided by
   std::vector<std::string> integrals;  ///< that a Lax pair gives
-  std::vector<Proof> findings;       ///< of a judgement: what else is known of the candidate
+  std::vector<Proof> findings;         ///< of a judgement: what else is known of the candidate
 };
 
 /// What a user wants to know beyond, or instead of, the claims of the file.
