@@ -1,16 +1,38 @@
 #include "symbolic/ideal.hpp"
 
 #include <algorithm>
-#include <deque>
+#include <numeric>
+#include <set>
+#include <tuple>
 
 namespace casimir {
 namespace {
 
-constexpr std::size_t kMaxPairs = 2000;
-constexpr std::size_t kMaxBasis = 60;
+constexpr std::size_t kMaxReductions = 2000;
+constexpr std::size_t kMaxBasis = 200;
 constexpr std::size_t kMaxTerms = 20000;
 
 using Monomial = std::vector<unsigned long>;
+
+Monomial leading_monomial(const Polynomial& p) { return p.term_list().front().second; }
+
+Monomial least_common_multiple(const Monomial& a, const Monomial& b) {
+  Monomial result(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) result[i] = std::max(a[i], b[i]);
+  return result;
+}
+
+bool divides(const Monomial& a, const Monomial& b) {
+  return std::equal(a.begin(), a.end(), b.begin(),
+                    [](unsigned long x, unsigned long y) { return x <= y; });
+}
+
+bool coprime(const Monomial& a, const Monomial& b) {
+  return std::equal(a.begin(), a.end(), b.begin(),
+                    [](unsigned long x, unsigned long y) { return std::min(x, y) == 0; });
+}
+
+unsigned long degree(const Monomial& m) { return std::accumulate(m.begin(), m.end(), 0UL); }
 
 Polynomial power_product(const PolynomialRing& ring, const Monomial& exponents) {
   Polynomial result = ring.constant(1);
@@ -20,49 +42,89 @@ Polynomial power_product(const PolynomialRing& ring, const Monomial& exponents) 
   return result;
 }
 
-/// The combination that cancels the leading terms; zero if those are coprime, since it would
-/// reduce to zero then.
-Polynomial s_polynomial(const Polynomial& f, const Polynomial& g) {
-  const auto [f_coefficient, f_monomial] = f.term_list().front();
-  const auto [g_coefficient, g_monomial] = g.term_list().front();
-  Monomial f_factor(f_monomial.size());
-  Monomial g_factor(f_monomial.size());
-  bool coprime = true;
-  for (std::size_t i = 0; i < f_monomial.size(); ++i) {
-    const unsigned long lcm = std::max(f_monomial[i], g_monomial[i]);
-    f_factor[i] = lcm - f_monomial[i];
-    g_factor[i] = lcm - g_monomial[i];
-    coprime = coprime && std::min(f_monomial[i], g_monomial[i]) == 0;
-  }
-  if (coprime) return Polynomial(f.ring());
-  return (f * power_product(f.ring(), f_factor)).scaled(1 / f_coefficient) -
-         (g * power_product(f.ring(), g_factor)).scaled(1 / g_coefficient);
+/// `p`, with leading coefficient 1, times what lifts its leading monomial to `multiple`.
+Polynomial lifted(const Polynomial& p, const Monomial& leading, const Monomial& multiple) {
+  Monomial factor(multiple.size());
+  for (std::size_t i = 0; i < factor.size(); ++i) factor[i] = multiple[i] - leading[i];
+  return p * power_product(p.ring(), factor);
 }
+
+/// Buchberger's algorithm: the pair with the smallest common multiple first, without the pairs that
+/// his two criteria show to be superfluous.
+class Buchberger {
+ public:
+  explicit Buchberger(const std::vector<Polynomial>& generators) {
+    for (const Polynomial& g : generators) {
+      const Polynomial rest = reduced(g);
+      if (!rest.is_zero()) insert(rest);
+    }
+  }
+
+  std::vector<Polynomial> basis() {
+    for (std::size_t done = 0; !pairs_.empty(); ++done) {
+      // What is left out below makes the rest no basis of the ideal unless everything is done.
+      if (done == kMaxReductions || elements_.size() > kMaxBasis) return elements_;
+      const auto [size, i, j] = *pairs_.begin();
+      pairs_.erase(pairs_.begin());
+      const Monomial multiple = least_common_multiple(leading_[i], leading_[j]);
+      if (superfluous(i, j, multiple)) continue;
+      const Polynomial rest = reduced(lifted(elements_[i], leading_[i], multiple) -
+                                      lifted(elements_[j], leading_[j], multiple));
+      if (rest.terms() > kMaxTerms) return elements_;
+      if (!rest.is_zero()) insert(rest);
+    }
+    std::vector<Polynomial> result;
+    for (std::size_t i = 0; i < elements_.size(); ++i) {
+      if (!redundant_[i]) result.push_back(elements_[i]);
+    }
+    return result;
+  }
+
+ private:
+  Polynomial reduced(const Polynomial& p) const {
+    std::vector<Polynomial> quotients;
+    return elements_.empty() ? p : p.remainder(elements_, &quotients);
+  }
+
+  void insert(const Polynomial& p) {
+    const std::size_t index = elements_.size();
+    elements_.push_back(p.scaled(1 / p.term_list().front().first));
+    leading_.push_back(leading_monomial(p));
+    for (std::size_t i = 0; i < index; ++i) {
+      if (redundant_[i]) continue;
+      redundant_[i] = divides(leading_[index], leading_[i]);
+      if (!coprime(leading_[i], leading_[index])) {
+        pairs_.emplace(degree(least_common_multiple(leading_[i], leading_[index])), i, index);
+      }
+    }
+    redundant_.push_back(false);
+  }
+
+  bool pending(std::size_t i, std::size_t j, const Monomial& multiple) const {
+    return pairs_.contains({degree(multiple), std::min(i, j), std::max(i, j)});
+  }
+
+  /// Whether another element links the two by pairs that are done.
+  bool superfluous(std::size_t i, std::size_t j, const Monomial& multiple) const {
+    for (std::size_t k = 0; k < elements_.size(); ++k) {
+      if (k == i || k == j || redundant_[k] || !divides(leading_[k], multiple)) continue;
+      if (!pending(i, k, least_common_multiple(leading_[i], leading_[k])) &&
+          !pending(j, k, least_common_multiple(leading_[j], leading_[k])))
+        return true;
+    }
+    return false;
+  }
+
+  std::vector<Polynomial> elements_;  ///< with leading coefficient 1
+  std::vector<Monomial> leading_;
+  std::vector<bool> redundant_;  ///< reduced by a later element
+  std::set<std::tuple<unsigned long, std::size_t, std::size_t>> pairs_;
+};
 
 }  // namespace
 
 std::vector<Polynomial> groebner_basis(const std::vector<Polynomial>& generators) {
-  std::vector<Polynomial> basis;
-  std::deque<std::pair<std::size_t, std::size_t>> pairs;
-  const auto insert = [&](Polynomial p) {
-    for (std::size_t i = 0; i < basis.size(); ++i) pairs.emplace_back(i, basis.size());
-    basis.push_back(std::move(p));
-  };
-  for (const Polynomial& g : generators) {
-    if (!g.is_zero()) insert(g);
-  }
-  std::vector<Polynomial> quotients;
-  for (std::size_t done = 0; !pairs.empty() && done < kMaxPairs && basis.size() < kMaxBasis;
-       ++done) {
-    const auto [i, j] = pairs.front();
-    pairs.pop_front();
-    Polynomial rest = s_polynomial(basis[i], basis[j]);
-    if (rest.is_zero()) continue;
-    rest = rest.remainder(basis, &quotients);
-    if (rest.is_zero() || rest.terms() > kMaxTerms) continue;
-    insert(std::move(rest));
-  }
-  return basis;
+  return Buchberger(generators).basis();
 }
 
 std::vector<SolvedRelation> triangular_set(std::vector<Polynomial> relations,
