@@ -25,6 +25,19 @@ std::string shortened(std::string text, std::size_t terms) {
   return text.substr(0, cut) + fmt::format(" ... ({} terms)", terms);
 }
 
+/// What holds between the functions everywhere, as c^2 - (1 - s^2): on a level such as c = 1 it
+/// says more than the normal form of the ring, that s^2 = 0.
+std::vector<Polynomial> square_relations(const FunctionRing& ring) {
+  std::vector<Polynomial> relations;
+  for (std::size_t i = ring.symbols().size(); i < ring.ring().size(); ++i) {
+    const Polynomial square = ring.ring().variable(i) * ring.ring().variable(i);
+    const Polynomial relation = square - ring.numerator(square);
+    // Not so for 1/d, whose numerator is another function.
+    if (!relation.is_zero() && ring.numerator(relation).is_zero()) relations.push_back(relation);
+  }
+  return relations;
+}
+
 }  // namespace
 
 std::vector<GiNaC::symbol> Prover::symbols_of(const Model& model) {
@@ -143,7 +156,12 @@ Level Prover::level(const std::vector<NamedExpression>& on) {
     result.numerators.push_back(ring_.numerator(ring_.convert(f.value)));
   }
   result.solved = triangular_set(result.numerators, dimension());
-  if (result.solved.empty()) result.basis = groebner_basis(result.numerators);
+  if (result.solved.empty()) {
+    std::vector<Polynomial> ideal = result.numerators;
+    const std::vector<Polynomial> identities = square_relations(ring_);
+    ideal.insert(ideal.end(), identities.begin(), identities.end());
+    result.basis = groebner_basis(ideal);
+  }
   result.orthogonal = orthogonal_vectors(result.numerators, dimension());
   return result;
 }
@@ -174,11 +192,16 @@ bool Prover::vanishes_on(const Residual& residual, Polynomial& rest, const Level
     rest = plain;
     return true;
   }
-  if (level.solved.empty()) {
-    rest = plain.remainder(level.basis, &cofactors);
-    return rest.is_zero();
-  }
-  rest = pseudo_remainder(rest, level.solved);
+  const auto reduced = [&](const Polynomial& p) {
+    return level.solved.empty() ? p.remainder(level.basis, &cofactors)
+                                : ring_.numerator(pseudo_remainder(p, level.solved));
+  };
+  rest = reduced(rest);
+  // The ideal need not contain all that vanishes on the level: cos(q) = 1 gives sin(q)^2 = 0.
+  constexpr std::size_t kMaxSquared = 100;
+  if (!rest.is_zero() && rest.terms() <= kMaxSquared &&
+      reduced(ring_.numerator(rest * rest)).is_zero())
+    rest = Polynomial(ring_.ring());
   if (!rest.is_zero()) return false;
   for (const SolvedRelation& solved : level.solved) {
     if (solved.leading.is_constant()) continue;

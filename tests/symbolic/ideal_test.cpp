@@ -1,0 +1,91 @@
+// Groebner bases, and what claims on a level owe to them.
+#include "symbolic/ideal.hpp"
+
+#include <gtest/gtest.h>
+
+#include "symbolic/prove.hpp"
+#include "tests/symbolic/cases.hpp"
+
+namespace casimir::test {
+namespace {
+
+/// The scalar products of the columns of a 3 x 3 matrix of variables, as for a rotation.
+class Orthogonal : public testing::Test {
+ protected:
+  Polynomial x(std::size_t row, std::size_t column) const {
+    return ring_.variable(3 * column + row);
+  }
+
+  std::vector<Polynomial> relations() const {
+    std::vector<Polynomial> result;
+    for (std::size_t a = 0; a < 3; ++a) {
+      for (std::size_t b = a; b < 3; ++b) {
+        Polynomial sum = ring_.constant(a == b ? -1 : 0);
+        for (std::size_t i = 0; i < 3; ++i) sum += x(i, a) * x(i, b);
+        result.push_back(sum);
+      }
+    }
+    return result;
+  }
+
+  Polynomial determinant() const {
+    Polynomial sum(ring_);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      const std::size_t k = (i + 2) % 3;
+      sum += x(i, 0) * (x(j, 1) * x(k, 2) - x(k, 1) * x(j, 2));
+    }
+    return sum;
+  }
+
+  bool contains(const std::vector<Polynomial>& basis, const Polynomial& p) const {
+    std::vector<Polynomial> quotients;
+    return p.remainder(basis, &quotients).is_zero();
+  }
+
+  PolynomialRing ring_{9};
+};
+
+TEST_F(Orthogonal, BasisDecidesWhatFollowsFromTheColumns) {
+  const std::vector<Polynomial> basis = groebner_basis(relations());
+  for (const Polynomial& relation : relations()) EXPECT_TRUE(contains(basis, relation));
+  const Polynomial det = determinant();
+  EXPECT_TRUE(contains(basis, det * det - ring_.constant(1)));
+  EXPECT_FALSE(contains(basis, det - ring_.constant(1)));
+  // The rows are orthonormal too.
+  EXPECT_TRUE(contains(basis, x(0, 0) * x(1, 0) + x(0, 1) * x(1, 1) + x(0, 2) * x(1, 2)));
+  EXPECT_FALSE(contains(basis, x(0, 0) * x(1, 0) + x(0, 1) * x(1, 1) - x(0, 2) * x(1, 2)));
+}
+
+TEST_F(Orthogonal, BasisOfNothingIsEmpty) {
+  EXPECT_TRUE(groebner_basis({Polynomial(ring_)}).empty());
+}
+
+Verdict verdict_on(const std::string& on, const std::string& left, const std::string& right) {
+  const Model model = model_of(
+      "hamiltonian = \"p\"\n[phase_space]\nvariables = [\"x\",\"q\",\"y\",\"p\"]\ncanonical = "
+      "true\n"
+      "[[identity]]\nname = \"claim\"\nleft = \"" +
+      left + "\"\nright = \"" + right + "\"\non = [\"" + on + "\"]\n");
+  for (const Proof& proof : prove(model)) {
+    if (proof.name == "claim") return proof.verdict;
+  }
+  return Verdict::undecided;
+}
+
+TEST(Level, FunctionsKeepTheirRelationsOnIt) {
+  EXPECT_EQ(verdict_on("x - cos(q)", "x^2", "1 - sin(q)^2"), Verdict::proved);
+  EXPECT_NE(verdict_on("x - cos(q)", "x^2", "1 + sin(q)^2"), Verdict::proved);
+  EXPECT_EQ(verdict_on("cos(q) - 1", "x*sin(q)^2", "0"), Verdict::proved);
+  EXPECT_EQ(verdict_on("sqrt(x^2 + y^2) - 1", "x^2 + y^2", "1"), Verdict::proved);
+  EXPECT_NE(verdict_on("sqrt(x^2 + y^2) - 1", "x^2 - y^2", "1"), Verdict::proved);
+}
+
+TEST(Level, WhatIsZeroOnlyByItsSquareIsZero) {
+  EXPECT_EQ(verdict_on("cos(q) - 1", "sin(q)", "0"), Verdict::proved);
+  EXPECT_EQ(verdict_on("(x - y)^2", "x", "y"), Verdict::proved);
+  EXPECT_NE(verdict_on("cos(q)", "sin(q)", "1"), Verdict::proved);
+}
+
+}  // namespace
+}  // namespace casimir::test
