@@ -134,7 +134,9 @@ INSTANTIATE_TEST_SUITE_P(Files, BookFile, testing::ValuesIn(book_files()), [](co
 TEST(Book, EveryFormulaOfChapterOneIsTheSourceOfAFile) {
   std::set<int> covered;
   for (const std::filesystem::path& path : book_files()) {
-    const std::string source = read_case(path).source;
+    // "after (1.10)" is about what follows that formula.
+    const std::string source =
+        std::regex_replace(read_case(path).source, std::regex(R"((after|before) \(1\.\d+\))"), "");
     const std::regex number(R"(\(1\.(\d+)\))");
     for (std::sregex_iterator it(source.begin(), source.end(), number), end; it != end; ++it)
       covered.insert(std::stoi((*it)[1]));
