@@ -176,6 +176,26 @@ std::vector<Residual> Prover::level_rates(const Level& level) {
   return result;
 }
 
+/// The same where relations x = value are put in first: on the level the functions may be simpler
+/// than the ring knows, as sqrt(G^2 - H^2) where H = 0 and G > 0.
+bool Prover::vanishes_by_substitution(const Residual& residual, const Level& level) const {
+  if (ring_.is_polynomial() || level.solved.empty()) return false;
+  ex value = residual.by_ginac();
+  for (const SolvedRelation& solved : level.solved) {
+    if (!solved.leading.is_constant() || solved.relation.degree(solved.variable) != 1) continue;
+    const Polynomial rest = solved.relation.coefficients(solved.variable)[0];
+    const cln::cl_RA factor = -1 / solved.leading.term_list()[0].first;
+    value = value.subs(ring_.symbols()[solved.variable] == ring_.expression(rest.scaled(factor)),
+                       GiNaC::subs_options::no_pattern);
+  }
+  try {
+    FunctionRing fresh(ring_.symbols(), model_.assumptions, {value});
+    return fresh.numerator(fresh.convert(value)).is_zero();
+  } catch (const std::exception&) {
+    return false;  // a pole on the level, or too large
+  }
+}
+
 /// Is the residual in the ideal of the level's functions? `rest` becomes what is left of it.
 bool Prover::vanishes_on(const Residual& residual, Polynomial& rest, const Level& level,
                          Proof& proof) {
@@ -202,7 +222,7 @@ bool Prover::vanishes_on(const Residual& residual, Polynomial& rest, const Level
   if (!rest.is_zero() && rest.terms() <= kMaxSquared &&
       reduced(ring_.numerator(rest * rest)).is_zero())
     rest = Polynomial(ring_.ring());
-  if (!rest.is_zero()) return false;
+  if (!rest.is_zero() && !vanishes_by_substitution(residual, level)) return false;
   for (const SolvedRelation& solved : level.solved) {
     if (solved.leading.is_constant()) continue;
     const std::string text = ring_.text(solved.leading);

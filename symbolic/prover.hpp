@@ -57,6 +57,7 @@ class Prover {
   std::vector<std::pair<std::string, std::string>> describe(const Point& point) const;
 
  private:
+  bool vanishes_by_substitution(const Residual& residual, const Level& level) const;
   bool vanishes_on(const Residual& residual, Polynomial& rest, const Level& level, Proof& proof);
   static std::vector<GiNaC::symbol> symbols_of(const Model& model);
   static std::vector<GiNaC::ex> expressions_of(const Model& model,

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "symbolic/prove.hpp"
 #include "tests/symbolic/cases.hpp"
 
@@ -79,6 +81,27 @@ TEST(Level, FunctionsKeepTheirRelationsOnIt) {
   EXPECT_EQ(verdict_on("cos(q) - 1", "x*sin(q)^2", "0"), Verdict::proved);
   EXPECT_EQ(verdict_on("sqrt(x^2 + y^2) - 1", "x^2 + y^2", "1"), Verdict::proved);
   EXPECT_NE(verdict_on("sqrt(x^2 + y^2) - 1", "x^2 - y^2", "1"), Verdict::proved);
+}
+
+TEST(Level, RootsAreSimplifiedOnIt) {
+  const auto verdict = [](const std::string& domain, const std::string& right) {
+    const Model model = model_of(
+        "hamiltonian = \"p\"\n[phase_space]\nvariables = [\"q\",\"p\"]\ncanonical = true\n"
+        "domain = [" +
+        domain +
+        "]\n[[identity]]\nname = \"claim\"\nleft = \"sqrt(q^2 - p^2)\"\n"
+        "right = \"" +
+        right + "\"\non = [\"p\"]\n");
+    const std::vector<Proof> proofs = prove(model);
+    return std::find_if(proofs.begin(), proofs.end(),
+                        [](const Proof& proof) { return proof.name == "claim"; })
+        ->verdict;
+  };
+  EXPECT_EQ(verdict("\"q > 0\"", "q"), Verdict::proved);
+  EXPECT_EQ(verdict("\"q < 0\"", "-q"), Verdict::proved);
+  EXPECT_EQ(verdict("", "sqrt(q^2)"), Verdict::proved);
+  EXPECT_EQ(verdict("", "q"), Verdict::refuted);
+  EXPECT_EQ(verdict("\"q < 0\"", "q"), Verdict::refuted);
 }
 
 TEST(Level, WhatIsZeroOnlyByItsSquareIsZero) {
