@@ -45,6 +45,8 @@ const std::vector<std::pair<std::string, std::string>> kKnownUndecided = {
     {"1.43-andoyer-vertical", "what is printed is right where (M, ga) = 0"},
     {"1.43-andoyer-vertical", "sin(l) from M"},
     {"1.43-andoyer-vertical", "cos(l) from M"},
+    // sqrt(G^2 - L^2) is not split into sqrt(G - L)*sqrt(G + L) where both are positive
+    {"1.43-andoyer-quaternion", "M1 is that of (1.42)"},
     // no witness is looked for on a level that fixes the cosine of an angle
     {"1.70-magnetic-flux", "false: the flux is zero"},
 };
