@@ -401,9 +401,10 @@ std::string read_text(const std::filesystem::path& path) {
   }
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw CaseError({path.string()}, "the case file does not exist or cannot be read");
-  std::string text(kMaxFileBytes + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
+  std::string text;
+  char chunk[1 << 14];
+  while (text.size() <= kMaxFileBytes && (stream.read(chunk, sizeof chunk), stream.gcount() > 0))
+    text.append(chunk, static_cast<std::size_t>(stream.gcount()));
   return text;
 }
 

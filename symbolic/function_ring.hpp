@@ -3,10 +3,10 @@
 #include <ginac/ginac.h>
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "symbolic/model.hpp"
@@ -48,7 +48,8 @@ class FunctionRing {
   FunctionRing& operator=(const FunctionRing&) = delete;
 
   /// \param expression  one of those given to the constructor, or made of their parts.
-  Polynomial convert(const GiNaC::ex& expression);
+  /// \return  kept by the ring, so that the same expression is converted once.
+  const Polynomial& convert(const GiNaC::ex& expression);
 
   /// dp/ds where s is the i-th symbol, through all generators.
   Polynomial derivative(const Polynomial& p, std::size_t symbol) const;
@@ -56,6 +57,13 @@ class FunctionRing {
   /// The numerator of `p` over the common denominator of its terms, reduced by all relations: zero
   /// exactly when `p` is zero modulo the relations.
   Polynomial numerator(const Polynomial& p) const;
+
+  /// All of `row` times one function that vanishes nowhere where they have values, so that no
+  /// denominator is left, and reduced by all relations.
+  std::vector<Polynomial> common_numerators(std::vector<Polynomial> row) const;
+
+  /// `p` by the relations of roots and cosines, denominators as they are: the same function.
+  Polynomial reduced(Polynomial p) const;
 
   /// a*b. \throws TooLarge
   Polynomial checked_product(const Polynomial& a, const Polynomial& b) const;
@@ -122,12 +130,24 @@ class FunctionRing {
     unsigned long order = 1;              ///< q of a root
     std::vector<Polynomial> derivatives;  ///< with respect to each symbol
   };
+  struct Monomial {
+    cln::cl_RA coefficient;
+    std::vector<unsigned long> exponents;
+  };
   struct Full {};  ///< more generators are needed than the ring has room for
 
   void build(const std::vector<GiNaC::ex>& expressions);
   Polynomial convert_new(const GiNaC::ex& e);
-  GiNaC::exvector ordered_operands(const GiNaC::ex& e);
+  Polynomial convert_number(const GiNaC::numeric& number);
+  Polynomial convert_sum(const GiNaC::ex& sum);
+  Polynomial convert_product(const GiNaC::ex& product);
+  std::size_t place_of(const GiNaC::ex& symbol) const;
+  bool multiply_power(const GiNaC::ex& base, const GiNaC::ex& exponent, Monomial& monomial) const;
+  static bool multiply_number(const GiNaC::ex& number, Monomial& monomial);
+  bool multiply_monomial(const GiNaC::ex& e, Monomial& monomial) const;
+  void order(GiNaC::exvector& operands);
   const std::string& order_key(const GiNaC::ex& e);
+  std::string order_key_of_sum(const GiNaC::ex& sum);
   Polynomial convert_power(const GiNaC::ex& base, const GiNaC::ex& exponent);
   Polynomial convert_function(const GiNaC::function& f);
   Polynomial generator(Kind kind, const GiNaC::ex& value, const Polynomial& base,
@@ -135,6 +155,9 @@ class FunctionRing {
                        const std::function<Polynomial(const Polynomial& slope)>& derivative_of);
   const Generator* find(Kind kind, const Polynomial& base, unsigned long order,
                         std::size_t* index) const;
+  [[noreturn]] void grow();
+  bool has_power_relation(const Generator& g) const;
+  Polynomial without_inverse(const Polynomial& p, std::size_t g, unsigned long power) const;
   std::string name(const Generator& g) const;
   bool complete_argument(std::size_t g, std::vector<cln::cl_RA>& point, std::vector<bool>& chosen,
                          const std::function<cln::cl_RA()>& draw, const Freedom& freedom) const;
@@ -160,8 +183,9 @@ class FunctionRing {
   std::size_t capacity_ = 0;
   std::unique_ptr<PolynomialRing> ring_;
   std::vector<Generator> generators_;
-  std::map<GiNaC::ex, Polynomial, GiNaC::ex_is_less> known_;
-  std::map<GiNaC::ex, std::string, GiNaC::ex_is_less> order_keys_;
+  std::unordered_map<GiNaC::ex, std::size_t> places_;  ///< of the symbols in the ring
+  std::unordered_map<GiNaC::ex, Polynomial> known_;
+  std::unordered_map<GiNaC::ex, std::string> order_keys_;
   std::vector<std::pair<Polynomial, int>> signs_;  ///< polynomials whose sign is assumed
   /// For a monomial in an angle or exponent: the least common denominator of its coefficients.
   std::vector<std::pair<GiNaC::ex, cln::cl_I>> units_;

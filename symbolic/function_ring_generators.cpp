@@ -173,10 +173,7 @@ std::pair<Polynomial, Polynomial> FunctionRing::sine_cosine(const Polynomial& an
       s1 = ring_->variable(symbols_.size() + index);
       c1 = ring_->variable(symbols_.size() + index + 1);
     } else {
-      if (generators_.size() + 2 > capacity_) {
-        capacity_ = capacity_ == 0 ? 4 : capacity_ + capacity_ / 2;
-        throw Full{};
-      }
+      if (generators_.size() + 2 > capacity_) grow();
       s1 = ring_->variable(symbols_.size() + generators_.size());
       c1 = ring_->variable(symbols_.size() + generators_.size() + 1);
       const std::vector<Polynomial> unit_slopes = slopes(unit);

@@ -3,18 +3,20 @@
 #include <cln/integer.h>
 #include <cln/integer_io.h>
 
+#include <algorithm>
 #include <cassert>
+#include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 
 namespace casimir {
 namespace {
 
-constexpr std::size_t kWordBits = 31;
+constexpr std::size_t kWordBits = 62;
 
 void to_fmpz(fmpz_t result, const cln::cl_I& value) {
   if (cln::integer_length(value) < kWordBits) {
-    fmpz_set_si(result, cln::cl_I_to_int(value));
+    fmpz_set_si(result, cln::cl_I_to_long(value));
     return;
   }
   std::ostringstream text;
@@ -84,7 +86,13 @@ Polynomial::Polynomial(Polynomial&& other) noexcept : Polynomial(*other.ring_) {
   fmpq_mpoly_swap(value_, other.value_, ring_->context());
 }
 
-Polynomial& Polynomial::operator=(Polynomial other) noexcept {
+Polynomial& Polynomial::operator=(const Polynomial& other) {
+  assert(ring_ == other.ring_);
+  fmpq_mpoly_set(value_, other.value_, ring_->context());
+  return *this;
+}
+
+Polynomial& Polynomial::operator=(Polynomial&& other) noexcept {
   assert(ring_ == other.ring_);
   fmpq_mpoly_swap(value_, other.value_, ring_->context());
   return *this;
@@ -176,18 +184,88 @@ std::vector<std::pair<cln::cl_RA, std::vector<unsigned long>>> Polynomial::term_
 std::vector<Polynomial> Polynomial::coefficients(std::size_t variable) const {
   std::vector<Polynomial> result(static_cast<std::size_t>(std::max(degree(variable), 0L)) + 1,
                                  Polynomial(*ring_));
-  std::vector<unsigned long> exponents(ring_->size());
-  for (std::size_t k = 0; k < terms(); ++k) {
-    Rational coefficient;
-    fmpq_mpoly_get_term_coeff_fmpq(coefficient.get(), value_, static_cast<slong>(k),
-                                   ring_->context());
-    fmpq_mpoly_get_term_exp_ui(exponents.data(), value_, static_cast<slong>(k), ring_->context());
-    const unsigned long power = std::exchange(exponents[variable], 0);
-    fmpq_mpoly_push_term_fmpq_ui(result[power].value_, coefficient.get(), exponents.data(),
-                                 ring_->context());
+  const fmpz_mpoly_struct* p = value_->zpoly;
+  const fmpz_mpoly_ctx_struct* context = ring_->context()->zctx;
+  if (p->bits > FLINT_BITS)
+    throw std::overflow_error("the exponents of a polynomial are too large");
+  // The variable's field is read from, and its power divided out of, the packed exponents. The
+  // terms with one power stand in the same order without it, so that they need no sorting.
+  const slong words = mpoly_words_per_exp(p->bits, context->minfo);
+  std::vector<ulong> one(static_cast<std::size_t>(words));
+  mpoly_gen_monomial_sp(one.data(), static_cast<slong>(variable), p->bits, context->minfo);
+  slong offset = 0;
+  slong shift = 0;
+  mpoly_gen_offset_shift_sp(&offset, &shift, static_cast<slong>(variable), p->bits, context->minfo);
+  const ulong mask = ~ulong{0} >> (FLINT_BITS - p->bits);
+  for (slong k = 0; k < p->length; ++k) {
+    const ulong* exponents = p->exps + words * k;
+    const ulong power = exponents[offset] >> shift & mask;
+    fmpz_mpoly_struct* part = result[power].value_->zpoly;
+    if (part->length == 0)
+      fmpz_mpoly_fit_length_reset_bits(part, 1, p->bits, context);
+    else
+      fmpz_mpoly_fit_length(part, part->length + 1, context);
+    mpoly_monomial_msub(part->exps + words * part->length, exponents, power, one.data(), words);
+    fmpz_set(part->coeffs + part->length, p->coeffs + k);
+    ++part->length;
   }
-  for (Polynomial& p : result) fmpq_mpoly_sort_terms(p.value_, ring_->context());
+  for (Polynomial& part : result) {
+    fmpq_set(part.value_->content, value_->content);
+    fmpq_mpoly_reduce(part.value_, ring_->context());
+  }
   return result;
+}
+
+Polynomial Polynomial::sum(const PolynomialRing& ring, std::vector<const Polynomial*> summands) {
+  if (summands.size() == 1) return *summands[0];
+  std::sort(summands.begin(), summands.end(),
+            [](const Polynomial* a, const Polynomial* b) { return a->terms() < b->terms(); });
+  std::vector<Polynomial> pairs;
+  pairs.reserve((summands.size() + 1) / 2);
+  for (std::size_t i = 0; i + 1 < summands.size(); i += 2) {
+    pairs.emplace_back(ring);
+    fmpq_mpoly_add(pairs.back().value_, summands[i]->value_, summands[i + 1]->value_,
+                   ring.context());
+  }
+  if (summands.size() % 2 == 1) pairs.push_back(*summands.back());
+  return sum(ring, std::move(pairs));
+}
+
+Polynomial Polynomial::sum(const PolynomialRing& ring, std::vector<Polynomial> summands) {
+  if (summands.empty()) return Polynomial(ring);
+  // Each round adds neighbours and leaves the sums in front.
+  for (std::size_t size = summands.size(); size > 1; size = (size + 1) / 2) {
+    for (std::size_t i = 0; 2 * i + 1 < size; ++i) {
+      summands[2 * i] += summands[2 * i + 1];
+      if (i > 0) std::swap(summands[i], summands[2 * i]);
+    }
+    if (size % 2 == 1) std::swap(summands[size / 2], summands[size - 1]);
+  }
+  return std::move(summands[0]);
+}
+
+std::optional<Polynomial::LinearForm> Polynomial::linear_form() const {
+  const fmpz_mpoly_struct* p = value_->zpoly;
+  const auto small = [](const fmpz_t number) { return fmpz_bits(number) < 31; };
+  LinearForm form;
+  form.coefficients.reserve(static_cast<std::size_t>(p->length));
+  if (p->length == 0) return form;
+  const fmpz* numerator = fmpq_numref(value_->content);
+  if (!small(numerator) || !small(fmpq_denref(value_->content))) return std::nullopt;
+  form.denominator = fmpz_get_si(fmpq_denref(value_->content));
+  std::vector<unsigned long> exponents(ring_->size());
+  for (slong k = 0; k < p->length; ++k) {
+    fmpz_mpoly_get_term_exp_ui(exponents.data(), p, k, ring_->context()->zctx);
+    const auto one =
+        std::find_if(exponents.begin(), exponents.end(), [](auto e) { return e != 0; });
+    const bool linear = one != exponents.end() && *one == 1 &&
+                        std::all_of(one + 1, exponents.end(), [](auto e) { return e == 0; });
+    if (!linear || !small(p->coeffs + k)) return std::nullopt;
+    const long value = fmpz_get_si(p->coeffs + k) * fmpz_get_si(numerator);
+    if (std::labs(value) >> 31 != 0) return std::nullopt;
+    form.coefficients.emplace_back(static_cast<std::size_t>(one - exponents.begin()), value);
+  }
+  return form;
 }
 
 cln::cl_RA Polynomial::evaluate(const std::vector<cln::cl_RA>& point) const {
@@ -207,6 +285,39 @@ cln::cl_RA Polynomial::evaluate(const std::vector<cln::cl_RA>& point) const {
 }
 
 std::vector<std::pair<Polynomial, unsigned long>> Polynomial::factors() const {
+  if (terms() == 1) return monomial_factors();
+  // FLINT's preparations take time for every variable of the ring, also for those that do not
+  // occur.
+  std::vector<std::size_t> used;
+  for (std::size_t i = 0; i < ring_->size(); ++i) {
+    if (uses(i)) used.push_back(i);
+  }
+  if (used.size() == ring_->size()) return own_factors();
+  const PolynomialRing small(used.size());
+  std::vector<std::size_t> places(ring_->size());
+  for (std::size_t k = 0; k < used.size(); ++k) places[used[k]] = k;
+  std::vector<std::pair<Polynomial, unsigned long>> result;
+  for (const auto& [factor, exponent] : moved_to(small, places).own_factors())
+    result.emplace_back(factor.moved_to(*ring_, used), exponent);
+  return result;
+}
+
+/// The same polynomial in another ring, where variable i is called places[i].
+Polynomial Polynomial::moved_to(const PolynomialRing& ring,
+                                const std::vector<std::size_t>& places) const {
+  TermCollector terms(ring);
+  std::vector<unsigned long> there(ring.size());
+  for (const auto& [coefficient, exponents] : term_list()) {
+    std::fill(there.begin(), there.end(), 0);
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
+      if (exponents[i] > 0) there[places[i]] = exponents[i];
+    }
+    terms.add(coefficient, there);
+  }
+  return terms.finish();
+}
+
+std::vector<std::pair<Polynomial, unsigned long>> Polynomial::own_factors() const {
   fmpq_mpoly_factor_t factorisation;
   fmpq_mpoly_factor_init(factorisation, ring_->context());
   std::vector<std::pair<Polynomial, unsigned long>> result;
@@ -224,6 +335,16 @@ std::vector<std::pair<Polynomial, unsigned long>> Polynomial::factors() const {
   }
   fmpq_mpoly_factor_clear(factorisation, ring_->context());
   if (!done) throw std::overflow_error("a polynomial is too large to be factored");
+  return result;
+}
+
+std::vector<std::pair<Polynomial, unsigned long>> Polynomial::monomial_factors() const {
+  const auto [coefficient, exponents] = term_list()[0];
+  std::vector<std::pair<Polynomial, unsigned long>> result;
+  result.emplace_back(ring_->constant(coefficient), 1);
+  for (std::size_t i = 0; i < exponents.size(); ++i) {
+    if (exponents[i] > 0) result.emplace_back(ring_->variable(i), exponents[i]);
+  }
   return result;
 }
 
@@ -264,6 +385,55 @@ Polynomial Polynomial::remainder(const std::vector<Polynomial>& divisors,
   fmpq_mpoly_divrem_ideal(q.data(), rest.value_, value_, d.data(), static_cast<slong>(d.size()),
                           ring_->context());
   return rest;
+}
+
+TermCollector::TermCollector(const PolynomialRing& ring) : sum_(ring) {
+  fmpz_init(coefficient_);
+  fmpz_init(term_denominator_);
+  fmpz_init_set_ui(denominator_, 1);
+}
+
+TermCollector::~TermCollector() {
+  fmpz_clear(coefficient_);
+  fmpz_clear(term_denominator_);
+  fmpz_clear(denominator_);
+}
+
+/// Makes the common denominator of what was collected a multiple of `denominator`.
+void TermCollector::make_divide(const fmpz_t denominator) {
+  fmpz_t common;
+  fmpz_init(common);
+  fmpz_lcm(common, denominator_, denominator);
+  fmpz_divexact(denominator_, common, denominator_);
+  fmpz_mpoly_scalar_mul_fmpz(sum_.raw()->zpoly, sum_.raw()->zpoly, denominator_,
+                             sum_.ring().context()->zctx);
+  fmpz_swap(denominator_, common);
+  fmpz_clear(common);
+}
+
+void TermCollector::add(const cln::cl_RA& coefficient,
+                        const std::vector<unsigned long>& exponents) {
+  if (cln::zerop(coefficient)) return;
+  to_fmpz(coefficient_, cln::numerator(coefficient));
+  to_fmpz(term_denominator_, cln::denominator(coefficient));
+  if (!fmpz_equal(term_denominator_, denominator_)) {
+    if (!fmpz_divisible(denominator_, term_denominator_)) make_divide(term_denominator_);
+    fmpz_divexact(term_denominator_, denominator_, term_denominator_);
+    fmpz_mul(coefficient_, coefficient_, term_denominator_);
+  }
+  fmpz_mpoly_push_term_fmpz_ui(sum_.raw()->zpoly, coefficient_, exponents.data(),
+                               sum_.ring().context()->zctx);
+}
+
+Polynomial TermCollector::finish() {
+  fmpz_one(fmpq_numref(sum_.raw()->content));
+  fmpz_set(fmpq_denref(sum_.raw()->content), denominator_);
+  if (sum_.raw()->zpoly->length > 1) {
+    fmpz_mpoly_sort_terms(sum_.raw()->zpoly, sum_.ring().context()->zctx);
+    fmpz_mpoly_combine_like_terms(sum_.raw()->zpoly, sum_.ring().context()->zctx);
+  }
+  fmpq_mpoly_reduce(sum_.raw(), sum_.ring().context());
+  return std::move(sum_);
 }
 
 }  // namespace casimir

@@ -6,6 +6,7 @@
 #include <flint/fmpq_mpoly_factor.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,7 +40,8 @@ class Polynomial {
   explicit Polynomial(const PolynomialRing& ring);
   Polynomial(const Polynomial& other);
   Polynomial(Polynomial&& other) noexcept;
-  Polynomial& operator=(Polynomial other) noexcept;
+  Polynomial& operator=(const Polynomial& other);
+  Polynomial& operator=(Polynomial&& other) noexcept;
   ~Polynomial();
 
   Polynomial& operator+=(const Polynomial& other);
@@ -64,6 +66,20 @@ class Polynomial {
 
   /// Coefficients c_0, c_1, .. of the powers of one variable; they do not use it.
   std::vector<Polynomial> coefficients(std::size_t variable) const;
+
+  /// The sum of all, merged in pairs: adding many polynomials to one that grows would cost the
+  /// square of its length.
+  static Polynomial sum(const PolynomialRing& ring, std::vector<const Polynomial*> summands);
+  static Polynomial sum(const PolynomialRing& ring, std::vector<Polynomial> summands);
+
+  /// The coefficients of a linear form without constant term as integers over one denominator:
+  /// sum_i coefficients[i] x_i / denominator. Empty for any other polynomial, and where a number
+  /// does not fit into 31 bits.
+  struct LinearForm {
+    std::vector<std::pair<std::size_t, long>> coefficients;  ///< variable and coefficient
+    long denominator = 1;
+  };
+  std::optional<LinearForm> linear_form() const;
 
   /// The value where variable i is point[i].
   cln::cl_RA evaluate(const std::vector<cln::cl_RA>& point) const;
@@ -93,8 +109,51 @@ class Polynomial {
   const fmpq_mpoly_struct* raw() const { return value_; }
 
  private:
+  std::vector<std::pair<Polynomial, unsigned long>> monomial_factors() const;
+  std::vector<std::pair<Polynomial, unsigned long>> own_factors() const;
+  Polynomial moved_to(const PolynomialRing& ring, const std::vector<std::size_t>& places) const;
+
   const PolynomialRing* ring_;
   fmpq_mpoly_t value_;
+};
+
+/// Adds up products of polynomials, one after the other: where terms cancel, as in an identity,
+/// they do so early, and the sum stays short.
+class SumOfProducts {
+ public:
+  explicit SumOfProducts(const PolynomialRing& ring) : sum_(ring) {}
+  void add(const Polynomial& a, const Polynomial& b) {
+    if (a.is_zero() || b.is_zero()) return;
+    if (sum_.is_zero())
+      sum_ = a * b;
+    else
+      sum_ += a * b;
+  }
+  Polynomial finish() { return std::move(sum_); }
+
+ private:
+  Polynomial sum_;
+};
+
+/// Collects terms in any order; like terms are added up when it is finished.
+class TermCollector {
+ public:
+  explicit TermCollector(const PolynomialRing& ring);
+  ~TermCollector();
+  TermCollector(const TermCollector&) = delete;
+  TermCollector& operator=(const TermCollector&) = delete;
+
+  /// \param exponents  one for each variable of the ring.
+  void add(const cln::cl_RA& coefficient, const std::vector<unsigned long>& exponents);
+
+  /// The sum of what was added; nothing may be added after that.
+  Polynomial finish();
+
+ private:
+  void make_divide(const fmpz_t denominator);
+
+  Polynomial sum_;  ///< while collecting, its integer part times 1/denominator_
+  fmpz_t coefficient_, term_denominator_, denominator_;
 };
 
 }  // namespace casimir

@@ -96,56 +96,74 @@ Prover::Prover(const Model& model, const std::vector<ex>& further)
     for (const ex& rate : model.field) field_.push_back(ring_.convert(rate));
     return;
   }
+  brackets_.assign(n * n, Polynomial(ring_.ring()));
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) {
-      brackets_.push_back(i < j ? ring_.convert((*model.poisson)(i, j)) : Polynomial(ring_.ring()));
-      if (i > j) brackets_.back() = -brackets_[j * n + i];
+    for (std::size_t j = i + 1; j < n; ++j) {
+      const ex entry = (*model.poisson)(i, j);
+      if (entry.is_zero()) continue;
+      brackets_[i * n + j] = ring_.convert(entry);
+      brackets_[j * n + i] = -brackets_[i * n + j];
     }
   }
-  const std::vector<Polynomial> slope = gradient(ring_.convert(*model.hamiltonian));
-  for (std::size_t i = 0; i < n; ++i) {
-    Polynomial rate(ring_.ring());
-    for (std::size_t j = 0; j < n; ++j) {
-      if (!bracket_entry(i, j).is_zero() && !slope[j].is_zero())
-        rate += bracket_entry(i, j) * slope[j];
-    }
-    field_.push_back(std::move(rate));
-  }
+  field_ = flow_of(gradient(ring_.convert(*model.hamiltonian)));
 }
 
 std::vector<Polynomial> Prover::gradient(const Polynomial& f) const {
   std::vector<Polynomial> result;
+  result.reserve(dimension());
   for (std::size_t i = 0; i < dimension(); ++i) result.push_back(ring_.derivative(f, i));
   return result;
 }
 
-Polynomial Prover::bracket(const Polynomial& f, const Polynomial& g) const {
-  const std::vector<Polynomial> df = gradient(f);
-  const std::vector<Polynomial> dg = gradient(g);
-  Polynomial sum(ring_.ring());
+std::vector<Polynomial> Prover::flow_of(const std::vector<Polynomial>& slope) const {
+  std::vector<Polynomial> result;
+  result.reserve(dimension());
   for (std::size_t i = 0; i < dimension(); ++i) {
-    for (std::size_t j = i + 1; j < dimension(); ++j) {
-      if (bracket_entry(i, j).is_zero()) continue;
-      sum += bracket_entry(i, j) * (df[i] * dg[j] - df[j] * dg[i]);
-    }
+    SumOfProducts sum(ring_.ring());
+    for (std::size_t j = 0; j < dimension(); ++j) sum.add(bracket_entry(i, j), slope[j]);
+    result.push_back(sum.finish());
   }
-  return sum;
+  return result;
+}
+
+/// {f, g} = df . (J dg): a flow is as short as a gradient, while products of gradients are not.
+Polynomial Prover::bracket(const Polynomial& f, const Polynomial& g) const {
+  return along(f, flow_of(gradient(g)));
+}
+
+Polynomial Prover::along(const Polynomial& f, const std::vector<Polynomial>& field) const {
+  SumOfProducts sum(ring_.ring());
+  for (std::size_t i = 0; i < dimension(); ++i) {
+    if (!field[i].is_zero()) sum.add(ring_.derivative(f, i), field[i]);
+  }
+  return sum.finish();
+}
+
+const std::vector<Polynomial>& Prover::flow(const ex& f) {
+  const auto known = flows_.find(f);
+  if (known != flows_.end()) return known->second;
+  return flows_.emplace(f, flow_of(gradient(ring_.convert(f)))).first->second;
+}
+
+Polynomial Prover::bracket(const ex& f, const ex& g) {
+  if (f.compare(g) > 0) return -bracket(g, f);
+  const auto known = known_brackets_.find({f, g});
+  if (known != known_brackets_.end()) return known->second;
+  Polynomial result = ring_.numerator(along(ring_.convert(f), flow(g)));
+  return known_brackets_.emplace(std::pair(f, g), std::move(result)).first->second;
 }
 
 Polynomial Prover::rate(const Polynomial& f) const {
-  Polynomial sum(ring_.ring());
-  for (std::size_t i = 0; i < dimension(); ++i) {
-    const Polynomial slope = ring_.derivative(f, i);
-    if (!slope.is_zero()) sum += slope * field_[i];
-  }
-  if (model_.time) sum += ring_.derivative(f, dimension() + model_.parameters.size());
-  return sum;
+  Polynomial result = along(f, field_);
+  if (model_.time) result += ring_.derivative(f, dimension() + model_.parameters.size());
+  return result;
 }
 
 Polynomial Prover::divergence() const {
-  Polynomial sum(ring_.ring());
-  for (std::size_t i = 0; i < dimension(); ++i) sum += ring_.derivative(field_[i], i);
-  return sum;
+  std::vector<Polynomial> slopes;
+  slopes.reserve(dimension());
+  for (std::size_t i = 0; i < dimension(); ++i) slopes.push_back(ring_.derivative(field_[i], i));
+  return Polynomial::sum(ring_.ring(), slopes);
 }
 
 Level Prover::level(const std::vector<NamedExpression>& on) {

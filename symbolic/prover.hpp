@@ -1,8 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "symbolic/function_ring.hpp"
@@ -21,6 +23,14 @@ struct Residual {
   std::function<GiNaC::ex()> by_ginac;  ///< the same by GiNaC alone: re-evaluates a witness
 };
 
+struct ExpressionPairLess {
+  using Pair = std::pair<GiNaC::ex, GiNaC::ex>;
+  bool operator()(const Pair& a, const Pair& b) const {
+    const int order = a.first.compare(b.first);
+    return order != 0 ? order < 0 : a.second.compare(b.second) < 0;
+  }
+};
+
 /// What the claims of one case are decided with: its functions as polynomials, its flow, and the
 /// search for witnesses. Deterministic: random points come from a fixed seed.
 class Prover {
@@ -30,12 +40,19 @@ class Prover {
 
   const Model& model() const { return model_; }
   FunctionRing& ring() { return ring_; }
+  const FunctionRing& ring() const { return ring_; }
   std::size_t dimension() const { return model_.variables.size(); }
 
   const Polynomial& bracket_entry(std::size_t i, std::size_t j) const {
     return brackets_[i * dimension() + j];
   }
+  /// dx_i/dt for every coordinate.
+  const std::vector<Polynomial>& field() const { return field_; }
   Polynomial bracket(const Polynomial& f, const Polynomial& g) const;
+  /// The numerator of {f, g} for functions of the case, kept since several claims ask for the same.
+  Polynomial bracket(const GiNaC::ex& f, const GiNaC::ex& g);
+  /// J grad f for a function of the case, kept: entry i is {x_i, f}.
+  const std::vector<Polynomial>& flow(const GiNaC::ex& f);
   /// df/dt along the flow, with the explicit dependence on time.
   Polynomial rate(const Polynomial& f) const;
   /// Of the flow: the sum of d(dx_i/dt)/dx_i.
@@ -58,6 +75,8 @@ class Prover {
 
  private:
   bool vanishes_by_substitution(const Residual& residual, const Level& level) const;
+  std::vector<Polynomial> flow_of(const std::vector<Polynomial>& slope) const;
+  Polynomial along(const Polynomial& f, const std::vector<Polynomial>& field) const;
   bool vanishes_on(const Residual& residual, Polynomial& rest, const Level& level, Proof& proof);
   static std::vector<GiNaC::symbol> symbols_of(const Model& model);
   static std::vector<GiNaC::ex> expressions_of(const Model& model,
@@ -67,6 +86,8 @@ class Prover {
   FunctionRing ring_;
   std::vector<Polynomial> brackets_;
   std::vector<Polynomial> field_;
+  std::unordered_map<GiNaC::ex, std::vector<Polynomial>> flows_;
+  std::map<std::pair<GiNaC::ex, GiNaC::ex>, Polynomial, ExpressionPairLess> known_brackets_;
   PointSearch points_;
 };
 

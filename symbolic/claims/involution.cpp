@@ -18,8 +18,7 @@ std::vector<Claim> involution_claims(const Model& model) {
           {"involution", name, true, [f, g, name](Prover& prover, Proof& proof) {
              prover.decide(
                  proof,
-                 {{name,
-                   prover.bracket(prover.ring().convert(f.value), prover.ring().convert(g.value)),
+                 {{name, prover.bracket(f.value, g.value),
                    [&prover, f, g] { return prover.model().poisson->bracket(f.value, g.value); }}},
                  {});
            }});

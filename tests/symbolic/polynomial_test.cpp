@@ -85,5 +85,61 @@ TEST_F(Ring3, QuotientsAndRemainderPutTheDividendTogether) {
   EXPECT_EQ(sum, p);
 }
 
+TEST_F(Ring3, FactorsAreFoundInTheVariablesThatOccur) {
+  const std::vector<std::pair<Polynomial, unsigned long>> factors =
+      ((x_ * x_ - z_ * z_) * z_).scaled(2).factors();
+  ASSERT_EQ(factors.size(), 4U);  // 2, z, x - z, x + z
+  Polynomial product = one_;
+  for (const auto& [f, k] : factors) product *= f.pow(k);
+  EXPECT_EQ(product, ((x_ * x_ - z_ * z_) * z_).scaled(2));
+  EXPECT_EQ((x_ * x_ + z_ * z_).factors().size(), 2U);
+  EXPECT_EQ((x_.pow(2) * z_).scaled(-3).factors()[1].second, 2U);
+}
+
+TEST_F(Ring3, SumOfManyIsTheSumOneByOne) {
+  std::vector<Polynomial> summands;
+  Polynomial expected(ring_);
+  for (unsigned long k = 0; k < 13; ++k) {
+    summands.push_back((x_ + y_.pow(k)).pow(k % 4) - z_.scaled(cln::cl_I(k)));
+    expected += summands.back();
+    EXPECT_EQ(Polynomial::sum(ring_, summands), expected);
+    std::vector<const Polynomial*> pointers;
+    for (const Polynomial& p : summands) pointers.push_back(&p);
+    EXPECT_EQ(Polynomial::sum(ring_, pointers), expected);
+  }
+  summands.back() += one_;
+  EXPECT_FALSE(Polynomial::sum(ring_, summands) == expected);
+  EXPECT_TRUE(Polynomial::sum(ring_, std::vector<Polynomial>{}).is_zero());
+}
+
+TEST_F(Ring3, CollectedTermsAddUp) {
+  const cln::cl_RA huge = cln::expt_pos(cln::cl_I(10), 30);
+  TermCollector terms(ring_);
+  terms.add(cln::cl_RA(1) / 6, {0, 1, 0});
+  terms.add(huge, {2, 0, 1});
+  terms.add(0, {5, 5, 5});
+  terms.add(cln::cl_RA(1) / 10, {0, 1, 0});
+  terms.add(-7, {0, 0, 0});
+  EXPECT_EQ(terms.finish(),
+            y_.scaled(cln::cl_RA(4) / 15) + (x_.pow(2) * z_).scaled(huge) - one_.scaled(7));
+  TermCollector cancelling(ring_);
+  cancelling.add(cln::cl_RA(2) / 3, {1, 0, 0});
+  cancelling.add(cln::cl_RA(-2) / 3, {1, 0, 0});
+  EXPECT_TRUE(cancelling.finish().is_zero());
+  EXPECT_TRUE(TermCollector(ring_).finish().is_zero());
+}
+
+TEST_F(Ring3, LinearFormsAreToldFromOthers) {
+  const auto form = (x_.scaled(cln::cl_RA(1) / 2) - z_.scaled(cln::cl_RA(2) / 3)).linear_form();
+  ASSERT_TRUE(form);
+  EXPECT_EQ(form->denominator, 6);
+  EXPECT_EQ(form->coefficients, (std::vector<std::pair<std::size_t, long>>{{0, 3}, {2, -4}}));
+  EXPECT_TRUE(Polynomial(ring_).linear_form());
+  EXPECT_FALSE((x_ + one_).linear_form());
+  EXPECT_FALSE((x_ + y_ * z_).linear_form());
+  EXPECT_FALSE((x_ + y_ * y_).linear_form());
+  EXPECT_FALSE(x_.scaled(cln::expt_pos(cln::cl_I(2), 40)).linear_form());
+}
+
 }  // namespace
 }  // namespace casimir
