@@ -322,4 +322,20 @@ std::optional<ExactConstant> exact_constant(const ex& value) {
   }
 }
 
+std::optional<int> sign_of_constant(const ex& value) {
+  if (GiNaC::is_a<GiNaC::numeric>(value)) {
+    const GiNaC::numeric number = GiNaC::ex_to<GiNaC::numeric>(value);
+    return number.is_real() ? std::optional(number.csgn()) : std::nullopt;
+  }
+  if (const auto exact = exact_constant(value); exact && exact->zero) return 0;
+  // Which side of zero an irrational number is on is read off many digits, and only where they
+  // leave no doubt.
+  const ex digits = value.evalf();
+  if (!GiNaC::is_a<GiNaC::numeric>(digits)) return std::nullopt;
+  const GiNaC::numeric number = GiNaC::ex_to<GiNaC::numeric>(digits);
+  const GiNaC::numeric doubt(1, 1000000);
+  if (!number.is_real() || GiNaC::abs(number) < doubt) return std::nullopt;
+  return number.csgn();
+}
+
 }  // namespace casimir

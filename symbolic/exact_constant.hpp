@@ -22,4 +22,7 @@ struct ExactConstant {
 ///   log of rational numbers and Pi, linearly (Baker).
 std::optional<ExactConstant> exact_constant(const GiNaC::ex& value);
 
+/// The sign of a real number; empty for what is not real or not decided.
+std::optional<int> sign_of_constant(const GiNaC::ex& value);
+
 }  // namespace casimir

@@ -9,11 +9,23 @@ namespace casimir {
 
 using GiNaC::ex;
 
+namespace {
+
+bool uses_imaginary_unit(const ex& e) {
+  return std::any_of(e.preorder_begin(), e.preorder_end(), [](const ex& part) {
+    return GiNaC::is_exactly_a<GiNaC::numeric>(part) &&
+           !GiNaC::ex_to<GiNaC::numeric>(part).is_real();
+  });
+}
+
+}  // namespace
+
 FunctionRing::FunctionRing(std::vector<GiNaC::symbol> symbols,
                            const std::vector<Assumption>& assumptions,
                            const std::vector<ex>& expressions)
     : symbols_(std::move(symbols)), assumptions_(assumptions) {
   for (std::size_t i = 0; i < symbols_.size(); ++i) places_.emplace(symbols_[i], i);
+  complex_ = std::any_of(expressions.begin(), expressions.end(), uses_imaginary_unit);
   build(expressions);
 }
 
@@ -28,21 +40,43 @@ void FunctionRing::build(const std::vector<ex>& expressions) {
     generators_.clear();
     ring_ = std::make_unique<PolynomialRing>(symbols_.size() + capacity_);
     try {
-      for (const Assumption& assumption : assumptions_) {
-        const bool positive = assumption.relation == ">" || assumption.relation == ">=";
-        const bool negative = assumption.relation == "<" || assumption.relation == "<=";
-        if (!positive && !negative) continue;
-        const auto factors = fraction(convert(assumption.difference)).first.factors();
-        // The sign of a product is the sign of one factor only where it has only one.
-        if (factors.size() != 2 || factors[1].second % 2 == 0) continue;
-        const int flip = cln::minusp(factors[0].first.term_list()[0].first) ? -1 : 1;
-        signs_.emplace_back(factors[1].first, positive ? flip : -flip);
+      for (const Assumption& assumption : assumptions_) read_assumption(assumption);
+      for (const ex& positive : implied_) {
+        const auto factors = convert(positive).factors();
+        const bool minus = cln::minusp(factors[0].first.term_list()[0].first);
+        signs_.push_back({factors[1].first, minus ? -1 : 1, true});
       }
       for (const ex& e : expressions) convert(e);
       return;
     } catch (const Full&) {
     }
   }
+}
+
+/// An inequality gives the sign of a polynomial that cannot be factored; and of both factors of one
+/// that has two, where a sum of them has a known sign: G > 0 and G^2 > L^2 make G - L and G + L
+/// positive.
+void FunctionRing::read_assumption(const Assumption& assumption) {
+  const bool positive = assumption.relation == ">" || assumption.relation == ">=";
+  const bool negative = assumption.relation == "<" || assumption.relation == "<=";
+  if (!positive && !negative) return;
+  const auto factors = fraction(convert(assumption.difference)).first.factors();
+  std::vector<Polynomial> odd;
+  for (std::size_t k = 1; k < factors.size(); ++k) {
+    if (factors[k].second % 2 == 1) odd.push_back(factors[k].first);
+  }
+  const bool minus = cln::minusp(factors[0].first.term_list()[0].first);
+  const int sign = positive != minus ? 1 : -1;  // of the product of the odd ones
+  if (odd.size() == 1) signs_.push_back({odd[0], sign, false});
+  if (odd.size() != 2) return;
+  const Polynomial second = odd[1].scaled(sign);  // odd[0] and this have one sign
+  const Polynomial sum = odd[0] + second;
+  if (sum.is_zero()) return;
+  const cln::cl_RA content = sum.content();
+  const int known = known_sign(sum.scaled(1 / content)) * (cln::minusp(content) ? -1 : 1);
+  if (known == 0) return;
+  signs_.push_back({odd[0], known, false});
+  signs_.push_back({odd[1], sign * known, false});
 }
 
 const FunctionRing::Generator* FunctionRing::find(Kind kind, const Polynomial& base,

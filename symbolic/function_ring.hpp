@@ -25,16 +25,17 @@ class TooLarge : public ModelError {
 ///
 ///   s = sin v, c = cos v    Ds = c Dv, Dc = -s Dv          c^2 = 1 - s^2
 ///   e = exp v               De = e Dv
-///   l = log v               Dl = Dv / v
+///   l = log v               Dl = Dv / v                    log(v w) = log v + log w
 ///   u = b^(1/q)             Du = u Db / (q b)              u^q = b
 ///   y = 1/d                 Dy = -y^2 Dd                   y d = 1
 ///   a = |b|                 Da = b Db / a                  a^2 = b^2
 ///   inverse functions by their derivatives                 I^2 = -1
 ///
 /// Angles and exponents are split into independent ones first (sums, multiples), denominators into
-/// irreducible factors, and roots lose their square factors, under the declared signs. What reduces
-/// to zero is identically zero: that is a proof. What does not is not zero in the ring; whether it
-/// is not zero as a function is for a witness to show.
+/// irreducible factors, and roots lose their square factors, under the declared signs and those
+/// that make roots and logarithms real (unless I occurs). What reduces to zero is identically zero:
+/// that is a proof. What does not is not zero in the ring; whether it is not zero as a function is
+/// for a witness to show.
 class FunctionRing {
  public:
   /// \param symbols      independent symbols: variables, parameters, time, a spectral parameter.
@@ -116,6 +117,17 @@ class FunctionRing {
   /// The denominators in what was converted: where one of them vanishes, nothing is claimed.
   std::vector<Polynomial> denominators() const;
 
+  /// Marks the denominators that occur in `p`, in the order of `denominators`.
+  void mark_denominators(const Polynomial& p, std::vector<bool>& marks) const;
+
+  /// What was taken to be positive, beyond the assumptions, since a root or a logarithm is real
+  /// only there.
+  std::vector<Polynomial> implied_positive() const;
+
+  /// Expressions that are not negative where everything that was converted is real; empty where
+  /// complex numbers are used.
+  std::vector<GiNaC::ex> real_domain() const;
+
   const std::vector<GiNaC::symbol>& symbols() const { return symbols_; }
   const PolynomialRing& ring() const { return *ring_; }
   /// True where everything that was converted is a polynomial in the symbols.
@@ -129,6 +141,16 @@ class FunctionRing {
     Polynomial base;                      ///< radicand, denominator or argument
     unsigned long order = 1;              ///< q of a root
     std::vector<Polynomial> derivatives;  ///< with respect to each symbol
+  };
+  /// What a generator of the kind `function` is, as its `order`.
+  enum FunctionTag : unsigned long {
+    kConstant,  ///< such as Pi
+    kLogarithm,
+    kArcTangent,
+    kArcSine,
+    kArcCosine,
+    kArcTangentOfTwo,
+    kLogOfAbsolute,  ///< log|base|, where the sign of the base is not known
   };
   struct Monomial {
     cln::cl_RA coefficient;
@@ -172,8 +194,18 @@ class FunctionRing {
   Polynomial plain_root(const Polynomial& primitive, unsigned long q);
   Polynomial absolute(const Polynomial& p);
   int known_sign(const Polynomial& p) const;
+  void read_assumption(const Assumption& assumption);
+  void imply_sign(const Polynomial& f, int sign);
+  void imply_radicand(const std::vector<std::pair<Polynomial, unsigned long>>& factors);
+  std::vector<std::pair<Polynomial, unsigned long>> factors_of(const Polynomial& p) const;
   std::pair<Polynomial, Polynomial> sine_cosine(const Polynomial& angle);
+  std::pair<Polynomial, Polynomial> plain_sine_cosine(const Polynomial& unit);
+  std::optional<std::pair<Polynomial, Polynomial>> algebraic_sine_cosine(
+      const cln::cl_RA& coefficient, const std::vector<unsigned long>& monomial);
+  Polynomial logarithm(const GiNaC::ex& whole, const Polynomial& p);
   Polynomial exponential(const Polynomial& exponent);
+  std::optional<Polynomial> special_exponential(const cln::cl_RA& coefficient,
+                                                const std::vector<unsigned long>& monomial);
   std::pair<Polynomial, Polynomial> fraction(const Polynomial& p) const;
   std::pair<Polynomial, cln::cl_I> unit_of(const std::vector<unsigned long>& monomial,
                                            const cln::cl_RA& coefficient);
@@ -186,7 +218,14 @@ class FunctionRing {
   std::unordered_map<GiNaC::ex, std::size_t> places_;  ///< of the symbols in the ring
   std::unordered_map<GiNaC::ex, Polynomial> known_;
   std::unordered_map<GiNaC::ex, std::string> order_keys_;
-  std::vector<std::pair<Polynomial, int>> signs_;  ///< polynomials whose sign is assumed
+  bool complex_ = false;  ///< I occurs: roots and logarithms need not be real then
+  struct Sign {
+    Polynomial of;
+    int sign;
+    bool implied;  ///< by a root or a logarithm, else assumed
+  };
+  std::vector<Sign> signs_;
+  std::vector<GiNaC::ex> implied_;  ///< positive where the roots and logarithms are real
   /// For a monomial in an angle or exponent: the least common denominator of its coefficients.
   std::vector<std::pair<GiNaC::ex, cln::cl_I>> units_;
 };

@@ -56,9 +56,9 @@ Polynomial FunctionRing::convert_new(const ex& e) {
   if (GiNaC::is_a<GiNaC::constant>(e)) {
     const Polynomial one = ring_->constant(1);
     std::size_t index = 0;
-    if (find(Kind::function, one, 0, &index) != nullptr)
+    if (find(Kind::function, one, kConstant, &index) != nullptr)
       return ring_->variable(symbols_.size() + index);
-    return generator(Kind::function, e, one, 0,
+    return generator(Kind::function, e, one, kConstant,
                      [&](const Polynomial&) { return Polynomial(*ring_); });
   }
   throw ModelError("an expression that exact algebra does not know");
@@ -272,10 +272,10 @@ Polynomial FunctionRing::convert_function(const GiNaC::function& f) {
     return generator(Kind::function, f, key, tag,
                      [&](const Polynomial& slope) { return slope * factor; });
   };
-  if (name == "log") return opaque(inverse(v), v, 1);
-  if (name == "atan") return opaque(inverse(one + v * v), v, 2);
-  if (name == "asin") return opaque(inverse(root(one - v * v, 2)), v, 3);
-  if (name == "acos") return opaque(-inverse(root(one - v * v, 2)), v, 4);
+  if (name == "log") return logarithm(f, v);
+  if (name == "atan") return opaque(inverse(one + v * v), v, kArcTangent);
+  if (name == "asin") return opaque(inverse(root(one - v * v, 2)), v, kArcSine);
+  if (name == "acos") return opaque(-inverse(root(one - v * v, 2)), v, kArcCosine);
   if (name == "atan2") {
     // D atan2(y, x) = (x Dy - y Dx)/(x^2 + y^2); the key is kept by its value.
     const Polynomial x = convert(f.op(1));
@@ -287,8 +287,8 @@ Polynomial FunctionRing::convert_function(const GiNaC::function& f) {
     for (std::size_t i = 0; i < symbols_.size(); ++i) {
       derivatives.push_back((x * derivative(v, i) - v * derivative(x, i)) * scale);
     }
-    const Polynomial g =
-        generator(Kind::function, f, one, 5, [&](const Polynomial&) { return Polynomial(*ring_); });
+    const Polynomial g = generator(Kind::function, f, one, kArcTangentOfTwo,
+                                   [&](const Polynomial&) { return Polynomial(*ring_); });
     generators_.back().derivatives = std::move(derivatives);
     return g;
   }

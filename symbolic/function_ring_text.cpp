@@ -87,6 +87,35 @@ std::string FunctionRing::name(const Generator& g) const {
   return stream.str();
 }
 
+void FunctionRing::mark_denominators(const Polynomial& p, std::vector<bool>& marks) const {
+  std::size_t place = 0;
+  for (std::size_t g = 0; g < generators_.size(); ++g) {
+    if (generators_[g].kind != Kind::inverse) continue;
+    if (marks.size() == place) marks.push_back(false);
+    if (p.uses(symbols_.size() + g)) marks[place] = true;
+    ++place;
+  }
+}
+
+std::vector<Polynomial> FunctionRing::implied_positive() const {
+  std::vector<Polynomial> result;
+  for (const auto& [p, sign, implied] : signs_) {
+    if (implied) result.push_back(sign > 0 ? p : -p);
+  }
+  return result;
+}
+
+std::vector<ex> FunctionRing::real_domain() const {
+  std::vector<ex> result;
+  if (complex_) return result;
+  for (const Generator& g : generators_) {
+    const bool even_root = g.kind == Kind::root && g.order % 2 == 0;
+    const bool logarithm = g.kind == Kind::function && g.order == kLogarithm;
+    if ((even_root || logarithm) && !g.base.is_constant()) result.push_back(expression(g.base));
+  }
+  return result;
+}
+
 std::vector<Polynomial> FunctionRing::denominators() const {
   std::vector<Polynomial> result;
   for (const Generator& g : generators_) {

@@ -11,27 +11,6 @@ namespace casimir {
 
 using GiNaC::ex;
 
-namespace {
-
-/// Of a real constant; empty where it is not decided.
-std::optional<int> sign_of(const ex& value) {
-  if (GiNaC::is_a<GiNaC::numeric>(value)) {
-    const GiNaC::numeric number = GiNaC::ex_to<GiNaC::numeric>(value);
-    return number.is_real() ? std::optional(number.csgn()) : std::nullopt;
-  }
-  if (const auto exact = exact_constant(value); exact && exact->zero) return 0;
-  // Which side of zero an irrational number is on is read off many digits, and only where they
-  // leave no doubt.
-  const ex digits = value.evalf();
-  if (!GiNaC::is_a<GiNaC::numeric>(digits)) return std::nullopt;
-  const GiNaC::numeric number = GiNaC::ex_to<GiNaC::numeric>(digits);
-  const GiNaC::numeric doubt(1, 1000000);
-  if (!number.is_real() || GiNaC::abs(number) < doubt) return std::nullopt;
-  return number.csgn();
-}
-
-}  // namespace
-
 std::vector<std::string> names_of(const std::vector<NamedExpression>& list) {
   std::vector<std::string> names;
   for (const NamedExpression& item : list) names.push_back(item.name);
@@ -54,7 +33,7 @@ std::vector<ex> PoissonMap::composed_brackets() const {
 bool Assumption::holds_at(const GiNaC::exmap& point) const {
   try {
     const ex value = difference.subs(point, GiNaC::subs_options::no_pattern);
-    const std::optional<int> sign = sign_of(value);
+    const std::optional<int> sign = sign_of_constant(value);
     if (!sign) return false;
     if (relation == "!=") return *sign != 0;
     if (relation == "==") return *sign == 0;

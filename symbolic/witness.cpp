@@ -27,9 +27,14 @@ std::vector<bool> bare_symbols(const Model& model, const FunctionRing& ring,
 }
 
 /// The witness if the value at this point is shown not to be zero, and the level's to be zero.
-std::optional<Witness> confirmed(const ExactPoint& point, const ex& expression,
-                                 const Level& level) {
+std::optional<Witness> confirmed(const ExactPoint& point, const ex& expression, const Level& level,
+                                 const std::vector<ex>& real_domain) {
   try {
+    const bool real = std::all_of(real_domain.begin(), real_domain.end(), [&](const ex& f) {
+      const auto sign = sign_of_constant(point.evaluate(f));
+      return sign && *sign >= 0;
+    });
+    if (!real) return std::nullopt;
     const auto value = exact_constant(point.evaluate(expression));
     if (!value || value->zero) return std::nullopt;
     const bool on_level =
@@ -50,6 +55,7 @@ std::optional<Witness> find_witness(const Model& model, const FunctionRing& ring
                                     PointSearch& points, const Polynomial& numerator,
                                     const std::function<ex()>& by_ginac, const Level& level) {
   const ex expression = by_ginac();
+  const std::vector<ex> real_domain = ring.real_domain();
   constexpr int kTrials = 60;
   if (ring.has_value(numerator)) {  // the nicest points: every function has a rational value
     const FunctionRing::Freedom freedom{false, bare_symbols(model, ring, numerator, level)};
@@ -57,7 +63,8 @@ std::optional<Witness> find_witness(const Model& model, const FunctionRing& ring
       const auto point = points.completed(level, freedom);
       if (!point) break;
       if (cln::zerop(numerator.evaluate(*point))) continue;
-      if (auto found = confirmed(ExactPoint(ring, *point, freedom.bare), expression, level))
+      if (auto found =
+              confirmed(ExactPoint(ring, *point, freedom.bare), expression, level, real_domain))
         return found;
     }
   }
@@ -66,7 +73,8 @@ std::optional<Witness> find_witness(const Model& model, const FunctionRing& ring
   for (int trial = 0; trial < kTrials; ++trial) {
     const auto point = points.rational(level);
     if (!point) break;
-    if (auto found = confirmed(ExactPoint(ring, *point, all_bare), expression, level)) return found;
+    if (auto found = confirmed(ExactPoint(ring, *point, all_bare), expression, level, real_domain))
+      return found;
   }
   return std::nullopt;
 }

@@ -33,20 +33,6 @@ const std::filesystem::path kFolder = CASIMIR_SOURCE_DIR "/tests/symbolic/book";
 /// True claims that the prover leaves undecided, or false ones without a witness. Each is a
 /// weakness of the prover: whoever removes it removes the entry, as the test then demands.
 const std::vector<std::pair<std::string, std::string>> kKnownUndecided = {
-    // exp(log(x)) is not reduced to x
-    {"1.27-logarithm", "the Hamiltonian in q and p"},
-    // exp(I*x) is not cos(x) + I*sin(x)
-    {"1.40-quaternion-euler-angles", "alpha by the exponential"},
-    {"1.40-quaternion-euler-angles", "beta by the exponential"},
-    {"1.40-quaternion-euler-angles", "gamma by the exponential"},
-    {"1.40-quaternion-euler-angles", "delta by the exponential"},
-    // the radicand a*sin(l)^2 + a*cos(l)^2 is not reduced to a
-    {"1.43-andoyer-vertical", "what is printed is smaller by that factor"},
-    {"1.43-andoyer-vertical", "what is printed is right where (M, ga) = 0"},
-    {"1.43-andoyer-vertical", "sin(l) from M"},
-    {"1.43-andoyer-vertical", "cos(l) from M"},
-    // sqrt(G^2 - L^2) is not split into sqrt(G - L)*sqrt(G + L) where both are positive
-    {"1.43-andoyer-quaternion", "M1 is that of (1.42)"},
     // no witness is looked for on a level that fixes the cosine of an angle
     {"1.70-magnetic-flux", "false: the flux is zero"},
 };

@@ -47,6 +47,28 @@ TEST_F(Functions, Exponentials) {
   EXPECT_TRUE(zero(exp(2 * x_) - pow(exp(x_), 2)));
   EXPECT_TRUE(zero(exp(x_ + y_) * exp(-y_) - exp(x_)));
   EXPECT_FALSE(zero(exp(x_) - exp(y_)));
+  EXPECT_TRUE(zero(exp(2 * GiNaC::log(x_) + y_) - x_ * x_ * exp(y_)));
+  EXPECT_TRUE(zero(exp(-GiNaC::log(x_ + y_)) - 1 / (x_ + y_)));
+  EXPECT_FALSE(zero(exp(2 * GiNaC::log(x_)) - x_));
+  EXPECT_FALSE(zero(exp(GiNaC::log(x_) / 2) - x_));
+}
+
+TEST_F(Functions, ExponentialsOfImaginaryNumbersAreSinesAndCosines) {
+  EXPECT_TRUE(
+      zero(exp(GiNaC::I * (x_ + y_) / 2) - cos((x_ + y_) / 2) - GiNaC::I * sin((x_ + y_) / 2)));
+  EXPECT_TRUE(zero(exp(GiNaC::I * x_) * exp(-GiNaC::I * x_) - 1));
+  EXPECT_FALSE(zero(exp(GiNaC::I * x_) - cos(x_) + GiNaC::I * sin(x_)));
+  EXPECT_TRUE(same_derivative(exp(GiNaC::I * x_ * y_)));
+}
+
+TEST_F(Functions, RadicandsAreReducedAndSplitWhereTheirFactorsArePositive) {
+  EXPECT_TRUE(zero(sqrt(y_ * pow(sin(x_), 2) + y_ * pow(cos(x_), 2)) - sqrt(y_)));
+  const ex split = sqrt(x_ * x_ - y_ * y_) - sqrt(x_ - y_) * sqrt(x_ + y_);
+  EXPECT_TRUE(zero(split));
+  EXPECT_TRUE(zero(split, {positive(x_ - y_), positive(x_ + y_)}));
+  EXPECT_TRUE(zero(split, {positive(x_ - y_)}));
+  EXPECT_TRUE(zero(sqrt(x_ * y_) - sqrt(-x_) * sqrt(-y_), {positive(-x_), positive(-y_)}));
+  EXPECT_FALSE(zero(sqrt(x_ * y_) - sqrt(x_) * sqrt(y_), {positive(-x_), positive(-y_)}));
 }
 
 TEST_F(Functions, RootsKeepTheirBranch) {
