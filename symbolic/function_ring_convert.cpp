@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <sstream>
+#include <unordered_map>
 
 #include "symbolic/function_ring.hpp"
 
@@ -125,6 +127,7 @@ bool FunctionRing::multiply_number(const ex& e, Monomial& monomial) {
 Polynomial FunctionRing::convert_sum(const ex& e) {
   TermCollector monomials(*ring_);
   GiNaC::exvector others;
+  std::unordered_map<ex, cln::cl_RA> factors;  // of others, where not 1
   Monomial monomial;
   const auto restart = [&] {
     monomial.coefficient = 1;
@@ -133,10 +136,14 @@ Polynomial FunctionRing::convert_sum(const ex& e) {
   const GiNaC::epvector& pairs = Pairs::of(e);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     restart();
-    if (multiply_number(pairs[i].coeff, monomial) && multiply_monomial(pairs[i].rest, monomial))
+    const bool real = multiply_number(pairs[i].coeff, monomial);
+    if (real && multiply_monomial(pairs[i].rest, monomial)) {
       monomials.add(monomial.coefficient, monomial.exponents);
-    else
-      others.push_back(e.op(i));
+      continue;
+    }
+    others.push_back(real ? pairs[i].rest : e.op(i));
+    if (real && !pairs[i].coeff.is_equal(1))
+      factors.emplace(pairs[i].rest, rational(GiNaC::ex_to<GiNaC::numeric>(pairs[i].coeff)));
   }
   restart();
   if (multiply_number(Pairs::number(e), monomial))
@@ -147,7 +154,14 @@ Polynomial FunctionRing::convert_sum(const ex& e) {
   if (others.empty()) return first;
   order(others);
   std::vector<const Polynomial*> summands{&first};
-  for (const ex& term : others) summands.push_back(&convert(term));
+  std::deque<Polynomial> multiples;
+  for (const ex& term : others) {
+    summands.push_back(&convert(term));
+    const auto factor = factors.find(term);
+    if (factor == factors.end()) continue;
+    multiples.push_back(summands.back()->scaled(factor->second));
+    summands.back() = &multiples.back();
+  }
   return Polynomial::sum(*ring_, std::move(summands));
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
 namespace casimir {
 namespace {
@@ -23,8 +24,8 @@ bool is_skew(const PolynomialRows& rows) {
 
 /// Whether `count` of the candidates are in the kernel of all rows and independent at the point.
 bool kernel_has(const Prover& prover, const PolynomialRows& rows,
-                const std::vector<KernelCandidate>& candidates,
-                const std::vector<cln::cl_RA>& point, std::size_t count) {
+                const std::vector<KernelCandidate>& candidates, const GenericRank& found,
+                const Rows& values, std::size_t count) {
   const FunctionRing& ring = prover.ring();
   const auto orthogonal = [&](const KernelCandidate& candidate, std::size_t i) {
     if (candidate.orthogonal) return candidate.orthogonal(i);
@@ -36,8 +37,13 @@ bool kernel_has(const Prover& prover, const PolynomialRows& rows,
   for (const KernelCandidate& candidate : candidates) {
     if (independent.size() == count) break;
     if (!have_values(prover, {candidate.vector})) continue;
-    independent.push_back(values_at({candidate.vector}, point)[0]);
-    bool belongs = rank(independent) == independent.size();
+    independent.push_back(values_at({candidate.vector}, found.point)[0]);
+    // What is not orthogonal at the point need not be multiplied out.
+    bool belongs = std::all_of(values.begin(), values.end(), [&](const auto& row) {
+      const auto& v = independent.back();
+      return cln::zerop(std::inner_product(row.begin(), row.end(), v.begin(), cln::cl_RA(0)));
+    });
+    belongs = belongs && rank(independent) == independent.size();
     for (std::size_t i = 0; i < rows.size() && belongs; ++i) belongs = orthogonal(candidate, i);
     if (!belongs) independent.pop_back();
   }
@@ -205,12 +211,26 @@ std::optional<GenericRank> generic_rank(
     values = std::move(here);
     if (!best->exact && kernel) {
       if (!candidates) candidates = kernel();
-      best->exact = kernel_has(prover, rows, *candidates, *point, columns - found);
+      best->exact = kernel_has(prover, rows, *candidates, *best, values, columns - found);
     }
     if (best->exact) return best;
   }
   if (best) best->exact = bordered_minors_vanish(prover, rows, values, best->rank);
   return best;
+}
+
+std::optional<GenericRank> gradient_rank(Prover& prover, const std::vector<Polynomial>& functions) {
+  PolynomialRows rows;
+  for (const Polynomial& f : functions) rows.push_back(prover.gradient(f));
+  return generic_rank(prover, rows, [&] {
+    std::vector<KernelCandidate> candidates;
+    if (prover.model().poisson) {
+      for (const auto& slope : rows) candidates.push_back({prover.flow_of(slope)});
+    } else {
+      candidates.push_back({prover.field()});
+    }
+    return candidates;
+  });
 }
 
 std::string point_text(const Prover& prover, const std::vector<cln::cl_RA>& point) {

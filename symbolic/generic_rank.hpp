@@ -33,6 +33,10 @@ std::optional<GenericRank> generic_rank(
     Prover& prover, const PolynomialRows& rows,
     const std::function<std::vector<KernelCandidate>()>& kernel = {});
 
+/// The rank of the gradients of functions; in the kernel are the flows of those that commute with
+/// all, and for a system without a bracket its field.
+std::optional<GenericRank> gradient_rank(Prover& prover, const std::vector<Polynomial>& functions);
+
 /// The rows' values at a point.
 std::vector<std::vector<cln::cl_RA>> values_at(const PolynomialRows& rows,
                                                const std::vector<cln::cl_RA>& point);

@@ -1,58 +1,15 @@
 #include "symbolic/polynomial.hpp"
 
 #include <cln/integer.h>
-#include <cln/integer_io.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cstdlib>
-#include <sstream>
 #include <stdexcept>
 
+#include "symbolic/flint_number.hpp"
+
 namespace casimir {
-namespace {
-
-constexpr std::size_t kWordBits = 62;
-
-void to_fmpz(fmpz_t result, const cln::cl_I& value) {
-  if (cln::integer_length(value) < kWordBits) {
-    fmpz_set_si(result, cln::cl_I_to_long(value));
-    return;
-  }
-  std::ostringstream text;
-  text << value;
-  fmpz_set_str(result, text.str().c_str(), 10);
-}
-
-cln::cl_I from_fmpz(const fmpz_t value) {
-  if (!COEFF_IS_MPZ(*value)) return cln::cl_I(static_cast<long>(*value));
-  char* text = fmpz_get_str(nullptr, 10, value);
-  const cln::cl_I result = cln::cl_I(text);
-  flint_free(text);
-  return result;
-}
-
-/// A scoped FLINT rational.
-class Rational {
- public:
-  Rational() { fmpq_init(value_); }
-  explicit Rational(const cln::cl_RA& value) : Rational() {
-    to_fmpz(fmpq_numref(value_), cln::numerator(value));
-    to_fmpz(fmpq_denref(value_), cln::denominator(value));
-  }
-  ~Rational() { fmpq_clear(value_); }
-  Rational(const Rational&) = delete;
-  Rational& operator=(const Rational&) = delete;
-  fmpq* get() { return value_; }
-  cln::cl_RA number() const {
-    return from_fmpz(fmpq_numref(value_)) / from_fmpz(fmpq_denref(value_));
-  }
-
- private:
-  fmpq_t value_;
-};
-
-}  // namespace
 
 PolynomialRing::PolynomialRing(std::size_t variables) : size_(variables) {
   fmpq_mpoly_ctx_init(context_, static_cast<slong>(variables), ORD_DEGREVLEX);
@@ -284,78 +241,6 @@ cln::cl_RA Polynomial::evaluate(const std::vector<cln::cl_RA>& point) const {
   return result.number();
 }
 
-std::vector<std::pair<Polynomial, unsigned long>> Polynomial::factors() const {
-  if (terms() == 1) return monomial_factors();
-  // FLINT's preparations take time for every variable of the ring, also for those that do not
-  // occur.
-  std::vector<std::size_t> used;
-  for (std::size_t i = 0; i < ring_->size(); ++i) {
-    if (uses(i)) used.push_back(i);
-  }
-  if (used.size() == ring_->size()) return own_factors();
-  const PolynomialRing small(used.size());
-  std::vector<std::size_t> places(ring_->size());
-  for (std::size_t k = 0; k < used.size(); ++k) places[used[k]] = k;
-  std::vector<std::pair<Polynomial, unsigned long>> result;
-  for (const auto& [factor, exponent] : moved_to(small, places).own_factors())
-    result.emplace_back(factor.moved_to(*ring_, used), exponent);
-  return result;
-}
-
-/// The same polynomial in another ring, where variable i is called places[i].
-Polynomial Polynomial::moved_to(const PolynomialRing& ring,
-                                const std::vector<std::size_t>& places) const {
-  TermCollector terms(ring);
-  std::vector<unsigned long> there(ring.size());
-  for (const auto& [coefficient, exponents] : term_list()) {
-    std::fill(there.begin(), there.end(), 0);
-    for (std::size_t i = 0; i < exponents.size(); ++i) {
-      if (exponents[i] > 0) there[places[i]] = exponents[i];
-    }
-    terms.add(coefficient, there);
-  }
-  return terms.finish();
-}
-
-std::vector<std::pair<Polynomial, unsigned long>> Polynomial::own_factors() const {
-  fmpq_mpoly_factor_t factorisation;
-  fmpq_mpoly_factor_init(factorisation, ring_->context());
-  std::vector<std::pair<Polynomial, unsigned long>> result;
-  const bool done = fmpq_mpoly_factor(factorisation, value_, ring_->context()) != 0;
-  if (done) {
-    Rational constant;
-    fmpq_mpoly_factor_get_constant_fmpq(constant.get(), factorisation, ring_->context());
-    result.emplace_back(ring_->constant(constant.number()), 1);
-    for (slong i = 0; i < fmpq_mpoly_factor_length(factorisation, ring_->context()); ++i) {
-      Polynomial base(*ring_);
-      fmpq_mpoly_factor_get_base(base.value_, factorisation, i, ring_->context());
-      result.emplace_back(std::move(base), static_cast<unsigned long>(fmpq_mpoly_factor_get_exp_si(
-                                               factorisation, i, ring_->context())));
-    }
-  }
-  fmpq_mpoly_factor_clear(factorisation, ring_->context());
-  if (!done) throw std::overflow_error("a polynomial is too large to be factored");
-  return result;
-}
-
-std::vector<std::pair<Polynomial, unsigned long>> Polynomial::monomial_factors() const {
-  const auto [coefficient, exponents] = term_list()[0];
-  std::vector<std::pair<Polynomial, unsigned long>> result;
-  result.emplace_back(ring_->constant(coefficient), 1);
-  for (std::size_t i = 0; i < exponents.size(); ++i) {
-    if (exponents[i] > 0) result.emplace_back(ring_->variable(i), exponents[i]);
-  }
-  return result;
-}
-
-Polynomial Polynomial::gcd(const Polynomial& a, const Polynomial& b) {
-  Polynomial result(*a.ring_);
-  if (fmpq_mpoly_gcd(result.value_, a.value_, b.value_, a.ring_->context()) == 0) {
-    throw std::overflow_error("polynomials are too large for their greatest common divisor");
-  }
-  return result;
-}
-
 cln::cl_RA Polynomial::content() const {
   Rational result;
   if (!is_zero()) {
@@ -385,55 +270,6 @@ Polynomial Polynomial::remainder(const std::vector<Polynomial>& divisors,
   fmpq_mpoly_divrem_ideal(q.data(), rest.value_, value_, d.data(), static_cast<slong>(d.size()),
                           ring_->context());
   return rest;
-}
-
-TermCollector::TermCollector(const PolynomialRing& ring) : sum_(ring) {
-  fmpz_init(coefficient_);
-  fmpz_init(term_denominator_);
-  fmpz_init_set_ui(denominator_, 1);
-}
-
-TermCollector::~TermCollector() {
-  fmpz_clear(coefficient_);
-  fmpz_clear(term_denominator_);
-  fmpz_clear(denominator_);
-}
-
-/// Makes the common denominator of what was collected a multiple of `denominator`.
-void TermCollector::make_divide(const fmpz_t denominator) {
-  fmpz_t common;
-  fmpz_init(common);
-  fmpz_lcm(common, denominator_, denominator);
-  fmpz_divexact(denominator_, common, denominator_);
-  fmpz_mpoly_scalar_mul_fmpz(sum_.raw()->zpoly, sum_.raw()->zpoly, denominator_,
-                             sum_.ring().context()->zctx);
-  fmpz_swap(denominator_, common);
-  fmpz_clear(common);
-}
-
-void TermCollector::add(const cln::cl_RA& coefficient,
-                        const std::vector<unsigned long>& exponents) {
-  if (cln::zerop(coefficient)) return;
-  to_fmpz(coefficient_, cln::numerator(coefficient));
-  to_fmpz(term_denominator_, cln::denominator(coefficient));
-  if (!fmpz_equal(term_denominator_, denominator_)) {
-    if (!fmpz_divisible(denominator_, term_denominator_)) make_divide(term_denominator_);
-    fmpz_divexact(term_denominator_, denominator_, term_denominator_);
-    fmpz_mul(coefficient_, coefficient_, term_denominator_);
-  }
-  fmpz_mpoly_push_term_fmpz_ui(sum_.raw()->zpoly, coefficient_, exponents.data(),
-                               sum_.ring().context()->zctx);
-}
-
-Polynomial TermCollector::finish() {
-  fmpz_one(fmpq_numref(sum_.raw()->content));
-  fmpz_set(fmpq_denref(sum_.raw()->content), denominator_);
-  if (sum_.raw()->zpoly->length > 1) {
-    fmpz_mpoly_sort_terms(sum_.raw()->zpoly, sum_.ring().context()->zctx);
-    fmpz_mpoly_combine_like_terms(sum_.raw()->zpoly, sum_.ring().context()->zctx);
-  }
-  fmpq_mpoly_reduce(sum_.raw(), sum_.ring().context());
-  return std::move(sum_);
 }
 
 }  // namespace casimir

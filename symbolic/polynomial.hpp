@@ -118,21 +118,24 @@ class Polynomial {
 };
 
 /// Adds up products of polynomials, one after the other: where terms cancel, as in an identity,
-/// they do so early, and the sum stays short.
+/// they do so early, and the sum stays short. In between it has integer coefficients over one
+/// denominator, which FLINT adds much faster than rational ones.
 class SumOfProducts {
  public:
-  explicit SumOfProducts(const PolynomialRing& ring) : sum_(ring) {}
-  void add(const Polynomial& a, const Polynomial& b) {
-    if (a.is_zero() || b.is_zero()) return;
-    if (sum_.is_zero())
-      sum_ = a * b;
-    else
-      sum_ += a * b;
-  }
-  Polynomial finish() { return std::move(sum_); }
+  explicit SumOfProducts(const PolynomialRing& ring);
+  ~SumOfProducts();
+  SumOfProducts(const SumOfProducts&) = delete;
+  SumOfProducts& operator=(const SumOfProducts&) = delete;
+
+  void add(const Polynomial& a, const Polynomial& b);
+
+  /// The sum of what was added; nothing may be added after that.
+  Polynomial finish();
 
  private:
-  Polynomial sum_;
+  Polynomial sum_;      ///< until finished, its integer part times 1/denominator_
+  Polynomial product_;  ///< of integer parts
+  fmpz_t denominator_;
 };
 
 /// Collects terms in any order; like terms are added up when it is finished.
@@ -150,8 +153,6 @@ class TermCollector {
   Polynomial finish();
 
  private:
-  void make_divide(const fmpz_t denominator);
-
   Polynomial sum_;  ///< while collecting, its integer part times 1/denominator_
   fmpz_t coefficient_, term_denominator_, denominator_;
 };

@@ -53,6 +53,8 @@ class Prover {
   Polynomial bracket(const GiNaC::ex& f, const GiNaC::ex& g);
   /// J grad f for a function of the case, kept: entry i is {x_i, f}.
   const std::vector<Polynomial>& flow(const GiNaC::ex& f);
+  /// J times a gradient.
+  std::vector<Polynomial> flow_of(const std::vector<Polynomial>& slope) const;
   /// df/dt along the flow, with the explicit dependence on time.
   Polynomial rate(const Polynomial& f) const;
   /// Of the flow: the sum of d(dx_i/dt)/dx_i.
@@ -75,7 +77,6 @@ class Prover {
 
  private:
   bool vanishes_by_substitution(const Residual& residual, const Level& level) const;
-  std::vector<Polynomial> flow_of(const std::vector<Polynomial>& slope) const;
   Polynomial along(const Polynomial& f, const std::vector<Polynomial>& field) const;
   bool vanishes_on(const Residual& residual, Polynomial& rest, const Level& level, Proof& proof);
   static std::vector<GiNaC::symbol> symbols_of(const Model& model);

@@ -37,10 +37,9 @@ Proof independence_finding(Prover& prover, const NamedExpression& f) {
   proof.kind = "independence";
   proof.name = f.name;
   const auto rank_of = [&](const Functions& functions) -> std::size_t {
-    PolynomialRows rows;
-    for (const NamedExpression& g : functions)
-      rows.push_back(prover.gradient(prover.ring().convert(g.value)));
-    const auto found = rows.empty() ? std::nullopt : generic_rank(prover, rows);
+    std::vector<Polynomial> values;
+    for (const NamedExpression& g : functions) values.push_back(prover.ring().convert(g.value));
+    const auto found = values.empty() ? std::nullopt : gradient_rank(prover, values);
     return found ? found->rank : 0;
   };
   Functions all{f};

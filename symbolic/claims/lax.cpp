@@ -42,10 +42,8 @@ std::vector<Polynomial> characteristic_polynomial(const FunctionRing& ring, cons
 
 /// The rank of the gradients; empty where it is not shown to be the generic one.
 std::optional<std::size_t> rank_of(Prover& prover, const std::vector<Polynomial>& functions) {
-  PolynomialRows rows;
-  for (const Polynomial& f : functions) rows.push_back(prover.gradient(f));
-  if (rows.empty()) return 0;
-  const auto found = generic_rank(prover, rows);
+  if (functions.empty()) return 0;
+  const auto found = gradient_rank(prover, functions);
   return found && found->exact ? std::optional(found->rank) : std::nullopt;
 }
 

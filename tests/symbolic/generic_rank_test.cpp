@@ -109,6 +109,43 @@ TEST_F(GenericRanks, KernelCandidatesAreChecked) {
   EXPECT_EQ(full->rank, 2U);
 }
 
+/// The rank of the gradients of functions of q1..q9, p1..p9, more than minors are tried for.
+GenericRank canonical_rank(const std::vector<std::string>& functions) {
+  std::string names;
+  for (const char* letter : {"q", "p"}) {
+    for (int i = 1; i <= 9; ++i)
+      names += (names.empty() ? "\"" : ", \"") + (letter + std::to_string(i)) + "\"";
+  }
+  const Model model = model_of("hamiltonian = \"p1^2\"\n[phase_space]\nvariables = [" + names +
+                               "]\ncanonical = true\n");
+  Prover prover(model, {});
+  std::vector<Polynomial> values;
+  for (const std::string& f : functions)
+    values.push_back(prover.ring().convert(model.parse({f, {"test", 1, 1}, f})));
+  return *gradient_rank(prover, values);
+}
+
+TEST(GradientRank, FlowsOfCommutingFunctionsBoundIt) {
+  std::vector<std::string> momenta;
+  for (int i = 1; i <= 9; ++i) momenta.push_back("p" + std::to_string(i));
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = momenta;
+    all.insert(all.end(), more.begin(), more.end());
+    return canonical_rank(all);
+  };
+  EXPECT_EQ(with({"p1^2 + p2*p3"}).rank, 9U);
+  EXPECT_TRUE(with({"p1^2 + p2*p3"}).exact);
+  EXPECT_EQ(with({"p1^2 + p2*q3"}).rank, 10U);
+  // The flows of p2, .., p9 are left where p1 has its partner, and they are just enough.
+  EXPECT_EQ(with({"q1", "p1*q1"}).rank, 10U);
+  EXPECT_TRUE(with({"q1", "p1*q1"}).exact);
+  // Where every function has its partner there is no flow, and nothing is shown.
+  const GenericRank pairs =
+      canonical_rank({"q1", "p1", "q2", "p2", "q3", "p3", "q4", "p4", "q5", "p5", "q1*p1 + q2"});
+  EXPECT_EQ(pairs.rank, 10U);
+  EXPECT_FALSE(pairs.exact);
+}
+
 TEST_F(GenericRanks, TooMuchWorkIsNotAProof) {
   // Six rows and columns, five of the rows long and independent, and the last one their sum.
   std::vector<std::vector<std::string>> matrix(6, std::vector<std::string>(6));

@@ -112,6 +112,28 @@ TEST_F(Ring3, SumOfManyIsTheSumOneByOne) {
   EXPECT_TRUE(Polynomial::sum(ring_, std::vector<Polynomial>{}).is_zero());
 }
 
+TEST_F(Ring3, SumOfProductsKeepsItsDenominators) {
+  const Polynomial half_x = x_.scaled(cln::cl_RA(1) / 2);
+  const Polynomial p = (y_ - z_).pow(3).scaled(cln::cl_RA(4) / 15);
+  const auto sum_of = [&](const Polynomial& last) {
+    SumOfProducts sum(ring_);
+    sum.add(half_x, p);
+    sum.add(p, x_ + one_.scaled(cln::cl_RA(2) / 7));
+    sum.add(Polynomial(ring_), p);
+    sum.add(x_ * x_, x_.scaled(6));
+    sum.add(last, p);
+    return sum.finish();
+  };
+  EXPECT_EQ(sum_of(y_), half_x * p + p * (x_ + one_.scaled(cln::cl_RA(2) / 7)) +
+                            (x_ * x_ * x_).scaled(6) + y_ * p);
+  EXPECT_FALSE(sum_of(y_) == sum_of(z_));
+  SumOfProducts cancelling(ring_);
+  cancelling.add(half_x, p);
+  cancelling.add(-p, half_x);
+  EXPECT_TRUE(cancelling.finish().is_zero());
+  EXPECT_TRUE(SumOfProducts(ring_).finish().is_zero());
+}
+
 TEST_F(Ring3, CollectedTermsAddUp) {
   const cln::cl_RA huge = cln::expt_pos(cln::cl_I(10), 30);
   TermCollector terms(ring_);

@@ -1,0 +1,82 @@
+// Factors and greatest common divisors of polynomials.
+#include <algorithm>
+#include <stdexcept>
+
+#include "symbolic/flint_number.hpp"
+#include "symbolic/polynomial.hpp"
+
+namespace casimir {
+
+std::vector<std::pair<Polynomial, unsigned long>> Polynomial::factors() const {
+  if (terms() == 1) return monomial_factors();
+  // FLINT's preparations take time for every variable of the ring, also for those that do not
+  // occur.
+  std::vector<std::size_t> used;
+  for (std::size_t i = 0; i < ring_->size(); ++i) {
+    if (uses(i)) used.push_back(i);
+  }
+  if (used.size() == ring_->size()) return own_factors();
+  const PolynomialRing small(used.size());
+  std::vector<std::size_t> places(ring_->size());
+  for (std::size_t k = 0; k < used.size(); ++k) places[used[k]] = k;
+  std::vector<std::pair<Polynomial, unsigned long>> result;
+  for (const auto& [factor, exponent] : moved_to(small, places).own_factors())
+    result.emplace_back(factor.moved_to(*ring_, used), exponent);
+  return result;
+}
+
+/// The same polynomial in another ring, where variable i is called places[i].
+Polynomial Polynomial::moved_to(const PolynomialRing& ring,
+                                const std::vector<std::size_t>& places) const {
+  TermCollector terms(ring);
+  std::vector<unsigned long> there(ring.size());
+  for (const auto& [coefficient, exponents] : term_list()) {
+    std::fill(there.begin(), there.end(), 0);
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
+      if (exponents[i] > 0) there[places[i]] = exponents[i];
+    }
+    terms.add(coefficient, there);
+  }
+  return terms.finish();
+}
+
+std::vector<std::pair<Polynomial, unsigned long>> Polynomial::own_factors() const {
+  fmpq_mpoly_factor_t factorisation;
+  fmpq_mpoly_factor_init(factorisation, ring_->context());
+  std::vector<std::pair<Polynomial, unsigned long>> result;
+  const bool done = fmpq_mpoly_factor(factorisation, value_, ring_->context()) != 0;
+  if (done) {
+    Rational constant;
+    fmpq_mpoly_factor_get_constant_fmpq(constant.get(), factorisation, ring_->context());
+    result.emplace_back(ring_->constant(constant.number()), 1);
+    for (slong i = 0; i < fmpq_mpoly_factor_length(factorisation, ring_->context()); ++i) {
+      Polynomial base(*ring_);
+      fmpq_mpoly_factor_get_base(base.value_, factorisation, i, ring_->context());
+      result.emplace_back(std::move(base), static_cast<unsigned long>(fmpq_mpoly_factor_get_exp_si(
+                                               factorisation, i, ring_->context())));
+    }
+  }
+  fmpq_mpoly_factor_clear(factorisation, ring_->context());
+  if (!done) throw std::overflow_error("a polynomial is too large to be factored");
+  return result;
+}
+
+std::vector<std::pair<Polynomial, unsigned long>> Polynomial::monomial_factors() const {
+  const auto [coefficient, exponents] = term_list()[0];
+  std::vector<std::pair<Polynomial, unsigned long>> result;
+  result.emplace_back(ring_->constant(coefficient), 1);
+  for (std::size_t i = 0; i < exponents.size(); ++i) {
+    if (exponents[i] > 0) result.emplace_back(ring_->variable(i), exponents[i]);
+  }
+  return result;
+}
+
+Polynomial Polynomial::gcd(const Polynomial& a, const Polynomial& b) {
+  Polynomial result(*a.ring_);
+  if (fmpq_mpoly_gcd(result.value_, a.value_, b.value_, a.ring_->context()) == 0) {
+    throw std::overflow_error("polynomials are too large for their greatest common divisor");
+  }
+  return result;
+}
+
+}  // namespace casimir
