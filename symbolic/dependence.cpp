@@ -80,7 +80,7 @@ class Relation {
  public:
   Relation(Prover& prover, const std::vector<NamedExpression>& functions) : prover_(prover) {
     for (const NamedExpression& f : functions)
-      add(f.name, prover.ring().convert(f.value), /*parameter=*/false);
+      add(f.name, prover.convert(f.value), /*parameter=*/false);
     for (std::size_t i = 0; i < prover.model().parameters.size(); ++i) {
       add(prover.model().parameters[i].get_name(),
           prover.ring().ring().variable(prover.dimension() + i), /*parameter=*/true);

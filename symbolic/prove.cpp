@@ -18,27 +18,21 @@ std::vector<NamedExpression> read(const Model& model, const std::vector<Text>& t
   return result;
 }
 
-struct Work {
+std::vector<Claim> claims_of(const Model& model, const Candidates& candidates) {
   std::vector<Claim> claims;
-  std::vector<GiNaC::ex> expressions;  ///< of candidates, which the model does not hold
-};
-
-Work work_of(const Model& model, const Candidates& candidates) {
-  Work work;
   if (candidates.empty()) {
     for (const ClaimKind& kind : kClaimKinds) {
       for (Claim& claim : kind(model)) {
         if (candidates.only.empty() || candidates.only == claim.kind)
-          work.claims.push_back(std::move(claim));
+          claims.push_back(std::move(claim));
       }
     }
-    return work;
+    return claims;
   }
   const std::vector<NamedExpression> on = read(model, candidates.on);
   const auto add = [&](const std::vector<Text>& texts, auto make_claim) {
     for (const NamedExpression& f : read(model, texts)) {
-      work.claims.push_back(make_claim(f, on));
-      work.expressions.push_back(f.value);
+      claims.push_back(make_claim(f, on));
     }
   };
   if (!model.poisson && !candidates.casimirs.empty()) {
@@ -50,16 +44,16 @@ Work work_of(const Model& model, const Candidates& candidates) {
   add(candidates.invariant_relations, invariant_relation_claim);
   for (const Text& text : candidates.identities) {
     const auto [left, right] = model.parse_equation(text);
-    work.claims.push_back(identity_claim({text.value, text.where, left, right, on}));
+    claims.push_back(identity_claim({text.value, text.where, left, right, on}));
   }
   if (on.empty()) {
     for (const auto* texts :
          {&candidates.casimirs, &candidates.integrals, &candidates.invariant_relations}) {
-      for (const NamedExpression& f : read(model, *texts)) work.claims.push_back(judgement_note(f));
+      for (const NamedExpression& f : read(model, *texts))
+        claims.push_back(judgement_note(model, f));
     }
   }
-  for (const NamedExpression& f : on) work.expressions.push_back(f.value);
-  return work;
+  return claims;
 }
 
 Proof undecided(const Claim& claim) {
@@ -102,28 +96,55 @@ std::string to_string(Verdict verdict) {
 
 std::vector<Proof> pending(const Model& model, const Candidates& candidates) {
   std::vector<Proof> proofs;
-  for (const Claim& claim : work_of(model, candidates).claims) proofs.push_back(undecided(claim));
+  for (const Claim& claim : claims_of(model, candidates)) proofs.push_back(undecided(claim));
   return proofs;
 }
 
+namespace {
+
+/// What decides the claims: one prover for all of them; but where a root or a logarithm makes some
+/// function positive, a prover for each, so that no proof rests on the domain of another claim.
+class Provers {
+ public:
+  Provers(const Model& model, const std::vector<Claim>& claims) : model_(model) {
+    std::vector<GiNaC::ex> all;
+    for (const Claim& claim : claims)
+      all.insert(all.end(), claim.expressions.begin(), claim.expressions.end());
+    try {
+      shared_.emplace(model, all);
+      if (shared_->ring().implied_positive().empty()) return;
+      shared_.reset();
+    } catch (const TooLarge&) {
+      shared_.reset();  // a single claim may be small enough
+    }
+  }
+
+  void decide(const Claim& claim, Proof& proof) {
+    try {
+      if (!shared_) own_.emplace(model_, claim.expressions);
+      Prover& prover = shared_ ? *shared_ : *own_;
+      prover.begin_claim();
+      casimir::decide(prover, claim, proof);
+    } catch (const TooLarge& limit) {
+      proof.reason = limit.what();
+    }
+  }
+
+ private:
+  const Model& model_;
+  std::optional<Prover> shared_, own_;
+};
+
+}  // namespace
+
 std::vector<Proof> prove(const Model& model, const Candidates& candidates,
                          const std::function<bool(const Proof&)>& report) {
-  const Work work = work_of(model, candidates);
-  std::optional<Prover> prover;
-  std::string too_large;  // not even the expressions of the case fit
-  try {
-    std::vector<GiNaC::ex> expressions = work.expressions;
-    for (const Claim& claim : work.claims)
-      expressions.insert(expressions.end(), claim.expressions.begin(), claim.expressions.end());
-    prover.emplace(model, expressions);
-  } catch (const TooLarge& limit) {
-    too_large = limit.what();
-  }
+  const std::vector<Claim> claims = claims_of(model, candidates);
+  Provers provers(model, claims);
   std::vector<Proof> proofs;
-  for (const Claim& claim : work.claims) {
+  for (const Claim& claim : claims) {
     proofs.push_back(undecided(claim));
-    proofs.back().reason = too_large;
-    if (prover) decide(*prover, claim, proofs.back());
+    provers.decide(claim, proofs.back());
     if (report && !report(proofs.back())) break;
   }
   return proofs;

@@ -37,6 +37,7 @@ struct Proof {
   std::string reason;           ///< for what is not proved
   std::optional<Witness> witness;
   std::vector<std::string> nonzero;    ///< what was divided by
+  std::vector<std::string> positive;   ///< so that its roots and logarithms are real
   std::vector<std::string> integrals;  ///< that a Lax pair gives
   std::vector<Proof> findings;         ///< of a judgement: what else is known of the candidate
 };

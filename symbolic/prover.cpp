@@ -50,46 +50,22 @@ std::vector<GiNaC::symbol> Prover::symbols_of(const Model& model) {
   return symbols;
 }
 
-std::vector<ex> Prover::expressions_of(const Model& model, const std::vector<ex>& further) {
-  std::vector<ex> all = further;
-  const auto add = [&](const std::vector<NamedExpression>& list) {
-    for (const NamedExpression& item : list) all.push_back(item.value);
-  };
-  if (model.hamiltonian) all.push_back(*model.hamiltonian);
-  if (model.poisson) {
-    for (std::size_t i = 0; i < model.variables.size(); ++i) {
-      for (std::size_t j = i + 1; j < model.variables.size(); ++j)
-        all.push_back((*model.poisson)(i, j));
-    }
-  } else {
-    all.insert(all.end(), model.field.begin(), model.field.end());
+std::vector<ex> Prover::with_dynamics(const Model& model, std::vector<ex> expressions) {
+  if (!model.poisson) {
+    expressions.insert(expressions.end(), model.field.begin(), model.field.end());
+    return expressions;
   }
-  add(model.casimirs);
-  add(model.integrals);
-  for (const Measure& measure : model.measures) all.push_back(measure.density.value);
-  for (const auto* claims : {&model.conditionals, &model.invariant_relations}) {
-    for (const LevelClaim& claim : *claims) {
-      all.push_back(claim.expression.value);
-      add(claim.on);
-    }
+  expressions.push_back(*model.hamiltonian);
+  for (std::size_t i = 0; i < model.variables.size(); ++i) {
+    for (std::size_t j = i + 1; j < model.variables.size(); ++j)
+      expressions.push_back((*model.poisson)(i, j));
   }
-  for (const LaxPair& pair : model.lax_pairs) {
-    for (std::size_t k = 0; k < pair.l.nops(); ++k) {
-      all.push_back(pair.l.op(k));
-      all.push_back(pair.a.op(k));
-    }
-  }
-  for (const PoissonMap& map : model.maps) {
-    all.insert(all.end(), map.expressions.begin(), map.expressions.end());
-    add(map.on);
-    for (const ex& composed : map.composed_brackets()) all.push_back(composed);
-  }
-  return all;
+  return expressions;
 }
 
-Prover::Prover(const Model& model, const std::vector<ex>& further)
+Prover::Prover(const Model& model, const std::vector<ex>& expressions)
     : model_(model),
-      ring_(symbols_of(model), model.assumptions, expressions_of(model, further)),
+      ring_(symbols_of(model), model.assumptions, with_dynamics(model, expressions)),
       points_(model, ring_) {
   const std::size_t n = dimension();
   if (!model.poisson) {
@@ -106,6 +82,22 @@ Prover::Prover(const Model& model, const std::vector<ex>& further)
     }
   }
   field_ = flow_of(gradient(ring_.convert(*model.hamiltonian)));
+}
+
+const Polynomial& Prover::convert(const ex& expression) {
+  if (!ring_.is_polynomial()) {
+    // What cancels in the sum was divided by all the same.
+    for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
+      if (GiNaC::is_a<GiNaC::power>(*part) || GiNaC::is_a<GiNaC::function>(*part))
+        used(ring_.convert(*part));
+    }
+  }
+  return used(ring_.convert(expression));
+}
+
+const std::vector<Polynomial>& Prover::field() const {
+  for (const Polynomial& rate : field_) used(rate);
+  return field_;
 }
 
 std::vector<Polynomial> Prover::gradient(const Polynomial& f) const {
@@ -141,20 +133,23 @@ Polynomial Prover::along(const Polynomial& f, const std::vector<Polynomial>& fie
 
 const std::vector<Polynomial>& Prover::flow(const ex& f) {
   const auto known = flows_.find(f);
-  if (known != flows_.end()) return known->second;
-  return flows_.emplace(f, flow_of(gradient(ring_.convert(f)))).first->second;
+  if (known != flows_.end()) {
+    for (const Polynomial& rate : known->second) used(rate);
+    return known->second;
+  }
+  return flows_.emplace(f, flow_of(gradient(convert(f)))).first->second;
 }
 
 Polynomial Prover::bracket(const ex& f, const ex& g) {
   if (f.compare(g) > 0) return -bracket(g, f);
   const auto known = known_brackets_.find({f, g});
   if (known != known_brackets_.end()) return known->second;
-  Polynomial result = ring_.numerator(along(ring_.convert(f), flow(g)));
+  Polynomial result = ring_.numerator(along(convert(f), flow(g)));
   return known_brackets_.emplace(std::pair(f, g), std::move(result)).first->second;
 }
 
 Polynomial Prover::rate(const Polynomial& f) const {
-  Polynomial result = along(f, field_);
+  Polynomial result = along(f, field());
   if (model_.time) result += ring_.derivative(f, dimension() + model_.parameters.size());
   return result;
 }
@@ -162,7 +157,7 @@ Polynomial Prover::rate(const Polynomial& f) const {
 Polynomial Prover::divergence() const {
   std::vector<Polynomial> slopes;
   slopes.reserve(dimension());
-  for (std::size_t i = 0; i < dimension(); ++i) slopes.push_back(ring_.derivative(field_[i], i));
+  for (std::size_t i = 0; i < dimension(); ++i) slopes.push_back(ring_.derivative(field()[i], i));
   return Polynomial::sum(ring_.ring(), slopes);
 }
 
@@ -171,7 +166,7 @@ Level Prover::level(const std::vector<NamedExpression>& on) {
   for (const NamedExpression& f : on) {
     result.texts.push_back(f.name);
     result.functions.push_back(f.value);
-    result.numerators.push_back(ring_.numerator(ring_.convert(f.value)));
+    result.numerators.push_back(ring_.numerator(convert(f.value)));
   }
   result.solved = triangular_set(result.numerators, dimension());
   if (result.solved.empty()) {
@@ -188,7 +183,7 @@ std::vector<Residual> Prover::level_rates(const Level& level) {
   std::vector<Residual> result;
   for (std::size_t i = 0; i < level.functions.size(); ++i) {
     const ex f = level.functions[i];
-    result.push_back({fmt::format("d({})/dt", level.texts[i]), rate(ring_.convert(f)),
+    result.push_back({fmt::format("d({})/dt", level.texts[i]), rate(convert(f)),
                       [this, f] { return model_.rate(f); }});
   }
   return result;
@@ -277,7 +272,11 @@ void Prover::decide(Proof& proof, const std::vector<Residual>& residuals, const 
     if (proof.witness) break;
   }
   if (proof.verdict != Verdict::proved) proof.evidence.clear();
-  for (const Polynomial& d : ring_.denominators()) proof.nonzero.push_back(ring_.text(d));
+  const std::vector<Polynomial> denominators = ring_.denominators();
+  for (std::size_t k = 0; k < divided_by_.size(); ++k) {
+    if (divided_by_[k]) proof.nonzero.push_back(ring_.text(denominators[k]));
+  }
+  for (const Polynomial& p : ring_.implied_positive()) proof.positive.push_back(ring_.text(p));
 }
 
 std::optional<Point> Prover::random_point(const Level& level) {

@@ -35,19 +35,24 @@ struct ExpressionPairLess {
 /// search for witnesses. Deterministic: random points come from a fixed seed.
 class Prover {
  public:
-  /// \param further  expressions beyond those of the model that will be asked about.
-  Prover(const Model& model, const std::vector<GiNaC::ex>& further);
+  /// \param expressions  what will be asked about, beside the bracket and the flow.
+  Prover(const Model& model, const std::vector<GiNaC::ex>& expressions);
 
   const Model& model() const { return model_; }
   FunctionRing& ring() { return ring_; }
   const FunctionRing& ring() const { return ring_; }
   std::size_t dimension() const { return model_.variables.size(); }
 
+  /// An expression in the ring; its denominators are from now on part of what a proof assumes.
+  const Polynomial& convert(const GiNaC::ex& expression);
+  /// Forgets what was divided by so far: the next claim begins.
+  void begin_claim() { divided_by_.clear(); }
+
   const Polynomial& bracket_entry(std::size_t i, std::size_t j) const {
-    return brackets_[i * dimension() + j];
+    return used(brackets_[i * dimension() + j]);
   }
   /// dx_i/dt for every coordinate.
-  const std::vector<Polynomial>& field() const { return field_; }
+  const std::vector<Polynomial>& field() const;
   Polynomial bracket(const Polynomial& f, const Polynomial& g) const;
   /// The numerator of {f, g} for functions of the case, kept since several claims ask for the same.
   Polynomial bracket(const GiNaC::ex& f, const GiNaC::ex& g);
@@ -76,12 +81,16 @@ class Prover {
   std::vector<std::pair<std::string, std::string>> describe(const Point& point) const;
 
  private:
+  const Polynomial& used(const Polynomial& p) const {
+    if (!ring_.is_polynomial()) ring_.mark_denominators(p, divided_by_);
+    return p;
+  }
   bool vanishes_by_substitution(const Residual& residual, const Level& level) const;
   Polynomial along(const Polynomial& f, const std::vector<Polynomial>& field) const;
   bool vanishes_on(const Residual& residual, Polynomial& rest, const Level& level, Proof& proof);
   static std::vector<GiNaC::symbol> symbols_of(const Model& model);
-  static std::vector<GiNaC::ex> expressions_of(const Model& model,
-                                               const std::vector<GiNaC::ex>& further);
+  static std::vector<GiNaC::ex> with_dynamics(const Model& model,
+                                              std::vector<GiNaC::ex> expressions);
 
   const Model& model_;
   FunctionRing ring_;
@@ -90,6 +99,7 @@ class Prover {
   std::unordered_map<GiNaC::ex, std::vector<Polynomial>> flows_;
   std::map<std::pair<GiNaC::ex, GiNaC::ex>, Polynomial, ExpressionPairLess> known_brackets_;
   PointSearch points_;
+  mutable std::vector<bool> divided_by_;  ///< which of the ring's denominators
 };
 
 }  // namespace casimir

@@ -17,6 +17,7 @@ Json to_json(const Proof& proof) {
   if (!proof.on.empty()) json["on"] = proof.on;
   if (!proof.evidence.empty()) json["evidence"] = proof.evidence;
   if (!proof.nonzero.empty()) json["nonzero"] = proof.nonzero;
+  if (!proof.positive.empty()) json["positive"] = proof.positive;
   if (!proof.residual.empty()) json["residual"] = proof.residual;
   if (!proof.reason.empty()) json["reason"] = proof.reason;
   if (proof.witness) {
@@ -42,6 +43,7 @@ Proof proof_from_json(const Json& json) {
   proof.on = json.value("on", std::vector<std::string>{});
   proof.evidence = json.value("evidence", "");
   proof.nonzero = json.value("nonzero", std::vector<std::string>{});
+  proof.positive = json.value("positive", std::vector<std::string>{});
   proof.residual = json.value("residual", "");
   proof.reason = json.value("reason", "");
   if (json.contains("witness")) {

@@ -132,8 +132,10 @@ std::string ProofTable::details(const Proof& proof, bool with_evidence) const {
     detail("witness", witness_text(*proof.witness));
     detail("value", proof.witness->value);
   }
-  if (!proof.nonzero.empty())
-    detail("where", fmt::format("{} != 0", fmt::join(proof.nonzero, " != 0, ")));
+  std::vector<std::string> where;
+  for (const std::string& d : proof.nonzero) where.push_back(d + " != 0");
+  for (const std::string& p : proof.positive) where.push_back(p + " > 0");
+  if (!where.empty()) detail("where", fmt::format("{}", fmt::join(where, ", ")));
   return text;
 }
 

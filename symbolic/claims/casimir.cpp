@@ -6,9 +6,11 @@
 namespace casimir {
 
 Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>& on) {
-  return {"casimir", f.name, false,
+  return {"casimir",
+          f.name,
+          false,
           [f, on](Prover& prover, Proof& proof) {
-            const Polynomial c = prover.ring().convert(f.value);
+            const Polynomial c = prover.convert(f.value);
             std::vector<Residual> residuals;
             for (std::size_t i = 0; i < prover.dimension(); ++i) {
               const GiNaC::symbol x = prover.model().variables[i];
@@ -20,7 +22,8 @@ Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>
             }
             prover.decide(proof, residuals, prover.level(on));
           },
-          names_of(on)};
+          names_of(on),
+          values_of(on, f.value)};
 }
 
 std::vector<Claim> casimir_claims(const Model& model) {

@@ -15,7 +15,7 @@ struct Claim {
   bool fact = false;
   std::function<void(Prover&, Proof&)> decide;
   std::vector<std::string> on{};         ///< the level, as written
-  std::vector<GiNaC::ex> expressions{};  ///< what it is about beyond the functions of the model
+  std::vector<GiNaC::ex> expressions{};  ///< what it is about, beside the bracket and the flow
   bool note = false;                     ///< said beside the claims; never counts
 };
 
@@ -60,13 +60,18 @@ inline constexpr ClaimKind kClaimKinds[] = {
     unimodularity_notes,
 };
 
+/// The expressions of the functions, and of one more.
+std::vector<GiNaC::ex> values_of(const std::vector<NamedExpression>& functions);
+std::vector<GiNaC::ex> values_of(const std::vector<NamedExpression>& functions,
+                                 const GiNaC::ex& more);
+
 /// {x_i, f} for every coordinate, on a level if one is given.
 Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
 /// df/dt = 0, on an invariant level if one is given (kind "conditional" then).
 Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
 /// What else can be said of a candidate: Casimir function, dependent on the known integrals,
 /// an integral on a known level.
-Claim judgement_note(const NamedExpression& f);
+Claim judgement_note(const Model& model, const NamedExpression& f);
 /// left = right, on a level if one is given.
 Claim identity_claim(const Identity& identity);
 /// f = 0 is preserved, on the level of `on` if one is given.

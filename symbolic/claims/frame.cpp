@@ -17,15 +17,15 @@ struct Defect {
 };
 
 Claim vanishing(const std::string& name, const std::vector<Defect>& defects) {
-  Claim claim{"identity", name, false, [defects](Prover& prover, Proof& proof) {
-                std::vector<Residual> residuals;
-                for (const Defect& defect : defects) {
-                  const ex value = defect.value;
-                  residuals.push_back(
-                      {defect.label, prover.ring().convert(value), [value] { return value; }});
-                }
-                prover.decide(proof, residuals, {});
-              }};
+  Claim claim{
+      "identity", name, false, [defects](Prover& prover, Proof& proof) {
+        std::vector<Residual> residuals;
+        for (const Defect& defect : defects) {
+          const ex value = defect.value;
+          residuals.push_back({defect.label, prover.convert(value), [value] { return value; }});
+        }
+        prover.decide(proof, residuals, {});
+      }};
   for (const Defect& defect : defects) claim.expressions.push_back(defect.value);
   return claim;
 }

@@ -9,8 +9,7 @@ Claim identity_claim(const Identity& identity) {
   Claim claim{"identity", identity.name, false, [identity](Prover& prover, Proof& proof) {
                 const GiNaC::ex defect = identity.left - identity.right;
                 prover.decide(
-                    proof,
-                    {{"left - right", prover.ring().convert(defect), [defect] { return defect; }}},
+                    proof, {{"left - right", prover.convert(defect), [defect] { return defect; }}},
                     prover.level(identity.on));
               }};
   claim.expressions = {identity.left - identity.right};

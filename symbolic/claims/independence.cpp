@@ -25,7 +25,7 @@ std::string listed(const std::vector<NamedExpression>& functions) {
 PolynomialRows gradients(Prover& prover, const std::vector<NamedExpression>& functions) {
   PolynomialRows rows;
   for (const NamedExpression& f : functions)
-    rows.push_back(prover.gradient(prover.ring().convert(f.value)));
+    rows.push_back(prover.gradient(prover.convert(f.value)));
   return rows;
 }
 
@@ -191,19 +191,28 @@ void decide_liouville(Prover& prover, Proof& proof) {
 std::vector<Claim> independence_claims(const Model& model) {
   const std::vector<NamedExpression> functions = with_hamiltonian(model, model.casimirs);
   if (functions.size() < 2) return {};
-  return {{"independence", listed(functions), true, [functions](Prover& prover, Proof& proof) {
-             decide_independence(prover, proof, functions);
-           }}};
+  return {
+      {"independence",
+       listed(functions),
+       true,
+       [functions](Prover& prover, Proof& proof) { decide_independence(prover, proof, functions); },
+       {},
+       values_of(functions)}};
 }
 
 std::vector<Claim> rank_claims(const Model& model) {
   if (!model.poisson) return {};
-  return {{"rank", "rank", true, decide_rank}};
+  return {{"rank", "rank", true, decide_rank, {}, values_of(model.casimirs)}};
 }
 
 std::vector<Claim> liouville_claims(const Model& model) {
   if (!model.poisson || model.time) return {};
-  return {{"liouville", "Liouville integrability", true, decide_liouville}};
+  return {{"liouville",
+           "Liouville integrability",
+           true,
+           decide_liouville,
+           {},
+           values_of(with_hamiltonian(model, model.casimirs))}};
 }
 
 }  // namespace casimir

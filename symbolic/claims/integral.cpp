@@ -9,7 +9,7 @@ namespace {
 
 Residual rate_of(Prover& prover, const NamedExpression& f) {
   const GiNaC::ex value = f.value;
-  return {fmt::format("d({})/dt", f.name), prover.rate(prover.ring().convert(value)),
+  return {fmt::format("d({})/dt", f.name), prover.rate(prover.convert(value)),
           [&prover, value] { return prover.model().rate(value); }};
 }
 
@@ -34,15 +34,20 @@ void decide_on_invariant_level(Prover& prover, Proof& proof, const std::vector<R
 }  // namespace
 
 Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression>& on) {
-  return {"integral", f.name, false,
+  return {"integral",
+          f.name,
+          false,
           [f, on](Prover& prover, Proof& proof) {
             decide_on_invariant_level(prover, proof, {rate_of(prover, f)}, prover.level(on));
           },
-          names_of(on)};
+          names_of(on),
+          values_of(on, f.value)};
 }
 
 Claim invariant_relation_claim(const NamedExpression& f, const std::vector<NamedExpression>& on) {
-  return {"invariant_relation", f.name, false,
+  return {"invariant_relation",
+          f.name,
+          false,
           [f, on](Prover& prover, Proof& proof) {
             // The common zero level of f and `on` has to be carried into itself.
             std::vector<NamedExpression> all = on;
@@ -50,7 +55,8 @@ Claim invariant_relation_claim(const NamedExpression& f, const std::vector<Named
             const Level level = prover.level(all);
             prover.decide(proof, prover.level_rates(level), level);
           },
-          names_of(on)};
+          names_of(on),
+          values_of(on, f.value)};
 }
 
 std::vector<Claim> integral_claims(const Model& model) {

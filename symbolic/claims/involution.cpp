@@ -15,13 +15,18 @@ std::vector<Claim> involution_claims(const Model& model) {
       const NamedExpression g = model.integrals[j];
       const std::string name = fmt::format("{{{}, {}}}", f.name, g.name);
       claims.push_back(
-          {"involution", name, true, [f, g, name](Prover& prover, Proof& proof) {
+          {"involution",
+           name,
+           true,
+           [f, g, name](Prover& prover, Proof& proof) {
              prover.decide(
                  proof,
                  {{name, prover.bracket(f.value, g.value),
                    [&prover, f, g] { return prover.model().poisson->bracket(f.value, g.value); }}},
                  {});
-           }});
+           },
+           {},
+           {f.value, g.value}});
     }
   }
   return claims;

@@ -38,14 +38,14 @@ Proof independence_finding(Prover& prover, const NamedExpression& f) {
   proof.name = f.name;
   const auto rank_of = [&](const Functions& functions) -> std::size_t {
     std::vector<Polynomial> values;
-    for (const NamedExpression& g : functions) values.push_back(prover.ring().convert(g.value));
+    for (const NamedExpression& g : functions) values.push_back(prover.convert(g.value));
     const auto found = values.empty() ? std::nullopt : gradient_rank(prover, values);
     return found ? found->rank : 0;
   };
   Functions all{f};
   all.insert(all.end(), known.begin(), known.end());
   const std::string names = fmt::format("{}", fmt::join(names_of(known), ", "));
-  if (prover.gradient(prover.ring().convert(f.value)) ==
+  if (prover.gradient(prover.convert(f.value)) ==
       std::vector<Polynomial>(prover.dimension(), Polynomial(prover.ring().ring()))) {
     proof.verdict = Verdict::refuted;
     proof.reason = "it is a constant";
@@ -103,7 +103,7 @@ void judge(Prover& prover, Proof& note, const NamedExpression& f) {
   }
   for (const Functions& level : known_levels(prover.model())) {
     Proof vanishing;
-    const Polynomial value = prover.ring().convert(f.value);
+    const Polynomial value = prover.convert(f.value);
     prover.decide(vanishing, {{f.name, value, [&f] { return f.value; }}}, prover.level(level));
     if (vanishing.verdict == Verdict::proved) continue;
     const Proof on_level = finding_of(prover, integral_claim(f, level), "conditional");
@@ -115,10 +115,14 @@ void judge(Prover& prover, Proof& note, const NamedExpression& f) {
 
 }  // namespace
 
-Claim judgement_note(const NamedExpression& f) {
+Claim judgement_note(const Model& model, const NamedExpression& f) {
   Claim note{"judgement", f.name, false,
              [f](Prover& prover, Proof& proof) { judge(prover, proof, f); }};
   note.note = true;
+  note.expressions = values_of(known_integrals(model), f.value);
+  for (const Functions& level : known_levels(model)) {
+    for (const NamedExpression& g : level) note.expressions.push_back(g.value);
+  }
   return note;
 }
 

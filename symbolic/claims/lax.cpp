@@ -96,9 +96,9 @@ void describe_integrals(Prover& prover, Proof& proof, const LaxPair& pair) {
   }
   std::vector<Polynomial> known;
   const Model& model = prover.model();
-  for (const NamedExpression& f : model.casimirs) known.push_back(prover.ring().convert(f.value));
-  if (model.hamiltonian && !model.time) known.push_back(prover.ring().convert(*model.hamiltonian));
-  for (const NamedExpression& f : model.integrals) known.push_back(prover.ring().convert(f.value));
+  for (const NamedExpression& f : model.casimirs) known.push_back(prover.convert(f.value));
+  if (model.hamiltonian && !model.time) known.push_back(prover.convert(*model.hamiltonian));
+  for (const NamedExpression& f : model.integrals) known.push_back(prover.convert(f.value));
   std::vector<Polynomial> all = known;
   all.insert(all.end(), found.begin(), found.end());
   proof.evidence = fmt::format("the characteristic polynomial gives {} integral{}", found.size(),
@@ -117,7 +117,7 @@ void describe_integrals(Prover& prover, Proof& proof, const LaxPair& pair) {
 void decide_lax(Prover& prover, Proof& proof, const LaxPair& pair) {
   const unsigned n = pair.l.rows();
   const auto entry = [&](const GiNaC::matrix& m, unsigned i, unsigned j) {
-    return prover.ring().convert(m(i, j));
+    return prover.convert(m(i, j));
   };
   std::vector<Residual> residuals;
   for (unsigned i = 0; i < n; ++i) {
@@ -156,6 +156,14 @@ std::vector<Claim> lax_claims(const Model& model) {
     claims.push_back({"lax", name, false, [i](Prover& prover, Proof& proof) {
                         decide_lax(prover, proof, prover.model().lax_pairs[i]);
                       }});
+    // The known integrals too: are those of the spectrum among them?
+    std::vector<GiNaC::ex>& expressions = claims.back().expressions;
+    for (const auto* list : {&model.casimirs, &model.integrals}) {
+      for (const NamedExpression& f : *list) expressions.push_back(f.value);
+    }
+    for (const GiNaC::matrix* m : {&model.lax_pairs[i].l, &model.lax_pairs[i].a}) {
+      for (std::size_t k = 0; k < m->nops(); ++k) expressions.push_back(m->op(k));
+    }
   }
   return claims;
 }

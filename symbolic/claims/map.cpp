@@ -16,9 +16,8 @@ void decide_map(Prover& prover, Proof& proof, const PoissonMap& map) {
       const GiNaC::ex expected = map.sign * target[index];
       residuals.push_back(
           {fmt::format("{{{0}, {1}}} less its image", y[i].get_name(), y[j].get_name()),
-           prover.bracket(prover.ring().convert(map.expressions[i]),
-                          prover.ring().convert(map.expressions[j])) -
-               prover.ring().convert(expected),
+           prover.bracket(prover.convert(map.expressions[i]), prover.convert(map.expressions[j])) -
+               prover.convert(expected),
            [&prover, &map, i, j, expected] {
              return prover.model().poisson->bracket(map.expressions[i], map.expressions[j]) -
                     expected;
@@ -26,6 +25,13 @@ void decide_map(Prover& prover, Proof& proof, const PoissonMap& map) {
     }
   }
   prover.decide(proof, residuals, prover.level(map.on));
+}
+
+std::vector<GiNaC::ex> expressions_of(const PoissonMap& map) {
+  std::vector<GiNaC::ex> expressions = values_of(map.on);
+  expressions.insert(expressions.end(), map.expressions.begin(), map.expressions.end());
+  for (const GiNaC::ex& bracket : map.composed_brackets()) expressions.push_back(bracket);
+  return expressions;
 }
 
 }  // namespace
@@ -36,7 +42,7 @@ std::vector<Claim> map_claims(const Model& model) {
     claims.push_back(
         {"map", model.maps[i].name, false,
          [i](Prover& prover, Proof& proof) { decide_map(prover, proof, prover.model().maps[i]); },
-         names_of(model.maps[i].on)});
+         names_of(model.maps[i].on), expressions_of(model.maps[i])});
   }
   return claims;
 }

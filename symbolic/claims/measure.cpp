@@ -9,7 +9,7 @@ namespace casimir {
 namespace {
 
 Residual divergence_of_flow(Prover& prover, const NamedExpression& density) {
-  const Polynomial rho = prover.ring().convert(density.value);
+  const Polynomial rho = prover.convert(density.value);
   return {fmt::format("the divergence of ({}) * dx/dt", density.name),
           prover.rate(rho) + rho * prover.divergence(), [&prover, density] {
             const Model& model = prover.model();
@@ -22,7 +22,7 @@ Residual divergence_of_flow(Prover& prover, const NamedExpression& density) {
 
 /// sum_i d(rho J_ij)/dx_i for each j: what multiplies dH/dx_j in the divergence.
 std::vector<Residual> modular_field(Prover& prover, const NamedExpression& density) {
-  const Polynomial rho = prover.ring().convert(density.value);
+  const Polynomial rho = prover.convert(density.value);
   std::vector<Residual> residuals;
   for (std::size_t j = 0; j < prover.dimension(); ++j) {
     Polynomial sum(prover.ring().ring());
@@ -49,13 +49,17 @@ std::vector<Claim> measure_claims(const Model& model) {
   for (const Measure& measure : model.measures) {
     const NamedExpression density = measure.density;
     const bool every = measure.every_hamiltonian;
-    claims.push_back({"measure", density.name + (every ? ", every Hamiltonian" : ""), false,
+    claims.push_back({"measure",
+                      density.name + (every ? ", every Hamiltonian" : ""),
+                      false,
                       [density, every](Prover& prover, Proof& proof) {
                         prover.decide(proof,
                                       every ? modular_field(prover, density)
                                             : std::vector{divergence_of_flow(prover, density)},
                                       {});
-                      }});
+                      },
+                      {},
+                      {density.value}});
   }
   return claims;
 }
