@@ -4,6 +4,7 @@
 #include <cln/rational.h>
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace casimir {
 
@@ -11,11 +12,14 @@ using GiNaC::ex;
 
 namespace {
 
-bool uses_imaginary_unit(const ex& e) {
-  return std::any_of(e.preorder_begin(), e.preorder_end(), [](const ex& part) {
-    return GiNaC::is_exactly_a<GiNaC::numeric>(part) &&
-           !GiNaC::ex_to<GiNaC::numeric>(part).is_real();
-  });
+/// `seen` has what was looked through: expressions share their parts.
+bool uses_imaginary_unit(const ex& e, std::unordered_set<ex>& seen) {
+  if (GiNaC::is_exactly_a<GiNaC::numeric>(e)) return !GiNaC::ex_to<GiNaC::numeric>(e).is_real();
+  if (e.nops() == 0 || !seen.insert(e).second) return false;
+  for (std::size_t i = 0; i < e.nops(); ++i) {
+    if (uses_imaginary_unit(e.op(i), seen)) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -25,7 +29,6 @@ FunctionRing::FunctionRing(std::vector<GiNaC::symbol> symbols,
                            const std::vector<ex>& expressions)
     : symbols_(std::move(symbols)), assumptions_(assumptions) {
   for (std::size_t i = 0; i < symbols_.size(); ++i) places_.emplace(symbols_[i], i);
-  complex_ = std::any_of(expressions.begin(), expressions.end(), uses_imaginary_unit);
   build(expressions);
 }
 
@@ -34,7 +37,7 @@ FunctionRing::~FunctionRing() = default;
 /// The ring of a FLINT polynomial has a fixed number of variables, so that generators are first
 /// counted: when they do not fit, or an angle needs a finer unit, everything starts again.
 void FunctionRing::build(const std::vector<ex>& expressions) {
-  for (;;) {
+  for (bool first = true;;) {
     known_.clear();
     signs_.clear();
     generators_.clear();
@@ -49,6 +52,11 @@ void FunctionRing::build(const std::vector<ex>& expressions) {
       for (const ex& e : expressions) convert(e);
       return;
     } catch (const Full&) {
+      if (!first) continue;
+      first = false;  // only now is it seen that there is more than polynomials
+      std::unordered_set<ex> seen;
+      complex_ = std::any_of(expressions.begin(), expressions.end(),
+                             [&](const ex& e) { return uses_imaginary_unit(e, seen); });
     }
   }
 }

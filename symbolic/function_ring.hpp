@@ -218,7 +218,9 @@ class FunctionRing {
   std::unordered_map<GiNaC::ex, std::size_t> places_;  ///< of the symbols in the ring
   std::unordered_map<GiNaC::ex, Polynomial> known_;
   std::unordered_map<GiNaC::ex, std::string> order_keys_;
-  bool complex_ = false;  ///< I occurs: roots and logarithms need not be real then
+  /// I occurs: roots and logarithms need not be real then. Nothing is made of these before that is
+  /// looked for.
+  bool complex_ = true;
   struct Sign {
     Polynomial of;
     int sign;
