@@ -23,11 +23,11 @@ struct Quantity {
 };
 
 /// Limits on one expression; beyond them it is refused with an error that names the limit.
-inline constexpr std::size_t kMaxExpressionBytes = std::size_t{256} << 10;
+inline constexpr std::size_t kMaxExpressionBytes = std::size_t{16} << 20;
 inline constexpr int kMaxNesting = 200;
 inline constexpr double kMaxBits = 1e5;
 inline constexpr double kMaxDegree = 1e4;
-inline constexpr double kMaxNodes = 1e6;
+inline constexpr double kMaxNodes = 4e6;
 inline constexpr std::size_t kMaxNameLength = 100;
 
 /// The bracket and the flow of a system, for expressions such as `{F, G}` and `rate(F)`.

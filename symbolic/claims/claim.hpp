@@ -38,6 +38,7 @@ std::vector<Claim> involution_claims(const Model& model);
 std::vector<Claim> independence_claims(const Model& model);
 std::vector<Claim> rank_claims(const Model& model);
 std::vector<Claim> liouville_claims(const Model& model);
+std::vector<Claim> level_liouville_notes(const Model& model);
 std::vector<Claim> unimodularity_notes(const Model& model);
 
 /// In the order in which they are reported.
@@ -57,6 +58,7 @@ inline constexpr ClaimKind kClaimKinds[] = {
     independence_claims,
     rank_claims,
     liouville_claims,
+    level_liouville_notes,
     unimodularity_notes,
 };
 

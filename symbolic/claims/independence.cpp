@@ -160,6 +160,12 @@ void decide_liouville(Prover& prover, Proof& proof) {
     return;
   }
   const std::size_t needed = leaf->rank / 2;
+  if (functions.size() < needed) {
+    proof.reason =
+        fmt::format("leaves of dimension {} need {} independent integrals in involution; {} known",
+                    leaf->rank, needed, functions.size());
+    return;
+  }
   PolynomialRows flows;
   for (const NamedExpression& f : functions) flows.push_back(prover.flow(f.value));
   const std::vector<unsigned> commutes = commuting(prover, functions);
@@ -206,7 +212,7 @@ std::vector<Claim> rank_claims(const Model& model) {
 }
 
 std::vector<Claim> liouville_claims(const Model& model) {
-  if (!model.poisson || model.time) return {};
+  if (!model.poisson || model.time || !model.hamiltonian) return {};
   return {{"liouville",
            "Liouville integrability",
            true,

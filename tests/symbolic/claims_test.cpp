@@ -116,6 +116,29 @@ TEST(Claims, LiouvilleNamesWhatIsMissing) {
   EXPECT_EQ(found.verdict, Verdict::proved) << found.reason;
 }
 
+TEST(Claims, LiouvilleIsCountedOnALevelOfCasimirsToo) {
+  const auto goryachev_chaplygin = [](const std::string& g) {
+    return model_of("hamiltonian = \"(M1^2 + M2^2 + 4*M3^2)/2 - r*g1\"\n" + kE3 +
+                    "[parameters]\nr = {}\n[casimirs]\nF1 = \"g1^2 + g2^2 + g3^2\"\n"
+                    "[[conditional]]\nname = \"G\"\nexpression = \"" +
+                    g + "\"\non = [\"M1*g1 + M2*g2 + M3*g3\"]\n");
+  };
+  const auto on_level = [](const Model& model) {
+    for (const Proof& proof : prove(model)) {
+      if (proof.kind == "liouville" && proof.note) return proof;
+    }
+    return Proof{};
+  };
+  const Proof found = on_level(goryachev_chaplygin("M3*(M1^2 + M2^2) + r*M1*g3"));
+  EXPECT_EQ(found.verdict, Verdict::proved) << found.reason;
+  EXPECT_EQ(found.on, std::vector<std::string>{"M1*g1 + M2*g2 + M3*g3"});
+  // Twins: a function of H, and one that does not commute with H there.
+  EXPECT_EQ(on_level(goryachev_chaplygin("((M1^2 + M2^2 + 4*M3^2)/2 - r*g1)^2")).verdict,
+            Verdict::undecided);
+  EXPECT_EQ(on_level(goryachev_chaplygin("M3*(M1^2 + M2^2) - r*M1*g3")).verdict,
+            Verdict::undecided);
+}
+
 TEST(Claims, AntiPoissonMapNeedsItsSign) {
   const std::string head = "hamiltonian = \"0\"\n" + kSo3 +
                            "[[map]]\nname = \"minus\"\nto = \"so(3)\"\nexpressions = { M1 = "
