@@ -3,6 +3,7 @@
 #include <ginac/ginac.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -92,7 +93,13 @@ class FunctionRing {
     /// Not formal: symbols that occur as they are, so that they keep their rational values. An
     /// angle of any other symbol is drawn, and the symbol has the value that belongs to it.
     std::vector<bool> bare{};
+    /// Values that are not drawn: of the tangent of half an angle, by the sine's place in the ring.
+    std::map<std::size_t, cln::cl_RA> half_tangents{};
   };
+
+  /// The places of the sines, each followed by its cosine, whose angles are plain symbols that
+  /// `complete` chooses freely.
+  std::vector<std::size_t> free_sines(const Freedom& freedom) const;
 
   /// Given values of the symbols in point[0..symbols), fills in values of the generators that obey
   bool complete(std::vector<cln::cl_RA>& point, const std::function<cln::cl_RA()>& draw,

@@ -55,7 +55,8 @@ bool FunctionRing::complete_argument(std::size_t g, std::vector<cln::cl_RA>& poi
     // A symbol whose sine and whose exponential both occur has no rational value of both.
     if (plain && chosen[plain->first] && !freedom.formal) return false;
     if (plain) chosen[plain->first] = true;
-    t = draw();
+    const auto given = freedom.half_tangents.find(symbols_.size() + g);
+    t = given != freedom.half_tangents.end() ? given->second : draw();
     if (!angle) t = cln::abs(t) + cln::cl_RA(1) / 2 - 1;
   } else if (!cln::zerop(generators_[g].base.evaluate(point))) {
     return false;
@@ -64,6 +65,17 @@ bool FunctionRing::complete_argument(std::size_t g, std::vector<cln::cl_RA>& poi
   point[place] = angle ? 2 * t / (1 + t * t) : 1 + t;
   if (angle) point[place + 1] = (1 - t * t) / (1 + t * t);
   return true;
+}
+
+std::vector<std::size_t> FunctionRing::free_sines(const Freedom& freedom) const {
+  std::vector<std::size_t> places;
+  for (std::size_t g = 0; g < generators_.size(); ++g) {
+    if (generators_[g].kind != Kind::sine) continue;
+    const auto plain = plain_symbol(generators_[g].base);
+    if (plain && (freedom.formal || !freedom.bare[plain->first]))
+      places.push_back(symbols_.size() + g);
+  }
+  return places;
 }
 
 bool FunctionRing::complete(std::vector<cln::cl_RA>& point, const std::function<cln::cl_RA()>& draw,

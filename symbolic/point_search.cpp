@@ -105,7 +105,7 @@ bool PointSearch::solve(Point& point, const Polynomial& relation, std::size_t va
 /// Moves some coordinates so that the level's functions vanish: spheres and frames by a rotation,
 /// the rest of a triangular set backwards, or each relation for a coordinate not yet moved.
 bool PointSearch::solve_level(Point& point, const Level& level) {
-  std::vector<bool> fixed(dimension());
+  std::vector<bool> fixed(ring_.symbols().size());
   for (const OrthogonalVectors& group : level.orthogonal) {
     if (!draw_orthogonal(point, group, fixed)) return false;
   }
@@ -120,11 +120,15 @@ bool PointSearch::solve_level(Point& point, const Level& level) {
   } else {
     for (const Polynomial& f : level.numerators) {
       if (vanishes(f)) continue;
-      std::vector<std::size_t> order(dimension());
+      std::vector<std::size_t> order(ring_.symbols().size());
       std::iota(order.begin(), order.end(), std::size_t{0});
       std::shuffle(order.begin(), order.end(), random_);
+      // Parameters are moved only where no coordinate will do; those of degree 1 always have a
+      // root.
       std::stable_partition(order.begin(), order.end(),
                             [&](std::size_t i) { return f.degree(i) == 1; });
+      std::stable_partition(order.begin(), order.end(),
+                            [&](std::size_t i) { return i < dimension(); });
       const auto moved = std::find_if(order.begin(), order.end(), [&](std::size_t i) {
         return !fixed[i] && solve(point, f, i);
       });
@@ -135,9 +139,74 @@ bool PointSearch::solve_level(Point& point, const Level& level) {
   return std::all_of(level.numerators.begin(), level.numerators.end(), vanishes);
 }
 
+/// The tangent of half the angle of that sine for which the relation holds.
+std::optional<cln::cl_RA> PointSearch::half_tangent(Point point, const Polynomial& relation,
+                                                    std::size_t sine) {
+  const long degree = relation.degree(sine) + relation.degree(sine + 1);
+  constexpr long kMaxDegree = 12;
+  if (degree <= 0 || degree > kMaxDegree) return std::nullopt;
+  // (1 + t^2)^degree * relation is a polynomial in t, known by its values at enough points.
+  RationalMatrix equations;
+  for (long k = -degree; k <= degree; ++k) {
+    const cln::cl_RA t = k;
+    const cln::cl_RA length = 1 + t * t;
+    point[sine] = 2 * t / length;
+    point[sine + 1] = (1 - t * t) / length;
+    equations.emplace_back();
+    for (long power = 0; power <= 2 * degree; ++power)
+      equations.back().push_back(cln::expt(t, cln::cl_I(power)));
+    equations.back().push_back(relation.evaluate(point) * cln::expt(length, cln::cl_I(degree)));
+  }
+  const auto coefficients = solve_unique(std::move(equations));
+  if (!coefficients) return std::nullopt;
+  Polynomial in_t(ring_.ring());
+  for (std::size_t k = 0; k < coefficients->size(); ++k)
+    in_t += ring_.ring().variable(0).pow(k).scaled((*coefficients)[k]);
+  std::vector<cln::cl_RA> roots;
+  if (in_t.is_zero()) return std::nullopt;
+  for (const auto& [factor, times] : in_t.factors()) {
+    if (factor.degree(0) != 1) continue;
+    const auto parts = factor.coefficients(0);
+    roots.push_back(-parts[0].evaluate(point) / parts[1].evaluate(point));
+  }
+  if (roots.empty()) return std::nullopt;
+  return roots[random_() % roots.size()];
+}
+
+/// For relations that contain sines of plain angles: each is solved for one of them.
+bool PointSearch::solve_angles(Point& point, const Level& level, FunctionRing::Freedom freedom) {
+  std::vector<std::size_t> sines = ring_.free_sines(freedom);
+  std::shuffle(sines.begin(), sines.end(), random_);
+  const auto draw_one = [this] { return draw(); };
+  for (const Polynomial& f : level.numerators) {
+    if (cln::zerop(f.evaluate(point))) continue;
+    const auto solved = std::find_if(sines.begin(), sines.end(), [&](std::size_t sine) {
+      if (freedom.half_tangents.contains(sine)) return false;
+      const auto t = half_tangent(point, f, sine);
+      if (t) freedom.half_tangents[sine] = *t;
+      return t.has_value();
+    });
+    if (solved == sines.end()) return false;
+    // What does not depend on that angle keeps its value.
+    for (const std::size_t sine : sines) {
+      if (!freedom.half_tangents.contains(sine))
+        freedom.half_tangents[sine] = point[sine] / (1 + point[sine + 1]);
+    }
+    if (!ring_.complete(point, draw_one, freedom)) return false;
+  }
+  return true;
+}
+
 std::optional<Point> PointSearch::completed(const Level& level,
                                             const FunctionRing::Freedom& freedom) {
   const int trials = level.empty() ? kTrials : kLevelTrials;
+  const bool functions_in_level =
+      std::any_of(level.numerators.begin(), level.numerators.end(), [&](const Polynomial& f) {
+        for (std::size_t g = ring_.symbols().size(); g < ring_.ring().size(); ++g) {
+          if (f.uses(g)) return true;
+        }
+        return false;
+      });
   for (int trial = 0; trial < trials; ++trial) {
     Point point(ring_.ring().size(), 0);
     for (std::size_t i = 0; i < ring_.symbols().size(); ++i) {
@@ -145,10 +214,14 @@ std::optional<Point> PointSearch::completed(const Level& level,
       const bool at_zero = !freedom.formal && !ring_.is_polynomial() && trial % 4 == 3;
       point[i] = at_zero && i < dimension() && freedom.bare[i] ? 0 : draw();
     }
-    if (!level.empty() && !solve_level(point, level)) continue;
+    if (!level.empty() && !functions_in_level && !solve_level(point, level)) continue;
     if (!inside_assumptions(point)) continue;
-    if (ring_.complete(
+    if (!ring_.complete(
             point, [this] { return draw(); }, freedom))
+      continue;
+    if (functions_in_level && !solve_angles(point, level, freedom)) continue;
+    if (std::all_of(level.numerators.begin(), level.numerators.end(),
+                    [&](const Polynomial& f) { return cln::zerop(f.evaluate(point)); }))
       return point;
   }
   return std::nullopt;

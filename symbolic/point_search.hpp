@@ -36,6 +36,8 @@ class PointSearch {
   bool draw_orthogonal(Point& point, const OrthogonalVectors& group, std::vector<bool>& fixed);
   bool solve(Point& point, const Polynomial& relation, std::size_t variable) const;
   bool solve_level(Point& point, const Level& level);
+  bool solve_angles(Point& point, const Level& level, FunctionRing::Freedom freedom);
+  std::optional<cln::cl_RA> half_tangent(Point point, const Polynomial& relation, std::size_t sine);
 
   const Model& model_;
   const FunctionRing& ring_;

@@ -21,7 +21,10 @@ std::vector<bool> bare_symbols(const Model& model, const FunctionRing& ring,
   const auto keep = [&](const ex& e) {
     for (std::size_t i = 0; i < bare.size(); ++i) bare[i] = bare[i] || e.has(ring.symbols()[i]);
   };
-  for (const ex& f : level.functions) keep(f);
+  for (const Polynomial& f : level.numerators) {
+    const std::vector<bool> of_level = ring.bare_symbols(f);
+    for (std::size_t i = 0; i < bare.size(); ++i) bare[i] = bare[i] || of_level[i];
+  }
   for (const Assumption& a : model.assumptions) keep(a.difference);
   return bare;
 }
