@@ -81,8 +81,13 @@ ExactPoint::ExactPoint(const FunctionRing& ring, const std::vector<cln::cl_RA>& 
     const ex symbol = symbols[a.symbol];
     const numeric factor(a.factor);
     if (a.angle) {
-      const cln::cl_RA t = a.sine / (1 + a.cosine);
       angles_.push_back({symbol, factor, numeric(cln::complex(a.cosine, a.sine))});
+      if (a.cosine == -1) {
+        values_[symbol] = GiNaC::Pi / factor;
+        texts[a.symbol] = over("Pi", a.factor);
+        continue;
+      }
+      const cln::cl_RA t = a.sine / (1 + a.cosine);
       values_[symbol] = 2 * GiNaC::atan(ex(numeric(t))) / factor;
       texts[a.symbol] = over("2*atan(" + shown(t) + ")", a.factor);
     } else {

@@ -93,8 +93,8 @@ class FunctionRing {
     /// Not formal: symbols that occur as they are, so that they keep their rational values. An
     /// angle of any other symbol is drawn, and the symbol has the value that belongs to it.
     std::vector<bool> bare{};
-    /// Values that are not drawn: of the tangent of half an angle, by the sine's place in the ring.
-    std::map<std::size_t, cln::cl_RA> half_tangents{};
+    /// Sines and cosines that are not drawn, by the sine's place in the ring.
+    std::map<std::size_t, std::pair<cln::cl_RA, cln::cl_RA>> angles{};
   };
 
   /// The places of the sines, each followed by its cosine, whose angles are plain symbols that

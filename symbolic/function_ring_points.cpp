@@ -2,6 +2,8 @@
 #include <cln/integer.h>
 #include <cln/rational.h>
 
+#include <tuple>
+
 #include "symbolic/function_ring.hpp"
 
 namespace casimir {
@@ -55,8 +57,12 @@ bool FunctionRing::complete_argument(std::size_t g, std::vector<cln::cl_RA>& poi
     // A symbol whose sine and whose exponential both occur has no rational value of both.
     if (plain && chosen[plain->first] && !freedom.formal) return false;
     if (plain) chosen[plain->first] = true;
-    const auto given = freedom.half_tangents.find(symbols_.size() + g);
-    t = given != freedom.half_tangents.end() ? given->second : draw();
+    const auto given = freedom.angles.find(symbols_.size() + g);
+    if (given != freedom.angles.end()) {
+      std::tie(point[symbols_.size() + g], point[symbols_.size() + g + 1]) = given->second;
+      return true;
+    }
+    t = draw();
     if (!angle) t = cln::abs(t) + cln::cl_RA(1) / 2 - 1;
   } else if (!cln::zerop(generators_[g].base.evaluate(point))) {
     return false;

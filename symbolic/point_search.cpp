@@ -4,6 +4,7 @@
 #include <cln/rational.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "symbolic/rational_matrix.hpp"
@@ -139,9 +140,9 @@ bool PointSearch::solve_level(Point& point, const Level& level) {
   return std::all_of(level.numerators.begin(), level.numerators.end(), vanishes);
 }
 
-/// The tangent of half the angle of that sine for which the relation holds.
-std::optional<cln::cl_RA> PointSearch::half_tangent(Point point, const Polynomial& relation,
-                                                    std::size_t sine) {
+/// Sine and cosine of that angle for which the relation holds.
+std::optional<std::pair<cln::cl_RA, cln::cl_RA>> PointSearch::solved_angle(
+    Point point, const Polynomial& relation, std::size_t sine) {
   const long degree = relation.degree(sine) + relation.degree(sine + 1);
   constexpr long kMaxDegree = 12;
   if (degree <= 0 || degree > kMaxDegree) return std::nullopt;
@@ -162,35 +163,49 @@ std::optional<cln::cl_RA> PointSearch::half_tangent(Point point, const Polynomia
   Polynomial in_t(ring_.ring());
   for (std::size_t k = 0; k < coefficients->size(); ++k)
     in_t += ring_.ring().variable(0).pow(k).scaled((*coefficients)[k]);
-  std::vector<cln::cl_RA> roots;
+  // With t = tan(angle/2); a missing highest power is a root at infinity, the angle Pi.
+  std::vector<std::pair<cln::cl_RA, cln::cl_RA>> roots;
+  if (cln::zerop(coefficients->back())) roots.emplace_back(0, -1);
   if (in_t.is_zero()) return std::nullopt;
   for (const auto& [factor, times] : in_t.factors()) {
     if (factor.degree(0) != 1) continue;
     const auto parts = factor.coefficients(0);
-    roots.push_back(-parts[0].evaluate(point) / parts[1].evaluate(point));
+    const cln::cl_RA t = -parts[0].evaluate(point) / parts[1].evaluate(point);
+    roots.emplace_back(2 * t / (1 + t * t), (1 - t * t) / (1 + t * t));
   }
   if (roots.empty()) return std::nullopt;
   return roots[random_() % roots.size()];
 }
 
-/// For relations that contain sines of plain angles: each is solved for one of them.
+/// Moves a random coordinate so that the relation holds.
+bool PointSearch::solve_coordinate(Point& point, const Polynomial& relation) {
+  std::vector<std::size_t> order(dimension());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::shuffle(order.begin(), order.end(), random_);
+  return std::any_of(order.begin(), order.end(),
+                     [&](std::size_t i) { return solve(point, relation, i); });
+}
+
+/// For relations that contain sines of plain angles: each is solved for one of them, or for a
+/// coordinate. The caller checks the point: what is solved later may spoil what was solved before.
 bool PointSearch::solve_angles(Point& point, const Level& level, FunctionRing::Freedom freedom) {
   std::vector<std::size_t> sines = ring_.free_sines(freedom);
   std::shuffle(sines.begin(), sines.end(), random_);
   const auto draw_one = [this] { return draw(); };
+  std::map<std::size_t, std::pair<cln::cl_RA, cln::cl_RA>> moved;
   for (const Polynomial& f : level.numerators) {
     if (cln::zerop(f.evaluate(point))) continue;
     const auto solved = std::find_if(sines.begin(), sines.end(), [&](std::size_t sine) {
-      if (freedom.half_tangents.contains(sine)) return false;
-      const auto t = half_tangent(point, f, sine);
-      if (t) freedom.half_tangents[sine] = *t;
-      return t.has_value();
+      if (moved.contains(sine)) return false;
+      const auto angle = solved_angle(point, f, sine);
+      if (angle) moved[sine] = *angle;
+      return angle.has_value();
     });
-    if (solved == sines.end()) return false;
+    if (solved == sines.end() && !solve_coordinate(point, f)) return false;
     // What does not depend on that angle keeps its value.
+    freedom.angles = moved;
     for (const std::size_t sine : sines) {
-      if (!freedom.half_tangents.contains(sine))
-        freedom.half_tangents[sine] = point[sine] / (1 + point[sine + 1]);
+      freedom.angles.try_emplace(sine, point[sine], point[sine + 1]);
     }
     if (!ring_.complete(point, draw_one, freedom)) return false;
   }

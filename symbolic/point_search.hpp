@@ -35,9 +35,12 @@ class PointSearch {
   cln::cl_RA draw();
   bool draw_orthogonal(Point& point, const OrthogonalVectors& group, std::vector<bool>& fixed);
   bool solve(Point& point, const Polynomial& relation, std::size_t variable) const;
+  bool solve_coordinate(Point& point, const Polynomial& relation);
   bool solve_level(Point& point, const Level& level);
   bool solve_angles(Point& point, const Level& level, FunctionRing::Freedom freedom);
-  std::optional<cln::cl_RA> half_tangent(Point point, const Polynomial& relation, std::size_t sine);
+  std::optional<std::pair<cln::cl_RA, cln::cl_RA>> solved_angle(Point point,
+                                                                const Polynomial& relation,
+                                                                std::size_t sine);
 
   const Model& model_;
   const FunctionRing& ring_;

@@ -33,8 +33,6 @@ const std::filesystem::path kFolder = CASIMIR_SOURCE_DIR "/tests/symbolic/book";
 /// True claims that the prover leaves undecided, or false ones without a witness. Each is a
 /// weakness of the prover: whoever removes it removes the entry, as the test then demands.
 const std::vector<std::pair<std::string, std::string>> kKnownUndecided = {
-    // no witness is looked for on a level that fixes the cosine of an angle
-    {"1.70-magnetic-flux", "false: the flux is zero"},
 };
 
 std::vector<std::filesystem::path> book_files() {

@@ -191,6 +191,20 @@ TEST(Claims, UnimodularityOfAnAlgebraIsANote) {
   EXPECT_EQ(overall(model, prove(model)), Verdict::proved) << "a note must not count";
 }
 
+TEST(Claims, FalseIdentityOnALevelOfAnglesHasAWitness) {
+  for (const char* on : {"[\"cos(q) - 1\"]", "[\"cos(q) + 1\"]", "[\"p - cos(q)\"]",
+                         "[\"cos(q) - 3/5\", \"p - sin(q)\"]"}) {
+    const Model model =
+        model_of(std::string("hamiltonian = \"p^2/2 + cos(q)\"\n[phase_space]\nvariables = "
+                             "[\"q\",\"p\"]\ncanonical = true\n[[identity]]\nname = \"F\"\nleft = "
+                             "\"cos(q) + p\"\nright = \"7\"\non = ") +
+                 on + "\n");
+    const Proof proof = proof_of(model, "identity");
+    EXPECT_EQ(proof.verdict, Verdict::refuted) << on;
+    EXPECT_TRUE(proof.witness.has_value()) << on;
+  }
+}
+
 TEST(Claims, TimeDependentIntegralNeedsItsExplicitDerivative) {
   const std::string head =
       "hamiltonian = \"p^2/2 + q*t\"\n[phase_space]\nvariables = [\"q\",\"p\"]\ncanonical = "
