@@ -3,42 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <string_view>
+
+#include "symbolic/elementary.hpp"
 
 namespace casimir {
 namespace {
 
-struct Function {
-  std::string_view name;
-  std::size_t arity;
-  GiNaC::ex (*apply)(const GiNaC::ex&, const GiNaC::ex&);
-};
-
 using GiNaC::ex;
-
-constexpr std::array kFunctions = {
-    Function{"sqrt", 1, [](const ex& a, const ex&) -> ex { return GiNaC::sqrt(a); }},
-    Function{"sin", 1, [](const ex& a, const ex&) -> ex { return GiNaC::sin(a); }},
-    Function{"cos", 1, [](const ex& a, const ex&) -> ex { return GiNaC::cos(a); }},
-    Function{"tan", 1, [](const ex& a, const ex&) -> ex { return GiNaC::tan(a); }},
-    Function{"exp", 1, [](const ex& a, const ex&) -> ex { return GiNaC::exp(a); }},
-    Function{"log", 1, [](const ex& a, const ex&) -> ex { return GiNaC::log(a); }},
-    Function{"asin", 1, [](const ex& a, const ex&) -> ex { return GiNaC::asin(a); }},
-    Function{"acos", 1, [](const ex& a, const ex&) -> ex { return GiNaC::acos(a); }},
-    Function{"atan", 1, [](const ex& a, const ex&) -> ex { return GiNaC::atan(a); }},
-    Function{"atan2", 2, [](const ex& a, const ex& b) -> ex { return GiNaC::atan2(a, b); }},
-};
-
-const Function* find_function(const std::string& name) {
-  const auto it = std::find_if(kFunctions.begin(), kFunctions.end(),
-                               [&](const Function& f) { return f.name == name; });
-  return it == kFunctions.end() ? nullptr : &*it;
-}
 
 bool is_name_start(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
 bool is_name_part(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
@@ -264,14 +239,15 @@ class Parser {
     const std::size_t start = at_;
     while (at_ < end_ && is_name_part(text_.value[at_])) ++at_;
     const std::string word = text_.value.substr(start, at_ - start);
-    if (const Function* function = find_function(word)) return call(*function, start);
+    if (const ElementaryFunction* function = find_elementary_function(word))
+      return call(*function, start);
     if (peek() == '(' && names_.find(word) == nullptr) {
       if (word == "diff") return partial_derivative(start);
       if (word == "rate") return rate(start);
     }
     if (peek() == '(' && names_.find(word) == nullptr) {
-      std::vector<std::string> functions{"diff", "rate"};
-      for (const Function& f : kFunctions) functions.emplace_back(f.name);
+      std::vector<std::string> functions = elementary_function_names();
+      functions.insert(functions.end(), {"diff", "rate"});
       fail_at(start, fmt::format("unknown function '{}'", printable(word)),
               suggest(word, functions));
     }
@@ -344,7 +320,7 @@ class Parser {
     return q;
   }
 
-  Quantity call(const Function& function, std::size_t start) {
+  Quantity call(const ElementaryFunction& function, std::size_t start) {
     const std::vector<Quantity> arguments = this->arguments(function.name, function.arity, start);
     const Quantity& first = arguments.front();
     const Quantity& last = arguments.back();
@@ -370,8 +346,6 @@ Quantity parse_range(const Text& text, Scope& names, std::size_t begin, std::siz
 }
 
 }  // namespace
-
-bool is_function_name(const std::string& name) { return find_function(name) != nullptr; }
 
 Quantity parse_expression(const Text& text, Scope& names) {
   return parse_range(text, names, 0, text.value.size());

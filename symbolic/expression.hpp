@@ -88,9 +88,6 @@ Relation parse_relation(const Text& text, Scope& names);
 /// The two sides of "LEFT = RIGHT"; the right one is 0 where there is no sign of equality.
 std::pair<GiNaC::ex, GiNaC::ex> parse_equation(const Text& text, Scope& names);
 
-/// Whether expressions use `name` for a function, such as "sin".
-bool is_function_name(const std::string& name);
-
 /// The position of the symbol of that name.
 /// \param what    as in "'x' is not WHAT", for the error where there is none
 /// \param name    the part of `text` that starts at `offset`

@@ -6,6 +6,7 @@
 #include <set>
 #include <string_view>
 
+#include "symbolic/elementary.hpp"
 #include "symbolic/expression.hpp"
 
 namespace casimir {
@@ -85,7 +86,7 @@ void check_name(const Text& name, const std::string& what) {
     throw name.error(
         fmt::format("the name '{}' is longer than {} characters", shown, kMaxNameLength));
   }
-  if (is_function_name(s) || s == "Pi" || s == "I") {
+  if (find_elementary_function(s) != nullptr || s == "Pi" || s == "I") {
     throw name.error(fmt::format("'{}' is a function or constant and cannot name {}", s, what));
   }
   if (cpp_keywords().contains(s)) {
