@@ -124,6 +124,9 @@ class FunctionRing {
   /// The denominators in what was converted: where one of them vanishes, nothing is claimed.
   std::vector<Polynomial> denominators() const;
 
+  /// Whether `p` is one exponential, which vanishes nowhere.
+  bool is_exponential(const Polynomial& p) const;
+
   /// Marks the denominators that occur in `p`, in the order of `denominators`.
   void mark_denominators(const Polynomial& p, std::vector<bool>& marks) const;
 

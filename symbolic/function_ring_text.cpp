@@ -87,6 +87,14 @@ std::string FunctionRing::name(const Generator& g) const {
   return stream.str();
 }
 
+bool FunctionRing::is_exponential(const Polynomial& p) const {
+  for (std::size_t g = 0; g < generators_.size(); ++g) {
+    if (generators_[g].kind == Kind::exponential && p == ring_->variable(symbols_.size() + g))
+      return true;
+  }
+  return false;
+}
+
 void FunctionRing::mark_denominators(const Polynomial& p, std::vector<bool>& marks) const {
   std::size_t place = 0;
   for (std::size_t g = 0; g < generators_.size(); ++g) {

@@ -274,7 +274,8 @@ void Prover::decide(Proof& proof, const std::vector<Residual>& residuals, const 
   if (proof.verdict != Verdict::proved) proof.evidence.clear();
   const std::vector<Polynomial> denominators = ring_.denominators();
   for (std::size_t k = 0; k < divided_by_.size(); ++k) {
-    if (divided_by_[k]) proof.nonzero.push_back(ring_.text(denominators[k]));
+    if (divided_by_[k] && !ring_.is_exponential(denominators[k]))
+      proof.nonzero.push_back(ring_.text(denominators[k]));
   }
   for (const Polynomial& p : ring_.implied_positive()) proof.positive.push_back(ring_.text(p));
 }

@@ -183,8 +183,11 @@ void decide_liouville(Prover& prover, Proof& proof) {
     }
     proof.verdict = Verdict::proved;
     proof.evidence =
-        fmt::format("{} are in involution and independent on leaves of dimension {} (at {})",
-                    listed(chosen), leaf->rank, point_text(prover, *point));
+        chosen.size() == 1
+            ? fmt::format("{} is enough on leaves of dimension {}; it is not constant at {}",
+                          listed(chosen), leaf->rank, point_text(prover, *point))
+            : fmt::format("{} are in involution and independent on leaves of dimension {} (at {})",
+                          listed(chosen), leaf->rank, point_text(prover, *point));
     return;
   }
   proof.reason =
