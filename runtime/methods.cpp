@@ -12,29 +12,38 @@ constexpr std::string_view kGaussText = "collocation at the Gauss nodes, symplec
 constexpr std::string_view kGaussBook =
     "Hairer, Lubich, Wanner: Geometric Numerical Integration (2006), II.1.3";
 constexpr std::string_view kGauss = "runtime/kernels/gauss.hpp";
+constexpr std::string_view kTaylor = "runtime/kernels/convolved.hpp";
+constexpr std::string_view kTaylorText =
+    "Taylor series of order 8 to 24 by recurrences, for smooth problems";
+constexpr std::string_view kTaylorBook =
+    "Jorba, Zou: A software package for the numerical integration of ODEs (2005)";
 // Short sums in a chain of dependent steps: packing them costs a third of the speed (GCC 12).
 constexpr std::string_view kScalar = "no-tree-vectorize,no-tree-slp-vectorize";
 
-// name, order, implicit, needs J, uses J, quadratic, fixed step, outside, header, entry, optimise,
-// ..
+// name, order, implicit, needs J, uses J, quadratic, fixed step, series, outside, header, entry,
+// optimise, ..
 constexpr Method kMethods[] = {
-    {"dop853", 8, false, false, false, false, true, "", "runtime/kernels/dop853.hpp",
+    {"dop853", 8, false, false, false, false, true, false, "", "runtime/kernels/dop853.hpp",
      "dop853::integrate<System>", "", "explicit Runge-Kutta method of Dormand and Prince",
      "Hairer, Norsett, Wanner: Solving Ordinary Differential Equations I (1993), II.5, II.10"},
-    {"gauss4", 4, true, false, true, true, true, "", kGauss, "gauss::integrate<System, 2>", kScalar,
+    {"taylor", 0, false, false, false, false, true, true, "", kTaylor, "taylor::integrate<System>",
+     "", kTaylorText, kTaylorBook},
+    {"taylor-compiled", 0, false, false, false, false, true, true, "", kTaylor,
+     "taylor::integrate<System>", "", kTaylorText, kTaylorBook},
+    {"gauss4", 4, true, false, true, true, true, false, "", kGauss, "gauss::integrate<System, 2>", kScalar,
      kGaussText, kGaussBook},
-    {"gauss6", 6, true, false, true, true, true, "", kGauss, "gauss::integrate<System, 3>", kScalar,
+    {"gauss6", 6, true, false, true, true, true, false, "", kGauss, "gauss::integrate<System, 3>", kScalar,
      kGaussText, kGaussBook},
-    {"gauss8", 8, true, false, true, true, true, "", kGauss, "gauss::integrate<System, 4>", kScalar,
+    {"gauss8", 8, true, false, true, true, true, false, "", kGauss, "gauss::integrate<System, 4>", kScalar,
      kGaussText, kGaussBook},
-    {"gauss12", 12, true, false, true, true, true, "", kGauss, "gauss::integrate<System, 6>",
+    {"gauss12", 12, true, false, true, true, true, false, "", kGauss, "gauss::integrate<System, 6>",
      kScalar, kGaussText, kGaussBook},
-    {"gauss16", 16, true, false, true, true, true, "", kGauss, "gauss::integrate<System, 8>",
+    {"gauss16", 16, true, false, true, true, true, false, "", kGauss, "gauss::integrate<System, 8>",
      kScalar, kGaussText, kGaussBook},
-    {"cvode-adams", 0, false, false, false, false, false, "SUNDIALS", "", "", "",
+    {"cvode-adams", 0, false, false, false, false, false, false, "SUNDIALS", "", "", "",
      "CVODE, Adams-Moulton methods of order 1 to 12 with functional iteration",
      "Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363"},
-    {"cvode-bdf", 0, true, false, true, false, false, "SUNDIALS", "", "", "",
+    {"cvode-bdf", 0, true, false, true, false, false, false, "SUNDIALS", "", "", "",
      "CVODE, backward differentiation formulas of order 1 to 5 with Newton iteration",
      "Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363"},
 };

@@ -16,6 +16,7 @@ struct Method {
   bool uses_jacobian;         ///< is faster or more robust with it
   bool preserves_quadratic;   ///< keeps quadratic invariants up to rounding
   bool fixed_step_ok;         ///< accepts Settings::fixed_step
+  bool series;                ///< needs the recurrences of the system's Taylor coefficients
   std::string_view outside;   ///< the library that does it, or empty: a kernel of our own
   std::string_view header;    ///< of the kernel, as #include says it; empty for outside methods
   std::string_view entry;     ///< the function template of the kernel, called with <System ..>

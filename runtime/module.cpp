@@ -7,14 +7,14 @@
 namespace casimir {
 namespace {
 
+/// The function of that name, or null.
 template <class Function>
-void find(void* handle, const char* name, Function*& function) {
-  function = reinterpret_cast<Function*>(dlsym(handle, name));
+Function* find(void* handle, const char* name) {
+  return reinterpret_cast<Function*>(dlsym(handle, name));
 }
 
 int number(void* handle, const std::string& path, const char* name) {
-  int (*function)(void) = nullptr;
-  find(handle, name, function);
+  auto* const function = find<int(void)>(handle, name);
   if (!function) throw std::runtime_error(path + ": the module lacks " + name);
   return function();
 }
@@ -54,10 +54,10 @@ Module Module::load(const std::string& path) {
   functions.dimension = number(handle.get(), path, "casimir_dimension");
   functions.parameter_count = number(handle.get(), path, "casimir_parameter_count");
   functions.invariant_count = number(handle.get(), path, "casimir_invariant_count");
-  find(handle.get(), "casimir_rhs", functions.rhs);
-  find(handle.get(), "casimir_jacobian", functions.jacobian);
-  find(handle.get(), "casimir_invariants", functions.invariants);
-  find(handle.get(), "casimir_integrate", functions.integrate);
+  functions.rhs = find<ModuleFunctions::Evaluation>(handle.get(), "casimir_rhs");
+  functions.jacobian = find<ModuleFunctions::Evaluation>(handle.get(), "casimir_jacobian");
+  functions.invariants = find<ModuleFunctions::Evaluation>(handle.get(), "casimir_invariants");
+  functions.integrate = find<ModuleFunctions::Integration>(handle.get(), "casimir_integrate");
   if (!functions.rhs) throw std::runtime_error(path + ": the module lacks casimir_rhs");
   Module module = from_functions(functions);
   module.handle_ = std::move(handle);

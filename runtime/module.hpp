@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -7,15 +8,19 @@
 
 namespace casimir {
 
-/// The entry points of a module, as module_abi.h describes them.
+/// The entry points of a module, as module_abi.h describes them: functions of a shared object or,
+/// where nothing was compiled, objects that carry a program.
 struct ModuleFunctions {
+  using Evaluation = void(double t, const double* x, const double* p, double* values);
+  using Integration = void(const casimir_run*, double* x, casimir_outcome*);
+
   int dimension = 0;        ///< number of states n
   int parameter_count = 0;  ///< number of run-time parameters
   int invariant_count = 0;
-  void (*rhs)(double t, const double* x, const double* p, double* dx) = nullptr;
-  void (*jacobian)(double t, const double* x, const double* p, double* J) = nullptr;  ///< or null
-  void (*invariants)(double t, const double* x, const double* p, double* values) = nullptr;
-  void (*integrate)(const casimir_run*, double* x, casimir_outcome*) = nullptr;  ///< or null
+  std::function<Evaluation> rhs;          ///< writes dx/dt
+  std::function<Evaluation> jacobian;     ///< or empty
+  std::function<Evaluation> invariants;
+  std::function<Integration> integrate;  ///< or empty
 };
 
 /// A compiled system: a shared object, or functions of the program itself.

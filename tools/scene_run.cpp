@@ -11,9 +11,11 @@
 #include "codegen/compile.hpp"
 #include "codegen/emit_cpp.hpp"
 #include "codegen/literal.hpp"
+#include "codegen/quadratic.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/methods.hpp"
 #include "runtime/term_size.hpp"
+#include "runtime/uncompiled.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -75,6 +77,14 @@ std::function<void(double, const double*, double*)> SceneRun::invariant_sizes() 
 
 CompiledModule compile_for(const SceneRun& run, const Method& method) {
   const auto start = Clock::now();
+  const Specialisation& s = run.specialisation;
+  if (method.name == "taylor") {
+    const auto form = quadratic_form(s.rhs, run.parameters);
+    const auto tables = form ? quadratic_tables(*form) : std::nullopt;
+    if (tables)
+      return {uncompiled_module(s.rhs, s.invariants, tables, run.parameters), seconds_since(start),
+              false};
+  }
   // A method of another library only calls the right-hand side: one module serves them all.
   const CompiledObject object = compile(emit_module(
       run.specialisation, method.outside.empty() ? kernel_source(method) : std::string{}));

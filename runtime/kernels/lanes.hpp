@@ -1,0 +1,74 @@
+#pragma once
+
+// Several numbers in one register, by the vector extensions of GCC and Clang.
+
+#include "runtime/module_abi.h"
+
+namespace casimir_kernel {
+
+#define CASIMIR_INLINE inline __attribute__((always_inline))
+#define CASIMIR_INLINE_LAMBDA __attribute__((always_inline))
+
+template <int width>
+struct LaneTypes;
+template <>
+struct LaneTypes<4> {
+  typedef double Real __attribute__((vector_size(32)));
+  typedef long long Index __attribute__((vector_size(32)));
+};
+template <>
+struct LaneTypes<8> {
+  typedef double Real __attribute__((vector_size(64)));
+  typedef long long Index __attribute__((vector_size(64)));
+};
+
+/// `width` numbers, 4 or 8.
+template <int width>
+using Lanes = typename LaneTypes<width>::Real;
+template <int width>
+using Indices = typename LaneTypes<width>::Index;
+using Lanes4 = Lanes<4>;
+using Lanes8 = Lanes<8>;
+
+template <class V>
+CASIMIR_INLINE V all_lanes(double a) {
+  return a - V{};
+}
+
+CASIMIR_INLINE Lanes4 absolute(Lanes4 v) {
+  return (Lanes4)((Indices<4>)v & 0x7fffffffffffffffLL);
+}
+CASIMIR_INLINE Lanes8 absolute(Lanes8 v) {
+  return (Lanes8)((Indices<8>)v & 0x7fffffffffffffffLL);
+}
+
+/// The sum of the lanes: not a number if any lane is none.
+CASIMIR_INLINE double lane_sum(Lanes4 v) { return (v[0] + v[2]) + (v[1] + v[3]); }
+CASIMIR_INLINE double lane_sum(Lanes8 v) {
+  const Lanes4 low = __builtin_shufflevector(v, v, 0, 1, 2, 3);
+  const Lanes4 high = __builtin_shufflevector(v, v, 4, 5, 6, 7);
+  return lane_sum(low + high);
+}
+
+/// Lane i of the result is lane from[i] of v. The indices are in range.
+CASIMIR_INLINE Lanes4 permuted(Lanes4 v, Indices<4> from) { return __builtin_shuffle(v, from); }
+CASIMIR_INLINE Lanes8 permuted(Lanes8 v, Indices<8> from) {
+#ifdef __AVX512F__
+  return __builtin_shuffle(v, from);
+#else  // two registers, each filled from both halves
+  const Lanes4 low = __builtin_shufflevector(v, v, 0, 1, 2, 3);
+  const Lanes4 high = __builtin_shufflevector(v, v, 4, 5, 6, 7);
+  const Lanes4 first = __builtin_shuffle(low, high, __builtin_shufflevector(from, from, 0, 1, 2, 3));
+  const Lanes4 last = __builtin_shuffle(low, high, __builtin_shufflevector(from, from, 4, 5, 6, 7));
+  return __builtin_shufflevector(first, last, 0, 1, 2, 3, 4, 5, 6, 7);
+#endif
+}
+
+template <class V>
+CASIMIR_INLINE V load(const double* from) {
+  V v;
+  __builtin_memcpy(&v, from, sizeof v);
+  return v;
+}
+
+}  // namespace casimir_kernel

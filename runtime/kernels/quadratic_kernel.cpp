@@ -1,0 +1,53 @@
+// The table-driven kernels for one instruction set. This file is compiled once for each, with
+// CASIMIR_TARGET naming it. Templates that were compiled with different options and carry the same
+// name would be merged by the linker, so everything here is in a namespace of its target.
+#define CASIMIR_JOIN_(a, b) a##b
+#define CASIMIR_JOIN(a, b) CASIMIR_JOIN_(a, b)
+#define casimir_kernel CASIMIR_JOIN(casimir_kernel_, CASIMIR_TARGET)
+
+#include "runtime/kernels/quadratic.hpp"
+
+namespace {
+
+struct RunTimeTables {
+  static constexpr bool known = false;
+  const casimir_quadratic& tables;
+};
+
+template <int width, int registers, int order>
+void integrate(const casimir_quadratic& tables, const casimir_run* run, double* x,
+               casimir_outcome* out) {
+  using Series = casimir_kernel::taylor::Quadratic<RunTimeTables, width, registers, order>;
+  Series series(RunTimeTables{tables});
+  casimir_kernel::taylor::March<Series>(run, series, x, out).go();
+}
+
+template <int width, int registers>
+void with_order(const casimir_quadratic& tables, const casimir_run* run, double* x,
+                casimir_outcome* out) {
+  const int order = casimir_kernel::taylor::order_for(run);
+  if (order <= 8) return integrate<width, registers, 8>(tables, run, x, out);
+  if (order <= 16) return integrate<width, registers, 16>(tables, run, x, out);
+  integrate<width, registers, 24>(tables, run, x, out);
+}
+
+}  // namespace
+
+extern "C" void CASIMIR_JOIN(casimir_quadratic_, CASIMIR_TARGET)(const casimir_quadratic* tables,
+                                                                 const casimir_run* run, double* x,
+                                                                 casimir_outcome* out) {
+  const bool narrow = tables->states <= 4;
+  switch (tables->products) {
+    case 0:
+    case 1:
+      return narrow ? with_order<4, 1>(*tables, run, x, out) : with_order<8, 1>(*tables, run, x, out);
+    case 2:
+      return narrow ? with_order<4, 2>(*tables, run, x, out) : with_order<8, 2>(*tables, run, x, out);
+    case 3:
+      return narrow ? with_order<4, 3>(*tables, run, x, out) : with_order<8, 3>(*tables, run, x, out);
+    case 4:
+      return with_order<8, 4>(*tables, run, x, out);
+    default:
+      return with_order<8, 5>(*tables, run, x, out);
+  }
+}

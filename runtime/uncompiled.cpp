@@ -1,0 +1,53 @@
+#include "runtime/uncompiled.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+#include "runtime/interpreted_series.hpp"
+#include "runtime/interpreter.hpp"
+
+namespace casimir {
+namespace {
+
+/// The function of a program in the form of a module's entry points.
+std::function<ModuleFunctions::Evaluation> evaluation(const Program& program, std::size_t states,
+                                                      std::size_t parameters) {
+  return [run = Interpreter(program), states, parameters,
+          inputs = std::vector<double>(states + parameters + 1)](
+             double t, const double* x, const double* p, double* values) mutable {
+    std::copy_n(x, states, inputs.begin());
+    std::copy_n(p, parameters, inputs.begin() + static_cast<std::ptrdiff_t>(states));
+    inputs.back() = t;
+    run(inputs.data(), values);
+  };
+}
+
+std::function<ModuleFunctions::Integration> table_driven(const casimir_quadratic& tables,
+                                                         const std::vector<double>& parameters) {
+  return [tables, parameters, target = quadratic_targets().front()](
+             const casimir_run* run, double* x, casimir_outcome* out) {
+    if (!std::equal(parameters.begin(), parameters.end(), run->parameters))
+      throw std::invalid_argument("the tables were made for other values of the parameters");
+    integrate_quadratic(target, tables, run, x, out);
+  };
+}
+
+}  // namespace
+
+Module uncompiled_module(const Program& rhs, const Program& invariants,
+                         const std::optional<casimir_quadratic>& tables,
+                         const std::vector<double>& parameters) {
+  const std::size_t states = rhs.outputs.size();
+  ModuleFunctions functions;
+  functions.dimension = static_cast<int>(states);
+  functions.parameter_count = static_cast<int>(parameters.size());
+  functions.invariant_count = static_cast<int>(invariants.outputs.size());
+  functions.rhs = evaluation(rhs, states, parameters.size());
+  functions.invariants = evaluation(invariants, states, parameters.size());
+  functions.integrate =
+      tables ? table_driven(*tables, parameters) : interpreted(rhs, parameters.size());
+  return Module::from_functions(functions);
+}
+
+}  // namespace casimir
