@@ -117,22 +117,18 @@ void lay_out_products(const QuadraticForm& form, const Layout& layout, int width
   }
 }
 
-/// False if there are more moves than the tables hold.
-bool lay_out_moves(const QuadraticForm& form, const Layout& layout, casimir_quadratic& tables) {
+void lay_out_moves(const QuadraticForm& form, const Layout& layout, casimir_quadratic& tables) {
   for (int reg = 0; reg < layout.registers(); ++reg) {
-    const int first = tables.moves;
     for (int i = 0; i < form.states; ++i) {
-      int e = first;
+      int e = 0;
       for (const int lane : layout.elsewhere(reg, i)) {
-        if (e == CASIMIR_MOST_MOVES) return false;
-        tables.source[e] = reg;
-        tables.move[e].from[i] = lane;
-        tables.move[e].factor[i] = layout.factor(layout.product_at(reg, lane), i);
-        tables.moves = std::max(tables.moves, ++e);
+        casimir_move& move = tables.move[reg][e++];
+        move.from[i] = lane;
+        move.factor[i] = layout.factor(layout.product_at(reg, lane), i);
       }
+      tables.moves[reg] = std::max(tables.moves[reg], e);
     }
   }
-  return true;
 }
 
 /// The entries of the Jacobian in each row, those of one state on the same diagonal where possible.
@@ -178,7 +174,7 @@ std::optional<casimir_quadratic> quadratic_tables(const QuadraticForm& form) {
   std::copy(form.constant.begin(), form.constant.end(), tables.constant);
   const Layout layout(form, width);
   lay_out_products(form, layout, width, tables);
-  if (!lay_out_moves(form, layout, tables)) return std::nullopt;
+  lay_out_moves(form, layout, tables);
   lay_out_jacobian(form, tables);
   return tables;
 }

@@ -13,8 +13,9 @@ namespace casimir_kernel::taylor {
 /// coefficient is known its inner products go into the sums of all orders they belong to, so the
 /// sums stay in registers, and of a new coefficient only the Jacobian is left to do.
 ///
-/// Tables is a class with a casimir_quadratic `tables` and `static constexpr bool known`, whether
-/// the compiler can see its entries.
+/// Tables is a class with a casimir_quadratic `tables`, `static constexpr bool known`, and the counts
+/// in the tables as functions `diagonals`, `parts` and `moves`: constants where they are known, so
+/// that the loops are written out.
 template <class Tables, int width, int registers, int the_order>
 struct Quadratic : Tables {
   using V = Lanes<width>;
@@ -32,24 +33,27 @@ struct Quadratic : Tables {
 
   __attribute__((noinline)) void begin(double, const V* x) {
     rate[0] = at<V>(tables.constant);
-    for (int d = 0; d < tables.diagonals; ++d)
+    for (int d = 0; d < Tables::diagonals(tables); ++d)
       rate[0] += (jacobian(d, x[0]) + at<V>(tables.fixed[d])) * 0.5 *
                  permuted(x[0], at<Index>(tables.column[d]));
   }
 
   CASIMIR_INLINE void expand(double unit) {
-    V diagonal[CASIMIR_MOST_DIAGONALS], own[registers], factor[CASIMIR_MOST_MOVES];
+    V diagonal[CASIMIR_MOST_DIAGONALS], own[registers], factor[registers][width];
     const V x = c[0][0];
     V first = at<V>(tables.constant) * unit;
-    repeat(tables.diagonals, [&](int d) CASIMIR_INLINE_LAMBDA {
+    repeat(Tables::diagonals(tables), [&](int d) CASIMIR_INLINE_LAMBDA {
       diagonal[d] = jacobian(d, x) * unit;
       first += (diagonal[d] + at<V>(tables.fixed[d]) * unit) * 0.5 *
                permuted(x, at<Index>(tables.column[d]));
     });
-    for (int m = 0; m < registers; ++m) own[m] = at<V>(tables.own[m]) * unit;
-    repeat(tables.moves, [&](int e) CASIMIR_INLINE_LAMBDA {
-      factor[e] = at<V>(tables.move[e].factor) * unit;
-    });
+    CASIMIR_UNROLL
+    for (int m = 0; m < registers; ++m) {
+      own[m] = at<V>(tables.own[m]) * unit;
+      repeat(Tables::moves(tables, m), [&](int e) CASIMIR_INLINE_LAMBDA {
+        factor[m][e] = at<V>(tables.move[m][e].factor) * unit;
+      });
+    }
     c[1][0] = first;
     V left[order][registers], right[order][registers], sum[order][registers];
     next<1>(diagonal, own, factor, left, right, sum);
@@ -67,7 +71,7 @@ struct Quadratic : Tables {
   template <class Action>
   static CASIMIR_INLINE void repeat(int count, Action action) {
     if constexpr (Tables::known) {
-#pragma GCC unroll 40
+#pragma GCC unroll 8
       for (int i = 0; i < count; ++i) action(i);
     } else {
       for (int i = 0; i < count; ++i) action(i);
@@ -76,7 +80,7 @@ struct Quadratic : Tables {
 
   CASIMIR_INLINE V jacobian(int d, V x) const {
     V entries = at<V>(tables.fixed[d]);
-    repeat(tables.parts[d], [&](int q) CASIMIR_INLINE_LAMBDA {
+    repeat(Tables::parts(tables, d), [&](int q) CASIMIR_INLINE_LAMBDA {
       const casimir_move& part = tables.part[d][q];
       entries += at<V>(part.factor) * permuted(x, at<Index>(part.from));
     });
@@ -85,20 +89,25 @@ struct Quadratic : Tables {
 
   /// Coefficient k+1 and all after it.
   template <int k>
-  CASIMIR_INLINE void next(const V* diagonal, const V* own, const V* factor, V (*left)[registers],
+  CASIMIR_INLINE void next(const V* diagonal, const V* own, const V (*factor)[width],
+                           V (*left)[registers],
                            V (*right)[registers], V (*sum)[registers]) {
     const V x = c[k][0];
     constexpr double part = 1. / (k + 1);
     V inner = V{};
     if constexpr (k > 1) {
-      for (int m = 0; m < registers; ++m) inner += own[m] * sum[k][m];
-      repeat(tables.moves, [&](int e) CASIMIR_INLINE_LAMBDA {
-        inner += factor[e] * permuted(sum[k][tables.source[e]], at<Index>(tables.move[e].from));
-      });
+      CASIMIR_UNROLL
+      for (int m = 0; m < registers; ++m) {
+        const V total = sum[k][m];
+        inner += own[m] * total;
+        repeat(Tables::moves(tables, m), [&](int e) CASIMIR_INLINE_LAMBDA {
+          inner += factor[m][e] * permuted(total, at<Index>(tables.move[m][e].from));
+        });
+      }
     }
     // Two chains: this is what the next coefficient waits for.
     V other = V{};
-    repeat(tables.diagonals / 2, [&](int pair) CASIMIR_INLINE_LAMBDA {
+    repeat(Tables::diagonals(tables) / 2, [&](int pair) CASIMIR_INLINE_LAMBDA {
       const int d = 2 * pair;
       inner += diagonal[d] * permuted(x, at<Index>(tables.column[d]));
       other += diagonal[d + 1] * permuted(x, at<Index>(tables.column[d + 1]));
@@ -113,6 +122,7 @@ struct Quadratic : Tables {
   /// The products of coefficient k with those of 1 .. k.
   template <int k>
   CASIMIR_INLINE void push(V x, V (*left)[registers], V (*right)[registers], V (*sum)[registers]) {
+    CASIMIR_UNROLL
     for (int m = 0; m < registers; ++m) {
       const V l = permuted(x, at<Index>(tables.left[m]));
       const V r = permuted(x, at<Index>(tables.right[m]));
@@ -124,8 +134,8 @@ struct Quadratic : Tables {
           sum[2 * k][m] = l * r;
         else if (j == k - 1)
           sum[2 * k - 1][m] = left[j][m] * r + right[j][m] * l;
-        else
-          sum[k + j][m] += left[j][m] * r + right[j][m] * l;
+        else  // one fused operation after the other
+          sum[k + j][m] = right[j][m] * l + (left[j][m] * r + sum[k + j][m]);
       }
     }
   }

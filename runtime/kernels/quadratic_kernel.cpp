@@ -12,6 +12,9 @@ namespace {
 struct RunTimeTables {
   static constexpr bool known = false;
   const casimir_quadratic& tables;
+  static int diagonals(const casimir_quadratic& from) { return from.diagonals; }
+  static int parts(const casimir_quadratic& from, int d) { return from.parts[d]; }
+  static int moves(const casimir_quadratic& from, int m) { return from.moves[m]; }
 };
 
 template <int width, int registers, int order>

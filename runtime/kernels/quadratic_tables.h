@@ -4,8 +4,7 @@
 #ifndef CASIMIR_QUADRATIC_TABLES_H
 #define CASIMIR_QUADRATIC_TABLES_H
 
-enum { CASIMIR_LANES = 8, CASIMIR_MOST_PRODUCTS = 5, CASIMIR_MOST_MOVES = 40,
-       CASIMIR_MOST_DIAGONALS = 8, CASIMIR_MOST_PARTS = 8 };
+enum { CASIMIR_LANES = 8, CASIMIR_MOST_PRODUCTS = 5, CASIMIR_MOST_DIAGONALS = 8, CASIMIR_MOST_PARTS = 8 };
 
 /* Lane i is factor[i] times lane from[i] of a register. */
 struct casimir_move {
@@ -18,13 +17,12 @@ struct casimir_quadratic {
   int products;  /* registers of products: product i of register m is x[left[m][i]] * x[right[m][i]] */
   long long left[CASIMIR_MOST_PRODUCTS][CASIMIR_LANES], right[CASIMIR_MOST_PRODUCTS][CASIMIR_LANES];
 
-  /* dx/dt = constant + linear terms + products: those that stand in the lane where they are needed,
-   * with the factor own[m], and others, moved there from register source[e]. */
+  /* dx/dt = constant + linear terms + products: those of register m that stand in the lane where
+   * they are needed, with the factor own[m], and others, moved there. */
   double constant[CASIMIR_LANES];
   double own[CASIMIR_MOST_PRODUCTS][CASIMIR_LANES];
-  int moves;
-  int source[CASIMIR_MOST_MOVES];
-  struct casimir_move move[CASIMIR_MOST_MOVES];
+  int moves[CASIMIR_MOST_PRODUCTS];
+  struct casimir_move move[CASIMIR_MOST_PRODUCTS][CASIMIR_LANES];
 
   /* The derivative of dx/dt in the direction v is the sum over d of diagonal[d] * (v moved by
    * column[d]), and diagonal[d] is fixed[d] plus moved states: the Jacobian, of which every

@@ -65,15 +65,20 @@ template <class Series, class V>
 CASIMIR_INLINE void increment(const Series& series, double s, V* sum) {
   constexpr int blocks = Series::blocks;
   const V s1 = all_lanes<V>(s), s2 = s1 * s1, s4 = s2 * s2;
-  V part[4][blocks];
-  for (int j = 0; j < 4; ++j)
-    for (int b = 0; b < blocks; ++b) part[j][b] = series.c[series.order - 3 + j][b];
-#pragma GCC unroll 8
-  for (int k = series.order - 7; k > 0; k -= 4)
-    for (int j = 0; j < 4; ++j)
-      for (int b = 0; b < blocks; ++b) part[j][b] = part[j][b] * s4 + series.c[k + j][b];
-  for (int b = 0; b < blocks; ++b)
-    sum[b] = ((part[0][b] + part[1][b] * s1) + (part[2][b] + part[3][b] * s1) * s2) * s1;
+  CASIMIR_UNROLL
+  for (int b = 0; b < blocks; ++b) {
+    const auto* c = &series.c[series.order - 3][b];
+    V p0 = c[0], p1 = c[blocks], p2 = c[2 * blocks], p3 = c[3 * blocks];
+    CASIMIR_UNROLL
+    for (int k = series.order - 4; k > 0; k -= 4) {
+      c -= 4 * blocks;
+      p0 = p0 * s4 + c[0];
+      p1 = p1 * s4 + c[blocks];
+      p2 = p2 * s4 + c[2 * blocks];
+      p3 = p3 * s4 + c[3 * blocks];
+    }
+    sum[b] = ((p0 + p1 * s1) + (p2 + p3 * s1) * s2) * s1;
+  }
 }
 
 /// sum of k c[k] s^k: the derivative of the series, times s.
@@ -106,7 +111,8 @@ class March {
         status_ = CASIMIR_MAX_STEPS;
         break;
       }
-      for (int b = 0; b < blocks; ++b) series_.c[0][b] = state_[b];
+      CASIMIR_UNROLL
+    for (int b = 0; b < blocks; ++b) series_.c[0][b] = state_[b];
       series_.expand(unit_);
       ++expansions_;
       double s = chosen_step();
@@ -123,6 +129,7 @@ class March {
 
  private:
   bool start() {
+    CASIMIR_UNROLL
     for (int b = 0; b < blocks; ++b) state_[b] = carry_[b] = V{};
     for (int i = 0; i < series_.states; ++i) state_[i / width][i % width] = x_[i];
     t_ = run_->t_begin;
@@ -172,6 +179,7 @@ class March {
 
   static CASIMIR_INLINE bool finite(const V* x) {
     V zero = V{};
+    CASIMIR_UNROLL
     for (int b = 0; b < blocks; ++b) zero += x[b] * 0;
     return lane_sum(zero) == 0;
   }
@@ -189,6 +197,7 @@ class March {
   CASIMIR_INLINE double chosen_step() {
     const int order = series_.order;
     V last = V{}, before = V{};
+    CASIMIR_UNROLL
     for (int b = 0; b < blocks; ++b) {
       weight_[b] = weight(b);
       before += absolute(series_.c[order - 1][b]) * weight_[b];
@@ -233,6 +242,7 @@ class March {
     if (there_) t1 = run_->t_end;
     V next[blocks], next_carry[blocks];
     increment(series_, s, next);
+    CASIMIR_UNROLL
     for (int b = 0; b < blocks; ++b) {
       const V y = next[b] + carry_[b];
       const V sum = state_[b] + y;
@@ -261,6 +271,7 @@ class March {
     slope(series_, s, told);
     series_.begin(t1, next);
     ++evaluations_;
+    CASIMIR_UNROLL
     for (int b = 0; b < blocks; ++b) {
       const V size = absolute(state_[b]) + absolute(next[b]) + absolute(told[b]);
       const V w = 1 / (kDefect / weight_[b] + size * kRounding);
@@ -278,6 +289,7 @@ class March {
     }
     t_ = t1;
     t_carry_ = t1_carry;
+    CASIMIR_UNROLL
     for (int b = 0; b < blocks; ++b) {
       state_[b] = next[b];
       carry_[b] = next_carry[b];
