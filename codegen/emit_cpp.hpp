@@ -32,8 +32,10 @@ std::string emit_header(const Specialisation& specialisation, const HeaderOption
 ///        empty: the module has no `casimir_integrate`.
 /// `System` has `n`, `rhs(t, x, p, dx)` and, where the specialisation has it, `jacobian(t, x, p,
 /// J)` by columns, all entries.
-std::string emit_module(const Specialisation& specialisation,
-                        const std::string& kernel_source = {});
+/// \param with_series  `System::Series` as well, for kernels that need the recurrences of Taylor
+///        coefficients (runtime/kernels/convolved.hpp).
+std::string emit_module(const Specialisation& specialisation, const std::string& kernel_source = {},
+                        bool with_series = false);
 
 /// Whether the code of the specialisation calls functions of the mathematical library.
 bool needs_math_library(const Specialisation& specialisation);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "codegen/emit_cpp.hpp"
+#include "codegen/emit_series.hpp"
 #include "codegen/names.hpp"
 #include "codegen/statements.hpp"
 #include "runtime/module_abi.h"
@@ -51,7 +52,7 @@ class ModuleWriter {
     style_.indent = "    ";
   }
 
-  std::string run(const std::string& kernel) {
+  std::string run(const std::string& kernel, bool with_series) {
     std::string text = codegen::head_comment(spec_) + "\n";
     if (!kernel.empty()) text += kernel + (kernel.ends_with('\n') ? "\n" : "\n\n");
     text += "namespace {\n\nstruct System {\n  static constexpr int n = " +
@@ -62,6 +63,7 @@ class ModuleWriter {
               function("jacobian", "J", spec_.jacobian.program, jacobian_zeros());
     }
     text += "\n" + function("invariants", "values", spec_.invariants, "");
+    if (with_series) text += "\n" + codegen::series_struct(spec_.rhs, names_);
     text += "};\n\n}  // namespace\n\n";
     return text + exports(!kernel.empty());
   }
@@ -156,8 +158,9 @@ bool needs_math_library(const Specialisation& spec) {
          codegen::calls_functions(spec.jacobian.program);
 }
 
-std::string emit_module(const Specialisation& spec, const std::string& kernel_source) {
-  return ModuleWriter(spec).run(kernel_source);
+std::string emit_module(const Specialisation& spec, const std::string& kernel_source,
+                        bool with_series) {
+  return ModuleWriter(spec).run(kernel_source, with_series);
 }
 
 }  // namespace casimir

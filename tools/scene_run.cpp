@@ -87,7 +87,8 @@ CompiledModule compile_for(const SceneRun& run, const Method& method) {
   }
   // A method of another library only calls the right-hand side: one module serves them all.
   const CompiledObject object = compile(emit_module(
-      run.specialisation, method.outside.empty() ? kernel_source(method) : std::string{}));
+      run.specialisation, method.outside.empty() ? kernel_source(method) : std::string{},
+      method.series));
   return {Module::load(object.path), seconds_since(start), object.from_cache};
 }
 

@@ -1,0 +1,376 @@
+// The recurrences of a straight-line program's Taylor coefficients, for the compiled kernel.
+#include "codegen/emit_series.hpp"
+
+#include <map>
+#include <set>
+#include <utility>
+
+#include "codegen/literal.hpp"
+#include "codegen/lower.hpp"
+#include "codegen/names.hpp"
+#include "codegen/statements.hpp"
+
+namespace casimir::codegen {
+
+namespace {
+
+/// One series l times another r, as the kernel sums it. A weighted operand has j times its
+/// coefficient j.
+struct Sum {
+  std::string left, right;
+  bool weighted;
+  friend auto operator<=>(const Sum&, const Sum&) = default;
+};
+
+/// Writes two passes over the program: the values at a state, which stay as members (`t3`), and
+/// coefficient k of the same quantities (`t3_k`).
+class SeriesWriter {
+ public:
+  SeriesWriter(const Program& rhs, const std::vector<std::string>& names)
+      : program_(without_dead_code(rhs)),
+        constant_(constant_instructions(program_)),
+        unique_(names),
+        value_(program_.code.size()),
+        varies_(program_.code.size(), false),
+        states_(program_.outputs.size()) {
+    for (const std::string& name : names) inputs_.push_back(name);
+  }
+
+  std::string run() {
+    for (std::size_t i = 0; i < program_.code.size(); ++i) write(i);
+    return assembled();
+  }
+
+ private:
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  const Instruction& code(std::size_t i) const { return program_.code[i]; }
+
+  std::string literal(std::size_t i) {
+    const int line = static_cast<int>(i);
+    const bool rational = is_rational(program_, line);
+    const NumberText number = number_text(constant_value(program_, line), Scalar::real64,
+                                          rational ? "" : constant_text(program_, line));
+    std::string text = number.text;
+    if (text.find_first_of(".eExX") == std::string::npos) text += ".";
+    return text[0] == '-' ? "(" + text + ")" : text;
+  }
+
+  /// A new member for a value at the state.
+  std::string member(const std::string& wanted) {
+    const std::string name = unique_.unique(wanted);
+    members_ += (members_.empty() ? "" : ", ") + name;
+    return name;
+  }
+
+  void assign_value(const std::string& name, const std::string& text) {
+    begin_ += wrapped("      " + name + " = " + text + ";") + "\n";
+  }
+
+  void assign_next(const std::string& name, const std::string& text) {
+    next_ += wrapped("        const double " + name + "_k = " + text + ";") + "\n";
+  }
+
+  /// The inner terms of a sum of two series.
+  std::string sum(const std::string& left, const std::string& right, bool weighted = false) {
+    Sum wanted{left, right, weighted};
+    if (!weighted && right < left) std::swap(wanted.left, wanted.right);
+    const auto [place, is_new] = sums_.try_emplace(wanted, static_cast<int>(sums_.size()));
+    if (is_new) order_.push_back(wanted);
+    return "sum_[" + std::to_string(place->second) + "]";
+  }
+
+  /// sum of j l[j] r[k-j] over j = 1 .. k-1, divided by k.
+  std::string slope(const std::string& left, const std::string& right) {
+    return "by_k * " + sum(left, right, true);
+  }
+
+  void write(std::size_t i) {
+    const Instruction& c = code(i);
+    if (constant_[i]) {
+      value_[i] = literal(i);
+    } else if (c.op == Op::input) {
+      write_input(i);
+    } else {
+      varies_[i] = varies_[index(c.a)] || (c.b >= 0 && varies_[index(c.b)]);
+      value_[i] = member("t" + std::to_string(++count_));
+      write_operation(i);
+    }
+  }
+
+  void write_input(std::size_t i) {
+    const std::size_t input = index(code(i).a);
+    varies_[i] = input < states_ || input + 1 == inputs_.size();
+    value_[i] = inputs_[input];
+    if (input >= states_ && input + 1 < inputs_.size()) used_parameters_.insert(input);
+    uses_time_ = uses_time_ || input + 1 == inputs_.size();
+  }
+
+  bool varies(int i) const { return i >= 0 && varies_[index(i)]; }
+  const std::string& at(int i) const { return value_[index(i)]; }
+  std::string next(int i) const { return varies(i) ? value_[index(i)] + "_k" : "0."; }
+
+  void write_operation(std::size_t i) {
+    const Instruction& c = code(i);
+    const std::string& y = value_[i];
+    switch (c.op) {
+      case Op::add:
+      case Op::sub:
+        return write_sum(i);
+      case Op::neg:
+        assign_value(y, "-" + at(c.a));
+        if (varies_[i]) assign_next(y, "-" + next(c.a));
+        return;
+      case Op::mul:
+        return write_product(i);
+      case Op::div:
+        return write_quotient(i);
+      default:
+        return write_function(i);
+    }
+  }
+
+  void write_sum(std::size_t i) {
+    const Instruction& c = code(i);
+    const std::string sign = c.op == Op::add ? " + " : " - ";
+    assign_value(value_[i], at(c.a) + sign + at(c.b));
+    if (!varies_[i]) return;
+    if (!varies(c.b)) return assign_next(value_[i], next(c.a));
+    if (!varies(c.a)) return assign_next(value_[i], (c.op == Op::add ? "" : "-") + next(c.b));
+    assign_next(value_[i], next(c.a) + sign + next(c.b));
+  }
+
+  void write_product(std::size_t i) {
+    const Instruction& c = code(i);
+    const std::string &a = at(c.a), &b = at(c.b);
+    assign_value(value_[i], a + " * " + b);
+    if (!varies_[i]) return;
+    if (!varies(c.a)) return assign_next(value_[i], a + " * " + next(c.b));
+    if (!varies(c.b)) return assign_next(value_[i], next(c.a) + " * " + b);
+    if (c.a == c.b) return assign_next(value_[i], sum(a, a) + " + 2 * " + a + " * " + a + "_k");
+    assign_next(value_[i], sum(a, b) + " + " + a + " * " + b + "_k + " + a + "_k * " + b);
+  }
+
+  /// y b = a.
+  void write_quotient(std::size_t i) {
+    const Instruction& c = code(i);
+    const std::string &a = at(c.a), &b = at(c.b), &y = value_[i];
+    assign_value(y, a + " / " + b);
+    if (!varies_[i]) return;
+    if (!varies(c.b)) return assign_next(y, next(c.a) + " / " + b);
+    const std::string inverse = member(y + "_inverse");
+    assign_value(inverse, "1 / " + b);
+    assign_next(y, "(" + next(c.a) + " - " + y + " * " + b + "_k - " + sum(y, b) + ") * " + inverse);
+  }
+
+  std::string called(const char* function, const std::string& arguments) const {
+    return "__builtin_" + std::string(function) + "(" + arguments + ")";
+  }
+
+  void write_function(std::size_t i) {
+    const Instruction& c = code(i);
+    const std::string &a = at(c.a), &y = value_[i];
+    static constexpr const char* kNames[] = {"pow", "sqrt", "sin",  "cos",  "tan",
+                                             "exp", "log",  "asin", "acos", "atan2"};
+    const char* const name = kNames[static_cast<int>(c.op) - static_cast<int>(Op::pow)];
+    assign_value(y, called(name, c.b < 0 ? a : a + ", " + at(c.b)));
+    if (!varies_[i]) return;
+    switch (c.op) {
+      case Op::pow:
+        return write_power(y, a, at(c.b));
+      case Op::sqrt:
+        return write_root(y, a + "_k");
+      case Op::sin:
+      case Op::cos:
+        return write_sine_or_cosine(i);
+      case Op::tan:
+        return write_tangent(y, a);
+      case Op::exp:  // y' = a' y
+        return assign_next(y, a + "_k * " + y + " + " + slope(a, y));
+      case Op::log:  // a y' = a'
+        return write_ratio(y, a + "_k", a);
+      case Op::asin:
+      case Op::acos:
+        return write_arc(c.op, y, a);
+      default:
+        return write_angle(y, c);
+    }
+  }
+
+  /// y f = integral of the numerator's derivative: f y' = a'.
+  void write_ratio(const std::string& y, const std::string& numerator, const std::string& f) {
+    const std::string inverse = member(y + "_inverse");
+    assign_value(inverse, "1 / " + f);
+    assign_next(y, "(" + numerator + " - " + slope(y, f) + ") * " + inverse);
+  }
+
+  /// y y = a.
+  void write_root(const std::string& y, const std::string& next_of_square) {
+    const std::string half = member(y + "_half");
+    assign_value(half, "0.5 / " + y);
+    assign_next(y, "(" + next_of_square + " - " + sum(y, y) + ") * " + half);
+  }
+
+  /// a y' = e y a'.
+  void write_power(const std::string& y, const std::string& a, const std::string& e) {
+    const std::string inverse = member(y + "_inverse");
+    assign_value(inverse, "1 / " + a);
+    assign_next(y, "(" + e + " * (" + a + "_k * " + y + " + " + slope(a, y) + ") - " + slope(y, a) +
+                       ") * " + inverse);
+  }
+
+  /// Each of the two needs the other.
+  void write_sine_or_cosine(std::size_t i) {
+    const Instruction& c = code(i);
+    const std::string& a = at(c.a);
+    const auto [place, is_new] = turns_.try_emplace(c.a);
+    auto& [sine, cosine] = place->second;
+    if (!is_new) {  // the other came before and wrote both
+      const std::string& known = c.op == Op::sin ? sine : cosine;
+      next_ += "        const double " + value_[i] + "_k = " + known + "_k;\n";
+      return;
+    }
+    const std::string partner = member(value_[i] + (c.op == Op::sin ? "_cos" : "_sin"));
+    sine = c.op == Op::sin ? value_[i] : partner;
+    cosine = c.op == Op::sin ? partner : value_[i];
+    assign_value(partner, called(c.op == Op::sin ? "cos" : "sin", a));
+    assign_next(sine, a + "_k * " + cosine + " + " + slope(a, cosine));
+    assign_next(cosine, "-(" + a + "_k * " + sine + " + " + slope(a, sine) + ")");
+  }
+
+  /// y' = a' u with u = 1 + y y.
+  void write_tangent(const std::string& y, const std::string& a) {
+    const std::string u = member(y + "_slope");
+    assign_value(u, "1 + " + y + " * " + y);
+    assign_next(y, a + "_k * " + u + " + " + slope(a, u));
+    assign_next(u, "2 * " + y + " * " + y + "_k + " + sum(y, y));
+  }
+
+  /// u y' = a' or -a' with u u = 1 - a a.
+  void write_arc(Op op, const std::string& y, const std::string& a) {
+    const std::string u = member(y + "_root");
+    assign_value(u, called("sqrt", "(1 - " + a + ") * (1 + " + a + ")"));
+    write_root(u, "-(2 * " + a + " * " + a + "_k + " + sum(a, a) + ")");
+    write_ratio(y, (op == Op::asin ? "" : "-") + a + "_k", u);
+  }
+
+  /// The angle of (b, a): r y' = b a' - a b' with r = a a + b b.
+  void write_angle(const std::string& y, const Instruction& c) {
+    const std::string &a = at(c.a), &b = at(c.b);
+    const std::string r = member(y + "_square"), inverse = member(y + "_inverse");
+    assign_value(r, a + " * " + a + " + " + b + " * " + b);
+    assign_value(inverse, "1 / " + r);
+    std::string square, turn;
+    if (varies(c.a)) {
+      square += "2 * " + a + " * " + a + "_k + " + sum(a, a);
+      turn += a + "_k * " + b + (varies(c.b) ? " + " + slope(a, b) : "");
+    }
+    if (varies(c.b)) {
+      square += (square.empty() ? "" : " + ") + ("2 * " + b + " * " + b + "_k + " + sum(b, b));
+      turn += " - " + b + "_k * " + a + (varies(c.a) ? " - " + slope(b, a) : "");
+    }
+    assign_next(r, square);
+    assign_next(y, "(" + turn + " - " + slope(y, r) + ") * " + inverse);
+  }
+
+  /// `count` entries of a register, the rest zero.
+  static std::string lanes(const std::vector<std::string>& entries, std::size_t group) {
+    std::string text;
+    for (std::size_t lane = 0; lane < 8; ++lane) {
+      const std::size_t i = 8 * group + lane;
+      text += (lane == 0 ? "" : ", ") + (i < entries.size() ? entries[i] : "0");
+    }
+    return "V{" + text + "}";
+  }
+
+  std::string registers(const std::string& target, const std::vector<std::string>& entries,
+                        const std::string& indent) const {
+    std::string text;
+    for (std::size_t g = 0; 8 * g < entries.size(); ++g) {
+      text += wrapped(indent + target + "[" + std::to_string(g) + "] = " + lanes(entries, g) + ";") +
+              "\n";
+    }
+    return text;
+  }
+
+  std::string begin_function() const {
+    std::string text = "    void begin([[maybe_unused]] double at, const V* state) {\n";
+    for (std::size_t i = 0; i < states_; ++i) {
+      text += "      " + inputs_[i] + " = state[" + std::to_string(i / 8) + "][" +
+              std::to_string(i % 8) + "];\n";
+    }
+    for (const std::size_t i : used_parameters_)
+      text += "      " + inputs_[i] + " = p[" + std::to_string(i - states_) + "];\n";
+    if (uses_time_) text += "      " + inputs_.back() + " = at;\n";
+    std::vector<std::string> rates;
+    for (const int output : program_.outputs) rates.push_back(at(output));
+    return text + begin_ + registers("rate", rates, "      ") + "    }\n";
+  }
+
+  std::string expand_function() const {
+    std::vector<std::string> first, rates, next_states, left, right;
+    for (std::size_t i = 0; i < states_; ++i) {
+      first.push_back(inputs_[i] + "_1");
+      rates.push_back(next(program_.outputs[i]));
+    }
+    for (const Sum& s : order_) {
+      left.push_back(s.weighted ? "k * " + s.left + "_k" : s.left + "_k");
+      right.push_back(s.right + "_k");
+    }
+    std::string text = "    void expand(double unit) {\n";
+    for (std::size_t b = 0; 8 * b < states_; ++b)
+      text += "      c[1][" + std::to_string(b) + "] = rate[" + std::to_string(b) + "] * unit;\n";
+    for (std::size_t i = 0; i < states_; ++i) {
+      text += "      double " + inputs_[i] + "_k = c[1][" + std::to_string(i / 8) + "][" +
+              std::to_string(i % 8) + "];\n";
+      next_states.push_back(inputs_[i] + "_k");
+    }
+    text +=
+        "      for (int k = 1; k < order; ++k) {\n"
+        "        [[maybe_unused]] const double by_k = casimir_kernel::taylor::reciprocal.of[k];\n";
+    if (uses_time_)
+      text += "        const double " + inputs_.back() + "_k = k == 1 ? unit : 0;\n";
+    if (!order_.empty()) text += "        form_sums(k);\n";
+    text += next_ + registers("left_[k]", left, "        ") +
+            registers("right_[k]", right, "        ") +
+            "        const double step = unit * casimir_kernel::taylor::reciprocal.of[k + 1];\n";
+    for (std::size_t i = 0; i < states_; ++i)
+      text += "        " + inputs_[i] + "_k = step * (" + rates[i] + ");\n";
+    return text + registers("c[k + 1]", next_states, "        ") + "      }\n    }\n";
+  }
+
+  std::string assembled() {
+    std::string all = "    double ";
+    for (std::size_t i = 0; i < states_; ++i) all += (i == 0 ? "" : ", ") + inputs_[i];
+    for (const std::size_t i : used_parameters_) all += ", " + inputs_[i];
+    if (uses_time_) all += ", " + inputs_.back();
+    if (!members_.empty()) all += ", " + members_;
+    const std::string base = "casimir_kernel::taylor::Convolved<" + std::to_string(states_) + ", " +
+                             std::to_string(order_.size()) + ">";
+    return "  // Taylor coefficients of solutions: values at the state, and coefficient k of each.\n"
+           "  struct Series : " + base + " {\n    const double* p = nullptr;\n" +
+           wrapped(all + ";") + "\n\n" + begin_function() + "\n" + expand_function() + "  };\n";
+  }
+
+  const Program program_;
+  const std::vector<bool> constant_;
+  Names unique_;
+  std::vector<std::string> value_;
+  std::vector<bool> varies_;
+  std::vector<std::string> inputs_;
+  const std::size_t states_;
+  std::set<std::size_t> used_parameters_;
+  bool uses_time_ = false;
+  std::map<int, std::pair<std::string, std::string>> turns_;
+  std::map<Sum, int> sums_;
+  std::vector<Sum> order_;
+  std::string members_, begin_, next_;
+  int count_ = 0;
+};
+
+}  // namespace
+
+std::string series_struct(const Program& rhs, const std::vector<std::string>& names) {
+  return SeriesWriter(rhs, names).run();
+}
+
+}  // namespace casimir::codegen

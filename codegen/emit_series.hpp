@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/program.hpp"
+
+namespace casimir::codegen {
+
+/// The struct `Series` for the kernel of runtime/kernels/convolved.hpp: the Taylor coefficients of
+/// the solutions of x' = program, by the recurrence of each operation.
+/// \param names  for each input of the program, the name of its local; the last is the time.
+std::string series_struct(const Program& rhs, const std::vector<std::string>& names);
+
+}  // namespace casimir::codegen
