@@ -38,9 +38,19 @@ const std::vector<std::string>& usual_flags() {
   return flags;
 }
 
-std::vector<std::string> arguments_for(const CompileOptions& options, const fs::path& folder) {
+/// The arguments in front of the file names.
+std::vector<std::string> flags_for(const CompileOptions& options) {
   std::vector<std::string> result = usual_flags();
+  if (options.standard_library) {
+    for (const char* flag : {"-nostdlib", "-fno-exceptions", "-fno-rtti"}) std::erase(result, flag);
+    result.emplace_back("-lstdc++");
+  }
   result.insert(result.end(), options.flags.begin(), options.flags.end());
+  return result;
+}
+
+std::vector<std::string> arguments_for(const CompileOptions& options, const fs::path& folder) {
+  std::vector<std::string> result = flags_for(options);
   for (const std::string& last :
        {(folder / "source.cpp").string(), std::string("-x"), std::string("none"),
         std::string("-Wl,--as-needed"), std::string("-lm"), std::string("-o"),
@@ -53,7 +63,8 @@ std::vector<std::string> arguments_for(const CompileOptions& options, const fs::
 std::string key_of(const std::string& text, const Compiler& compiler,
                    const CompileOptions& options) {
   std::vector<std::string> parts{text, compiler.identity, codegen::processor_identity()};
-  for (const auto* list : {&compiler.arguments, &usual_flags(), &options.flags}) {
+  const std::vector<std::string> flags = flags_for(options);
+  for (const auto* list : {&compiler.arguments, &flags}) {
     parts.push_back(std::to_string(list->size()));
     parts.insert(parts.end(), list->begin(), list->end());
   }

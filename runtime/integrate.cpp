@@ -160,7 +160,7 @@ Trajectory integrate(const Module& module, const Method& method, const Settings&
   trajectory.state = initial;
   const double* const p = parameters.empty() ? nullptr : parameters.data();
   Observer observer(module, settings, p, initial);
-  if (!method.outside.empty()) {
+  if (method.header.empty()) {
     integrate_with_cvode(module, method, settings, p, observer, trajectory);
   } else if (module.functions().integrate == nullptr) {
     throw std::invalid_argument("the module was compiled without a kernel");

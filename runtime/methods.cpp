@@ -12,6 +12,7 @@ constexpr std::string_view kGaussText = "collocation at the Gauss nodes, symplec
 constexpr std::string_view kGaussBook =
     "Hairer, Lubich, Wanner: Geometric Numerical Integration (2006), II.1.3";
 constexpr std::string_view kGauss = "runtime/kernels/gauss.hpp";
+constexpr std::string_view kOdeint = "runtime/kernels/odeint.hpp";
 constexpr std::string_view kTaylor = "runtime/kernels/convolved.hpp";
 constexpr std::string_view kTaylorText =
     "Taylor series of order 8 to 24 by recurrences, for smooth problems";
@@ -40,6 +41,14 @@ constexpr Method kMethods[] = {
      kScalar, kGaussText, kGaussBook},
     {"gauss16", 16, true, false, true, true, true, false, "", kGauss, "gauss::integrate<System, 8>",
      kScalar, kGaussText, kGaussBook},
+    {"odeint-fehlberg78", 8, false, false, false, false, false, false, "Boost.Odeint", kOdeint,
+     "odeint::integrate<System, odeint::runge_kutta_fehlberg78>", "",
+     "Boost.Odeint, explicit Runge-Kutta method of Fehlberg of order 7(8)",
+     "Ahnert, Mulansky: Odeint, AIP Conf. Proc. 1389 (2011) 1586"},
+    {"odeint-dopri5", 5, false, false, false, false, false, false, "Boost.Odeint", kOdeint,
+     "odeint::integrate<System, odeint::runge_kutta_dopri5>", "",
+     "Boost.Odeint, explicit Runge-Kutta method of Dormand and Prince of order 5(4)",
+     "Ahnert, Mulansky: Odeint, AIP Conf. Proc. 1389 (2011) 1586"},
     {"cvode-adams", 0, false, false, false, false, false, false, "SUNDIALS", "", "", "",
      "CVODE, Adams-Moulton methods of order 1 to 12 with functional iteration",
      "Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363"},

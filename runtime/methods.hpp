@@ -18,7 +18,7 @@ struct Method {
   bool fixed_step_ok;         ///< accepts Settings::fixed_step
   bool series;                ///< needs the recurrences of the system's Taylor coefficients
   std::string_view outside;   ///< the library that does it, or empty: a kernel of our own
-  std::string_view header;    ///< of the kernel, as #include says it; empty for outside methods
+  std::string_view header;    ///< of the kernel, as #include says it; empty: a library calls rhs
   std::string_view entry;     ///< the function template of the kernel, called with <System ..>
   std::string_view optimise;  ///< options of GCC under which the kernel is fastest, or empty
   std::string_view description;
@@ -41,7 +41,8 @@ std::vector<std::string> method_names();
 ///   template <class System> void integrate(const casimir_run*, double*, casimir_outcome*);
 ///   }
 ///
-/// For an outside method the interface alone. The same text every time.
+/// For a method without a header the interface alone. The same text every time; the kernels of
+/// outside methods include their library's headers.
 std::string kernel_source(const Method& method);
 
 }  // namespace casimir

@@ -85,10 +85,11 @@ CompiledModule compile_for(const SceneRun& run, const Method& method) {
       return {uncompiled_module(s.rhs, s.invariants, tables, run.parameters), seconds_since(start),
               false};
   }
-  // A method of another library only calls the right-hand side: one module serves them all.
-  const CompiledObject object = compile(emit_module(
-      run.specialisation, method.outside.empty() ? kernel_source(method) : std::string{},
-      method.series));
+  // A library that only calls the right-hand side has no kernel: one module serves them all.
+  const std::string kernel = method.header.empty() ? std::string{} : kernel_source(method);
+  CompileOptions options;
+  options.standard_library = !method.outside.empty() && !kernel.empty();
+  const CompiledObject object = compile(emit_module(s, kernel, method.series), options);
   return {Module::load(object.path), seconds_since(start), object.from_cache};
 }
 
