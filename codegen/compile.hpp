@@ -39,11 +39,11 @@ struct CompileOptions {
   /// The cache folder; empty: $CASIMIR_CACHE, $XDG_CACHE_HOME/casimir or ~/.cache/casimir, and a
   /// private folder for temporary files where none of these can be written.
   std::filesystem::path cache;
+  /// Further arguments, after the usual ones.
+  std::vector<std::string> flags = {};
   /// The text includes headers of the standard library: exceptions, type information and the
   /// start-up code that the usual text does without.
   bool standard_library = false;
-  /// Further arguments, after the usual ones.
-  std::vector<std::string> flags;
 };
 
 struct CompiledObject {

@@ -23,7 +23,8 @@ class TaylorJet {
       : program_(program),
         arithmetic_(std::move(arithmetic)),
         parameters_(std::move(parameters)),
-        order_(order) {
+        order_(order),
+        unit_(arithmetic_.from(cln::cl_RA(1))) {
     assert(program.outputs.size() + parameters_.size() + 1 == program.inputs.size());
     for (int k = 0; k <= order; ++k) integers_.push_back(arithmetic_.from(cln::cl_RA(k)));
     const auto lines = program.code.size();
@@ -36,6 +37,13 @@ class TaylorJet {
   /// Coefficients [state][k], k = 0..order, of x(t + h) = sum_k coefficient_k h^k.
   /// \throws std::domain_error  where the arithmetic refuses.
   const std::vector<std::vector<Number>>& expand(const Number& t, const std::vector<Number>& x) {
+    return expand(t, x, integer(1));
+  }
+
+  /// The same with h in another unit of time: x(t + h unit) = sum_k coefficient_k h^k.
+  const std::vector<std::vector<Number>>& expand(const Number& t, const std::vector<Number>& x,
+                                                 const Number& unit) {
+    unit_ = unit;
     states_.assign(x.size(), {});
     for (std::size_t i = 0; i < x.size(); ++i) states_[i].push_back(x[i]);
     for (auto* store : {&series_, &first_auxiliary_, &second_auxiliary_}) {
@@ -46,7 +54,7 @@ class TaylorJet {
       for (std::size_t i = 0; i < x.size(); ++i) {
         const Number& rate =
             series_[static_cast<std::size_t>(program_.outputs[i])][static_cast<std::size_t>(k)];
-        states_[i].push_back(rate / integer(k + 1));
+        states_[i].push_back(unit_ * (rate / integer(k + 1)));
       }
     }
     return states_;
@@ -90,7 +98,7 @@ class TaylorJet {
       return states_[static_cast<std::size_t>(index)][static_cast<std::size_t>(k)];
     if (index + 1 < static_cast<int>(program_.inputs.size()))
       return k == 0 ? parameters_[static_cast<std::size_t>(index - states)] : zero();
-    return k == 0 ? t : k == 1 ? integer(1) : zero();
+    return k == 0 ? t : k == 1 ? unit_ : zero();
   }
 
   /// Appends coefficient k to the series of instruction i.
@@ -257,6 +265,7 @@ class TaylorJet {
   Series parameters_;
   int order_;
   Series integers_;
+  Number unit_;
   std::vector<Series> states_;
   std::vector<Series> series_, first_auxiliary_, second_auxiliary_;
   std::vector<bool> constant_;

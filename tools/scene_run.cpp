@@ -75,22 +75,47 @@ std::function<void(double, const double*, double*)> SceneRun::invariant_sizes() 
   };
 }
 
-CompiledModule compile_for(const SceneRun& run, const Method& method) {
-  const auto start = Clock::now();
-  const Specialisation& s = run.specialisation;
-  if (method.name == "taylor") {
-    const auto form = quadratic_form(s.rhs, run.parameters);
-    const auto tables = form ? quadratic_tables(*form) : std::nullopt;
-    if (tables)
-      return {uncompiled_module(s.rhs, s.invariants, tables, run.parameters), seconds_since(start),
-              false};
-  }
+namespace {
+
+/// A module from the compiler.
+CompiledModule compiled_module(const Specialisation& s, const Method& method) {
   // A library that only calls the right-hand side has no kernel: one module serves them all.
   const std::string kernel = method.header.empty() ? std::string{} : kernel_source(method);
   CompileOptions options;
   options.standard_library = !method.outside.empty() && !kernel.empty();
   const CompiledObject object = compile(emit_module(s, kernel, method.series), options);
-  return {Module::load(object.path), seconds_since(start), object.from_cache};
+  return {.module = Module::load(object.path), .from_cache = object.from_cache};
+}
+
+/// For the method of Taylor series: the tables where the system has that shape, else the compiler,
+/// and without one the program itself.
+CompiledModule taylor_module(const SceneRun& run, const Method& method) {
+  const Specialisation& s = run.specialisation;
+  const auto form = quadratic_form(s.rhs, run.parameters);
+  const auto tables = form ? quadratic_tables(*form) : std::nullopt;
+  if (!tables) {
+    try {
+      return compiled_module(s, method);
+    } catch (const CompilerMissing&) {
+    }
+  }
+  CompiledModule result{.module = uncompiled_module(s.rhs, s.invariants, tables, run.parameters),
+                        .compiled = false};
+  if (!tables)
+    result.warning =
+        "there is no C++ compiler: the equations are interpreted, which is several times slower; "
+        "install one, for instance with: apt-get install g++";
+  return result;
+}
+
+}  // namespace
+
+CompiledModule compile_for(const SceneRun& run, const Method& method) {
+  const auto start = Clock::now();
+  CompiledModule result = method.name == "taylor" ? taylor_module(run, method)
+                                                  : compiled_module(run.specialisation, method);
+  result.seconds = seconds_since(start);
+  return result;
 }
 
 TruthOrReason truth_of(const Scene& scene, const SceneRun& run, int digits,

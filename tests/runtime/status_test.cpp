@@ -157,12 +157,7 @@ TEST_P(Outcome, SettingsWithoutMeaningAreRefused) {
   EXPECT_THROW(run<Oscillator>(GetParam(), settings_for(1), {1, 0, 0}), std::invalid_argument);
 }
 
-std::vector<std::string> all_methods() {
-  std::vector<std::string> names;
-  for (const Method& method : methods()) names.emplace_back(method.name);
-  return names;
-}
-INSTANTIATE_TEST_SUITE_P(Runtime, Outcome, testing::ValuesIn(all_methods()),
+INSTANTIATE_TEST_SUITE_P(Runtime, Outcome, testing::ValuesIn(own_and_linked_methods()),
                          [](const auto& one) { return test_name(one.param); });
 
 class FixedStep : public testing::TestWithParam<std::string> {};

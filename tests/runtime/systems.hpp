@@ -148,11 +148,18 @@ Trajectory run(const std::string& name, const Settings& settings, std::vector<do
   return integrate(module, method, settings, initial, parameters);
 }
 
-/// Names of our own kernels.
+/// Methods that need no more than the right-hand side of a hand-written system: those with a kernel
+/// of our own, and those of a library that we link to.
 inline std::vector<std::string> own_methods() {
   std::vector<std::string> names;
   for (const Method& method : methods())
-    if (method.outside.empty()) names.emplace_back(method.name);
+    if (method.outside.empty() && !method.series) names.emplace_back(method.name);
+  return names;
+}
+inline std::vector<std::string> own_and_linked_methods() {
+  std::vector<std::string> names = own_methods();
+  for (const Method& method : methods())
+    if (!method.outside.empty() && method.header.empty()) names.emplace_back(method.name);
   return names;
 }
 

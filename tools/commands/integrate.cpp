@@ -91,6 +91,7 @@ Json to_json(const Model& model, const SceneRun& run, const Method& method,
   json["from_cache"] = compiled.from_cache;
   json["left_out"] = left_out_json(s);
   json["warnings"] = warnings_of(trust);
+  if (!compiled.warning.empty()) json["warnings"].push_back(compiled.warning);
   json["trust"] = tools::to_json(trust);
   if (trajectory.status != Status::ok) {
     json["stopped"] = {{"time", exact_text(trajectory.time)},
@@ -108,7 +109,10 @@ void print_text(const SceneRun& run, const Method& method, const Settings& setti
   fmt::print(
       "  generated in {}, {} in {}, integrated in {}: {} steps, {} rejected, {} evaluations\n",
       duration_text(run.generate_seconds),
-      compiled.from_cache ? "fetched from the cache" : "compiled", duration_text(compiled.seconds),
+      compiled.from_cache  ? "fetched from the cache"
+      : compiled.compiled ? "compiled"
+                          : "laid out",
+      duration_text(compiled.seconds),
       duration_text(trajectory.seconds), trajectory.steps, trajectory.rejected,
       trajectory.evaluations);
   fmt::print("  t = {}\n", exact_text(trajectory.time));
@@ -150,6 +154,7 @@ int integrate_case(const Options& options) {
     std::cout << to_json(model, run, method, settings, compiled, trajectory, trust).dump(2) << '\n';
   } else if (!options.common.quiet) {
     print_text(run, method, settings, compiled, trajectory);
+    if (!compiled.warning.empty()) fmt::print("  warning: {}\n", compiled.warning);
     for (const std::string& warning : warnings_of(trust)) fmt::print("  warning: {}\n", warning);
     if (!options.output.empty())
       fmt::print("  wrote {} states to {}\n", trajectory.samples.size(), options.output);
