@@ -29,11 +29,12 @@ class SeriesWriter {
   SeriesWriter(const Program& rhs, const std::vector<std::string>& names)
       : program_(without_dead_code(rhs)),
         constant_(constant_instructions(program_)),
-        unique_(names),
+        unique_({"V", "c", "rate", "order", "p", "most", "states", "blocks", "groups", "smooth",
+                 "k", "by_k", "step", "unit", "state", "at", "begin", "expand", "form_sums"}),
         value_(program_.code.size()),
         varies_(program_.code.size(), false),
         states_(program_.outputs.size()) {
-    for (const std::string& name : names) inputs_.push_back(name);
+    for (const std::string& name : names) inputs_.push_back(fresh(name));
   }
 
   std::string run() {
@@ -55,9 +56,17 @@ class SeriesWriter {
     return text[0] == '-' ? "(" + text + ")" : text;
   }
 
+  /// A name that is free, also with the _k of a coefficient behind it.
+  std::string fresh(const std::string& wanted) {
+    for (;;) {
+      std::string name = unique_.unique(wanted);
+      if (unique_.unique(name + "_k") == name + "_k") return name;
+    }
+  }
+
   /// A new member for a value at the state.
   std::string member(const std::string& wanted) {
-    const std::string name = unique_.unique(wanted);
+    const std::string name = fresh(wanted);
     members_ += (members_.empty() ? "" : ", ") + name;
     return name;
   }
@@ -159,7 +168,8 @@ class SeriesWriter {
     if (!varies(c.b)) return assign_next(y, next(c.a) + " / " + b);
     const std::string inverse = member(y + "_inverse");
     assign_value(inverse, "1 / " + b);
-    assign_next(y, "(" + next(c.a) + " - " + y + " * " + b + "_k - " + sum(y, b) + ") * " + inverse);
+    assign_next(y,
+                "(" + next(c.a) + " - " + y + " * " + b + "_k - " + sum(y, b) + ") * " + inverse);
   }
 
   std::string called(const char* function, const std::string& arguments) const {
@@ -286,8 +296,9 @@ class SeriesWriter {
                         const std::string& indent) const {
     std::string text;
     for (std::size_t g = 0; 8 * g < entries.size(); ++g) {
-      text += wrapped(indent + target + "[" + std::to_string(g) + "] = " + lanes(entries, g) + ";") +
-              "\n";
+      text +=
+          wrapped(indent + target + "[" + std::to_string(g) + "] = " + lanes(entries, g) + ";") +
+          "\n";
     }
     return text;
   }
@@ -327,8 +338,7 @@ class SeriesWriter {
     text +=
         "      for (int k = 1; k < order; ++k) {\n"
         "        [[maybe_unused]] const double by_k = casimir_kernel::taylor::reciprocal.of[k];\n";
-    if (uses_time_)
-      text += "        const double " + inputs_.back() + "_k = k == 1 ? unit : 0;\n";
+    if (uses_time_) text += "        const double " + inputs_.back() + "_k = k == 1 ? unit : 0;\n";
     if (!order_.empty()) text += "        form_sums(k);\n";
     text += next_ + registers("left_[k]", left, "        ") +
             registers("right_[k]", right, "        ") +
@@ -346,9 +356,11 @@ class SeriesWriter {
     if (!members_.empty()) all += ", " + members_;
     const std::string base = "casimir_kernel::taylor::Convolved<" + std::to_string(states_) + ", " +
                              std::to_string(order_.size()) + ">";
-    return "  // Taylor coefficients of solutions: values at the state, and coefficient k of each.\n"
-           "  struct Series : " + base + " {\n    const double* p = nullptr;\n" +
-           wrapped(all + ";") + "\n\n" + begin_function() + "\n" + expand_function() + "  };\n";
+    return "  // Taylor coefficients of solutions: values at the state, and coefficient k of "
+           "each.\n"
+           "  struct Series : " +
+           base + " {\n    const double* p = nullptr;\n" + wrapped(all + ";") + "\n\n" +
+           begin_function() + "\n" + expand_function() + "  };\n";
   }
 
   const Program program_;

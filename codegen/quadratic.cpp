@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 
-#include "codegen/lower.hpp"
 #include "codegen/literal.hpp"
+#include "codegen/lower.hpp"
 
 namespace casimir {
 namespace {
@@ -18,12 +18,13 @@ constexpr int kOne = -1;  // in place of a state: the factor 1
 using Polynomial = std::map<std::pair<int, int>, cln::cl_RA>;
 
 bool is_constant(const Polynomial& p) {
-  return std::all_of(p.begin(), p.end(), [](const auto& term) {
-    return term.first.second == kOne;
-  });
+  return std::all_of(p.begin(), p.end(),
+                     [](const auto& term) { return term.first.second == kOne; });
 }
 
-cln::cl_RA constant_of(const Polynomial& p) { return p.empty() ? cln::cl_RA(0) : p.begin()->second; }
+cln::cl_RA constant_of(const Polynomial& p) {
+  return p.empty() ? cln::cl_RA(0) : p.begin()->second;
+}
 
 Polynomial constant(const cln::cl_RA& value) {
   Polynomial p;

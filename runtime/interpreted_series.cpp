@@ -37,7 +37,8 @@ struct InterpretedSeries {
   }
 
   void begin(double t, const V* x) {
-    for (int i = 0; i < states; ++i) inputs_[static_cast<std::size_t>(i)] = x[i / kWidth][i % kWidth];
+    for (int i = 0; i < states; ++i)
+      inputs_[static_cast<std::size_t>(i)] = x[i / kWidth][i % kWidth];
     inputs_.back() = t;
     rhs_(inputs_.data(), rates_.data());
     for (int i = 0; i < states; ++i)
@@ -49,7 +50,8 @@ struct InterpretedSeries {
     const auto& series = jet_.expand(inputs_.back(), state_, unit);
     for (int i = 0; i < states; ++i) {
       for (int k = 0; k <= order; ++k)
-        c[k][i / kWidth][i % kWidth] = series[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
+        c[k][i / kWidth][i % kWidth] =
+            series[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
     }
   }
 

@@ -6,8 +6,7 @@
 
 namespace casimir {
 
-Interpreter::Interpreter(const Program& program)
-    : program_(program), values_(program.code.size()) {
+Interpreter::Interpreter(const Program& program) : program_(program), values_(program.code.size()) {
   for (std::size_t i = 0; i < program.code.size(); ++i) {
     const Instruction& line = program.code[i];
     if (line.op == Op::constant)

@@ -17,8 +17,8 @@ struct ModuleFunctions {
   int dimension = 0;        ///< number of states n
   int parameter_count = 0;  ///< number of run-time parameters
   int invariant_count = 0;
-  std::function<Evaluation> rhs;          ///< writes dx/dt
-  std::function<Evaluation> jacobian;     ///< or empty
+  std::function<Evaluation> rhs;       ///< writes dx/dt
+  std::function<Evaluation> jacobian;  ///< or empty
   std::function<Evaluation> invariants;
   std::function<Integration> integrate;  ///< or empty
 };

@@ -40,7 +40,7 @@ struct CompiledModule {
   Module module;
   double seconds = 0;  ///< to compile or fetch it
   bool from_cache = false;
-  bool compiled = true;  ///< false: table-driven or interpreted
+  bool compiled = true;      ///< false: table-driven or interpreted
   std::string warning = {};  ///< what the user should know about how it was made, or empty
 };
 CompiledModule compile_for(const SceneRun& run, const Method& method);

@@ -35,12 +35,8 @@ CASIMIR_INLINE V all_lanes(double a) {
   return a - V{};
 }
 
-CASIMIR_INLINE Lanes4 absolute(Lanes4 v) {
-  return (Lanes4)((Indices<4>)v & 0x7fffffffffffffffLL);
-}
-CASIMIR_INLINE Lanes8 absolute(Lanes8 v) {
-  return (Lanes8)((Indices<8>)v & 0x7fffffffffffffffLL);
-}
+CASIMIR_INLINE Lanes4 absolute(Lanes4 v) { return (Lanes4)((Indices<4>)v & 0x7fffffffffffffffLL); }
+CASIMIR_INLINE Lanes8 absolute(Lanes8 v) { return (Lanes8)((Indices<8>)v & 0x7fffffffffffffffLL); }
 
 /// The sum of the lanes: not a number if any lane is none.
 CASIMIR_INLINE double lane_sum(Lanes4 v) { return (v[0] + v[2]) + (v[1] + v[3]); }

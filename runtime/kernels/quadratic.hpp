@@ -13,9 +13,9 @@ namespace casimir_kernel::taylor {
 /// coefficient is known its inner products go into the sums of all orders they belong to, so the
 /// sums stay in registers, and of a new coefficient only the Jacobian is left to do.
 ///
-/// Tables is a class with a casimir_quadratic `tables`, `static constexpr bool known`, and the counts
-/// in the tables as functions `diagonals`, `parts` and `moves`: constants where they are known, so
-/// that the loops are written out.
+/// Tables is a class with a casimir_quadratic `tables`, `static constexpr bool known`, and the
+/// counts in the tables as functions `diagonals`, `parts` and `moves`: constants where they are
+/// known, so that the loops are written out.
 template <class Tables, int width, int registers, int the_order>
 struct Quadratic : Tables {
   using V = Lanes<width>;
@@ -90,8 +90,7 @@ struct Quadratic : Tables {
   /// Coefficient k+1 and all after it.
   template <int k>
   CASIMIR_INLINE void next(const V* diagonal, const V* own, const V (*factor)[width],
-                           V (*left)[registers],
-                           V (*right)[registers], V (*sum)[registers]) {
+                           V (*left)[registers], V (*right)[registers], V (*sum)[registers]) {
     const V x = c[k][0];
     constexpr double part = 1. / (k + 1);
     V inner = V{};

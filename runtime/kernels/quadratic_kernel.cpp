@@ -43,11 +43,14 @@ extern "C" void CASIMIR_JOIN(casimir_quadratic_, CASIMIR_TARGET)(const casimir_q
   switch (tables->products) {
     case 0:
     case 1:
-      return narrow ? with_order<4, 1>(*tables, run, x, out) : with_order<8, 1>(*tables, run, x, out);
+      return narrow ? with_order<4, 1>(*tables, run, x, out)
+                    : with_order<8, 1>(*tables, run, x, out);
     case 2:
-      return narrow ? with_order<4, 2>(*tables, run, x, out) : with_order<8, 2>(*tables, run, x, out);
+      return narrow ? with_order<4, 2>(*tables, run, x, out)
+                    : with_order<8, 2>(*tables, run, x, out);
     case 3:
-      return narrow ? with_order<4, 3>(*tables, run, x, out) : with_order<8, 3>(*tables, run, x, out);
+      return narrow ? with_order<4, 3>(*tables, run, x, out)
+                    : with_order<8, 3>(*tables, run, x, out);
     case 4:
       return with_order<8, 4>(*tables, run, x, out);
     default:

@@ -4,7 +4,12 @@
 #ifndef CASIMIR_QUADRATIC_TABLES_H
 #define CASIMIR_QUADRATIC_TABLES_H
 
-enum { CASIMIR_LANES = 8, CASIMIR_MOST_PRODUCTS = 5, CASIMIR_MOST_DIAGONALS = 8, CASIMIR_MOST_PARTS = 8 };
+enum {
+  CASIMIR_LANES = 8,
+  CASIMIR_MOST_PRODUCTS = 5,
+  CASIMIR_MOST_DIAGONALS = 8,
+  CASIMIR_MOST_PARTS = 8
+};
 
 /* Lane i is factor[i] times lane from[i] of a register. */
 struct casimir_move {
@@ -14,7 +19,8 @@ struct casimir_move {
 
 struct casimir_quadratic {
   int states;
-  int products;  /* registers of products: product i of register m is x[left[m][i]] * x[right[m][i]] */
+  int products; /* registers of products: product i of register m is x[left[m][i]] * x[right[m][i]]
+                 */
   long long left[CASIMIR_MOST_PRODUCTS][CASIMIR_LANES], right[CASIMIR_MOST_PRODUCTS][CASIMIR_LANES];
 
   /* dx/dt = constant + linear terms + products: those of register m that stand in the lane where

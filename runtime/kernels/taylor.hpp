@@ -112,7 +112,7 @@ class March {
         break;
       }
       CASIMIR_UNROLL
-    for (int b = 0; b < blocks; ++b) series_.c[0][b] = state_[b];
+      for (int b = 0; b < blocks; ++b) series_.c[0][b] = state_[b];
       series_.expand(unit_);
       ++expansions_;
       double s = chosen_step();
@@ -147,15 +147,14 @@ class March {
   }
 
   bool start_free() {
-    double size = 0, speed = 0;
+    double size = run_->atol, speed = 0;
     for (int i = 0; i < series_.states; ++i) {
-      const double unit = allowed_error(run_, x_[i]);
-      size = larger(size, magnitude(x_[i]) / unit);
-      speed = larger(speed, magnitude(series_.rate[i / width][i % width]) / unit);
+      size = larger(size, magnitude(x_[i]));
+      speed = larger(speed, magnitude(series_.rate[i / width][i % width]));
     }
     // The solution's own time scale; a guess, which the coefficients correct.
     double guess = magnitude(span_);
-    if (speed > 0 && larger(size, 1) < guess * speed) guess = larger(size, 1) / speed;
+    if (speed > 0 && size / speed < guess) guess = size / speed;
     if (run_->first_step > 0) guess = run_->first_step;
     set_unit(guess);
     fresh_ = true;
@@ -186,8 +185,8 @@ class March {
 
   /// One over the error allowed to each component, whose size is what it takes during the step.
   CASIMIR_INLINE V weight(int b) const {
-    const V size = absolute(series_.c[0][b]) + absolute(series_.c[1][b]) +
-                   absolute(series_.c[2][b]);
+    const V size =
+        absolute(series_.c[0][b]) + absolute(series_.c[1][b]) + absolute(series_.c[2][b]);
     const V unit = pieces_ > 0 ? size + scale_ : run_->atol + run_->rtol * size;
     return 1 / (unit > kSmallest ? unit : all_lanes<V>(kSmallest));
   }

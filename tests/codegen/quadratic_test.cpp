@@ -65,7 +65,8 @@ void expect_tables_of(const Program& rhs, int registers, int moves) {
     scaled.push_back(0);
     return evaluate(rhs, scaled);
   };
-  const std::vector<double> plain = rates(*tables, x), by_jacobian = jacobian_times_state(*tables, x);
+  const std::vector<double> plain = rates(*tables, x),
+                            by_jacobian = jacobian_times_state(*tables, x);
   for (std::size_t i = 0; i < x.size(); ++i) {
     EXPECT_NEAR(plain[i], truth(1)[i], 1e-12);
     // f = c + L x + Q(x, x): f(x) - f(-x) is 2 L x, f(x) + f(-x) is 2 c + 2 Q(x, x).
@@ -80,8 +81,8 @@ TEST(QuadraticTables, KovalevskayaFillsOneRegister) {
 }
 
 TEST(QuadraticTables, ConstantsLinearTermsAndSquares) {
-  expect_tables_of(specialised(equations({{"x", "1 + 2*y"}, {"y", "x^2 - y^2/3 + x*y - x"}})).rhs, 1,
-                   2);
+  expect_tables_of(specialised(equations({{"x", "1 + 2*y"}, {"y", "x^2 - y^2/3 + x*y - x"}})).rhs,
+                   1, 2);
   expect_tables_of(specialised(equations({{"x", "y"}, {"y", "-x"}})).rhs, 1, 0);
   expect_tables_of(specialised(equations({{"x", "(x + y)*(x - y)"}, {"y", "sqrt(2)*x/Pi"}})).rhs, 1,
                    1);
@@ -92,7 +93,8 @@ TEST(QuadraticTables, OtherSystemsHaveNone) {
     EXPECT_FALSE(quadratic_form(specialised(equations({{"x", rate}, {"y", "x"}})).rhs)) << rate;
   // The twin: what only looks like a cube.
   EXPECT_TRUE(quadratic_form(
-      specialised(equations({{"x", "(x + y)^3 - x^3 - 3*x^2*y - 3*x*y^2 - y^3"}, {"y", "x"}})).rhs));
+      specialised(equations({{"x", "(x + y)^3 - x^3 - 3*x^2*y - 3*x*y^2 - y^3"}, {"y", "x"}}))
+          .rhs));
 }
 
 TEST(QuadraticTables, ParametersAtRunTimeAreNumbers) {

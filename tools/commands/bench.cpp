@@ -20,7 +20,8 @@ struct Options {
   Common common;
   RunOptions run;
   std::string case_name, output, plot;
-  std::vector<std::string> methods{"dop853", "gauss8", "gauss16", "cvode-adams", "cvode-bdf"};
+  std::vector<std::string> methods{"taylor",  "dop853",      "gauss8",
+                                   "gauss16", "cvode-adams", "cvode-bdf"};
   std::vector<double> tolerances{1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13};
   int digits = 30;
 };

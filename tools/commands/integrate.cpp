@@ -109,12 +109,11 @@ void print_text(const SceneRun& run, const Method& method, const Settings& setti
   fmt::print(
       "  generated in {}, {} in {}, integrated in {}: {} steps, {} rejected, {} evaluations\n",
       duration_text(run.generate_seconds),
-      compiled.from_cache  ? "fetched from the cache"
+      compiled.from_cache ? "fetched from the cache"
       : compiled.compiled ? "compiled"
                           : "laid out",
-      duration_text(compiled.seconds),
-      duration_text(trajectory.seconds), trajectory.steps, trajectory.rejected,
-      trajectory.evaluations);
+      duration_text(compiled.seconds), duration_text(trajectory.seconds), trajectory.steps,
+      trajectory.rejected, trajectory.evaluations);
   fmt::print("  t = {}\n", exact_text(trajectory.time));
   for (std::size_t i = 0; i < s.states.size(); ++i)
     fmt::print("  {:<10} {:>25}\n", s.states[i], exact_text(trajectory.state[i]));
