@@ -1,20 +1,10 @@
 // The method of Taylor series in its three forms: table-driven, compiled, interpreted.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <new>
-#include <numbers>
-#include <optional>
 
-#include "codegen/compile.hpp"
-#include "codegen/emit_cpp.hpp"
-#include "codegen/quadratic.hpp"
-#include "runtime/integrate.hpp"
-#include "runtime/reference.hpp"
-#include "runtime/uncompiled.hpp"
-#include "support.hpp"
+#include "taylor_forms.hpp"
 
 namespace {
 unsigned long long allocations = 0;
@@ -35,70 +25,18 @@ namespace casimir {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::compiled;
+using testing::distance;
 using testing::equations;
+using testing::forms;
 using testing::kKovalevskaya;
+using testing::run_taylor;
+using testing::settings_for;
 using testing::specialised;
-
-const Method& taylor() { return *find_method("taylor"); }
-
-Module compiled(const Specialisation& s, const char* method = "taylor") {
-  const Method& m = *find_method(method);
-  return Module::load(compile(emit_module(s, kernel_source(m), m.series)).path);
-}
-
-std::optional<casimir_quadratic> tables_of(const Specialisation& s) {
-  const auto form = quadratic_form(s.rhs);
-  return form ? quadratic_tables(*form) : std::nullopt;
-}
-
-/// Every form of the method that the system has, and its name.
-std::vector<std::pair<std::string, Module>> forms(const Specialisation& s) {
-  std::vector<std::pair<std::string, Module>> result;
-  if (const auto tables = tables_of(s))
-    result.emplace_back("tables", uncompiled_module(s.rhs, s.invariants, tables, {}));
-  result.emplace_back("compiled", compiled(s));
-  result.emplace_back("interpreted", uncompiled_module(s.rhs, s.invariants, std::nullopt, {}));
-  return result;
-}
-
-Settings settings_for(double duration, double tolerance = 1e-15) {
-  Settings settings;
-  settings.duration = duration;
-  settings.rtol = settings.atol = tolerance;
-  return settings;
-}
-
-Trajectory run(const Module& module, const Settings& settings, const std::vector<double>& from) {
-  return integrate(module, taylor(), settings, from);
-}
-
-double distance(const std::vector<double>& a, const std::vector<double>& b) {
-  double largest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    largest = std::max(largest, std::abs(a[i] - b[i]) / std::max(1., std::abs(b[i])));
-  return std::isnan(largest) ? std::numeric_limits<double>::infinity() : largest;
-}
-
-std::vector<double> start_of(const Specialisation& s) {
-  std::vector<double> x;
-  Program start = s.start;
-  for (std::size_t i = 0; i < s.states.size(); ++i)
-    x.push_back(cln::double_approx(codegen::constant_value(start, start.outputs[i])));
-  return x;
-}
-
-/// The state after `duration` from the rounded start, in 40 digits.
-std::vector<double> truth(const Specialisation& s, const std::vector<double>& from,
-                          double duration) {
-  std::vector<cln::cl_R> exact;
-  for (const double x : from) exact.push_back(cln::rational(cln::cl_DF(x)));
-  const Reference reference =
-      reference_solution(s.rhs, exact, cln::rational(cln::cl_DF(duration)), 25);
-  EXPECT_TRUE(reference.reached) << reference.reason;
-  std::vector<double> state;
-  for (const cln::cl_F& x : reference.state) state.push_back(cln::double_approx(x));
-  return state;
-}
+using testing::start_of;
+using testing::tables_of;
+using testing::taylor;
+using testing::truth;
 
 TEST(Taylor, EveryBundledCaseAgreesWithTheReferenceAndDop853) {
   constexpr double kDuration = 4;  // short of what magnifies rounding errors
@@ -111,12 +49,12 @@ TEST(Taylor, EveryBundledCaseAgreesWithTheReferenceAndDop853) {
         integrate(other, *find_method("dop853"), settings_for(kDuration), from);
     EXPECT_LT(distance(yardstick.state, end), 1e-13) << entry.path();
     for (const auto& [name, module] : forms(s)) {
-      const Trajectory orbit = run(module, settings_for(kDuration), from);
+      const Trajectory orbit = run_taylor(module, settings_for(kDuration), from);
       ASSERT_EQ(orbit.status, Status::ok) << entry.path() << name << orbit.reason;
       EXPECT_LT(distance(orbit.state, end), 1e-13) << entry.path() << ' ' << name;
       EXPECT_LT(orbit.steps, yardstick.steps);
       // The twin: another time is another state.
-      EXPECT_GT(distance(run(module, settings_for(kDuration * (1 + 1e-9)), from).state, end),
+      EXPECT_GT(distance(run_taylor(module, settings_for(kDuration * (1 + 1e-9)), from).state, end),
                 1e-12);
     }
   }
@@ -145,7 +83,7 @@ TEST(Taylor, EveryOperationHasItsRecurrence) {
     const Specialisation s = specialised(equations({{"x", rate}, {"y", "1"}}));
     const std::vector<double> from = {0.75, 0.5}, end = truth(s, from, 1);
     for (const auto& [form, module] : forms(s)) {
-      const Trajectory orbit = run(module, settings_for(1), from);
+      const Trajectory orbit = run_taylor(module, settings_for(1), from);
       ASSERT_EQ(orbit.status, Status::ok) << name << ' ' << form << ' ' << orbit.reason;
       EXPECT_LT(distance(orbit.state, end), 4e-15) << name << ' ' << form;
     }
@@ -176,7 +114,8 @@ TEST(Taylor, ErrorFallsWithTheTolerance) {
   const std::vector<double> from = start_of(s), end = truth(s, from, 20);
   for (const auto& [name, module] : forms(s)) {
     for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
-      const double error = distance(run(module, settings_for(20, tolerance), from).state, end);
+      const double error =
+          distance(run_taylor(module, settings_for(20, tolerance), from).state, end);
       EXPECT_LT(error, 100 * tolerance) << name;
       EXPECT_GT(error, 1e-5 * tolerance) << name;  // nothing is given away
     }
@@ -187,13 +126,13 @@ TEST(Taylor, FloorOfTheErrorOverAHundredUnits) {
   const Specialisation s = specialised(kKovalevskaya);
   const std::vector<double> from = start_of(s), end = truth(s, from, 100);
   for (const auto& [name, module] : forms(s))
-    EXPECT_LT(distance(run(module, settings_for(100), from).state, end), 5e-14) << name;
+    EXPECT_LT(distance(run_taylor(module, settings_for(100), from).state, end), 5e-14) << name;
 }
 
 TEST(Taylor, SolutionsPolynomialInTimeAreExact) {
   const Specialisation s = specialised(equations({{"x", "y*z + 1"}, {"y", "z"}, {"z", "1"}}));
   for (const auto& [name, module] : forms(s)) {
-    const Trajectory orbit = run(module, settings_for(8), {0, 0, 0});
+    const Trajectory orbit = run_taylor(module, settings_for(8), {0, 0, 0});
     // z = t, y = t^2/2, x = t + t^4/8
     EXPECT_EQ(orbit.state, (std::vector<double>{520, 32, 8})) << name;
     EXPECT_LT(orbit.steps, 20u) << name;
@@ -205,7 +144,7 @@ TEST(Taylor, TermsBeyondTheOrderAreNoticed) {
   const Specialisation s =
       specialised(equations({{"a", "b^2"}, {"b", "c^2"}, {"c", "d^2"}, {"d", "e^2"}, {"e", "1"}}));
   for (const auto& [name, module] : forms(s)) {
-    const Trajectory orbit = run(module, settings_for(2), {0, 0, 0, 0, 0});
+    const Trajectory orbit = run_taylor(module, settings_for(2), {0, 0, 0, 0, 0});
     const double d = std::pow(2., 3) / 3, c = std::pow(2., 7) / 63, b = std::pow(2., 15) / 59535;
     ASSERT_EQ(orbit.status, Status::ok) << name;
     EXPECT_NEAR(orbit.state[3], d, 1e-14) << name;
@@ -221,10 +160,10 @@ TEST(Taylor, DenseOutputIsARestart) {
   for (const auto& [name, module] : forms(s)) {
     Settings settings = settings_for(3);
     settings.sample_every = 0.17;
-    const Trajectory orbit = run(module, settings, from);
+    const Trajectory orbit = run_taylor(module, settings, from);
     ASSERT_EQ(orbit.samples.size(), 19u);
     for (std::size_t k = 1; k < orbit.samples.size(); ++k) {
-      const Trajectory restart = run(module, settings_for(orbit.sample_times[k]), from);
+      const Trajectory restart = run_taylor(module, settings_for(orbit.sample_times[k]), from);
       EXPECT_LT(distance(orbit.samples[k], restart.state), 2e-15) << name << k;
     }
   }
@@ -234,123 +173,10 @@ TEST(Taylor, BackwardsReturnsToTheStart) {
   const Specialisation s = specialised(kKovalevskaya);
   const std::vector<double> from = start_of(s);
   for (const auto& [name, module] : forms(s)) {
-    const Trajectory there = run(module, settings_for(10), from);
-    const Trajectory back = run(module, settings_for(-10), there.state);
+    const Trajectory there = run_taylor(module, settings_for(10), from);
+    const Trajectory back = run_taylor(module, settings_for(-10), there.state);
     EXPECT_LT(distance(back.state, from), 1e-13) << name;
     EXPECT_GT(distance(there.state, from), 1e-2) << name;
-  }
-}
-
-TEST(Taylor, PolesAndBranchPointsAreSingularities) {
-  for (const auto& [rate, from, at] :
-       {std::tuple{"x^2", 1., 1.}, std::tuple{"x^2", 1e8, 1e-8}, std::tuple{"-1/(2*x)", 1., 1.},
-        std::tuple{"x^2", 1e-8, 1e8}}) {
-    const Specialisation s = specialised(equations({{"x", rate}}));
-    for (const auto& [name, module] : forms(s)) {
-      Settings settings = settings_for(2 * at, 1e-10);
-      settings.atol = 1e-10 * from;
-      const Trajectory orbit = run(module, settings, {from});
-      EXPECT_EQ(orbit.status, Status::singularity) << name << rate << orbit.reason;
-      EXPECT_NEAR(orbit.time / at, 1, 1e-8) << name << rate;
-      EXPECT_TRUE(std::isfinite(orbit.state[0]));
-      EXPECT_LT(orbit.steps + orbit.rejected, 1000u);
-    }
-  }
-}
-
-TEST(Taylor, EndOfTheDomainIsNotPassed) {
-  const Specialisation s = specialised(equations({{"x", "sqrt(x) - 1"}}));
-  for (const auto& [name, module] : forms(s)) {
-    const Trajectory orbit = run(module, settings_for(2, 1e-10), {0.25});
-    EXPECT_NE(orbit.status, Status::ok) << name;
-    EXPECT_NEAR(orbit.time, 2 * (std::log(2.) - 0.5), 1e-6) << name;
-    EXPECT_LT(orbit.steps + orbit.rejected, 5000u);
-  }
-}
-
-TEST(Taylor, StartsWithoutANumberAreRefused) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const Specialisation pole = specialised(equations({{"x", "1/x"}}));
-  const Specialisation square = specialised(equations({{"x", "x^2"}}));
-  for (const auto& [name, module] : forms(pole)) {
-    EXPECT_EQ(run(module, settings_for(1), {0}).status, Status::non_finite) << name;
-    EXPECT_EQ(run(module, settings_for(1), {nan}).status, Status::non_finite) << name;
-  }
-  for (const auto& [name, module] : forms(square)) {
-    for (const double bad : {nan, std::numeric_limits<double>::infinity(), 1e200}) {
-      const Trajectory orbit = run(module, settings_for(1), {bad});
-      EXPECT_EQ(orbit.status, Status::non_finite) << name << bad;
-      EXPECT_EQ(orbit.time, 0);
-    }
-  }
-}
-
-TEST(Taylor, KinksAreFoundThoughTheSeriesDoNotShowThem) {
-  // x' = |x - 1| + 1/4 from 0: the series at the start knows nothing of x = 1.
-  const Specialisation s = specialised(equations({{"x", "sqrt((x - 1)^2) + 1/4"}}));
-  const double crossing = std::log(5.);
-  for (const auto& [name, module] : forms(s)) {
-    const Trajectory orbit = run(module, settings_for(3, 1e-10), {0});
-    ASSERT_EQ(orbit.status, Status::ok) << name << orbit.reason;
-    EXPECT_NEAR(orbit.state[0], 1 + (std::exp(3 - crossing) - 1) / 4, 1e-6) << name;
-    EXPECT_LT(orbit.steps + orbit.rejected, 500u);
-  }
-}
-
-TEST(Taylor, JumpsEndInBoundedWork) {
-  // The angle jumps from Pi to -Pi at y = 0 and turns the motion back: there is no solution on.
-  const Specialisation s = specialised(equations({{"x", "0"}, {"y", "-atan2(y, x)"}}));
-  for (const auto& [name, module] : forms(s)) {
-    Settings settings = settings_for(10, 1e-8);
-    settings.max_steps = 20000;
-    const Trajectory orbit = run(module, settings, {-1, 1});
-    EXPECT_NE(orbit.status, Status::ok) << name;
-    EXPECT_NEAR(orbit.state[1], 0, 1e-5) << name;
-    EXPECT_LE(orbit.steps + orbit.rejected, 20000u) << name;
-  }
-}
-
-TEST(Taylor, StiffnessStopsAtTheLimitOfSteps) {
-  const Specialisation s =
-      specialised(equations({{"x", "1000000*(y - x)"}, {"y", "z"}, {"z", "-y"}}));
-  for (const auto& [name, module] : forms(s)) {
-    Settings settings = settings_for(1000, 1e-6);
-    settings.max_steps = 2000;
-    const Trajectory orbit = run(module, settings, {1, 1, 0});
-    EXPECT_EQ(orbit.status, Status::max_steps) << name;
-    EXPECT_EQ(orbit.steps + orbit.rejected, 2000u) << name;
-    EXPECT_NEAR(orbit.state[0], std::cos(orbit.time), 1e-4) << name;
-  }
-}
-
-TEST(Taylor, ScaleOfTheStateDoesNotMatter) {
-  const Specialisation s = specialised(equations({{"x", "y*z"}, {"y", "-2*z*x"}, {"z", "x*y"}}));
-  for (const auto& [name, module] : forms(s)) {
-    const Trajectory plain = run(module, settings_for(10, 1e-12), {0.75, 0.5, 1});
-    for (const double scale : {1e150, 1e-150}) {
-      Settings settings = settings_for(10 / scale, 1e-12);
-      settings.atol = 1e-12 * scale;
-      const Trajectory orbit = run(module, settings, {0.75 * scale, 0.5 * scale, scale});
-      ASSERT_EQ(orbit.status, Status::ok) << name << scale << orbit.reason;
-      EXPECT_EQ(orbit.time, 10 / scale);
-      for (std::size_t i = 0; i < 3; ++i)
-        EXPECT_NEAR(orbit.state[i] / scale, plain.state[i], 1e-10) << name << scale;
-      EXPECT_LT(orbit.steps, 2 * plain.steps + 20);
-    }
-  }
-}
-
-TEST(Taylor, ComponentsOfDifferentSizesKeepTheirOwnAccuracy) {
-  const Specialisation s =
-      specialised(equations({{"x", "y"}, {"y", "-x"}, {"u", "v"}, {"v", "-4*u"}}));
-  for (const auto& [name, module] : forms(s)) {
-    Settings settings = settings_for(5, 1e-13);
-    settings.atol = 0;
-    const Trajectory orbit = run(module, settings, {1e150, 0, 1e-150, 0});
-    ASSERT_EQ(orbit.status, Status::ok) << name << orbit.reason;
-    EXPECT_NEAR(orbit.state[0] / 1e150, std::cos(5.), 1e-12) << name;
-    EXPECT_NEAR(orbit.state[2] / 1e-150, std::cos(10.), 1e-12) << name;
-    EXPECT_LT(orbit.steps, 100u) << name;
   }
 }
 
@@ -378,7 +204,8 @@ TEST(Taylor, InstructionSetsAgreeToRounding) {
       ends.push_back(x);
       EXPECT_LT(distance(ends.front(), x), 2e-14) << target;
     }
-    EXPECT_LT(distance(run(compiled(s), settings_for(3), start_of(s)).state, ends.front()), 2e-14);
+    EXPECT_LT(distance(run_taylor(compiled(s), settings_for(3), start_of(s)).state, ends.front()),
+              2e-14);
   }
   casimir_run how = {};
   EXPECT_THROW(integrate_quadratic("avx1024", {}, &how, nullptr, nullptr), std::invalid_argument);
@@ -411,12 +238,12 @@ TEST(Taylor, ConstantStepDividesTheInterval) {
   for (const auto& [name, module] : forms(s)) {
     Settings settings = settings_for(1);
     settings.fixed_step = 0.3;
-    const Trajectory orbit = run(module, settings, {1, 0});
+    const Trajectory orbit = run_taylor(module, settings, {1, 0});
     EXPECT_EQ(orbit.steps, 4u) << name;
     EXPECT_NEAR(orbit.state[0], std::cos(1.), 1e-15) << name;
     settings.duration = 1000;
     settings.fixed_step = 100;
-    EXPECT_NE(run(module, settings, {1, 0}).status, Status::ok) << name;
+    EXPECT_NE(run_taylor(module, settings, {1, 0}).status, Status::ok) << name;
   }
 }
 
