@@ -22,8 +22,8 @@ struct Sum {
   friend auto operator<=>(const Sum&, const Sum&) = default;
 };
 
-/// Writes two passes over the program: the values at a state, which stay as members (`t3`), and
-/// coefficient k of the same quantities (`t3_k`).
+/// Writes two passes over the program: the values at a state, which stay as members (`v3`), and
+/// coefficient k of the same quantities (`v3_k`).
 class SeriesWriter {
  public:
   SeriesWriter(const Program& rhs, const std::vector<std::string>& names)
@@ -101,7 +101,7 @@ class SeriesWriter {
       write_input(i);
     } else {
       varies_[i] = varies_[index(c.a)] || (c.b >= 0 && varies_[index(c.b)]);
-      value_[i] = member("t" + std::to_string(++count_));
+      value_[i] = member("v" + std::to_string(++count_));
       write_operation(i);
     }
   }
