@@ -10,8 +10,8 @@ enum casimir_status {
   CASIMIR_OK = 0,             /* the end of the interval was reached */
   CASIMIR_NON_FINITE = 1,     /* the state or its derivative is not a finite number */
   CASIMIR_STEP_UNDERFLOW = 2, /* the step that the tolerance asks for is lost in rounding */
-  CASIMIR_SINGULARITY = 3,    /* the solution runs into a pole of the right-hand side or to infinity */
-  CASIMIR_MAX_STEPS = 4,      /* the limit on the number of steps was reached */
+  CASIMIR_SINGULARITY = 3, /* the solution runs into a pole of the right-hand side or to infinity */
+  CASIMIR_MAX_STEPS = 4,   /* the limit on the number of steps was reached */
   CASIMIR_NO_CONVERGENCE = 5, /* an implicit step could not be solved at any step size tried */
   CASIMIR_STOPPED = 6         /* the observer asked for the end */
 };
@@ -29,10 +29,10 @@ struct casimir_step {
 /* What a caller asks of an integration. */
 struct casimir_run {
   double t_begin, t_end;
-  const double* parameters;    /* the run-time parameters, or null if there are none */
-  double rtol, atol;           /* local error per component: atol + rtol * |x_i| */
-  double fixed_step;           /* > 0: constant step of about this size (it divides the interval) */
-  double first_step;           /* 0: the kernel chooses */
+  const double* parameters; /* the run-time parameters, or null if there are none */
+  double rtol, atol;        /* local error per component: atol + rtol * |x_i| */
+  double fixed_step;        /* > 0: constant step of about this size (it divides the interval) */
+  double first_step;        /* 0: the kernel chooses */
   unsigned long long max_steps; /* accepted and rejected; 0: no limit */
   /* Called after each accepted step unless null; a non-zero answer stops the run. */
   int (*observe)(void* observer, const struct casimir_step* step);
@@ -60,7 +60,8 @@ struct casimir_outcome {
  *   void casimir_jacobian(double t, const double* x, const double* p, double* J);  n*n by columns
  *   void casimir_invariants(double t, const double* x, const double* p, double* values);
  *   void casimir_integrate(const struct casimir_run*, double* x, struct casimir_outcome*);
- * `casimir_jacobian` is present only where it was asked for, `casimir_integrate` only with a kernel.
+ * `casimir_jacobian` is present only where it was asked for, `casimir_integrate` only with a
+ * kernel.
  */
 
 #endif

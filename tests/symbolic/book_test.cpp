@@ -32,8 +32,7 @@ const std::filesystem::path kFolder = CASIMIR_SOURCE_DIR "/tests/symbolic/book";
 
 /// True claims that the prover leaves undecided, or false ones without a witness. Each is a
 /// weakness of the prover: whoever removes it removes the entry, as the test then demands.
-const std::vector<std::pair<std::string, std::string>> kKnownUndecided = {
-};
+const std::vector<std::pair<std::string, std::string>> kKnownUndecided = {};
 
 std::vector<std::filesystem::path> book_files() {
   std::vector<std::filesystem::path> files;
