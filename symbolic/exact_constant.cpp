@@ -330,10 +330,14 @@ std::optional<int> sign_of_constant(const ex& value) {
   if (const auto exact = exact_constant(value); exact && exact->zero) return 0;
   // Which side of zero an irrational number is on is read off many digits, and only where they
   // leave no doubt.
+  constexpr long kDigits = 60;
+  const long before = GiNaC::Digits;
+  GiNaC::Digits = kDigits;
   const ex digits = value.evalf();
+  GiNaC::Digits = before;
   if (!GiNaC::is_a<GiNaC::numeric>(digits)) return std::nullopt;
   const GiNaC::numeric number = GiNaC::ex_to<GiNaC::numeric>(digits);
-  const GiNaC::numeric doubt(1, 1000000);
+  const GiNaC::numeric doubt = GiNaC::numeric(10).power(-20);
   if (!number.is_real() || GiNaC::abs(number) < doubt) return std::nullopt;
   return number.csgn();
 }

@@ -43,7 +43,8 @@ void FunctionRing::build(const std::vector<ex>& expressions) {
     generators_.clear();
     ring_ = std::make_unique<PolynomialRing>(symbols_.size() + capacity_);
     try {
-      for (const Assumption& assumption : assumptions_) read_assumption(assumption);
+      for (const Assumption& assumption : assumptions_) read_assumption(assumption, 1);
+      for (const Assumption& assumption : assumptions_) read_assumption(assumption, 2);
       for (const ex& positive : implied_) {
         const auto factors = convert(positive).factors();
         const bool minus = cln::minusp(factors[0].first.term_list()[0].first);
@@ -63,8 +64,8 @@ void FunctionRing::build(const std::vector<ex>& expressions) {
 
 /// An inequality gives the sign of a polynomial that cannot be factored; and of both factors of one
 /// that has two, where a sum of them has a known sign: G > 0 and G^2 > L^2 make G - L and G + L
-/// positive.
-void FunctionRing::read_assumption(const Assumption& assumption) {
+/// positive. The inequalities with that many factors only: those with one come first.
+void FunctionRing::read_assumption(const Assumption& assumption, std::size_t factor_count) {
   const bool positive = assumption.relation == ">" || assumption.relation == ">=";
   const bool negative = assumption.relation == "<" || assumption.relation == "<=";
   if (!positive && !negative) return;
@@ -75,8 +76,11 @@ void FunctionRing::read_assumption(const Assumption& assumption) {
   }
   const bool minus = cln::minusp(factors[0].first.term_list()[0].first);
   const int sign = positive != minus ? 1 : -1;  // of the product of the odd ones
-  if (odd.size() == 1) signs_.push_back({odd[0], sign, false});
-  if (odd.size() != 2) return;
+  if (odd.size() != factor_count) return;
+  if (odd.size() == 1) {
+    signs_.push_back({odd[0], sign, false});
+    return;
+  }
   const Polynomial second = odd[1].scaled(sign);  // odd[0] and this have one sign
   const Polynomial sum = odd[0] + second;
   if (sum.is_zero()) return;

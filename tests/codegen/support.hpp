@@ -15,6 +15,7 @@
 #include "codegen/compiler.hpp"
 #include "codegen/specialise.hpp"
 #include "symbolic/case_file.hpp"
+#include "tests/folder.hpp"
 
 namespace casimir::testing {
 
@@ -119,24 +120,7 @@ class Points {
   unsigned long long state_ = 20240229;
 };
 
-/// A new folder that goes away at the end of the test.
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "casimir-test-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using casimir::test::Folder;
 
 inline void write(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "runtime/module.hpp"
+#include "tests/folder.hpp"
 #include "tests/runtime/systems.hpp"
 
 namespace casimir::test {
@@ -179,21 +180,6 @@ TEST(Methods, NamesAreFoundAndUnique) {
   EXPECT_EQ(method_names().size(), methods().size());
 }
 
-/// A folder of this process, removed at the end.
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "casimir-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::string operator/(const char* name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
-
 constexpr const char* kSystem = R"(
 struct System {
   static constexpr int n = 2;
@@ -219,7 +205,7 @@ void casimir_integrate(const casimir_run* run, double* x, casimir_outcome* out) 
 TEST(Methods, KernelTextsCompileWithoutHeaders) {
   const char* given = std::getenv("CXX");
   const std::string compiler = given ? given : "c++";
-  const Folder folder;
+  const test::Folder folder;
   for (const Method& method : methods()) {
     if (!method.outside.empty() && !method.header.empty()) continue;  // needs its library's headers
     const std::string text = kernel_source(method);

@@ -67,6 +67,11 @@ TEST_F(Functions, RadicandsAreReducedAndSplitWhereTheirFactorsArePositive) {
   EXPECT_TRUE(zero(split));
   EXPECT_TRUE(zero(split, {positive(x_ - y_), positive(x_ + y_)}));
   EXPECT_TRUE(zero(split, {positive(x_ - y_)}));
+  // x > 0 and x^2 > y^2 in either order give the sign of x - y, whose square root is taken out.
+  const ex size = sqrt(pow(x_ - y_, 2)) - (x_ - y_);
+  EXPECT_TRUE(zero(size, {positive(x_), positive(x_ * x_ - y_ * y_)}));
+  EXPECT_TRUE(zero(size, {positive(x_ * x_ - y_ * y_), positive(x_)}));
+  EXPECT_FALSE(zero(size, {positive(x_ * x_ - y_ * y_)}));
   EXPECT_TRUE(zero(sqrt(x_ * y_) - sqrt(-x_) * sqrt(-y_), {positive(-x_), positive(-y_)}));
   EXPECT_FALSE(zero(sqrt(x_ * y_) - sqrt(x_) * sqrt(y_), {positive(-x_), positive(-y_)}));
 }

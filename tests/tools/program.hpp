@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/folder.hpp"
+
 namespace casimir::test {
 
 /// What a run of the program left.
@@ -30,33 +32,18 @@ inline std::string file_text(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// A folder of its own, removed with the object.
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "casimir-test-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return (path_ / name).string();
-  }
-  std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
-  }
-
- private:
-  std::filesystem::path path_;
-};
-
 using Environment = std::vector<std::pair<std::string, std::string>>;
+
+/// Makes this process the program.
+[[noreturn]] inline void execute(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{CASIMIR_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  execv(CASIMIR_PROGRAM, pointers.data());
+  _exit(127);
+}
 
 /// Starts the program in `folder`, with `input` on standard input; does not wait.
 inline pid_t start(const std::vector<std::string>& arguments, const Folder& folder,
@@ -72,13 +59,7 @@ inline pid_t start(const std::vector<std::string>& arguments, const Folder& fold
   redirect(".stdout", STDOUT_FILENO, O_WRONLY | O_CREAT | O_TRUNC);
   redirect(".stderr", STDERR_FILENO, O_WRONLY | O_CREAT | O_TRUNC);
   for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
-  std::vector<std::string> words{CASIMIR_PROGRAM};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  execv(CASIMIR_PROGRAM, pointers.data());
-  _exit(127);
+  execute(arguments);
 }
 
 inline Outcome finish(pid_t child, const Folder& folder) {

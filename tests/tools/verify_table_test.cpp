@@ -35,13 +35,7 @@ std::string on_terminal(const std::vector<std::string>& arguments, unsigned shor
   const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
   if (child == 0) {
     if (no_colour != nullptr) setenv("NO_COLOR", no_colour, 1);
-    std::vector<std::string> words{CASIMIR_PROGRAM};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> pointers;
-    for (std::string& word : words) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    execv(CASIMIR_PROGRAM, pointers.data());
-    _exit(127);
+    execute(arguments);
   }
   std::string text;
   std::array<char, 4096> chunk;
