@@ -343,8 +343,11 @@ class SeriesWriter {
     text += next_ + registers("left_[k]", left, "        ") +
             registers("right_[k]", right, "        ") +
             "        const double step = unit * casimir_kernel::taylor::reciprocal.of[k + 1];\n";
+    // A rate may be another state as it is: all are formed before any is replaced.
     for (std::size_t i = 0; i < states_; ++i)
-      text += "        " + inputs_[i] + "_k = step * (" + rates[i] + ");\n";
+      text += "        const double " + inputs_[i] + "_next = step * (" + rates[i] + ");\n";
+    for (std::size_t i = 0; i < states_; ++i)
+      text += "        " + inputs_[i] + "_k = " + inputs_[i] + "_next;\n";
     return text + registers("c[k + 1]", next_states, "        ") + "      }\n    }\n";
   }
 

@@ -90,6 +90,23 @@ TEST(Taylor, EveryOperationHasItsRecurrence) {
   }
 }
 
+/// A rate that is another state as it is must not see that state's next coefficient, in whatever
+/// order the states stand.
+TEST(Taylor, RatesThatAreBareStates) {
+  const std::vector<std::pair<std::string, std::string>> cycle = {
+      {"u", "v"}, {"v", "w"}, {"w", "-u"}, {"x", "sqrt(1 + u*u)"}};
+  std::vector<std::pair<std::string, std::string>> reversed(cycle.rbegin(), cycle.rend());
+  for (const auto& rates : {cycle, reversed}) {
+    const Specialisation s = specialised(equations(rates));
+    const std::vector<double> from = {0.75, 0.5, 0.25, 0.125}, end = truth(s, from, 2);
+    for (const auto& [form, module] : forms(s)) {
+      const Trajectory orbit = run_taylor(module, settings_for(2), from);
+      ASSERT_EQ(orbit.status, Status::ok) << form << ' ' << orbit.reason;
+      EXPECT_LT(distance(orbit.state, end), 4e-15) << form;
+    }
+  }
+}
+
 TEST(Taylor, TimeAndParametersEnter) {
   const std::string toml = equations({{"x", "a*x*cos(t)"}},
                                      "[parameters]\na = {}\n[[scene]]\nname = \"default\"\n"
