@@ -176,7 +176,7 @@ TruthOrReason truth_of(const Scene& scene, const SceneRun& run, int digits,
 }
 
 std::vector<double> state_sizes(const SceneRun& run) {
-  const Method& method = *find_method("dop853");
+  const Method& method = *find_method("taylor");
   Settings settings;
   settings.duration = run.duration;
   settings.rtol = 1e-8;

@@ -259,7 +259,7 @@ TEST(Conserve, PassesAndFailsByItsBound) {
   const Outcome good = run_in(folder, {"conserve", "clebsch", "--scene", "default", "--json"});
   EXPECT_EQ(good.status, 0) << good.err;
   EXPECT_EQ(good.json().at("failed"), 0);
-  EXPECT_EQ(good.json().at("rows").size(), 2U);
+  EXPECT_EQ(good.json().at("rows").size(), 3U);
   const Outcome strict = run_in(folder, {"conserve", "clebsch", "--scene", "default", "--method",
                                          "dop853", "--tolerance", "1e-4", "--json"});
   EXPECT_EQ(strict.status, 1);

@@ -11,7 +11,7 @@ TEST(Environment, NoCompilerSaysWhatToInstall) {
   const Folder folder;
   const Folder cache;
   const Outcome outcome =
-      run_in(folder, {"integrate", "euler"}, {},
+      run_in(folder, {"integrate", "euler", "--method", "dop853"}, {},
              {{"PATH", "/nonexistent"}, {"CXX", ""}, {"CASIMIR_CACHE", cache.path().string()}});
   EXPECT_EQ(outcome.status, 4) << outcome.err;
   EXPECT_NE(outcome.err.find("g++"), std::string::npos) << outcome.err;
@@ -25,7 +25,7 @@ TEST(Environment, ProofsNeedNoCompiler) {
 
 TEST(Environment, CompilerThatFailsIsReported) {
   const Folder cache;
-  const Outcome outcome = run({"integrate", "euler"}, {},
+  const Outcome outcome = run({"integrate", "euler", "--method", "dop853"}, {},
                               {{"CXX", "/bin/false"}, {"CASIMIR_CACHE", cache.path().string()}});
   EXPECT_EQ(outcome.status, 4) << outcome.err;
 }
@@ -59,12 +59,9 @@ TEST(Environment, SecondRunComesFromTheCache) {
   const Folder folder;
   const Folder cache;
   const Environment environment{{"CASIMIR_CACHE", (cache.path() / "c").string()}};
-  EXPECT_EQ(
-      run_in(folder, {"integrate", "euler", "--json"}, {}, environment).json().at("from_cache"),
-      false);
-  EXPECT_EQ(
-      run_in(folder, {"integrate", "euler", "--json"}, {}, environment).json().at("from_cache"),
-      true);
+  const std::vector<std::string> arguments{"integrate", "euler", "--method", "dop853", "--json"};
+  EXPECT_EQ(run_in(folder, arguments, {}, environment).json().at("from_cache"), false);
+  EXPECT_EQ(run_in(folder, arguments, {}, environment).json().at("from_cache"), true);
 }
 
 TEST(Environment, CacheOfSomebodyElseIsRefused) {
@@ -72,8 +69,8 @@ TEST(Environment, CacheOfSomebodyElseIsRefused) {
   const std::filesystem::path open_to_all = cache.path() / "open";
   std::filesystem::create_directory(open_to_all);
   chmod(open_to_all.c_str(), 0777);
-  const Outcome outcome =
-      run({"integrate", "euler"}, {}, {{"CASIMIR_CACHE", open_to_all.string()}});
+  const Outcome outcome = run({"integrate", "euler", "--method", "dop853"}, {},
+                              {{"CASIMIR_CACHE", open_to_all.string()}});
   EXPECT_EQ(outcome.status, 4) << outcome.err;
 }
 

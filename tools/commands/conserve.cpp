@@ -18,7 +18,7 @@ struct Options {
   Common common;
   RunOptions run;
   std::string case_name, output;
-  std::vector<std::string> methods{"dop853", "gauss8"};
+  std::vector<std::string> methods{"taylor", "dop853", "gauss8"};
   double bound = 1e-9;
   bool all = false;
 };
@@ -121,7 +121,8 @@ void register_conserve(CLI::App& program, Action& action) {
   command->add_option("--bound", options->bound, "Largest drift allowed (default 1e-9)")
       ->type_name("X")
       ->check(CLI::PositiveNumber);
-  command->add_option("--method", options->methods, "Methods to run (default: dop853,gauss8)")
+  command
+      ->add_option("--method", options->methods, "Methods to run (default: taylor,dop853,gauss8)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("A,B");
