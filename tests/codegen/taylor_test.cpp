@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <new>
 
+#include "runtime/evaluate.hpp"
+#include "runtime/term_size.hpp"
 #include "taylor_forms.hpp"
 
 namespace {
@@ -144,6 +146,45 @@ TEST(Taylor, FloorOfTheErrorOverAHundredUnits) {
   const std::vector<double> from = start_of(s), end = truth(s, from, 100);
   for (const auto& [name, module] : forms(s))
     EXPECT_LT(distance(run_taylor(module, settings_for(100), from).state, end), 5e-14) << name;
+}
+
+constexpr const char* kTops[] = {"kovalevskaya", "clebsch",  "euler",
+                                 "steklov",      "lagrange", "manakov-so4"};
+
+Specialisation top(const std::string& name) {
+  const Model model =
+      build_model(read_case(fs::path(CASIMIR_SOURCE_DIR) / "cases" / (name + ".toml")));
+  return specialise(model, model.scene("default"));
+}
+
+TEST(Taylor, FloorOfTheErrorOfEveryTop) {
+  for (const char* name : kTops) {
+    const Specialisation s = top(name);
+    const std::vector<double> from = start_of(s), end = truth(s, from, 100);
+    const Module module = uncompiled_module(s.rhs, s.invariants, tables_of(s), {});
+    EXPECT_LT(distance(run_taylor(module, settings_for(100), from).state, end), 5e-14) << name;
+  }
+}
+
+/// Half a million units of time, a million steps: what truncation does to an invariant would show.
+TEST(Taylor, InvariantsOfLongRuns) {
+  for (const char* name : kTops) {
+    const Specialisation s = top(name);
+    const Module module = uncompiled_module(s.rhs, s.invariants, tables_of(s), {});
+    Settings settings = settings_for(5e5);
+    settings.invariant_sizes = [&](double t, const double* x, double* sizes) {
+      std::vector<SizedNumber> inputs;
+      for (std::size_t i = 0; i < s.states.size(); ++i)
+        inputs.push_back(Arithmetic<SizedNumber>::plain(x[i]));
+      inputs.push_back(Arithmetic<SizedNumber>::plain(t));
+      for (const SizedNumber& value : evaluate(s.invariants, inputs)) *sizes++ = value.size;
+    };
+    const Trajectory orbit = run_taylor(module, settings, start_of(s));
+    ASSERT_EQ(orbit.status, Status::ok) << name;
+    ASSERT_EQ(orbit.invariants.size(), s.invariant_names.size());
+    for (std::size_t i = 0; i < orbit.invariants.size(); ++i)
+      EXPECT_LT(orbit.invariants[i].drift, 1e-12) << name << ' ' << s.invariant_names[i];
+  }
 }
 
 TEST(Taylor, SolutionsPolynomialInTimeAreExact) {
