@@ -60,8 +60,9 @@ inline double power_of_two_near(double a) {
   return power;
 }
 
-/// The part of the tolerance that a step aims at. Truncation errors add up in one direction, rounding
-/// errors in all: at the least tolerances truncation shall not be what millions of steps show.
+/// The part of the tolerance that a step aims at. Truncation errors add up in one direction,
+/// rounding errors in all: at the least tolerances truncation shall not be what millions of steps
+/// show.
 inline double aim(const casimir_run* run) {
   constexpr double kFine = 1e-13;
   return run->rtol > 0 && run->rtol < kFine ? run->rtol / kFine : 1;
