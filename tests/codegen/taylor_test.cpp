@@ -148,6 +148,26 @@ TEST(Taylor, FloorOfTheErrorOverAHundredUnits) {
     EXPECT_LT(distance(run_taylor(module, settings_for(100), from).state, end), 5e-14) << name;
 }
 
+/// With a constant step the order is the highest one, and the error behaves so.
+TEST(Taylor, ObservedOrder) {
+  constexpr int kOrder = 24;
+  constexpr double kDuration = 12;
+  const Specialisation s = specialised(kKovalevskaya);
+  const std::vector<double> from = start_of(s), end = truth(s, from, kDuration);
+  for (const auto& [name, module] : forms(s)) {
+    const auto error = [&, &module = module](double step) {
+      Settings settings = settings_for(kDuration);
+      settings.fixed_step = step;
+      const Trajectory orbit = run_taylor(module, settings, from);
+      EXPECT_EQ(orbit.status, Status::ok) << orbit.reason;
+      return distance(orbit.state, end);
+    };
+    const double coarse = error(1), fine = error(0.75);
+    EXPECT_GT(fine, 1e-14) << "rounding hides the order";
+    EXPECT_NEAR(std::log(coarse / fine) / std::log(1 / 0.75), kOrder, 3) << name;
+  }
+}
+
 constexpr const char* kTops[] = {"kovalevskaya", "clebsch",  "euler",
                                  "steklov",      "lagrange", "manakov-so4"};
 
