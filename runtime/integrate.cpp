@@ -41,7 +41,7 @@ std::string reason_of(Status status) {
     case Status::non_finite:
       return "the state or its derivative is not a finite number";
     case Status::step_underflow:
-      return "the step that the tolerance asks for is lost in rounding";
+      return "the tolerance asks for steps too short to reach the end";
     case Status::max_steps:
       return "the limit on the number of steps was reached";
     case Status::no_convergence:

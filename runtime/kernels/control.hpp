@@ -123,6 +123,26 @@ __attribute__((cold, noinline)) int status_of_vanished_step(double elapsed, cons
   return passes > 1e6 ? CASIMIR_SINGULARITY : failure;
 }
 
+/// Whether a run gets anywhere. Steps that the tolerance asks for may be so short that no computer
+/// takes as many as the interval needs, though each still moves the time.
+class Pace {
+ public:
+  explicit Pace(double t) : t_(t) {}
+
+  /// Asked at every trial: at the pace of the last million of them, would the rest take more than
+  /// 2^36, a day and a night?
+  bool hopeless(unsigned long long trials, double t, double end) {
+    if (__builtin_expect(trials == 0 || (trials & (kTrials - 1)) != 0, 1)) return false;
+    const double moved = magnitude(t - t_);
+    t_ = t;
+    return moved * (0x1p36 / kTrials) < magnitude(end - t);
+  }
+
+ private:
+  static constexpr unsigned long long kTrials = 1ULL << 20;
+  double t_;
+};
+
 /// What became of one trial step.
 enum class Trial { done, not_finite, not_solved };
 
@@ -187,9 +207,14 @@ void march(const casimir_run* run, double* x, casimir_outcome* out) {
   double most = kGrow, ceiling = magnitude(span);
   int failure = CASIMIR_STEP_UNDERFLOW;
   bool there = false;
+  Pace pace(t);
   while (status == CASIMIR_OK && !there) {
     if (run->max_steps && steps + rejected >= run->max_steps) {
       status = CASIMIR_MAX_STEPS;
+      break;
+    }
+    if (adaptive && !run->max_steps && pace.hopeless(steps + rejected, t, run->t_end)) {
+      status = status_of_vanished_step<n>(t - run->t_begin, x, step.f, CASIMIR_STEP_UNDERFLOW);
       break;
     }
     double t1 = t, t1_carry = t_carry, trial = h;

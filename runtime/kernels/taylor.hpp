@@ -104,7 +104,7 @@ class March {
   static constexpr int room = blocks * width;
   /// How far the derivative at the end of a step may be from the series, in allowed errors: far
   /// more than a step of the right size ever gives, far less than a wrong one.
-  static constexpr double kDefect = 1000, kRounding = 0x1p-40;
+  static constexpr double kDefect = 100, kRounding = 0x1p-40;
   /// No step is longer than this many units: what a step may grow by.
   static constexpr double kLongest = 16;
 
@@ -116,13 +116,18 @@ class March {
         out_(out),
         rtol_(run->rtol * aim(run)),
         atol_(run->atol * aim(run)),
-        span_(run->t_end - run->t_begin) {}
+        span_(run->t_end - run->t_begin),
+        pace_(run->t_begin) {}
 
   void go() {
     if (!start()) return finish();
     while (status_ == CASIMIR_OK && !there_) {
       if (run_->max_steps && steps_ + rejected_ >= run_->max_steps) {
         status_ = CASIMIR_MAX_STEPS;
+        break;
+      }
+      if (pieces_ == 0 && !run_->max_steps && pace_.hopeless(steps_ + rejected_, t_, run_->t_end)) {
+        fail(CASIMIR_STEP_UNDERFLOW);
         break;
       }
       CASIMIR_UNROLL
@@ -384,6 +389,7 @@ class March {
   V state_[blocks], carry_[blocks], weight_[blocks];
   double t_ = 0, t_carry_ = 0;
   const double span_;
+  Pace pace_;
   double unit_ = 1, pieces_ = 0, scale_ = 0;
   unsigned long long steps_ = 0, rejected_ = 0, expansions_ = 0, evaluations_ = 0;
   int status_ = CASIMIR_OK, failure_ = CASIMIR_OK;

@@ -5,6 +5,7 @@
 namespace casimir {
 namespace {
 
+using testing::compiled;
 using testing::equations;
 using testing::forms;
 using testing::run_taylor;
@@ -78,6 +79,17 @@ TEST(TaylorOutcome, JumpsEndInBoundedWork) {
     EXPECT_NEAR(orbit.state[1], 0, 1e-5) << name;
     EXPECT_LE(orbit.steps + orbit.rejected, 20000u) << name;
   }
+}
+
+TEST(TaylorOutcome, WithoutALimitTheEndOutOfReachIsNoticed) {
+  const Specialisation s = specialised(equations({{"x", "0"}, {"y", "-atan2(y, x)"}}));
+  const std::vector<double> from = {-1, 1};
+  const Trajectory jump = run_taylor(compiled(s), settings_for(10, 1e-12), from);
+  EXPECT_EQ(jump.status, Status::step_underflow);
+  EXPECT_NEAR(jump.state[1], 0, 1e-9);
+  const Trajectory other =
+      integrate(compiled(s, "dop853"), *find_method("dop853"), settings_for(10, 1e-12), from);
+  EXPECT_EQ(other.status, Status::step_underflow);
 }
 
 TEST(TaylorOutcome, StiffnessStopsAtTheLimitOfSteps) {
