@@ -142,11 +142,7 @@ Scaled Dag::convert_new(const GiNaC::ex& e) {
     if (rank == ranks_.end()) throw ModelError("unknown symbol '" + shown(e) + "'");
     return symbol(rank->second);
   }
-  if (e.is_equal(GiNaC::Pi)) {
-    Node node;
-    node.kind = NodeKind::pi;
-    return {1, intern(std::move(node))};
-  }
+  if (e.is_equal(GiNaC::Pi)) return pi();
   if (GiNaC::is_a<GiNaC::add>(e) || GiNaC::is_a<GiNaC::mul>(e)) {
     std::vector<Scaled> parts;
     for (const GiNaC::ex& part : e) parts.push_back(convert(part));
@@ -180,6 +176,12 @@ Scaled Dag::symbol(int index) {
   Node node;
   node.kind = NodeKind::symbol;
   node.symbol = index;
+  return {1, intern(std::move(node))};
+}
+
+Scaled Dag::pi() {
+  Node node;
+  node.kind = NodeKind::pi;
   return {1, intern(std::move(node))};
 }
 

@@ -74,6 +74,7 @@ class Dag {
   Scaled convert(const GiNaC::ex& expression);
 
   Scaled symbol(int index);
+  Scaled pi();
   Scaled sum(const std::vector<Scaled>& terms);
   Scaled product(const std::vector<Scaled>& factors);
   Scaled power(const Scaled& base, const cln::cl_RA& exponent);

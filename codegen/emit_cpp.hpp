@@ -9,11 +9,13 @@ namespace casimir {
 
 struct HeaderOptions {
   Scalar scalar = Scalar::real64;
+  bool sparse_jacobian = false;  ///< `jacobian_entries` as well
 };
 
 /// A C++20 header that needs nothing of casimir: a namespace named after the case with
-/// `dimension`, the names and initial values of the states, `duration`, `rhs`, `invariants` and
-/// `jacobian` (by columns) as far as the specialisation has them, and adapters:
+/// `dimension`, the names and initial values of the states, `duration`, `rhs`, `invariants`,
+/// `gradients` of the invariants and `jacobian` (by columns) with its pattern, as far as the
+/// specialisation has them, and adapters:
 /// `system` is a right-hand side for Boost.Odeint, `stiff_system` one for its Rosenbrock methods,
 /// `sundials_rhs<N_Vector>` and `sundials_jacobian<N_Vector, SUNMatrix>` are for CVODE (double
 /// only). Run-time parameters come as a struct whose defaults are the values of the scene.
@@ -46,7 +48,10 @@ std::string cost_text(const OperationCount& count);
 namespace codegen {
 
 /// The comment at the head of generated code: where it comes from and what was left out.
-std::string head_comment(const Specialisation& specialisation);
+/// \param with_values  also the scene and its values of run-time parameters, which the code does
+/// not
+///                     depend on.
+std::string head_comment(const Specialisation& specialisation, bool with_values);
 
 }  // namespace codegen
 }  // namespace casimir

@@ -22,28 +22,31 @@ struct Function {
   std::string target;
   std::string comment;
   const Program& program;
+  /// Where the outputs go in a matrix by columns with `dimension` rows; null: one after the other.
+  const SparseProgram* matrix = nullptr;
+  std::size_t columns = 0;
+  std::string size = {};  ///< the number of its entries, as C++ has it
 };
 
 class HeaderWriter {
  public:
-  HeaderWriter(const Specialisation& spec, Scalar scalar) : context_(spec, scalar) {}
+  HeaderWriter(const Specialisation& spec, const HeaderOptions& options)
+      : context_(spec, options.scalar), sparse_jacobian_(options.sparse_jacobian) {}
 
   std::string run() {
     Names namespaces({"state_names", "invariant_names", "initial_state"});
     const std::string scope = namespaces.unique(spec_.case_name);
     const std::string guard = guard_of(scope);
-    std::string text = codegen::head_comment(spec_) + "#ifndef " + guard + "\n#define " + guard +
-                       "\n\n" + includes();
+    std::string text = codegen::head_comment(spec_, true) + "#ifndef " + guard + "\n#define " +
+                       guard + "\n\n" + includes();
     text += "namespace " + scope + " {\n\n" + constants();
     text += function({"rhs", "dx", "The time derivatives of the state.", spec_.rhs});
     if (!spec_.invariant_names.empty()) {
       text += function({"invariants", "values",
                         "Conserved along solutions: " + invariant_list() + ".", spec_.invariants});
     }
-    if (spec_.has_jacobian) {
-      text += function({"jacobian", "J", "J[i + dimension*j] = d(dx[i])/d(x[j]), all entries.",
-                        spec_.jacobian.program});
-    }
+    if (spec_.has_gradients && !spec_.invariant_names.empty()) text += gradients();
+    if (spec_.has_jacobian) text += jacobian();
     if (is_template_) text += start_function();
     if (spec_.has_variational) text += variational();
     if (spec_.taylor) text += codegen::taylor(context_);
@@ -52,6 +55,50 @@ class HeaderWriter {
   }
 
  private:
+  std::string gradients() const {
+    return function({"gradients", "dvalues",
+                     "dvalues[i + dimension*k] = d(values[k])/d(x[i]): the gradient of each "
+                     "invariant.",
+                     spec_.gradients.program, &spec_.gradients, spec_.invariant_names.size(),
+                     "dimension * " + std::to_string(spec_.invariant_names.size())});
+  }
+
+  std::string jacobian() const {
+    const SparseProgram& matrix = spec_.jacobian;
+    std::string text =
+        pattern() +
+        function({"jacobian", "J", "J[i + dimension*j] = d(dx[i])/d(x[j]), all entries.",
+                  matrix.program, &matrix, spec_.states.size(), "dimension * dimension"});
+    if (sparse_jacobian_) {
+      text +=
+          function({"jacobian_entries", "entries",
+                    "The entries of the Jacobian that are not always zero, as in jacobian_rows.",
+                    matrix.program});
+    }
+    return text;
+  }
+
+  /// The places of the entries, as sparse matrices by columns have them.
+  std::string pattern() const {
+    const auto& entries = spec_.jacobian.entries;
+    if (entries.empty()) return "";
+    std::string rows, columns = "0";
+    std::size_t k = 0;
+    for (std::size_t column = 0; column < spec_.states.size(); ++column) {
+      for (; k < entries.size() && entries[k].second == static_cast<int>(column); ++k)
+        rows += (rows.empty() ? "" : ", ") + std::to_string(entries[k].first);
+      columns += ", " + std::to_string(k);
+    }
+    const auto array = [](const std::string& name, const std::string& list) {
+      return codegen::wrapped("inline constexpr int " + name + "[] = {" + list + "};") + "\n";
+    };
+    return "// Where the Jacobian may differ from zero: column j in the rows jacobian_rows[k],\n"
+           "// jacobian_columns[j] <= k < jacobian_columns[j + 1].\n"
+           "inline constexpr int jacobian_nonzeros = " +
+           std::to_string(entries.size()) + ";\n" + array("jacobian_columns", columns) +
+           array("jacobian_rows", rows) + "\n";
+  }
+
   /// `#pragma once` would be a warning where the header is compiled alone.
   static std::string guard_of(const std::string& scope) {
     std::string result = "CASIMIR_GENERATED_";
@@ -72,6 +119,7 @@ class HeaderWriter {
     const auto is_function = [](const Instruction& c) { return c.op >= Op::pow || c.op == Op::pi; };
     return std::ranges::any_of(spec_.rhs.code, is_function) ||
            std::ranges::any_of(spec_.invariants.code, is_function) ||
+           std::ranges::any_of(spec_.gradients.program.code, is_function) ||
            std::ranges::any_of(spec_.jacobian.program.code, is_function) ||
            std::ranges::any_of(spec_.variational.code, is_function);
   }
@@ -192,14 +240,14 @@ class HeaderWriter {
            codegen::statements(spec_.variational, sources, names, targets, style_) + "}\n\n";
   }
 
-  bool writes(const Function& f) const { return !f.program.outputs.empty() || f.target == "J"; }
+  static bool writes(const Function& f) { return !f.program.outputs.empty() || f.matrix; }
 
   std::string function(const Function& f) const {
     std::vector<std::string> targets;
     for (std::size_t k = 0; k < f.program.outputs.size(); ++k) {
       std::size_t place = k;
-      if (f.target == "J") {
-        const auto& [row, column] = spec_.jacobian.entries[k];
+      if (f.matrix) {
+        const auto& [row, column] = f.matrix->entries[k];
         place =
             static_cast<std::size_t>(row) + spec_.states.size() * static_cast<std::size_t>(column);
       }
@@ -208,9 +256,8 @@ class HeaderWriter {
     std::string text =
         codegen::comment_lines(f.comment) + (is_template_ ? "template <class Real>\n" : "");
     text += signature(f) + using_declarations(f.program);
-    const std::size_t n = spec_.states.size();
-    if (f.target == "J" && spec_.jacobian.entries.size() < n * n) {
-      text += "  for (int i = 0; i < dimension * dimension; ++i) J[i] = 0;\n";
+    if (f.matrix && f.matrix->entries.size() < spec_.states.size() * f.columns) {
+      text += "  for (int i = 0; i < " + f.size + "; ++i) " + f.target + "[i] = 0;\n";
     }
     return text + codegen::statements(f.program, sources_, names_, targets, style_) + "}\n\n";
   }
@@ -220,6 +267,7 @@ class HeaderWriter {
   }
 
   const HeaderContext context_;
+  const bool sparse_jacobian_;
   const Specialisation& spec_ = context_.spec;
   const StatementStyle& style_ = context_.style;
   const std::vector<std::string>& sources_ = context_.sources;
@@ -230,7 +278,7 @@ class HeaderWriter {
 }  // namespace
 
 std::string emit_header(const Specialisation& spec, const HeaderOptions& options) {
-  return HeaderWriter(spec, options.scalar).run();
+  return HeaderWriter(spec, options).run();
 }
 
 }  // namespace casimir

@@ -1,4 +1,5 @@
 // The text of a loadable module.
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -25,12 +26,17 @@ std::string state_list(const Specialisation& spec) {
   return result;
 }
 
-std::string binding_text(const Specialisation& spec) {
-  std::string result;
+/// "scene "default" (r = 1)"; without the values, "any values of r, with a = 1".
+std::string origin_text(const Specialisation& spec, bool with_values) {
+  const bool scene = with_values || spec.parameters.empty();
+  std::string kept, values;
   for (const auto& [name, value] : spec.values) {
-    result += (result.empty() ? " (" : ", ") + name + " = " + value;
+    const bool at_run_time = std::ranges::count(spec.parameters, name) != 0;
+    if (at_run_time) kept += (kept.empty() ? "" : ", ") + name;
+    if (scene || !at_run_time) values += (values.empty() ? "" : ", ") + name + " = " + value;
   }
-  return result.empty() ? "" : result + ")";
+  if (scene) return "scene \"" + spec.scene + "\"" + (values.empty() ? "" : " (" + values + ")");
+  return "any values of " + kept + (values.empty() ? "" : ", with " + values);
 }
 
 class ModuleWriter {
@@ -53,7 +59,8 @@ class ModuleWriter {
   }
 
   std::string run(const std::string& kernel, bool with_series) {
-    std::string text = codegen::head_comment(spec_) + "\n";
+    // The same text for all values of the parameters at run time: it is compiled once.
+    std::string text = codegen::head_comment(spec_, false) + "\n";
     if (!kernel.empty()) text += kernel + (kernel.ends_with('\n') ? "\n" : "\n\n");
     text += "namespace {\n\nstruct System {\n  static constexpr int n = " +
             std::to_string(spec_.states.size()) + ";\n\n";
@@ -132,10 +139,10 @@ std::string cost_text(const OperationCount& count) {
          counted(count.div, "division") + ", " + counted(count.calls, "call");
 }
 
-std::string codegen::head_comment(const Specialisation& spec) {
+std::string codegen::head_comment(const Specialisation& spec, bool with_values) {
   std::string text =
-      comment_lines("Written by casimir from case \"" + spec.case_name + "\", scene \"" +
-                    spec.scene + "\"" + binding_text(spec) + ". Do not edit: edit the case.");
+      comment_lines("Written by casimir from case \"" + spec.case_name + "\", " +
+                    origin_text(spec, with_values) + ". Do not edit: edit the case.");
   text += comment_lines(spec.title);
   if (!spec.source.empty()) text += comment_lines("Source: " + spec.source);
   if (!spec.states.empty()) {

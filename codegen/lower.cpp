@@ -2,48 +2,13 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 #include <utility>
+
+#include "codegen/program_writer.hpp"
 
 namespace casimir::codegen {
 
 namespace {
-
-/// Appends instructions, reusing equal ones.
-class Writer {
- public:
-  explicit Writer(Program& program) : program_(program) {}
-
-  int number(const cln::cl_RA& value) {
-    const auto [place, is_new] =
-        constants_.try_emplace(value, static_cast<int>(program_.constants.size()));
-    if (is_new) program_.constants.push_back(value);
-    return emit(Op::constant, place->second);
-  }
-
-  int emit(Op op, int a = -1, int b = -1) {
-    const bool commutes = op == Op::add || op == Op::mul;
-    const auto key =
-        commutes ? std::make_tuple(op, std::min(a, b), std::max(a, b)) : std::make_tuple(op, a, b);
-    const auto [place, is_new] = known_.try_emplace(key, static_cast<int>(program_.code.size()));
-    if (is_new) program_.code.push_back({op, a, b});
-    return place->second;
-  }
-
-  int product(int a, int b) { return a < 0 ? b : emit(Op::mul, a, b); }
-
-  int power(int base, int exponent) {
-    if (exponent == 1) return base;
-    if (exponent % 2 == 1) return emit(Op::mul, base, power(base, exponent - 1));
-    const int half = power(base, exponent / 2);
-    return emit(Op::mul, half, half);
-  }
-
- private:
-  Program& program_;
-  std::map<cln::cl_RA, int> constants_;
-  std::map<std::tuple<Op, int, int>, int> known_;
-};
 
 class Lowering {
  public:
@@ -135,6 +100,9 @@ class Lowering {
     return writer_.emit(Op::neg, term(1, t.monomial));
   }
 
+  /// a * b, where a < 0 stands for nothing.
+  int joined(int a, int b) { return a < 0 ? b : writer_.emit(Op::mul, a, b); }
+
   int term(const cln::cl_RA& coefficient, const Monomial& monomial) {
     int above = coefficient == 1 ? -1 : writer_.number(coefficient);
     int below = -1;
@@ -143,9 +111,9 @@ class Lowering {
         if (variable(l.variable).constant != constant) continue;
         if (is_inverse(l.variable) && monomials_with_[static_cast<std::size_t>(l.variable)] == 1) {
           const int base = value(variable(l.variable).arguments[0]);
-          below = writer_.product(below, writer_.power(base, l.exponent));
+          below = joined(below, writer_.power(base, l.exponent));
         } else {
-          above = writer_.product(above, writer_.power(value(l.variable), l.exponent));
+          above = joined(above, writer_.power(value(l.variable), l.exponent));
         }
       }
     }
@@ -155,7 +123,7 @@ class Lowering {
 
   const TermSystem& system_;
   Program program_;
-  Writer writer_;
+  ProgramWriter writer_;
   std::vector<int> values_;
   std::vector<int> monomials_with_;
 };

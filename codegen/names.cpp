@@ -34,7 +34,9 @@ constexpr std::array kReserved{
     "invariants", "jacobian", "dimension", "duration", "std", "main", "i", "j", "user", "sin",
     "cos", "tan", "exp", "log", "asin", "acos", "atan2", "sqrt", "pow", "j0", "j1", "jn", "y0",
     "y1", "yn", "gamma", "signgam", "tmp1", "tmp2", "tmp3", "buffer", "delta_x", "ddelta_x",
-    "variational", "taylor", "start", "coefficients", "degree", "Order", "time_series"};
+    "variational", "taylor", "start", "coefficients", "degree", "Order", "time_series", "gradients",
+    "dvalues", "entries", "jacobian_entries", "jacobian_nonzeros", "jacobian_rows",
+    "jacobian_columns"};
 
 bool is_plain(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';

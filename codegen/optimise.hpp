@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "codegen/canonical.hpp"
+#include "codegen/differentiate.hpp"
 #include "codegen/lower.hpp"
 #include "runtime/program.hpp"
 
@@ -18,5 +19,13 @@ namespace casimir::codegen {
 /// \param outputs  one name for each expression.
 Program optimised(const Dag& dag, const std::vector<Scaled>& expressions,
                   const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
+
+/// The same for programs that are written already. All compute the same functions: each is a place
+/// to start from, as it stands and lifted into the Dag, and the result is never longer than the
+/// shortest of them.
+Program optimised(Dag& dag, const std::vector<Program>& programs);
+
+/// The same for matrices. Entries that vanish identically are left out.
+SparseProgram optimised(Dag& dag, const std::vector<SparseProgram>& programs);
 
 }  // namespace casimir::codegen

@@ -7,6 +7,7 @@
 
 #include "codegen/canonical.hpp"
 #include "codegen/optimise.hpp"
+#include "codegen/terms.hpp"
 #include "codegen/vanishing.hpp"
 
 namespace casimir {
@@ -29,9 +30,14 @@ bool depends(const GiNaC::ex& expression, const GiNaC::symbol& symbol) {
 class Specialiser {
  public:
   Specialiser(const Model& model, const Scene& scene, const SpecialiseOptions& options)
-      : model_(model), scene_(scene), options_(options), general_dag_(general_symbols(), n()) {}
+      : model_(model),
+        scene_(scene),
+        options_(options),
+        binding_(scene),
+        general_dag_(general_symbols(), n()) {}
 
   Specialisation run() {
+    select_parameters();
     describe();
     bind();
     select_states();
@@ -51,6 +57,30 @@ class Specialiser {
     return symbols;
   }
 
+  void select_parameters() {
+    std::vector<std::string> known;
+    for (std::size_t i = 0; i < model_.parameters.size(); ++i) {
+      known.push_back(model_.parameters[i].get_name());
+      if (options_.fold_parameters && !std::ranges::count(options_.keep_parameters, known.back()))
+        continue;
+      parameter_indices_.push_back(i);
+      result_.parameters.push_back(known.back());
+      binding_.parameters.at(i) = model_.parameters[i];
+    }
+    for (const std::string& name : options_.keep_parameters) {
+      if (!std::ranges::count(known, name)) throw unknown("keep", name, "parameter", known);
+    }
+  }
+
+  static ModelError unknown(const std::string& verb, const std::string& name,
+                            const std::string& kind, const std::vector<std::string>& known) {
+    const std::string hint = suggest(name, known);
+    return ModelError("cannot " + verb + " '" + printable(name) + "': no " + kind +
+                      " has that name" + (hint.empty() ? "" : "; " + hint));
+  }
+
+  bool folds_some() const { return parameter_indices_.size() < model_.parameters.size(); }
+
   void describe() {
     result_.case_name = model_.name;
     result_.file = model_.file;
@@ -68,11 +98,8 @@ class Specialiser {
       const std::string value = within(
           name, [&] { return general_dag_.text(general_dag_.convert(scene_.parameters.at(i))); });
       result_.values.emplace_back(name, value);
-      if (options_.fold_parameters) {
+      if (!std::ranges::count(result_.parameters, name))
         leave_out("parameter", name, "folded to " + value);
-      } else {
-        result_.parameters.push_back(name);
-      }
     }
   }
 
@@ -105,8 +132,14 @@ class Specialiser {
   }
 
   GiNaC::ex bound(const std::string& what, const GiNaC::ex& expression) {
-    if (!options_.fold_parameters) return expression;
-    return within(what, [&] { return model_.at_parameters(expression, scene_); });
+    return within(what, [&] { return model_.at_parameters(expression, binding_); });
+  }
+
+  /// What the code can compute for other values of its run-time parameters it must be able to
+  /// compute for those of the scene too.
+  void check_at_scene(const std::string& what, const GiNaC::ex& expression) {
+    if (parameter_indices_.empty()) return;
+    within(what, [&] { return general_dag_.convert(model_.at_parameters(expression, scene_)); });
   }
 
   void bind() {
@@ -164,10 +197,7 @@ class Specialiser {
       }
       return;
     }
-    const std::string hint = suggest(name, known);
-    throw ModelError("cannot observe '" + printable(name) +
-                     "': no variable or invariant has that name" +
-                     (hint.empty() ? "" : "; " + hint));
+    throw unknown("observe", name, "variable or invariant", known);
   }
 
   void close_under_dependence(std::vector<bool>& needed) {
@@ -227,9 +257,7 @@ class Specialiser {
     for (const int i : result_.state_indices) {
       symbols.push_back(model_.variables[static_cast<std::size_t>(i)]);
     }
-    if (!options_.fold_parameters) {
-      symbols.insert(symbols.end(), model_.parameters.begin(), model_.parameters.end());
-    }
+    for (const std::size_t i : parameter_indices_) symbols.push_back(model_.parameters[i]);
     symbols.push_back(model_.time ? *model_.time : GiNaC::symbol("t"));
     return symbols;
   }
@@ -246,68 +274,60 @@ class Specialiser {
       const auto index = static_cast<std::size_t>(i);
       names.push_back(derivative_name(index));
       field.push_back(within(names.back(), [&] { return dag.convert(field_[index]); }));
+      check_at_scene(names.back(), field_[index]);
     }
+    const Program plain_field = plain(dag, field, inputs, names);
     result_.rhs = codegen::optimised(dag, field, inputs, names);
     result_.specialised = count_operations(result_.rhs);
 
     std::vector<Scaled> invariants;
     for (const auto& [name, value] : invariants_) {
       invariants.push_back(within(name, [&] { return dag.convert(value); }));
+      check_at_scene(name, value);
     }
     result_.invariants = codegen::optimised(dag, invariants, inputs, result_.invariant_names);
-    if (options_.jacobian) write_jacobian(dag, inputs);
     note_time(dag, field, invariants);
-    if (options_.variational) write_variational(symbols, inputs);
     write_start();
+
+    const std::size_t n = result_.states.size();
+    if (options_.jacobian) {
+      result_.jacobian = within("the Jacobian", [&] {
+        return codegen::optimised(
+            dag, {codegen::jacobian(plain_field, n), codegen::jacobian(result_.rhs, n)});
+      });
+      result_.has_jacobian = true;
+    }
+    if (options_.gradients) {
+      const Program plain_invariants = plain(dag, invariants, inputs, result_.invariant_names);
+      result_.gradients = within("the gradients", [&] {
+        return codegen::optimised(dag, {codegen::gradients(plain_invariants, n),
+                                        codegen::gradients(result_.invariants, n)});
+      });
+      result_.has_gradients = true;
+    }
+    if (options_.variational) write_variational(symbols, plain_field);
   }
 
-  void write_jacobian(Dag& dag, const std::vector<std::string>& inputs) {
-    std::vector<Scaled> values;
-    std::vector<std::string> names;
-    const auto count = static_cast<int>(result_.states.size());
-    for (int column = 0; column < count; ++column) {
-      const auto by = static_cast<std::size_t>(result_.state_indices[column]);
-      for (int row = 0; row < count; ++row) {
-        const auto of = static_cast<std::size_t>(result_.state_indices[row]);
-        const std::string name = derivative_name(of) + "/d" + result_.states[column];
-        const Scaled entry =
-            within(name, [&] { return dag.convert(field_[of].diff(model_.variables[by])); });
-        if (codegen::vanishes(dag, entry, inputs.size())) continue;
-        result_.jacobian.entries.emplace_back(row, column);
-        values.push_back(entry);
-        names.push_back(name);
-      }
-    }
-    result_.jacobian.program = codegen::optimised(dag, values, inputs, names);
-    result_.has_jacobian = true;
+  /// The expressions as they are structured, without any search for a shorter form.
+  static Program plain(const Dag& dag, const std::vector<Scaled>& expressions,
+                       const std::vector<std::string>& inputs,
+                       const std::vector<std::string>& outputs) {
+    return codegen::lowered(codegen::system_of(dag, inputs.size(), expressions), inputs, outputs);
   }
 
-  void write_variational(std::vector<GiNaC::symbol> symbols, std::vector<std::string> inputs) {
-    const std::size_t count = result_.states.size();
-    std::vector<GiNaC::symbol> deviations;
-    std::vector<std::string> names;
-    for (const std::string& state : result_.states) {
-      names.push_back("delta_" + state);
-      deviations.emplace_back(names.back());
+  void write_variational(std::vector<GiNaC::symbol> symbols, const Program& plain_field) {
+    const std::size_t n = result_.states.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      symbols.insert(symbols.begin() + static_cast<std::ptrdiff_t>(n + i),
+                     GiNaC::symbol("delta_" + result_.states[i]));
     }
-    const auto place = static_cast<std::ptrdiff_t>(count);
-    symbols.insert(symbols.begin() + place, deviations.begin(), deviations.end());
-    inputs.insert(inputs.begin() + place, names.begin(), names.end());
-    Dag dag(symbols, 2 * count);
-    std::vector<Scaled> field;
-    std::vector<Scaled> deviation_field;
-    std::vector<std::string> outputs;
-    for (std::size_t i = 0; i < count; ++i) {
-      const GiNaC::ex& rate = field_[static_cast<std::size_t>(result_.state_indices[i])];
-      GiNaC::ex along = 0;
-      for (std::size_t j = 0; j < count; ++j) along += rate.diff(symbols[j]) * deviations[j];
-      outputs.push_back("d" + result_.states[i]);
-      field.push_back(within(outputs.back(), [&] { return dag.convert(rate); }));
-      deviation_field.push_back(within("d" + names[i], [&] { return dag.convert(along); }));
-    }
-    field.insert(field.end(), deviation_field.begin(), deviation_field.end());
-    for (const std::string& name : names) outputs.push_back("d" + name);
-    result_.variational = codegen::optimised(dag, field, inputs, outputs);
+    Dag dag(symbols, 2 * n);
+    result_.variational = within("the variational equations", [&] {
+      return codegen::optimised(
+          dag, std::vector<Program>{codegen::variational(plain_field, n),
+                                    codegen::variational_by_columns(plain_field, n),
+                                    codegen::variational(result_.rhs, n)});
+    });
     result_.has_variational = true;
   }
 
@@ -333,8 +353,8 @@ class Specialiser {
       const auto index = static_cast<std::size_t>(result_.state_indices[i]);
       add(result_.states[i], scene_.initial.at(index));
     }
-    for (std::size_t i = 0; i < result_.parameters.size(); ++i) {
-      add(result_.parameters[i], scene_.parameters.at(i));
+    for (const std::size_t i : parameter_indices_) {
+      add(model_.parameters[i].get_name(), scene_.parameters.at(i));
     }
     add("duration", scene_.duration);
     result_.start = codegen::lowered(codegen::system_of(dag, 0, values), {}, names);
@@ -343,6 +363,10 @@ class Specialiser {
   // --- what the specialisation saves
 
   void note_vanishing_terms() {
+    if (!folds_some() && result_.states.size() == n()) {
+      result_.general = result_.specialised;
+      return;
+    }
     std::vector<Scaled> general;
     std::vector<std::string> names;
     for (std::size_t i = 0; i < n(); ++i) {
@@ -353,7 +377,7 @@ class Specialiser {
     std::vector<std::string> inputs;
     for (const GiNaC::symbol& symbol : general_symbols()) inputs.push_back(symbol.get_name());
     result_.general = count_operations(codegen::optimised(general_dag_, general, inputs, names));
-    if (!options_.fold_parameters || model_.parameters.empty()) return;
+    if (!folds_some()) return;
     for (const int i : result_.state_indices) {
       const auto index = static_cast<std::size_t>(i);
       const Scaled folded =
@@ -369,6 +393,8 @@ class Specialiser {
   const Model& model_;
   const Scene& scene_;
   const SpecialiseOptions& options_;
+  Scene binding_;  ///< the scene, with the run-time parameters standing for themselves
+  std::vector<std::size_t> parameter_indices_;  ///< of the run-time parameters
   Dag general_dag_;
   std::vector<GiNaC::ex> field_;
   std::vector<std::pair<std::string, GiNaC::ex>> invariants_;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "codegen/differentiate.hpp"
 #include "codegen/lower.hpp"
 #include "runtime/program.hpp"
 #include "symbolic/model.hpp"
@@ -21,18 +22,16 @@ struct LeftOut {
   std::string reason;  ///< "folded to 1", "not needed for M1, g1", ..
 };
 
-/// The entries of a matrix that are not identically zero.
-struct SparseProgram {
-  std::vector<std::pair<int, int>> entries;  ///< row and column of each output of the program
-  Program program;
-};
-
 struct SpecialiseOptions {
-  /// Replace the parameters by the scene's values; otherwise they are inputs at run time.
+  /// Replace the parameters by the scene's values; otherwise they are inputs at run time, and all
+  /// that is generated is the same whatever their values.
   bool fold_parameters = true;
+  /// Parameters that are inputs at run time although the others are replaced.
+  std::vector<std::string> keep_parameters = {};
   /// States or invariants that are wanted; none: those of the scene; empty: everything.
   std::optional<std::vector<std::string>> observe;
   bool invariants = true;
+  bool gradients = false;  ///< of the invariants
   bool jacobian = true;
   bool variational = false;
   bool taylor = false;  ///< emitted headers shall have the Taylor coefficients of solutions
@@ -50,13 +49,15 @@ struct Specialisation {
   std::string time;                                         ///< what the file calls it, or empty
   bool uses_time = false;                                   ///< some program depends on the time
 
-  std::vector<std::string> states;      ///< the kept ones, in the order of the file
-  std::vector<int> state_indices;       ///< their indices in Model::variables
-  std::vector<std::string> parameters;  ///< inputs at run time: all of them, or none when folded
+  std::vector<std::string> states;           ///< the kept ones, in the order of the file
+  std::vector<int> state_indices;            ///< their indices in Model::variables
+  std::vector<std::string> parameters;       ///< inputs at run time, in the order of the file
   std::vector<std::string> invariant_names;  ///< "H" first, then Casimirs and integrals
 
-  Program rhs;             ///< outputs "dM1", ..: the time derivatives of the kept states
-  Program invariants;      ///< one output for each of `invariant_names`
+  Program rhs;              ///< outputs "dM1", ..: the time derivatives of the kept states
+  Program invariants;       ///< one output for each of `invariant_names`
+  SparseProgram gradients;  ///< d invariant_column / d state_row
+  bool has_gradients = false;
   SparseProgram jacobian;  ///< d rhs_row / d state_column
   bool has_jacobian = false;
   /// `rhs` and the variational equations, as the right-hand side of a system of twice the size: its
@@ -76,8 +77,9 @@ struct Specialisation {
 
 /// Binds the parameters of a scene exactly, drops what its observed quantities do not need, and
 /// writes the rest as short programs.
-/// \throws ModelError  for an unknown observed name, and where the values of the parameters make an
-///                     expression undefined; the text names the function and the values.
+/// \throws ModelError  for an unknown name to observe or to keep, and where the values of the
+///                     parameters, at run time or not, make an expression undefined; the text names
+///                     the function and the values.
 Specialisation specialise(const Model& model, const Scene& scene,
                           const SpecialiseOptions& options = {});
 

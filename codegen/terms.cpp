@@ -46,7 +46,7 @@ class Builder {
   }
 
   TermSystem build(const std::vector<Scaled>& outputs) {
-    for (const Scaled& output : outputs) find_inverse_roots(output.node);
+    for (const Scaled& output : outputs) find_powers(output.node);
     for (const Scaled& output : outputs) {
       Variable variable;
       variable.kind = Variable::Kind::polynomial;
@@ -57,16 +57,24 @@ class Builder {
   }
 
  private:
-  /// Bases with a power such as -1/2: their other negative powers are powers of that one.
-  void find_inverse_roots(NodeId id) {
+  /// Bases with a power such as -1/2: their other negative powers are powers of that one. Of the
+  /// exponents 1/3, -2/3, .. of a base the least: the others are a multiple by whole powers.
+  void find_powers(NodeId id) {
     if (!visited_.insert(id).second) return;
-    for (const Scaled& t : dag_[id].terms) find_inverse_roots(t.node);
+    for (const Scaled& t : dag_[id].terms) find_powers(t.node);
     for (const Factor& f : dag_[id].factors) {
       if (cln::denominator(f.exponent) == 2 && cln::minusp(f.exponent)) {
         inverse_roots_.insert(f.node);
       }
-      find_inverse_roots(f.node);
+      const auto [least, is_new] = least_powers_.try_emplace(broken_power(f), f.exponent);
+      if (f.exponent < least->second) least->second = f.exponent;
+      find_powers(f.node);
     }
+  }
+
+  /// The base, and the exponent without its whole part.
+  static std::pair<NodeId, cln::cl_RA> broken_power(const Factor& f) {
+    return {f.node, f.exponent - cln::floor1(f.exponent)};
   }
 
   Polynomial polynomial_of(const Scaled& e) {
@@ -118,9 +126,9 @@ class Builder {
       return {{inverse, small(-2 * f.exponent)}};
     }
     if (is_integer(f.exponent)) return {{function(Op::div, {base}), small(-f.exponent)}};
-    if (!half) return {{function(Op::pow, {base}, f.exponent), 1}};
-    const cln::cl_RA whole = f.exponent - cln::cl_RA(1) / 2;
-    const Monomial root{{function(Op::sqrt, {base}), 1}};
+    const cln::cl_RA least = half ? cln::cl_RA(1) / 2 : least_powers_.at(broken_power(f));
+    const cln::cl_RA whole = f.exponent - least;
+    const Monomial root{{half ? function(Op::sqrt, {base}) : function(Op::pow, {base}, least), 1}};
     return whole == 0 ? root : multiply(root, {{base, small(whole)}});
   }
 
@@ -203,6 +211,7 @@ class Builder {
   TermSystem system_;
   std::set<NodeId> visited_;
   std::set<NodeId> inverse_roots_;
+  std::map<std::pair<NodeId, cln::cl_RA>, cln::cl_RA> least_powers_;
   std::map<NodeId, int> of_node_;
   std::map<Polynomial, int, PolynomialLess> polynomials_;
   std::map<std::tuple<Op, std::vector<int>, cln::cl_I, cln::cl_I>, int> functions_;

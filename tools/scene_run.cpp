@@ -46,6 +46,7 @@ SceneRun prepare(const Model& model, const Scene& scene, const SceneOptions& opt
   const auto start = Clock::now();
   SpecialiseOptions what;
   what.fold_parameters = options.fold_parameters;
+  what.keep_parameters = options.keep_parameters;
   what.observe = options.observe;
   SceneRun run;
   run.specialisation = specialise(model, scene, what);
@@ -56,8 +57,10 @@ SceneRun prepare(const Model& model, const Scene& scene, const SceneOptions& opt
     run.initial.push_back(rounded(values[next]));
     run.rounding.push_back(remainder(values[next], run.initial.back()));
   }
-  for (std::size_t i = 0; i < s.parameters.size(); ++i)
-    run.parameters.push_back(rounded(values[next++]));
+  for (std::size_t i = 0; i < s.parameters.size(); ++i, ++next) {
+    run.parameters.push_back(rounded(values[next]));
+    run.parameter_rounding.push_back(remainder(values[next], run.parameters.back()));
+  }
   run.duration = rounded(values[next]);
   run.generate_seconds = seconds_since(start);
   return run;

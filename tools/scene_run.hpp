@@ -19,6 +19,7 @@ struct SceneRun {
   std::vector<double> initial;     ///< of the kept states
   std::vector<double> rounding;    ///< what rounding them to double left out
   std::vector<double> parameters;  ///< at run time; empty when folded
+  std::vector<double> parameter_rounding;
   double duration = 0;
 
   /// Writes the size of the largest term of each invariant at a state: see Settings.
@@ -28,6 +29,7 @@ struct SceneRun {
 
 struct SceneOptions {
   bool fold_parameters = true;
+  std::vector<std::string> keep_parameters = {};  ///< although the others are folded
   std::optional<std::vector<std::string>> observe;
 };
 

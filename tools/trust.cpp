@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "tools/run_report.hpp"
 
@@ -44,8 +45,11 @@ Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& 
              const Settings& settings, const Trajectory& trajectory, double budget) {
   Trust trust;
   const std::size_t n = run.initial.size();
-  if (trajectory.status != Status::ok) return trust;
-  if (trajectory.seconds * static_cast<double>(n + 2) > budget) return trust;
+  const auto rounded_parameters =
+      std::count_if(run.parameter_rounding.begin(), run.parameter_rounding.end(),
+                    [](double rounding) { return rounding != 0; });
+  const double runs = static_cast<double>(n + 2) + static_cast<double>(rounded_parameters);
+  if (trajectory.status != Status::ok || trajectory.seconds * runs > budget) return trust;
   const std::vector<double> sizes = sizes_of(trajectory, run.initial);
   Settings bare = settings;
   bare.monitor = false;
@@ -59,19 +63,38 @@ Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& 
   tight.fixed_step = settings.fixed_step / 2;
   const Trajectory better = end_of(tight, run.initial);
   if (better.status != Status::ok) return trust;
-  for (std::size_t j = 0; j < n; ++j) {
+  // How many times a relative change of one input grows; nothing if a run fails.
+  const auto growth_of = [&](const auto& neighbour_at) -> std::optional<double> {
     double growth = 0;
     for (const double change : kChanges) {
-      std::vector<double> moved = run.initial;
-      moved[j] += change * sizes[j];
-      const Trajectory neighbour = end_of(tight, moved);
-      if (neighbour.status != Status::ok) return trust;
+      const Trajectory neighbour = neighbour_at(change);
+      if (neighbour.status != Status::ok) return std::nullopt;
       const double apart = distance(neighbour.state, better.state, sizes);
       growth = std::max(growth, apart / change);
       if (apart < kSmall) break;
     }
-    trust.conditioning = std::max(trust.conditioning, growth);
-    trust.input_rounding += growth * std::abs(run.rounding[j]) / sizes[j];
+    return growth;
+  };
+  for (std::size_t j = 0; j < n; ++j) {
+    const auto growth = growth_of([&](double change) {
+      std::vector<double> moved = run.initial;
+      moved[j] += change * sizes[j];
+      return end_of(tight, moved);
+    });
+    if (!growth) return trust;
+    trust.conditioning = std::max(trust.conditioning, *growth);
+    trust.input_rounding += *growth * std::abs(run.rounding[j]) / sizes[j];
+  }
+  for (std::size_t j = 0; j < run.parameters.size(); ++j) {
+    if (run.parameter_rounding[j] == 0) continue;
+    const auto growth = growth_of([&](double change) {
+      SceneRun moved = run;  // where nothing is compiled, the module holds the parameters
+      moved.parameters[j] *= 1 + change;
+      return integrate(compile_for(moved, method).module, method, tight, moved.initial,
+                       moved.parameters);
+    });
+    if (!growth) return trust;
+    trust.input_rounding += *growth * std::abs(run.parameter_rounding[j] / run.parameters[j]);
   }
   trust.known = true;
   trust.error_estimate = distance(better.state, trajectory.state, sizes) +

@@ -8,6 +8,7 @@
 
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
+#include "tools/kept_parameters.hpp"
 #include "tools/output.hpp"
 #include "tools/plot.hpp"
 #include "tools/run_options.hpp"
@@ -19,6 +20,7 @@ namespace {
 struct Options {
   Common common;
   RunOptions run;
+  KeptParameters kept;
   std::string case_name, output, plot;
   std::vector<std::string> methods{"taylor",  "dop853",      "gauss8",
                                    "gauss16", "cvode-adams", "cvode-bdf"};
@@ -132,10 +134,11 @@ Plot work_precision_plot(const std::vector<Row>& rows, const Model& model, const
 
 int bench(const Options& options) {
   if (!options.plot.empty()) check_plot_name(options.plot);
-  const Model model = model_of(load_case(options.case_name), options.common.parameter_values());
+  const Model model =
+      options.kept.model_of(load_case(options.case_name), options.common.parameter_values());
   const Scene& scene = model.scene(options.common.scene);
   const std::function<bool()> give_up = time_limit(options.common.time_limit);
-  SceneRun specialised = prepare(model, scene);
+  SceneRun specialised = prepare(model, scene, options.kept.in<SceneOptions>());
   SceneRun general =
       prepare(model, scene, {.fold_parameters = false, .observe = std::vector<std::string>{}});
   specialised.duration = general.duration = settings_for(options.run, specialised).duration;
@@ -195,6 +198,7 @@ void register_bench(CLI::App& program, Action& action) {
       ->type_name("X,Y")
       ->check(CLI::PositiveNumber);
   add_run_options(*command, options->run);
+  options->kept.add_to(*command);
   command->add_option("--digits", options->digits, "Digits of our own reference (default 30)")
       ->check(CLI::Range(20, 1000));
   command->add_option("--output", options->output, "Write the rows to this CSV file")

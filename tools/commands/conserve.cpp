@@ -7,6 +7,7 @@
 
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
+#include "tools/kept_parameters.hpp"
 #include "tools/output.hpp"
 #include "tools/run_options.hpp"
 #include "tools/run_report.hpp"
@@ -17,6 +18,7 @@ namespace {
 struct Options {
   Common common;
   RunOptions run;
+  KeptParameters kept;
   std::string case_name, output;
   std::vector<std::string> methods{"taylor", "dop853", "gauss8"};
   double bound = 1e-9;
@@ -34,7 +36,8 @@ double largest_drift(const Trajectory& trajectory) {
 
 Row conserve_one(const Model& model, const Scene& scene, const Method& method,
                  const Options& options, const std::function<bool()>& give_up) {
-  const SceneRun run = prepare(model, scene, {.observe = std::vector<std::string>{}});
+  const SceneRun run =
+      prepare(model, scene, options.kept.in<SceneOptions>({.observe = std::vector<std::string>{}}));
   Settings settings = settings_for(options.run, run, kTolerance);
   settings.give_up = give_up;
   Row row{.case_name = model.name,
@@ -66,7 +69,7 @@ Row conserve_one(const Model& model, const Scene& scene, const Method& method,
 
 void conserve_case(const CaseFile& file, const Options& options,
                    const std::function<bool()>& give_up, std::vector<Row>& rows) {
-  const Model model = model_of(file, options.common.parameter_values());
+  const Model model = options.kept.model_of(file, options.common.parameter_values());
   std::vector<const Scene*> scenes;
   if (options.common.scene_given)
     scenes.push_back(&model.scene(options.common.scene));
@@ -127,6 +130,7 @@ void register_conserve(CLI::App& program, Action& action) {
       ->allow_extra_args(false)
       ->type_name("A,B");
   add_run_options(*command, options->run);
+  options->kept.add_to(*command);
   command->add_option("--output", options->output, "Write the rows to this CSV file")
       ->type_name("FILE.csv");
   command->callback([options, &action] { action = [options] { return conserve(*options); }; });

@@ -8,6 +8,7 @@
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
 #include "tools/generated_report.hpp"
+#include "tools/kept_parameters.hpp"
 #include "tools/output.hpp"
 
 namespace casimir::tools {
@@ -21,29 +22,34 @@ const std::map<std::string, Scalar> kScalars = {{"double", Scalar::real64},
 
 struct Options {
   Common common;
+  KeptParameters kept;
   std::string case_name, output;
   std::vector<std::string> with{"rhs", "invariants", "jacobian"};
   std::vector<std::string> observe;
   Scalar scalar = Scalar::real64;
-  bool keep_params = false;
 };
+
+const std::vector<std::string> kParts = {
+    "rhs", "invariants", "gradients", "jacobian", "sparse-jacobian", "variational", "taylor"};
 
 int generate(const Options& options) {
   if (options.output.empty() && options.common.json)
     throw UsageError("generate --json needs --output FILE for the header");
-  const Model model = model_of(load_case(options.case_name), options.common.parameter_values());
+  const Model model =
+      options.kept.model_of(load_case(options.case_name), options.common.parameter_values());
   const auto wanted = [&](const char* name) {
     return std::find(options.with.begin(), options.with.end(), name) != options.with.end();
   };
-  SpecialiseOptions what;
-  what.fold_parameters = !options.keep_params;
-  what.invariants = wanted("invariants");
-  what.jacobian = wanted("jacobian");
+  auto what = options.kept.in<SpecialiseOptions>();
+  what.gradients = wanted("gradients");
+  what.invariants = wanted("invariants") || what.gradients;
+  what.jacobian = wanted("jacobian") || wanted("sparse-jacobian");
   what.taylor = wanted("taylor");
   what.variational = wanted("variational");
   if (!options.observe.empty()) what.observe = options.observe;
   const Specialisation specialisation = specialise(model, model.scene(options.common.scene), what);
-  const std::string header = emit_header(specialisation, {.scalar = options.scalar});
+  const std::string header = emit_header(
+      specialisation, {.scalar = options.scalar, .sparse_jacobian = wanted("sparse-jacobian")});
   if (options.output.empty()) {
     std::cout << header;
     return kDone;
@@ -58,6 +64,7 @@ int generate(const Options& options) {
                                         {"operations",
                                          {{"general", to_json(specialisation.general)},
                                           {"specialised", to_json(specialisation.specialised)}}},
+                                        {"functions", functions_json(specialisation)},
                                         {"left_out", left_out_json(specialisation)}}
                      .dump(2)
               << '\n';
@@ -82,12 +89,14 @@ void register_generate(CLI::App& program, Action& action) {
       ->add_option("-o,--output", options->output, "The header to write (default: standard output)")
       ->type_name("FILE");
   command
-      ->add_option(
-          "--with", options->with,
-          "Of rhs,invariants,jacobian,taylor,variational (default: the first three; rhs always)")
+      ->add_option("--with", options->with,
+                   "Of rhs, invariants, gradients (of the invariants, which come with them), "
+                   "jacobian (dense, with its pattern), sparse-jacobian (its entries as well), "
+                   "variational, taylor (default: rhs,invariants,jacobian; rhs always)")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember({"rhs", "invariants", "jacobian", "taylor", "variational"}));
+      ->check(CLI::IsMember(kParts).description(""))
+      ->type_name("A,B");
   command
       ->add_option("--observe", options->observe,
                    "States that must be computed; what they do not need is left out")
@@ -99,8 +108,7 @@ void register_generate(CLI::App& program, Action& action) {
                    "Number type: double, float, long-double, float128 or template")
       ->transform(CLI::CheckedTransformer(kScalars, CLI::ignore_case).description(""))
       ->type_name("TYPE");
-  command->add_flag("--keep-params", options->keep_params,
-                    "Keep the parameters as arguments at run time");
+  options->kept.add_to(*command);
   command->callback([options, &action] { action = [options] { return generate(*options); }; });
 }
 

@@ -8,6 +8,7 @@
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
 #include "tools/generated_report.hpp"
+#include "tools/kept_parameters.hpp"
 #include "tools/output.hpp"
 #include "tools/run_options.hpp"
 #include "tools/run_report.hpp"
@@ -22,6 +23,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
   Common common;
   RunOptions run;
+  KeptParameters kept;
   std::string case_name, method = "auto", output;
   std::vector<std::string> observe;
   double every = 0;
@@ -126,12 +128,15 @@ void print_text(const SceneRun& run, const Method& method, const Settings& setti
 }
 
 int integrate_case(const Options& options) {
-  const Model model = model_of(load_case(options.case_name), options.common.parameter_values());
+  const Model model =
+      options.kept.model_of(load_case(options.case_name), options.common.parameter_values());
   const Scene& scene = model.scene(options.common.scene);
   const Method& method = method_named(options.method);
-  SceneOptions how;
-  how.fold_parameters = !options.general;
-  if (options.general) how.observe = std::vector<std::string>{};
+  auto how = options.kept.in<SceneOptions>();
+  if (options.general) {
+    how.fold_parameters = false;
+    how.observe = std::vector<std::string>{};
+  }
   if (!options.observe.empty()) how.observe = options.observe;
   const SceneRun run = prepare(model, scene, how);
   Settings settings = settings_for(options.run, run);
@@ -185,6 +190,7 @@ void register_integrate(CLI::App& program, Action& action) {
   command->add_option("--method", options->method, "A method, or auto: " + method_list())
       ->type_name("NAME");
   add_run_options(*command, options->run);
+  options->kept.add_to(*command);
   command->add_option("--output", options->output, "Write states to this CSV file")
       ->type_name("FILE.csv");
   command
