@@ -300,6 +300,30 @@ void Dag::multiply_root(const cln::cl_RA& base, const cln::cl_RA& exponent, cln:
   multiply(cln::denominator(base), -exponent);
 }
 
+bool Dag::is_radicand(NodeId id) const {
+  const Node& node = (*this)[id];
+  return node.kind == NodeKind::sum &&
+         (node.terms.size() == 1 || cln::minusp(node.terms[0].coefficient));
+}
+
+/// sqrt(1 - x) * (x - 1) = -(1 - x)^(3/2): of the two, the radicand stays.
+void Dag::join_radicands(cln::cl_RA& coefficient, std::map<NodeId, cln::cl_RA>& exponents) {
+  std::vector<NodeId> radicands;
+  for (const auto& [base, exponent] : exponents) {
+    if (is_radicand(base) && !is_integer(exponent)) radicands.push_back(base);
+  }
+  for (const NodeId radicand : radicands) {
+    const std::vector<Scaled> terms = (*this)[radicand].terms;
+    const Scaled opposite = sum(terms);
+    const auto found = exponents.find(opposite.node);
+    if (opposite.coefficient != -1 || found == exponents.end() || !is_integer(found->second))
+      continue;
+    if (cln::oddp(cln::numerator(found->second))) coefficient = -coefficient;
+    exponents.at(radicand) = exponents.at(radicand) + found->second;
+    exponents.erase(found);
+  }
+}
+
 Scaled Dag::assemble(cln::cl_RA coefficient, std::vector<Factor> factors) {
   if (coefficient == 0) return {0, kOne};
   std::map<NodeId, cln::cl_RA> exponents;
@@ -307,6 +331,7 @@ Scaled Dag::assemble(cln::cl_RA coefficient, std::vector<Factor> factors) {
     const auto [place, is_new] = exponents.try_emplace(f.node, f.exponent);
     if (!is_new) place->second = place->second + f.exponent;
   }
+  join_radicands(coefficient, exponents);
   Node node;
   node.kind = NodeKind::product;
   for (const auto& [base, exponent] : exponents) {
@@ -318,9 +343,7 @@ Scaled Dag::assemble(cln::cl_RA coefficient, std::vector<Factor> factors) {
       node.factors.insert(node.factors.end(), rest.begin(), rest.end());
       continue;
     }
-    const bool is_radicand = inner.kind == NodeKind::sum &&
-                             (inner.terms.size() == 1 || cln::minusp(inner.terms[0].coefficient));
-    if (is_radicand && is_integer(exponent)) {
+    if (is_radicand(base) && is_integer(exponent)) {
       const std::vector<Scaled> terms = inner.terms;
       multiply_in(sum(terms), exponent, coefficient, node.factors);
       continue;

@@ -109,6 +109,9 @@ class Dag {
                    std::vector<Factor>& factors);
   void multiply_root(const cln::cl_RA& base, const cln::cl_RA& exponent, cln::cl_RA& coefficient,
                      std::vector<Factor>& factors);
+  /// Whether this is the opposite of a sum in its normal form, made for a root of it.
+  bool is_radicand(NodeId id) const;
+  void join_radicands(cln::cl_RA& coefficient, std::map<NodeId, cln::cl_RA>& exponents);
   NodeId intern(Node node);
   int compare_atoms(NodeId a, NodeId b) const;
   std::vector<Factor> factors_of(NodeId id) const;

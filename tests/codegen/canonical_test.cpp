@@ -96,6 +96,16 @@ TEST(Canonical, EqualExpressionsAreOneNode) {
   EXPECT_EQ(s.text(sin(s.y - s.x) + cos(s.y - s.x)), "-sin(x - y) + cos(x - y)");
 }
 
+TEST(Canonical, RootsOfADifferenceAndItsPowersAreOneBase) {
+  // The normal form of 1 - x is x - 1; under a root it cannot change its sign.
+  Symbols s;
+  const ex root = sqrt(1 - s.x);
+  EXPECT_EQ(s.text(root / (1 - s.x)), s.text(pow(1 - s.x, ex(-1) / 2)));
+  EXPECT_EQ(s.text((s.x - 1) * root), s.text(-pow(1 - s.x, ex(3) / 2)));
+  EXPECT_EQ(s.text(pow(s.x - 1, 2) * s.y / root), s.text(s.y * pow(1 - s.x, ex(3) / 2)));
+  EXPECT_EQ(s.text(root * root), "-x + 1");
+}
+
 TEST(Canonical, RefusesWhatIsNotRealOrNotKnown) {
   Symbols s;
   EXPECT_NE(message(s, s.x + sqrt(ex(-2))).find("negative number -2"), std::string::npos);

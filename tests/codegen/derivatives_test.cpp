@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "codegen/emit_cpp.hpp"
+#include "runtime/evaluate.hpp"
 #include "support.hpp"
 
 namespace casimir {
@@ -157,6 +158,70 @@ TEST(Derivatives, VariationalProgramIsExact) {
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_EQ(both[i], rates[i]);
     EXPECT_EQ(both[i + 6], along[i]);
+  }
+}
+
+using Wide = std::vector<cln::cl_F>;
+
+/// A classical Runge-Kutta step of a program that is a right-hand side of these states and the
+/// time.
+Wide step(const Program& rhs, const Wide& x, const cln::cl_F& t, const cln::cl_F& h) {
+  const Arithmetic<cln::cl_F> arithmetic(60);
+  const cln::cl_F half = h / 2;
+  const auto rates = [&](const Wide& at, const cln::cl_F& time) {
+    Wide inputs = at;
+    inputs.push_back(time);
+    return evaluate(rhs, inputs, arithmetic);
+  };
+  const auto moved = [&](const Wide& k, const cln::cl_F& by) {
+    Wide y = x;
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] = y[i] + by * k[i];
+    return y;
+  };
+  const Wide k1 = rates(x, t);
+  const Wide k2 = rates(moved(k1, half), t + half);
+  const Wide k3 = rates(moved(k2, half), t + half);
+  const Wide k4 = rates(moved(k3, h), t + h);
+  Wide y = x;
+  for (std::size_t i = 0; i < y.size(); ++i)
+    y[i] = y[i] + h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
+  return y;
+}
+
+TEST(Derivatives, TheVariationalFlowIsTheDerivativeOfTheFlow) {
+  // A Runge-Kutta method commutes with differentiation: its steps of the variational equations are
+  // the derivative of its steps, whatever their size.
+  const Arithmetic<cln::cl_F> arithmetic(60);
+  for (const std::string& toml : {std::string(kKovalevskaya), everything()}) {
+    const Specialisation spec = testing::specialised(toml, with_derivatives());
+    const std::size_t n = spec.states.size();
+    testing::Points points;
+    Wide x, deviation;
+    for (std::size_t i = 0; i < n; ++i) {
+      x.push_back(arithmetic.from(cln::cl_RA(1) / 2 + points.next() / 16));
+      deviation.push_back(arithmetic.from(points.next()));
+    }
+    const cln::cl_F h = arithmetic.from(cln::cl_RA(1) / 16);
+    const auto end_of = [&](const Program& rhs, Wide at) {
+      cln::cl_F t = arithmetic.from(cln::cl_RA(0));
+      for (int k = 0; k < 8; ++k, t = t + h) at = step(rhs, at, t, h);
+      return at;
+    };
+    const cln::cl_F change = arithmetic.from(cln::expt(cln::cl_RA(10), -20));
+    Wide both = x, left = x, right = x;
+    both.insert(both.end(), deviation.begin(), deviation.end());
+    for (std::size_t i = 0; i < n; ++i) {
+      left[i] = left[i] - change * deviation[i];
+      right[i] = right[i] + change * deviation[i];
+    }
+    const Wide along = end_of(spec.variational, both);
+    left = end_of(spec.rhs, left);
+    right = end_of(spec.rhs, right);
+    for (std::size_t i = 0; i < n; ++i) {
+      const cln::cl_F quotient = (right[i] - left[i]) / (2 * change);
+      EXPECT_LT(std::fabs(cln::double_approx(along[n + i] - quotient)), 1e-35) << spec.states[i];
+      EXPECT_GT(std::fabs(cln::double_approx(quotient)), 1e-3);
+    }
   }
 }
 
