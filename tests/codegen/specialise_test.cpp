@@ -193,6 +193,11 @@ TEST(Specialise, IrrationalParametersStayExact) {
 TEST(Specialise, HiddenZerosLeaveTheJacobian) {
   const Specialisation spec = specialised(equations({{"u", "(u + v)*v - u*v"}, {"v", "u*v"}}));
   EXPECT_EQ(spec.jacobian.entries, (std::vector<std::pair<int, int>>{{1, 0}, {0, 1}, {1, 1}}));
+  // One that only multiplying out shows, in the file's form and not in the shortest.
+  const Specialisation cubic =
+      specialised(equations({{"u", "(u + v)^3 - u^3 - 3*u^2*v - 3*u*v^2 + v"}, {"v", "u*v"}}));
+  EXPECT_EQ(cubic.jacobian.entries, spec.jacobian.entries);
+  EXPECT_EQ(exact(cubic.jacobian.program, {2, 5, 0}), (std::vector<cln::cl_RA>{5, 76, 2}));
 }
 
 }  // namespace
