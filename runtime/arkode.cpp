@@ -1,0 +1,104 @@
+#include "runtime/arkode.hpp"
+
+#include <arkode/arkode_erkstep.h>
+
+#include <algorithm>
+#include <new>
+
+#include "runtime/sundials.hpp"
+
+namespace casimir {
+namespace {
+
+using sundials::Owned;
+using sundials::Problem;
+
+/// The objects of one ARKODE run.
+class Solver {
+ public:
+  Solver(const Settings& settings, Problem& problem, double begin, double end,
+         const std::vector<double>& initial)
+      : context_(sundials::new_context()), state_(sundials::new_vector(initial, context_.get())) {
+    memory_ = ERKStepCreate(sundials::rhs, begin, state_.get(), context_.get());
+    if (memory_ == nullptr) throw std::bad_alloc();
+    ERKStepSetErrHandlerFn(memory_, sundials::keep_quiet, nullptr);
+    ERKStepSetTableNum(memory_, ARKODE_FEHLBERG_13_7_8);
+    ERKStepSStolerances(memory_, settings.rtol, settings.atol);
+    ERKStepSetUserData(memory_, &problem);
+    ERKStepSetMaxNumSteps(memory_, -1);
+    // The library's interpolation is of order 5 at most, and keeping it up costs time at every step.
+    ERKStepSetInterpolantDegree(memory_, 1);
+    ERKStepSetStopTime(memory_, end);
+  }
+  ~Solver() { ERKStepFree(&memory_); }
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
+
+  void* memory() { return memory_; }
+  N_Vector state() { return state_.get(); }
+  const double* x() { return N_VGetArrayPointer(state_.get()); }
+  int evolve(double end, realtype* t, int task) {
+    return ERKStepEvolve(memory_, end, state_.get(), t, task);
+  }
+
+ private:
+  Owned<SUNContext> context_;
+  Owned<N_Vector> state_;
+  void* memory_ = nullptr;
+};
+
+Status meaning(int flag) {
+  switch (flag) {
+    case ARK_RHSFUNC_FAIL:
+    case ARK_FIRST_RHSFUNC_ERR:
+    case ARK_REPTD_RHSFUNC_ERR:
+    case ARK_UNREC_RHSFUNC_ERR:
+      return Status::non_finite;
+    default:
+      return Status::step_underflow;
+  }
+}
+
+void read_counts(void* memory, Trajectory& trajectory) {
+  long steps = 0;
+  long failures = 0;
+  long evaluations = 0;
+  ERKStepGetNumSteps(memory, &steps);
+  ERKStepGetNumErrTestFails(memory, &failures);
+  ERKStepGetNumRhsEvals(memory, &evaluations);
+  trajectory.steps = static_cast<unsigned long long>(steps);
+  trajectory.rejected = static_cast<unsigned long long>(failures);
+  trajectory.evaluations = static_cast<unsigned long long>(evaluations);
+}
+
+}  // namespace
+
+void integrate_with_arkode(const Module& module, const Settings& settings,
+                           const double* parameters, Observer& observer, Trajectory& trajectory) {
+  Problem problem{&module.functions(), parameters};
+  if (!sundials::starts_well(problem, settings, trajectory) || settings.duration == 0) return;
+  Solver solver(settings, problem, 0, settings.duration, trajectory.state);
+  // Where the last step began, for the states inside it.
+  std::vector<double> before = trajectory.state;
+  double before_time = 0;
+  const bool sampled = settings.sample_every > 0;
+  const sundials::Stepper stepper{
+      [&](realtype* t) {
+        if (sampled) {
+          before = trajectory.state;
+          before_time = trajectory.time;
+        }
+        return solver.evolve(settings.duration, t, ARK_ONE_STEP);
+      },
+      [&](double t, double* x) {
+        Solver inside(settings, problem, before_time, t, before);
+        realtype reached = before_time;
+        if (t != before_time) inside.evolve(t, &reached, ARK_NORMAL);
+        std::copy_n(inside.x(), before.size(), x);
+      },
+      meaning};
+  sundials::integrate(problem, settings, observer, trajectory, solver.x(), stepper);
+  read_counts(solver.memory(), trajectory);
+}
+
+}  // namespace casimir
