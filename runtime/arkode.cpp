@@ -3,6 +3,7 @@
 #include <arkode/arkode_erkstep.h>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 
 #include "runtime/sundials.hpp"
@@ -12,6 +13,12 @@ namespace {
 
 using sundials::Owned;
 using sundials::Problem;
+
+/// Whether a step failed because the right-hand side had no value somewhere in it.
+bool no_value(int flag) {
+  return flag == ARK_RHSFUNC_FAIL || flag == ARK_FIRST_RHSFUNC_ERR ||
+         flag == ARK_REPTD_RHSFUNC_ERR || flag == ARK_UNREC_RHSFUNC_ERR;
+}
 
 /// The objects of one ARKODE run.
 class Solver {
@@ -26,7 +33,8 @@ class Solver {
     ERKStepSStolerances(memory_, settings.rtol, settings.atol);
     ERKStepSetUserData(memory_, &problem);
     ERKStepSetMaxNumSteps(memory_, -1);
-    // The library's interpolation is of order 5 at most, and keeping it up costs time at every step.
+    // The library's interpolation is of order 5 at most, and keeping it up costs time at every
+    // step.
     ERKStepSetInterpolantDegree(memory_, 1);
     ERKStepSetStopTime(memory_, end);
   }
@@ -41,23 +49,35 @@ class Solver {
     return ERKStepEvolve(memory_, end, state_.get(), t, task);
   }
 
+  /// One step from `t` and `x`. The library gives up where a stage has no value, although a shorter
+  /// step may have one: tries tenths of it.
+  int step(double end, realtype* t, const std::vector<double>& x) {
+    const double begin = *t;
+    int flag = evolve(end, t, ARK_ONE_STEP);
+    if (!no_value(flag)) return flag;
+    realtype h = 0;
+    ERKStepGetCurrentStep(memory_, &h);
+    for (h = std::abs(h) / 10; no_value(flag) && h > kSmallest * std::abs(begin); h /= 10) {
+      *t = begin;
+      std::copy(x.begin(), x.end(), N_VGetArrayPointer(state_.get()));
+      ERKStepReset(memory_, begin, state_.get());
+      ERKStepSetMaxStep(memory_, h);
+      flag = evolve(end, t, ARK_ONE_STEP);
+    }
+    ERKStepSetMaxStep(memory_, 0);  // no limit
+    return flag;
+  }
+
  private:
+  /// Of the time: a shorter step is lost in rounding.
+  static constexpr double kSmallest = 1e-15;
+
   Owned<SUNContext> context_;
   Owned<N_Vector> state_;
   void* memory_ = nullptr;
 };
 
-Status meaning(int flag) {
-  switch (flag) {
-    case ARK_RHSFUNC_FAIL:
-    case ARK_FIRST_RHSFUNC_ERR:
-    case ARK_REPTD_RHSFUNC_ERR:
-    case ARK_UNREC_RHSFUNC_ERR:
-      return Status::non_finite;
-    default:
-      return Status::step_underflow;
-  }
-}
+Status meaning(int flag) { return no_value(flag) ? Status::non_finite : Status::step_underflow; }
 
 void read_counts(void* memory, Trajectory& trajectory) {
   long steps = 0;
@@ -73,8 +93,8 @@ void read_counts(void* memory, Trajectory& trajectory) {
 
 }  // namespace
 
-void integrate_with_arkode(const Module& module, const Settings& settings,
-                           const double* parameters, Observer& observer, Trajectory& trajectory) {
+void integrate_with_arkode(const Module& module, const Settings& settings, const double* parameters,
+                           Observer& observer, Trajectory& trajectory) {
   Problem problem{&module.functions(), parameters};
   if (!sundials::starts_well(problem, settings, trajectory) || settings.duration == 0) return;
   Solver solver(settings, problem, 0, settings.duration, trajectory.state);
@@ -82,21 +102,20 @@ void integrate_with_arkode(const Module& module, const Settings& settings,
   std::vector<double> before = trajectory.state;
   double before_time = 0;
   const bool sampled = settings.sample_every > 0;
-  const sundials::Stepper stepper{
-      [&](realtype* t) {
-        if (sampled) {
-          before = trajectory.state;
-          before_time = trajectory.time;
-        }
-        return solver.evolve(settings.duration, t, ARK_ONE_STEP);
-      },
-      [&](double t, double* x) {
-        Solver inside(settings, problem, before_time, t, before);
-        realtype reached = before_time;
-        if (t != before_time) inside.evolve(t, &reached, ARK_NORMAL);
-        std::copy_n(inside.x(), before.size(), x);
-      },
-      meaning};
+  const sundials::Stepper stepper{[&](realtype* t) {
+                                    if (sampled) {
+                                      before = trajectory.state;
+                                      before_time = trajectory.time;
+                                    }
+                                    return solver.step(settings.duration, t, trajectory.state);
+                                  },
+                                  [&](double t, double* x) {
+                                    Solver inside(settings, problem, before_time, t, before);
+                                    realtype reached = before_time;
+                                    if (t != before_time) inside.evolve(t, &reached, ARK_NORMAL);
+                                    std::copy_n(inside.x(), before.size(), x);
+                                  },
+                                  meaning};
   sundials::integrate(problem, settings, observer, trajectory, solver.x(), stepper);
   read_counts(solver.memory(), trajectory);
 }

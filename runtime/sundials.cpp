@@ -1,9 +1,23 @@
 #include "runtime/sundials.hpp"
 
+#include <sundials/sundials_version.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <new>
+
+#include "runtime/sundials_version.hpp"
+
+namespace casimir {
+
+std::string sundials_version() {
+  char text[64] = "";
+  SUNDIALSGetVersion(text, static_cast<int>(sizeof text));
+  return text;
+}
+
+}  // namespace casimir
 
 namespace casimir::sundials {
 namespace {

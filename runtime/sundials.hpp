@@ -59,8 +59,7 @@ struct Stepper {
 /// Makes the stepper and steps to the end. Fills in status, time, state, steps and seconds;
 /// `observer` sees every step. Without a number at the start nothing is made.
 void integrate(const Problem& problem, const Settings& settings, Observer& observer,
-               Trajectory& trajectory, const double* x,
-               const Stepper& stepper);
+               Trajectory& trajectory, const double* x, const Stepper& stepper);
 
 /// Whether the start and the slope there are finite; if not, the status says so.
 bool starts_well(const Problem& problem, const Settings& settings, Trajectory& trajectory);

@@ -47,8 +47,9 @@ Sample watched_run(const Entrant& e, const Truth& truth, double longest,
   Settings watched = e.settings;
   watched.monitor = true;
   watched.sample_every = 0;
+  constexpr double kYear = 3e7;  // a longer time may not fit into the clock's type
   const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                      std::chrono::duration<double>(longest));
+                                      std::chrono::duration<double>(std::min(longest, kYear)));
   Sample sample;
   // Asking the clock costs more than a short step.
   unsigned asked = 0;
@@ -221,8 +222,7 @@ double conditioning(const Entrant& entrant, const Truth& truth, int times) {
   const auto distance = [&](const std::vector<double>& a, const std::vector<double>& b) {
     double largest = 0;
     for (std::size_t i = 0; i < truth.scale.size(); ++i) {
-      const auto place =
-          entrant.which.empty() ? i : static_cast<std::size_t>(entrant.which[i]);
+      const auto place = entrant.which.empty() ? i : static_cast<std::size_t>(entrant.which[i]);
       largest = std::max(largest, std::abs(a[place] - b[place]) / truth.scale[i]);
     }
     return largest;
@@ -235,8 +235,7 @@ double conditioning(const Entrant& entrant, const Truth& truth, int times) {
     const Trajectory end = run(rest, from);
     if (end.status != Status::ok) return kInfinity;
     for (std::size_t j = 0; j < truth.scale.size(); ++j) {
-      const auto place =
-          entrant.which.empty() ? j : static_cast<std::size_t>(entrant.which[j]);
+      const auto place = entrant.which.empty() ? j : static_cast<std::size_t>(entrant.which[j]);
       double growth = 0;
       for (const double change : kChanges) {
         std::vector<double> moved = from;
@@ -254,6 +253,16 @@ double conditioning(const Entrant& entrant, const Truth& truth, int times) {
     from = next.state;
   }
   return largest;
+}
+
+double explained_error(const Entrant& entrant, const Sample& sample, const Truth& truth,
+                       double conditioning) {
+  if (entrant.settings.fixed_step > 0) return kInfinity;
+  constexpr double kGenerous = 1000;
+  const double smallest = *std::min_element(truth.scale.begin(), truth.scale.end());
+  const double of_a_step = entrant.settings.rtol + entrant.settings.atol / smallest +
+                           std::numeric_limits<double>::epsilon();
+  return kGenerous * conditioning * static_cast<double>(sample.steps) * of_a_step;
 }
 
 }  // namespace casimir

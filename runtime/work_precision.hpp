@@ -31,24 +31,24 @@ struct Entrant {
 /// The error of a run beside its time. A time without an error is not reported.
 struct Sample {
   Status status = Status::ok;
-  std::string refused;  ///< why the run was not begun, or empty
-  bool too_slow = false;  ///< not run to its end, or not begun, because of Plan::longest_run
-  double error = 0;    ///< see `error_of`; not a number where the end was not reached
-  double drift = 0;    ///< the largest of all invariants
-  double seconds = 0;  ///< of the integration alone: median over the rounds, after a warm-up
-  double spread = 0;   ///< half the distance of the quartiles
-  int rounds = 0;      ///< in which it was timed
+  std::string refused = {};  ///< why the run was not begun, or empty
+  bool too_slow = false;     ///< not run to its end, or not begun, because of Plan::longest_run
+  double error = 0;          ///< see `error_of`; not a number where the end was not reached
+  double drift = 0;          ///< the largest of all invariants
+  double seconds = 0;        ///< of the integration alone: median over the rounds, after a warm-up
+  double spread = 0;         ///< half the distance of the quartiles
+  int rounds = 0;            ///< in which it was timed
   unsigned long long steps = 0, evaluations = 0;
 };
 
 /// How much is measured.
 struct Plan {
-  double budget = 8;        ///< seconds for the timed rounds of all entrants together
-  int rounds = 0;           ///< > 0: that many rounds for everybody, whatever it costs
+  double budget = 8;         ///< seconds for the timed rounds of all entrants together
+  int rounds = 0;            ///< > 0: that many rounds for everybody, whatever it costs
   double longest_run = 0.2;  ///< seconds; what takes longer is given up, and so is whatever follows
                              ///< it with the same method on the same module
-  std::function<bool()> give_up;                ///< true ends it all: `measure` throws Abandoned
-  std::function<void(double share)> progress;  ///< told now and then what share is done
+  std::function<bool()> give_up = {};  ///< true ends it all: `measure` throws Abandoned
+  std::function<void(double share)> progress = {};  ///< told now and then what share is done
 };
 
 /// Plan::give_up said so.
@@ -71,5 +71,11 @@ std::vector<Sample> measure(std::span<const Entrant> entrants, const Truth& trut
 /// \param times  how many, the start among them; 1 for equations that depend on the time, which an
 ///               integration counts from zero.
 double conditioning(const Entrant& entrant, const Truth& truth, int times = 8);
+
+/// The largest error that tolerance and rounding explain: a thousand times what arrives at the end
+/// if every step does all of the harm that it may, steps * conditioning * (tolerance + 2^-52), the
+/// tolerance relative to the scales of `truth`. Infinite without error control.
+double explained_error(const Entrant& entrant, const Sample& sample, const Truth& truth,
+                       double conditioning);
 
 }  // namespace casimir

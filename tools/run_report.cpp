@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 
@@ -44,6 +45,7 @@ Json to_json(const std::vector<Row>& rows) {
                     {"evaluations", row.evaluations},
                     {"status", row.status},
                     {"failed", row.failed}});
+    if (!row.reason.empty()) list.back()["reason"] = row.reason;
   }
   return {{"rows", list}, {"failed", failed}};
 }
@@ -60,21 +62,29 @@ void write_csv(std::ostream& stream, const std::vector<Row>& rows) {
 }
 
 std::string to_text(const std::vector<Row>& rows, bool with_error) {
+  const bool repeated =
+      std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.spread > 0; });
+  // A column that is there or not.
+  const auto column = [](bool there, std::size_t width, const std::string& content) {
+    return there ? fmt::format("{:>{}} ", content, width) : "";
+  };
   std::string text;
   std::string head;
   for (const Row& row : rows) {
     const std::string title = fmt::format("{}, scene '{}'\n", row.case_name, row.scene);
     if (title != head) {
       head = title;
-      text += title + fmt::format("  {:<18} {:<12} {:>9} {}{:>9} {:>10} {:>9} {:>11}  {}\n",
-                                  "method", "code", "tolerance", with_error ? "    error  " : "",
-                                  "drift", "time", "steps", "evaluations", "status");
+      text +=
+          title + fmt::format("  {:<18} {:<12} {:>9} {}{:>9} {:>10} {}{:>9} {:>11}  {}\n", "method",
+                              "code", "tolerance", column(with_error, 9, "error"), "drift", "time",
+                              column(repeated, 6, "spread"), "steps", "evaluations", "status");
     }
-    text += fmt::format("  {:<18} {:<12} {:>9.0e} {}{:>9} {:>10} {:>9} {:>11}  {}\n", row.method,
-                        row.code, row.tolerance,
-                        with_error ? fmt::format("{:>9}  ", short_number(row.error)) : "",
-                        short_number(row.drift), duration_text(row.seconds), row.steps,
-                        row.evaluations, row.status);
+    text +=
+        fmt::format("  {:<18} {:<12} {:>9.0e} {}{:>9} {:>10} {}{:>9} {:>11}  {}\n", row.method,
+                    row.code, row.tolerance, column(with_error, 9, short_number(row.error)),
+                    short_number(row.drift), duration_text(row.seconds),
+                    column(repeated, 6, fmt::format("{:.1f} %", 100 * row.spread / row.seconds)),
+                    row.steps, row.evaluations, row.status);
   }
   return text;
 }

@@ -168,6 +168,16 @@ struct Saddle {
   }
 };
 
+// x' = -x until 5, then x' = x, smoothly: a change at the start has its old size again at the end,
+// one in the middle has grown by e^2.5. The time is a state here.
+struct Turn {
+  static constexpr int n = 2;
+  static void rhs(double, const double* x, const double*, double* d) {
+    d[0] = (x[1] - 5) / 5 * x[0];
+    d[1] = 1;
+  }
+};
+
 TEST(Conditioning, IsTheGrowthOfChanges) {
   const Module module = module_of<Saddle>(dop853<Saddle>);
   Settings settings;
@@ -180,15 +190,6 @@ TEST(Conditioning, IsTheGrowthOfChanges) {
 }
 
 TEST(Conditioning, FindsGrowthThatBeginsLate) {
-  // x' = -x until 5, then x' = x: a change at the start is at its old size at the end, one in the
-  // middle has grown by e^5. The time is a state here.
-  struct Turn {
-    static constexpr int n = 2;
-    static void rhs(double, const double* x, const double*, double* d) {
-      d[0] = (x[1] - 5) / 5 * x[0];
-      d[1] = 1;
-    }
-  };
   const Module module = module_of<Turn>(dop853<Turn>);
   Settings settings;
   settings.duration = 10;
@@ -196,6 +197,23 @@ TEST(Conditioning, FindsGrowthThatBeginsLate) {
   const Truth truth = {{0, 0}, {0, 0}, {1, 10}};
   EXPECT_NEAR(conditioning(entrant, truth, 1), 1, 1e-2);
   EXPECT_NEAR(conditioning(entrant, truth) / std::exp(2.5), 1, 1e-2);
+}
+
+TEST(WorkPrecision, ToleranceExplainsOnlySoMuch) {
+  const OscillatorRuns runs;
+  const Entrant entrant = runs.entrant(1e-8);
+  const auto samples = measure(std::vector{entrant}, runs.truth, {.rounds = 1});
+  const double growth = conditioning(entrant, runs.truth);
+  EXPECT_NEAR(growth, std::sqrt(2.), 0.5);
+  const double explained = explained_error(entrant, samples.at(0), runs.truth, growth);
+  EXPECT_LT(samples.at(0).error, explained / 100);
+  EXPECT_LT(explained, 0.1) << "an error far above the tolerance is not excused";
+  // States that are small beside the absolute tolerance may be off by more.
+  const Truth small = {{0, 0}, {0, 0}, {1, 1e-3}};
+  EXPECT_GT(explained_error(entrant, samples.at(0), small, growth), 100 * explained);
+  Entrant fixed = entrant;
+  fixed.settings.fixed_step = 0.1;
+  EXPECT_EQ(explained_error(fixed, samples.at(0), runs.truth, growth), INFINITY);
 }
 
 TEST(EqualError, InterpolatesInLogarithms) {
