@@ -42,8 +42,6 @@ class Solver {
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
 
-  void* memory() { return memory_; }
-  N_Vector state() { return state_.get(); }
   const double* x() { return N_VGetArrayPointer(state_.get()); }
   int evolve(double end, realtype* t, int task) {
     return ERKStepEvolve(memory_, end, state_.get(), t, task);
@@ -54,42 +52,56 @@ class Solver {
   int step(double end, realtype* t, const std::vector<double>& x) {
     const double begin = *t;
     int flag = evolve(end, t, ARK_ONE_STEP);
-    if (!no_value(flag)) return flag;
     realtype h = 0;
     ERKStepGetCurrentStep(memory_, &h);
-    for (h = std::abs(h) / 10; no_value(flag) && h > kSmallest * std::abs(begin); h /= 10) {
+    while (no_value(flag) && std::abs(h) > kSmallest * std::abs(begin)) {
+      h /= 10;
+      restart(begin, end, x, h);
       *t = begin;
-      std::copy(x.begin(), x.end(), N_VGetArrayPointer(state_.get()));
-      ERKStepReset(memory_, begin, state_.get());
-      ERKStepSetMaxStep(memory_, h);
       flag = evolve(end, t, ARK_ONE_STEP);
     }
-    ERKStepSetMaxStep(memory_, 0);  // no limit
     return flag;
+  }
+
+  void read_counts(Trajectory& trajectory) {
+    add_counts();
+    trajectory.steps = static_cast<unsigned long long>(steps_);
+    trajectory.rejected = static_cast<unsigned long long>(failures_);
+    trajectory.evaluations = static_cast<unsigned long long>(evaluations_);
   }
 
  private:
   /// Of the time: a shorter step is lost in rounding.
   static constexpr double kSmallest = 1e-15;
 
+  void restart(double begin, double end, const std::vector<double>& x, double h) {
+    add_counts();
+    std::copy(x.begin(), x.end(), N_VGetArrayPointer(state_.get()));
+    ERKStepReInit(memory_, sundials::rhs, begin, state_.get());
+    ERKStepSetStopTime(memory_, end);
+    ERKStepSetInitStep(memory_, h);
+  }
+
+  /// The library counts anew after each restart.
+  void add_counts() {
+    long steps = 0;
+    long failures = 0;
+    long evaluations = 0;
+    ERKStepGetNumSteps(memory_, &steps);
+    ERKStepGetNumErrTestFails(memory_, &failures);
+    ERKStepGetNumRhsEvals(memory_, &evaluations);
+    steps_ += steps;
+    failures_ += failures;
+    evaluations_ += evaluations;
+  }
+
   Owned<SUNContext> context_;
   Owned<N_Vector> state_;
   void* memory_ = nullptr;
+  long steps_ = 0, failures_ = 0, evaluations_ = 0;
 };
 
 Status meaning(int flag) { return no_value(flag) ? Status::non_finite : Status::step_underflow; }
-
-void read_counts(void* memory, Trajectory& trajectory) {
-  long steps = 0;
-  long failures = 0;
-  long evaluations = 0;
-  ERKStepGetNumSteps(memory, &steps);
-  ERKStepGetNumErrTestFails(memory, &failures);
-  ERKStepGetNumRhsEvals(memory, &evaluations);
-  trajectory.steps = static_cast<unsigned long long>(steps);
-  trajectory.rejected = static_cast<unsigned long long>(failures);
-  trajectory.evaluations = static_cast<unsigned long long>(evaluations);
-}
 
 }  // namespace
 
@@ -117,7 +129,7 @@ void integrate_with_arkode(const Module& module, const Settings& settings, const
                                   },
                                   meaning};
   sundials::integrate(problem, settings, observer, trajectory, solver.x(), stepper);
-  read_counts(solver.memory(), trajectory);
+  solver.read_counts(trajectory);
 }
 
 }  // namespace casimir

@@ -45,8 +45,8 @@ struct Sample {
 struct Plan {
   double budget = 8;         ///< seconds for the timed rounds of all entrants together
   int rounds = 0;            ///< > 0: that many rounds for everybody, whatever it costs
-  double longest_run = 0.2;  ///< seconds; what takes longer is given up, and so is whatever follows
-                             ///< it with the same method on the same module
+  double longest_run = 0.2;  ///< seconds of the processor; what takes longer is given up, and so is
+                             ///< whatever follows it with the same method on the same module
   std::function<bool()> give_up = {};  ///< true ends it all: `measure` throws Abandoned
   std::function<void(double share)> progress = {};  ///< told now and then what share is done
 };
@@ -57,8 +57,9 @@ struct Abandoned {};
 /// Runs everybody once for error and drift, once more to warm up, and then in rounds: one turn of
 /// each entrant a round, in an order drawn anew for every round, so that what disturbs the machine
 /// for a while hits all alike. A turn of a short run is a batch of several after one that does not
-/// count, so that neither the resolution of the clock nor cold caches matter. Slow entrants take
-/// part in fewer rounds, spread over the whole time, at least three of them.
+/// count, so that neither the resolution of the clock nor cold caches matter. Time in which other
+/// programs had the processor does not count. Slow entrants take part in fewer rounds, spread over
+/// the whole time, at least three of them.
 ///
 /// The error is that of the timed runs as well: where one ends elsewhere, the larger error counts.
 /// \throws Abandoned

@@ -54,22 +54,26 @@ std::string style_of(const Curve& curve, std::size_t group) {
   const char* colour = kColours[group % std::size(kColours)];
   switch (curve.style) {
     case Curve::Style::variant:
-      return fmt::format("points lw 1.2 pt {} ps 1.5 lc rgb '{}'", mark.open, colour);
+      return fmt::format("points lw 1.2 pt {} ps 1.8 lc rgb '{}'", mark.open, colour);
     case Curve::Style::outside:
-      return fmt::format("linespoints lw 1.6 dt 2 pt {} ps 0.9 lc rgb '{}'", mark.open, colour);
+      return fmt::format("linespoints lw 1.6 dt (8,4) pt {} ps 1.1 lc rgb '{}'", mark.open, colour);
     default:
-      return fmt::format("linespoints lw 2 pt {} ps 0.8 lc rgb '{}'", mark.filled, colour);
+      return fmt::format("linespoints lw 2 pt {} ps 1.0 lc rgb '{}'", mark.filled, colour);
   }
 }
 
 std::string script(const Plot& plot, const std::string& terminal, const std::string& output) {
-  std::string text =
-      fmt::format("set terminal {} noenhanced\nset output {}\n", terminal, quoted(output));
+  std::string text = fmt::format("set encoding utf8\nset terminal {} noenhanced\nset output {}\n",
+                                 terminal, quoted(output));
   if (!plot.title.empty()) text += fmt::format("set title {}\n", quoted(plot.title));
   text += fmt::format("set xlabel {}\nset ylabel {}\n", quoted(plot.x_label), quoted(plot.y_label));
-  text += "set grid lc rgb '#d0d0d0'\nset key outside right top\nset tics nomirror\nset border 3\n";
-  if (plot.log_x) text += "set logscale x\nset format x '1e%T'\n";
+  text +=
+      "set grid lt 1 lw 0.8 lc rgb '#d8d8d8'\nset key outside right top Left reverse\nset tics "
+      "nomirror\nset border 3\n";
+  if (plot.log_x) text += "set logscale x\nunset mxtics\nset format x '1e%T'\n";
   if (plot.log_y) text += "set logscale y\nset format y '1e%T'\n";
+  if (!plot.y_unit.empty())
+    text += fmt::format("set format y {}\n", quoted("%.0s %c" + plot.y_unit));
   std::string commands;
   std::size_t group = 0;
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
@@ -145,8 +149,9 @@ void check_plot_name(const std::string& path) {
 
 void draw(const Plot& plot, const std::string& path) {
   check_plot_name(path);
-  const std::string terminal =
-      path.ends_with(".svg") ? kSvg : "png size 1300,780 font 'sans,13' background rgb 'white'";
+  const std::string terminal = path.ends_with(".svg")
+                                   ? kSvg
+                                   : "pngcairo size 1300,780 font 'sans,13' background rgb 'white'";
   OutputFile picture(path);
   draw_with(terminal, plot, picture);
   picture.commit();

@@ -19,9 +19,10 @@ struct Curve {
 };
 
 struct Plot {
-  std::string title, x_label, y_label;
+  std::string title = {}, x_label = {}, y_label = {};
   bool log_x = false, log_y = false;
-  std::vector<Curve> curves;  ///< one without points stays out of the legend
+  std::string y_unit = {};         ///< "s": the labels of the axis say "100 us", "1 ms", ..
+  std::vector<Curve> curves = {};  ///< one without points stays out of the legend
 };
 
 /// Throws UsageError unless the name ends in .svg or .png: before any work is done for it.

@@ -24,8 +24,8 @@ constexpr double kGood = 1e-17;
 
 /// The end states of a scene in high precision.
 struct EndState {
-  std::vector<cln::cl_F> state;
-  std::string reason;  ///< why there is none
+  std::vector<cln::cl_F> state = {};
+  std::string reason = {};  ///< why there is none
   Exit failure = kDone;
   double error_bound = 0;
   int digits = 0;
@@ -57,10 +57,11 @@ std::optional<EndState> state_in_file(const Scene& scene, const SceneRun& run) {
     if (!value) return std::nullopt;
     if (!GiNaC::is_a<GiNaC::numeric>(*value) || !GiNaC::ex_to<GiNaC::numeric>(*value).is_real())
       throw ModelError("a reference state must be given by numbers");
-    const auto number = cln::the<cln::cl_R>(GiNaC::ex_to<GiNaC::numeric>(*value).to_cl_N());
-    end.state.push_back(arithmetic.from(number));
-    if (cln:: instanceof (number, cln::cl_RA_ring))
-      end.digits = std::max(end.digits, decimal_digits(cln::the<cln::cl_RA>(number)));
+    const auto& number = GiNaC::ex_to<GiNaC::numeric>(*value);
+    const auto real = cln::the<cln::cl_R>(number.to_cl_N());
+    end.state.push_back(arithmetic.from(real));
+    if (number.is_rational())
+      end.digits = std::max(end.digits, decimal_digits(cln::the<cln::cl_RA>(real)));
   }
   end.error_bound = end.digits == 0 ? 0 : 0.5 * std::pow(10., -end.digits);
   return end;

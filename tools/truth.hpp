@@ -14,12 +14,12 @@ namespace casimir::tools {
 
 /// The state that errors are measured against, and how good it is.
 struct TruthOrReason {
-  std::optional<Truth> truth;
-  std::string source;      ///< "the case file, checked by our own run with 40 digits", ..
-  double error_bound = 0;  ///< of any state, relative to its size along the run
-  int digits = 0;          ///< significant ones: of the file's numbers, or of our own run
-  std::string reason;      ///< why there is none
-  Exit failure = kDone;    ///< what that means for a command that needs one
+  std::optional<Truth> truth = {};
+  std::string source = {};  ///< "the case file, checked by our own run with 40 digits", ..
+  double error_bound = 0;   ///< of any state, relative to its size along the run
+  int digits = 0;           ///< significant ones: of the file's numbers, or of our own run
+  std::string reason = {};  ///< why there is none
+  Exit failure = kDone;     ///< what that means for a command that needs one
 };
 
 struct TruthOptions {

@@ -117,8 +117,9 @@ std::vector<std::string> sentences(const Contest& contest) {
     const auto add = [&](const Cell& cell, const std::string& where) {
       if (std::isnan(cell.ratio)) return;
       // A new subject only where another of our methods is the fastest.
-      const std::string who = cell.fastest == subject ? "" : cell.fastest + " is ";
-      parts.push_back(fmt::format("{}{:.1f} times as fast {}", who, cell.ratio, where));
+      parts.push_back(cell.fastest == subject ? fmt::format("{:.1f} {}", cell.ratio, where)
+                                              : fmt::format("{} is {:.1f} times as fast {}",
+                                                            cell.fastest, cell.ratio, where));
       subject = cell.fastest;
     };
     for (const Cell& cell : line.levels) add(cell, fmt::format("at {:.0e}", cell.error));

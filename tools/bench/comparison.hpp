@@ -39,17 +39,17 @@ std::vector<CodeLine> code_lines(const Contest& contest);
 
 /// The ratios of one library's method over several cases, at one level or at its best errors.
 struct Mean {
-  std::string peer;
+  std::string peer = {};
   bool at_best = false;
   double error = 0;  ///< unless `at_best`
   double ratio = 0;  ///< geometric mean; not a number where no case has one
   int cases = 0;     ///< that it is a mean of
   double least = 0;
-  std::string least_case;
+  std::string least_case = {};
 };
 std::vector<Mean> means(const std::vector<Contest>& contests);
 
-/// "X: taylor is 2.1 times as fast at 1e-06, 5.0 times as fast at 1e-12, ..", one for each method
+/// "X: taylor is 2.1 times as fast at 1e-06, 5.0 at 1e-12, ..", one for each method
 /// of another library.
 std::vector<std::string> sentences(const Contest& contest);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "codegen/compile.hpp"
 #include "runtime/work_precision.hpp"
@@ -206,7 +207,7 @@ void measure_all(const std::vector<Ready>& ready, const Codes& codes, const Trut
   }
   Plan plan{.budget = options.budget, .rounds = options.repeat};
   // A run longer than that would take the time of all others.
-  constexpr double kLargestPart = 1. / 40;
+  constexpr double kLargestPart = 1. / 40, kAlwaysAllowed = 0.05;
   plan.longest_run =
       options.repeat > 0 ? std::numeric_limits<double>::infinity() : options.budget * kLargestPart;
   plan.give_up = options.give_up;
@@ -256,7 +257,6 @@ Contest hold_contest(const Model& model, const Scene& scene, const ContestOption
   contest.states = codes.specialised.specialisation.states;
   contest.general = codes.specialised.specialisation.general;
   contest.specialised = codes.specialised.specialisation.specialised;
-  const std::vector<Ready> ready = Gathering(options, codes, contest).run();
   tell(options, "reference solution", 0);
   const TruthOrReason truth = truth_of(scene, codes.specialised,
                                        {.digits = options.digits,
@@ -271,6 +271,7 @@ Contest hold_contest(const Model& model, const Scene& scene, const ContestOption
   contest.error_bound = truth.error_bound;
   contest.digits = truth.digits;
   contest.conditioning = conditioning_of(codes, options, *truth.truth);
+  const std::vector<Ready> ready = Gathering(options, codes, contest).run();
   measure_all(ready, codes, *truth.truth, options, contest);
   return contest;
 }

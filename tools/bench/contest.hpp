@@ -15,9 +15,9 @@ namespace casimir::tools {
 
 /// What is to be measured, and for how long.
 struct ContestOptions {
-  std::vector<std::string> methods;  ///< empty: all that suit the case
-  std::vector<double> tolerances;
-  RunOptions run;
+  std::vector<std::string> methods = {};  ///< empty: all that suit the case
+  std::vector<double> tolerances = {};
+  RunOptions run = {};
   int digits = 30;
   double budget = 8;
   int repeat = 0;               ///< > 0: rounds for everybody, instead of a budget

@@ -7,10 +7,10 @@ namespace casimir::tools {
 Plot picture_of(const Contest& contest) {
   Plot plot{.title = fmt::format("{}, scene {}", contest.title, contest.scene),
             .x_label = "error at the end, relative to the size of each state along the run",
-            .y_label = "run time, seconds",
+            .y_label = "run time",
             .log_x = true,
             .log_y = true,
-            .curves = {}};
+            .y_unit = "s"};
   for (const Contender& contender : contest.contenders) {
     Curve curve{contender.label(), {}, Curve::Style::plain};
     if (!contender.own()) curve.style = Curve::Style::outside;

@@ -12,8 +12,8 @@ namespace casimir::tools {
 
 /// All that a bench has found out.
 struct BenchReport {
-  std::vector<Contest> contests;
-  Machine machine;
+  std::vector<Contest> contests = {};
+  Machine machine = {};
   bool several = false;  ///< cases were asked for: there is a summary over them
 
   std::vector<Row> rows() const;

@@ -60,11 +60,17 @@ std::string about_text(const Contest& contest) {
                                  contest.error_bound);
   text += fmt::format("small changes of the state grow {:.3g} times along the run at most\n",
                       contest.conditioning);
-  const auto wrong = std::count_if(contest.rows.begin(), contest.rows.end(),
-                                   [](const Row& row) { return row.status == "wrong"; });
-  if (wrong > 0)
-    text += fmt::format("{} row{} wrong, and left out of what follows\n", wrong,
-                        wrong == 1 ? " is" : "s are");
+  const auto count = [&](bool failed) {
+    return std::count_if(contest.rows.begin(), contest.rows.end(), [&](const Row& row) {
+      return row.status == "wrong" && row.failed == failed;
+    });
+  };
+  if (const auto coarse = count(false); coarse > 0)
+    text += fmt::format("{} of {} rows end elsewhere and count nowhere: marked wrong\n", coarse,
+                        contest.rows.size());
+  if (const auto failed = count(true); failed > 0)
+    text += fmt::format("{} of {} rows, of ours, are off by more than any tolerance explains\n",
+                        failed, contest.rows.size());
   return text;
 }
 
