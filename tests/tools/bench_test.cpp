@@ -338,6 +338,9 @@ TEST(Bench, UsageThatMakesNoSenseIsRefused) {
   EXPECT_EQ(run({"bench", "euler", "--method", "dop854"}).status, 2);
   EXPECT_EQ(run({"bench", "euler", "--tolerances", "-1"}).status, 2);
   EXPECT_EQ(run({"bench", "euler", "--budget", "0"}).status, 2);
+  EXPECT_EQ(run({"bench", "euler", "--rtol", "1e-6"}).status, 2);
+  const auto one = run({"bench", "euler", "--method", "taylor", "--tolerance", "1e-6", "--json"});
+  EXPECT_EQ(one.json().at("rows").size(), 1U);
 }
 
 TEST(Bench, TimeLimitAndCtrlCEndIt) {

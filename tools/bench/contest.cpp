@@ -208,8 +208,8 @@ void measure_all(const std::vector<Ready>& ready, const Codes& codes, const Trut
   Plan plan{.budget = options.budget, .rounds = options.repeat};
   // A run longer than that would take the time of all others.
   constexpr double kLargestPart = 1. / 40, kAlwaysAllowed = 0.05;
-  plan.longest_run =
-      options.repeat > 0 ? std::numeric_limits<double>::infinity() : options.budget * kLargestPart;
+  plan.longest_run = options.repeat > 0 ? std::numeric_limits<double>::infinity()
+                                        : std::max(options.budget * kLargestPart, kAlwaysAllowed);
   plan.give_up = options.give_up;
   plan.progress = [&](double share) { tell(options, "measuring", share); };
   std::vector<Sample> samples;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tools/bench/comparison.hpp"
@@ -60,6 +61,18 @@ std::string summary(const BenchReport& report) {
   return text + '\n';
 }
 
+/// Half the distance of the quartiles, relative to the time: in the middle of all rows, and at
+/// most.
+std::string spread_text(const BenchReport& report) {
+  std::vector<double> spreads;
+  for (const Row& row : report.rows())
+    if (row.status == "ok" && row.seconds > 0) spreads.push_back(100 * row.spread / row.seconds);
+  if (spreads.empty()) return "";
+  std::sort(spreads.begin(), spreads.end());
+  return fmt::format("; times have a spread of {:.1f} % in the median and {:.1f} % at most",
+                     spreads[spreads.size() / 2], spreads.back());
+}
+
 }  // namespace
 
 std::string to_markdown(const BenchReport& report) {
@@ -78,8 +91,8 @@ std::string to_markdown(const BenchReport& report) {
   if (report.several)
     text += "Geometric means of how many times as long as the fastest of ours:\n\n" +
             summary(report) + '\n';
-  return text + fmt::format("Measured on {}; {}.\n", processor_text(report.machine),
-                            versions_text(report.machine));
+  return text + fmt::format("Measured on {}; {}{}.\n", processor_text(report.machine),
+                            versions_text(report.machine), spread_text(report));
 }
 
 }  // namespace casimir::tools

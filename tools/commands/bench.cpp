@@ -122,6 +122,8 @@ void write_tables(const BenchReport& report, const Options& options) {
 void check_usage(const Options& options) {
   if (options.all == !options.case_names.empty())
     throw UsageError("bench needs either a CASE or --all");
+  if (options.contest.run.rtol || options.contest.run.atol)
+    throw UsageError("bench runs at a range of tolerances: --tolerances X,Y, or --tolerance X");
   if (options.plot.empty()) return;
   check_plot_name(options.plot);
   if (options.all || options.case_names.size() > 1)
@@ -130,6 +132,7 @@ void check_usage(const Options& options) {
 
 int bench(Options options) {
   check_usage(options);
+  if (options.contest.run.tolerance) options.contest.tolerances = {*options.contest.run.tolerance};
   options.contest.give_up = time_limit(options.common.time_limit);
   const BenchReport report = hold_contests(options);
   // The rows first: pictures need a program that may be missing.
