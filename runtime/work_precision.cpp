@@ -29,6 +29,9 @@ struct Runner {
   int rounds = kLeastRounds;
   std::vector<double> seconds = {};
 
+  /// A run long enough to need neither a warm-up of its own nor, beside short ones, three rounds.
+  static bool is_long(double seconds, const Plan& plan) { return seconds > plan.budget / 500; }
+
   double turn_seconds() const { return (batch > 1 ? batch + 1 : 1) * sample->seconds; }
 };
 
@@ -88,8 +91,9 @@ void share_out(std::vector<Runner>& runners, const Plan& plan) {
     for (Runner& runner : runners) runner.rounds = plan.rounds;
     return;
   }
-  const auto rounds_for = [](const Runner& runner, double share) {
-    return std::clamp(static_cast<int>(std::min(share / runner.turn_seconds(), 1e6)), kLeastRounds,
+  const auto rounds_for = [&](const Runner& runner, double share) {
+    const int least = Runner::is_long(runner.turn_seconds(), plan) ? 1 : kLeastRounds;
+    return std::clamp(static_cast<int>(std::min(share / runner.turn_seconds(), 1e6)), least,
                       kMostRounds);
   };
   const auto cost = [&](double share) {
@@ -200,7 +204,7 @@ std::vector<Sample> measure(std::span<const Entrant> entrants, const Truth& trut
     runner.bare.monitor = false;
     runner.bare.sample_every = 0;
     runner.bare.give_up = {};
-    sample.seconds = run_once(runner, truth);
+    if (!Runner::is_long(sample.seconds, plan)) sample.seconds = run_once(runner, truth);
     runner.batch = static_cast<int>(std::ceil(kTurn / std::max(sample.seconds, kTurn * 1e-4)));
     runners.push_back(runner);
   }

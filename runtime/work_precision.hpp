@@ -59,7 +59,8 @@ struct Abandoned {};
 /// for a while hits all alike. A turn of a short run is a batch of several after one that does not
 /// count, so that neither the resolution of the clock nor cold caches matter. Time in which other
 /// programs had the processor does not count. Slow entrants take part in fewer rounds, spread over
-/// the whole time, at least three of them.
+/// the whole time: at least three of them, or one for a run of a 500th of the budget, which does
+/// without a warm-up too.
 ///
 /// The error is that of the timed runs as well: where one ends elsewhere, the larger error counts.
 /// \throws Abandoned

@@ -17,6 +17,10 @@ std::string short_number(double value) {
   return std::isnan(value) ? "-" : fmt::format("{:.1e}", value);
 }
 
+std::string spread_text(const Row& row) {
+  return row.rounds < 2 ? "-" : fmt::format("{:.1f} %", 100 * row.spread / row.seconds);
+}
+
 /// A CSV field: quoted where it has to be.
 std::string field(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
@@ -41,6 +45,7 @@ Json to_json(const std::vector<Row>& rows) {
                     {"drift", number(row.drift)},
                     {"seconds", row.seconds},
                     {"spread", row.spread},
+                    {"rounds", row.rounds},
                     {"steps", row.steps},
                     {"evaluations", row.evaluations},
                     {"status", row.status},
@@ -51,13 +56,14 @@ Json to_json(const std::vector<Row>& rows) {
 }
 
 void write_csv(std::ostream& stream, const std::vector<Row>& rows) {
-  stream
-      << "case,scene,method,code,tolerance,error,drift,seconds,spread,steps,evaluations,status\n";
+  stream << "case,scene,method,code,tolerance,error,drift,seconds,spread,rounds,steps,evaluations,"
+            "status\n";
   for (const Row& row : rows) {
-    stream << fmt::format("{},{},{},{},{:g},{},{},{:.6g},{:.3g},{},{},{}\n", field(row.case_name),
-                          field(row.scene), row.method, row.code, row.tolerance,
-                          std::isnan(row.error) ? "" : exact_text(row.error), exact_text(row.drift),
-                          row.seconds, row.spread, row.steps, row.evaluations, field(row.status));
+    stream << fmt::format("{},{},{},{},{:g},{},{},{:.6g},{:.3g},{},{},{},{}\n",
+                          field(row.case_name), field(row.scene), row.method, row.code,
+                          row.tolerance, std::isnan(row.error) ? "" : exact_text(row.error),
+                          exact_text(row.drift), row.seconds, row.spread, row.rounds, row.steps,
+                          row.evaluations, field(row.status));
   }
 }
 
@@ -83,8 +89,7 @@ std::string to_text(const std::vector<Row>& rows, bool with_error) {
         fmt::format("  {:<18} {:<12} {:>9.0e} {}{:>9} {:>10} {}{:>9} {:>11}  {}\n", row.method,
                     row.code, row.tolerance, column(with_error, 9, short_number(row.error)),
                     short_number(row.drift), duration_text(row.seconds),
-                    column(repeated, 6, fmt::format("{:.1f} %", 100 * row.spread / row.seconds)),
-                    row.steps, row.evaluations, row.status);
+                    column(repeated, 6, spread_text(row)), row.steps, row.evaluations, row.status);
   }
   return text;
 }

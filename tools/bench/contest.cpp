@@ -169,6 +169,7 @@ Row row_of(const Contest& contest, const Ready& ready, const Entrant& entrant, c
           .drift = sample.drift,
           .seconds = sample.seconds,
           .spread = sample.spread,
+          .rounds = sample.rounds,
           .steps = sample.steps,
           .evaluations = sample.evaluations,
           .status = to_string(sample.status)};

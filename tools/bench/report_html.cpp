@@ -145,7 +145,7 @@ std::string section(const Contest& contest, std::size_t index, const std::string
   if (!contest.no_reference.empty())
     return text + paragraph("Not measured: " + contest.no_reference) + "</section>\n";
   text += paragraph(fmt::format(
-      "Reference: {}; its error is below {:.0e}. Small changes of the state grow {:.3g} times "
+      "Reference: {}; its error is below {:.0e}. Small changes of the state grow {:.2g} times "
       "along the run at most.",
       contest.reference, contest.error_bound, contest.conditioning));
   for (const std::string& note : contest.notes) text += paragraph("Note: " + note);

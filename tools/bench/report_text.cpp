@@ -58,7 +58,7 @@ std::string code_text(const Contest& contest) {
 std::string about_text(const Contest& contest) {
   std::string text = fmt::format("reference: {}; its error is below {:.0e}\n", contest.reference,
                                  contest.error_bound);
-  text += fmt::format("small changes of the state grow {:.3g} times along the run at most\n",
+  text += fmt::format("small changes of the state grow {:.2g} times along the run at most\n",
                       contest.conditioning);
   const auto count = [&](bool failed) {
     return std::count_if(contest.rows.begin(), contest.rows.end(), [&](const Row& row) {
