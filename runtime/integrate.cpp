@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "runtime/arkode.hpp"
 #include "runtime/cvode.hpp"
 #include "runtime/observer.hpp"
 
@@ -160,7 +161,9 @@ Trajectory integrate(const Module& module, const Method& method, const Settings&
   trajectory.state = initial;
   const double* const p = parameters.empty() ? nullptr : parameters.data();
   Observer observer(module, settings, p, initial);
-  if (method.header.empty()) {
+  if (method.name == "arkode-erk") {
+    integrate_with_arkode(module, settings, p, observer, trajectory);
+  } else if (method.header.empty()) {
     integrate_with_cvode(module, method, settings, p, observer, trajectory);
   } else if (module.functions().integrate == nullptr) {
     throw std::invalid_argument("the module was compiled without a kernel");

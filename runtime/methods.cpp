@@ -55,6 +55,9 @@ constexpr Method kMethods[] = {
     {"cvode-bdf", 0, true, false, true, false, false, false, "SUNDIALS", "", "", "",
      "CVODE, backward differentiation formulas of order 1 to 5 with Newton iteration",
      "Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363"},
+    {"arkode-erk", 8, false, false, false, false, false, false, "SUNDIALS", "", "", "",
+     "ARKODE, explicit Runge-Kutta method of Fehlberg of order 8(7)",
+     "Reynolds et al., ACM Trans. Math. Softw. 49 (2023) 19"},
 };
 
 /// Appends the text of a header after those it includes, each header once.

@@ -10,14 +10,19 @@ namespace casimir::tools {
 struct Curve {
   std::string name;
   std::vector<std::pair<double, double>> points;
-  /// A variant of the curve before it: the same colour, larger open marks, no line of its own.
-  bool variant = false;
+  enum class Style {
+    plain,
+    outside,  ///< dashed, with open marks: what others offer
+    variant,  ///< of the curve before it: the same colour, larger open marks, no line of its own
+  };
+  Style style = Style::plain;
 };
 
 struct Plot {
-  std::string title, x_label, y_label;
+  std::string title = {}, x_label = {}, y_label = {};
   bool log_x = false, log_y = false;
-  std::vector<Curve> curves;
+  std::string y_unit = {};         ///< "s": the labels of the axis say "100 us", "1 ms", ..
+  std::vector<Curve> curves = {};  ///< one without points stays out of the legend
 };
 
 /// Throws UsageError unless the name ends in .svg or .png: before any work is done for it.
@@ -27,5 +32,11 @@ void check_plot_name(const std::string& path);
 /// \throws SystemError  if gnuplot is missing (saying what to install), fails, or the file cannot
 ///                      be written.
 void draw(const Plot& plot, const std::string& path);
+
+/// The same picture as the text of an SVG element, to stand inside a page: without the lines before
+/// it, and with `name` (letters, digits and '-') before every identifier, so that several of them
+/// can stand in one page. Temporary files are made beside the file `beside`.
+/// \throws SystemError  as `draw`.
+std::string svg_element(const Plot& plot, const std::string& name, const std::string& beside);
 
 }  // namespace casimir::tools

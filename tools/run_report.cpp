@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 
@@ -14,6 +15,10 @@ Json number(double value) { return std::isfinite(value) ? Json(exact_text(value)
 
 std::string short_number(double value) {
   return std::isnan(value) ? "-" : fmt::format("{:.1e}", value);
+}
+
+std::string spread_text(const Row& row) {
+  return row.rounds < 2 ? "-" : fmt::format("{:.1f} %", 100 * row.spread / row.seconds);
 }
 
 /// A CSV field: quoted where it has to be.
@@ -40,41 +45,51 @@ Json to_json(const std::vector<Row>& rows) {
                     {"drift", number(row.drift)},
                     {"seconds", row.seconds},
                     {"spread", row.spread},
+                    {"rounds", row.rounds},
                     {"steps", row.steps},
                     {"evaluations", row.evaluations},
                     {"status", row.status},
                     {"failed", row.failed}});
+    if (!row.reason.empty()) list.back()["reason"] = row.reason;
   }
   return {{"rows", list}, {"failed", failed}};
 }
 
 void write_csv(std::ostream& stream, const std::vector<Row>& rows) {
-  stream
-      << "case,scene,method,code,tolerance,error,drift,seconds,spread,steps,evaluations,status\n";
+  stream << "case,scene,method,code,tolerance,error,drift,seconds,spread,rounds,steps,evaluations,"
+            "status\n";
   for (const Row& row : rows) {
-    stream << fmt::format("{},{},{},{},{:g},{},{},{:.6g},{:.3g},{},{},{}\n", field(row.case_name),
-                          field(row.scene), row.method, row.code, row.tolerance,
-                          std::isnan(row.error) ? "" : exact_text(row.error), exact_text(row.drift),
-                          row.seconds, row.spread, row.steps, row.evaluations, field(row.status));
+    stream << fmt::format("{},{},{},{},{:g},{},{},{:.6g},{:.3g},{},{},{},{}\n",
+                          field(row.case_name), field(row.scene), row.method, row.code,
+                          row.tolerance, std::isnan(row.error) ? "" : exact_text(row.error),
+                          exact_text(row.drift), row.seconds, row.spread, row.rounds, row.steps,
+                          row.evaluations, field(row.status));
   }
 }
 
 std::string to_text(const std::vector<Row>& rows, bool with_error) {
+  const bool repeated =
+      std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.spread > 0; });
+  // A column that is there or not.
+  const auto column = [](bool there, std::size_t width, const std::string& content) {
+    return there ? fmt::format("{:>{}} ", content, width) : "";
+  };
   std::string text;
   std::string head;
   for (const Row& row : rows) {
     const std::string title = fmt::format("{}, scene '{}'\n", row.case_name, row.scene);
     if (title != head) {
       head = title;
-      text += title + fmt::format("  {:<18} {:<12} {:>9} {}{:>9} {:>10} {:>9} {:>11}  {}\n",
-                                  "method", "code", "tolerance", with_error ? "    error  " : "",
-                                  "drift", "time", "steps", "evaluations", "status");
+      text +=
+          title + fmt::format("  {:<18} {:<12} {:>9} {}{:>9} {:>10} {}{:>9} {:>11}  {}\n", "method",
+                              "code", "tolerance", column(with_error, 9, "error"), "drift", "time",
+                              column(repeated, 6, "spread"), "steps", "evaluations", "status");
     }
-    text += fmt::format("  {:<18} {:<12} {:>9.0e} {}{:>9} {:>10} {:>9} {:>11}  {}\n", row.method,
-                        row.code, row.tolerance,
-                        with_error ? fmt::format("{:>9}  ", short_number(row.error)) : "",
-                        short_number(row.drift), duration_text(row.seconds), row.steps,
-                        row.evaluations, row.status);
+    text +=
+        fmt::format("  {:<18} {:<12} {:>9.0e} {}{:>9} {:>10} {}{:>9} {:>11}  {}\n", row.method,
+                    row.code, row.tolerance, column(with_error, 9, short_number(row.error)),
+                    short_number(row.drift), duration_text(row.seconds),
+                    column(repeated, 6, spread_text(row)), row.steps, row.evaluations, row.status);
   }
   return text;
 }

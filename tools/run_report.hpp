@@ -19,10 +19,12 @@ struct Row {
   double error = std::numeric_limits<double>::quiet_NaN();  ///< not a number: there is no reference
   double drift = 0;
   double seconds = 0;
-  double spread = 0;
+  double spread = 0;  ///< half the distance of the quartiles of repeated runs
+  int rounds = 1;     ///< in which the time was taken; 0: it is that of a run that did not arrive
   unsigned long long steps = 0, evaluations = 0;
-  std::string status = "ok";  ///< a Status, "wrong", or "refused: why"
-  bool failed = false;
+  std::string status = "ok";  ///< a Status, "wrong", "too_slow", or "refused"
+  std::string reason = {};    ///< a sentence, where the status needs one
+  bool failed = false;        ///< the command fails because of it
 };
 
 /// {"rows": [..], "failed": N}.

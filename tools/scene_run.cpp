@@ -26,21 +26,17 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Digits to which constants such as sqrt(2)/2 are evaluated before they are rounded to double.
-constexpr int kConstantDigits = 60;
+}  // namespace
 
-std::vector<cln::cl_F> evaluate_start(const Specialisation& specialisation, int digits) {
+std::vector<cln::cl_F> start_values(const Specialisation& specialisation, int digits) {
   return evaluate(specialisation.start, {}, Arithmetic<cln::cl_F>(digits));
-}
-
-/// What is left of a value when its nearest double is taken away.
-double remainder(const cln::cl_F& value, double nearest) {
-  return cln::double_approx(value - cln::cl_float(cln::cl_DF(nearest), value));
 }
 
 double rounded(const cln::cl_F& value) { return codegen::nearest<double>(cln::rational(value)); }
 
-}  // namespace
+double remainder(const cln::cl_F& value, double nearest) {
+  return cln::double_approx(value - cln::cl_float(cln::cl_DF(nearest), value));
+}
 
 SceneRun prepare(const Model& model, const Scene& scene, const SceneOptions& options) {
   const auto start = Clock::now();
@@ -51,7 +47,7 @@ SceneRun prepare(const Model& model, const Scene& scene, const SceneOptions& opt
   SceneRun run;
   run.specialisation = specialise(model, scene, what);
   const Specialisation& s = run.specialisation;
-  const std::vector<cln::cl_F> values = evaluate_start(s, kConstantDigits);
+  const std::vector<cln::cl_F> values = start_values(s, kConstantDigits);
   std::size_t next = 0;
   for (std::size_t i = 0; i < s.states.size(); ++i, ++next) {
     run.initial.push_back(rounded(values[next]));
@@ -119,86 +115,6 @@ CompiledModule compile_for(const SceneRun& run, const Method& method) {
                                                   : compiled_module(run.specialisation, method);
   result.seconds = seconds_since(start);
   return result;
-}
-
-TruthOrReason truth_of(const Scene& scene, const SceneRun& run, int digits,
-                       const std::function<bool()>& give_up) {
-  const Specialisation& s = run.specialisation;
-  TruthOrReason result;
-  std::vector<cln::cl_F> state;
-  const bool at_its_time = rounded(evaluate_start(s, kConstantDigits).back()) == run.duration;
-  const bool in_file = at_its_time && !scene.reference.empty() &&
-                       std::all_of(s.state_indices.begin(), s.state_indices.end(), [&](int i) {
-                         return scene.reference[static_cast<std::size_t>(i)].has_value();
-                       });
-  if (in_file) {
-    const Arithmetic<cln::cl_F> arithmetic(kConstantDigits);
-    for (const int i : s.state_indices) {
-      const GiNaC::ex value = *scene.reference[static_cast<std::size_t>(i)];
-      if (!GiNaC::is_a<GiNaC::numeric>(value))
-        throw ModelError("a reference state must be given by numbers");
-      state.push_back(
-          arithmetic.from(cln::the<cln::cl_R>(GiNaC::ex_to<GiNaC::numeric>(value).to_cl_N())));
-    }
-    result.source = "the case file";
-  } else {
-    const std::vector<cln::cl_F> values = evaluate_start(s, digits + kConstantDigits);
-    const auto n = static_cast<std::ptrdiff_t>(s.states.size());
-    const std::vector<cln::cl_R> initial(values.begin(), values.begin() + n);
-    const std::vector<cln::cl_R> parameters(values.begin() + n, values.end() - 1);
-    // A duration from the command line is the double that the integrators get.
-    const bool own = rounded(values.back()) == run.duration;
-    const cln::cl_R duration =
-        own ? cln::cl_R(values.back()) : cln::cl_R(cln::rational(cln::cl_DF(run.duration)));
-    const Reference reference =
-        reference_solution(s.rhs, initial, duration, digits, parameters, give_up);
-    if (!reference.reached) {
-      result.reason = fmt::format("there is no reference state: {} (t = {:.6g})", reference.reason,
-                                  cln::double_approx(reference.time));
-      return result;
-    }
-    constexpr double kGood = 1e-18;
-    if (reference.error_bound > kGood) {
-      result.reason = fmt::format(
-          "two multiprecision runs differ by {:.1e}: more digits are needed for a reference",
-          reference.error_bound);
-      return result;
-    }
-    state = reference.state;
-    result.source = fmt::format("our own Taylor series with {} digits, checked to {:.0e}",
-                                reference.digits, reference.error_bound);
-  }
-  Truth truth;
-  for (const cln::cl_F& x : state) {
-    truth.state.push_back(rounded(x));
-    truth.rest.push_back(remainder(x, truth.state.back()));
-  }
-  truth.scale = state_sizes(run);
-  result.truth = std::move(truth);
-  return result;
-}
-
-std::vector<double> state_sizes(const SceneRun& run) {
-  const Method& method = *find_method("taylor");
-  Settings settings;
-  settings.duration = run.duration;
-  settings.rtol = 1e-8;
-  settings.atol =
-      1e-8 * *std::max_element(run.initial.begin(), run.initial.end(),
-                               [](double a, double b) { return std::abs(a) < std::abs(b); });
-  settings.atol = std::max(std::abs(settings.atol), 1e-300);
-  settings.sample_every = std::abs(run.duration) / 200;
-  settings.monitor = false;
-  const Trajectory trajectory =
-      integrate(compile_for(run, method).module, method, settings, run.initial, run.parameters);
-  std::vector<double> sizes(run.initial.size());
-  for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::abs(run.initial[i]);
-  for (const std::vector<double>& x : trajectory.samples) {
-    for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::max(sizes[i], std::abs(x[i]));
-  }
-  const double largest = *std::max_element(sizes.begin(), sizes.end());
-  for (double& size : sizes) size = largest == 0 ? 1 : std::max(size, 1e-6 * largest);
-  return sizes;
 }
 
 std::function<bool()> time_limit(double seconds) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cln/float.h>
+
 #include <functional>
 #include <optional>
 #include <string>
@@ -7,8 +9,6 @@
 
 #include "codegen/specialise.hpp"
 #include "runtime/integrate.hpp"
-#include "runtime/reference.hpp"
-#include "runtime/work_precision.hpp"
 #include "symbolic/model.hpp"
 
 namespace casimir::tools {
@@ -47,19 +47,15 @@ struct CompiledModule {
 };
 CompiledModule compile_for(const SceneRun& run, const Method& method);
 
-/// The state that errors are measured against: the one of the case file where it has 25 digits and
-/// more, otherwise a multiprecision run of our own. Empty with a reason if there is none.
-struct TruthOrReason {
-  std::optional<Truth> truth;
-  std::string source;  ///< "the case file", or "our own, 40 digits, error below 1e-30"
-  std::string reason;
-};
-TruthOrReason truth_of(const Scene& scene, const SceneRun& run, int digits,
-                       const std::function<bool()>& give_up);
+/// Digits to which constants such as sqrt(2)/2 are evaluated before they are rounded to double.
+inline constexpr int kConstantDigits = 60;
 
-/// The largest value that each state takes along a run in double precision, at 200 times; at least
-/// a millionth of the largest of all. What errors are measured against.
-std::vector<double> state_sizes(const SceneRun& run);
+/// The numbers of a scene, as Specialisation::start lists them.
+std::vector<cln::cl_F> start_values(const Specialisation& specialisation, int digits);
+
+/// The nearest double, and what is left when it is taken away.
+double rounded(const cln::cl_F& value);
+double remainder(const cln::cl_F& value, double nearest);
 
 /// A watch for `--time-limit`: answers true once that many seconds have passed; never for 0.
 std::function<bool()> time_limit(double seconds);

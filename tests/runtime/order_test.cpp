@@ -137,7 +137,8 @@ TEST_P(Outside, AgreesWithTheClosedForm) {
   EXPECT_LT(distance(run<Euler>(GetParam(), settings, euler_solution(0)).state, euler_solution(-5)),
             1e-6);
 }
-INSTANTIATE_TEST_SUITE_P(Runtime, Outside, testing::Values("cvode-adams", "cvode-bdf"),
+INSTANTIATE_TEST_SUITE_P(Runtime, Outside,
+                         testing::Values("cvode-adams", "cvode-bdf", "arkode-erk"),
                          [](const auto& one) { return test_name(one.param); });
 
 }  // namespace

@@ -190,7 +190,7 @@ TEST(Integrate, EveryMethodAgrees) {
   const Folder folder;
   for (const char* method :
        {"dop853", "taylor", "taylor-compiled", "gauss4", "gauss6", "gauss8", "gauss12", "gauss16",
-        "odeint-fehlberg78", "odeint-dopri5", "cvode-adams", "cvode-bdf", "auto"}) {
+        "odeint-fehlberg78", "odeint-dopri5", "cvode-adams", "cvode-bdf", "arkode-erk", "auto"}) {
     const Outcome outcome = run_in(folder, {"integrate", "clebsch", "--method", method,
                                             "--tolerance", "1e-9", "--duration", "5", "--json"});
     ASSERT_EQ(outcome.status, 0) << method << outcome.err;
@@ -264,40 +264,6 @@ TEST(Conserve, PassesAndFailsByItsBound) {
                                          "dop853", "--tolerance", "1e-4", "--json"});
   EXPECT_EQ(strict.status, 1);
   EXPECT_EQ(strict.json().at("failed"), 1);
-}
-
-TEST(Bench, ReportsErrorBesideTime) {
-  const Folder folder;
-  const Outcome outcome = run_in(
-      folder, {"bench", "euler", "--scene", "generic", "--method", "dop853,cvode-adams",
-               "--tolerances", "1e-6,1e-10", "--json", "--output", "b.csv", "--plot", "b.svg"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  double loose = 0;
-  const auto json = outcome.json();
-  for (const auto& row : json.at("rows")) {
-    const double error = std::stod(row.at("error").get<std::string>());
-    EXPECT_GT(row.at("seconds"), 0);
-    if (row.at("tolerance") == 1e-6)
-      loose = error;
-    else
-      EXPECT_LT(error, loose) << row;
-  }
-  EXPECT_EQ(outcome.json().at("rows").size(), 6U);
-  const std::string csv = file_text(folder.path() / "b.csv");
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
-  const std::string svg = file_text(folder.path() / "b.svg");
-  EXPECT_NE(svg.find("</svg>"), std::string::npos);
-  EXPECT_NE(svg.find("cvode-adams"), std::string::npos);
-  EXPECT_EQ(folder.files(), 2U);
-}
-
-TEST(Bench, ReferenceIsAtTheDurationAskedFor) {
-  const Folder folder;
-  const auto json = run_in(folder, {"bench", "kovalevskaya", "--duration", "7.5", "--method",
-                                    "dop853", "--tolerances", "1e-12", "--json"})
-                        .json();
-  EXPECT_NE(json.at("reference"), "the case file");
-  EXPECT_LT(std::stod(json.at("rows").at(0).at("error").get<std::string>()), 1e-9);
 }
 
 TEST(New, WritesACaseThatIsProved) {

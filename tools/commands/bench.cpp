@@ -2,179 +2,188 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iostream>
-#include <map>
 
+#include "tools/bench/contest.hpp"
+#include "tools/bench/report.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
 #include "tools/kept_parameters.hpp"
 #include "tools/output.hpp"
-#include "tools/plot.hpp"
-#include "tools/run_options.hpp"
-#include "tools/run_report.hpp"
+#include "tools/progress.hpp"
+#include "tools/scene_run.hpp"
 
 namespace casimir::tools {
 namespace {
 
 struct Options {
   Common common;
-  RunOptions run;
   KeptParameters kept;
-  std::string case_name, output, plot;
-  std::vector<std::string> methods{"taylor",  "dop853",      "gauss8",
-                                   "gauss16", "cvode-adams", "cvode-bdf"};
-  std::vector<double> tolerances{1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13};
-  int digits = 30;
+  std::vector<std::string> case_names, outputs;
+  std::string plot, format = "text";
+  bool all = false;
+  ContestOptions contest{.tolerances = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10,
+                                        1e-11, 1e-12, 1e-13, 1e-14, 1e-15}};
 };
 
-/// A row whose end state has nothing to do with the reference is wrong, not fast.
-constexpr double kWrong = 0.1;
+bool is_page(const std::string& path) { return path.ends_with(".html") || path.ends_with(".htm"); }
 
-struct Contender {
-  const Method* method;
-  const SceneRun* run;
-  const char* code;
-  CompiledModule compiled;
-  std::string label() const {
-    return std::string(method->name) + (std::string(code) == "general" ? " general" : "");
-  }
-};
-
-Row measure_row(const Contender& contender, const Model& model, const Scene& scene,
-                double tolerance, const Options& options, const Truth& truth,
-                const std::function<bool()>& give_up) {
-  RunOptions asked = options.run;
-  asked.tolerance = tolerance;
-  Settings settings = settings_for(asked, *contender.run);
-  settings.give_up = give_up;
-  const Sample sample = measure(contender.compiled.module, *contender.method, settings,
-                                contender.run->initial, contender.run->parameters, truth);
-  Row row{.case_name = model.name,
-          .scene = scene.name,
-          .method = std::string(contender.method->name),
-          .code = contender.code,
-          .tolerance = tolerance};
-  row.error = sample.error;
-  row.drift = sample.drift;
-  row.seconds = sample.seconds;
-  row.spread = sample.spread;
-  row.steps = sample.steps;
-  row.evaluations = sample.evaluations;
-  row.status = to_string(sample.status);
-  if (sample.status == Status::ok && !(sample.error < kWrong)) row.status = "wrong";
-  row.failed = row.status != "ok";
-  return row;
+/// A contest that could not be held, with the reason.
+Contest not_held(const std::string& name, const std::string& scene, const std::string& reason) {
+  Contest contest;
+  contest.case_name = contest.title = name;
+  contest.scene = scene;
+  contest.no_reference = reason;
+  contest.failure = kBadInput;
+  return contest;
 }
 
-/// The time a method needs for an error, by interpolation between its rows (log-log); NaN outside.
-double seconds_at(const std::vector<const Row*>& rows, double error) {
-  double best = std::nan("");
-  for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
-    const Row& a = *rows[i];
-    const Row& b = *rows[i + 1];
-    if (!(a.error >= error && error >= b.error && b.error > 0)) continue;
-    const double share =
-        a.error == b.error ? 0 : std::log(a.error / error) / std::log(a.error / b.error);
-    best = a.seconds * std::pow(b.seconds / a.seconds, share);
-  }
-  return best;
-}
-
-/// "times faster than" at equal error, beside every other contender.
-std::string ratios(const std::vector<Row>& rows) {
-  std::map<std::string, std::vector<const Row*>> by_label;
-  std::vector<std::string> order;
-  for (const Row& row : rows) {
-    const std::string label = row.method + (row.code == "general" ? " general" : "");
-    if (!by_label.contains(label)) order.push_back(label);
-    std::vector<const Row*>& good = by_label[label];
-    if (row.status == "ok") good.push_back(&row);
-  }
-  std::string text =
-      "time at equal error (interpolated), and how many times longer than the fastest\n";
-  text += fmt::format("  {:<22}", "error");
-  constexpr double kErrors[] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
-  for (const double error : kErrors) text += fmt::format("{:>18.0e}", error);
-  text += '\n';
-  std::map<double, double> fastest;
-  for (const double error : kErrors) {
-    for (const std::string& label : order) {
-      const double t = seconds_at(by_label[label], error);
-      if (!std::isnan(t) && (!fastest.contains(error) || t < fastest[error])) fastest[error] = t;
-    }
-  }
-  for (const std::string& label : order) {
-    text += fmt::format("  {:<22}", label);
-    for (const double error : kErrors) {
-      const double t = seconds_at(by_label[label], error);
-      text += std::isnan(t) ? fmt::format("{:>18}", "-")
-                            : fmt::format("{:>10} {:>6.1f}x", duration_text(t), t / fastest[error]);
-    }
-    text += '\n';
-  }
-  return text;
-}
-
-Plot work_precision_plot(const std::vector<Row>& rows, const Model& model, const Scene& scene) {
-  Plot plot{fmt::format("{}, scene {}: error against run time", model.title, scene.name),
-            "error at the end, relative to the size of each variable along the run",
-            "run time, seconds",
-            true,
-            true,
-            {}};
-  for (const Row& row : rows) {
-    const std::string label = row.method + (row.code == "general" ? " general" : "");
-    if (plot.curves.empty() || plot.curves.back().name != label)
-      plot.curves.push_back({label, {}, row.code == "general"});
-    if (row.status == "ok") plot.curves.back().points.emplace_back(row.error, row.seconds);
-  }
-  return plot;
-}
-
-int bench(const Options& options) {
-  if (!options.plot.empty()) check_plot_name(options.plot);
-  const Model model =
-      options.kept.model_of(load_case(options.case_name), options.common.parameter_values());
+Contest hold(const CaseFile& file, const Options& options, Progress& progress) {
+  const Model model = options.kept.model_of(file, options.common.parameter_values());
   const Scene& scene = model.scene(options.common.scene);
-  const std::function<bool()> give_up = time_limit(options.common.time_limit);
-  SceneRun specialised = prepare(model, scene, options.kept.in<SceneOptions>());
-  SceneRun general =
-      prepare(model, scene, {.fold_parameters = false, .observe = std::vector<std::string>{}});
-  specialised.duration = general.duration = settings_for(options.run, specialised).duration;
-  const TruthOrReason truth = truth_of(scene, specialised, options.digits, give_up);
-  if (!truth.truth) throw UsageError("bench needs a reference: " + truth.reason);
-  const bool same_states = general.specialisation.states == specialised.specialisation.states;
-  std::vector<Contender> contenders;
-  for (const std::string& name : options.methods) {
-    const Method& method = method_named(name);
-    contenders.push_back({&method, &specialised, "specialised", compile_for(specialised, method)});
-    if (method.outside.empty() && same_states)
-      contenders.push_back({&method, &general, "general", compile_for(general, method)});
-  }
-  std::vector<Row> rows;
-  for (const Contender& contender : contenders) {
-    for (const double tolerance : options.tolerances) {
-      if (give_up && give_up()) throw SystemError("the time limit was reached");
-      rows.push_back(
-          measure_row(contender, model, scene, tolerance, options, *truth.truth, give_up));
+  ContestOptions what = options.contest;
+  what.code = options.kept.in<SceneOptions>();
+  std::string doing;
+  what.progress = [&](const std::string& now, double share) {
+    if (now != doing) progress.begin(model.name + ": " + now);
+    doing = now;
+    progress.show(share);
+  };
+  return hold_contest(model, scene, what);
+}
+
+/// Every bundled case. One that has no such scene, or a file that is no case, is told and skipped.
+void hold_all(const Options& options, Progress& progress, BenchReport& report) {
+  const auto paths = bundled_cases();
+  if (paths.empty())
+    throw SystemError("no bundled cases were found; CASIMIR_CASES can name their folder");
+  for (const auto& path : paths) {
+    const auto skip = [&](const std::exception& problem) {
+      report.contests.push_back(
+          not_held(path.stem().string(), options.common.scene, problem.what()));
+    };
+    try {
+      report.contests.push_back(hold(read_case(path), options, progress));
+    } catch (const CaseError& problem) {
+      skip(problem);
+    } catch (const ModelError& problem) {
+      skip(problem);
+    } catch (const UsageError& problem) {
+      skip(problem);
     }
   }
-  if (!options.output.empty()) {
-    OutputFile file(options.output);
-    write_csv(file.stream(), rows);
+}
+
+BenchReport hold_contests(const Options& options) {
+  BenchReport report{.machine = this_machine(),
+                     .several = options.all || options.case_names.size() > 1};
+  Progress progress(!options.common.quiet);
+  if (options.all) hold_all(options, progress, report);
+  for (const std::string& name : options.case_names)
+    report.contests.push_back(hold(load_case(name), options, progress));
+  return report;
+}
+
+void write_page(const BenchReport& report, const std::string& path) {
+  std::vector<std::string> pictures;
+  std::string problem;
+  for (std::size_t i = 0; i < report.contests.size(); ++i) {
+    pictures.emplace_back();
+    if (!report.contests[i].no_reference.empty() || !problem.empty()) continue;
+    Plot plot = picture_of(report.contests[i]);
+    plot.title.clear();  // the page has its own
+    try {
+      pictures.back() = svg_element(plot, fmt::format("picture-{}", i), path);
+    } catch (const SystemError& missing) {
+      problem = missing.what();
+    }
+  }
+  OutputFile file(path);
+  file.stream() << to_html(report, pictures);
+  file.commit();
+  if (!problem.empty()) throw SystemError(problem);
+}
+
+void print(const BenchReport& report, const Options& options) {
+  if (options.common.json || options.format == "json") {
+    std::cout << to_json(report).dump(2) << '\n';
+  } else if (!options.common.quiet) {
+    std::cout << (options.format == "markdown" ? to_markdown(report) : to_text(report));
+  }
+  std::cout.flush();
+}
+
+void write_tables(const BenchReport& report, const Options& options) {
+  for (const std::string& path : options.outputs) {
+    if (is_page(path)) continue;
+    OutputFile file(path);
+    write_csv(file.stream(), report.rows());
     file.commit();
   }
-  if (options.common.json) {
-    nlohmann::ordered_json json = to_json(rows);
-    json["reference"] = truth.source;
-    std::cout << json.dump(2) << '\n';
-  } else if (!options.common.quiet) {
-    std::cout << to_text(rows, true) << "reference: " << truth.source << '\n'
-              << ratios(rows) << std::flush;
+}
+
+void check_usage(const Options& options) {
+  if (options.all == !options.case_names.empty())
+    throw UsageError("bench needs either a CASE or --all");
+  if (options.contest.run.rtol || options.contest.run.atol)
+    throw UsageError("bench runs at a range of tolerances: --tolerances X,Y, or --tolerance X");
+  if (options.plot.empty()) return;
+  check_plot_name(options.plot);
+  if (options.all || options.case_names.size() > 1)
+    throw UsageError("--plot draws one CASE; --output FILE.html draws them all");
+}
+
+int bench(Options options) {
+  check_usage(options);
+  if (options.contest.run.tolerance) options.contest.tolerances = {*options.contest.run.tolerance};
+  options.contest.give_up = time_limit(options.common.time_limit);
+  const BenchReport report = hold_contests(options);
+  // The rows first: pictures need a program that may be missing.
+  write_tables(report, options);
+  if (!report.several && !report.contests.front().no_reference.empty()) {
+    const Contest& contest = report.contests.front();
+    std::cerr << "casimir: error: " << contest.no_reference << '\n';
+    return contest.failure;
   }
-  if (!options.plot.empty()) draw(work_precision_plot(rows, model, scene), options.plot);
-  return kDone;
+  print(report, options);
+  if (!options.plot.empty()) draw(picture_of(report.contests.front()), options.plot);
+  for (const std::string& path : options.outputs)
+    if (is_page(path)) write_page(report, path);
+  const std::vector<Row> rows = report.rows();
+  const bool failed =
+      std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.failed; });
+  return failed ? kFailed : kDone;
+}
+
+void add_measurement_options(CLI::App& command, ContestOptions& options) {
+  command
+      .add_option("--method", options.methods,
+                  "Methods to run (default: all that suit the case), of " + method_list())
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("A,B");
+  command
+      .add_option("--tolerances", options.tolerances,
+                  "Tolerances to run at (default: 1e-2, 1e-3, .., 1e-15)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("X,Y")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--budget", options.budget,
+                  "Seconds of measuring a case: the more, the more repeated runs (default 8); a "
+                  "run that takes a fortieth of it is given up")
+      ->type_name("SECONDS")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--repeat", options.repeat,
+                  "Time every run in exactly so many rounds, whatever it takes")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000));
+  add_run_options(command, options.run);
+  command
+      .add_option("--digits", options.digits, "Digits of our own reference solution (default 30)")
+      ->check(CLI::Range(20, 1000));
 }
 
 }  // namespace
@@ -183,29 +192,28 @@ void register_bench(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       program.add_subcommand("bench", "Error against run time, beside other libraries");
+  command->footer(
+      "Every method runs at every tolerance, in rounds and in changing order; times are medians.\n"
+      "A row is marked wrong, and counts nowhere, if its end state is off by a tenth of a state's\n"
+      "size, or by more than 1000 times what all its steps can do together: steps * growth of\n"
+      "changes * tolerance. The latter, by a method of our own, makes the exit status 1.");
   add_common(*command, options->common);
-  command
-      ->add_option("CASE", options->case_name,
-                   "A bundled case, a case file, or - for standard input")
-      ->required();
-  command->add_option("--method", options->methods, "Methods to run, of " + method_list())
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("A,B");
-  command->add_option("--tolerances", options->tolerances, "Tolerances to run at")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("X,Y")
-      ->check(CLI::PositiveNumber);
-  add_run_options(*command, options->run);
   options->kept.add_to(*command);
-  command->add_option("--digits", options->digits, "Digits of our own reference (default 30)")
-      ->check(CLI::Range(20, 1000));
-  command->add_option("--output", options->output, "Write the rows to this CSV file")
-      ->type_name("FILE.csv");
+  command->add_option("CASE", options->case_names,
+                      "Bundled cases, case files, or - for standard input");
+  command->add_flag("--all", options->all, "Every bundled case");
+  add_measurement_options(*command, options->contest);
+  command
+      ->add_option("--output", options->outputs,
+                   "Write the rows to a .csv file, or all of it to an .html page (repeatable)")
+      ->allow_extra_args(false)
+      ->type_name("FILE");
   command
       ->add_option("--plot", options->plot, "Draw error against run time to this .svg or .png file")
       ->type_name("FILE");
+  command->add_option("--format", options->format, "text (default), markdown or json")
+      ->check(CLI::IsMember({"text", "markdown", "json"}))
+      ->type_name("FORMAT");
   command->callback([options, &action] { action = [options] { return bench(*options); }; });
 }
 

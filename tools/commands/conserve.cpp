@@ -11,6 +11,7 @@
 #include "tools/output.hpp"
 #include "tools/run_options.hpp"
 #include "tools/run_report.hpp"
+#include "tools/truth.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -57,7 +58,7 @@ Row conserve_one(const Model& model, const Scene& scene, const Method& method,
   row.evaluations = trajectory.evaluations;
   row.status = to_string(trajectory.status);
   if (trajectory.status == Status::ok && !scene.reference.empty() && !options.run.duration) {
-    const TruthOrReason truth = truth_of(scene, run, 30, give_up);
+    const TruthOrReason truth = truth_of(scene, run, {.give_up = give_up});
     if (truth.truth) row.error = error_of(trajectory.state, *truth.truth);
   }
   // Written so that a drift that is not a number fails too.

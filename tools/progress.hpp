@@ -1,0 +1,33 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace casimir::tools {
+
+/// A bar with an estimate on standard error while something long runs: only where that is a
+/// terminal. Gone when the work is done.
+class Progress {
+ public:
+  /// \param wanted  false: shows nothing anyway.
+  explicit Progress(bool wanted);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// A new piece of work, "kovalevskaya: measuring".
+  void begin(const std::string& what);
+
+  /// Which share of it is done, from 0 to 1. Draws ten times a second at most.
+  void show(double share);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void draw(double share);
+
+  bool visible_ = false;
+  std::string what_;
+  Clock::time_point start_, drawn_;
+};
+
+}  // namespace casimir::tools

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/work_precision.hpp"
+#include "symbolic/model.hpp"
+#include "tools/cli.hpp"
+#include "tools/scene_run.hpp"
+
+namespace casimir::tools {
+
+/// The state that errors are measured against, and how good it is.
+struct TruthOrReason {
+  std::optional<Truth> truth = {};
+  std::string source = {};  ///< "the case file, checked by our own run with 40 digits", ..
+  double error_bound = 0;   ///< of any state, relative to its size along the run
+  int digits = 0;           ///< significant ones: of the file's numbers, or of our own run
+  std::string reason = {};  ///< why there is none
+  Exit failure = kDone;     ///< what that means for a command that needs one
+};
+
+struct TruthOptions {
+  int digits = 30;              ///< of a run of our own
+  bool check_the_file = false;  ///< by a run of our own, if it does not take too long
+  double longest = 60;          ///< seconds that a run of our own may take
+  std::function<bool()> give_up = {};
+};
+
+/// The reference state of the case file where it belongs to this run, otherwise one of a
+/// multiprecision run of our own.
+///
+/// Its error bound is that of our own run, and for a state from the file the difference to our own
+/// run on top of it; where that was not made, half a unit in the last of the file's digits. A state
+/// in the file that our own run contradicts is no truth.
+TruthOrReason truth_of(const Scene& scene, const SceneRun& run, const TruthOptions& options);
+
+/// The largest value that each state takes along a run in double precision, at 200 times; at least
+/// a millionth of the largest of all. What errors are measured against.
+std::vector<double> state_sizes(const SceneRun& run);
+
+}  // namespace casimir::tools
