@@ -1,6 +1,7 @@
 // --keep-params: one module for all values, and the results of the folded ones.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/tools/program.hpp"
@@ -14,6 +15,8 @@ double number(const nlohmann::json& json) { return std::stod(json.get<std::strin
 struct KeepParams : ::testing::Test {
   nlohmann::json integrate(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "integrate");
+    if (std::count(arguments.begin(), arguments.end(), "--method") == 0)
+      arguments.insert(arguments.end(), {"--method", "dop853"});  // one that is compiled
     arguments.insert(arguments.end(), {"--tolerance", "1e-11", "--json"});
     const Outcome outcome =
         run_in(folder, arguments, {}, {{"CASIMIR_CACHE", (cache.path() / "cache").string()}});
