@@ -14,6 +14,7 @@
 #include "codegen/quadratic.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/methods.hpp"
+#include "runtime/quadratic_targets.hpp"
 #include "runtime/term_size.hpp"
 #include "runtime/uncompiled.hpp"
 
@@ -91,17 +92,17 @@ CompiledModule compiled_module(const Specialisation& s, const Method& method) {
 /// and without one the program itself.
 CompiledModule taylor_module(const SceneRun& run, const Method& method) {
   const Specialisation& s = run.specialisation;
-  const auto form = quadratic_form(s.rhs, run.parameters);
-  const auto tables = form ? quadratic_tables(*form) : std::nullopt;
-  if (!tables) {
+  auto form = quadratic_form(s.rhs, run.parameters);
+  if (form && !has_quadratic_kernel(*form)) form.reset();
+  if (!form) {
     try {
       return compiled_module(s, method);
     } catch (const CompilerMissing&) {
     }
   }
-  CompiledModule result{.module = uncompiled_module(s.rhs, s.invariants, tables, run.parameters),
+  CompiledModule result{.module = uncompiled_module(s.rhs, s.invariants, form, run.parameters),
                         .compiled = false};
-  if (!tables)
+  if (!form)
     result.warning =
         "there is no C++ compiler: the equations are interpreted, which is several times slower; "
         "install one, for instance with: apt-get install g++";

@@ -4,15 +4,6 @@
 
 namespace casimir_kernel::taylor {
 
-/// 1/k, for the recurrences.
-struct Reciprocals {
-  double of[32] = {};
-  constexpr Reciprocals() {
-    for (int k = 1; k < 32; ++k) of[k] = 1. / k;
-  }
-};
-inline constexpr Reciprocals reciprocal;
-
 /// Storage for the recurrences of a straight-line program.
 ///
 /// Every product, quotient and function of a series needs sums of l[j] r[k-j] over the earlier

@@ -12,6 +12,11 @@ namespace casimir_kernel {
 template <int width>
 struct LaneTypes;
 template <>
+struct LaneTypes<2> {
+  typedef double Real __attribute__((vector_size(16)));
+  typedef long long Index __attribute__((vector_size(16)));
+};
+template <>
 struct LaneTypes<4> {
   typedef double Real __attribute__((vector_size(32)));
   typedef long long Index __attribute__((vector_size(32)));
@@ -22,11 +27,12 @@ struct LaneTypes<8> {
   typedef long long Index __attribute__((vector_size(64)));
 };
 
-/// `width` numbers, 4 or 8.
+/// `width` numbers: 2, 4 or 8.
 template <int width>
 using Lanes = typename LaneTypes<width>::Real;
 template <int width>
 using Indices = typename LaneTypes<width>::Index;
+using Lanes2 = Lanes<2>;
 using Lanes4 = Lanes<4>;
 using Lanes8 = Lanes<8>;
 
@@ -35,10 +41,12 @@ CASIMIR_INLINE V all_lanes(double a) {
   return a - V{};
 }
 
+CASIMIR_INLINE Lanes2 absolute(Lanes2 v) { return (Lanes2)((Indices<2>)v & 0x7fffffffffffffffLL); }
 CASIMIR_INLINE Lanes4 absolute(Lanes4 v) { return (Lanes4)((Indices<4>)v & 0x7fffffffffffffffLL); }
 CASIMIR_INLINE Lanes8 absolute(Lanes8 v) { return (Lanes8)((Indices<8>)v & 0x7fffffffffffffffLL); }
 
 /// The sum of the lanes: not a number if any lane is none.
+CASIMIR_INLINE double lane_sum(Lanes2 v) { return v[0] + v[1]; }
 CASIMIR_INLINE double lane_sum(Lanes4 v) { return (v[0] + v[2]) + (v[1] + v[3]); }
 CASIMIR_INLINE double lane_sum(Lanes8 v) {
   const Lanes4 low = __builtin_shufflevector(v, v, 0, 1, 2, 3);
@@ -70,10 +78,40 @@ CASIMIR_INLINE Lanes8 permuted(Lanes8 v, Indices<8> from) {
 }
 
 template <class V>
-CASIMIR_INLINE V load(const double* from) {
+CASIMIR_INLINE V load(const void* from) {
   V v;
   __builtin_memcpy(&v, from, sizeof v);
   return v;
+}
+
+/// Lane i of the result is the number from[i] behind `x`.
+template <class V>
+CASIMIR_INLINE V collected(const double* x, const long long* from) {
+  if constexpr (sizeof(V) == sizeof(Lanes2)) {
+    return V{x[from[0]], x[from[1]]};
+  } else if constexpr (sizeof(V) == sizeof(Lanes4)) {
+    return V{x[from[0]], x[from[1]], x[from[2]], x[from[3]]};
+  } else {
+    return V{x[from[0]], x[from[1]], x[from[2]], x[from[3]],
+             x[from[4]], x[from[5]], x[from[6]], x[from[7]]};
+  }
+}
+
+/// The same from `blocks` registers.
+template <int blocks, class V>
+CASIMIR_INLINE V gathered(const V* x, const long long* from) {
+#ifdef __AVX512F__
+  if constexpr (sizeof(V) == sizeof(Lanes8) && blocks <= 3) {
+    const Indices<8> lanes = load<Indices<8>>(from);
+    if constexpr (blocks == 1) return permuted(x[0], lanes);
+    if constexpr (blocks == 2) return __builtin_shuffle(x[0], x[1], lanes);
+    if constexpr (blocks == 3) {
+      const V low = __builtin_shuffle(x[0], x[1], lanes), high = permuted(x[2], lanes);
+      return lanes < 16 ? low : high;
+    }
+  }
+#endif
+  return collected<V>(reinterpret_cast<const double*>(x), from);
 }
 
 }  // namespace casimir_kernel

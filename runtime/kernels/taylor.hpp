@@ -26,6 +26,15 @@ namespace casimir_kernel {
 /// size of the state whatever the scales of state and time are.
 namespace taylor {
 
+/// 1/k, for the recurrences.
+struct Reciprocals {
+  double of[32] = {};
+  constexpr Reciprocals() {
+    for (int k = 1; k < 32; ++k) of[k] = 1. / k;
+  }
+};
+inline constexpr Reciprocals reciprocal;
+
 /// log2 of a positive number to within 0.01; -1023 for 0.
 CASIMIR_INLINE double rough_log2(double a) {
   long long bits;

@@ -36,7 +36,6 @@ using testing::run_taylor;
 using testing::settings_for;
 using testing::specialised;
 using testing::start_of;
-using testing::tables_of;
 using testing::taylor;
 using testing::truth;
 
@@ -268,8 +267,8 @@ TEST(Taylor, InstructionSetsAgreeToRounding) {
                    {"e", "-c*f + b*a - b*f"},
                    {"f", "-e*c + e*b + b - f"}})}) {
     const Specialisation s = specialised(toml);
-    const auto tables = tables_of(s);
-    ASSERT_TRUE(tables);
+    const auto form = quadratic_form(s.rhs);
+    ASSERT_TRUE(form);
     std::vector<std::vector<double>> ends;
     for (const std::string& target : quadratic_targets()) {
       std::vector<double> x = start_of(s);
@@ -277,7 +276,7 @@ TEST(Taylor, InstructionSetsAgreeToRounding) {
       how.t_end = 3;
       how.rtol = how.atol = 1e-15;
       casimir_outcome out = {};
-      integrate_quadratic(target, *tables, &how, x.data(), &out);
+      QuadraticKernel(*form, target).integrate(&how, x.data(), &out);
       EXPECT_EQ(out.status, CASIMIR_OK) << target;
       ends.push_back(x);
       EXPECT_LT(distance(ends.front(), x), 2e-14) << target;
@@ -285,8 +284,7 @@ TEST(Taylor, InstructionSetsAgreeToRounding) {
     EXPECT_LT(distance(run_taylor(compiled(s), settings_for(3), start_of(s)).state, ends.front()),
               2e-14);
   }
-  casimir_run how = {};
-  EXPECT_THROW(integrate_quadratic("avx1024", {}, &how, nullptr, nullptr), std::invalid_argument);
+  EXPECT_THROW(QuadraticKernel({}, "avx1024"), std::invalid_argument);
 }
 
 TEST(Taylor, StepsAllocateNothing) {
@@ -304,7 +302,7 @@ TEST(Taylor, StepsAllocateNothing) {
   };
   EXPECT_EQ(count(compiled(angles), 50, {1, 0.5}), 0u);
   EXPECT_EQ(count(compiled(top), 50, start_of(top)), 0u);
-  const Module tables = uncompiled_module(top.rhs, top.invariants, tables_of(top), {});
+  const Module tables = uncompiled_module(top.rhs, top.invariants, quadratic_form(top.rhs), {});
   EXPECT_EQ(count(tables, 50, start_of(top)), 0u);
   // The twin: the interpreter does allocate, and is seen.
   EXPECT_GT(count(uncompiled_module(top.rhs, top.invariants, std::nullopt, {}), 5, start_of(top)),
