@@ -8,12 +8,15 @@
 
 using NarrowKernel = void(const casimir_quadratic*, const casimir_run*, double*, casimir_outcome*);
 using WideKernel = void(const casimir_wide*, const casimir_run*, double*, casimir_outcome*);
+using SeriesKernel = void(const casimir_series*, const casimir_run*, double*, casimir_outcome*);
 extern "C" {
 #ifdef CASIMIR_X86_KERNELS
 NarrowKernel casimir_quadratic_avx512, casimir_quadratic_avx2;
 WideKernel casimir_wide_avx512, casimir_wide_avx2;
+SeriesKernel casimir_series_avx512, casimir_series_avx2;
 #endif
 WideKernel casimir_wide_baseline;
+SeriesKernel casimir_series_baseline;
 }
 
 namespace casimir {
@@ -24,6 +27,7 @@ struct Target {
   int width;             ///< numbers in a register
   NarrowKernel* narrow;  ///< for systems whose states fill one register, or null
   WideKernel* wide;
+  SeriesKernel* series;
 };
 
 /// Those that this processor runs, best first.
@@ -35,11 +39,12 @@ const std::vector<Target>& targets() {
     const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
         __builtin_cpu_supports("avx512vl")) {
-      result.push_back({"avx512", 8, casimir_quadratic_avx512, casimir_wide_avx512});
+      result.push_back({"avx512", 8, casimir_quadratic_avx512, casimir_wide_avx512,
+                        casimir_series_avx512});
     }
-    if (avx2) result.push_back({"avx2", 4, casimir_quadratic_avx2, casimir_wide_avx2});
+    if (avx2) result.push_back({"avx2", 4, casimir_quadratic_avx2, casimir_wide_avx2, casimir_series_avx2});
 #endif
-    result.push_back({"baseline", 2, nullptr, casimir_wide_baseline});
+    result.push_back({"baseline", 2, nullptr, casimir_wide_baseline, casimir_series_baseline});
     return result;
   }();
   return known;
@@ -84,6 +89,17 @@ void QuadraticKernel::integrate(const casimir_run* run, double* x, casimir_outco
   if (tables_->narrow) return tables_->target.narrow(&*tables_->narrow, run, x, out);
   const casimir_wide view = tables_->wide->view();
   tables_->target.wide(&view, run, x, out);
+}
+
+int series_width() { return targets().front().width; }
+
+void integrate_series(const casimir_series& series, int width, const casimir_run* run, double* x,
+                      casimir_outcome* out) {
+  for (const Target& known : targets()) {
+    if (known.width == width) return known.series(&series, run, x, out);
+  }
+  throw std::invalid_argument("this processor has no registers of " + std::to_string(width) +
+                              " numbers");
 }
 
 }  // namespace casimir

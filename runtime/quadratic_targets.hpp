@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/kernels/series.h"
 #include "runtime/module_abi.h"
 #include "runtime/quadratic_form.hpp"
 
@@ -32,5 +33,15 @@ class QuadraticKernel {
   struct Tables;
   std::shared_ptr<const Tables> tables_;
 };
+
+/// How many numbers a register of this processor holds: 2, 4 or 8.
+int series_width();
+
+/// Integrates by the method of Taylor series with coefficients that the functions of `series` work
+/// out. Allocates nothing.
+/// \param width  of the registers that its rows are made of.
+/// \throws std::invalid_argument  if this processor has no such registers.
+void integrate_series(const casimir_series& series, int width, const casimir_run* run, double* x,
+                      casimir_outcome* out);
 
 }  // namespace casimir

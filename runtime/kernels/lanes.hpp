@@ -2,6 +2,7 @@
 
 // Several numbers in one register, by the vector extensions of GCC and Clang.
 
+#include "runtime/kernels/unroll.hpp"
 #include "runtime/module_abi.h"
 
 namespace casimir_kernel {
@@ -32,6 +33,14 @@ template <int width>
 using Lanes = typename LaneTypes<width>::Real;
 template <int width>
 using Indices = typename LaneTypes<width>::Index;
+/// What one register of this instruction set holds.
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+constexpr int kNativeWidth = 8;
+#elif defined(__AVX2__) && defined(__FMA__)
+constexpr int kNativeWidth = 4;
+#else
+constexpr int kNativeWidth = 2;
+#endif
 using Lanes2 = Lanes<2>;
 using Lanes4 = Lanes<4>;
 using Lanes8 = Lanes<8>;

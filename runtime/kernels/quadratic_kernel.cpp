@@ -10,14 +10,7 @@
 
 namespace {
 
-/// For the width of this instruction set's registers.
-#if defined(__AVX512F__)
-constexpr int kWidth = 8;
-#elif defined(__AVX2__)
-constexpr int kWidth = 4;
-#else
-constexpr int kWidth = 2;
-#endif
+constexpr int kWidth = casimir_kernel::kNativeWidth;
 
 struct RunTimeTables {
   static constexpr bool known = false;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "runtime/kernels/reciprocals.hpp"
 #include "runtime/kernels/taylor.hpp"
 #include "runtime/kernels/wide_tables.h"
 
@@ -16,8 +17,8 @@ template <int width, int the_blocks>
 struct Wide {
   using V = Lanes<width>;
   using Index = Indices<width>;
-  static constexpr int blocks = the_blocks, most = 24;
-  static constexpr bool smooth = true;
+  static constexpr int blocks = the_blocks, room = blocks, most = 24;
+  static constexpr bool smooth = true, prepared = false;
 
   const int states, order;
   V c[most + 1][blocks];
