@@ -34,6 +34,7 @@ class WideTables {
     void append(const std::vector<Number>& lanes);
     Number* data() { return parts_.empty() ? nullptr : parts_[0].lanes; }
     const Number* data() const { return parts_.empty() ? nullptr : parts_[0].lanes; }
+    int count() const { return static_cast<int>(used_); }
 
    private:
     struct alignas(64) Part {
@@ -45,10 +46,9 @@ class WideTables {
 
   friend class WideLayout;
   int states_ = 0, width_ = 0, blocks_ = 0, registers_ = 0;
-  bool linear_ = false;
-  Registers<long long> left_, right_, moved_from_;
-  Registers<double> constant_, own_factor_, moved_factor_;
-  std::vector<int> own_begin_, own_source_, moved_begin_, moved_source_;
+  Registers<long long> left_, right_, linear_state_, moved_lane_;
+  Registers<double> constant_, dense_, linear_factor_, own_factor_, moved_factor_;
+  std::vector<int> linear_begin_, own_begin_, own_from_, moved_begin_, moved_from_;
 };
 
 }  // namespace casimir

@@ -1,6 +1,6 @@
 // The lanes for the products of a quadratic right-hand side whose states fill several registers.
 #include <algorithm>
-#include <map>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -69,115 +69,155 @@ class WideLayout {
 
   void run() {
     lay_out_products();
-    tables_.own_begin_ = {0};
-    tables_.moved_begin_ = {0};
-    for (int b = 0; b < tables_.blocks_; ++b) lay_out_rates(b);
+    if (few()) tables_.dense_.resize(index(tables_.registers_ * tables_.blocks_ * width_));
+    tables_.linear_begin_ = tables_.own_begin_ = tables_.moved_begin_ = {0};
+    for (int b = 0; b < tables_.blocks_; ++b) {
+      lay_out_linear(b);
+      lay_out_own(b);
+      lay_out_moved(b);
+    }
   }
 
  private:
-  /// The number of a source, counted through all registers of sources, and its factor in a rate.
+  /// A state or product by its number, or a lane, and its factor in a rate.
   struct Term {
-    int number;
-    double factor;
+    int number = 0;
+    double factor = 0;
   };
+  using Lanes = std::vector<std::vector<Term>>;  ///< the terms that each lane of a register needs
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+  /// Whether the kernel has code of its own for so few registers.
+  bool few() const {
+    return tables_.registers_ > 0 && tables_.registers_ <= CASIMIR_WIDE_FEW &&
+           tables_.blocks_ <= CASIMIR_WIDE_BLOCKS;
+  }
 
   void lay_out_products() {
     tables_.left_.resize(slots_.size());
     tables_.right_.resize(slots_.size());
     for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
-      if (slots_[slot] == kEmpty) continue;
-      const QuadraticForm::Product& product = form_.products[index(slots_[slot])];
-      tables_.left_.data()[slot] = product.first;
-      tables_.right_.data()[slot] = product.second;
+      const bool empty = slots_[slot] == kEmpty;
+      tables_.left_.data()[slot] = state_index(empty ? 0 : product_in(slot).first);
+      tables_.right_.data()[slot] = state_index(empty ? 0 : product_in(slot).second);
     }
   }
 
-  std::vector<Term> terms_of(int rate) const {
-    std::vector<Term> terms;
-    for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
-      if (slots_[slot] == kEmpty) continue;
-      const double factor = form_.products[index(slots_[slot])].factor[index(rate)];
-      if (factor != 0) terms.push_back({static_cast<int>(slot), factor});
-    }
-    for (int j = 0; j < form_.states; ++j) {
-      const double factor = form_.linear[index(rate)][index(j)];
-      if (factor != 0) terms.push_back({tables_.registers_ * width_ + j, factor});
-    }
-    return terms;
+  const QuadraticForm::Product& product_in(std::size_t slot) const {
+    return form_.products[index(slots_[slot])];
   }
 
-  /// The terms of one register of rates.
-  void lay_out_rates(int b) {
-    std::map<int, std::vector<double>> own;         // by source
-    std::vector<std::vector<Term>> away(index(width_));  // for each lane
+  /// What register b of the rates takes of the product in a slot: nothing beyond the last rate.
+  double factor(std::size_t slot, int b, int lane) const {
+    const int rate = b * width_ + lane;
+    if (slots_[slot] == kEmpty || rate >= form_.states) return 0;
+    return product_in(slot).factor[index(rate)];
+  }
+
+  /// The form of an index that `gathered` takes.
+  long long state_index(int state) const {
+    if (width_ != 4 || tables_.blocks_ > 3) return state;
+    constexpr std::uint64_t kRegister[] = {0, std::uint64_t{1} << 63, std::uint64_t{1} << 62};
+    return static_cast<long long>(static_cast<std::uint64_t>(lane_index(state % 4)) |
+                                  kRegister[state / 4]);
+  }
+
+  /// The form of an index that `permuted_by` takes.
+  long long lane_index(int lane) const {
+    const long long low = 2LL * lane;
+    return width_ == 4 ? low | (low + 1) << 32 : lane;
+  }
+
+  void lay_out_linear(int b) {
+    Lanes lanes(index(width_));
     for (int lane = 0; lane < width_ && b * width_ + lane < form_.states; ++lane) {
-      for (const Term& term : terms_of(b * width_ + lane)) {
-        if (term.number % width_ == lane) {
-          std::vector<double>& factors = own[term.number / width_];
-          factors.resize(index(width_));
-          factors[index(lane)] = term.factor;
-        } else {
-          away[index(lane)].push_back(term);
+      const std::vector<double>& row = form_.linear[index(b * width_ + lane)];
+      for (int j = 0; j < form_.states; ++j)
+        if (row[index(j)] != 0) lanes[index(lane)].push_back({j, row[index(j)]});
+    }
+    for (const std::vector<Term>& entry : entries_of(lanes)) {
+      std::vector<long long> states;
+      for (const Term& term : entry) states.push_back(state_index(term.number));
+      tables_.linear_state_.append(states);
+      tables_.linear_factor_.append(factors_of(entry));
+    }
+    tables_.linear_begin_.push_back(tables_.linear_factor_.count() / width_);
+  }
+
+  /// The products that stand in the lanes of the rates that need them.
+  void lay_out_own(int b) {
+    for (int m = 0; m < tables_.registers_; ++m) {
+      std::vector<double> factors;
+      for (int lane = 0; lane < width_; ++lane)
+        factors.push_back(factor(index(m * width_ + lane), b, lane));
+      if (std::all_of(factors.begin(), factors.end(), [](double f) { return f == 0; })) continue;
+      if (few())
+        std::copy(factors.begin(), factors.end(),
+                  tables_.dense_.data() + (m * tables_.blocks_ + b) * width_);
+      else
+        add_own(m, factors);
+    }
+    if (tables_.own_from_.size() % 2 == 1)
+      add_own(tables_.own_from_.back(), std::vector<double>(index(width_)));
+    tables_.own_begin_.push_back(static_cast<int>(tables_.own_from_.size()));
+  }
+
+  void add_own(int m, const std::vector<double>& factors) {
+    tables_.own_from_.push_back(m);
+    tables_.own_factor_.append(factors);
+  }
+
+  /// The others: from one register at a time, or with two lanes from anywhere.
+  void lay_out_moved(int b) {
+    Lanes from_anywhere(index(width_));
+    for (int m = 0; m < tables_.registers_; ++m) {
+      Lanes lanes(index(width_));
+      for (int lane = 0; lane < width_; ++lane) {
+        for (int from = 0; from < width_; ++from) {
+          const int slot = m * width_ + from;
+          const double f = factor(index(slot), b, lane);
+          if (f == 0 || from == lane) continue;
+          lanes[index(lane)].push_back({from, f});
+          from_anywhere[index(lane)].push_back({slot, f});
         }
       }
+      if (width_ > 2) add_moves(m, lanes);
     }
-    for (const auto& [source, factors] : own) {
-      tables_.own_source_.push_back(source);
-      tables_.own_factor_.append(factors);
-    }
-    if (own.size() % 2 == 1) {
-      tables_.own_source_.push_back(own.begin()->first);
-      tables_.own_factor_.append(std::vector<double>(index(width_)));
-    }
-    tables_.own_begin_.push_back(static_cast<int>(tables_.own_source_.size()));
-    if (width_ == 8)
-      move_by_source(away);
-    else
-      move_from_anywhere(away);
-    if (tables_.moved_source_.size() % 2 == 1)
-      add_move(tables_.moved_source_.back(), std::vector<Term>(index(width_)));
-    tables_.moved_begin_.push_back(static_cast<int>(tables_.moved_source_.size()));
+    if (width_ == 2) add_moves(0, from_anywhere);
+    if (tables_.moved_from_.size() % 2 == 1)
+      add_move(tables_.moved_from_.back(), std::vector<Term>(index(width_)));
+    tables_.moved_begin_.push_back(static_cast<int>(tables_.moved_from_.size()));
   }
 
-  /// One move has lanes of one source only.
-  void move_by_source(const std::vector<std::vector<Term>>& away) {
-    std::map<int, std::vector<std::vector<Term>>> by_source;
-    for (int lane = 0; lane < width_; ++lane) {
-      for (const Term& term : away[index(lane)]) {
-        auto& lanes = by_source[term.number / width_];
-        lanes.resize(index(width_));
-        lanes[index(lane)].push_back({term.number % width_, term.factor});
+  void add_moves(int m, const Lanes& lanes) {
+    for (const std::vector<Term>& entry : entries_of(lanes)) add_move(m, entry);
+  }
+
+  void add_move(int m, const std::vector<Term>& entry) {
+    std::vector<long long> lanes;
+    for (const Term& term : entry) lanes.push_back(lane_index(term.number));
+    tables_.moved_from_.push_back(m);
+    tables_.moved_lane_.append(lanes);
+    tables_.moved_factor_.append(factors_of(entry));
+  }
+
+  /// The terms of all lanes, one of each at a time; the factor 0 where a lane has no more.
+  static std::vector<std::vector<Term>> entries_of(const Lanes& lanes) {
+    std::vector<std::vector<Term>> entries;
+    for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
+      for (std::size_t e = 0; e < lanes[lane].size(); ++e) {
+        if (e == entries.size()) entries.emplace_back(lanes.size());
+        entries[e][lane] = lanes[lane][e];
       }
     }
-    for (const auto& [source, lanes] : by_source) add_moves(source, lanes);
+    return entries;
   }
 
-  void move_from_anywhere(const std::vector<std::vector<Term>>& away) { add_moves(0, away); }
-
-  void add_moves(int source, const std::vector<std::vector<Term>>& lanes) {
-    std::size_t most = 0;
-    for (const auto& terms : lanes) most = std::max(most, terms.size());
-    for (std::size_t e = 0; e < most; ++e) {
-      std::vector<Term> move(index(width_), Term{0, 0});
-      for (int lane = 0; lane < width_; ++lane) {
-        if (e < lanes[index(lane)].size()) move[index(lane)] = lanes[index(lane)][e];
-      }
-      add_move(source, move);
-    }
-  }
-
-  void add_move(int source, const std::vector<Term>& move) {
-    std::vector<long long> from;
-    std::vector<double> factor;
-    for (const Term& term : move) {
-      from.push_back(term.number);
-      factor.push_back(term.factor);
-    }
-    tables_.moved_source_.push_back(source);
-    tables_.moved_from_.append(from);
-    tables_.moved_factor_.append(factor);
+  static std::vector<double> factors_of(const std::vector<Term>& entry) {
+    std::vector<double> factors;
+    for (const Term& term : entry) factors.push_back(term.factor);
+    return factors;
   }
 
   const QuadraticForm& form_;
@@ -200,8 +240,6 @@ WideTables::WideTables(const QuadraticForm& form, int width)
                                 " states and " + std::to_string(form.products.size()) +
                                 " products");
   registers_ = (static_cast<int>(form.products.size()) + width - 1) / width;
-  for (const auto& row : form.linear)
-    linear_ = linear_ || std::any_of(row.begin(), row.end(), [](double f) { return f != 0; });
   constant_.resize(static_cast<std::size_t>(blocks_ * width));
   std::copy(form.constant.begin(), form.constant.end(), constant_.data());
   WideLayout(form, *this).run();
@@ -212,17 +250,20 @@ casimir_wide WideTables::view() const {
           .width = width_,
           .blocks = blocks_,
           .registers = registers_,
-          .linear = linear_,
           .left = left_.data(),
           .right = right_.data(),
           .constant = constant_.data(),
+          .dense = dense_.data(),
+          .linear_begin = linear_begin_.data(),
+          .linear_state = linear_state_.data(),
+          .linear_factor = linear_factor_.data(),
           .own_begin = own_begin_.data(),
-          .own_source = own_source_.data(),
+          .own_from = own_from_.data(),
           .own_factor = own_factor_.data(),
           .moved_begin = moved_begin_.data(),
           .moved_from = moved_from_.data(),
-          .moved_factor = moved_factor_.data(),
-          .moved_source = moved_source_.data()};
+          .moved_lane = moved_lane_.data(),
+          .moved_factor = moved_factor_.data()};
 }
 
 }  // namespace casimir

@@ -79,13 +79,20 @@ std::function<void(double, const double*, double*)> SceneRun::invariant_sizes() 
 namespace {
 
 /// A module from the compiler.
+/// \throws CompilerMissing  without one; the text names the method that does not need it.
 CompiledModule compiled_module(const Specialisation& s, const Method& method) {
   // A library that only calls the right-hand side has no kernel: one module serves them all.
   const std::string kernel = method.header.empty() ? std::string{} : kernel_source(method);
   CompileOptions options;
   options.standard_library = !method.outside.empty() && !kernel.empty();
-  const CompiledObject object = compile(emit_module(s, kernel, method.series), options);
-  return {.module = Module::load(object.path), .from_cache = object.from_cache};
+  const std::string text = emit_module(s, kernel, method.series);
+  try {
+    const CompiledObject object = compile(text, options);
+    return {.module = Module::load(object.path), .from_cache = object.from_cache};
+  } catch (const CompilerMissing& problem) {
+    throw CompilerMissing(std::string(problem.what()) +
+                          ", or use --method taylor, which needs none");
+  }
 }
 
 /// For the method of Taylor series: the tables where the system has that shape, else the compiler,

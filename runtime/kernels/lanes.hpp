@@ -106,11 +106,40 @@ CASIMIR_INLINE V collected(const double* x, const long long* from) {
   }
 }
 
-/// The same from `blocks` registers.
+/// Whether `gathered` moves lanes between registers, rather than loading one number after another.
+template <class V, int blocks>
+constexpr bool gathers_in_registers =
+#if defined(__AVX512F__)
+    sizeof(V) == sizeof(Lanes8) && blocks <= 3;
+#elif defined(__AVX2__)
+    sizeof(V) == sizeof(Lanes4) && blocks <= 3;
+#else
+    false;
+#endif
+
+/// Lane i of the result is lane from[i] of v. The indices are in the form that the instruction set
+/// moves by: for four lanes, the lane n is 2n and 2n + 1 in the halves, as for numbers of half the
+/// size. Not for two lanes.
+CASIMIR_INLINE Lanes4 permuted_by(Lanes4 v, const long long* from) {
+#ifdef __AVX2__
+  typedef float Halves __attribute__((vector_size(32)));
+  typedef int Places __attribute__((vector_size(32)));
+  return (Lanes4)__builtin_ia32_permvarsf256((Halves)v, load<Places>(from));
+#else
+  return Lanes4{v[from[0] >> 1 & 3], v[from[1] >> 1 & 3], v[from[2] >> 1 & 3], v[from[3] >> 1 & 3]};
+#endif
+}
+CASIMIR_INLINE Lanes8 permuted_by(Lanes8 v, const long long* from) {
+  return permuted(v, load<Indices<8>>(from));
+}
+
+/// Lane i of the result is the number from[i] in `blocks` registers. For at most three registers of
+/// four, the indices are those of `permuted_by` in the register, bit 63 is set for the second
+/// register and bit 62 for the third.
 template <int blocks, class V>
 CASIMIR_INLINE V gathered(const V* x, const long long* from) {
-#ifdef __AVX512F__
-  if constexpr (sizeof(V) == sizeof(Lanes8) && blocks <= 3) {
+#if defined(__AVX512F__)
+  if constexpr (gathers_in_registers<V, blocks>) {
     const Indices<8> lanes = load<Indices<8>>(from);
     if constexpr (blocks == 1) return permuted(x[0], lanes);
     if constexpr (blocks == 2) return __builtin_shuffle(x[0], x[1], lanes);
@@ -118,6 +147,16 @@ CASIMIR_INLINE V gathered(const V* x, const long long* from) {
       const V low = __builtin_shuffle(x[0], x[1], lanes), high = permuted(x[2], lanes);
       return lanes < 16 ? low : high;
     }
+  }
+#elif defined(__AVX2__)
+  if constexpr (gathers_in_registers<V, blocks>) {
+    const V low = permuted_by(x[0], from);
+    if constexpr (blocks == 1) return low;
+    const V both =
+        __builtin_ia32_blendvpd256(low, permuted_by(x[blocks > 1], from), load<V>(from));
+    if constexpr (blocks == 2) return both;
+    return __builtin_ia32_blendvpd256(both, permuted_by(x[blocks - 1], from),
+                                      (V)(load<Indices<4>>(from) << 1));
   }
 #endif
   return collected<V>(reinterpret_cast<const double*>(x), from);
