@@ -34,8 +34,9 @@ std::string emit_header(const Specialisation& specialisation, const HeaderOption
 ///        empty: the module has no `casimir_integrate`.
 /// `System` has `n`, `rhs(t, x, p, dx)` and, where the specialisation has it, `jacobian(t, x, p,
 /// J)` by columns, all entries.
-/// \param with_series  `System::Series` as well, for kernels that need the recurrences of Taylor
-///        coefficients (runtime/kernels/convolved.hpp).
+/// \param with_series  instead of `casimir_integrate`, what the precompiled integrator along Taylor
+///        series calls; the kernel is then the storage of recurrences
+///        (runtime/kernels/convolved.hpp).
 std::string emit_module(const Specialisation& specialisation, const std::string& kernel_source = {},
                         bool with_series = false);
 

@@ -72,7 +72,12 @@ class ModuleWriter {
     text += "\n" + function("invariants", "values", spec_.invariants, "");
     if (with_series) text += "\n" + codegen::series_struct(spec_.rhs, names_);
     text += "};\n\n}  // namespace\n\n";
-    return text + exports(!kernel.empty());
+    text += exports();
+    if (with_series)
+      text += series_exports();
+    else if (!kernel.empty())
+      text += integrate_export();
+    return text + "\n}  // extern \"C\"\n";
   }
 
  private:
@@ -101,7 +106,7 @@ class ModuleWriter {
            before + codegen::statements(program, sources_, names_, targets, style_) + "  }\n";
   }
 
-  std::string exports(bool with_kernel) const {
+  std::string exports() const {
     const auto constant = [](const std::string& name, std::size_t value) {
       return "int " + name + "(void) { return " + std::to_string(value) + "; }\n";
     };
@@ -117,13 +122,28 @@ class ModuleWriter {
     text += forwarded("rhs", "dx");
     if (spec_.has_jacobian) text += forwarded("jacobian", "J");
     text += forwarded("invariants", "values");
-    if (with_kernel) {
-      text +=
-          "void casimir_integrate(const struct casimir_run* run, double* x,\n"
-          "                       struct casimir_outcome* outcome) {\n"
-          "  casimir_kernel::integrate<System>(run, x, outcome);\n}\n";
-    }
-    return text + "\n}  // extern \"C\"\n";
+    return text;
+  }
+
+  static std::string integrate_export() {
+    return "void casimir_integrate(const struct casimir_run* run, double* x,\n"
+           "                       struct casimir_outcome* outcome) {\n"
+           "  casimir_kernel::integrate<System>(run, x, outcome);\n}\n";
+  }
+
+  /// What the precompiled integrator calls.
+  static std::string series_exports() {
+    return "\nunsigned long casimir_series_size(void) { return sizeof(System::Series); }\n"
+           "int casimir_series_width(void) { return System::Series::width; }\n"
+           "int casimir_series_smooth(void) { return System::Series::smooth; }\n"
+           "void casimir_series_start(void* series, int order, const double* p) {\n"
+           "  static_cast<System::Series*>(series)->order = order;\n"
+           "  static_cast<System::Series*>(series)->p = p;\n}\n"
+           "void casimir_series_begin(void* series, double t, const double* x) {\n"
+           "  static_cast<System::Series*>(series)->begin(\n"
+           "      t, reinterpret_cast<const System::Series::V*>(x));\n}\n"
+           "void casimir_series_expand(void* series, double unit) {\n"
+           "  static_cast<System::Series*>(series)->expand(unit);\n}\n";
   }
 
   const Specialisation& spec_;

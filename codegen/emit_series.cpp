@@ -29,8 +29,9 @@ class SeriesWriter {
   SeriesWriter(const Program& rhs, const std::vector<std::string>& names)
       : program_(without_dead_code(rhs)),
         constant_(constant_instructions(program_)),
-        unique_({"V", "c", "rate", "order", "p", "most", "states", "blocks", "groups", "smooth",
-                 "k", "by_k", "step", "unit", "state", "at", "begin", "expand", "form_sums"}),
+        unique_({"V",     "c",      "rate",   "order",   "p",      "most",   "states", "blocks",
+                 "groups", "smooth", "width",  "k",       "by_k",   "step",   "unit",   "state",
+                 "at",     "begin",  "expand", "form_sums", "lane", "pack"}),
         value_(program_.code.size()),
         varies_(program_.code.size(), false),
         states_(program_.outputs.size()) {
@@ -282,39 +283,25 @@ class SeriesWriter {
     assign_next(y, "(" + turn + " - " + slope(y, r) + ") * " + inverse);
   }
 
-  /// `count` entries of a register, the rest zero.
-  static std::string lanes(const std::vector<std::string>& entries, std::size_t group) {
-    std::string text;
-    for (std::size_t lane = 0; lane < 8; ++lane) {
-      const std::size_t i = 8 * group + lane;
-      text += (lane == 0 ? "" : ", ") + (i < entries.size() ? entries[i] : "0");
-    }
-    return "V{" + text + "}";
-  }
-
-  std::string registers(const std::string& target, const std::vector<std::string>& entries,
-                        const std::string& indent) const {
-    std::string text;
-    for (std::size_t g = 0; 8 * g < entries.size(); ++g) {
-      text +=
-          wrapped(indent + target + "[" + std::to_string(g) + "] = " + lanes(entries, g) + ";") +
-          "\n";
-    }
-    return text;
+  static std::string packed(const std::string& target, const std::vector<std::string>& entries,
+                            const std::string& indent) {
+    if (entries.empty()) return "";
+    std::string text = indent + "pack(" + target;
+    for (const std::string& entry : entries) text += ", " + entry;
+    return wrapped(text + ");") + "\n";
   }
 
   std::string begin_function() const {
     std::string text = "    void begin([[maybe_unused]] double at, const V* state) {\n";
     for (std::size_t i = 0; i < states_; ++i) {
-      text += "      " + inputs_[i] + " = state[" + std::to_string(i / 8) + "][" +
-              std::to_string(i % 8) + "];\n";
+      text += "      " + inputs_[i] + " = lane(state, " + std::to_string(i) + ");\n";
     }
     for (const std::size_t i : used_parameters_)
       text += "      " + inputs_[i] + " = p[" + std::to_string(i - states_) + "];\n";
     if (uses_time_) text += "      " + inputs_.back() + " = at;\n";
     std::vector<std::string> rates;
     for (const int output : program_.outputs) rates.push_back(at(output));
-    return text + begin_ + registers("rate", rates, "      ") + "    }\n";
+    return text + begin_ + packed("rate", rates, "      ") + "    }\n";
   }
 
   std::string expand_function() const {
@@ -328,11 +315,9 @@ class SeriesWriter {
       right.push_back(s.right + "_k");
     }
     std::string text = "    void expand(double unit) {\n";
-    for (std::size_t b = 0; 8 * b < states_; ++b)
-      text += "      c[1][" + std::to_string(b) + "] = rate[" + std::to_string(b) + "] * unit;\n";
+    text += "      for (int b = 0; b < blocks; ++b) c[1][b] = rate[b] * unit;\n";
     for (std::size_t i = 0; i < states_; ++i) {
-      text += "      double " + inputs_[i] + "_k = c[1][" + std::to_string(i / 8) + "][" +
-              std::to_string(i % 8) + "];\n";
+      text += "      double " + inputs_[i] + "_k = lane(c[1], " + std::to_string(i) + ");\n";
       next_states.push_back(inputs_[i] + "_k");
     }
     text +=
@@ -340,15 +325,25 @@ class SeriesWriter {
         "        [[maybe_unused]] const double by_k = casimir_kernel::taylor::reciprocal.of[k];\n";
     if (uses_time_) text += "        const double " + inputs_.back() + "_k = k == 1 ? unit : 0;\n";
     if (!order_.empty()) text += "        form_sums(k);\n";
-    text += next_ + registers("left_[k]", left, "        ") +
-            registers("right_[k]", right, "        ") +
+    text += next_ + packed("left_[k]", left, "        ") +
+            packed("right_[k]", right, "        ") +
             "        const double step = unit * casimir_kernel::taylor::reciprocal.of[k + 1];\n";
     // A rate may be another state as it is: all are formed before any is replaced.
     for (std::size_t i = 0; i < states_; ++i)
       text += "        const double " + inputs_[i] + "_next = step * (" + rates[i] + ");\n";
     for (std::size_t i = 0; i < states_; ++i)
       text += "        " + inputs_[i] + "_k = " + inputs_[i] + "_next;\n";
-    return text + registers("c[k + 1]", next_states, "        ") + "      }\n    }\n";
+    return text + packed("c[k + 1]", next_states, "        ") + "      }\n    }\n";
+  }
+
+  /// Whether nothing but a constant is divided by, and no function is called with what varies.
+  bool is_polynomial() const {
+    for (std::size_t i = 0; i < program_.code.size(); ++i) {
+      const Instruction& c = code(i);
+      if (constant_[i] || !varies_[i] || c.op < Op::div || c.op == Op::neg) continue;
+      if (c.op != Op::div || varies(c.b)) return false;
+    }
+    return true;
   }
 
   std::string assembled() {
@@ -362,7 +357,8 @@ class SeriesWriter {
     return "  // Taylor coefficients of solutions: values at the state, and coefficient k of "
            "each.\n"
            "  struct Series : " +
-           base + " {\n    const double* p = nullptr;\n" + wrapped(all + ";") + "\n\n" +
+           base + " {\n    static constexpr bool smooth = " + (is_polynomial() ? "true" : "false") +
+           ";\n" + wrapped(all + ";") + "\n\n" +
            begin_function() + "\n" + expand_function() + "  };\n";
   }
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <utility>
 
 #include "codegen/literal.hpp"
 #include "codegen/lower.hpp"

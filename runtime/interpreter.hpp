@@ -17,9 +17,6 @@ class Interpreter {
   void operator()(const double* inputs, double* outputs) const;
 
  private:
-  double at(int line) const { return values_[static_cast<std::size_t>(line)]; }
-  double value_of(const Instruction& line) const;
-
   Program program_;
   mutable std::vector<double> values_;  ///< of each line; those of constants never change
 };

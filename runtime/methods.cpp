@@ -27,10 +27,9 @@ constexpr Method kMethods[] = {
     {"dop853", 8, false, false, false, false, true, false, "", "runtime/kernels/dop853.hpp",
      "dop853::integrate<System>", "", "explicit Runge-Kutta method of Dormand and Prince",
      "Hairer, Norsett, Wanner: Solving Ordinary Differential Equations I (1993), II.5, II.10"},
-    {"taylor", 0, false, false, false, false, true, true, "", kTaylor, "taylor::integrate<System>",
-     "", kTaylorText, kTaylorBook},
+    {"taylor", 0, false, false, false, false, true, true, "", kTaylor, "", "", kTaylorText, kTaylorBook},
     {"taylor-compiled", 0, false, false, false, false, true, true, "", kTaylor,
-     "taylor::integrate<System>", "", kTaylorText, kTaylorBook},
+     "", "", kTaylorText, kTaylorBook},
     {"gauss4", 4, true, false, true, true, true, false, "", kGauss, "gauss::integrate<System, 2>",
      kScalar, kGaussText, kGaussBook},
     {"gauss6", 6, true, false, true, true, true, false, "", kGauss, "gauss::integrate<System, 3>",
@@ -107,6 +106,7 @@ std::string kernel_source(const Method& method) {
   append_header("runtime/module_abi.h", seen, out);
   if (method.header.empty()) return out;
   append_header(method.header, seen, out);
+  if (method.entry.empty()) return out;
   out.append("\nnamespace casimir_kernel {\n\ntemplate <class System>\n");
   out.append("void integrate(const casimir_run* run, double* x, casimir_outcome* out) {\n  ");
   out.append(method.entry).append("(run, x, out);\n}\n\n}  // namespace casimir_kernel\n");

@@ -19,7 +19,8 @@ struct Method {
   bool series;                ///< needs the recurrences of the system's Taylor coefficients
   std::string_view outside;   ///< the library that does it, or empty: a kernel of our own
   std::string_view header;    ///< of the kernel, as #include says it; empty: a library calls rhs
-  std::string_view entry;     ///< the function template of the kernel, called with <System ..>
+  std::string_view entry;     ///< the function template of the kernel, called with <System ..>;
+                              ///< empty: the integrator is precompiled, the kernel is storage
   std::string_view optimise;  ///< options of GCC under which the kernel is fastest, or empty
   std::string_view description;
   std::string_view literature;
@@ -41,7 +42,7 @@ std::vector<std::string> method_names();
 ///   template <class System> void integrate(const casimir_run*, double*, casimir_outcome*);
 ///   }
 ///
-/// For a method without a header the interface alone. The same text every time; the kernels of
+/// For a method without a header the interface alone, and for one without an entry no `integrate`. The same text every time; the kernels of
 /// outside methods include their library's headers.
 std::string kernel_source(const Method& method);
 

@@ -2,7 +2,10 @@
 
 #include <dlfcn.h>
 
+#include <new>
 #include <stdexcept>
+
+#include "runtime/quadratic_targets.hpp"
 
 namespace casimir {
 namespace {
@@ -17,6 +20,31 @@ int number(void* handle, const std::string& path, const char* name) {
   auto* const function = find<int(void)>(handle, name);
   if (!function) throw std::runtime_error(path + ": the module lacks " + name);
   return function();
+}
+
+/// The integration along series whose recurrences the shared object has.
+std::function<ModuleFunctions::Integration> along_series(void* handle, const std::string& path,
+                                                         int states) {
+  casimir_series series = {};
+  series.states = states;
+  series.start = find<void(void*, int, const double*)>(handle, "casimir_series_start");
+  series.begin = find<void(void*, double, const double*)>(handle, "casimir_series_begin");
+  series.expand = find<void(void*, double)>(handle, "casimir_series_expand");
+  auto* const size = find<unsigned long(void)>(handle, "casimir_series_size");
+  if (!size) return {};
+  if (!series.start || !series.begin || !series.expand)
+    throw std::runtime_error(path + ": the module lacks a function of its series");
+  series.smooth = number(handle, path, "casimir_series_smooth");
+  const int width = number(handle, path, "casimir_series_width");
+  return [series, width, bytes = size()](const casimir_run* run, double* x, casimir_outcome* out) {
+    constexpr std::align_val_t kAligned{64};
+    const auto release = [](void* memory) { operator delete(memory, kAligned); };
+    const std::unique_ptr<void, decltype(release)> memory(operator new(bytes, kAligned), release);
+    casimir_series mine = series;
+    mine.object = memory.get();
+    mine.rows = static_cast<double*>(memory.get());
+    integrate_series(mine, width, run, x, out);
+  };
 }
 
 }  // namespace
@@ -59,6 +87,8 @@ Module Module::load(const std::string& path) {
   functions.invariants = find<ModuleFunctions::Evaluation>(handle.get(), "casimir_invariants");
   functions.integrate = find<ModuleFunctions::Integration>(handle.get(), "casimir_integrate");
   if (!functions.rhs) throw std::runtime_error(path + ": the module lacks casimir_rhs");
+  if (!functions.integrate)
+    functions.integrate = along_series(handle.get(), path, functions.dimension);
   Module module = from_functions(functions);
   module.handle_ = std::move(handle);
   return module;

@@ -61,7 +61,13 @@ struct casimir_outcome {
  *   void casimir_invariants(double t, const double* x, const double* p, double* values);
  *   void casimir_integrate(const struct casimir_run*, double* x, struct casimir_outcome*);
  * `casimir_jacobian` is present only where it was asked for, `casimir_integrate` only with a
- * kernel.
+ * kernel that is compiled for the system. For the method of Taylor series there are instead
+ *   unsigned long casimir_series_size(void);  bytes of a series, which is aligned to 64 bytes and
+ *                                             begins with the rows of kernels/series.h
+ *   int casimir_series_width(void);           numbers in the registers that rows are made of
+ *   int casimir_series_smooth(void);
+ * and the functions casimir_series_start, _begin and _expand of kernels/series.h, whose object is
+ * the series.
  */
 
 #endif

@@ -29,7 +29,7 @@ struct IeeeArithmetic {
   static Real pi() { return static_cast<Real>(3.14159265358979323846264338327950288L); }
   static Real divide(Real a, Real b) { return a / b; }
   static Real sqrt(Real a) { return std::sqrt(a); }
-  static Real power(Real a, const cln::cl_RA& e) { return std::pow(a, from(e)); }
+  static Real power(Real a, Real e) { return std::pow(a, e); }
   static Real sin(Real a) { return std::sin(a); }
   static Real cos(Real a) { return std::cos(a); }
   static Real tan(Real a) { return std::tan(a); }
@@ -60,7 +60,7 @@ struct Arithmetic<cln::cl_RA> {
     if (cln::minusp(a) || !cln::sqrtp(a, &root)) none();
     return root;
   }
-  static N power(const N&, const cln::cl_RA&) { return none(); }
+  static N power(const N&, const N&) { return none(); }
   static N sin(const N&) { return none(); }
   static N cos(const N&) { return none(); }
   static N tan(const N&) { return none(); }
@@ -91,9 +91,9 @@ struct Arithmetic<cln::cl_F> {
     if (cln::minusp(a)) throw std::domain_error("square root of a negative number");
     return cln::sqrt(a);
   }
-  N power(const N& a, const cln::cl_RA& e) const {
+  N power(const N& a, const N& e) const {
     if (!cln::plusp(a)) throw std::domain_error("broken power of a number that is not positive");
-    return cln::exp(cln::ln(a) * from(e));
+    return cln::exp(cln::ln(a) * e);
   }
   N sin(const N& a) const { return cln::cl_float(cln::sin(a), format); }
   N cos(const N& a) const { return cln::cl_float(cln::cos(a), format); }

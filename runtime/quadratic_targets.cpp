@@ -1,15 +1,22 @@
-// Which table-driven kernel this processor can run.
-#include <algorithm>
+// Which precompiled kernel this processor can run, and which one suits a system.
+#include "runtime/quadratic_targets.hpp"
+
+#include <optional>
 #include <stdexcept>
 
-#include "runtime/uncompiled.hpp"
+#include "runtime/quadratic_layout.hpp"
 
-using Kernel = void(const casimir_quadratic*, const casimir_run*, double*, casimir_outcome*);
+using NarrowKernel = void(const casimir_quadratic*, const casimir_run*, double*, casimir_outcome*);
+using WideKernel = void(const casimir_wide*, const casimir_run*, double*, casimir_outcome*);
+using SeriesKernel = void(const casimir_series*, const casimir_run*, double*, casimir_outcome*);
 extern "C" {
 #ifdef CASIMIR_X86_KERNELS
-Kernel casimir_quadratic_avx512, casimir_quadratic_avx2;
+NarrowKernel casimir_quadratic_avx512, casimir_quadratic_avx2;
+WideKernel casimir_wide_avx512, casimir_wide_avx2;
+SeriesKernel casimir_series_avx512, casimir_series_avx2;
 #endif
-Kernel casimir_quadratic_baseline;
+WideKernel casimir_wide_baseline;
+SeriesKernel casimir_series_baseline;
 }
 
 namespace casimir {
@@ -17,7 +24,10 @@ namespace {
 
 struct Target {
   const char* name;
-  Kernel* kernel;
+  int width;             ///< numbers in a register
+  NarrowKernel* narrow;  ///< for systems whose states fill one register, or null
+  WideKernel* wide;
+  SeriesKernel* series;
 };
 
 /// Those that this processor runs, best first.
@@ -29,14 +39,23 @@ const std::vector<Target>& targets() {
     const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
         __builtin_cpu_supports("avx512vl")) {
-      result.push_back({"avx512", casimir_quadratic_avx512});
+      result.push_back({"avx512", 8, casimir_quadratic_avx512, casimir_wide_avx512,
+                        casimir_series_avx512});
     }
-    if (avx2) result.push_back({"avx2", casimir_quadratic_avx2});
+    if (avx2) result.push_back({"avx2", 4, casimir_quadratic_avx2, casimir_wide_avx2, casimir_series_avx2});
 #endif
-    result.push_back({"baseline", casimir_quadratic_baseline});
+    result.push_back({"baseline", 2, nullptr, casimir_wide_baseline, casimir_series_baseline});
     return result;
   }();
   return known;
+}
+
+const Target& target_named(const std::string& name) {
+  if (name.empty()) return targets().front();
+  for (const Target& known : targets()) {
+    if (known.name == name) return known;
+  }
+  throw std::invalid_argument("this processor does not run kernels for " + name);
 }
 
 }  // namespace
@@ -47,12 +66,40 @@ std::vector<std::string> quadratic_targets() {
   return names;
 }
 
-void integrate_quadratic(const std::string& target, const casimir_quadratic& tables,
-                         const casimir_run* run, double* x, casimir_outcome* out) {
+bool has_quadratic_kernel(const QuadraticForm& form) {
+  return form.states > 0 && form.states <= CASIMIR_WIDE_STATES &&
+         form.products.size() <= CASIMIR_WIDE_PRODUCTS;
+}
+
+struct QuadraticKernel::Tables {
+  Target target;
+  std::optional<casimir_quadratic> narrow;
+  std::optional<WideTables> wide;
+};
+
+QuadraticKernel::QuadraticKernel(const QuadraticForm& form, const std::string& target) {
+  Tables tables{target_named(target), std::nullopt, std::nullopt};
+  if (tables.target.narrow && form.states <= tables.target.width)
+    tables.narrow = narrow_tables(form);
+  if (!tables.narrow) tables.wide.emplace(form, tables.target.width);
+  tables_ = std::make_shared<const Tables>(std::move(tables));
+}
+
+void QuadraticKernel::integrate(const casimir_run* run, double* x, casimir_outcome* out) const {
+  if (tables_->narrow) return tables_->target.narrow(&*tables_->narrow, run, x, out);
+  const casimir_wide view = tables_->wide->view();
+  tables_->target.wide(&view, run, x, out);
+}
+
+int series_width() { return targets().front().width; }
+
+void integrate_series(const casimir_series& series, int width, const casimir_run* run, double* x,
+                      casimir_outcome* out) {
   for (const Target& known : targets()) {
-    if (known.name == target) return known.kernel(&tables, run, x, out);
+    if (known.width == width) return known.series(&series, run, x, out);
   }
-  throw std::invalid_argument("this processor does not run kernels for " + target);
+  throw std::invalid_argument("this processor has no registers of " + std::to_string(width) +
+                              " numbers");
 }
 
 }  // namespace casimir

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cassert>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
-#include "runtime/number.hpp"
-#include "runtime/program.hpp"
+#include "runtime/operation.hpp"
 
 namespace casimir {
 
@@ -13,7 +14,8 @@ namespace casimir {
 /// Analysis, 1979, Sec. 3.4). Every instruction of the program keeps its own series, so one
 /// coefficient of the solution costs one pass, and order N costs O(N^2) operations in all.
 ///
-/// The program is a right-hand side: its inputs are the states, then parameters, then the time.
+/// The program is a right-hand side: its inputs are the states, then parameters, then the time. It
+/// must live as long as this object. Over doubles `expand` neither allocates nor throws.
 template <class Number>
 class TaylorJet {
  public:
@@ -26,12 +28,15 @@ class TaylorJet {
         order_(order),
         unit_(arithmetic_.from(cln::cl_RA(1))) {
     assert(program.outputs.size() + parameters_.size() + 1 == program.inputs.size());
-    for (int k = 0; k <= order; ++k) integers_.push_back(arithmetic_.from(cln::cl_RA(k)));
-    const auto lines = program.code.size();
-    series_.resize(lines);
-    first_auxiliary_.resize(lines);
-    second_auxiliary_.resize(lines);
-    for (const Instruction& line : program.code) constant_.push_back(is_constant(line));
+    for (int k = 0; k <= order + 1; ++k) integers_.push_back(arithmetic_.from(cln::cl_RA(k)));
+    const Series empty(static_cast<std::size_t>(order) + 1, integers_[0]);
+    states_.assign(program.outputs.size(), empty);
+    series_.assign(program.code.size(), empty);
+    for (const Instruction& line : program.code) {
+      constant_.push_back(is_constant(line));
+      helpers_.push_back(has_helpers(line.op) ? static_cast<int>(helper_series_.size()) : -1);
+      if (has_helpers(line.op)) helper_series_.insert(helper_series_.end(), 2, empty);
+    }
   }
 
   /// Coefficients [state][k], k = 0..order, of x(t + h) = sum_k coefficient_k h^k.
@@ -44,18 +49,17 @@ class TaylorJet {
   const std::vector<std::vector<Number>>& expand(const Number& t, const std::vector<Number>& x,
                                                  const Number& unit) {
     unit_ = unit;
-    states_.assign(x.size(), {});
-    for (std::size_t i = 0; i < x.size(); ++i) states_[i].push_back(x[i]);
-    for (auto* store : {&series_, &first_auxiliary_, &second_auxiliary_}) {
-      for (std::vector<Number>& s : *store) s.clear();
+    if (!constants_known_) find_constants();
+    for (std::size_t i = 0; i < x.size(); ++i) states_[i][0] = x[i];
+    for (std::size_t i = 0; i < program_.code.size(); ++i) {
+      if (!constant_[i]) begin(i, t);
     }
-    for (int k = 0; k < order_; ++k) {
-      for (std::size_t i = 0; i < program_.code.size(); ++i) extend(i, k, t);
-      for (std::size_t i = 0; i < x.size(); ++i) {
-        const Number& rate =
-            series_[static_cast<std::size_t>(program_.outputs[i])][static_cast<std::size_t>(k)];
-        states_[i].push_back(unit_ * (rate / integer(k + 1)));
+    advance(0);
+    for (int k = 1; k < order_; ++k) {
+      for (std::size_t i = 0; i < program_.code.size(); ++i) {
+        if (!constant_[i]) extend(i, k);
       }
+      advance(k);
     }
     return states_;
   }
@@ -63,200 +67,203 @@ class TaylorJet {
  private:
   using Series = std::vector<Number>;
 
-  const Number& integer(int k) const { return integers_[static_cast<std::size_t>(k)]; }
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  const Number& integer(int k) const { return integers_[index(k)]; }
+  const Series& of(int line) const { return series_[index(line)]; }
+
+  /// Whether the recurrence of the operation needs series of its own beside the result.
+  static bool has_helpers(Op op) {
+    return op == Op::sin || op == Op::cos || op == Op::tan || op == Op::asin || op == Op::acos ||
+           op == Op::atan2;
+  }
+  Series& helper(std::size_t line, int which) { return helper_series_[index(helpers_[line] + which)]; }
 
   bool is_constant(const Instruction& line) const {
-    if (line.op == Op::constant || line.op == Op::pi) return true;
+    if (is_literal(line)) return true;
     if (line.op == Op::input)
       return line.a >= static_cast<int>(program_.outputs.size()) &&
              line.a + 1 < static_cast<int>(program_.inputs.size());
-    return constant_[static_cast<std::size_t>(line.a)] &&
-           (line.b < 0 || constant_[static_cast<std::size_t>(line.b)]);
+    return constant_[index(line.a)] && (line.b < 0 || constant_[index(line.b)]);
   }
 
-  Number zero() const { return integers_[0]; }
+  /// The values of what is free of states and time; their other coefficients stay zero.
+  void find_constants() {
+    for (std::size_t i = 0; i < program_.code.size(); ++i) {
+      const Instruction& line = program_.code[i];
+      if (!constant_[i]) continue;
+      series_[i][0] = is_literal(line) ? literal_value(program_, line, arithmetic_)
+                      : line.op == Op::input
+                          ? parameters_[index(line.a) - program_.outputs.size()]
+                          : value_of(line);
+    }
+    constants_known_ = true;
+  }
+
+  Number value_of(const Instruction& line) const {
+    return applied(line.op, of(line.a)[0], of(line.b < 0 ? line.a : line.b)[0], arithmetic_);
+  }
+
+  /// Coefficient k + 1 of the states, from coefficient k of the rates.
+  void advance(int k) {
+    if (k == order_) return;
+    for (std::size_t i = 0; i < states_.size(); ++i)
+      states_[i][index(k + 1)] = unit_ * (of(program_.outputs[i])[index(k)] / integer(k + 1));
+  }
 
   /// sum over j = from..to of u_j v_{k-j}
   Number convolution(const Series& u, const Series& v, int k, int from, int to) const {
-    Number sum = zero();
-    for (int j = from; j <= to; ++j)
-      sum = sum + u[static_cast<std::size_t>(j)] * v[static_cast<std::size_t>(k - j)];
-    return sum;
+    return sum_of(from, to, [&](int j) -> Number { return u[index(j)] * v[index(k - j)]; });
   }
 
   /// sum over j = from..to of j u_j v_{k-j}
   Number weighted(const Series& u, const Series& v, int k, int from, int to) const {
-    Number sum = zero();
-    for (int j = from; j <= to; ++j)
-      sum = sum + integer(j) * u[static_cast<std::size_t>(j)] * v[static_cast<std::size_t>(k - j)];
+    return sum_of(from, to,
+                  [&](int j) -> Number { return integer(j) * u[index(j)] * v[index(k - j)]; });
+  }
+
+  template <class Term>
+  Number sum_of(int from, int to, Term term) const {
+    Number sum = integers_[0];
+    int j = from;
+    if constexpr (std::is_floating_point_v<Number>) {
+      // The processor need not wait for one addition before it begins the next.
+      Number second = 0, third = 0, fourth = 0;
+      for (; j + 3 <= to; j += 4) {
+        sum += term(j);
+        second += term(j + 1);
+        third += term(j + 2);
+        fourth += term(j + 3);
+      }
+      sum = (sum + second) + (third + fourth);
+    }
+    for (; j <= to; ++j) sum = sum + term(j);
     return sum;
   }
 
-  Number input(int index, int k, const Number& t) const {
-    const int states = static_cast<int>(states_.size());
-    if (index < states)
-      return states_[static_cast<std::size_t>(index)][static_cast<std::size_t>(k)];
-    if (index + 1 < static_cast<int>(program_.inputs.size()))
-      return k == 0 ? parameters_[static_cast<std::size_t>(index - states)] : zero();
-    return k == 0 ? t : k == 1 ? unit_ : zero();
-  }
-
-  /// Appends coefficient k to the series of instruction i.
-  void extend(std::size_t i, int k, const Number& t) {
+  /// The value of instruction i, and where its recurrence begins.
+  void begin(std::size_t i, const Number& t) {
     const Instruction& line = program_.code[i];
-    Series& s = series_[i];
-    if (k > 0 && constant_[i]) {
-      s.push_back(zero());
+    if (line.op == Op::input) {
+      const bool is_state = index(line.a) < states_.size();
+      series_[i][0] = is_state ? states_[index(line.a)][0] : t;
       return;
     }
-    const Series* const a = line.op > Op::pi ? &series_[static_cast<std::size_t>(line.a)] : nullptr;
-    const Series* const b = line.b >= 0 ? &series_[static_cast<std::size_t>(line.b)] : nullptr;
-    const auto n = static_cast<std::size_t>(k);
+    series_[i][0] = value_of(line);
+    if (helpers_[i] < 0) return;
+    const Arithmetic<Number>& m = arithmetic_;
+    const Number &a = of(line.a)[0], &one = integer(1);
+    Number &u = helper(i, 0)[0], &w = helper(i, 1)[0];
     switch (line.op) {
-      case Op::input:
-        s.push_back(input(line.a, k, t));
+      case Op::sin:
+        u = m.cos(a);
         break;
-      case Op::constant:
-        s.push_back(arithmetic_.from(program_.constants[static_cast<std::size_t>(line.a)]));
+      case Op::cos:
+        u = m.sin(a);
         break;
-      case Op::pi:
-        s.push_back(arithmetic_.pi());
+      case Op::tan:
+        u = one + series_[i][0] * series_[i][0];
         break;
+      case Op::atan2:
+        u = of(line.b)[0] * of(line.b)[0] + a * a;
+        break;
+      default:  // asin, acos
+        w = one - a * a;
+        u = m.sqrt(w);
+    }
+  }
+
+  /// Coefficient k > 0 of the series of instruction i.
+  void extend(std::size_t i, int k) {
+    const Instruction& line = program_.code[i];
+    const std::size_t n = index(k);
+    Number& next = series_[i][n];
+    if (line.op == Op::input) {
+      const bool is_state = index(line.a) < states_.size();
+      next = is_state ? states_[index(line.a)][n] : k == 1 ? unit_ : integer(0);
+      return;
+    }
+    const Series &a = of(line.a), &b = of(line.b < 0 ? line.a : line.b);
+    switch (line.op) {
       case Op::add:
-        s.push_back((*a)[n] + (*b)[n]);
+        next = a[n] + b[n];
         break;
       case Op::sub:
-        s.push_back((*a)[n] - (*b)[n]);
+        next = a[n] - b[n];
         break;
       case Op::neg:
-        s.push_back(-(*a)[n]);
+        next = -a[n];
         break;
       case Op::mul:
-        if (constant_[static_cast<std::size_t>(line.a)])
-          s.push_back((*a)[0] * (*b)[n]);
-        else if (constant_[static_cast<std::size_t>(line.b)])
-          s.push_back((*a)[n] * (*b)[0]);
-        else
-          s.push_back(convolution(*a, *b, k, 0, k));
+        next = constant_[index(line.a)]   ? a[0] * b[n]
+               : constant_[index(line.b)] ? a[n] * b[0]
+                                          : convolution(a, b, k, 0, k);
         break;
       case Op::div:
-        if (constant_[static_cast<std::size_t>(line.b)])
-          s.push_back(arithmetic_.divide((*a)[n], (*b)[0]));
-        else
-          s.push_back(arithmetic_.divide((*a)[n] - convolution(*b, s, k, 1, k), (*b)[0]));
+        next = constant_[index(line.b)]
+                   ? arithmetic_.divide(a[n], b[0])
+                   : arithmetic_.divide(a[n] - convolution(b, series_[i], k, 1, k), b[0]);
         break;
       default:
-        s.push_back(k == 0 ? start_function(i, line) : next_function(i, line, *a, b, k));
-        break;
+        next = next_of_function(i, line, a, b, k);
     }
-  }
-
-  /// The value of a function, and of its auxiliary series.
-  Number start_function(std::size_t i, const Instruction& line) {
-    const Arithmetic<Number>& m = arithmetic_;
-    const Number a = series_[static_cast<std::size_t>(line.a)][0];
-    const Number one = integers_.size() > 1 ? integer(1) : m.from(cln::cl_RA(1));
-    Series& u = first_auxiliary_[i];
-    Series& w = second_auxiliary_[i];
-    switch (line.op) {
-      case Op::sqrt:
-        return m.sqrt(a);
-      case Op::pow:
-        return m.power(a, exponent(line));
-      case Op::exp:
-        return m.exp(a);
-      case Op::log:
-        return m.log(a);
-      case Op::sin:
-        u.push_back(m.cos(a));
-        return m.sin(a);
-      case Op::cos:
-        u.push_back(m.sin(a));
-        return m.cos(a);
-      case Op::tan: {
-        const Number tangent = m.tan(a);
-        u.push_back(one + tangent * tangent);
-        return tangent;
-      }
-      case Op::asin:
-      case Op::acos:
-        w.push_back(one - a * a);
-        u.push_back(m.sqrt(w[0]));
-        return line.op == Op::asin ? m.asin(a) : m.acos(a);
-      case Op::atan2: {
-        const Number x = series_[static_cast<std::size_t>(line.b)][0];
-        u.push_back(x * x + a * a);
-        return m.atan2(a, x);
-      }
-      default:
-        assert(false);
-        return a;
-    }
-  }
-
-  const cln::cl_RA& exponent(const Instruction& line) const {
-    return program_
-        .constants[static_cast<std::size_t>(program_.code[static_cast<std::size_t>(line.b)].a)];
   }
 
   /// Coefficient k > 0 of a function of the series a (and, for atan2, of x = b).
-  Number next_function(std::size_t i, const Instruction& line, const Series& a, const Series* b,
-                       int k) {
-    const auto n = static_cast<std::size_t>(k);
-    Series& s = series_[i];
-    Series& u = first_auxiliary_[i];
-    Series& w = second_auxiliary_[i];
-    const Number two = integer(1) + integer(1);
+  Number next_of_function(std::size_t i, const Instruction& line, const Series& a, const Series& b,
+                          int k) {
+    const Series& s = series_[i];
+    const std::size_t n = index(k);
+    const Number &at_k = integer(k), &two = integer(2);
     switch (line.op) {
       case Op::sqrt:
         return arithmetic_.divide(a[n] - convolution(s, s, k, 1, k - 1), two * s[0]);
-      case Op::pow: {
-        // a s' = e a' s
-        const Number e = arithmetic_.from(exponent(line));
-        return arithmetic_.divide(e * weighted(a, s, k, 1, k) - weighted(s, a, k, 1, k - 1),
-                                  integer(k) * a[0]);
-      }
+      case Op::pow:  // a s' = e a' s
+        return arithmetic_.divide(b[0] * weighted(a, s, k, 1, k) - weighted(s, a, k, 1, k - 1),
+                                  at_k * a[0]);
       case Op::exp:
-        return weighted(a, s, k, 1, k) / integer(k);
+        return weighted(a, s, k, 1, k) / at_k;
       case Op::log:
-        return arithmetic_.divide(integer(k) * a[n] - weighted(s, a, k, 1, k - 1),
-                                  integer(k) * a[0]);
+        return arithmetic_.divide(at_k * a[n] - weighted(s, a, k, 1, k - 1), at_k * a[0]);
+      default:
+        return next_with_helpers(i, line, a, b, k);
+    }
+  }
+
+  Number next_with_helpers(std::size_t i, const Instruction& line, const Series& a,
+                           const Series& b, int k) {
+    const Series& s = series_[i];
+    Series &u = helper(i, 0), &w = helper(i, 1);
+    const std::size_t n = index(k);
+    const Number &at_k = integer(k), &two = integer(2);
+    switch (line.op) {
       case Op::sin: {
-        const Number next = weighted(a, u, k, 1, k) / integer(k);
-        u.push_back(-(weighted(a, s, k, 1, k) / integer(k)));
+        const Number next = weighted(a, u, k, 1, k) / at_k;
+        u[n] = -(weighted(a, s, k, 1, k) / at_k);
         return next;
       }
       case Op::cos: {
-        const Number next = -(weighted(a, u, k, 1, k) / integer(k));
-        u.push_back(weighted(a, s, k, 1, k) / integer(k));
+        const Number next = -(weighted(a, u, k, 1, k) / at_k);
+        u[n] = weighted(a, s, k, 1, k) / at_k;
         return next;
       }
       case Op::tan: {
         // s' = (1 + s^2) a', and u = 1 + s^2 needs the new coefficient of s
-        const Number next = weighted(a, u, k, 1, k) / integer(k);
-        u.push_back(convolution(s, s, k, 1, k - 1) + two * s[0] * next);
+        const Number next = weighted(a, u, k, 1, k) / at_k;
+        u[n] = convolution(s, s, k, 1, k - 1) + two * s[0] * next;
         return next;
       }
-      case Op::asin:
-      case Op::acos: {
-        // u = sqrt(1 - a^2), u s' = +-a'
-        w.push_back(-convolution(a, a, k, 0, k));
-        u.push_back(arithmetic_.divide(w[n] - convolution(u, u, k, 1, k - 1), two * u[0]));
-        const Number slope = line.op == Op::asin ? a[n] : -a[n];
-        return arithmetic_.divide(integer(k) * slope - weighted(s, u, k, 1, k - 1),
-                                  integer(k) * u[0]);
-      }
-      case Op::atan2: {
+      case Op::atan2:
         // r s' = x y' - y x', r = x^2 + y^2
-        const Series& x = *b;
-        u.push_back(convolution(x, x, k, 0, k) + convolution(a, a, k, 0, k));
+        u[n] = convolution(b, b, k, 0, k) + convolution(a, a, k, 0, k);
         return arithmetic_.divide(
-            weighted(a, x, k, 1, k) - weighted(x, a, k, 1, k) - weighted(s, u, k, 1, k - 1),
-            integer(k) * u[0]);
+            weighted(a, b, k, 1, k) - weighted(b, a, k, 1, k) - weighted(s, u, k, 1, k - 1),
+            at_k * u[0]);
+      default: {  // asin, acos: u = sqrt(1 - a^2), u s' = +-a'
+        w[n] = -convolution(a, a, k, 0, k);
+        u[n] = arithmetic_.divide(w[n] - convolution(u, u, k, 1, k - 1), two * u[0]);
+        const Number slope = line.op == Op::asin ? a[n] : -a[n];
+        return arithmetic_.divide(at_k * slope - weighted(s, u, k, 1, k - 1), at_k * u[0]);
       }
-      default:
-        assert(false);
-        return a[n];
     }
   }
 
@@ -267,8 +274,11 @@ class TaylorJet {
   Series integers_;
   Number unit_;
   std::vector<Series> states_;
-  std::vector<Series> series_, first_auxiliary_, second_auxiliary_;
-  std::vector<bool> constant_;
+  std::vector<Series> series_;         ///< of each line
+  std::vector<Series> helper_series_;  ///< two for each line that needs them ..
+  std::vector<int> helpers_;           ///< .. and where they begin, or -1
+  std::vector<bool> constant_;         ///< free of states and time
+  bool constants_known_ = false;
 };
 
 }  // namespace casimir

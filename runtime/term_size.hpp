@@ -33,9 +33,8 @@ struct Arithmetic<SizedNumber> {
   static N pi() { return plain(Arithmetic<double>::pi()); }
   static N divide(N a, N b) { return {a.value / b.value, a.size / std::abs(b.value)}; }
   static N sqrt(N a) { return {std::sqrt(a.value), std::sqrt(a.size)}; }
-  static N power(N a, const cln::cl_RA& e) {
-    return {Arithmetic<double>::power(a.value, e),
-            Arithmetic<double>::power(std::max(a.size, std::abs(a.value)), e)};
+  static N power(N a, N e) {
+    return {std::pow(a.value, e.value), std::pow(std::max(a.size, std::abs(a.value)), e.value)};
   }
   static N sin(N a) { return plain(std::sin(a.value)); }
   static N cos(N a) { return plain(std::cos(a.value)); }

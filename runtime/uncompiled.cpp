@@ -6,6 +6,7 @@
 
 #include "runtime/interpreted_series.hpp"
 #include "runtime/interpreter.hpp"
+#include "runtime/quadratic_targets.hpp"
 
 namespace casimir {
 namespace {
@@ -23,20 +24,20 @@ std::function<ModuleFunctions::Evaluation> evaluation(const Program& program, st
   };
 }
 
-std::function<ModuleFunctions::Integration> table_driven(const casimir_quadratic& tables,
+std::function<ModuleFunctions::Integration> table_driven(const QuadraticForm& form,
                                                          const std::vector<double>& parameters) {
-  return [tables, parameters, target = quadratic_targets().front()](
-             const casimir_run* run, double* x, casimir_outcome* out) {
+  return [kernel = QuadraticKernel(form), parameters](const casimir_run* run, double* x,
+                                                      casimir_outcome* out) {
     if (!std::equal(parameters.begin(), parameters.end(), run->parameters))
       throw std::invalid_argument("the tables were made for other values of the parameters");
-    integrate_quadratic(target, tables, run, x, out);
+    kernel.integrate(run, x, out);
   };
 }
 
 }  // namespace
 
 Module uncompiled_module(const Program& rhs, const Program& invariants,
-                         const std::optional<casimir_quadratic>& tables,
+                         const std::optional<QuadraticForm>& form,
                          const std::vector<double>& parameters) {
   const std::size_t states = rhs.outputs.size();
   ModuleFunctions functions;
@@ -46,7 +47,7 @@ Module uncompiled_module(const Program& rhs, const Program& invariants,
   functions.rhs = evaluation(rhs, states, parameters.size());
   functions.invariants = evaluation(invariants, states, parameters.size());
   functions.integrate =
-      tables ? table_driven(*tables, parameters) : interpreted(rhs, parameters.size());
+      form ? table_driven(*form, parameters) : interpreted(rhs, parameters.size());
   return Module::from_functions(functions);
 }
 

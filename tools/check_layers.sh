@@ -14,7 +14,7 @@ function layer(file) {
 }
 BEGIN {
   may["symbolic"] = "^symbolic/"
-  may["codegen"] = "^(codegen/|symbolic/|runtime/program[.]hpp$|runtime/module_abi[.]h$|runtime/kernels/quadratic_tables[.]h$)"
+  may["codegen"] = "^(codegen/|symbolic/|runtime/program[.]hpp$|runtime/module_abi[.]h$|runtime/quadratic_form[.]hpp$)"
   may["runtime"] = "^runtime/"
   may["runtime/kernels"] = "^(runtime/kernels/|runtime/module_abi[.]h$)"
   may["tools"] = "^(tools|codegen|symbolic|runtime)/"

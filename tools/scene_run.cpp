@@ -14,6 +14,7 @@
 #include "codegen/quadratic.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/methods.hpp"
+#include "runtime/quadratic_targets.hpp"
 #include "runtime/term_size.hpp"
 #include "runtime/uncompiled.hpp"
 
@@ -77,30 +78,37 @@ std::function<void(double, const double*, double*)> SceneRun::invariant_sizes() 
 namespace {
 
 /// A module from the compiler.
+/// \throws CompilerMissing  without one; the text names the method that does not need it.
 CompiledModule compiled_module(const Specialisation& s, const Method& method) {
   // A library that only calls the right-hand side has no kernel: one module serves them all.
   const std::string kernel = method.header.empty() ? std::string{} : kernel_source(method);
   CompileOptions options;
   options.standard_library = !method.outside.empty() && !kernel.empty();
-  const CompiledObject object = compile(emit_module(s, kernel, method.series), options);
-  return {.module = Module::load(object.path), .from_cache = object.from_cache};
+  const std::string text = emit_module(s, kernel, method.series);
+  try {
+    const CompiledObject object = compile(text, options);
+    return {.module = Module::load(object.path), .from_cache = object.from_cache};
+  } catch (const CompilerMissing& problem) {
+    throw CompilerMissing(std::string(problem.what()) +
+                          ", or use --method taylor, which needs none");
+  }
 }
 
 /// For the method of Taylor series: the tables where the system has that shape, else the compiler,
 /// and without one the program itself.
 CompiledModule taylor_module(const SceneRun& run, const Method& method) {
   const Specialisation& s = run.specialisation;
-  const auto form = quadratic_form(s.rhs, run.parameters);
-  const auto tables = form ? quadratic_tables(*form) : std::nullopt;
-  if (!tables) {
+  auto form = quadratic_form(s.rhs, run.parameters);
+  if (form && !has_quadratic_kernel(*form)) form.reset();
+  if (!form) {
     try {
       return compiled_module(s, method);
     } catch (const CompilerMissing&) {
     }
   }
-  CompiledModule result{.module = uncompiled_module(s.rhs, s.invariants, tables, run.parameters),
+  CompiledModule result{.module = uncompiled_module(s.rhs, s.invariants, form, run.parameters),
                         .compiled = false};
-  if (!tables)
+  if (!form)
     result.warning =
         "there is no C++ compiler: the equations are interpreted, which is several times slower; "
         "install one, for instance with: apt-get install g++";

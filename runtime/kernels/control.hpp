@@ -11,16 +11,10 @@
 //     static void jacobian(double t, const double* x, const double* p, double* J);  // optional,
 //   };                                                                          // n*n by columns
 
+#include "runtime/kernels/unroll.hpp"
 #include "runtime/module_abi.h"
 
 namespace casimir_kernel {
-
-// Before a loop over the components: written out in full for small systems, also at -O2.
-#ifdef __clang__
-#define CASIMIR_UNROLL _Pragma("unroll 16")
-#else
-#define CASIMIR_UNROLL _Pragma("GCC unroll 16")
-#endif
 
 constexpr double kEpsilon = 0x1p-52;
 constexpr double kSmallest = 0x1p-1022;  // the smallest normal number

@@ -1,38 +1,44 @@
 #pragma once
 
-#include "runtime/kernels/taylor.hpp"
+#include "runtime/kernels/lanes.hpp"
+#include "runtime/kernels/reciprocals.hpp"
 
 namespace casimir_kernel::taylor {
-
-/// 1/k, for the recurrences.
-struct Reciprocals {
-  double of[32] = {};
-  constexpr Reciprocals() {
-    for (int k = 1; k < 32; ++k) of[k] = 1. / k;
-  }
-};
-inline constexpr Reciprocals reciprocal;
 
 /// Storage for the recurrences of a straight-line program.
 ///
 /// Every product, quotient and function of a series needs sums of l[j] r[k-j] over the earlier
 /// coefficients of two series. The inner terms of these sums, j = 1 .. k-1, depend on no
-/// coefficient of order k: all sums of the program are formed side by side, eight in a register,
-/// before the rest of order k is done one operation after the other.
+/// coefficient of order k: all sums of the program are formed side by side in the lanes of
+/// registers, before the rest of order k is done one operation after the other.
+///
+/// Only the recurrences are compiled for each system: what steps along the series is precompiled
+/// (called_series.hpp) and finds `rate` and `c` at the beginning.
 template <int the_states, int sums>
 struct Convolved {
-  using V = Lanes8;
+  static constexpr int width = kNativeWidth;
+  using V = Lanes<width>;
   static constexpr int most = 24;  // the highest order
-  static constexpr int states = the_states, blocks = (states + 7) / 8, groups = (sums + 7) / 8;
-  static constexpr bool smooth = false;
+  static constexpr int states = the_states, blocks = (states + width - 1) / width;
+  static constexpr int groups = (sums + width - 1) / width;
 
-  int order = most;
-  V c[most + 1][blocks];
   V rate[blocks];
+  V c[most + 1][blocks];
+  int order;
+  const double* p;
 
  protected:
   V left_[most][groups > 0 ? groups : 1], right_[most][groups > 0 ? groups : 1];
-  double sum_[groups > 0 ? 8 * groups : 1];
+  double sum_[groups > 0 ? width * groups : 1];
+
+  static CASIMIR_INLINE double lane(const V* x, int i) { return x[i / width][i % width]; }
+
+  /// The numbers, side by side, in as many registers as they need.
+  template <class... Numbers>
+  static CASIMIR_INLINE void pack(V* to, Numbers... numbers) {
+    const double all[(sizeof...(numbers) + width - 1) / width * width] = {numbers...};
+    fill<0>(to, all);
+  }
 
   /// The inner terms of order k of every sum.
   CASIMIR_INLINE void form_sums(int k) {
@@ -46,17 +52,17 @@ struct Convolved {
       }
       if (j < k) even += left_[j][g] * right_[k - j][g];
       even += odd;
-      __builtin_memcpy(sum_ + 8 * g, &even, sizeof even);
+      __builtin_memcpy(sum_ + width * g, &even, sizeof even);
     }
   }
-};
 
-template <class System>
-void integrate(const casimir_run* run, double* x, casimir_outcome* out) {
-  typename System::Series series;
-  series.order = order_for(run);
-  series.p = run->parameters;
-  March<typename System::Series>(run, series, x, out).go();
-}
+ private:
+  template <int b, int count>
+  static CASIMIR_INLINE void fill(V* to, const double (&all)[count]) {
+    static constexpr long long lanes[] = {0, 1, 2, 3, 4, 5, 6, 7};
+    to[b] = collected<V>(all + b * width, lanes);
+    if constexpr ((b + 1) * width < count) fill<b + 1>(to, all);
+  }
+};
 
 }  // namespace casimir_kernel::taylor

@@ -20,9 +20,9 @@ template <class Tables, int width, int registers, int the_order>
 struct Quadratic : Tables {
   using V = Lanes<width>;
   using Index = Indices<width>;
-  static constexpr int blocks = 1, order = the_order;
+  static constexpr int blocks = 1, room = 1, order = the_order;
   using Tables::tables;
-  static constexpr bool smooth = true;
+  static constexpr bool smooth = true, prepared = false;
 
   V c[order + 1][1];
   V rate[1];

@@ -10,17 +10,20 @@ namespace casimir_kernel {
 /// The coefficients come from a class
 ///
 ///   struct Series {
-///     static constexpr int blocks;      registers that hold a state, filled up with zeros
-///     int states;                       may be static
-///     static constexpr bool smooth;     the right-hand side is a polynomial: analytic everywhere
 ///     using V;                          a register
-///     int order;                        a multiple of 4; may be static
+///     static constexpr int room;        most registers that may hold a state
+///     int blocks;                       registers that do, filled up with zeros
+///     int states;
+///     bool smooth;                      the right-hand side is a polynomial: analytic everywhere
+///     int order;                        a multiple of 4
 ///     V c[..][blocks];                  x(t + s unit) = sum of c[k] s^k, k = 0 .. order
 ///     V rate[blocks];                   dx/dt, from `begin`
 ///     void begin(double t, const V* x); the rate at a state
-///     void expand(double unit);         c[1] .. c[order] at the state c[0], after `begin` there
-///   };                                  (where the right-hand side is smooth `begin` may be left
-///                                       out)
+///     void expand(double unit);         c[1] .. c[order] at the state c[0]
+///     static constexpr bool prepared;   `expand` needs `begin` before it, at the same state
+///   };
+///
+/// whose numbers may be static constants: then the loops over registers are written out.
 ///
 /// The unit of time is a power of two near the step, so coefficients of any order stay near the
 /// size of the state whatever the scales of state and time are.
@@ -71,7 +74,7 @@ inline double aim(const casimir_run* run) {
 /// sum of c[k] s^k, k = 1 .. order: four chains, so that the processor need not wait for each.
 template <class Series, class V>
 CASIMIR_INLINE void increment(const Series& series, double s, V* sum) {
-  constexpr int blocks = Series::blocks;
+  const int blocks = series.blocks;
   const V s1 = all_lanes<V>(s), s2 = s1 * s1, s4 = s2 * s2;
   CASIMIR_UNROLL
   for (int b = 0; b < blocks; ++b) {
@@ -92,16 +95,27 @@ CASIMIR_INLINE void increment(const Series& series, double s, V* sum) {
 /// sum of k c[k] s^k: the derivative of the series, times s.
 template <class Series, class V>
 CASIMIR_INLINE void slope(const Series& series, double s, V* sum) {
-  for (int b = 0; b < Series::blocks; ++b) sum[b] = V{};
-  for (int k = series.order; k > 0; --k)
-    for (int b = 0; b < Series::blocks; ++b) sum[b] = (sum[b] + series.c[k][b] * k) * s;
+  const int blocks = series.blocks;
+  const V s1 = all_lanes<V>(s), s2 = s1 * s1, s4 = s2 * s2;
+  CASIMIR_UNROLL
+  for (int b = 0; b < blocks; ++b) {
+    V p0 = V{}, p1 = V{}, p2 = V{}, p3 = V{};
+    for (int k = series.order - 3; k > 0; k -= 4) {
+      const auto* c = &series.c[k][b];
+      p0 = p0 * s4 + c[0] * k;
+      p1 = p1 * s4 + c[blocks] * (k + 1);
+      p2 = p2 * s4 + c[2 * blocks] * (k + 2);
+      p3 = p3 * s4 + c[3 * blocks] * (k + 3);
+    }
+    sum[b] = ((p0 + p1 * s1) + (p2 + p3 * s1) * s2) * s1;
+  }
 }
 
 template <class Series>
 class March {
   using V = typename Series::V;
-  static constexpr int blocks = Series::blocks, width = sizeof(V) / sizeof(double);
-  static constexpr int room = blocks * width;
+  static constexpr int width = sizeof(V) / sizeof(double);
+  static constexpr int most_blocks = Series::room, room = most_blocks * width;
   /// How far the derivative at the end of a step may be from the series, in allowed errors: far
   /// more than a step of the right size ever gives, far less than a wrong one.
   static constexpr double kDefect = 100, kRounding = 0x1p-40;
@@ -131,7 +145,8 @@ class March {
         break;
       }
       CASIMIR_UNROLL
-      for (int b = 0; b < blocks; ++b) series_.c[0][b] = state_[b];
+      for (int b = 0; b < series_.blocks; ++b) series_.c[0][b] = state_[b];
+      if (Series::prepared && series_.smooth) series_.begin(t_, state_);
       series_.expand(unit_);
       ++expansions_;
       double s = chosen_step();
@@ -149,7 +164,7 @@ class March {
  private:
   bool start() {
     CASIMIR_UNROLL
-    for (int b = 0; b < blocks; ++b) state_[b] = carry_[b] = V{};
+    for (int b = 0; b < series_.blocks; ++b) state_[b] = carry_[b] = V{};
     for (int i = 0; i < series_.states; ++i) state_[i / width][i % width] = x_[i];
     t_ = run_->t_begin;
     status_ = CASIMIR_NON_FINITE;
@@ -195,10 +210,10 @@ class March {
     if (span_ < 0) unit_ = -unit_;
   }
 
-  static CASIMIR_INLINE bool finite(const V* x) {
+  CASIMIR_INLINE bool finite(const V* x) const {
     V zero = V{};
     CASIMIR_UNROLL
-    for (int b = 0; b < blocks; ++b) zero += x[b] * 0;
+    for (int b = 0; b < series_.blocks; ++b) zero += x[b] * 0;
     return lane_sum(zero) == 0;
   }
 
@@ -216,7 +231,7 @@ class March {
     const int order = series_.order;
     V last = V{}, before = V{};
     CASIMIR_UNROLL
-    for (int b = 0; b < blocks; ++b) {
+    for (int b = 0; b < series_.blocks; ++b) {
       weight_[b] = weight(b);
       before += absolute(series_.c[order - 1][b]) * weight_[b];
       last += absolute(series_.c[order][b]) * weight_[b];
@@ -258,10 +273,10 @@ class March {
       add_carried(t1, t1_carry, h);
     }
     if (there_) t1 = run_->t_end;
-    V next[blocks], next_carry[blocks];
+    V next[most_blocks], next_carry[most_blocks];
     increment(series_, s, next);
     CASIMIR_UNROLL
-    for (int b = 0; b < blocks; ++b) {
+    for (int b = 0; b < series_.blocks; ++b) {
       const V y = next[b] + carry_[b];
       const V sum = state_[b] + y;
       const V part = sum - state_[b];
@@ -272,7 +287,7 @@ class March {
       failure_ = CASIMIR_NON_FINITE;
       return false;
     }
-    if (!Series::smooth || __builtin_expect(fresh_ || s > 3, 0)) {
+    if (!series_.smooth || __builtin_expect(fresh_ || s > 3, 0)) {
       if (!follows(s, t1, next)) return false;
     }
     accept(t1, t1_carry, next, next_carry);
@@ -285,12 +300,12 @@ class March {
   /// missing only from them.
   __attribute__((noinline)) bool follows(double s, double t1, const V* next) {
     fresh_ = false;
-    V told[blocks], defect = V{};
+    V told[most_blocks], defect = V{};
     slope(series_, s, told);
     series_.begin(t1, next);
     ++evaluations_;
     CASIMIR_UNROLL
-    for (int b = 0; b < blocks; ++b) {
+    for (int b = 0; b < series_.blocks; ++b) {
       const V size = absolute(state_[b]) + absolute(next[b]) + absolute(told[b]);
       const V w = 1 / (kDefect / weight_[b] + size * kRounding);
       defect += absolute(series_.rate[b] * (s * unit_) - told[b]) * w;
@@ -308,7 +323,7 @@ class March {
     t_ = t1;
     t_carry_ = t1_carry;
     CASIMIR_UNROLL
-    for (int b = 0; b < blocks; ++b) {
+    for (int b = 0; b < series_.blocks; ++b) {
       state_[b] = next[b];
       carry_[b] = next_carry[b];
     }
@@ -326,7 +341,7 @@ class March {
 
   __attribute__((cold)) static void dense(const casimir_step* step, double t, double* at) {
     const March* self = static_cast<const March*>(step->data);
-    V sum[blocks];
+    V sum[most_blocks];
     increment(self->series_, (t - step->t0) / self->unit_, sum);
     for (int i = 0; i < self->series_.states; ++i) at[i] = step->x0[i] + sum[i / width][i % width];
   }
@@ -386,7 +401,7 @@ class March {
   double* x_;
   casimir_outcome* out_;
   const double rtol_, atol_;  // aimed at
-  V state_[blocks], carry_[blocks], weight_[blocks];
+  V state_[most_blocks], carry_[most_blocks], weight_[most_blocks];
   double t_ = 0, t_carry_ = 0;
   const double span_;
   Pace pace_;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "runtime/evaluate.hpp"
+#include "runtime/quadratic_layout.hpp"
 #include "support.hpp"
 
 namespace casimir {
@@ -51,7 +52,7 @@ std::vector<double> jacobian_times_state(const casimir_quadratic& tables,
 void expect_tables_of(const Program& rhs, int registers, int moves) {
   const auto form = quadratic_form(rhs);
   ASSERT_TRUE(form);
-  const auto tables = quadratic_tables(*form);
+  const auto tables = narrow_tables(*form);
   ASSERT_TRUE(tables);
   EXPECT_EQ(tables->products, registers);
   int total = 0;

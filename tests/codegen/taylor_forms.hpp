@@ -14,6 +14,7 @@
 #include "codegen/emit_cpp.hpp"
 #include "codegen/quadratic.hpp"
 #include "runtime/integrate.hpp"
+#include "runtime/quadratic_targets.hpp"
 #include "runtime/reference.hpp"
 #include "runtime/uncompiled.hpp"
 #include "support.hpp"
@@ -27,16 +28,11 @@ inline Module compiled(const Specialisation& s, const char* method = "taylor") {
   return Module::load(compile(emit_module(s, kernel_source(m), m.series)).path);
 }
 
-inline std::optional<casimir_quadratic> tables_of(const Specialisation& s) {
-  const auto form = quadratic_form(s.rhs);
-  return form ? quadratic_tables(*form) : std::nullopt;
-}
-
 /// Every form of the method that the system has, and its name.
 inline std::vector<std::pair<std::string, Module>> forms(const Specialisation& s) {
   std::vector<std::pair<std::string, Module>> result;
-  if (const auto tables = tables_of(s))
-    result.emplace_back("tables", uncompiled_module(s.rhs, s.invariants, tables, {}));
+  if (const auto form = quadratic_form(s.rhs))
+    result.emplace_back("tables", uncompiled_module(s.rhs, s.invariants, form, {}));
   result.emplace_back("compiled", compiled(s));
   result.emplace_back("interpreted", uncompiled_module(s.rhs, s.invariants, std::nullopt, {}));
   return result;

@@ -18,6 +18,49 @@ TEST(Environment, NoCompilerSaysWhatToInstall) {
   EXPECT_TRUE(outcome.out.empty()) << outcome.out;
 }
 
+Environment without_compiler(const Folder& cache) {
+  return {{"PATH", "/nonexistent"}, {"CXX", ""}, {"CASIMIR_CACHE", cache.path().string()}};
+}
+
+TEST(Environment, TablesNeedNoCompilerAndNoWord) {
+  const Folder cache;
+  const Outcome outcome =
+      run({"integrate", "kovalevskaya", "--json"}, {}, without_compiler(cache));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(outcome.err.empty()) << outcome.err;
+  EXPECT_EQ(outcome.json().at("warnings").dump().find("compiler"), std::string::npos);
+  EXPECT_EQ(outcome.json().at("status"), "ok");
+}
+
+TEST(Environment, OtherSystemsAreInterpretedAndItIsSaid) {
+  const Folder cache, with_compiler;
+  const std::vector<std::string> arguments{"integrate", "lagrange-euler-angles", "--duration", "5",
+                                           "--json"};
+  const Outcome outcome = run(arguments, {}, without_compiler(cache));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.json().at("warnings").dump().find("interpreted"), std::string::npos);
+  const Outcome compiled =
+      run(arguments, {}, {{"CASIMIR_CACHE", with_compiler.path().string()}});
+  EXPECT_EQ(compiled.json().at("warnings").dump().find("interpreted"), std::string::npos);
+  const auto state = compiled.json().at("state");
+  for (const auto& [name, value] : outcome.json().at("state").items()) {
+    EXPECT_NEAR(std::stod(value.get<std::string>()),
+                std::stod(state.at(name).get<std::string>()), 1e-12)
+        << name;
+  }
+}
+
+TEST(Environment, MethodsThatNeedACompilerNameTheOneThatDoesNot) {
+  const Folder cache;
+  for (const char* method : {"dop853", "gauss8", "taylor-compiled", "cvode-adams"}) {
+    const Outcome outcome =
+        run({"integrate", "euler", "--method", method}, {}, without_compiler(cache));
+    EXPECT_EQ(outcome.status, 4) << method << outcome.err;
+    EXPECT_NE(outcome.err.find("--method taylor"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("g++"), std::string::npos) << outcome.err;
+  }
+}
+
 TEST(Environment, ProofsNeedNoCompiler) {
   EXPECT_EQ(run({"verify", "euler", "--quiet"}, {}, {{"PATH", "/nonexistent"}, {"CXX", ""}}).status,
             0);

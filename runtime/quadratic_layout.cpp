@@ -1,7 +1,8 @@
-// The lanes for the products of a quadratic right-hand side.
-#include <algorithm>
+// The lanes for the products of a quadratic right-hand side of few states.
+#include "runtime/quadratic_layout.hpp"
 
-#include "codegen/quadratic.hpp"
+#include <algorithm>
+#include <utility>
 
 namespace casimir {
 namespace {
@@ -165,7 +166,7 @@ void lay_out_jacobian(const QuadraticForm& form, casimir_quadratic& tables) {
 
 }  // namespace
 
-std::optional<casimir_quadratic> quadratic_tables(const QuadraticForm& form) {
+std::optional<casimir_quadratic> narrow_tables(const QuadraticForm& form) {
   const int width = form.states <= 4 ? 4 : CASIMIR_LANES;
   const std::size_t room = static_cast<std::size_t>(width * CASIMIR_MOST_PRODUCTS);
   if (form.states > CASIMIR_LANES || form.products.size() > room) return std::nullopt;
