@@ -79,7 +79,9 @@ namespace {
 
 /// A module from the compiler.
 /// \throws CompilerMissing  without one; the text names the method that does not need it.
-CompiledModule compiled_module(const Specialisation& s, const Method& method) {
+CompiledModule compiled_module(Specialisation s, const Method& method) {
+  // What no kernel of ours calls need not be compiled.
+  if (!method.header.empty() && !method.uses_jacobian) s.has_jacobian = false;
   // A library that only calls the right-hand side has no kernel: one module serves them all.
   const std::string kernel = method.header.empty() ? std::string{} : kernel_source(method);
   CompileOptions options;
