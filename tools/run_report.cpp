@@ -70,9 +70,12 @@ void write_csv(std::ostream& stream, const std::vector<Row>& rows) {
 std::string to_text(const std::vector<Row>& rows, bool with_error) {
   const bool repeated =
       std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.spread > 0; });
-  // A column that is there or not.
-  const auto column = [](bool there, std::size_t width, const std::string& content) {
-    return there ? fmt::format("{:>{}} ", content, width) : "";
+  // Columns that are there or not.
+  const auto error_column = [&](const std::string& content) {
+    return with_error ? fmt::format("{:>9}  ", content) : "";
+  };
+  const auto spread_column = [&](const std::string& content) {
+    return repeated ? fmt::format("{:>7} ", content) : "";
   };
   std::string text;
   std::string head;
@@ -82,14 +85,13 @@ std::string to_text(const std::vector<Row>& rows, bool with_error) {
       head = title;
       text +=
           title + fmt::format("  {:<18} {:<12} {:>9} {}{:>9} {:>10} {}{:>9} {:>11}  {}\n", "method",
-                              "code", "tolerance", column(with_error, 9, "error"), "drift", "time",
-                              column(repeated, 6, "spread"), "steps", "evaluations", "status");
+                              "code", "tolerance", error_column("error"), "drift", "time",
+                              spread_column("spread"), "steps", "evaluations", "status");
     }
-    text +=
-        fmt::format("  {:<18} {:<12} {:>9.0e} {}{:>9} {:>10} {}{:>9} {:>11}  {}\n", row.method,
-                    row.code, row.tolerance, column(with_error, 9, short_number(row.error)),
-                    short_number(row.drift), duration_text(row.seconds),
-                    column(repeated, 6, spread_text(row)), row.steps, row.evaluations, row.status);
+    text += fmt::format("  {:<18} {:<12} {:>9.0e} {}{:>9} {:>10} {}{:>9} {:>11}  {}\n", row.method,
+                        row.code, row.tolerance, error_column(short_number(row.error)),
+                        short_number(row.drift), duration_text(row.seconds),
+                        spread_column(spread_text(row)), row.steps, row.evaluations, row.status);
   }
   return text;
 }
