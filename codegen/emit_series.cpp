@@ -26,12 +26,14 @@ struct Sum {
 /// coefficient k of the same quantities (`v3_k`).
 class SeriesWriter {
  public:
-  SeriesWriter(const Program& rhs, const std::vector<std::string>& names)
-      : program_(without_dead_code(rhs)),
+  SeriesWriter(const Program& rhs, const std::vector<std::string>& names, bool lanes)
+      : lanes_(lanes),
+        program_(without_dead_code(rhs)),
         constant_(constant_instructions(program_)),
         unique_({"V",     "c",      "rate",   "order",   "p",      "most",   "states", "blocks",
                  "groups", "smooth", "width",  "k",       "by_k",   "step",   "unit",   "state",
-                 "at",     "begin",  "expand", "form_sums", "lane", "pack"}),
+                 "at",     "begin",  "expand", "form_sums", "lane", "pack",   "row",    "enter",
+                 "inner",  "room",   "begun_", "series_",   "sum_", "each"}),
         value_(program_.code.size()),
         varies_(program_.code.size(), false),
         states_(program_.outputs.size()) {
@@ -40,7 +42,7 @@ class SeriesWriter {
 
   std::string run() {
     for (std::size_t i = 0; i < program_.code.size(); ++i) write(i);
-    return assembled();
+    return lanes_ ? assembled_lanes() : assembled();
   }
 
  private:
@@ -56,6 +58,9 @@ class SeriesWriter {
     if (text.find_first_of(".eExX") == std::string::npos) text += ".";
     return text[0] == '-' ? "(" + text + ")" : text;
   }
+
+  /// What holds a value: a number, or one for each trajectory.
+  std::string real() const { return lanes_ ? "V" : "double"; }
 
   /// A name that is free, also with the _k of a coefficient behind it.
   std::string fresh(const std::string& wanted) {
@@ -77,7 +82,7 @@ class SeriesWriter {
   }
 
   void assign_next(const std::string& name, const std::string& text) {
-    next_ += wrapped("        const double " + name + "_k = " + text + ";") + "\n";
+    next_ += wrapped("        const " + real() + " " + name + "_k = " + text + ";") + "\n";
   }
 
   /// The inner terms of a sum of two series.
@@ -174,7 +179,10 @@ class SeriesWriter {
   }
 
   std::string called(const char* function, const std::string& arguments) const {
-    return "__builtin_" + std::string(function) + "(" + arguments + ")";
+    const std::string builtin = "__builtin_" + std::string(function);
+    if (!lanes_) return builtin + "(" + arguments + ")";
+    return "casimir_kernel::lanes::each<V>([](auto... x) { return " + builtin + "(x...); }, " +
+           arguments + ")";
   }
 
   void write_function(std::size_t i) {
@@ -237,7 +245,7 @@ class SeriesWriter {
     auto& [sine, cosine] = place->second;
     if (!is_new) {  // the other came before and wrote both
       const std::string& known = c.op == Op::sin ? sine : cosine;
-      next_ += "        const double " + value_[i] + "_k = " + known + "_k;\n";
+      next_ += "        const " + real() + " " + value_[i] + "_k = " + known + "_k;\n";
       return;
     }
     const std::string partner = member(value_[i] + (c.op == Op::sin ? "_cos" : "_sin"));
@@ -362,6 +370,88 @@ class SeriesWriter {
            begin_function() + "\n" + expand_function() + "  };\n";
   }
 
+  // One trajectory in each lane.
+
+  std::string begin_in_lanes() const {
+    std::string text =
+        "    void begin([[maybe_unused]] V at, const V* state, V* rate) {\n";
+    for (std::size_t i = 0; i < states_; ++i)
+      text += "      " + inputs_[i] + " = state[" + std::to_string(i) + "];\n";
+    for (const std::size_t i : used_parameters_)
+      text += "      " + inputs_[i] + " = p[" + std::to_string(i - states_) + "];\n";
+    if (uses_time_) text += "      " + inputs_.back() + " = at;\n";
+    text += begin_;
+    for (std::size_t i = 0; i < states_; ++i) {
+      const std::string place = std::to_string(i);
+      text += wrapped("      rate[" + place + "] = begun_[" + place + "] = V{} + " +
+                      at(program_.outputs[i]) + ";") +
+              "\n";
+    }
+    return text + "    }\n";
+  }
+
+  /// The series that sums are formed of, each with its row: weighted ones are others.
+  std::map<std::pair<std::string, bool>, std::size_t> rows_of_sums() const {
+    std::map<std::pair<std::string, bool>, std::size_t> rows;
+    for (const Sum& s : order_) {
+      rows.try_emplace({s.left, s.weighted}, rows.size());
+      rows.try_emplace({s.right, false}, rows.size());
+    }
+    return rows;
+  }
+
+  std::string expand_in_lanes() const {
+    const auto rows = rows_of_sums();
+    const auto row = [&](const std::string& name, bool weighted) {
+      return "series_[" + std::to_string(rows.at({name, weighted})) + "]";
+    };
+    std::string text = "    void expand(V unit) {\n";
+    for (std::size_t i = 0; i < states_; ++i) {
+      const std::string place = std::to_string(i);
+      text += "      V " + inputs_[i] + "_k = c[" + place + "][1] = begun_[" + place +
+              "] * unit;\n";
+    }
+    text +=
+        "      for (int k = 1; k < order; ++k) {\n"
+        "        [[maybe_unused]] const double by_k = casimir_kernel::taylor::reciprocal.of[k];\n";
+    if (uses_time_)
+      text += "        const V " + inputs_.back() + "_k = k == 1 ? unit : V{};\n";
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      const Sum& s = order_[i];
+      text += "        sum_[" + std::to_string(i) + "] = inner(" + row(s.left, s.weighted) + ", " +
+              row(s.right, false) + ", k);\n";
+    }
+    text += next_;
+    for (const auto& [series, place] : rows)
+      text += "        series_[" + std::to_string(place) + "][k] = " +
+              (series.second ? "static_cast<double>(k) * " : "") + series.first + "_k;\n";
+    text += "        const V step = unit * casimir_kernel::taylor::reciprocal.of[k + 1];\n";
+    for (std::size_t i = 0; i < states_; ++i)
+      text += "        const V " + inputs_[i] + "_next = step * (" + next(program_.outputs[i]) +
+              ");\n";
+    for (std::size_t i = 0; i < states_; ++i)
+      text += "        c[" + std::to_string(i) + "][k + 1] = " + inputs_[i] + "_k = " + inputs_[i] +
+              "_next;\n";
+    return text + "      }\n    }\n";
+  }
+
+  std::string assembled_lanes() {
+    std::string all = "    V ";
+    for (std::size_t i = 0; i < states_; ++i) all += (i == 0 ? "" : ", ") + inputs_[i];
+    for (const std::size_t i : used_parameters_) all += ", " + inputs_[i];
+    if (uses_time_) all += ", " + inputs_.back();
+    if (!members_.empty()) all += ", " + members_;
+    const std::size_t parameters = program_.inputs.size() - states_ - 1;
+    std::string base = "casimir_kernel::lanes::Convolved<";
+    for (const std::size_t count : {states_, parameters, rows_of_sums().size()})
+      base += std::to_string(count) + ", ";
+    return "// Taylor coefficients of solutions: values at the state, and coefficient k of each.\n"
+           "  struct Series : " +
+           base + std::to_string(order_.size()) + "> {\n" + wrapped(all + ";") + "\n\n" +
+           begin_in_lanes() + "\n" + expand_in_lanes() + "  };\n";
+  }
+
+  const bool lanes_;
   const Program program_;
   const std::vector<bool> constant_;
   Names unique_;
@@ -381,7 +471,11 @@ class SeriesWriter {
 }  // namespace
 
 std::string series_struct(const Program& rhs, const std::vector<std::string>& names) {
-  return SeriesWriter(rhs, names).run();
+  return SeriesWriter(rhs, names, false).run();
+}
+
+std::string lane_series_struct(const Program& rhs, const std::vector<std::string>& names) {
+  return SeriesWriter(rhs, names, true).run();
 }
 
 }  // namespace casimir::codegen

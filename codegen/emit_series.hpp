@@ -12,4 +12,7 @@ namespace casimir::codegen {
 /// \param names  for each input of the program, the name of its local; the last is the time.
 std::string series_struct(const Program& rhs, const std::vector<std::string>& names);
 
+/// The same for runtime/kernels/lane_convolved.hpp: one trajectory in each lane of every value.
+std::string lane_series_struct(const Program& rhs, const std::vector<std::string>& names);
+
 }  // namespace casimir::codegen

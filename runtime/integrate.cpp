@@ -14,6 +14,69 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// More samples than this are a mistake, and would fill the memory.
+constexpr double kMostSamples = 1e8;
+
+/// Eigen's dense factorisation behind the C interface of the kernels.
+struct DenseSolver {
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu;
+
+  static int factor(void* self, int n, const double* matrix) {
+    auto& lu = static_cast<DenseSolver*>(self)->lu;
+    lu.compute(Eigen::Map<const Eigen::MatrixXd>(matrix, n, n));
+    const auto diagonal = lu.matrixLU().diagonal();
+    return diagonal.allFinite() && (diagonal.array() != 0).all() ? 0 : 1;
+  }
+  static void solve(void* self, double* b) {
+    const auto& lu = static_cast<const DenseSolver*>(self)->lu;
+    Eigen::Map<Eigen::VectorXd> right(b, lu.rows());
+    right = lu.solve(right).eval();
+  }
+};
+
+int observe(void* data, const casimir_step* step) {
+  const auto state_at = [step](double t, double* x) { step->dense(step, t, x); };
+  return static_cast<Observer*>(data)->step(step->t1, step->x1, state_at) ? 0 : 1;
+}
+
+[[noreturn]] void refuse(const std::string& text) { throw std::invalid_argument(text); }
+
+void check_sizes(const Module& module, std::size_t states, std::size_t parameters) {
+  if (states != static_cast<std::size_t>(module.dimension()))
+    refuse("the initial state has the wrong number of entries");
+  if (parameters != static_cast<std::size_t>(module.functions().parameter_count))
+    refuse("the wrong number of parameters");
+}
+
+void run_kernel(const Module& module, const Settings& s, const double* parameters,
+                Observer& observer, Trajectory& trajectory) {
+  DenseSolver solver;
+  casimir_run run = {};
+  run.t_end = s.duration;
+  run.parameters = parameters;
+  run.rtol = s.rtol;
+  run.atol = s.atol;
+  run.fixed_step = s.fixed_step;
+  run.max_steps = s.max_steps;
+  run.observe = observer.needed() ? observe : nullptr;
+  run.observer = &observer;
+  run.factor = DenseSolver::factor;
+  run.solve = DenseSolver::solve;
+  run.solver = &solver;
+  casimir_outcome outcome = {};
+  const auto start = Clock::now();
+  module.functions().integrate(&run, trajectory.state.data(), &outcome);
+  trajectory.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  trajectory.status = status_of(outcome.status);
+  trajectory.time = outcome.t;
+  trajectory.steps = outcome.steps;
+  trajectory.rejected = outcome.rejected;
+  trajectory.evaluations = outcome.evaluations;
+  trajectory.jacobians = outcome.jacobians;
+}
+
+}  // namespace
+
 Status status_of(int status) {
   switch (status) {
     case CASIMIR_OK:
@@ -55,39 +118,8 @@ std::string reason_of(Status status) {
   return "";
 }
 
-/// More samples than this are a mistake, and would fill the memory.
-constexpr double kMostSamples = 1e8;
-
-/// Eigen's dense factorisation behind the C interface of the kernels.
-struct DenseSolver {
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu;
-
-  static int factor(void* self, int n, const double* matrix) {
-    auto& lu = static_cast<DenseSolver*>(self)->lu;
-    lu.compute(Eigen::Map<const Eigen::MatrixXd>(matrix, n, n));
-    const auto diagonal = lu.matrixLU().diagonal();
-    return diagonal.allFinite() && (diagonal.array() != 0).all() ? 0 : 1;
-  }
-  static void solve(void* self, double* b) {
-    const auto& lu = static_cast<const DenseSolver*>(self)->lu;
-    Eigen::Map<Eigen::VectorXd> right(b, lu.rows());
-    right = lu.solve(right).eval();
-  }
-};
-
-int observe(void* data, const casimir_step* step) {
-  const auto state_at = [step](double t, double* x) { step->dense(step, t, x); };
-  return static_cast<Observer*>(data)->step(step->t1, step->x1, state_at) ? 0 : 1;
-}
-
-void check(const Module& module, const Method& method, const Settings& s, std::size_t states,
-           std::size_t parameters) {
-  const auto refuse = [](const std::string& text) { throw std::invalid_argument(text); };
-  if (states != static_cast<std::size_t>(module.dimension()))
-    refuse("the initial state has the wrong number of entries");
-  if (parameters != static_cast<std::size_t>(module.functions().parameter_count))
-    refuse("the wrong number of parameters");
-  if (!std::isfinite(s.duration)) refuse("the duration must be a finite number");
+void check_settings(const Settings& s, const Method& method) {
+if (!std::isfinite(s.duration)) refuse("the duration must be a finite number");
   if (!(s.rtol >= 0) || !(s.atol >= 0) || !(s.rtol + s.atol > 0) || !std::isfinite(s.rtol) ||
       !std::isfinite(s.atol)) {
     refuse("tolerances must be positive finite numbers");
@@ -102,35 +134,6 @@ void check(const Module& module, const Method& method, const Settings& s, std::s
   if (s.sample_every > 0 && !(std::abs(s.duration) / s.sample_every <= kMostSamples))
     refuse("the time between samples is so small that there would be more than 1e8 of them");
 }
-
-void run_kernel(const Module& module, const Settings& s, const double* parameters,
-                Observer& observer, Trajectory& trajectory) {
-  DenseSolver solver;
-  casimir_run run = {};
-  run.t_end = s.duration;
-  run.parameters = parameters;
-  run.rtol = s.rtol;
-  run.atol = s.atol;
-  run.fixed_step = s.fixed_step;
-  run.max_steps = s.max_steps;
-  run.observe = observer.needed() ? observe : nullptr;
-  run.observer = &observer;
-  run.factor = DenseSolver::factor;
-  run.solve = DenseSolver::solve;
-  run.solver = &solver;
-  casimir_outcome outcome = {};
-  const auto start = Clock::now();
-  module.functions().integrate(&run, trajectory.state.data(), &outcome);
-  trajectory.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  trajectory.status = status_of(outcome.status);
-  trajectory.time = outcome.t;
-  trajectory.steps = outcome.steps;
-  trajectory.rejected = outcome.rejected;
-  trajectory.evaluations = outcome.evaluations;
-  trajectory.jacobians = outcome.jacobians;
-}
-
-}  // namespace
 
 std::string to_string(Status status) {
   switch (status) {
@@ -156,7 +159,8 @@ std::string to_string(Status status) {
 
 Trajectory integrate(const Module& module, const Method& method, const Settings& settings,
                      const std::vector<double>& initial, const std::vector<double>& parameters) {
-  check(module, method, settings, initial.size(), parameters.size());
+  check_sizes(module, initial.size(), parameters.size());
+  check_settings(settings, method);
   Trajectory trajectory;
   trajectory.state = initial;
   const double* const p = parameters.empty() ? nullptr : parameters.data();

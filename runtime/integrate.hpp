@@ -67,6 +67,16 @@ Trajectory integrate(const Module& module, const Method& method, const Settings&
                      const std::vector<double>& initial,
                      const std::vector<double>& parameters = {});
 
+/// \throws std::invalid_argument  for tolerances, a duration, steps or samples that `integrate`
+///                                would refuse.
+void check_settings(const Settings& settings, const Method& method);
+
+/// What a kernel's `enum casimir_status` means.
+Status status_of(int status);
+
+/// A sentence, for whatever is not ok.
+std::string reason_of(Status status);
+
 /// The least relative tolerance that double precision can give a meaning.
 inline constexpr double kLeastTolerance = 1e-15;
 

@@ -114,4 +114,11 @@ std::string kernel_source(const Method& method) {
   return out;
 }
 
+std::string kernel_text(std::string_view header) {
+  std::string out;
+  std::set<std::string> seen;
+  append_header(header, seen, out);
+  return out;
+}
+
 }  // namespace casimir

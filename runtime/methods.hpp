@@ -46,4 +46,7 @@ std::vector<std::string> method_names();
 /// outside methods include their library's headers.
 std::string kernel_source(const Method& method);
 
+/// The text of one header of `kernels/` with all it includes, without any #include.
+std::string kernel_text(std::string_view header);
+
 }  // namespace casimir

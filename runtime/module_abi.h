@@ -51,6 +51,24 @@ struct casimir_outcome {
   unsigned long long steps, rejected, evaluations, jacobians;
 };
 
+/* What one thread asks of a kernel that advances many trajectories, one in each lane of a register.
+ * Which trajectories stand beside each other makes no difference to any of them. */
+struct casimir_ensemble {
+  double t_begin, t_end;
+  double rtol, atol;            /* as above, for every member */
+  unsigned long long max_steps; /* of each member; 0: no limit */
+  int order;                    /* of the Taylor series, a multiple of 4; 0: the kernel chooses */
+  /* The next member: writes its n states, and points `numbers` at its parameters, or at what the
+   * kernel's tables say, until the next call. Negative: there is none left. */
+  long long (*next)(void* source, double* x, const double** numbers);
+  /* A member has ended in the state x, as `outcome` says. */
+  void (*done)(void* source, long long member, const double* x,
+               const struct casimir_outcome* outcome);
+  /* Asked after each step: non-zero ends all members as stopped. May be null. */
+  int (*give_up)(void* source);
+  void* source;
+};
+
 /* A module exports, with C linkage:
  *   int  casimir_abi_version(void);
  *   int  casimir_dimension(void);        number of states n
@@ -60,6 +78,8 @@ struct casimir_outcome {
  *   void casimir_jacobian(double t, const double* x, const double* p, double* J);  n*n by columns
  *   void casimir_invariants(double t, const double* x, const double* p, double* values);
  *   void casimir_integrate(const struct casimir_run*, double* x, struct casimir_outcome*);
+ *   int  casimir_lanes(void);            trajectories in a register
+ *   void casimir_integrate_lanes(const struct casimir_ensemble*);
  * `casimir_jacobian` is present only where it was asked for, `casimir_integrate` only with a
  * kernel that is compiled for the system. For the method of Taylor series there are instead
  *   unsigned long casimir_series_size(void);  bytes of a series, which is aligned to 64 bytes and
@@ -67,7 +87,7 @@ struct casimir_outcome {
  *   int casimir_series_width(void);           numbers in the registers that rows are made of
  *   int casimir_series_smooth(void);
  * and the functions casimir_series_start, _begin and _expand of kernels/series.h, whose object is
- * the series.
+ * the series. A kernel for ensembles exports casimir_lanes and casimir_integrate_lanes.
  */
 
 #endif

@@ -14,7 +14,7 @@ function layer(file) {
 }
 BEGIN {
   may["symbolic"] = "^symbolic/"
-  may["codegen"] = "^(codegen/|symbolic/|runtime/program[.]hpp$|runtime/module_abi[.]h$|runtime/quadratic_form[.]hpp$)"
+  may["codegen"] = "^(codegen/|symbolic/|runtime/program[.]hpp$|runtime/module_abi[.]h$|runtime/quadratic_form[.]hpp$|runtime/lane_form[.]hpp$)"
   may["runtime"] = "^runtime/"
   may["runtime/kernels"] = "^(runtime/kernels/|runtime/module_abi[.]h$)"
   may["tools"] = "^(tools|codegen|symbolic|runtime)/"

@@ -96,6 +96,25 @@ std::string to_text(const std::vector<Row>& rows, bool with_error) {
   return text;
 }
 
+std::string advice(Status status) {
+  switch (status) {
+    case Status::singularity:
+    case Status::non_finite:
+      return "the motion has no value further on in these variables: shorten --duration, or use "
+             "other variables";
+    case Status::step_underflow:
+      return "loosen --tolerance or try another --method";
+    case Status::max_steps:
+      return "raise --max-steps";
+    case Status::no_convergence:
+      return "try a smaller --step, or --method dop853";
+    case Status::stopped:
+      return "raise --time-limit";
+    default:
+      return "";
+  }
+}
+
 std::string exact_text(double value) { return fmt::format("{:.17g}", value); }
 
 std::string duration_text(double seconds) {

@@ -36,6 +36,9 @@ void write_csv(std::ostream& stream, const std::vector<Row>& rows);
 /// A table for people. Case and scene stand in lines of their own.
 std::string to_text(const std::vector<Row>& rows, bool with_error);
 
+/// What a user may do about a run that stopped early; empty where there is nothing.
+std::string advice(Status status);
+
 /// 17 significant digits: reads back as the same double.
 std::string exact_text(double value);
 

@@ -110,10 +110,7 @@ CompiledModule taylor_module(const SceneRun& run, const Method& method) {
   }
   CompiledModule result{.module = uncompiled_module(s.rhs, s.invariants, form, run.parameters),
                         .compiled = false};
-  if (!form)
-    result.warning =
-        "there is no C++ compiler: the equations are interpreted, which is several times slower; "
-        "install one, for instance with: apt-get install g++";
+  if (!form) result.warning = kInterpretedWarning;
   return result;
 }
 

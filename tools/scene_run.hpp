@@ -47,6 +47,11 @@ struct CompiledModule {
 };
 CompiledModule compile_for(const SceneRun& run, const Method& method);
 
+/// What is said where a compiled module would be but for the compiler.
+inline constexpr const char* kInterpretedWarning =
+    "there is no C++ compiler: the equations are interpreted, which is several times slower; "
+    "install one, for instance with: apt-get install g++";
+
 /// Digits to which constants such as sqrt(2)/2 are evaluated before they are rounded to double.
 inline constexpr int kConstantDigits = 60;
 

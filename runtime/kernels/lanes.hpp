@@ -16,16 +16,19 @@ template <>
 struct LaneTypes<2> {
   typedef double Real __attribute__((vector_size(16)));
   typedef long long Index __attribute__((vector_size(16)));
+  typedef unsigned long long Unsigned __attribute__((vector_size(16)));
 };
 template <>
 struct LaneTypes<4> {
   typedef double Real __attribute__((vector_size(32)));
   typedef long long Index __attribute__((vector_size(32)));
+  typedef unsigned long long Unsigned __attribute__((vector_size(32)));
 };
 template <>
 struct LaneTypes<8> {
   typedef double Real __attribute__((vector_size(64)));
   typedef long long Index __attribute__((vector_size(64)));
+  typedef unsigned long long Unsigned __attribute__((vector_size(64)));
 };
 
 /// `width` numbers: 2, 4 or 8.
@@ -33,6 +36,8 @@ template <int width>
 using Lanes = typename LaneTypes<width>::Real;
 template <int width>
 using Indices = typename LaneTypes<width>::Index;
+template <int width>
+using Unsigned = typename LaneTypes<width>::Unsigned;
 /// What one register of this instruction set holds.
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
 constexpr int kNativeWidth = 8;
@@ -61,6 +66,16 @@ CASIMIR_INLINE double lane_sum(Lanes8 v) {
   const Lanes4 low = __builtin_shufflevector(v, v, 0, 1, 2, 3);
   const Lanes4 high = __builtin_shufflevector(v, v, 4, 5, 6, 7);
   return lane_sum(low + high);
+}
+
+/// Whether any lane of a mask is set.
+CASIMIR_INLINE bool any(Indices<2> mask) { return (mask[0] | mask[1]) != 0; }
+CASIMIR_INLINE bool any(Indices<4> mask) {
+  return any(__builtin_shufflevector(mask, mask, 0, 1) | __builtin_shufflevector(mask, mask, 2, 3));
+}
+CASIMIR_INLINE bool any(Indices<8> mask) {
+  return any(__builtin_shufflevector(mask, mask, 0, 1, 2, 3) |
+             __builtin_shufflevector(mask, mask, 4, 5, 6, 7));
 }
 
 /// Lane i of the result is lane from[i] of v. The indices are in range.

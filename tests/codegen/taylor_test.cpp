@@ -6,6 +6,7 @@
 
 #include "runtime/evaluate.hpp"
 #include "runtime/term_size.hpp"
+#include "ensemble_forms.hpp"
 #include "taylor_forms.hpp"
 
 namespace {
@@ -327,6 +328,38 @@ TEST(Taylor, InterpreterTakesManyStates) {
   ASSERT_EQ(orbit.status, Status::ok);
   for (int i = 0; i < 50; ++i)
     EXPECT_NEAR(orbit.state[static_cast<std::size_t>(2 * i)], std::cos(3 * (i + 1) / 50.), 1e-14);
+}
+
+TEST(Ensemble, StepsAllocateNothing) {
+  const Specialisation top = specialised(kKovalevskaya);
+  const Specialisation angles = specialised(equations({{"x", "sin(y)/2"}, {"y", "-sin(x)"}}));
+  const auto count = [](const LaneKernel& kernel, std::vector<double> from, double duration) {
+    struct Source {
+      std::vector<double> from;
+      int left = 20;
+    } source{std::move(from)};
+    casimir_ensemble run = {};
+    run.t_end = duration;
+    run.rtol = run.atol = 1e-12;
+    run.source = &source;
+    run.next = [](void* self, double* x, const double** numbers) -> long long {
+      Source& s = *static_cast<Source*>(self);
+      std::copy(s.from.begin(), s.from.end(), x);
+      static constexpr double kOnes[32] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+      *numbers = kOnes;
+      return --s.left;
+    };
+    run.done = [](void*, long long, const double*, const casimir_outcome* out) {
+      EXPECT_GT(out->steps, 0u);
+    };
+    const unsigned long long before = allocations;
+    kernel.run(&run);
+    EXPECT_LT(source.left, 0);
+    return allocations - before;
+  };
+  for (const auto& [name, kernel] : testing::lane_kernels(top))
+    EXPECT_EQ(count(kernel, start_of(top), 1), count(kernel, start_of(top), 50)) << name;
+  EXPECT_EQ(count(testing::lanes_of_recurrences(angles), {1, 0.5}, 50), 0u);
 }
 
 TEST(Taylor, ConstantStepDividesTheInterval) {

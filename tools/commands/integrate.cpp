@@ -7,6 +7,7 @@
 
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
+#include "tools/ensemble_run.hpp"
 #include "tools/generated_report.hpp"
 #include "tools/kept_parameters.hpp"
 #include "tools/output.hpp"
@@ -24,9 +25,10 @@ struct Options {
   Common common;
   RunOptions run;
   KeptParameters kept;
-  std::string case_name, method = "auto", output;
+  std::string case_name, method = "auto", output, ensemble;
   std::vector<std::string> observe;
   double every = 0;
+  int jobs = 0;
   bool general = false;
 };
 
@@ -41,25 +43,6 @@ void write_samples(const std::string& path, const SceneRun& run, const Trajector
     file.stream() << '\n';
   }
   file.commit();
-}
-
-std::string advice(Status status) {
-  switch (status) {
-    case Status::singularity:
-    case Status::non_finite:
-      return "the motion has no value further on in these variables: shorten --duration, or use "
-             "other variables";
-    case Status::step_underflow:
-      return "loosen --tolerance or try another --method";
-    case Status::max_steps:
-      return "raise --max-steps";
-    case Status::no_convergence:
-      return "try a smaller --step, or --method dop853";
-    case Status::stopped:
-      return "raise --time-limit";
-    default:
-      return "";
-  }
 }
 
 Json to_json(const Model& model, const SceneRun& run, const Method& method,
@@ -127,18 +110,32 @@ void print_text(const SceneRun& run, const Method& method, const Settings& setti
     fmt::print("  left out: {} {}, {}\n", item.kind, item.name, item.reason);
 }
 
-int integrate_case(const Options& options) {
-  const Model model =
-      options.kept.model_of(load_case(options.case_name), options.common.parameter_values());
-  const Scene& scene = model.scene(options.common.scene);
-  const Method& method = method_named(options.method);
+SceneOptions scene_options(const Options& options) {
   auto how = options.kept.in<SceneOptions>();
   if (options.general) {
     how.fold_parameters = false;
     how.observe = std::vector<std::string>{};
   }
   if (!options.observe.empty()) how.observe = options.observe;
-  const SceneRun run = prepare(model, scene, how);
+  return how;
+}
+
+int integrate_members_of(const Options& options) {
+  if (options.every > 0)
+    throw UsageError("--every does not go with --ensemble: the end of each member is written");
+  return integrate_ensemble({options.common, options.run, options.kept, options.case_name,
+                             options.method, options.ensemble, options.output,
+                             scene_options(options), options.jobs});
+}
+
+int integrate_case(const Options& options) {
+  if (!options.ensemble.empty()) return integrate_members_of(options);
+  if (options.jobs > 0) throw UsageError("--jobs needs --ensemble FILE.csv");
+  const Model model =
+      options.kept.model_of(load_case(options.case_name), options.common.parameter_values());
+  const Scene& scene = model.scene(options.common.scene);
+  const Method& method = method_named(options.method);
+  const SceneRun run = prepare(model, scene, scene_options(options));
   Settings settings = settings_for(options.run, run);
   settings.give_up = time_limit(options.common.time_limit);
   if (!options.output.empty())
@@ -197,6 +194,14 @@ void register_integrate(CLI::App& program, Action& action) {
       ->add_option("--every", options->every,
                    "Time between the states written (default: a thousandth of the duration)")
       ->type_name("DT")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--ensemble", options->ensemble,
+                   "Integrate many at once: a CSV file whose first line names variables and "
+                   "parameters, with a line for each member")
+      ->type_name("FILE.csv");
+  command->add_option("--jobs", options->jobs, "Threads for an ensemble (default: all processors)")
+      ->type_name("N")
       ->check(CLI::PositiveNumber);
   command
       ->add_option("--observe", options->observe,

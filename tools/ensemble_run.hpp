@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "tools/cli.hpp"
+#include "tools/kept_parameters.hpp"
+#include "tools/run_options.hpp"
+
+namespace casimir::tools {
+
+/// What `integrate --ensemble` was asked.
+struct EnsembleRequest {
+  const Common& common;
+  const RunOptions& run;
+  const KeptParameters& kept;
+  std::string case_name, method, file, output;
+  SceneOptions how;
+  int jobs = 0;
+};
+
+/// Integrates every member of the file and reports. \return the exit status.
+int integrate_ensemble(const EnsembleRequest& request);
+
+}  // namespace casimir::tools
