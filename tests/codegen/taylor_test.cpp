@@ -303,10 +303,11 @@ TEST(Taylor, StepsAllocateNothing) {
   for (const auto& [s, x] : {std::pair(angles, std::vector<double>{1, 0.5}),
                              std::pair(top, start_of(top))}) {
     for (const auto& [name, module] : forms(s)) {
+      count(module, 5, x);  // the first run of a process finds out what the processor has
       const unsigned long long before_steps = count(module, 5, x);
       EXPECT_EQ(count(module, 50, x), before_steps) << name;
       // The twin: storage for the series of a program is allocated, and is seen.
-      EXPECT_EQ(before_steps > 0, name != "tables") << name;
+      EXPECT_EQ(before_steps > 0, name == "interpreted") << name;
     }
   }
 }
