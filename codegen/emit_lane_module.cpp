@@ -28,11 +28,10 @@ std::string tables(const LaneForm& form) {
   return "// The system: see casimir_lane_tables.\nstruct Tables {\n"
          "  static constexpr bool known = true;\n  static constexpr int most_sums = " +
          std::to_string(form.sums()) + ", most_states = " + std::to_string(form.states) +
-         ", states = most_states;\n" + array("copied", form.copied) +
-         array("first", form.first) + array("negative", form.negative) +
-         array("casimir_lane_product product", products) + array("shared", form.shared) +
-         array("shared_sum", form.shared_sum) + array("linear", form.linear) +
-         array("linear_state", form.linear_state) +
+         ", states = most_states;\n" + array("copied", form.copied) + array("first", form.first) +
+         array("negative", form.negative) + array("casimir_lane_product product", products) +
+         array("shared", form.shared) + array("shared_sum", form.shared_sum) +
+         array("linear", form.linear) + array("linear_state", form.linear_state) +
          codegen::wrapped("  static constexpr casimir_lane_tables tables = {" +
                           std::to_string(form.states) + ", " + std::to_string(form.copied.size()) +
                           ", " + std::to_string(form.sums()) +
@@ -73,8 +72,9 @@ std::string emit_series_lanes(const Specialisation& spec, const std::string& ker
   for (std::size_t i = 0; i + 1 < spec.rhs.inputs.size(); ++i)
     names.push_back(unique.unique(spec.rhs.inputs[i]));
   names.emplace_back("t");
-  return codegen::head_comment(spec, false) + "\n" + kernel_source + "\nnamespace {\n\nstruct System {\n  " +
-         codegen::lane_series_struct(spec.rhs, names) + R"(};
+  return codegen::head_comment(spec, false) + "\n" + kernel_source +
+         "\nnamespace {\n\nstruct System {\n  " + codegen::lane_series_struct(spec.rhs, names) +
+         R"(};
 
 }  // namespace
 

@@ -30,9 +30,9 @@ class SeriesWriter {
       : lanes_(lanes),
         program_(without_dead_code(rhs)),
         constant_(constant_instructions(program_)),
-        unique_({"V",     "c",      "rate",   "order",   "p",      "most",   "states", "blocks",
-                 "groups", "smooth", "width",  "k",       "by_k",   "step",   "unit",   "state",
-                 "at",     "begin",  "expand", "form_sums", "lane", "pack",   "row",    "enter",
+        unique_({"V",      "c",      "rate",   "order",     "p",    "most", "states", "blocks",
+                 "groups", "smooth", "width",  "k",         "by_k", "step", "unit",   "state",
+                 "at",     "begin",  "expand", "form_sums", "lane", "pack", "row",    "enter",
                  "inner",  "room",   "begun_", "series_",   "sum_", "each"}),
         value_(program_.code.size()),
         varies_(program_.code.size(), false),
@@ -333,8 +333,7 @@ class SeriesWriter {
         "        [[maybe_unused]] const double by_k = casimir_kernel::taylor::reciprocal.of[k];\n";
     if (uses_time_) text += "        const double " + inputs_.back() + "_k = k == 1 ? unit : 0;\n";
     if (!order_.empty()) text += "        form_sums(k);\n";
-    text += next_ + packed("left_[k]", left, "        ") +
-            packed("right_[k]", right, "        ") +
+    text += next_ + packed("left_[k]", left, "        ") + packed("right_[k]", right, "        ") +
             "        const double step = unit * casimir_kernel::taylor::reciprocal.of[k + 1];\n";
     // A rate may be another state as it is: all are formed before any is replaced.
     for (std::size_t i = 0; i < states_; ++i)
@@ -366,15 +365,14 @@ class SeriesWriter {
            "each.\n"
            "  struct Series : " +
            base + " {\n    static constexpr bool smooth = " + (is_polynomial() ? "true" : "false") +
-           ";\n" + wrapped(all + ";") + "\n\n" +
-           begin_function() + "\n" + expand_function() + "  };\n";
+           ";\n" + wrapped(all + ";") + "\n\n" + begin_function() + "\n" + expand_function() +
+           "  };\n";
   }
 
   // One trajectory in each lane.
 
   std::string begin_in_lanes() const {
-    std::string text =
-        "    void begin([[maybe_unused]] V at, const V* state, V* rate) {\n";
+    std::string text = "    void begin([[maybe_unused]] V at, const V* state, V* rate) {\n";
     for (std::size_t i = 0; i < states_; ++i)
       text += "      " + inputs_[i] + " = state[" + std::to_string(i) + "];\n";
     for (const std::size_t i : used_parameters_)
@@ -408,14 +406,13 @@ class SeriesWriter {
     std::string text = "    void expand(V unit) {\n";
     for (std::size_t i = 0; i < states_; ++i) {
       const std::string place = std::to_string(i);
-      text += "      V " + inputs_[i] + "_k = c[" + place + "][1] = begun_[" + place +
-              "] * unit;\n";
+      text +=
+          "      V " + inputs_[i] + "_k = c[" + place + "][1] = begun_[" + place + "] * unit;\n";
     }
     text +=
         "      for (int k = 1; k < order; ++k) {\n"
         "        [[maybe_unused]] const double by_k = casimir_kernel::taylor::reciprocal.of[k];\n";
-    if (uses_time_)
-      text += "        const V " + inputs_.back() + "_k = k == 1 ? unit : V{};\n";
+    if (uses_time_) text += "        const V " + inputs_.back() + "_k = k == 1 ? unit : V{};\n";
     for (std::size_t i = 0; i < order_.size(); ++i) {
       const Sum& s = order_[i];
       text += "        sum_[" + std::to_string(i) + "] = inner(" + row(s.left, s.weighted) + ", " +
@@ -423,12 +420,13 @@ class SeriesWriter {
     }
     text += next_;
     for (const auto& [series, place] : rows)
-      text += "        series_[" + std::to_string(place) + "][k] = " +
-              (series.second ? "static_cast<double>(k) * " : "") + series.first + "_k;\n";
+      text += "        series_[" + std::to_string(place) +
+              "][k] = " + (series.second ? "static_cast<double>(k) * " : "") + series.first +
+              "_k;\n";
     text += "        const V step = unit * casimir_kernel::taylor::reciprocal.of[k + 1];\n";
     for (std::size_t i = 0; i < states_; ++i)
-      text += "        const V " + inputs_[i] + "_next = step * (" + next(program_.outputs[i]) +
-              ");\n";
+      text +=
+          "        const V " + inputs_[i] + "_next = step * (" + next(program_.outputs[i]) + ");\n";
     for (std::size_t i = 0; i < states_; ++i)
       text += "        c[" + std::to_string(i) + "][k + 1] = " + inputs_[i] + "_k = " + inputs_[i] +
               "_next;\n";

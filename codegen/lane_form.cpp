@@ -162,8 +162,7 @@ class Expander {
   std::optional<Polynomial> quotient(const Polynomial& a, const Polynomial& b) {
     if (!is_plain(b) || b.empty()) return std::nullopt;
     Polynomial result = a;
-    for (auto& [states, factor] : result)
-      factor = numbers_.combined(Op::div, factor, number_of(b));
+    for (auto& [states, factor] : result) factor = numbers_.combined(Op::div, factor, number_of(b));
     return result;
   }
 
@@ -341,8 +340,8 @@ class Layout {
 std::optional<LaneForm> lane_form(const Program& rhs) {
   const std::size_t states = rhs.outputs.size();
   if (states > CASIMIR_MOST_LANE_STATES || states == 0) return std::nullopt;
-  NumberWriter numbers({rhs.inputs.begin() + static_cast<std::ptrdiff_t>(states),
-                        rhs.inputs.end() - 1});
+  NumberWriter numbers(
+      {rhs.inputs.begin() + static_cast<std::ptrdiff_t>(states), rhs.inputs.end() - 1});
   const Program program = codegen::without_dead_code(rhs);
   const auto rates = Expander(program, numbers).run();
   if (!rates) return std::nullopt;

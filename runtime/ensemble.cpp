@@ -109,11 +109,11 @@ EnsembleResult integrate_members(const Ensemble& ensemble,
     for (long long next; (next = work.next()) >= 0;) {
       const auto member = static_cast<std::size_t>(next);
       const double *const x = ensemble.state(member), *const p = ensemble.values_of(member);
-      const Trajectory trajectory = integrate(module, method, own, {x, x + ensemble.states},
-                                              {p, p + ensemble.parameters});
+      const Trajectory trajectory =
+          integrate(module, method, own, {x, x + ensemble.states}, {p, p + ensemble.parameters});
       MemberResult& result = work.result.members[member];
-      result = {trajectory.status, trajectory.time,  trajectory.state,
-                {},                trajectory.steps, trajectory.rejected};
+      result = {trajectory.status, trajectory.time,    trajectory.state, {},
+                trajectory.steps,  trajectory.rejected};
       check(member, result);
     }
   });

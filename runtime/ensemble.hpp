@@ -11,16 +11,14 @@ namespace casimir {
 
 /// Many trajectories of one system: initial states and, where they differ, parameters.
 struct Ensemble {
-  std::size_t states = 0;      ///< entries of a state, n
-  std::size_t parameters = 0;  ///< run-time parameters of a member, m
+  std::size_t states = 0;       ///< entries of a state, n
+  std::size_t parameters = 0;   ///< run-time parameters of a member, m
   std::vector<double> initial;  ///< n for each member, one member after the other
   std::vector<double> values;   ///< m for each member
 
   std::size_t size() const { return states > 0 ? initial.size() / states : 0; }
   const double* state(std::size_t member) const { return initial.data() + member * states; }
-  const double* values_of(std::size_t member) const {
-    return values.data() + member * parameters;
-  }
+  const double* values_of(std::size_t member) const { return values.data() + member * parameters; }
 };
 
 /// What came of a member: see Trajectory. Its invariants are compared at the end of the run, not at

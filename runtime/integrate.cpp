@@ -119,7 +119,7 @@ std::string reason_of(Status status) {
 }
 
 void check_settings(const Settings& s, const Method& method) {
-if (!std::isfinite(s.duration)) refuse("the duration must be a finite number");
+  if (!std::isfinite(s.duration)) refuse("the duration must be a finite number");
   if (!(s.rtol >= 0) || !(s.atol >= 0) || !(s.rtol + s.atol > 0) || !std::isfinite(s.rtol) ||
       !std::isfinite(s.atol)) {
     refuse("tolerances must be positive finite numbers");

@@ -96,8 +96,7 @@ std::function<ModuleFunctions::Integration> interpreted(const Program& rhs,
                                                         std::size_t parameters) {
   return [rhs, parameters](const casimir_run* run, double* x, casimir_outcome* out) {
     if (rhs.outputs.size() > CASIMIR_SERIES_STATES)
-      throw std::invalid_argument("a system of more than " +
-                                  std::to_string(CASIMIR_SERIES_STATES) +
+      throw std::invalid_argument("a system of more than " + std::to_string(CASIMIR_SERIES_STATES) +
                                   " states is more than the method of Taylor series has room for");
     InterpretedSeries series(rhs, parameters);
     const casimir_series functions = series.functions();

@@ -20,11 +20,16 @@ struct LaneForm {
 
   /// Points into this object.
   casimir_lane_tables tables() const {
-    return {states,          static_cast<int>(copied.size()),
-            sums(),          copied.data(),
-            first.data(),    negative.data(),
-            products.data(), shared.data(),
-            shared_sum.data(), linear.data(),
+    return {states,
+            static_cast<int>(copied.size()),
+            sums(),
+            copied.data(),
+            first.data(),
+            negative.data(),
+            products.data(),
+            shared.data(),
+            shared_sum.data(),
+            linear.data(),
             linear_state.data()};
   }
 };

@@ -73,9 +73,7 @@ LaneKernel loaded_lanes(const std::string& path) {
     throw std::runtime_error(path + ": the module has another version of the interface");
   LaneKernel result;
   result.lanes = number("casimir_lanes");
-  result.instruction_set = result.lanes == 8   ? "avx512"
-                           : result.lanes == 4 ? "avx2"
-                                               : "baseline";
+  result.instruction_set = result.lanes == 8 ? "avx512" : result.lanes == 4 ? "avx2" : "baseline";
   using Run = void(const casimir_ensemble*);
   auto* const run = reinterpret_cast<Run*>(entry("casimir_integrate_lanes"));
   result.run = [handle, run](const casimir_ensemble* request) { run(request); };

@@ -42,8 +42,8 @@ std::vector<std::string> method_names();
 ///   template <class System> void integrate(const casimir_run*, double*, casimir_outcome*);
 ///   }
 ///
-/// For a method without a header the interface alone, and for one without an entry no `integrate`. The same text every time; the kernels of
-/// outside methods include their library's headers.
+/// For a method without a header the interface alone, and for one without an entry no `integrate`.
+/// The same text every time; the kernels of outside methods include their library's headers.
 std::string kernel_source(const Method& method);
 
 /// The text of one header of `kernels/` with all it includes, without any #include.

@@ -39,10 +39,11 @@ const std::vector<Target>& targets() {
     const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
         __builtin_cpu_supports("avx512vl")) {
-      result.push_back({"avx512", 8, casimir_quadratic_avx512, casimir_wide_avx512,
-                        casimir_series_avx512});
+      result.push_back(
+          {"avx512", 8, casimir_quadratic_avx512, casimir_wide_avx512, casimir_series_avx512});
     }
-    if (avx2) result.push_back({"avx2", 4, casimir_quadratic_avx2, casimir_wide_avx2, casimir_series_avx2});
+    if (avx2)
+      result.push_back({"avx2", 4, casimir_quadratic_avx2, casimir_wide_avx2, casimir_series_avx2});
 #endif
     result.push_back({"baseline", 2, nullptr, casimir_wide_baseline, casimir_series_baseline});
     return result;

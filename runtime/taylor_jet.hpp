@@ -76,7 +76,9 @@ class TaylorJet {
     return op == Op::sin || op == Op::cos || op == Op::tan || op == Op::asin || op == Op::acos ||
            op == Op::atan2;
   }
-  Series& helper(std::size_t line, int which) { return helper_series_[index(helpers_[line] + which)]; }
+  Series& helper(std::size_t line, int which) {
+    return helper_series_[index(helpers_[line] + which)];
+  }
 
   bool is_constant(const Instruction& line) const {
     if (is_literal(line)) return true;
@@ -91,10 +93,9 @@ class TaylorJet {
     for (std::size_t i = 0; i < program_.code.size(); ++i) {
       const Instruction& line = program_.code[i];
       if (!constant_[i]) continue;
-      series_[i][0] = is_literal(line) ? literal_value(program_, line, arithmetic_)
-                      : line.op == Op::input
-                          ? parameters_[index(line.a) - program_.outputs.size()]
-                          : value_of(line);
+      series_[i][0] = is_literal(line)       ? literal_value(program_, line, arithmetic_)
+                      : line.op == Op::input ? parameters_[index(line.a) - program_.outputs.size()]
+                                             : value_of(line);
     }
     constants_known_ = true;
   }
@@ -229,8 +230,8 @@ class TaylorJet {
     }
   }
 
-  Number next_with_helpers(std::size_t i, const Instruction& line, const Series& a,
-                           const Series& b, int k) {
+  Number next_with_helpers(std::size_t i, const Instruction& line, const Series& a, const Series& b,
+                           int k) {
     const Series& s = series_[i];
     Series &u = helper(i, 0), &w = helper(i, 1);
     const std::size_t n = index(k);

@@ -1,4 +1,5 @@
-// The CSV file of an ensemble. No library of Debian's tells in which line and column a field stands.
+// The CSV file of an ensemble. No library of Debian's tells in which line and column a field
+// stands.
 #include "tools/ensemble_file.hpp"
 
 #include <fmt/format.h>
@@ -201,8 +202,8 @@ void row(Fields& fields, EnsembleFile& file) {
     file.values.push_back(number(field));
   }
   if (count < file.columns.size())
-    throw fields.here().error(fmt::format("{} fields, but the first line names {} columns", count,
-                                          file.columns.size()));
+    throw fields.here().error(
+        fmt::format("{} fields, but the first line names {} columns", count, file.columns.size()));
 }
 
 }  // namespace
@@ -213,8 +214,9 @@ EnsembleFile read_ensemble(const std::string& path, const std::vector<std::strin
   Fields fields(path, content);
   EnsembleFile file;
   if (!fields.next_line())
-    throw CaseError({path, 1, 1}, "the file is empty: expected a line of names, then one for each "
-                                  "member");
+    throw CaseError({path, 1, 1},
+                    "the file is empty: expected a line of names, then one for each "
+                    "member");
   file.columns = header(fields, known, fixed);
   while (fields.next_line()) row(fields, file);
   if (file.rows() == 0)

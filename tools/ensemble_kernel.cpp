@@ -59,8 +59,7 @@ CompiledModule module_for_any(const SceneRun& run, const Method& method) {
 }
 
 /// One module for each thread.
-std::function<Module()> modules(const SceneRun& run, const Method& method,
-                                EnsembleKernel& result) {
+std::function<Module()> modules(const SceneRun& run, const Method& method, EnsembleKernel& result) {
   struct Store {
     std::mutex guard;
     std::optional<Module> first;

@@ -21,10 +21,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Worst first: the status of the whole is the first that some member has.
-constexpr std::array kStatuses = {Status::singularity,    Status::non_finite,
-                                  Status::step_underflow, Status::no_convergence,
-                                  Status::drift_exceeded, Status::max_steps,
-                                  Status::stopped,        Status::ok};
+constexpr std::array kStatuses = {
+    Status::singularity,    Status::non_finite, Status::step_underflow, Status::no_convergence,
+    Status::drift_exceeded, Status::max_steps,  Status::stopped,        Status::ok};
 
 /// An ensemble that was integrated, and all that a report says of it.
 struct Report {
@@ -182,18 +181,16 @@ int verdict(const Report& report) {
   if (worst == Status::ok) return kDone;
   const auto& members = report.result.members;
   // The first that could not be continued; where all of these were only stopped, the first of them.
-  const auto first =
-      std::find_if(members.begin(), members.end(), [&](const MemberResult& member) {
-        return member.status != Status::ok &&
-               (worst == Status::stopped || member.status != Status::stopped);
-      });
+  const auto first = std::find_if(members.begin(), members.end(), [&](const MemberResult& member) {
+    return member.status != Status::ok &&
+           (worst == Status::stopped || member.status != Status::stopped);
+  });
   std::string state;
   for (std::size_t i = 0; i < first->state.size(); ++i)
     state +=
         fmt::format("{}{} = {:.6g}", i == 0 ? "" : ", ", report.spec().states[i], first->state[i]);
-  const std::size_t failed =
-      members.size() - report.count(Status::ok) -
-      (worst == Status::stopped ? 0 : report.count(Status::stopped));
+  const std::size_t failed = members.size() - report.count(Status::ok) -
+                             (worst == Status::stopped ? 0 : report.count(Status::stopped));
   std::cout.flush();
   std::cerr << fmt::format(
       "casimir: error: {} of {} members {}; the first is member {}, at t = {}: {}\n"

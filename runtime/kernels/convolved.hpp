@@ -29,7 +29,7 @@ struct Convolved {
 
  protected:
   V left_[most][groups > 0 ? groups : 1], right_[most][groups > 0 ? groups : 1];
-  double sum_[groups > 0 ? width * groups : 1];
+  double sum_[groups > 0 ? width* groups : 1];
 
   static CASIMIR_INLINE double lane(const V* x, int i) { return x[i / width][i % width]; }
 

@@ -15,7 +15,8 @@ CASIMIR_INLINE double lane_of(double a, int) { return a; }
 template <class V, class Function, class... Arguments>
 CASIMIR_INLINE V each(Function function, const Arguments&... arguments) {
   V result;
-  for (int lane = 0; lane < width_of<V>; ++lane) result[lane] = function(lane_of(arguments, lane)...);
+  for (int lane = 0; lane < width_of<V>; ++lane)
+    result[lane] = function(lane_of(arguments, lane)...);
   return result;
 }
 

@@ -29,7 +29,8 @@ void CASIMIR_JOIN(casimir_ensemble_, CASIMIR_TARGET)(const casimir_lane_tables* 
             numbers = Series::count_of_numbers(*tables);
   auto* const memory = new Series::V[static_cast<unsigned long>(rows + sums + numbers)]();
   auto* const pairs = new Series::Pair[static_cast<unsigned long>(tables->first[tables->sums])];
-  Series series(RunTimeTables{*tables}, order, stride, {memory, memory + rows, memory + rows + sums, pairs});
+  Series series(RunTimeTables{*tables}, order, stride,
+                {memory, memory + rows, memory + rows + sums, pairs});
   casimir_kernel::lanes::March<Series>(run, series).go();
   delete[] pairs;
   delete[] memory;

@@ -41,7 +41,6 @@ CASIMIR_INLINE V larger_of(V a, V b) {
   return a > b ? a : b;
 }
 
-
 /// log2 of positive numbers to within 0.01; -1023 for 0. No conversion of integers, which not every
 /// instruction set has.
 template <class V>
@@ -293,7 +292,8 @@ class March {
   CASIMIR_INLINE bool attempt(V s, M& trying) {
     const Trial trial = tried(s);
     if constexpr (Series::smooth) {
-      const M plain = trying & trial.good & checked_ & ~(trial.s > 3) & ~trial.there & ~trial.vanished;
+      const M plain =
+          trying & trial.good & checked_ & ~(trial.s > 3) & ~trial.there & ~trial.vanished;
       if (__builtin_expect(!any(active_ & ~plain), 1)) {
         accept(plain, trial);
         trying = M{};
@@ -449,11 +449,11 @@ class March {
 /// The order at which a tolerance costs least, as measured: lower than for one trajectory, whose
 /// step has more to wait for.
 inline int order_of(const casimir_ensemble* run) {
-  const int order = run->order > 0       ? run->order
+  const int order = run->order > 0      ? run->order
                     : run->rtol > 3e-5  ? 8
                     : run->rtol > 1e-8  ? 12
                     : run->rtol > 7e-13 ? 16
-                                         : 20;
+                                        : 20;
   return order < 24 ? order : 24;
 }
 

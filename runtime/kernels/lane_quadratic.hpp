@@ -14,9 +14,9 @@ namespace casimir_kernel::lanes {
 ///
 /// Tables is a class with casimir_lane_tables `tables`, their number of `states`, `static constexpr
 /// bool known` and, where they are, the numbers of sums and states as `most_sums` and
-/// `most_states`. Where they are constants all loops over sums and products are written out, and the coefficients that
-/// several products need are loaded once. The operations on a lane are the same in the same order,
-/// so both give the same bits.
+/// `most_states`. Where they are constants all loops over sums and products are written out, and
+/// the coefficients that several products need are loaded once. The operations on a lane are the
+/// same in the same order, so both give the same bits.
 template <class Tables, int width>
 class Quadratic : Tables {
  public:
@@ -237,9 +237,8 @@ class Quadratic : Tables {
       (Tables::known ? made[2 * g + 1] : sum[3]) = s3;
     });
     if constexpr (Tables::known)
-      repeat(0, 2 * tables.sums, [&](int i) CASIMIR_INLINE_LAMBDA {
-        sums_[4 * (i / 2) + 2 + i % 2] = made[i];
-      });
+      repeat(0, 2 * tables.sums,
+             [&](int i) CASIMIR_INLINE_LAMBDA { sums_[4 * (i / 2) + 2 + i % 2] = made[i]; });
   }
 
   template <int sign>
@@ -307,8 +306,7 @@ class Quadratic : Tables {
       if constexpr (!Tables::known) row(r)[at + 1] = made[r];
     });
     if constexpr (Tables::known)
-      repeat(0, tables.states,
-             [&](int r) CASIMIR_INLINE_LAMBDA { row(r)[at + 1] = made[r]; });
+      repeat(0, tables.states, [&](int r) CASIMIR_INLINE_LAMBDA { row(r)[at + 1] = made[r]; });
     repeat(0, tables.copies, [&](int c) CASIMIR_INLINE_LAMBDA {
       row(tables.states + c)[at + 1] = numbers_[c] * made[tables.copied[c]];
     });

@@ -20,9 +20,9 @@ struct casimir_lane_product {
  * product[first[g + 1] - 1], and from negative[g] on they are subtracted. */
 struct casimir_lane_tables {
   int states, copies, sums;
-  const int* copied;                      /* the state of each copy */
-  const int* first;                       /* sums + 1 entries */
-  const int* negative;                    /* sums entries */
+  const int* copied;   /* the state of each copy */
+  const int* first;    /* sums + 1 entries */
+  const int* negative; /* sums entries */
   const struct casimir_lane_product* product;
   const int* shared;       /* states + 1: rate i has the shared sums number shared[i] .. */
   const int* shared_sum;   /* .. and this is the sum that each of them takes */

@@ -167,8 +167,7 @@ CASIMIR_INLINE V gathered(const V* x, const long long* from) {
   if constexpr (gathers_in_registers<V, blocks>) {
     const V low = permuted_by(x[0], from);
     if constexpr (blocks == 1) return low;
-    const V both =
-        __builtin_ia32_blendvpd256(low, permuted_by(x[blocks > 1], from), load<V>(from));
+    const V both = __builtin_ia32_blendvpd256(low, permuted_by(x[blocks > 1], from), load<V>(from));
     if constexpr (blocks == 2) return both;
     return __builtin_ia32_blendvpd256(both, permuted_by(x[blocks - 1], from),
                                       (V)(load<Indices<4>>(from) << 1));

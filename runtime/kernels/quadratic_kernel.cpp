@@ -71,9 +71,11 @@ extern "C" void CASIMIR_JOIN(casimir_wide_, CASIMIR_TARGET)(const casimir_wide* 
   integrate_wide<1>(*tables, run, x, out);
 }
 
-extern "C" void CASIMIR_JOIN(casimir_quadratic_, CASIMIR_TARGET)(
-    [[maybe_unused]] const casimir_quadratic* tables, [[maybe_unused]] const casimir_run* run,
-    [[maybe_unused]] double* x, [[maybe_unused]] casimir_outcome* out) {
+extern "C" void CASIMIR_JOIN(casimir_quadratic_,
+                             CASIMIR_TARGET)([[maybe_unused]] const casimir_quadratic* tables,
+                                             [[maybe_unused]] const casimir_run* run,
+                                             [[maybe_unused]] double* x,
+                                             [[maybe_unused]] casimir_outcome* out) {
   if constexpr (kWidth >= 4) {
     if (tables->states <= 4) {
       if (tables->products <= 1) return with_order<4, 1>(*tables, run, x, out);

@@ -146,7 +146,8 @@ class Curve {
     for (std::size_t i = 1; i < times_.size(); ++i) {
       if (errors_[i] > error) continue;
       const double above = std::max(errors_[i - 1], error);
-      const double part = above > errors_[i] ? std::log(above / error) / std::log(above / errors_[i]) : 0;
+      const double part =
+          above > errors_[i] ? std::log(above / error) / std::log(above / errors_[i]) : 0;
       return {times_[i - 1] * std::pow(times_[i] / times_[i - 1], part),
               tolerance(static_cast<int>(i)) * std::sqrt(10.) * std::pow(0.1, 0.5 * part)};
     }
@@ -265,9 +266,10 @@ int run(const Options& options) {
   }
   for (int e = 0; e < 2 && ratios[e].count > 0; ++e) {
     const auto mean = [&](double product) { return std::pow(product, 1. / ratios[e].count); };
-    fmt::print("mean at {:.0e}: lanes {:.2f} times a single trajectory, with tables {:.2f}; two "
-               "threads {:.2f} times one\n",
-               kErrors[e], mean(ratios[e].single), mean(ratios[e].tables), mean(ratios[e].threads));
+    fmt::print(
+        "mean at {:.0e}: lanes {:.2f} times a single trajectory, with tables {:.2f}; two "
+        "threads {:.2f} times one\n",
+        kErrors[e], mean(ratios[e].single), mean(ratios[e].tables), mean(ratios[e].threads));
   }
   return good ? 0 : 1;
 }

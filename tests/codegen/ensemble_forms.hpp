@@ -38,8 +38,7 @@ inline Ensemble ensemble_of(const std::vector<std::vector<double>>& states,
                             const std::vector<std::vector<double>>& parameters = {}) {
   Ensemble ensemble;
   ensemble.states = states.front().size();
-  for (const auto& x : states)
-    ensemble.initial.insert(ensemble.initial.end(), x.begin(), x.end());
+  for (const auto& x : states) ensemble.initial.insert(ensemble.initial.end(), x.begin(), x.end());
   for (const auto& p : parameters) {
     ensemble.parameters = p.size();
     ensemble.values.insert(ensemble.values.end(), p.begin(), p.end());

@@ -29,9 +29,9 @@ using States = std::vector<std::vector<double>>;
       std::memcmp(&a.time, &b.time, sizeof a.time) == 0 && a.state.size() == b.state.size() &&
       std::memcmp(a.state.data(), b.state.data(), a.state.size() * sizeof(double)) == 0)
     return ::testing::AssertionSuccess();
-  return ::testing::AssertionFailure() << to_string(a.status) << " at " << a.time << " after "
-                                       << a.steps << ", " << to_string(b.status) << " at " << b.time
-                                       << " after " << b.steps;
+  return ::testing::AssertionFailure()
+         << to_string(a.status) << " at " << a.time << " after " << a.steps << ", "
+         << to_string(b.status) << " at " << b.time << " after " << b.steps;
 }
 
 TEST(Ensemble, EveryBundledCaseAgreesWithTheReference) {
@@ -125,17 +125,15 @@ TEST(Ensemble, NoMemberDependsOnItsNeighboursNorOnThreads) {
 TEST(Ensemble, ConstantAndRunTimeTablesGiveTheSameBits) {
   const std::vector<std::string> targets = lane_targets();
   if (targets.front() == "baseline") GTEST_SKIP() << "products and sums are not fused there";
-  for (const Specialisation& s :
-       {Mixed().spec, specialised(kKovalevskaya),
-        specialised(equations({{"a", "b*c + d^2/3"},
-                               {"b", "-a*c + 2*b*c"},
-                               {"c", "e*f - a*d"},
-                               {"d", "-a*c - c*f + 1/7"},
-                               {"e", "-c*f + b*a - b*f"},
-                               {"f", "-e*c + e*b + b - f/5"}}))}) {
+  for (const Specialisation& s : {Mixed().spec, specialised(kKovalevskaya),
+                                  specialised(equations({{"a", "b*c + d^2/3"},
+                                                         {"b", "-a*c + 2*b*c"},
+                                                         {"c", "e*f - a*d"},
+                                                         {"d", "-a*c - c*f + 1/7"},
+                                                         {"e", "-c*f + b*a - b*f"},
+                                                         {"f", "-e*c + e*b + b - f/5"}}))}) {
     const LaneForm form = *lane_form(s.rhs);
-    const States from =
-        s.states.size() == 3 ? Mixed().from : near(std::vector<double>(6, 0.5), 29);
+    const States from = s.states.size() == 3 ? Mixed().from : near(std::vector<double>(6, 0.5), 29);
     const EnsembleResult constants =
         run_lanes(testing::lanes_of_constants(form), ensemble_of(from), settings_for(3, 1e-11));
     for (const std::string& target : targets) {
@@ -196,8 +194,7 @@ TEST(Ensemble, StopsWhenAskedAndSaysWho) {
   Settings settings = settings_for(1e9, 1e-14);
   settings.give_up = [] { return true; };
   for (const auto& [name, kernel] : lane_kernels(s)) {
-    const EnsembleResult result =
-        run_lanes(kernel, ensemble_of(States(100, {1, 0})), settings, 2);
+    const EnsembleResult result = run_lanes(kernel, ensemble_of(States(100, {1, 0})), settings, 2);
     for (const MemberResult& member : result.members) {
       EXPECT_EQ(member.status, Status::stopped) << name;
       EXPECT_NEAR(member.state[0], std::cos(member.time), 1e-12);
@@ -244,8 +241,7 @@ TEST(Ensemble, ParametersMayDifferFromMemberToMember) {
     }
   }
   // A quadratic system whose factors are functions of the parameters: x = 1/(c - sqrt(a) t) - b.
-  const Specialisation square =
-      specialised(equations({{"x", "sqrt(a)*(x + b)^2"}}, rest), general);
+  const Specialisation square = specialised(equations({{"x", "sqrt(a)*(x + b)^2"}}, rest), general);
   EXPECT_TRUE(lane_form(square.rhs));
   for (const auto& [name, kernel] : lane_kernels(square)) {
     const EnsembleResult result =

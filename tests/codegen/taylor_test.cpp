@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <new>
 
+#include "ensemble_forms.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/term_size.hpp"
-#include "ensemble_forms.hpp"
 #include "taylor_forms.hpp"
 
 namespace {
@@ -300,8 +300,8 @@ TEST(Taylor, StepsAllocateNothing) {
     EXPECT_GT(out.steps, duration / 4);
     return allocations - before;
   };
-  for (const auto& [s, x] : {std::pair(angles, std::vector<double>{1, 0.5}),
-                             std::pair(top, start_of(top))}) {
+  for (const auto& [s, x] :
+       {std::pair(angles, std::vector<double>{1, 0.5}), std::pair(top, start_of(top))}) {
     for (const auto& [name, module] : forms(s)) {
       count(module, 5, x);  // the first run of a process finds out what the processor has
       const unsigned long long before_steps = count(module, 5, x);

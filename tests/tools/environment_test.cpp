@@ -24,8 +24,7 @@ Environment without_compiler(const Folder& cache) {
 
 TEST(Environment, TablesNeedNoCompilerAndNoWord) {
   const Folder cache;
-  const Outcome outcome =
-      run({"integrate", "kovalevskaya", "--json"}, {}, without_compiler(cache));
+  const Outcome outcome = run({"integrate", "kovalevskaya", "--json"}, {}, without_compiler(cache));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_TRUE(outcome.err.empty()) << outcome.err;
   EXPECT_EQ(outcome.json().at("warnings").dump().find("compiler"), std::string::npos);
@@ -39,13 +38,12 @@ TEST(Environment, OtherSystemsAreInterpretedAndItIsSaid) {
   const Outcome outcome = run(arguments, {}, without_compiler(cache));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.json().at("warnings").dump().find("interpreted"), std::string::npos);
-  const Outcome compiled =
-      run(arguments, {}, {{"CASIMIR_CACHE", with_compiler.path().string()}});
+  const Outcome compiled = run(arguments, {}, {{"CASIMIR_CACHE", with_compiler.path().string()}});
   EXPECT_EQ(compiled.json().at("warnings").dump().find("interpreted"), std::string::npos);
   const auto state = compiled.json().at("state");
   for (const auto& [name, value] : outcome.json().at("state").items()) {
-    EXPECT_NEAR(std::stod(value.get<std::string>()),
-                std::stod(state.at(name).get<std::string>()), 1e-12)
+    EXPECT_NEAR(std::stod(value.get<std::string>()), std::stod(state.at(name).get<std::string>()),
+                1e-12)
         << name;
   }
 }

@@ -1,6 +1,7 @@
 // Every command that the README shows is run, and what it shows of the output is what comes out.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <regex>
 
 #include "tests/tools/program.hpp"
@@ -41,6 +42,21 @@ std::vector<Shown> shown_commands(const std::string& readme) {
   return commands;
 }
 
+/// The ```csv NAME blocks: files that the commands read.
+void write_files(const std::string& readme, const Folder& folder) {
+  const std::string fence = "```csv ";
+  std::istringstream lines(readme);
+  std::ofstream file;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(fence))
+      file.open(folder.path() / line.substr(fence.size()));
+    else if (line == "```" && file.is_open())
+      file.close();
+    else if (file.is_open())
+      file << line << '\n';
+  }
+}
+
 /// Times differ from run to run, and with them the spaces before them.
 std::string without_numbers_that_vary(const std::string& text) {
   static const std::regex kTime(R"( *(\d+(\.\d+)? ?(us|ms|s)\b))");
@@ -48,9 +64,11 @@ std::string without_numbers_that_vary(const std::string& text) {
 }
 
 TEST(Readme, EveryCommandPrintsWhatIsShown) {
-  const std::vector<Shown> commands = shown_commands(file_text(CASIMIR_SOURCE_DIR "/README.md"));
+  const std::string readme = file_text(CASIMIR_SOURCE_DIR "/README.md");
+  const std::vector<Shown> commands = shown_commands(readme);
   ASSERT_GE(commands.size(), 5U);
   const Folder folder;
+  write_files(readme, folder);
   for (const Shown& command : commands) {
     const Outcome outcome = run_in(folder, command.arguments);
     EXPECT_LE(outcome.status, 1) << outcome.err;

@@ -1,0 +1,161 @@
+// casimir integrate --ensemble: the file of members, the forms of the answer, what is refused.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/tools/program.hpp"
+
+namespace casimir::test {
+namespace {
+
+void write(const Folder& folder, const std::string& name, const std::string& text) {
+  std::ofstream(folder.path() / name) << text;
+}
+
+/// The outcome of a run over members written to a file.
+Outcome members(const Folder& folder, const std::string& text, std::vector<std::string> more,
+                const Environment& environment = {}) {
+  write(folder, "members.csv", text);
+  more.insert(more.begin() + 2, {"--ensemble", "members.csv"});
+  return run_in(folder, more, {}, environment);
+}
+
+constexpr const char* kBlowUp =
+    "title = \"Riccati\"\n[phase_space]\nvariables = [\"x\"]\n[equations]\nx = \"1 + x^2\"\n"
+    "[[scene]]\nname = \"default\"\ninitial = { x = \"0\" }\nduration = \"2\"\n";
+
+TEST(EnsembleFile, MembersAreTheSceneButForTheirColumns) {
+  const Folder folder;
+  const Outcome outcome = members(folder, "M1, r\r\n1,1\r\n1/2,2\r\n\"75*10^(-2)\",1\r\n",
+                                  {"integrate", "kovalevskaya", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = outcome.json();
+  EXPECT_EQ(json.at("ensemble"), 3);
+  EXPECT_EQ(json.at("status"), "ok");
+  EXPECT_EQ(json.at("counts").at("ok"), 3);
+  ASSERT_EQ(json.at("members").size(), 3U);
+  // Each is what a run of its own gives: the parameter from its line, the rest from the scene.
+  write(folder, "one.toml", [] {
+    std::string text = file_text(CASIMIR_SOURCE_DIR "/cases/kovalevskaya.toml");
+    const std::string from = "M1 = \"1\", M2 = \"1/2\"";
+    return text.replace(text.find(from), from.size(), "M1 = \"1/2\", M2 = \"1/2\"");
+  }());
+  const Outcome single = run_in(folder, {"integrate", "./one.toml", "--param", "r=2", "--json"});
+  ASSERT_EQ(single.status, 0) << single.err;
+  for (const auto& [name, value] : single.json().at("state").items()) {
+    EXPECT_NEAR(std::stod(json.at("members")[1].at("state").at(name).get<std::string>()),
+                std::stod(value.get<std::string>()), 1e-6)
+        << name;
+  }
+  // .. and it is not the member before it.
+  EXPECT_NE(json.at("members")[0].at("state"), json.at("members")[1].at("state"));
+}
+
+TEST(EnsembleFile, TableHasALineForEachMember) {
+  const Folder folder;
+  const Outcome outcome =
+      members(folder, "M1\n1\n2\n", {"integrate", "euler", "--output", "o.csv"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  std::istringstream table(file_text(folder.path() / "o.csv"));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line, "member,status,t,M1,M2,M3,drift_H,drift_F1,steps");
+  std::getline(table, line);
+  EXPECT_TRUE(line.starts_with("1,ok,100,")) << line;
+  std::getline(table, line);
+  EXPECT_TRUE(line.starts_with("2,ok,100,")) << line;
+  EXPECT_FALSE(std::getline(table, line));
+}
+
+TEST(EnsembleFile, ThreadsDoNotChangeWhatComesOut) {
+  const Folder folder;
+  std::string text = "M1,M3\n";
+  for (int i = 0; i < 300; ++i) text += std::to_string(1 + i) + "/300,1/3\n";
+  std::vector<std::string> tables;
+  for (const char* jobs : {"1", "3"}) {
+    const Outcome outcome =
+        members(folder, text, {"integrate", "euler", "--jobs", jobs, "--output", "o.csv"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    tables.push_back(file_text(folder.path() / "o.csv"));
+  }
+  EXPECT_EQ(tables[0], tables[1]);
+}
+
+TEST(EnsembleFile, MemberThatStopsIsNamedAndLosesNoOther) {
+  const Folder folder;
+  write(folder, "riccati.toml", kBlowUp);
+  const Outcome outcome =
+      members(folder, "x\n-1\n0\n-2\n", {"integrate", "./riccati.toml", "--output", "o.csv"});
+  EXPECT_EQ(outcome.status, 5);
+  EXPECT_NE(outcome.err.find("1 of 3 members"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("member 2, at t = 1.570796"), std::string::npos) << outcome.err;
+  const std::string table = file_text(folder.path() / "o.csv");
+  EXPECT_NE(table.find("\n1,ok,2,"), std::string::npos) << table;
+  EXPECT_NE(table.find("\n2,singularity,1.570796"), std::string::npos) << table;
+  EXPECT_NE(table.find("\n3,ok,2,"), std::string::npos) << table;
+}
+
+TEST(EnsembleFile, OtherMethodsAndOtherSystemsGiveTheSame) {
+  const Folder folder;
+  for (const char* name : {"euler", "lagrange-euler-angles"}) {
+    const std::string column = name == std::string("euler") ? "M1\n1\n4/5\n" : "theta\n1\n6/5\n";
+    const auto state = [&](const char* method) {
+      const Outcome outcome =
+          members(folder, column,
+                  {"integrate", name, "--method", method, "--tolerance", "1e-13", "--json"});
+      EXPECT_EQ(outcome.status, 0) << outcome.err;
+      return outcome.json().at("members")[1].at("state");
+    };
+    const auto lanes = state("taylor"), other = state("dop853");
+    for (const auto& [variable, value] : lanes.items()) {
+      EXPECT_NEAR(std::stod(value.get<std::string>()),
+                  std::stod(other.at(variable).get<std::string>()), 1e-8)
+          << name << ' ' << variable;
+    }
+  }
+}
+
+TEST(EnsembleFile, WithoutACompilerLanesStillRun) {
+  const Folder folder, cache;
+  const Environment none{
+      {"PATH", "/nonexistent"}, {"CXX", ""}, {"CASIMIR_CACHE", cache.path().string()}};
+  const Outcome tables = members(folder, "M1\n1\n2\n", {"integrate", "euler", "--json"}, none);
+  ASSERT_EQ(tables.status, 0) << tables.err;
+  EXPECT_TRUE(tables.json().at("warnings").empty());
+  const Outcome interpreted =
+      members(folder, "theta\n1\n", {"integrate", "lagrange-euler-angles", "--json"}, none);
+  ASSERT_EQ(interpreted.status, 0) << interpreted.err;
+  EXPECT_FALSE(interpreted.json().at("warnings").empty());
+  EXPECT_EQ(members(folder, "M1\n1\n", {"integrate", "euler", "--method", "dop853"}, none).status,
+            4);
+}
+
+struct BadFile {
+  const char* text;
+  const char* place;
+  const char* says;
+};
+
+TEST(EnsembleFile, BadOnesAreRefusedAtTheirPlace) {
+  const Folder folder;
+  for (const BadFile& bad : {BadFile{"M1,gg3\n1,2\n", "members.csv:1:4: error:", "mean 'g3'"},
+                             BadFile{"M1,g3\n1,2\n1,x+\n", "members.csv:3:3: error:", "1,x+"},
+                             BadFile{"M1,M1\n1,2\n", "members.csv:1:4: error:", "M1"},
+                             BadFile{"M1,g3\n1\n", "members.csv:2:", "1 fields"},
+                             BadFile{"M1,g3\n", "members.csv:1:1: error:", "no members"},
+                             BadFile{"", "members.csv:1:1: error:", "empty"},
+                             BadFile{"M1\n1/0\n", "members.csv:2:", "1/0"},
+                             BadFile{"M1\nsqrt(-1)\n", "members.csv:2:", "sqrt(-1)"}}) {
+    const Outcome outcome =
+        members(folder, bad.text, {"integrate", "kovalevskaya", "--output", "o.csv"});
+    EXPECT_EQ(outcome.status, 2) << bad.text;
+    EXPECT_NE(outcome.err.find(bad.place), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find(bad.says), std::string::npos) << outcome.err;
+    EXPECT_EQ(folder.files(), 1U) << bad.text;
+  }
+  EXPECT_EQ(run_in(folder, {"integrate", "euler", "--ensemble", "none.csv"}).status, 2);
+  EXPECT_EQ(run_in(folder, {"integrate", "euler", "--jobs", "2"}).status, 2);
+}
+
+}  // namespace
+}  // namespace casimir::test
