@@ -7,6 +7,7 @@
 #include "runtime/interpreted_series.hpp"
 #include "runtime/interpreter.hpp"
 #include "runtime/quadratic_targets.hpp"
+#include "runtime/scaled_run.hpp"
 
 namespace casimir {
 namespace {
@@ -24,12 +25,31 @@ std::function<ModuleFunctions::Evaluation> evaluation(const Program& program, st
   };
 }
 
+/// The equations of y with x = scale y.
+QuadraticForm scaled(QuadraticForm form, double scale) {
+  for (double& constant : form.constant) constant /= scale;
+  for (QuadraticForm::Product& product : form.products)
+    for (double& factor : product.factor) factor *= scale;
+  return form;
+}
+
+void integrate_scaled(const QuadraticForm& form, double scale, const casimir_run& asked, double* x,
+                      casimir_outcome* out) {
+  const std::size_t states = static_cast<std::size_t>(form.states);
+  const ScaledRun run(asked, scale, states);
+  for (std::size_t i = 0; i < states; ++i) x[i] /= scale;
+  QuadraticKernel(scaled(form, scale)).integrate(&run.run(), x, out);
+  for (std::size_t i = 0; i < states; ++i) x[i] *= scale;
+}
+
 std::function<ModuleFunctions::Integration> table_driven(const QuadraticForm& form,
                                                          const std::vector<double>& parameters) {
-  return [kernel = QuadraticKernel(form), parameters](const casimir_run* run, double* x,
-                                                      casimir_outcome* out) {
+  return [form, kernel = QuadraticKernel(form), parameters](const casimir_run* run, double* x,
+                                                            casimir_outcome* out) {
     if (!std::equal(parameters.begin(), parameters.end(), run->parameters))
       throw std::invalid_argument("the tables were made for other values of the parameters");
+    const double scale = ScaledRun::scale_for(x, static_cast<std::size_t>(form.states));
+    if (scale != 1) return integrate_scaled(form, scale, *run, x, out);
     kernel.integrate(run, x, out);
   };
 }

@@ -48,11 +48,15 @@ TEST(TaylorOutcome, StartsWithoutANumberAreRefused) {
     EXPECT_EQ(run_taylor(module, settings_for(1), {nan}).status, Status::non_finite) << name;
   }
   for (const auto& [name, module] : forms(square)) {
-    for (const double bad : {nan, std::numeric_limits<double>::infinity(), 1e200}) {
+    for (const double bad : {nan, std::numeric_limits<double>::infinity()}) {
       const Trajectory orbit = run_taylor(module, settings_for(1), {bad});
       EXPECT_EQ(orbit.status, Status::non_finite) << name << bad;
       EXPECT_EQ(orbit.time, 0);
     }
+    // A rate that is no number, or with states in units of their own the pole that is so near.
+    const Trajectory orbit = run_taylor(module, settings_for(1), {1e200});
+    EXPECT_EQ(orbit.status, name == "tables" ? Status::singularity : Status::non_finite) << name;
+    EXPECT_LE(orbit.time, 1.0001e-200);
   }
 }
 
@@ -118,6 +122,30 @@ TEST(TaylorOutcome, ScaleOfTheStateDoesNotMatter) {
       for (std::size_t i = 0; i < 3; ++i)
         EXPECT_NEAR(orbit.state[i] / scale, plain.state[i], 1e-10) << name << scale;
       EXPECT_LT(orbit.steps, 2 * plain.steps + 20);
+    }
+  }
+}
+
+/// Where the square of a state is no number any more, and the equations make up for it.
+TEST(TaylorOutcome, ProductsBeyondTheRangeOfNumbers) {
+  const auto system = [](const std::string& f) {
+    return specialised(
+        equations({{"x", f + "*y*z"}, {"y", "-2*" + f + "*z*x"}, {"z", f + "*x*y"}}));
+  };
+  const Trajectory plain =
+      run_taylor(compiled(system("1")), settings_for(10, 1e-12), {0.75, 0.5, 1});
+  for (const auto& [factor, scale] : {std::pair{"10^(-200)", 1e200}, std::pair{"10^200", 1e-200}}) {
+    for (const auto& [name, module] : forms(system(factor))) {
+      Settings settings = settings_for(10, 1e-12);
+      settings.atol = 1e-12 * scale;
+      settings.sample_every = 5;
+      const Trajectory orbit = run_taylor(module, settings, {0.75 * scale, 0.5 * scale, scale});
+      ASSERT_EQ(orbit.status, Status::ok) << name << scale << orbit.reason;
+      EXPECT_EQ(orbit.samples.size(), 3U);
+      EXPECT_EQ(orbit.samples.back(), orbit.state);
+      EXPECT_NEAR(orbit.samples.front()[2] / scale, 1, 1e-15);
+      for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_NEAR(orbit.state[i] / scale, plain.state[i], 1e-10) << name << scale;
     }
   }
 }
