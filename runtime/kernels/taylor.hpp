@@ -67,7 +67,7 @@ inline double power_of_two_near(double a) {
 /// rounding errors in all: at the least tolerances truncation shall not be what millions of steps
 /// show.
 inline double aim(const casimir_run* run) {
-  constexpr double kFine = 1e-13;
+  constexpr double kFine = 1e-14;
   return run->rtol > 0 && run->rtol < kFine ? run->rtol / kFine : 1;
 }
 
