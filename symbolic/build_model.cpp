@@ -41,6 +41,7 @@ class Builder {
     model_.file = file_.file;
     model_.title = file_.title;
     model_.source = file_.source;
+    model_.book = file_.book;
     model_.tags = file_.tags;
     model_.integrable = file_.integrable;
     model_.phase_space = describe(file_.phase_space);
@@ -216,6 +217,8 @@ class Builder {
     }
     model_.casimirs = read_named(file_.casimirs);
     model_.integrals = read_named(file_.integrals);
+    for (const Text& text : file_.phase_space.constraints)
+      model_.constraints.push_back(anonymous(text));
     for (const LevelText& text : file_.conditionals)
       model_.conditionals.push_back(read_level(text));
     for (const LevelText& text : file_.invariant_relations)

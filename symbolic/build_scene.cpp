@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "symbolic/exact_constant.hpp"
 #include "symbolic/expression.hpp"
 
 namespace casimir {
@@ -64,6 +65,7 @@ class SceneReader {
       scene.reference = values(text.reference, model_.variables, "variable");
     }
     check_assumptions(text.name, scene);
+    check_constraints(text, scene);
     return scene;
   }
 
@@ -91,12 +93,41 @@ class SceneReader {
     });
   }
 
-  void check_assumptions(const Text& name, const Scene& scene) const {
+  /// The scene has to lie on the constraints of its case and on the levels that it names itself,
+  /// exactly. Under other parameters than its own it may leave them; then it cannot be run.
+  void check_constraints(const SceneText& text, Scene& scene) const {
+    std::vector<std::pair<const Text*, NamedExpression>> relations;
+    for (const NamedExpression& constraint : model_.constraints)
+      relations.emplace_back(&text.name, constraint);
+    for (const Text& relation : text.on)
+      relations.emplace_back(&relation,
+                             NamedExpression{relation.value, model_.parse(relation), {}});
+    const GiNaC::exmap point = point_of(scene);
+    for (const auto& [where, relation] : relations) {
+      const ex value = relation.value.subs(point, GiNaC::subs_options::no_pattern).normal();
+      const auto constant = exact_constant(value);
+      if (constant && constant->zero) continue;
+      std::string what = fmt::format("the scene '{}' is not on the level {} = 0",
+                                     printable(scene.name), printable(relation.name));
+      what += constant ? fmt::format(": the value there is {}", printable(constant->text))
+                       : ": whether the value there is zero is not decided";
+      if (keeps_its_parameters(text)) throw where->error(what);
+      scene.unusable = what + ", with the parameters given";
+      return;
+    }
+  }
+
+  GiNaC::exmap point_of(const Scene& scene) const {
     GiNaC::exmap point;
     for (std::size_t i = 0; i < model_.parameters.size(); ++i)
       point[model_.parameters[i]] = scene.parameters[i];
     for (std::size_t i = 0; i < model_.variables.size(); ++i)
       point[model_.variables[i]] = scene.initial[i];
+    return point;
+  }
+
+  void check_assumptions(const Text& name, const Scene& scene) const {
+    const GiNaC::exmap point = point_of(scene);
     for (const Assumption& assumption : model_.assumptions) {
       const ex value = assumption.difference.subs(point, GiNaC::subs_options::no_pattern).evalf();
       if (!GiNaC::is_a<GiNaC::numeric>(value) || assumption.holds_at(point)) continue;

@@ -35,7 +35,7 @@ class Reader : private TomlReader {
 PhaseSpaceText Reader::phase_space(const toml::table& table, const std::string& what) const {
   allow(table, what,
         {"variables", "algebra", "canonical", "brackets", "structure_constants", "sign", "domain",
-         "vector_fields", "time"});
+         "constraints", "vector_fields", "time"});
   PhaseSpaceText space;
   space.where = place(table.source());
   if (const toml::node* fields = table.get("vector_fields"))
@@ -56,6 +56,7 @@ PhaseSpaceText Reader::phase_space(const toml::table& table, const std::string& 
   }
   space.sign = optional_text(table, "sign");
   space.domain = texts(table, "domain");
+  space.constraints = texts(table, "constraints");
   space.time = optional_text(table, "time");
   return space;
 }
@@ -133,12 +134,13 @@ MapText Reader::map(const toml::table& table, const std::string& what) const {
 
 SceneText Reader::scene(const toml::table& table, const std::string& what) const {
   allow(table, what,
-        {"name", "parameters", "initial", "duration", "observe", "extreme", "reference"});
+        {"name", "parameters", "initial", "on", "duration", "observe", "extreme", "reference"});
   SceneText result;
   result.name = text(required(table, "name", what), "'name'");
   result.parameters = optional_entries(table, "parameters");
   result.initial = entries(required(table, "initial", what), "'initial'");
   result.duration = text(required(table, "duration", what), "'duration'");
+  result.on = texts(table, "on");
   result.observe = texts(table, "observe");
   result.extreme = optional_text(table, "extreme");
   result.reference = optional_entries(table, "reference");
@@ -170,21 +172,18 @@ std::vector<ParameterText> Reader::parameters(const toml::table& root) const {
 }
 
 CaseFile Reader::read(const toml::table& root) {
-  allow(root, "the case file", {"title",       "source",
-                                "tags",        "integrable",
-                                "hamiltonian", "lagrangian",
-                                "phase_space", "parameters",
-                                "definitions", "casimirs",
-                                "integrals",   "equations",
-                                "conditional", "invariant_relation",
-                                "lax",         "map",
-                                "measure",     "identity",
-                                "section",     "scene"});
+  allow(root, "the case file",
+        {"title",       "source",     "book",        "tags",        "integrable",
+         "hamiltonian", "lagrangian", "phase_space", "parameters",  "definitions",
+         "casimirs",    "integrals",  "equations",   "conditional", "invariant_relation",
+         "lax",         "map",        "measure",     "identity",    "section",
+         "scene"});
   CaseFile result;
   result.file = file_;
   result.name = std::filesystem::path(file_).stem().string();
   result.title = plain(root, "title");
   result.source = plain(root, "source");
+  result.book = plain(root, "book");
   for (const Text& tag : texts(root, "tags")) result.tags.push_back(tag.value);
   result.integrable = boolean(root, "integrable");
   result.hamiltonian = optional_text(root, "hamiltonian");

@@ -49,6 +49,7 @@ struct PhaseSpaceText {
   std::optional<VectorFieldsText> vector_fields;
   std::optional<Text> sign;
   std::vector<Text> domain;
+  std::vector<Text> constraints;
   std::optional<Text> time;
 };
 
@@ -95,6 +96,7 @@ struct SceneText {
   std::vector<Entry> parameters;
   std::vector<Entry> initial;
   std::optional<Text> duration;
+  std::vector<Text> on;
   std::vector<Text> observe;
   std::optional<Text> extreme;
   std::vector<Entry> reference;
@@ -112,6 +114,7 @@ struct CaseFile {
   std::string file;  ///< as messages show it
   std::string title;
   std::string source;
+  std::string book;  ///< section or appendix of the book, as "2.4"; may be empty
   std::vector<std::string> tags;
   bool integrable = false;
   std::optional<Text> hamiltonian;

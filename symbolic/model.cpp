@@ -47,14 +47,18 @@ bool Assumption::holds_at(const GiNaC::exmap& point) const {
 }
 
 const Scene& Model::scene(const std::string& scene_name) const {
+  const auto usable = [&](const Scene& found) -> const Scene& {
+    if (!found.unusable.empty()) throw CaseError({file}, found.unusable);
+    return found;
+  };
   std::vector<std::string> known;
   for (const Scene& candidate : scenes) {
-    if (candidate.name == scene_name) return candidate;
+    if (candidate.name == scene_name) return usable(candidate);
     known.push_back(candidate.name);
   }
   if (scenes.empty())
     throw CaseError({file}, "the case has no [[scene]], which this command needs");
-  if (scene_name == "default") return scenes.front();
+  if (scene_name == "default") return usable(scenes.front());
   std::string hint = suggest(scene_name, known);
   if (hint.empty()) hint = fmt::format("scenes of this case: {}", fmt::join(known, "; "));
   throw CaseError({file}, fmt::format("there is no scene '{}'", printable(scene_name)), {}, hint);

@@ -93,6 +93,7 @@ struct Scene {
   std::vector<std::string> observe;                 ///< empty: everything
   std::string extreme;                              ///< empty, "separatrix", "stiff", "scale", ..
   std::vector<std::optional<GiNaC::ex>> reference;  ///< empty, or one for each variable
+  std::string unusable;  ///< why parameters given from outside put it off a constraint; or empty
 };
 
 /// A case file made mathematical. Owns every symbol: GiNaC compares symbols by identity, so no
@@ -102,6 +103,7 @@ struct Model {
   std::string file;
   std::string title;
   std::string source;
+  std::string book;  ///< section or appendix of the book, as "2.4"; may be empty
   std::vector<std::string> tags;
   bool integrable = false;
 
@@ -110,6 +112,7 @@ struct Model {
   std::vector<GiNaC::symbol> parameters;
   std::optional<GiNaC::symbol> time;  ///< set where the file names it
   std::vector<Assumption> assumptions;
+  std::vector<NamedExpression> constraints;  ///< vanish at the initial state of every scene
 
   bool linear_bracket = false;              ///< that of a Lie algebra
   std::optional<PoissonStructure> poisson;  ///< none for a system given by [equations]
@@ -131,7 +134,7 @@ struct Model {
   std::vector<Scene> scenes;
 
   /// The scene of that name; "default" may also mean the first one.
-  /// \throws CaseError  if there is none; the message lists the names.
+  /// \throws CaseError  if there is none, the message lists the names; or it is unusable.
   const Scene& scene(const std::string& scene_name) const;
 
   /// Reads an expression over the variables, parameters, time, definitions, and the names of the

@@ -76,6 +76,13 @@ std::vector<Claim> conditional_claims(const Model& model) {
 
 std::vector<Claim> invariant_relation_claims(const Model& model) {
   std::vector<Claim> claims;
+  // What restricts the scenes has to restrict their motions.
+  if (!model.constraints.empty()) {
+    const std::vector<NamedExpression> others(model.constraints.begin(),
+                                              model.constraints.end() - 1);
+    claims.push_back(invariant_relation_claim(model.constraints.back(), others));
+    claims.back().name = "constraints";
+  }
   for (const LevelClaim& claim : model.invariant_relations) {
     claims.push_back(invariant_relation_claim(claim.expression, claim.on));
   }

@@ -75,7 +75,7 @@ void conserve_case(const CaseFile& file, const Options& options,
   if (options.common.scene_given)
     scenes.push_back(&model.scene(options.common.scene));
   else
-    for (const Scene& scene : model.scenes) scenes.push_back(&scene);
+    for (const Scene& scene : model.scenes) scenes.push_back(&model.scene(scene.name));
   if (scenes.empty() && !options.all) model.scene("default");  // throws: there is none
   for (const Scene* scene : scenes) {
     for (const std::string& method : options.methods)
