@@ -89,12 +89,16 @@ class Builder {
   }
 
   void read_assumption(const Text& text) {
-    const Relation relation = parse_relation(text, names_);
-    const Assumption assumption{relation.lhs - relation.rhs, relation.relation, text.value};
+    const Assumption assumption = assumption_of(text, names_);
     if (GiNaC::is_a<GiNaC::numeric>(assumption.difference) && !assumption.holds_at({})) {
       throw text.error(fmt::format("the assumption '{}' does not hold", printable(text.value)));
     }
     model_.assumptions.push_back(assumption);
+  }
+
+  static Assumption assumption_of(const Text& text, Scope& names) {
+    const Relation relation = parse_relation(text, names);
+    return {relation.lhs - relation.rhs, relation.relation, text.value};
   }
 
   void read_equations() {
@@ -282,9 +286,7 @@ class Builder {
     if (text.to_table) return *text.to_table;
     if (!find_lie_algebra(text.to->value)) {
       if (const auto found = find_case(text.to->value)) {
-        PhaseSpaceText target = found->phase_space;
-        target.domain.clear();
-        return target;
+        return found->phase_space;
       }
     }
     PhaseSpaceText target;
@@ -303,6 +305,24 @@ class Builder {
     return read_case(path);
   }
 
+  /// One expression for each symbol, over `names`.
+  static std::vector<ex> all_components(const Text& map, const std::vector<Entry>& entries,
+                                        const std::vector<GiNaC::symbol>& symbols, Scope& names,
+                                        const std::string& what) {
+    std::vector<ex> result(symbols.size());
+    std::vector<bool> seen(symbols.size());
+    for (const auto& [name, value] : entries) {
+      const std::size_t i = symbol_position(name, name.value, 0, symbols, what);
+      result[i] = parse_expression(value, names).value;
+      seen[i] = true;
+    }
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (!seen[i])
+        throw map.error(fmt::format("the map gives no expression for '{}'", symbols[i].get_name()));
+    }
+    return result;
+  }
+
   void read_map(const MapText& text) {
     const PhaseSpaceText target = target_of(text);
     const std::vector<GiNaC::symbol> coordinates = make_variables(target);
@@ -314,19 +334,24 @@ class Builder {
     const std::optional<Frame> frame = make_frame(target, coordinates, model_.parameters, names);
     const std::optional<PoissonStructure> bracket = make_bracket(target, coordinates, names, frame);
     if (!bracket) throw CaseError(target.where, "the phase space of 'to' needs a bracket");
-    PoissonMap map{
-        text.name.value, text.name.where, *bracket, std::vector<ex>(coordinates.size()), {}, 1};
-    std::vector<bool> seen(coordinates.size());
-    for (const auto& [name, value] : text.expressions) {
-      const std::size_t i = symbol_position(name, name.value, 0, coordinates,
-                                            "a variable of the phase space of 'to'");
-      map.expressions[i] = parse_expression(value, names_).value;
-      seen[i] = true;
-    }
-    for (std::size_t i = 0; i < seen.size(); ++i) {
-      if (!seen[i])
-        throw text.name.error(
-            fmt::format("the map gives no expression for '{}'", coordinates[i].get_name()));
+    PoissonMap map{text.name.value,
+                   text.name.where,
+                   *bracket,
+                   all_components(text.name, text.expressions, coordinates, names_,
+                                  "a variable of the phase space of 'to'"),
+                   {},
+                   1,
+                   text.to ? text.to->value : std::string{},
+                   {},
+                   {}};
+    for (const Text& function : text.image.empty() ? target.constraints : text.image)
+      map.image.push_back({function.value, parse_expression(function, names).value, {}});
+    for (const MapInverseText& inverse : text.inverses) {
+      map.inverses.push_back({all_components(text.name, inverse.expressions, model_.variables,
+                                             names, "a variable of this case"),
+                              {}});
+      for (const Text& condition : inverse.domain)
+        map.inverses.back().domain.push_back(assumption_of(condition, names));
     }
     for (const Text& relation : text.on) map.on.push_back(anonymous(relation));
     if (text.sign && text.sign->value == "-")

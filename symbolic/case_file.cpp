@@ -117,7 +117,7 @@ LevelText Reader::level(const toml::table& table, const std::string& what) const
 }
 
 MapText Reader::map(const toml::table& table, const std::string& what) const {
-  allow(table, what, {"name", "to", "expressions", "on", "sign"});
+  allow(table, what, {"name", "to", "expressions", "on", "sign", "image", "inverse"});
   MapText result;
   result.name = text(required(table, "name", what), "'name'");
   const toml::node& to = required(table, "to", what);
@@ -129,6 +129,12 @@ MapText Reader::map(const toml::table& table, const std::string& what) const {
   result.expressions = entries(required(table, "expressions", what), "'expressions'");
   result.on = texts(table, "on");
   result.sign = optional_text(table, "sign");
+  result.image = texts(table, "image");
+  each(table, "inverse", [&](const toml::table& inverse, const std::string& where) {
+    allow(inverse, where, {"expressions", "domain"});
+    result.inverses.push_back({entries(required(inverse, "expressions", where), "'expressions'"),
+                               texts(inverse, "domain")});
+  });
   return result;
 }
 

@@ -71,6 +71,12 @@ struct LaxText {
   std::vector<std::vector<Text>> l, a;
 };
 
+/// A right inverse of a map: this case's variables as functions of those of the map's target.
+struct MapInverseText {
+  std::vector<Entry> expressions;
+  std::vector<Text> domain;
+};
+
 struct MapText {
   Text name;
   std::optional<Text> to;                  ///< an algebra or a case
@@ -78,6 +84,8 @@ struct MapText {
   std::vector<Entry> expressions;
   std::vector<Text> on;
   std::optional<Text> sign;
+  std::vector<Text> image;  ///< functions on the target that vanish on the image
+  std::vector<MapInverseText> inverses;
 };
 
 struct MeasureText {

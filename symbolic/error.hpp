@@ -36,6 +36,11 @@ class ModelError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A point that other variables cannot describe, as the vertical axis in Euler angles.
+class SingularPoint : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// The name in `known` that is nearest to `name`, as "did you mean 'X'?", or empty if none is near.
 std::string suggest(const std::string& name, const std::vector<std::string>& known);
 

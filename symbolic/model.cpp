@@ -48,6 +48,7 @@ bool Assumption::holds_at(const GiNaC::exmap& point) const {
 
 const Scene& Model::scene(const std::string& scene_name) const {
   const auto usable = [&](const Scene& found) -> const Scene& {
+    if (found.singular) throw SingularPoint(found.unusable);
     if (!found.unusable.empty()) throw CaseError({file}, found.unusable);
     return found;
   };

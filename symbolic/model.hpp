@@ -69,6 +69,12 @@ struct Section {
   std::vector<GiNaC::ex> plot;
 };
 
+/// A right inverse of a map on a part of its image.
+struct MapInverse {
+  std::vector<GiNaC::ex> expressions;  ///< one for each variable, over the target's coordinates
+  std::vector<Assumption> domain;      ///< where on the target it may be used
+};
+
 /// A map from the phase space onto another one, claimed to be Poisson (`sign` 1) or anti-Poisson
 /// (-1), where the functions `on` vanish.
 struct PoissonMap {
@@ -78,6 +84,9 @@ struct PoissonMap {
   std::vector<GiNaC::ex> expressions;  ///< one for each coordinate of the target
   std::vector<NamedExpression> on;
   int sign = 1;
+  std::string to;                      ///< the algebra or case that it leads to, or empty
+  std::vector<NamedExpression> image;  ///< over the target's coordinates; vanish on the image
+  std::vector<MapInverse> inverses;    ///< the first whose domain holds is used
 
   /// The target's brackets {y_i, y_j}, i < j, with the expressions put in for its coordinates.
   std::vector<GiNaC::ex> composed_brackets() const;
@@ -93,7 +102,8 @@ struct Scene {
   std::vector<std::string> observe;                 ///< empty: everything
   std::string extreme;                              ///< empty, "separatrix", "stiff", "scale", ..
   std::vector<std::optional<GiNaC::ex>> reference;  ///< empty, or one for each variable
-  std::string unusable;  ///< why parameters given from outside put it off a constraint; or empty
+  std::string unusable;   ///< why it cannot be run although it was read; or empty
+  bool singular = false;  ///< for that reason: its state has no image in the variables chosen
 };
 
 /// A case file made mathematical. Owns every symbol: GiNaC compares symbols by identity, so no
@@ -134,7 +144,8 @@ struct Model {
   std::vector<Scene> scenes;
 
   /// The scene of that name; "default" may also mean the first one.
-  /// \throws CaseError  if there is none, the message lists the names; or it is unusable.
+  /// \throws CaseError      if there is none, the message lists the names; or it is unusable
+  /// \throws SingularPoint  if its state has no image in the variables chosen
   const Scene& scene(const std::string& scene_name) const;
 
   /// Reads an expression over the variables, parameters, time, definitions, and the names of the

@@ -68,6 +68,8 @@ int main(int argc, char** argv) {
     return fail(kBadInput, problem.what());
   } catch (const UsageError& problem) {
     return fail(kBadInput, fmt::format("casimir: error: {}", problem.what()));
+  } catch (const SingularPoint& problem) {
+    return fail(kNotContinued, fmt::format("casimir: error: {}", problem.what()));
   } catch (const ModelError& problem) {
     return fail(kBadInput, fmt::format("casimir: error: {}", problem.what()));
   } catch (const EnvironmentError& problem) {

@@ -27,6 +27,64 @@ void decide_map(Prover& prover, Proof& proof, const PoissonMap& map) {
   prover.decide(proof, residuals, prover.level(map.on));
 }
 
+GiNaC::exmap image_point(const PoissonMap& map) {
+  GiNaC::exmap point;
+  for (std::size_t i = 0; i < map.expressions.size(); ++i)
+    point[map.target.coordinates()[i]] = map.expressions[i];
+  return point;
+}
+
+std::vector<GiNaC::ex> composed(const std::vector<GiNaC::ex>& functions, const GiNaC::exmap& at) {
+  std::vector<GiNaC::ex> result;
+  for (const GiNaC::ex& f : functions)
+    result.push_back(f.subs(at, GiNaC::subs_options::no_pattern));
+  return result;
+}
+
+/// The functions that have to vanish on this case's constraints for `inverse` to be what it is said
+/// to be: phi(inverse(phi(x))) - phi(x), so that it is a right inverse wherever phi leads, the
+/// constraints at inverse(phi(x)), and what is claimed of the image at phi(x).
+std::vector<std::pair<std::string, GiNaC::ex>> inverse_defects(const Model& model,
+                                                               const PoissonMap& map,
+                                                               const MapInverse& inverse) {
+  const GiNaC::exmap image = image_point(map);
+  const std::vector<GiNaC::ex> lifted = composed(inverse.expressions, image);
+  GiNaC::exmap lift;
+  for (std::size_t i = 0; i < lifted.size(); ++i) lift[model.variables[i]] = lifted[i];
+  std::vector<std::pair<std::string, GiNaC::ex>> defects;
+  const std::vector<GiNaC::ex> again = composed(map.expressions, lift);
+  for (std::size_t i = 0; i < again.size(); ++i) {
+    defects.emplace_back(
+        fmt::format("{} of the inverse less itself", map.target.coordinates()[i].get_name()),
+        again[i] - map.expressions[i]);
+  }
+  for (const NamedExpression& constraint : model.constraints)
+    defects.emplace_back(fmt::format("{} at the inverse", constraint.name),
+                         constraint.value.subs(lift, GiNaC::subs_options::no_pattern));
+  for (const NamedExpression& f : map.image)
+    defects.emplace_back(fmt::format("{} on the image", f.name),
+                         f.value.subs(image, GiNaC::subs_options::no_pattern));
+  return defects;
+}
+
+Claim inverse_claim(const Model& model, std::size_t index, std::size_t branch) {
+  const PoissonMap& map = model.maps[index];
+  Claim claim{"map", map.name + ", right inverse", false, {}};
+  if (map.inverses.size() > 1) claim.name += fmt::format(" {}", branch + 1);
+  for (const auto& [label, defect] : inverse_defects(model, map, map.inverses[branch]))
+    claim.expressions.push_back(defect);
+  claim.on = names_of(model.constraints);
+  claim.decide = [index, branch](Prover& prover, Proof& proof) {
+    const Model& owner = prover.model();
+    const PoissonMap& own = owner.maps[index];
+    std::vector<Residual> residuals;
+    for (const auto& [label, defect] : inverse_defects(owner, own, own.inverses[branch]))
+      residuals.push_back({label, prover.convert(defect), [defect] { return defect; }});
+    prover.decide(proof, residuals, prover.level(owner.constraints));
+  };
+  return claim;
+}
+
 std::vector<GiNaC::ex> expressions_of(const PoissonMap& map) {
   std::vector<GiNaC::ex> expressions = values_of(map.on);
   expressions.insert(expressions.end(), map.expressions.begin(), map.expressions.end());
@@ -43,6 +101,8 @@ std::vector<Claim> map_claims(const Model& model) {
         {"map", model.maps[i].name, false,
          [i](Prover& prover, Proof& proof) { decide_map(prover, proof, prover.model().maps[i]); },
          names_of(model.maps[i].on), expressions_of(model.maps[i])});
+    for (std::size_t branch = 0; branch < model.maps[i].inverses.size(); ++branch)
+      claims.push_back(inverse_claim(model, i, branch));
   }
   return claims;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "tools/atlas.hpp"
 #include "tools/bench/contest.hpp"
 #include "tools/bench/report.hpp"
 #include "tools/case_library.hpp"
@@ -20,6 +21,7 @@ struct Options {
   Common common;
   KeptParameters kept;
   std::vector<std::string> case_names, outputs;
+  std::string in;
   std::string plot, format = "text";
   bool all = false;
   ContestOptions contest{.tolerances = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10,
@@ -39,7 +41,8 @@ Contest not_held(const std::string& name, const std::string& scene, const std::s
 }
 
 Contest hold(const CaseFile& file, const Options& options, Progress& progress) {
-  const Model model = options.kept.model_of(file, options.common.parameter_values());
+  const Model model =
+      in_variables(options.kept.model_of(file, options.common.parameter_values()), options.in);
   const Scene& scene = model.scene(options.common.scene);
   ContestOptions what = options.contest;
   what.code = options.kept.in<SceneOptions>();
@@ -198,6 +201,7 @@ void register_bench(CLI::App& program, Action& action) {
       "size, or by more than 1000 times what all its steps can do together: steps * growth of\n"
       "changes * tolerance. The latter, by a method of our own, makes the exit status 1.");
   add_common(*command, options->common);
+  add_in(*command, options->in);
   options->kept.add_to(*command);
   command->add_option("CASE", options->case_names,
                       "Bundled cases, case files, or - for standard input");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
 #include "tools/kept_parameters.hpp"
@@ -21,6 +22,7 @@ struct Options {
   RunOptions run;
   KeptParameters kept;
   std::string case_name, output;
+  std::string in;
   std::vector<std::string> methods{"taylor", "dop853", "gauss8"};
   double bound = 1e-9;
   bool all = false;
@@ -70,7 +72,8 @@ Row conserve_one(const Model& model, const Scene& scene, const Method& method,
 
 void conserve_case(const CaseFile& file, const Options& options,
                    const std::function<bool()>& give_up, std::vector<Row>& rows) {
-  const Model model = options.kept.model_of(file, options.common.parameter_values());
+  const Model model =
+      in_variables(options.kept.model_of(file, options.common.parameter_values()), options.in);
   std::vector<const Scene*> scenes;
   if (options.common.scene_given)
     scenes.push_back(&model.scene(options.common.scene));
@@ -119,6 +122,7 @@ void register_conserve(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand(
       "conserve", "Check the drift of the Hamiltonian, Casimirs and integrals along every scene");
   add_common(*command, options->common);
+  add_in(*command, options->in);
   command->add_option("CASE", options->case_name,
                       "A bundled case, a case file, or - for standard input");
   command->add_flag("--all", options->all, "Every bundled case");

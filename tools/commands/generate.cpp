@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "codegen/emit_cpp.hpp"
+#include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
 #include "tools/generated_report.hpp"
@@ -24,6 +25,7 @@ struct Options {
   Common common;
   KeptParameters kept;
   std::string case_name, output;
+  std::string in;
   std::vector<std::string> with{"rhs", "invariants", "jacobian"};
   std::vector<std::string> observe;
   Scalar scalar = Scalar::real64;
@@ -35,8 +37,9 @@ const std::vector<std::string> kParts = {
 int generate(const Options& options) {
   if (options.output.empty() && options.common.json)
     throw UsageError("generate --json needs --output FILE for the header");
-  const Model model =
-      options.kept.model_of(load_case(options.case_name), options.common.parameter_values());
+  const Model model = in_variables(
+      options.kept.model_of(load_case(options.case_name), options.common.parameter_values()),
+      options.in);
   const auto wanted = [&](const char* name) {
     return std::find(options.with.begin(), options.with.end(), name) != options.with.end();
   };
@@ -81,6 +84,7 @@ void register_generate(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand(
       "generate", "Write a self-contained C++20 header specialised to a scene");
   add_common(*command, options->common);
+  add_in(*command, options->in);
   command
       ->add_option("CASE", options->case_name,
                    "A bundled case, a case file, or - for standard input")

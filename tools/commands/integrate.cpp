@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <optional>
 
+#include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
 #include "tools/ensemble_run.hpp"
@@ -25,27 +27,59 @@ struct Options {
   Common common;
   RunOptions run;
   KeptParameters kept;
-  std::string case_name, method = "auto", output, ensemble;
+  std::string case_name, method = "auto", output, ensemble, in, as;
   std::vector<std::string> observe;
   double every = 0;
   int jobs = 0;
   bool general = false;
 };
 
-void write_samples(const std::string& path, const SceneRun& run, const Trajectory& trajectory) {
+/// What is shown: the states themselves, or in the variables of `--as`.
+class Answer {
+ public:
+  Answer(const Model& model, const SceneRun& run, const std::string& as)
+      : names_(run.specialisation.states) {
+    if (as.empty()) return;
+    if (names_.size() != model.variables.size())
+      throw UsageError("--as needs every variable, and some are left out; see --observe");
+    conversion_.emplace(model, as);
+    names_ = conversion_->names();
+  }
+
+  const std::vector<std::string>& names() const { return names_; }
+
+  /// \throws SingularPoint  with the time
+  std::vector<double> operator()(double t, const std::vector<double>& state) const {
+    if (!conversion_) return state;
+    try {
+      return (*conversion_)(state);
+    } catch (const SingularPoint& problem) {
+      throw SingularPoint(
+          fmt::format("at t = {}: {}\n  hint: without --as the run itself can be had",
+                      exact_text(t), problem.what()));
+    }
+  }
+
+ private:
+  std::vector<std::string> names_;
+  std::optional<Conversion> conversion_;
+};
+
+void write_samples(const std::string& path, const Answer& answer, const Trajectory& trajectory) {
   OutputFile file(path);
   file.stream() << "t";
-  for (const std::string& name : run.specialisation.states) file.stream() << ',' << name;
+  for (const std::string& name : answer.names()) file.stream() << ',' << name;
   file.stream() << '\n';
   for (std::size_t k = 0; k < trajectory.samples.size(); ++k) {
     file.stream() << exact_text(trajectory.sample_times[k]);
-    for (const double x : trajectory.samples[k]) file.stream() << ',' << exact_text(x);
+    for (const double x : answer(trajectory.sample_times[k], trajectory.samples[k]))
+      file.stream() << ',' << exact_text(x);
     file.stream() << '\n';
   }
   file.commit();
 }
 
-Json to_json(const Model& model, const SceneRun& run, const Method& method,
+Json to_json(const Model& model, const SceneRun& run, const Answer& answer, const Method& method,
              const Settings& settings, const CompiledModule& compiled, const Trajectory& trajectory,
              const Trust& trust) {
   const Specialisation& s = run.specialisation;
@@ -58,8 +92,9 @@ Json to_json(const Model& model, const SceneRun& run, const Method& method,
                {"status", to_string(trajectory.status)},
                {"t", exact_text(trajectory.time)}};
   json["state"] = Json::object();
-  for (std::size_t i = 0; i < s.states.size(); ++i)
-    json["state"][s.states[i]] = exact_text(trajectory.state[i]);
+  const std::vector<double> state = answer(trajectory.time, trajectory.state);
+  for (std::size_t i = 0; i < state.size(); ++i)
+    json["state"][answer.names()[i]] = exact_text(state[i]);
   json["invariants"] = Json::object();
   for (std::size_t i = 0; i < s.invariant_names.size(); ++i) {
     const InvariantRecord& record = trajectory.invariants[i];
@@ -86,8 +121,9 @@ Json to_json(const Model& model, const SceneRun& run, const Method& method,
   return json;
 }
 
-void print_text(const SceneRun& run, const Method& method, const Settings& settings,
-                const CompiledModule& compiled, const Trajectory& trajectory) {
+void print_text(const SceneRun& run, const Answer& answer, const Method& method,
+                const Settings& settings, const CompiledModule& compiled,
+                const Trajectory& trajectory) {
   const Specialisation& s = run.specialisation;
   fmt::print("{}, scene '{}', {} at tolerance {:g}\n", s.case_name, printable(s.scene), method.name,
              settings.rtol);
@@ -100,8 +136,9 @@ void print_text(const SceneRun& run, const Method& method, const Settings& setti
       duration_text(compiled.seconds), duration_text(trajectory.seconds), trajectory.steps,
       trajectory.rejected, trajectory.evaluations);
   fmt::print("  t = {}\n", exact_text(trajectory.time));
-  for (std::size_t i = 0; i < s.states.size(); ++i)
-    fmt::print("  {:<10} {:>25}\n", s.states[i], exact_text(trajectory.state[i]));
+  const std::vector<double> state = answer(trajectory.time, trajectory.state);
+  for (std::size_t i = 0; i < state.size(); ++i)
+    fmt::print("  {:<10} {:>25}\n", answer.names()[i], exact_text(state[i]));
   for (std::size_t i = 0; i < s.invariant_names.size(); ++i) {
     fmt::print("  {:<10} {:>25}   drift {:.1e}\n", s.invariant_names[i],
                exact_text(trajectory.invariants[i].final), trajectory.invariants[i].drift);
@@ -121,6 +158,8 @@ SceneOptions scene_options(const Options& options) {
 }
 
 int integrate_members_of(const Options& options) {
+  if (!options.in.empty() || !options.as.empty())
+    throw UsageError("--in and --as do not go with --ensemble");
   if (options.every > 0)
     throw UsageError("--every does not go with --ensemble: the end of each member is written");
   return integrate_ensemble({options.common, options.run, options.kept, options.case_name,
@@ -131,11 +170,13 @@ int integrate_members_of(const Options& options) {
 int integrate_case(const Options& options) {
   if (!options.ensemble.empty()) return integrate_members_of(options);
   if (options.jobs > 0) throw UsageError("--jobs needs --ensemble FILE.csv");
-  const Model model =
-      options.kept.model_of(load_case(options.case_name), options.common.parameter_values());
+  const Model model = in_variables(
+      options.kept.model_of(load_case(options.case_name), options.common.parameter_values()),
+      options.in);
   const Scene& scene = model.scene(options.common.scene);
   const Method& method = method_named(options.method);
   const SceneRun run = prepare(model, scene, scene_options(options));
+  const Answer answer(model, run, options.as);
   Settings settings = settings_for(options.run, run);
   settings.give_up = time_limit(options.common.time_limit);
   if (!options.output.empty())
@@ -150,11 +191,12 @@ int integrate_case(const Options& options) {
     throw UsageError(problem.what());
   }
   const Trust trust = assess(run, compiled, method, settings, trajectory);
-  if (!options.output.empty()) write_samples(options.output, run, trajectory);
+  if (!options.output.empty()) write_samples(options.output, answer, trajectory);
   if (options.common.json) {
-    std::cout << to_json(model, run, method, settings, compiled, trajectory, trust).dump(2) << '\n';
+    std::cout << to_json(model, run, answer, method, settings, compiled, trajectory, trust).dump(2)
+              << '\n';
   } else if (!options.common.quiet) {
-    print_text(run, method, settings, compiled, trajectory);
+    print_text(run, answer, method, settings, compiled, trajectory);
     if (!compiled.warning.empty()) fmt::print("  warning: {}\n", compiled.warning);
     for (const std::string& warning : warnings_of(trust)) fmt::print("  warning: {}\n", warning);
     if (!options.output.empty())
@@ -180,6 +222,7 @@ void register_integrate(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand(
       "integrate", "Compile the specialised module of a scene and integrate it");
   add_common(*command, options->common);
+  add_in(*command, options->in);
   command
       ->add_option("CASE", options->case_name,
                    "A bundled case, a case file, or - for standard input")
@@ -187,6 +230,7 @@ void register_integrate(CLI::App& program, Action& action) {
   command->add_option("--method", options->method, "A method, or auto: " + method_list())
       ->type_name("NAME");
   add_run_options(*command, options->run);
+  add_as(*command, options->as);
   options->kept.add_to(*command);
   command->add_option("--output", options->output, "Write states to this CSV file")
       ->type_name("FILE.csv");

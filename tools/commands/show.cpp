@@ -1,8 +1,14 @@
 // casimir show: the system itself: bracket, Hamiltonian, equations of motion, claims, scenes.
-#include <iostream>
+#include <fmt/format.h>
+#include <fmt/ostream.h>
 
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
+#include "tools/run_report.hpp"
 #include "tools/show.hpp"
 
 namespace casimir::tools {
@@ -11,11 +17,47 @@ namespace {
 struct Options {
   Common common;
   std::string case_name;
+  std::string in;
+  std::string as;
   std::string format = "text";
 };
 
+/// The initial states of the scenes in other variables, exactly and as numbers.
+int show_scenes_as(const Model& model, const Options& options) {
+  const Conversion conversion(model, options.as);
+  nlohmann::ordered_json scenes = nlohmann::json::array();
+  for (const Scene& scene : model.scenes) {
+    if (options.common.scene_given && &scene != &model.scene(options.common.scene)) continue;
+    model.scene(scene.name);
+    const std::vector<GiNaC::ex> state = conversion.exact(scene);
+    nlohmann::ordered_json exact, numbers;
+    if (!options.common.json && !options.common.quiet)
+      fmt::print("{}, scene '{}' as {}\n", model.name, printable(scene.name), options.as);
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      const std::string text = fmt::format("{}", fmt::streamed(state[i]));
+      const std::string number =
+          exact_text(GiNaC::ex_to<GiNaC::numeric>(state[i].evalf()).to_double());
+      exact[conversion.names()[i]] = text;
+      numbers[conversion.names()[i]] = number;
+      if (!options.common.json && !options.common.quiet)
+        fmt::print("  {:<10} {:>25}   {}\n", conversion.names()[i], number, text);
+    }
+    scenes.push_back({{"scene", scene.name}, {"state", numbers}, {"exact", exact}});
+  }
+  if (options.common.json) {
+    std::cout << nlohmann::ordered_json{{"case", model.name},
+                                        {"as", options.as},
+                                        {"scenes", scenes}}
+                     .dump(2)
+              << '\n';
+  }
+  return kDone;
+}
+
 int show(const Options& options) {
-  const Model model = model_of(load_case(options.case_name), options.common.parameter_values());
+  const Model model = in_variables(
+      model_of(load_case(options.case_name), options.common.parameter_values()), options.in);
+  if (!options.as.empty()) return show_scenes_as(model, options);
   if (options.common.json || options.format == "json") {
     std::cout << show_json(model).dump(2) << '\n';
   } else if (options.format == "latex") {
@@ -33,6 +75,8 @@ void register_show(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand(
       "show", "The bracket, the Hamiltonian, the equations, what is claimed");
   add_common(*command, options->common);
+  add_in(*command, options->in);
+  add_as(*command, options->as);
   command
       ->add_option("CASE", options->case_name,
                    "A bundled case, a case file, or - for standard input")

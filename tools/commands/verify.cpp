@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "symbolic/certificate.hpp"
+#include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
 #include "tools/limited_prove.hpp"
@@ -24,6 +25,7 @@ using Clock = std::chrono::steady_clock;
 struct Options {
   Common common;
   std::string case_name;
+  std::string in;
   bool all = false;
   std::vector<std::string> integrals, casimirs, invariant_relations, identities, on;
   std::string certificate;
@@ -85,7 +87,7 @@ void write_certificate(const Model& model, const Options& options, Verdict verdi
 
 /// Proves one case; its lines appear as they are decided, unless only a summary or JSON is wanted.
 Verified verify_one(const CaseFile& file, const Options& options, double time_limit, bool lines) {
-  const Model model = model_of(file, options.common.parameter_values());
+  const Model model = in_variables(model_of(file, options.common.parameter_values()), options.in);
   if (options.common.scene_given) model.scene(options.common.scene);
   const auto start = Clock::now();
   std::optional<CaseReport> report;
@@ -139,6 +141,7 @@ int verify_all(const Options& options) {
 int verify(const Options& options) {
   if (options.all && !options.case_name.empty()) throw UsageError("--all takes no CASE");
   if (!options.all && options.case_name.empty()) throw UsageError("verify needs a CASE, or --all");
+  if (options.all && !options.in.empty()) throw UsageError("--in needs a CASE");
   if (options.all && !candidates_of(options).empty())
     throw UsageError("--all verifies the claims of the files; candidates need a CASE");
   if (candidates_of(options).empty() && !options.on.empty()) {
@@ -162,6 +165,7 @@ void register_verify(CLI::App& program, Action& action) {
   CLI::App* command =
       program.add_subcommand("verify", "Prove or refute the claims of a case, or candidates");
   add_common(*command, options->common);
+  add_in(*command, options->in);
   command->add_option("CASE", options->case_name,
                       "A bundled case, a case file, or - for standard input");
   command->add_flag("--all", options->all, "Every bundled case");
