@@ -1,11 +1,15 @@
 #include "symbolic/lie_algebra.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <map>
 #include <regex>
+
+#include "symbolic/error.hpp"
 
 namespace casimir {
 namespace {
@@ -98,6 +102,15 @@ LieAlgebra quaternions() {
   return algebra;
 }
 
+std::string bare(const std::string& name) {
+  std::string result;
+  for (const char c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+      result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return result;
+}
+
 int positive(const std::string& text) { return text.size() > 3 ? 1000 : std::stoi(text); }
 
 }  // namespace
@@ -132,6 +145,15 @@ std::optional<LieAlgebra> find_lie_algebra(const std::string& name) {
 std::vector<std::string> lie_algebra_names() {
   return {"so(3)", "e(3)",       "so(4)", "so(3,1)", "so(n)",
           "e(n)",  "so(3)+k*R3", "l(7)",  "sl(2)",   "h(3)"};
+}
+
+std::string lie_algebra_hint(const std::string& name) {
+  const std::vector<std::string> names = lie_algebra_names();
+  // The same but for case and punctuation, as "E3".
+  const auto same =
+      std::ranges::find_if(names, [&](const auto& known) { return bare(known) == bare(name); });
+  const std::string near = suggest(same == names.end() ? name : *same, names);
+  return near.empty() ? fmt::format("known: {}", fmt::join(names, ", ")) : near;
 }
 
 }  // namespace casimir

@@ -33,4 +33,7 @@ std::optional<LieAlgebra> find_lie_algebra(const std::string& name);
 /// The names for which `find_lie_algebra` has an answer, for messages.
 std::vector<std::string> lie_algebra_names();
 
+/// What a message about a name that is not among them adds: the nearest one, or all of them.
+std::string lie_algebra_hint(const std::string& name);
+
 }  // namespace casimir

@@ -1,7 +1,6 @@
 #include "symbolic/phase_space.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -41,10 +40,9 @@ int sign_of(const PhaseSpaceText& text) {
 std::vector<ex> algebra_brackets(const PhaseSpaceText& text, const Symbols& x) {
   const std::optional<LieAlgebra> algebra = find_lie_algebra(text.algebra->value);
   if (!algebra) {
-    std::string hint = suggest(text.algebra->value, lie_algebra_names());
-    if (hint.empty()) hint = fmt::format("known: {}", fmt::join(lie_algebra_names(), ", "));
     throw text.algebra->error(
-        fmt::format("unknown Lie algebra '{}'", printable(text.algebra->value)), 0, hint);
+        fmt::format("unknown Lie algebra '{}'", printable(text.algebra->value)), 0,
+        lie_algebra_hint(text.algebra->value));
   }
   if (algebra->dimension != x.size()) {
     throw text.algebra->error(fmt::format("{} has {} variables ({}), {} given", algebra->name,

@@ -1,12 +1,14 @@
 #include "tools/case_library.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <iterator>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace casimir::tools {
@@ -41,6 +43,22 @@ std::vector<fs::path> bundled_cases() {
   std::vector<fs::path> result;
   for (const auto& [name, path] : found) result.push_back(path);
   return result;
+}
+
+std::vector<CaseFile> tagged_cases(const std::string& tag) {
+  std::vector<CaseFile> result;
+  std::set<std::string> known;
+  for (const fs::path& path : bundled_cases()) {
+    CaseFile file = read_case(path);
+    known.insert(file.tags.begin(), file.tags.end());
+    if (tag.empty() || std::ranges::find(file.tags, tag) != file.tags.end())
+      result.push_back(std::move(file));
+  }
+  if (tag.empty() || !result.empty()) return result;
+  std::string hint = suggest(tag, {known.begin(), known.end()});
+  if (hint.empty()) hint = fmt::format("known: {}", fmt::join(known, ", "));
+  throw CaseError({"--tag"}, fmt::format("no bundled case has the tag '{}'", printable(tag)), {},
+                  hint);
 }
 
 CaseFile load_case(const std::string& argument) {

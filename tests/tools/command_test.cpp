@@ -266,14 +266,5 @@ TEST(Conserve, PassesAndFailsByItsBound) {
   EXPECT_EQ(strict.json().at("failed"), 1);
 }
 
-TEST(New, WritesACaseThatIsProved) {
-  const Folder folder;
-  EXPECT_EQ(run_in(folder, {"new", "mine"}).status, 0);
-  EXPECT_EQ(run_in(folder, {"verify", "mine.toml"}).status, 0);
-  EXPECT_EQ(run_in(folder, {"conserve", "./mine.toml"}).status, 0);
-  EXPECT_EQ(run_in(folder, {"new", "mine"}).status, 2) << "must not overwrite";
-  EXPECT_EQ(run_in(folder, {"new", "../mine"}).status, 2);
-}
-
 }  // namespace
 }  // namespace casimir::test

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "tools/book_order.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
 
@@ -37,23 +38,23 @@ std::vector<std::string> scene_names(const Model& model) {
 
 int list(const Options& options) {
   nlohmann::ordered_json cases = nlohmann::json::array();
-  for (const std::filesystem::path& path : bundled_cases()) {
-    const Model model = model_of(read_case(path));
-    const bool tagged =
-        std::find(model.tags.begin(), model.tags.end(), options.tag) != model.tags.end();
-    if (!options.tag.empty() && !tagged) continue;
+  for (const CaseFile& file : tagged_cases(options.tag)) {
+    const Model model = model_of(file);
     if (options.common.json) {
       cases.push_back({{"name", model.name},
                        {"title", model.title},
                        {"source", model.source},
+                       {"book", model.book},
                        {"tags", model.tags},
                        {"dimension", model.variables.size()},
                        {"phase_space", model.phase_space},
                        {"scenes", scene_names(model)}});
     } else if (!options.common.quiet) {
-      fmt::print("{:<22} {}\n{:<22} {}, {} variables; claims {}\n{:<22} scenes: {}\n", model.name,
-                 model.title, "", model.phase_space, model.variables.size(), claims_of(model), "",
-                 fmt::join(scene_names(model), "; "));
+      const std::string where =
+          model.book.empty() ? "" : fmt::format(" ({})", book_text(model.book));
+      fmt::print("{:<22} {}{}\n{:<22} {}, {} variables; claims {}\n{:<22} scenes: {}\n", model.name,
+                 model.title, where, "", model.phase_space, model.variables.size(),
+                 claims_of(model), "", fmt::join(scene_names(model), "; "));
     }
   }
   if (options.common.json) std::cout << nlohmann::ordered_json{{"cases", cases}}.dump(2) << '\n';

@@ -5,51 +5,30 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "symbolic/expression.hpp"
+#include "symbolic/error.hpp"
 #include "tools/cli.hpp"
+#include "tools/new_case.hpp"
 #include "tools/output.hpp"
 
 namespace casimir::tools {
 namespace {
 
-constexpr const char* kTemplate =
-    R"case(# A case file: a system, what is claimed about it, and scenes to integrate.
-# Expressions are strings: + - * / ^, exact numbers (0.5 is 1/2), sqrt sin cos tan exp log atan2
-# asin acos, Pi. This one is the Euler top; 'casimir verify {0}.toml' proves its claims.
-title = "{0}"
-source = "where the formulas come from"
-tags = []
-# integrable = true           # claims Liouville integrability: involution and independence count
-
-hamiltonian = "(a1*M1^2 + a2*M2^2 + a3*M3^2)/2"
-
-[phase_space]
-variables = ["M1", "M2", "M3"]
-algebra = "so(3)"             # or: canonical = true, or a table [phase_space.brackets] of
-                              # "M1,M2" = "-M3", ..; or no bracket and a table [equations]
-
-[parameters]                  # stay symbolic in proofs
-a1 = {{ assume = "a1 > 0" }}
-a2 = {{ assume = "a2 > 0" }}
-a3 = {{ assume = "a3 > 0" }}
-
-[casimirs]                    # {{x, F1}} = 0 for every coordinate x
-F1 = "M1^2 + M2^2 + M3^2"
-
-[integrals]                   # constant along the flow; the Hamiltonian is known to be
-G2 = "M1^2 + M2^2 + M3^2"
-
-[[scene]]
-name = "default"
-parameters = {{ a1 = "1", a2 = "1/2", a3 = "1/3" }}
-initial = {{ M1 = "1", M2 = "1/2", M3 = "1/3" }}
-duration = "100"
-)case";
-
 struct Options {
   Common common;
-  std::string name;
+  std::string name, output;
+  std::string algebra = "so(3)";
+  int canonical = 0, equations = 0;
+  bool force = false;
 };
+
+NewCase system_for(const Options& options) {
+  if (options.canonical > 0) return new_canonical(options.canonical);
+  if (options.equations > 0) return new_equations(options.equations);
+  if (const auto algebra = find_lie_algebra(options.algebra)) return new_on_algebra(*algebra);
+  throw CaseError({"--algebra"},
+                  fmt::format("unknown Lie algebra '{}'", printable(options.algebra)), {},
+                  lie_algebra_hint(options.algebra));
+}
 
 int create(const Options& options) {
   std::string stem = options.name;
@@ -61,11 +40,13 @@ int create(const Options& options) {
   if (!plain)
     throw UsageError(
         fmt::format("'{}' cannot name a case: letters, digits, '_' and '-' only", printable(stem)));
-  const std::filesystem::path path = stem + ".toml";
-  if (std::filesystem::exists(path))
-    throw UsageError(fmt::format("'{}' exists already", path.string()));
+  const std::filesystem::path path = options.output.empty() ? stem + ".toml" : options.output;
+  if (!options.force && std::filesystem::exists(path))
+    throw UsageError(
+        fmt::format("'{}' exists already; --force writes over it", printable(path.string(), 200)));
+  const NewCase system = system_for(options);
   OutputFile file(path);
-  file.stream() << fmt::format(kTemplate, stem);
+  file.stream() << to_toml(system, stem, path.filename().string());
   file.commit();
   if (options.common.json) {
     std::cout << nlohmann::ordered_json{{"file", path.string()}}.dump(2) << '\n';
@@ -81,6 +62,25 @@ void register_new(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("new", "Write a commented case file to start from");
   add_common(*command, options->common);
   command->add_option("NAME", options->name, "Name of the new case")->required();
+  CLI::Option* algebra =
+      command
+          ->add_option("--algebra", options->algebra,
+                       "A top on this Lie algebra, such as e(3), so(4), so(3)+2*R3 (default so(3))")
+          ->type_name("NAME");
+  CLI::Option* canonical =
+      command
+          ->add_option("--canonical", options->canonical, "Oscillators in q1..qN, p1..pN instead")
+          ->type_name("N")
+          ->check(CLI::Range(1, 100))
+          ->excludes(algebra);
+  command->add_option("--equations", options->equations, "N equations without a bracket instead")
+      ->type_name("N")
+      ->check(CLI::Range(2, 200))
+      ->excludes(algebra)
+      ->excludes(canonical);
+  command->add_option("--output", options->output, "Write this file (default: NAME.toml)")
+      ->type_name("FILE.toml");
+  command->add_flag("--force", options->force, "Write over a file that exists");
   command->callback([options, &action] { action = [options] { return create(*options); }; });
 }
 
