@@ -210,6 +210,37 @@ bool Prover::vanishes_by_substitution(const Residual& residual, const Level& lev
 }
 
 /// Is the residual in the ideal of the level's functions? `rest` becomes what is left of it.
+bool Prover::in_ideal(const Residual& residual, const Level& level) {
+  const Polynomial value = ring_.numerator(residual.value);
+  std::vector<Polynomial> quotients;
+  if (value.is_zero() || value.remainder(level.numerators, &quotients).is_zero()) return true;
+  const Polynomial rest = level.solved.empty()
+                              ? value.remainder(level.basis, &quotients)
+                              : ring_.numerator(pseudo_remainder(value, level.solved));
+  return rest.is_zero() || vanishes_by_substitution(residual, level);
+}
+
+void Prover::decide_invariance(Proof& proof, std::vector<NamedExpression> functions) {
+  const Proof blank = proof;
+  constexpr int kRounds = 4;
+  for (int round = 0; round < kRounds; ++round) {
+    const Level own = level(functions);
+    const std::vector<Residual> rates = level_rates(own);
+    proof = blank;
+    decide(proof, rates, own);
+    if (proof.verdict != Verdict::proved) return;
+    const std::size_t before = functions.size();
+    for (const Residual& rate : rates) {
+      if (!in_ideal(rate, own)) functions.push_back({rate.label, rate.by_ginac(), {}});
+    }
+    if (functions.size() == before) return;
+  }
+  proof = blank;
+  proof.verdict = Verdict::undecided;
+  proof.reason =
+      "the rates of the functions vanish on their zero level, but are no combinations of them";
+}
+
 bool Prover::vanishes_on(const Residual& residual, Polynomial& rest, const Level& level,
                          Proof& proof) {
   std::vector<Polynomial> cofactors;

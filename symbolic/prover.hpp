@@ -70,6 +70,12 @@ class Prover {
   /// Residuals that say that the level is invariant.
   std::vector<Residual> level_rates(const Level& level);
 
+  /// Is the common zero level of the functions carried into itself? That their rates vanish there is
+  /// necessary, but not enough: on q = 0 so does that of q^2, whatever the motion. The rates have to
+  /// lie in the ideal of the functions; one that only vanishes on the level joins them, and its own
+  /// rate has to vanish too, and so on.
+  void decide_invariance(Proof& proof, std::vector<NamedExpression> functions);
+
   /// Fills in verdict, evidence, residual, reason and witness: are all residuals zero on the level?
   void decide(Proof& proof, const std::vector<Residual>& residuals, const Level& level);
 
@@ -87,6 +93,9 @@ class Prover {
   }
   bool vanishes_by_substitution(const Residual& residual, const Level& level) const;
   Polynomial along(const Polynomial& f, const std::vector<Polynomial>& field) const;
+  /// Whether the residual is a combination of the level's functions (where nothing that the level
+  /// was solved by vanishes).
+  bool in_ideal(const Residual& residual, const Level& level);
   bool vanishes_on(const Residual& residual, Polynomial& rest, const Level& level, Proof& proof);
   static std::vector<GiNaC::symbol> symbols_of(const Model& model);
   static std::vector<GiNaC::ex> with_dynamics(const Model& model,

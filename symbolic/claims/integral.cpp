@@ -15,11 +15,11 @@ Residual rate_of(Prover& prover, const NamedExpression& f) {
 
 /// Are `residuals` zero on the level, and is the level itself invariant?
 void decide_on_invariant_level(Prover& prover, Proof& proof, const std::vector<Residual>& residuals,
-                               const Level& level) {
+                               const std::vector<NamedExpression>& on) {
   Proof invariance;
-  prover.decide(invariance, prover.level_rates(level), level);
+  prover.decide_invariance(invariance, on);
   if (invariance.verdict == Verdict::proved) {
-    prover.decide(proof, residuals, level);
+    prover.decide(proof, residuals, prover.level(on));
     return;
   }
   proof.verdict = invariance.verdict;
@@ -38,7 +38,7 @@ Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression
           f.name,
           false,
           [f, on](Prover& prover, Proof& proof) {
-            decide_on_invariant_level(prover, proof, {rate_of(prover, f)}, prover.level(on));
+            decide_on_invariant_level(prover, proof, {rate_of(prover, f)}, on);
           },
           names_of(on),
           values_of(on, f.value)};
@@ -52,8 +52,7 @@ Claim invariant_relation_claim(const NamedExpression& f, const std::vector<Named
             // The common zero level of f and `on` has to be carried into itself.
             std::vector<NamedExpression> all = on;
             all.push_back(f);
-            const Level level = prover.level(all);
-            prover.decide(proof, prover.level_rates(level), level);
+            prover.decide_invariance(proof, all);
           },
           names_of(on),
           values_of(on, f.value)};
