@@ -193,15 +193,15 @@ std::vector<Residual> Prover::level_rates(const Level& level) {
 /// than the ring knows, as sqrt(G^2 - H^2) where H = 0 and G > 0.
 bool Prover::vanishes_by_substitution(const Residual& residual, const Level& level) const {
   if (ring_.is_polynomial() || level.solved.empty()) return false;
-  ex value = residual.by_ginac();
-  for (const SolvedRelation& solved : level.solved) {
-    if (!solved.leading.is_constant() || solved.relation.degree(solved.variable) != 1) continue;
-    const Polynomial rest = solved.relation.coefficients(solved.variable)[0];
-    const cln::cl_RA factor = -1 / solved.leading.term_list()[0].first;
-    value = value.subs(ring_.symbols()[solved.variable] == ring_.expression(rest.scaled(factor)),
-                       GiNaC::subs_options::no_pattern);
-  }
   try {
+    ex value = residual.by_ginac();
+    for (const SolvedRelation& solved : level.solved) {
+      if (!solved.leading.is_constant() || solved.relation.degree(solved.variable) != 1) continue;
+      const Polynomial rest = solved.relation.coefficients(solved.variable)[0];
+      const cln::cl_RA factor = -1 / solved.leading.term_list()[0].first;
+      value = value.subs(ring_.symbols()[solved.variable] == ring_.expression(rest.scaled(factor)),
+                         GiNaC::subs_options::no_pattern);
+    }
     FunctionRing fresh(ring_.symbols(), model_.assumptions, {value});
     return fresh.numerator(fresh.convert(value)).is_zero();
   } catch (const std::exception&) {

@@ -214,7 +214,7 @@ TEST(Bench, ToleranceThatIsRefusedIsARow) {
 }
 
 TEST(Bench, SpecialisedCodeStandsBesideGeneralCodeOfMoreStates) {
-  const auto json = run({"bench", "euler-poisson", "--scene", "momentum", "--method", "dop853",
+  const auto json = run({"bench", "euler-e3", "--scene", "momentum", "--method", "dop853",
                          "--tolerances", "1e-6,1e-10", "--repeat", "3", "--json"})
                         .json();
   EXPECT_EQ(json.at("states").at("specialised"), (std::vector<std::string>{"M1", "M2", "M3"}));
