@@ -35,6 +35,8 @@ struct Settings {
   /// Writes for each invariant the size of its largest term at a state, so that drift is not
   /// measured against a zero. Called at the start, after 1, 2, 4, 8, .. steps and at the end.
   std::function<void(double t, const double* x, double* sizes)> invariant_sizes;
+  /// If set, told after each step how far each invariant is from its first value: |I(t) - I(0)|.
+  std::function<void(double t, const double* changes)> invariant_changes = {};
   std::function<bool()> give_up;  ///< asked after each step; true ends the run as `stopped`
 };
 

@@ -49,7 +49,9 @@ void Observer::record_change(double t, const double* x) {
     changes_[i] = std::isnan(change) ? std::numeric_limits<double>::infinity()
                                      : std::max(changes_[i], change);
     invariants_[i].final = values_[i];
+    values_[i] = change;
   }
+  if (settings_.invariant_changes) settings_.invariant_changes(t, values_.data());
 }
 
 bool Observer::step(double t1, const double* x1,

@@ -53,6 +53,8 @@ std::string style_of(const Curve& curve, std::size_t group) {
   const Mark mark = kMarks[group % std::size(kMarks)];
   const char* colour = kColours[group % std::size(kColours)];
   switch (curve.style) {
+    case Curve::Style::line:
+      return fmt::format("lines lw 1.6 lc rgb '{}'", colour);
     case Curve::Style::variant:
       return fmt::format("points lw 1.2 pt {} ps 1.8 lc rgb '{}'", mark.open, colour);
     case Curve::Style::outside:

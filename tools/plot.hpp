@@ -12,6 +12,7 @@ struct Curve {
   std::vector<std::pair<double, double>> points;
   enum class Style {
     plain,
+    line,     ///< without marks: many points
     outside,  ///< dashed, with open marks: what others offer
     variant,  ///< of the curve before it: the same colour, larger open marks, no line of its own
   };

@@ -266,5 +266,23 @@ TEST(Conserve, PassesAndFailsByItsBound) {
   EXPECT_EQ(strict.json().at("failed"), 1);
 }
 
+TEST(Conserve, DrawsDriftAgainstTime) {
+  const Folder folder;
+  const Outcome one = run_in(folder, {"conserve", "clebsch", "--scene", "default", "--method",
+                                      "taylor", "--plot", "one.svg"});
+  ASSERT_EQ(one.status, 0) << one.err;
+  const std::string picture = file_text(folder.path() / "one.svg");
+  for (const char* name : {">H<", ">F1<", ">F2<", ">F<", "clebsch, scene default, taylor"})
+    EXPECT_NE(picture.find(name), std::string::npos) << name;
+  const Outcome two = run_in(folder, {"conserve", "clebsch", "--scene", "default", "--method",
+                                      "taylor,dop853", "--plot", "two.svg"});
+  ASSERT_EQ(two.status, 0) << two.err;
+  const std::string methods = file_text(folder.path() / "two.svg");
+  for (const char* name : {">taylor<", ">dop853<"})
+    EXPECT_NE(methods.find(name), std::string::npos) << name;
+  EXPECT_EQ(run({"conserve", "clebsch", "--plot", "drift.pdf"}).status, 2);
+  EXPECT_EQ(run({"conserve", "--all", "--plot", "drift.svg"}).status, 2);
+}
+
 }  // namespace
 }  // namespace casimir::test

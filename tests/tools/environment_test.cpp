@@ -59,6 +59,18 @@ TEST(Environment, MethodsThatNeedACompilerNameTheOneThatDoesNot) {
   }
 }
 
+TEST(Environment, NoGnuplotSaysWhatToInstallAndKeepsTheRows) {
+  const Folder folder, cache;
+  const Outcome outcome = run_in(folder,
+                                 {"conserve", "euler", "--scene", "default", "--method", "taylor",
+                                  "--output", "rows.csv", "--plot", "drift.svg"},
+                                 {}, without_compiler(cache));
+  EXPECT_EQ(outcome.status, 4) << outcome.err;
+  EXPECT_NE(outcome.err.find("gnuplot-nox"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find("1 of 1 runs"), std::string::npos) << outcome.out;
+  EXPECT_EQ(folder.files(), 1U);
+}
+
 TEST(Environment, ProofsNeedNoCompiler) {
   EXPECT_EQ(run({"verify", "euler", "--quiet"}, {}, {{"PATH", "/nonexistent"}, {"CXX", ""}}).status,
             0);

@@ -8,6 +8,7 @@
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
+#include "tools/drift_plot.hpp"
 #include "tools/kept_parameters.hpp"
 #include "tools/output.hpp"
 #include "tools/run_options.hpp"
@@ -21,7 +22,7 @@ struct Options {
   Common common;
   RunOptions run;
   KeptParameters kept;
-  std::string case_name, output;
+  std::string case_name, output, plot;
   std::string in;
   std::vector<std::string> methods{"taylor", "dop853", "gauss8"};
   double bound = 1e-9;
@@ -38,11 +39,15 @@ double largest_drift(const Trajectory& trajectory) {
 }
 
 Row conserve_one(const Model& model, const Scene& scene, const Method& method,
-                 const Options& options, const std::function<bool()>& give_up) {
+                 const Options& options, const std::function<bool()>& give_up,
+                 std::vector<DriftRecord>* drifts) {
   const SceneRun run =
       prepare(model, scene, options.kept.in<SceneOptions>({.observe = std::vector<std::string>{}}));
   Settings settings = settings_for(options.run, run, kTolerance);
   settings.give_up = give_up;
+  DriftRecord drift(std::string(method.name), run.specialisation.invariant_names,
+                    settings.duration);
+  if (drifts) drift.follow(settings);
   Row row{.case_name = model.name,
           .scene = scene.name,
           .method = std::string(method.name),
@@ -53,6 +58,10 @@ Row conserve_one(const Model& model, const Scene& scene, const Method& method,
         integrate(compile_for(run, method).module, method, settings, run.initial, run.parameters);
   } catch (const std::invalid_argument& problem) {
     throw UsageError(problem.what());
+  }
+  if (drifts) {
+    drift.finish(trajectory);
+    drifts->push_back(drift);
   }
   row.drift = largest_drift(trajectory);
   row.seconds = trajectory.seconds;
@@ -70,8 +79,14 @@ Row conserve_one(const Model& model, const Scene& scene, const Method& method,
   return row;
 }
 
+/// Of one scene: that of --scene, or the default one.
+struct Picture {
+  std::string title;
+  std::vector<DriftRecord> drifts;
+};
+
 void conserve_case(const CaseFile& file, const Options& options,
-                   const std::function<bool()>& give_up, std::vector<Row>& rows) {
+                   const std::function<bool()>& give_up, std::vector<Row>& rows, Picture* picture) {
   const Model model =
       in_variables(options.kept.model_of(file, options.common.parameter_values()), options.in);
   std::vector<const Scene*> scenes;
@@ -80,21 +95,29 @@ void conserve_case(const CaseFile& file, const Options& options,
   else
     for (const Scene& scene : model.scenes) scenes.push_back(&model.scene(scene.name));
   if (scenes.empty() && !options.all) model.scene("default");  // throws: there is none
+  const Scene* drawn = picture ? &model.scene(options.common.scene) : nullptr;
+  if (picture) picture->title = fmt::format("{}, scene {}", model.name, drawn->name);
   for (const Scene* scene : scenes) {
     for (const std::string& method : options.methods)
-      rows.push_back(conserve_one(model, *scene, method_named(method), options, give_up));
+      rows.push_back(conserve_one(model, *scene, method_named(method), options, give_up,
+                                  scene == drawn ? &picture->drifts : nullptr));
   }
 }
 
 int conserve(const Options& options) {
   if (options.all == !options.case_name.empty())
     throw UsageError("conserve needs either a CASE or --all");
+  if (options.all && !options.plot.empty()) throw UsageError("--plot needs a CASE");
+  if (!options.plot.empty()) check_plot_name(options.plot);
   const std::function<bool()> give_up = time_limit(options.common.time_limit);
   std::vector<Row> rows;
+  Picture picture;
   if (options.all) {
-    for (const auto& path : bundled_cases()) conserve_case(read_case(path), options, give_up, rows);
+    for (const auto& path : bundled_cases())
+      conserve_case(read_case(path), options, give_up, rows, nullptr);
   } else {
-    conserve_case(load_case(options.case_name), options, give_up, rows);
+    conserve_case(load_case(options.case_name), options, give_up, rows,
+                  options.plot.empty() ? nullptr : &picture);
   }
   if (!options.output.empty()) {
     OutputFile file(options.output);
@@ -112,6 +135,8 @@ int conserve(const Options& options) {
     fmt::print("{} of {} runs keep every invariant to {:g}\n",
                rows.size() - static_cast<std::size_t>(failed), rows.size(), options.bound);
   }
+  // The rows first: pictures need a program that may be missing.
+  if (!options.plot.empty()) draw(drift_picture(picture.title, picture.drifts), options.plot);
   return failed == 0 ? kDone : kFailed;
 }
 
@@ -138,6 +163,11 @@ void register_conserve(CLI::App& program, Action& action) {
   options->kept.add_to(*command);
   command->add_option("--output", options->output, "Write the rows to this CSV file")
       ->type_name("FILE.csv");
+  command
+      ->add_option("--plot", options->plot,
+                   "Draw drift against time, of the default scene or that of --scene: a curve an "
+                   "invariant, or with several methods a curve a method")
+      ->type_name("FILE.svg|png");
   command->callback([options, &action] { action = [options] { return conserve(*options); }; });
 }
 
