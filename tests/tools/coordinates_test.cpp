@@ -1,0 +1,93 @@
+// One motion in all the variables of section 1.3, and the points where some of them are singular.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/tools/program.hpp"
+
+namespace casimir::test {
+namespace {
+
+using Json = nlohmann::json;
+
+double number(const Json& json, const std::string& name) {
+  return std::stod(json.at("state").at(name).get<std::string>());
+}
+
+Json end_state(const std::vector<std::string>& more) {
+  std::vector<std::string> arguments{"integrate", "direction-cosines", "--tolerance", "1e-13",
+                                     "--duration", "20", "--json"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const Outcome outcome = run(arguments);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return outcome.status == 0 ? outcome.json() : Json{};
+}
+
+class EverySet : public testing::TestWithParam<const char*> {};
+
+TEST_P(EverySet, CarriesTheMotionOfTheDirectionCosines) {
+  const Json own = end_state({});
+  const Json other = end_state({"--in", GetParam(), "--as", "direction-cosines"});
+  ASSERT_EQ(own.at("state").size(), 12U);
+  for (const auto& [name, value] : own.at("state").items())
+    EXPECT_NEAR(number(other, name), number(own, name), 1e-10) << name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Coordinates, EverySet,
+                         testing::Values("quaternions", "cayley-klein", "euler-angles", "andoyer",
+                                         "fixed-frame", "body-e3"),
+                         [](const auto& set) {
+                           std::string name = set.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST(Coordinates, AnswerInStereographicProjection) {
+  const Json own = end_state({});
+  const Json other = end_state({"--as", "stereographic"});
+  const double x = number(other, "x"), y = number(other, "y");
+  EXPECT_NEAR(2 * x / (x * x + y * y + 1), number(own, "gamma1"), 1e-14);
+  EXPECT_NEAR(2 * y / (x * x + y * y + 1), number(own, "gamma2"), 1e-14);
+}
+
+TEST(Coordinates, ClaimsHoldInOtherVariables) {
+  EXPECT_EQ(run({"verify", "kovalevskaya", "--in", "euler-angles"}).status, 0);
+  EXPECT_EQ(run({"verify", "kovalevskaya", "--in", "quaternions"}).status, 0);
+}
+
+TEST(Coordinates, TheVerticalAxisIsRefusedInEulerAngles) {
+  const Folder folder;
+  const std::string file = folder.write("upright.toml", R"(
+title = "Upright"
+hamiltonian = "(M1^2 + M2^2 + M3^2)/2 + g3"
+[phase_space]
+variables = ["M1", "M2", "M3", "g1", "g2", "g3"]
+algebra = "e(3)"
+[[scene]]
+name = "default"
+initial = { M1 = "1", M2 = "0", M3 = "1", g1 = "0", g2 = "0", g3 = "1" }
+duration = "1"
+[[scene]]
+name = "long"
+initial = { M1 = "1", M2 = "0", M3 = "1", g1 = "0", g2 = "0", g3 = "2" }
+duration = "1"
+)");
+  for (const char* how : {"--in", "--as"}) {
+    const Outcome outcome = run({how[2] == 'i' ? "integrate" : "show", file, how, "euler-angles"});
+    EXPECT_EQ(outcome.status, 5) << how;
+    EXPECT_NE(outcome.err.find("singular"), std::string::npos) << outcome.err;
+  }
+  const Outcome off = run({"integrate", file, "--scene", "long", "--in", "euler-angles"});
+  EXPECT_EQ(off.status, 5);
+  EXPECT_NE(off.err.find("not in the image"), std::string::npos) << off.err;
+  EXPECT_EQ(run({"integrate", file, "--in", "quaternions"}).status, 0);
+}
+
+TEST(Coordinates, AnUnknownSetIsNamedWithTheNearest) {
+  const Outcome outcome = run({"show", "kovalevskaya", "--as", "euler-angle"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("euler-angles"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace casimir::test
