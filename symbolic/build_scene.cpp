@@ -111,7 +111,7 @@ class SceneReader {
                                      printable(scene.name), printable(relation.name));
       what += constant ? fmt::format(": the value there is {}", printable(constant->text))
                        : ": whether the value there is zero is not decided";
-      if (keeps_its_parameters(text)) throw where->error(what);
+      if (!text.altered && keeps_its_parameters(text)) throw where->error(what);
       scene.unusable = what + ", with the parameters given";
       return;
     }

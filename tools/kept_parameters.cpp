@@ -18,7 +18,10 @@ void choose(CaseFile& file, const Text& name, const Text& value) {
   for (SceneText& scene : file.scenes) {
     const auto own = std::find_if(scene.parameters.begin(), scene.parameters.end(),
                                   [&](const Entry& e) { return e.first.value == name.value; });
-    if (own == scene.parameters.end() || differ(own->second, value)) scene.reference.clear();
+    if (own == scene.parameters.end() || differ(own->second, value)) {
+      scene.reference.clear();
+      scene.altered = true;
+    }
     if (own != scene.parameters.end()) scene.parameters.erase(own);
     scene.parameters.emplace_back(name, value);
   }

@@ -51,13 +51,13 @@ TEST(Coordinates, AnswerInStereographicProjection) {
 }
 
 TEST(Coordinates, ClaimsHoldInOtherVariables) {
-  EXPECT_EQ(run({"verify", "kovalevskaya", "--in", "euler-angles"}).status, 0);
+  EXPECT_EQ(run({"verify", "clebsch", "--in", "quaternions"}).status, 0);
   EXPECT_EQ(run({"verify", "kovalevskaya", "--in", "quaternions"}).status, 0);
 }
 
 TEST(Coordinates, TheVerticalAxisIsRefusedInEulerAngles) {
   const Folder folder;
-  const std::string file = folder.write("upright.toml", R"(
+  const std::string file = folder.write("upright.toml", R"toml(
 title = "Upright"
 hamiltonian = "(M1^2 + M2^2 + M3^2)/2 + g3"
 [phase_space]
@@ -71,7 +71,7 @@ duration = "1"
 name = "long"
 initial = { M1 = "1", M2 = "0", M3 = "1", g1 = "0", g2 = "0", g3 = "2" }
 duration = "1"
-)");
+)toml");
   for (const char* how : {"--in", "--as"}) {
     const Outcome outcome = run({how[2] == 'i' ? "integrate" : "show", file, how, "euler-angles"});
     EXPECT_EQ(outcome.status, 5) << how;
