@@ -70,10 +70,10 @@ class Prover {
   /// Residuals that say that the level is invariant.
   std::vector<Residual> level_rates(const Level& level);
 
-  /// Is the common zero level of the functions carried into itself? That their rates vanish there is
-  /// necessary, but not enough: on q = 0 so does that of q^2, whatever the motion. The rates have to
-  /// lie in the ideal of the functions; one that only vanishes on the level joins them, and its own
-  /// rate has to vanish too, and so on.
+  /// Is the common zero level of the functions carried into itself? That their rates vanish there
+  /// is necessary, but not enough: on q = 0 so does that of q^2, whatever the motion. The rates
+  /// have to lie in the ideal of the functions; one that only vanishes on the level joins them, and
+  /// its own rate has to vanish too, and so on.
   void decide_invariance(Proof& proof, std::vector<NamedExpression> functions);
 
   /// Fills in verdict, evidence, residual, reason and witness: are all residuals zero on the level?

@@ -45,20 +45,26 @@ std::vector<fs::path> bundled_cases() {
   return result;
 }
 
-std::vector<CaseFile> tagged_cases(const std::string& tag) {
-  std::vector<CaseFile> result;
+std::vector<fs::path> bundled_cases(const std::string& tag) {
+  if (tag.empty()) return bundled_cases();
+  std::vector<fs::path> result;
   std::set<std::string> known;
   for (const fs::path& path : bundled_cases()) {
-    CaseFile file = read_case(path);
-    known.insert(file.tags.begin(), file.tags.end());
-    if (tag.empty() || std::ranges::find(file.tags, tag) != file.tags.end())
-      result.push_back(std::move(file));
+    const std::vector<std::string> tags = read_case(path).tags;
+    known.insert(tags.begin(), tags.end());
+    if (std::ranges::find(tags, tag) != tags.end()) result.push_back(path);
   }
-  if (tag.empty() || !result.empty()) return result;
+  if (!result.empty()) return result;
   std::string hint = suggest(tag, {known.begin(), known.end()});
   if (hint.empty()) hint = fmt::format("known: {}", fmt::join(known, ", "));
   throw CaseError({"--tag"}, fmt::format("no bundled case has the tag '{}'", printable(tag)), {},
                   hint);
+}
+
+std::vector<CaseFile> tagged_cases(const std::string& tag) {
+  std::vector<CaseFile> result;
+  for (const fs::path& path : bundled_cases(tag)) result.push_back(read_case(path));
+  return result;
 }
 
 CaseFile load_case(const std::string& argument) {

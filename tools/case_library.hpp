@@ -16,8 +16,11 @@ std::vector<std::filesystem::path> case_folders();
 /// Every bundled case file by name; of two with one name the first folder's counts.
 std::vector<std::filesystem::path> bundled_cases();
 
-/// The bundled case files that have a tag, by name; all of them where it is empty.
+/// Those that have a tag; all of them where it is empty.
 /// \throws CaseError  with the nearest tag for one that no case has.
+std::vector<std::filesystem::path> bundled_cases(const std::string& tag);
+
+/// The same, read.
 std::vector<CaseFile> tagged_cases(const std::string& tag);
 
 /// The case file that a user means: a path (with `/` or ending in `.toml`), `-` for standard input,

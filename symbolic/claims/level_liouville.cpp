@@ -91,6 +91,19 @@ void decide(Prover& prover, Proof& proof, const Functions& on) {
                   fmt::join(names_of(functions), ", "), leaf, point_text(prover, *point));
 }
 
+/// Whether f is in involution with every variable, as far as expanding shows it.
+bool expands_to_casimir(const Model& model, const NamedExpression& f) {
+  return std::all_of(model.variables.begin(), model.variables.end(), [&](const GiNaC::symbol& x) {
+    return model.poisson->bracket(f.value, x).expand().is_zero();
+  });
+}
+
+/// Only levels of Casimir functions are unions of leaves; nothing is to be said about another.
+bool is_union_of_leaves(const Model& model, const Functions& on) {
+  return std::all_of(on.begin(), on.end(),
+                     [&](const NamedExpression& f) { return expands_to_casimir(model, f); });
+}
+
 }  // namespace
 
 std::vector<Claim> level_liouville_notes(const Model& model) {
@@ -100,7 +113,7 @@ std::vector<Claim> level_liouville_notes(const Model& model) {
     const Functions on = claim.on;
     const bool known = std::any_of(notes.begin(), notes.end(),
                                    [&](const Claim& note) { return note.on == names_of(on); });
-    if (known) continue;
+    if (known || !is_union_of_leaves(model, on)) continue;
     Claim note{"liouville",  "Liouville integrability",
                false,        [on](Prover& prover, Proof& proof) { decide(prover, proof, on); },
                names_of(on), values_of(on)};

@@ -10,6 +10,7 @@
 
 #include "runtime/module_abi.h"
 #include "support.hpp"
+#include "tests/bundled_cases.hpp"
 
 namespace casimir {
 namespace {
@@ -71,15 +72,14 @@ TEST(EmitCpp, TwoProcessesWriteTheSame) {
 }
 
 TEST(EmitCpp, EveryCaseCompilesAloneWithoutWarnings) {
-  for (const auto& entry : fs::directory_iterator(fs::path(CASIMIR_SOURCE_DIR) / "cases")) {
-    if (entry.path().extension() != ".toml") continue;
-    const Model model = build_model(read_case(entry.path()));
+  for (const auto& path : test::bundled_cases()) {
+    const Model model = build_model(read_case(path));
     for (const bool fold : {true, false}) {
       SpecialiseOptions options;
       options.fold_parameters = fold;
       const Specialisation spec = specialise(model, model.scenes.at(0), options);
-      EXPECT_EQ(complaints(emit_header(spec)), "") << entry.path();
-      EXPECT_EQ(complaints(emit_module(spec)), "") << entry.path();
+      EXPECT_EQ(complaints(emit_header(spec)), "") << path;
+      EXPECT_EQ(complaints(emit_module(spec)), "") << path;
     }
   }
 }

@@ -3,11 +3,11 @@
 #include <random>
 
 #include "ensemble_forms.hpp"
+#include "tests/bundled_cases.hpp"
 
 namespace casimir {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::distance;
 using testing::ensemble_of;
 using testing::equations;
@@ -34,10 +34,10 @@ using States = std::vector<std::vector<double>>;
          << to_string(b.status) << " at " << b.time << " after " << b.steps;
 }
 
-TEST(Ensemble, EveryBundledCaseAgreesWithTheReference) {
+TEST(Ensemble, CasesOfEachKindAgreeWithTheReference) {
   constexpr double kDuration = 3;
-  for (const auto& entry : fs::directory_iterator(fs::path(CASIMIR_SOURCE_DIR) / "cases")) {
-    const Model model = build_model(read_case(entry.path()));
+  for (const auto& path : test::cases_of_each_kind()) {
+    const Model model = build_model(read_case(path));
     const Specialisation s = specialise(model, model.scene("default"));
     States from = near(start_of(s), 11);
     from[3] = start_of(s);
@@ -46,8 +46,8 @@ TEST(Ensemble, EveryBundledCaseAgreesWithTheReference) {
           run_lanes(kernel, ensemble_of(from), settings_for(kDuration, 1e-14));
       for (const std::size_t i : {std::size_t{0}, std::size_t{3}, std::size_t{10}}) {
         const std::vector<double> end = truth(s, from[i], kDuration);
-        ASSERT_EQ(result.members[i].status, Status::ok) << entry.path() << name;
-        EXPECT_LT(distance(result.members[i].state, end), 4e-13) << entry.path() << ' ' << name;
+        ASSERT_EQ(result.members[i].status, Status::ok) << path << name;
+        EXPECT_LT(distance(result.members[i].state, end), 4e-13) << path << ' ' << name;
         // The twin: another member is another state.
         EXPECT_GT(distance(result.members[i == 0 ? 1 : i - 1].state, end), 1e-9);
       }

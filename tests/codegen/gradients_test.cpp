@@ -7,6 +7,7 @@
 #include "runtime/evaluate.hpp"
 #include "runtime/term_size.hpp"
 #include "support.hpp"
+#include "tests/bundled_cases.hpp"
 
 namespace casimir {
 namespace {
@@ -16,15 +17,6 @@ using testing::equations;
 using testing::Points;
 
 constexpr int kDigits = 50;
-
-std::vector<fs::path> bundled_cases() {
-  std::vector<fs::path> result;
-  for (const auto& entry : fs::directory_iterator(fs::path(CASIMIR_SOURCE_DIR) / "cases"))
-    if (entry.path().extension() == ".toml") result.push_back(entry.path());
-  std::ranges::sort(result);
-  EXPECT_GT(result.size(), 5U);
-  return result;
-}
 
 SpecialiseOptions with_gradients() {
   SpecialiseOptions options;
@@ -57,7 +49,7 @@ std::vector<cln::cl_F> digits_of(const std::vector<cln::cl_RA>& at) {
 
 TEST(Gradients, OfCasimirsAreInTheKernelOfTheStructureMatrix) {
   int checked = 0;
-  for (const fs::path& path : bundled_cases()) {
+  for (const fs::path& path : test::bundled_cases()) {
     const Model model = build_model(read_case(path));
     if (!model.poisson || model.casimirs.empty()) continue;
     const Specialisation spec = specialise(model, model.scenes.at(0), with_gradients());
@@ -92,7 +84,7 @@ TEST(Gradients, OfCasimirsAreInTheKernelOfTheStructureMatrix) {
 }
 
 TEST(Gradients, AreOrthogonalToTheFlow) {
-  for (const fs::path& path : bundled_cases()) {
+  for (const fs::path& path : test::bundled_cases()) {
     const Model model = build_model(read_case(path));
     const Specialisation spec = specialise(model, model.scenes.at(0), with_gradients());
     Points points;
@@ -115,7 +107,7 @@ TEST(Gradients, AreOrthogonalToTheFlow) {
 /// The header's gradients in a shared object, optimised as users do, against 50 digits; in units of
 /// the rounding of the terms.
 TEST(Gradients, CompiledCodeIsExactToRounding) {
-  for (const fs::path& path : bundled_cases()) {
+  for (const fs::path& path : test::bundled_cases()) {
     const Model model = build_model(read_case(path));
     const Specialisation spec = specialise(model, model.scenes.at(0), with_gradients());
     const std::string header = emit_header(spec);

@@ -8,6 +8,7 @@
 #include "runtime/evaluate.hpp"
 #include "runtime/term_size.hpp"
 #include "taylor_forms.hpp"
+#include "tests/bundled_cases.hpp"
 
 namespace {
 unsigned long long allocations = 0;
@@ -27,7 +28,6 @@ __attribute__((noinline)) void operator delete(void* memory, std::size_t) noexce
 namespace casimir {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::compiled;
 using testing::distance;
 using testing::equations;
@@ -40,20 +40,20 @@ using testing::start_of;
 using testing::taylor;
 using testing::truth;
 
-TEST(Taylor, EveryBundledCaseAgreesWithTheReferenceAndDop853) {
+TEST(Taylor, CasesOfEachKindAgreeWithTheReferenceAndDop853) {
   constexpr double kDuration = 4;  // short of what magnifies rounding errors
-  for (const auto& entry : fs::directory_iterator(fs::path(CASIMIR_SOURCE_DIR) / "cases")) {
-    const Model model = build_model(read_case(entry.path()));
+  for (const auto& path : test::cases_of_each_kind()) {
+    const Model model = build_model(read_case(path));
     const Specialisation s = specialise(model, model.scene("default"));
     const std::vector<double> from = start_of(s), end = truth(s, from, kDuration);
     const Module other = compiled(s, "dop853");
     const Trajectory yardstick =
         integrate(other, *find_method("dop853"), settings_for(kDuration), from);
-    EXPECT_LT(distance(yardstick.state, end), 1e-13) << entry.path();
+    EXPECT_LT(distance(yardstick.state, end), 1e-13) << path;
     for (const auto& [name, module] : forms(s)) {
       const Trajectory orbit = run_taylor(module, settings_for(kDuration), from);
-      ASSERT_EQ(orbit.status, Status::ok) << entry.path() << name << orbit.reason;
-      EXPECT_LT(distance(orbit.state, end), 1e-13) << entry.path() << ' ' << name;
+      ASSERT_EQ(orbit.status, Status::ok) << path << name << orbit.reason;
+      EXPECT_LT(distance(orbit.state, end), 1e-13) << path << ' ' << name;
       EXPECT_LT(orbit.steps, yardstick.steps);
       // The twin: another time is another state.
       EXPECT_GT(distance(run_taylor(module, settings_for(kDuration * (1 + 1e-9)), from).state, end),
@@ -172,8 +172,8 @@ constexpr const char* kTops[] = {"kovalevskaya", "clebsch",  "euler",
                                  "steklov",      "lagrange", "manakov-so4"};
 
 Specialisation top(const std::string& name) {
-  const Model model =
-      build_model(read_case(fs::path(CASIMIR_SOURCE_DIR) / "cases" / (name + ".toml")));
+  const Model model = build_model(
+      read_case(std::filesystem::path(CASIMIR_SOURCE_DIR) / "cases" / (name + ".toml")));
   return specialise(model, model.scene("default"));
 }
 

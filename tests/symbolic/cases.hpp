@@ -1,15 +1,10 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
-#include <vector>
 
 #include "symbolic/model.hpp"
 
 namespace casimir::test {
-
-/// Every bundled case file, sorted by name.
-std::vector<std::filesystem::path> case_files();
 
 /// A case written in a test.
 inline Model model_of(const std::string& toml) {

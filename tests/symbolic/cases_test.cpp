@@ -7,17 +7,9 @@
 
 #include "symbolic/expression.hpp"
 #include "symbolic/prove.hpp"
+#include "tests/bundled_cases.hpp"
 
 namespace casimir::test {
-
-std::vector<std::filesystem::path> case_files() {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(CASIMIR_SOURCE_DIR "/cases")) {
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 namespace {
 
@@ -83,13 +75,15 @@ TEST_P(EveryCase, WitnessOfAFalseCasimirReEvaluatesToItsValue) {
   EXPECT_TRUE(found);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, EveryCase, testing::ValuesIn(case_files()), [](const auto& file) {
-  std::string name = file.param.stem().string();
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); },
-      '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Cases, EveryCase, testing::ValuesIn(bundled_cases()),
+                         [](const auto& file) {
+                           std::string name = file.param.stem().string();
+                           std::replace_if(
+                               name.begin(), name.end(),
+                               [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); },
+                               '_');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace casimir::test

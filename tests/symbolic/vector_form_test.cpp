@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/bundled_cases.hpp"
 #include "tests/symbolic/cases.hpp"
 
 namespace casimir {
@@ -119,7 +120,7 @@ TEST(VectorForm, PositionInSpaceIsThreeScalars) {
 
 TEST(VectorForm, FlowIsTheHamiltonianFieldOfEveryCase) {
   std::size_t forms = 0;
-  for (const auto& path : test::case_files()) {
+  for (const auto& path : test::bundled_cases()) {
     const Model model = build_model(read_case(path));
     if (!model.poisson) continue;
     const auto form = find_vector_form(*model.poisson);

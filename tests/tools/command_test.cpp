@@ -137,8 +137,7 @@ TEST(Generate, WritesAHeaderAndSaysWhatWasLeftOut) {
 TEST(Generate, LeavesOutTheStatesThatAreNotObserved) {
   const Folder folder;
   const auto json =
-      run_in(folder, {"generate", "euler-e3", "--observe", "M1", "-o", "e.hpp", "--json"})
-          .json();
+      run_in(folder, {"generate", "euler-e3", "--observe", "M1", "-o", "e.hpp", "--json"}).json();
   std::vector<std::string> states;
   for (const auto& item : json.at("left_out")) {
     if (item.at("kind") == "state") states.push_back(item.at("name"));

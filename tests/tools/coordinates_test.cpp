@@ -15,8 +15,8 @@ double number(const Json& json, const std::string& name) {
 }
 
 Json end_state(const std::vector<std::string>& more) {
-  std::vector<std::string> arguments{"integrate", "direction-cosines", "--tolerance", "1e-13",
-                                     "--duration", "20", "--json"};
+  std::vector<std::string> arguments{
+      "integrate", "direction-cosines", "--tolerance", "1e-13", "--duration", "20", "--json"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   const Outcome outcome = run(arguments);
   EXPECT_EQ(outcome.status, 0) << outcome.err;

@@ -67,8 +67,7 @@ TEST_F(KeepParams, OnlySomeOfThem) {
 }
 
 TEST_F(KeepParams, StatesThatNobodyObservesAreLeftOut) {
-  const auto json =
-      integrate({"euler-e3", "--keep-params", "--observe", "M1", "--duration", "5"});
+  const auto json = integrate({"euler-e3", "--keep-params", "--observe", "M1", "--duration", "5"});
   EXPECT_EQ(json.at("state").size(), 3U);
 }
 

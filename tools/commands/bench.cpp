@@ -21,7 +21,7 @@ struct Options {
   Common common;
   KeptParameters kept;
   std::vector<std::string> case_names, outputs;
-  std::string in;
+  std::string in, tag;
   std::string plot, format = "text";
   bool all = false;
   ContestOptions contest{.tolerances = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10,
@@ -57,7 +57,7 @@ Contest hold(const CaseFile& file, const Options& options, Progress& progress) {
 
 /// Every bundled case. One that has no such scene, or a file that is no case, is told and skipped.
 void hold_all(const Options& options, Progress& progress, BenchReport& report) {
-  const auto paths = bundled_cases();
+  const auto paths = bundled_cases(options.tag);
   if (paths.empty())
     throw SystemError("no bundled cases were found; CASIMIR_CASES can name their folder");
   for (const auto& path : paths) {
@@ -128,6 +128,7 @@ void write_tables(const BenchReport& report, const Options& options) {
 void check_usage(const Options& options) {
   if (options.all == !options.case_names.empty())
     throw UsageError("bench needs either a CASE or --all");
+  if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
   if (options.contest.run.rtol || options.contest.run.atol)
     throw UsageError("bench runs at a range of tolerances: --tolerances X,Y, or --tolerance X");
   if (options.plot.empty()) return;
@@ -206,6 +207,8 @@ void register_bench(CLI::App& program, Action& action) {
   command->add_option("CASE", options->case_names,
                       "Bundled cases, case files, or - for standard input");
   command->add_flag("--all", options->all, "Every bundled case");
+  command->add_option("--tag", options->tag, "With --all: only cases with this tag")
+      ->type_name("TAG");
   add_measurement_options(*command, options->contest);
   command
       ->add_option("--output", options->outputs,

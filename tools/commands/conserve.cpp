@@ -23,7 +23,7 @@ struct Options {
   RunOptions run;
   KeptParameters kept;
   std::string case_name, output, plot;
-  std::string in;
+  std::string in, tag;
   std::vector<std::string> methods{"taylor", "dop853", "gauss8"};
   double bound = 1e-9;
   bool all = false;
@@ -107,13 +107,14 @@ void conserve_case(const CaseFile& file, const Options& options,
 int conserve(const Options& options) {
   if (options.all == !options.case_name.empty())
     throw UsageError("conserve needs either a CASE or --all");
+  if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
   if (options.all && !options.plot.empty()) throw UsageError("--plot needs a CASE");
   if (!options.plot.empty()) check_plot_name(options.plot);
   const std::function<bool()> give_up = time_limit(options.common.time_limit);
   std::vector<Row> rows;
   Picture picture;
   if (options.all) {
-    for (const auto& path : bundled_cases())
+    for (const auto& path : bundled_cases(options.tag))
       conserve_case(read_case(path), options, give_up, rows, nullptr);
   } else {
     conserve_case(load_case(options.case_name), options, give_up, rows,
@@ -151,6 +152,8 @@ void register_conserve(CLI::App& program, Action& action) {
   command->add_option("CASE", options->case_name,
                       "A bundled case, a case file, or - for standard input");
   command->add_flag("--all", options->all, "Every bundled case");
+  command->add_option("--tag", options->tag, "With --all: only cases with this tag")
+      ->type_name("TAG");
   command->add_option("--bound", options->bound, "Largest drift allowed (default 1e-9)")
       ->type_name("X")
       ->check(CLI::PositiveNumber);

@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 struct Options {
   Common common;
   std::string case_name;
-  std::string in;
+  std::string in, tag;
   bool all = false;
   std::vector<std::string> integrals, casimirs, invariant_relations, identities, on;
   std::string certificate;
@@ -109,7 +109,7 @@ int exit_status(Verdict verdict) {
 
 int verify_all(const Options& options) {
   const auto start = Clock::now();
-  const std::vector<std::filesystem::path> paths = bundled_cases();
+  const std::vector<std::filesystem::path> paths = bundled_cases(options.tag);
   if (paths.empty())
     throw SystemError("no bundled cases were found; CASIMIR_CASES can name their folder");
   std::optional<AllReport> report;
@@ -141,6 +141,7 @@ int verify_all(const Options& options) {
 int verify(const Options& options) {
   if (options.all && !options.case_name.empty()) throw UsageError("--all takes no CASE");
   if (!options.all && options.case_name.empty()) throw UsageError("verify needs a CASE, or --all");
+  if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
   if (options.all && !options.in.empty()) throw UsageError("--in needs a CASE");
   if (options.all && !candidates_of(options).empty())
     throw UsageError("--all verifies the claims of the files; candidates need a CASE");
@@ -169,6 +170,8 @@ void register_verify(CLI::App& program, Action& action) {
   command->add_option("CASE", options->case_name,
                       "A bundled case, a case file, or - for standard input");
   command->add_flag("--all", options->all, "Every bundled case");
+  command->add_option("--tag", options->tag, "With --all: only cases with this tag")
+      ->type_name("TAG");
   const auto repeatable = [&](const char* name, std::vector<std::string>& target,
                               const char* text) {
     command->add_option(name, target, text)->allow_extra_args(false)->type_name("EXPR");
