@@ -108,6 +108,7 @@ class Choice {
  private:
   void consider(const TermSystem& system) {
     consider(lowered(flattened(system), inputs_, outputs_));
+    consider(lowered(flattened(rescaled(system)), inputs_, outputs_));
   }
 
   void consider_factored(const TermSystem& system) {

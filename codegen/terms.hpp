@@ -63,6 +63,10 @@ std::optional<TermSystem> expanded(const TermSystem& system, std::size_t limit);
 /// Substitutes polynomials that are used once, as a plain term of a sum.
 TermSystem flattened(TermSystem system);
 
+/// Sums that are factors, made larger by numbers that save multiplications: 1/10*(10*x + 1) is
+/// x + 1/10.
+TermSystem rescaled(TermSystem system);
+
 /// A product of two monomials.
 Monomial multiply(const Monomial& a, const Monomial& b);
 

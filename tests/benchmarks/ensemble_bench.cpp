@@ -89,9 +89,9 @@ struct Problem {
     return end;
   }
 
-  std::vector<double> in_lanes(const LaneKernel& kernel, double tolerance, int jobs,
+  std::vector<double> in_lanes(const LaneKernel& lanes, double tolerance, int jobs,
                                int order = 0) const {
-    LaneKernel with_order = kernel;
+    LaneKernel with_order = lanes;
     with_order.run = [&](const casimir_ensemble* run) {
       casimir_ensemble own = *run;
       own.order = order;
