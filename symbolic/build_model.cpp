@@ -120,6 +120,7 @@ class Builder {
             "'structure_constants' and 'vector_fields'; or the file a table [equations]");
       }
       read_hamiltonian();
+      if (!has_own_H()) names_.alias("H", {*model_.hamiltonian, 64, 8, 64});
       model_.field = model_.poisson->flow(*model_.hamiltonian);
     }
     names_.allow(&dynamics_);
@@ -127,6 +128,14 @@ class Builder {
       model_.definitions.push_back(
           named(definition.first, names_.find(definition.first.value)->value));
     }
+  }
+
+  /// The file calls something else H.
+  bool has_own_H() const {
+    const auto in = [](const std::vector<Entry>& entries) {
+      return std::ranges::any_of(entries, [](const Entry& e) { return e.first.value == "H"; });
+    };
+    return in(file_.casimirs) || in(file_.integrals);
   }
 
   void read_hamiltonian() {

@@ -95,7 +95,7 @@ struct Problem {
     with_order.run = [&](const casimir_ensemble* run) {
       casimir_ensemble own = *run;
       own.order = order;
-      kernel.run(&own);
+      lanes.run(&own);
     };
     Settings settings;
     settings.duration = duration;

@@ -139,6 +139,17 @@ TEST(Claims, LiouvilleIsCountedOnALevelOfCasimirsToo) {
             Verdict::undecided);
 }
 
+TEST(Claims, TheHamiltonianIsCalledHInTheFileToo) {
+  const std::string rest =
+      "[casimirs]\nF = \"M1^2 + M2^2 + M3^2\"\n[definitions]\nE2 = \"2*H\"\n[integrals]\nQ = "
+      "\"H^2 + F\"\n[[identity]]\nname = \"twice\"\nleft = \"E2\"\nright = \"M1^2 + 2*M2^2\"\n";
+  const Model model = model_of("hamiltonian = \"M1^2/2 + M2^2\"\n" + kSo3 + rest);
+  EXPECT_EQ(proof_of(model, "integral").verdict, Verdict::proved);
+  EXPECT_EQ(proof_of(model, "identity").verdict, Verdict::proved);
+  // Not inside of itself.
+  EXPECT_THROW(model_of("hamiltonian = \"M1^2 + E2\"\n" + kSo3 + rest), CaseError);
+}
+
 TEST(Claims, AntiPoissonMapNeedsItsSign) {
   const std::string head = "hamiltonian = \"0\"\n" + kSo3 +
                            "[[map]]\nname = \"minus\"\nto = \"so(3)\"\nexpressions = { M1 = "
