@@ -104,7 +104,7 @@ EnsembleResult integrate_members(const Ensemble& ensemble,
     unsigned calls = 0;
     Settings own = settings;
     own.monitor = false;
-    own.invariant_sizes = nullptr;
+    own.invariant_terms = nullptr;
     own.give_up = [&] { return work.give_up(calls); };
     for (long long next; (next = work.next()) >= 0;) {
       const auto member = static_cast<std::size_t>(next);

@@ -81,7 +81,8 @@ void EndCheck::evaluate_at(std::size_t member, const double* state, double time,
   for (const double input : inputs_) sized.push_back(Arithmetic<SizedNumber>::plain(input));
   const std::vector<SizedNumber> terms = evaluate(program_, sized);
   for (std::size_t i = 0; i < terms.size(); ++i)
-    sizes_[i] = std::max({sizes_[i], std::abs(terms[i].size), std::abs(first_[i])});
+    sizes_[i] =
+        std::max({sizes_[i], static_cast<double>(std::abs(terms[i].size)), std::abs(first_[i])});
 }
 
 void EndCheck::operator()(std::size_t member, MemberResult& result) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,10 @@ enum class Status {
 /// "ok", "singularity", ..: as the interface spells them.
 std::string to_string(Status status);
 
+/// Values and sizes of the invariants, one of each: see Settings.
+using InvariantTerms =
+    std::function<void(double t, const double* x, long double* values, long double* sizes)>;
+
 struct Settings {
   double duration = 0;  ///< may be negative: backwards in time
   double rtol = 1e-10;  ///< local error per component: atol + rtol |x_i|
@@ -32,18 +37,25 @@ struct Settings {
   unsigned long long max_steps = 0;  ///< 0: no limit
   double sample_every = 0;           ///< > 0: states at these times, from the dense output
   bool monitor = true;               ///< follow the invariants at every step
-  /// Writes for each invariant the size of its largest term at a state, so that drift is not
-  /// measured against a zero. Called at the start, after 1, 2, 4, 8, .. steps and at the end.
-  std::function<void(double t, const double* x, double* sizes)> invariant_sizes;
+  /// Writes for each invariant its value at a state and the size of its largest term, so that
+  /// drift is not measured against a zero. Called at the start, after 1, 2, 4, 8, .. steps and at
+  /// the end; and after every step where values or sizes leave the range of double.
+  InvariantTerms invariant_terms;
   /// If set, told after each step how far each invariant is from its first value: |I(t) - I(0)|.
   std::function<void(double t, const double* changes)> invariant_changes = {};
+  /// If set and monitored, shown the state after each step.
+  std::function<void(double t, const double* x)> watch = {};
   std::function<bool()> give_up;  ///< asked after each step; true ends the run as `stopped`
 };
 
 struct InvariantRecord {
-  double initial = 0;
-  double final = 0;
+  long double initial = 0;  ///< may be beyond the range of double
+  long double final = 0;
   double drift = 0;  ///< largest |I(t) - I(0)| after any step / max(|I(0)|, size of its terms)
+  /// What the tolerance allows the drift to be: what the steps of the run can do together if each
+  /// makes the local error allowed to it in every state, with a margin. Infinite where there is no
+  /// error control.
+  double allowed = std::numeric_limits<double>::infinity();
 };
 
 /// What came of a run. Where it stopped early, `time` and `state` are those of the last good step.
@@ -52,6 +64,7 @@ struct Trajectory {
   std::string reason;  ///< a sentence, where the status is not ok
   double time = 0;
   std::vector<double> state;
+  std::vector<double> sizes;  ///< largest |x_i| after any step; at both ends, if not monitored
   std::vector<double> sample_times;
   std::vector<std::vector<double>> samples;
   std::vector<InvariantRecord> invariants;

@@ -24,13 +24,19 @@ class Observer {
   void finish(Trajectory& trajectory);
 
  private:
+  void record_size(const double* x);
+  void evaluate(double t, const double* x);
   void record_change(double t, const double* x);
-  void record_sizes(double t, const double* x);
+  void record_terms(double t, const double* x);
+  void record_local_error(double t, const double* x);
+  double allowed_drift(std::size_t invariant, unsigned long long steps) const;
 
   const Module& module_;
   const Settings& settings_;
   const double* parameters_;
-  std::vector<double> values_, sizes_, changes_, scratch_;
+  std::vector<double> values_, changes_now_, scratch_, state_sizes_;
+  std::vector<long double> wide_, terms_, sizes_, changes_, local_;
+  bool leaves_range_ = false;  ///< of double: then the values come from Settings::invariant_terms
   std::vector<InvariantRecord> invariants_;
   std::vector<double> times_;
   std::vector<std::vector<double>> samples_;

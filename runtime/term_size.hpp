@@ -8,10 +8,11 @@
 namespace casimir {
 
 /// A number and the size of the largest term that went into it: the sum 1e8 - 1e8 is 0 and has the
-/// size 1e8. What an error or a drift of the sum is to be measured against.
+/// size 1e8. What an error or a drift of the sum is to be measured against. The range is that of
+/// long double, so that squares and fourth powers of any double fit in.
 struct SizedNumber {
-  double value;
-  double size;
+  long double value;
+  long double size;
 
   friend SizedNumber operator+(SizedNumber a, SizedNumber b) {
     return {a.value + b.value, std::max(a.size, b.size)};
@@ -28,9 +29,9 @@ struct SizedNumber {
 template <>
 struct Arithmetic<SizedNumber> {
   using N = SizedNumber;
-  static N plain(double v) { return {v, std::abs(v)}; }
-  static N from(const cln::cl_RA& v) { return plain(Arithmetic<double>::from(v)); }
-  static N pi() { return plain(Arithmetic<double>::pi()); }
+  static N plain(long double v) { return {v, std::abs(v)}; }
+  static N from(const cln::cl_RA& v) { return plain(Arithmetic<long double>::from(v)); }
+  static N pi() { return plain(Arithmetic<long double>::pi()); }
   static N divide(N a, N b) { return {a.value / b.value, a.size / std::abs(b.value)}; }
   static N sqrt(N a) { return {std::sqrt(a.value), std::sqrt(a.size)}; }
   static N power(N a, N e) {

@@ -231,7 +231,7 @@ int integrate_ensemble(const EnsembleRequest& request) {
   const SceneRun run = prepared(model, scene, request.how, file);
   Settings settings = settings_for(request.run, run);
   settings.give_up = time_limit(request.common.time_limit);
-  settings.invariant_sizes = nullptr;
+  settings.invariant_terms = nullptr;
   const Ensemble ensemble = members(run, file);
   const EnsembleKernel kernel =
       ensemble_kernel(run, method, ensemble.size(), !(settings.fixed_step > 0));

@@ -50,7 +50,7 @@ Settings settings_for(const RunOptions& options, const SceneRun& run, double def
                                       : settings.rtol * unit * kSmallComponents;
   settings.fixed_step = options.step.value_or(0);
   settings.max_steps = options.max_steps;
-  settings.invariant_sizes = run.invariant_sizes();
+  settings.invariant_terms = run.invariant_terms();
   return settings;
 }
 

@@ -108,11 +108,19 @@ std::string advice(Status status) {
       return "raise --max-steps";
     case Status::no_convergence:
       return "try a smaller --step, or --method dop853";
+    case Status::drift_exceeded:
+      return "tighten --tolerance, or try another --method";
     case Status::stopped:
       return "raise --time-limit";
     default:
       return "";
   }
+}
+
+std::string exact_text(long double value) {
+  const auto near = static_cast<double>(value);
+  const bool fits = std::isfinite(near) && (near != 0 || value == 0);
+  return fits ? exact_text(near) : fmt::format("{:.17g}", value);
 }
 
 std::string exact_text(double value) { return fmt::format("{:.17g}", value); }

@@ -63,15 +63,17 @@ SceneRun prepare(const Model& model, const Scene& scene, const SceneOptions& opt
   return run;
 }
 
-std::function<void(double, const double*, double*)> SceneRun::invariant_sizes() const {
-  return [this](double t, const double* x, double* sizes) {
+InvariantTerms SceneRun::invariant_terms() const {
+  return [this](double t, const double* x, long double* values, long double* sizes) {
     std::vector<SizedNumber> inputs;
     for (std::size_t i = 0; i < initial.size(); ++i)
       inputs.push_back(Arithmetic<SizedNumber>::plain(x[i]));
     for (const double p : parameters) inputs.push_back(Arithmetic<SizedNumber>::plain(p));
     inputs.push_back(Arithmetic<SizedNumber>::plain(t));
-    const std::vector<SizedNumber> values = evaluate(specialisation.invariants, inputs);
-    for (std::size_t i = 0; i < values.size(); ++i) sizes[i] = std::abs(values[i].size);
+    for (const SizedNumber& number : evaluate(specialisation.invariants, inputs)) {
+      *values++ = number.value;
+      *sizes++ = std::abs(number.size);
+    }
   };
 }
 

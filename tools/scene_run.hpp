@@ -22,8 +22,8 @@ struct SceneRun {
   std::vector<double> parameter_rounding;
   double duration = 0;
 
-  /// Writes the size of the largest term of each invariant at a state: see Settings.
-  std::function<void(double t, const double* x, double* sizes)> invariant_sizes() const;
+  /// For Settings; the scene must outlive it.
+  InvariantTerms invariant_terms() const;
   double generate_seconds = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "tools/conditioning.hpp"
 #include "tools/run_report.hpp"
 
 namespace casimir::tools {
@@ -18,17 +19,9 @@ constexpr double kChanges[] = {0x1p-26, 0x1p-36, 0x1p-46};
 constexpr double kSmall = 0.05;
 /// Rounding errors that grow to this size leave no digits to speak of.
 constexpr double kSpoiled = 1e-3;
-
-std::vector<double> sizes_of(const Trajectory& trajectory, const std::vector<double>& initial) {
-  std::vector<double> sizes;
-  double largest = 0;
-  for (std::size_t i = 0; i < initial.size(); ++i) {
-    sizes.push_back(std::max(std::abs(initial[i]), std::abs(trajectory.state[i])));
-    largest = std::max(largest, sizes.back());
-  }
-  for (double& size : sizes) size = largest == 0 ? 1 : std::max(size, 1e-3 * largest);
-  return sizes;
-}
+constexpr double kSixDigits = 1e-6;
+/// Estimated errors that the user is warned of.
+constexpr double kDoubtful = 1e-4;
 
 double distance(const std::vector<double>& a, const std::vector<double>& b,
                 const std::vector<double>& sizes) {
@@ -39,67 +32,137 @@ double distance(const std::vector<double>& a, const std::vector<double>& b,
   return largest;
 }
 
+/// Runs beside the one that is assessed.
+class Neighbours {
+ public:
+  Neighbours(const SceneRun& run, const CompiledModule& compiled, const Method& method,
+             const Settings& settings, const std::vector<double>& sizes)
+      : run_(run), compiled_(compiled), method_(method), tight_(settings), sizes_(sizes) {
+    tight_.monitor = false;
+    tight_.sample_every = 0;
+    tight_.invariant_changes = nullptr;
+    tight_.rtol = std::max(settings.rtol / 100, 2 * kLeastTolerance);
+    tight_.atol = settings.atol / 100;
+    tight_.fixed_step = settings.fixed_step / 2;
+  }
+
+  /// With a hundredth of the tolerance. \return  whether it reached the end.
+  bool begin() {
+    better_ = integrate(compiled_.module, method_, tight_, run_.initial, run_.parameters);
+    return better_.status == Status::ok;
+  }
+  const std::vector<double>& better() const { return better_.state; }
+
+  /// How many times a relative change of a state has grown at the end; nothing if a run fails.
+  std::optional<double> growth_of_state(std::size_t j) const {
+    return growth([&](double change) {
+      std::vector<double> moved = run_.initial;
+      moved[j] += change * sizes_[j];
+      return integrate(compiled_.module, method_, tight_, moved, run_.parameters);
+    });
+  }
+
+  /// The same for a parameter at run time.
+  std::optional<double> growth_of_parameter(std::size_t j) const {
+    return growth([&](double change) {
+      SceneRun moved = run_;  // where nothing is compiled, the module holds the parameters
+      moved.parameters[j] *= 1 + change;
+      return integrate(compile_for(moved, method_).module, method_, tight_, moved.initial,
+                       moved.parameters);
+    });
+  }
+
+ private:
+  template <class NeighbourAt>
+  std::optional<double> growth(const NeighbourAt& neighbour_at) const {
+    double largest = 0;
+    for (const double change : kChanges) {
+      const Trajectory neighbour = neighbour_at(change);
+      if (neighbour.status != Status::ok) return std::nullopt;
+      const double apart = distance(neighbour.state, better_.state, sizes_);
+      largest = std::max(largest, apart / change);
+      if (apart < kSmall) break;
+    }
+    return largest;
+  }
+
+  const SceneRun& run_;
+  const CompiledModule& compiled_;
+  const Method& method_;
+  Settings tight_;
+  const std::vector<double>& sizes_;
+  Trajectory better_;
+};
+
+/// Where Taylor series get nowhere because the equations are stiff: by runs of the method itself,
+/// which see the growth at the end only.
+std::optional<Conditioning> conditioning_at_end(const Neighbours& neighbours, std::size_t states) {
+  Conditioning result;
+  result.growth = {{0, 1}};
+  for (std::size_t j = 0; j < states; ++j) {
+    const auto growth = neighbours.growth_of_state(j);
+    if (!growth) return std::nullopt;
+    result.columns.push_back(*growth);
+    result.at_end = std::max(result.at_end, *growth);
+  }
+  return result;
+}
+
+/// Where a second run would take too long: rounding errors that are made at every step and grow
+/// from there on, the drift of invariants, which grows likewise, and the local errors allowed.
+double estimate_without_repeat(const Conditioning& flow, const Settings& settings,
+                               const Trajectory& trajectory) {
+  const auto steps = static_cast<double>(trajectory.steps);
+  double drift = 0.03 * kUnitRoundoff * std::sqrt(steps);
+  for (const InvariantRecord& record : trajectory.invariants) drift = std::max(drift, record.drift);
+  return flow.at_end * drift + steps * settings.rtol;
+}
+
+/// The sizes of the states at both ends, where they are smaller than on the way.
+std::vector<double> end_sizes(const SceneRun& run, const Trajectory& trajectory) {
+  Trajectory ends = trajectory;
+  for (std::size_t i = 0; i < ends.sizes.size(); ++i)
+    ends.sizes[i] = std::max(std::abs(run.initial[i]), std::abs(ends.state[i]));
+  const double largest = std::ranges::max(ends.sizes);
+  for (std::size_t i = 0; i < ends.sizes.size(); ++i)
+    ends.sizes[i] = std::min(trajectory.sizes[i], std::max(ends.sizes[i], 1e-3 * largest));
+  return sizes_of(ends);
+}
+
 }  // namespace
 
 Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& method,
              const Settings& settings, const Trajectory& trajectory, double budget) {
   Trust trust;
+  if (trajectory.status != Status::ok) return trust;
+  const std::vector<double> sizes = sizes_of(trajectory);
   const std::size_t n = run.initial.size();
-  const auto rounded_parameters =
-      std::count_if(run.parameter_rounding.begin(), run.parameter_rounding.end(),
-                    [](double rounding) { return rounding != 0; });
-  const double runs = static_cast<double>(n + 2) + static_cast<double>(rounded_parameters);
-  if (trajectory.status != Status::ok || trajectory.seconds * runs > budget) return trust;
-  const std::vector<double> sizes = sizes_of(trajectory, run.initial);
-  Settings bare = settings;
-  bare.monitor = false;
-  bare.sample_every = 0;
-  const auto end_of = [&](const Settings& how, const std::vector<double>& from) {
-    return integrate(compiled.module, method, how, from, run.parameters);
-  };
-  Settings tight = bare;
-  tight.rtol = std::max(settings.rtol / 100, 2 * kLeastTolerance);
-  tight.atol = settings.atol / 100;
-  tight.fixed_step = settings.fixed_step / 2;
-  const Trajectory better = end_of(tight, run.initial);
-  if (better.status != Status::ok) return trust;
-  // How many times a relative change of one input grows; nothing if a run fails.
-  const auto growth_of = [&](const auto& neighbour_at) -> std::optional<double> {
-    double growth = 0;
-    for (const double change : kChanges) {
-      const Trajectory neighbour = neighbour_at(change);
-      if (neighbour.status != Status::ok) return std::nullopt;
-      const double apart = distance(neighbour.state, better.state, sizes);
-      growth = std::max(growth, apart / change);
-      if (apart < kSmall) break;
-    }
-    return growth;
-  };
-  for (std::size_t j = 0; j < n; ++j) {
-    const auto growth = growth_of([&](double change) {
-      std::vector<double> moved = run.initial;
-      moved[j] += change * sizes[j];
-      return end_of(tight, moved);
-    });
-    if (!growth) return trust;
-    trust.conditioning = std::max(trust.conditioning, *growth);
-    trust.input_rounding += *growth * std::abs(run.rounding[j]) / sizes[j];
-  }
-  for (std::size_t j = 0; j < run.parameters.size(); ++j) {
-    if (run.parameter_rounding[j] == 0) continue;
-    const auto growth = growth_of([&](double change) {
-      SceneRun moved = run;  // where nothing is compiled, the module holds the parameters
-      moved.parameters[j] *= 1 + change;
-      return integrate(compile_for(moved, method).module, method, tight, moved.initial,
-                       moved.parameters);
-    });
-    if (!growth) return trust;
-    trust.input_rounding += *growth * std::abs(run.parameter_rounding[j] / run.parameters[j]);
-  }
+  Neighbours neighbours(run, compiled, method, settings, sizes);
+  const bool repeated = 3 * trajectory.seconds < budget && neighbours.begin();
+  std::optional<Conditioning> flow = conditioning(run, settings, trajectory.time, sizes);
+  const bool short_of_end = !flow || flow->followed < 0.99 * std::abs(trajectory.time);
+  const double neighbours_take = static_cast<double>(n) * 3 * trajectory.seconds;
+  if (repeated && short_of_end && method.implicit && neighbours_take < budget)
+    flow = conditioning_at_end(neighbours, n);
+  if (!flow) return trust;
   trust.known = true;
-  trust.error_estimate = distance(better.state, trajectory.state, sizes) +
-                         trust.conditioning * kUnitRoundoff + trust.input_rounding;
-  trust.beyond_double = !(trust.conditioning * kUnitRoundoff < kSpoiled);
+  trust.conditioning = flow->at_end;
+  for (std::size_t j = 0; j < n; ++j)
+    trust.input_rounding += flow->columns[j] * std::abs(run.rounding[j]) / sizes[j];
+  for (std::size_t j = 0; repeated && j < run.parameters.size(); ++j) {
+    if (run.parameter_rounding[j] == 0) continue;
+    const double growth = neighbours.growth_of_parameter(j).value_or(flow->at_end);
+    trust.input_rounding += growth * std::abs(run.parameter_rounding[j] / run.parameters[j]);
+  }
+  trust.error_estimate =
+      trust.input_rounding +
+      (repeated ? distance(neighbours.better(), trajectory.state, end_sizes(run, trajectory)) +
+                      flow->at_end * kUnitRoundoff
+                : estimate_without_repeat(*flow, settings, trajectory));
+  trust.beyond_double = !(flow->at_end * kUnitRoundoff < kSpoiled);
+  if (trust.beyond_double) trust.six_digits_until = flow->time_of(kSixDigits / kUnitRoundoff);
+  if (flow->followed > 0 && flow->followed < 0.99 * std::abs(trajectory.time))
+    trust.followed = flow->followed;
   return trust;
 }
 
@@ -110,24 +173,30 @@ nlohmann::ordered_json to_json(const Trust& trust) {
             {"error_estimate", nullptr},
             {"beyond_double", nullptr}};
   }
-  return {{"conditioning", exact_text(trust.conditioning)},
-          {"input_rounding", exact_text(trust.input_rounding)},
-          {"error_estimate", exact_text(trust.error_estimate)},
-          {"beyond_double", trust.beyond_double}};
+  nlohmann::ordered_json json = {{"conditioning", exact_text(trust.conditioning)},
+                                 {"input_rounding", exact_text(trust.input_rounding)},
+                                 {"error_estimate", exact_text(trust.error_estimate)},
+                                 {"beyond_double", trust.beyond_double}};
+  if (trust.six_digits_until) json["six_digits_until"] = exact_text(*trust.six_digits_until);
+  if (trust.followed) json["extrapolated_from"] = exact_text(*trust.followed);
+  return json;
 }
 
 std::vector<std::string> warnings_of(const Trust& trust) {
   std::vector<std::string> warnings;
   if (!trust.known) return warnings;
   if (trust.beyond_double) {
+    warnings.push_back(fmt::format(
+        "the end state is beyond what double precision can hold: small changes of the initial "
+        "state grow {:.0e} times{}; --digits {} can hold it",
+        trust.conditioning,
+        trust.six_digits_until
+            ? fmt::format(", and six digits hold until t = {:.6g}", *trust.six_digits_until)
+            : "",
+        static_cast<int>(20 + std::log10(trust.conditioning))));
+  } else if (!(trust.error_estimate < kDoubtful)) {
     warnings.push_back(
-        fmt::format("small changes of the initial state grow {:.0e} times: double precision "
-                    "cannot hold this motion to its end",
-                    trust.conditioning));
-  } else if (!(trust.error_estimate < kSpoiled)) {
-    warnings.push_back(
-        fmt::format("a run with a hundredth of the tolerance ends elsewhere, by {:.0e} of the "
-                    "state: tighten --tolerance",
+        fmt::format("the end state may be off by {:.0e} of its size: tighten --tolerance",
                     trust.error_estimate));
   }
   return warnings;

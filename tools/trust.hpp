@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,16 +12,19 @@ namespace casimir::tools {
 
 /// How far the end state of a run can be believed. Relative to the size of each state.
 struct Trust {
-  bool known = false;          ///< false: the further runs would have taken too long, or failed
+  bool known = false;          ///< false: the further runs failed
   double conditioning = 0;     ///< largest growth of a small change of the initial state
   double input_rounding = 0;   ///< error from rounding the scene's exact data to double
   double error_estimate = 0;   ///< difference to a run with a hundredth of the tolerance, and
                                ///< what double arithmetic alone costs
   bool beyond_double = false;  ///< rounding alone spoils all but a few digits
+  /// Up to when rounding leaves six digits, where it does not to the end.
+  std::optional<double> six_digits_until;
+  std::optional<double> followed;  ///< the growth beyond this time is extrapolated
 };
 
-/// Repeats a finished run: once with a tighter tolerance and once for each state with that state
-/// changed a little. Only where all of that takes about `budget` seconds at most.
+/// Integrates the variational equations along a finished run, and repeats it with a tighter
+/// tolerance where that takes about `budget` seconds at most.
 Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& method,
              const Settings& settings, const Trajectory& trajectory, double budget = 1);
 

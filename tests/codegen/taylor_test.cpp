@@ -192,12 +192,16 @@ TEST(Taylor, InvariantsOfLongRuns) {
     const Specialisation s = top(name);
     const Module module = uncompiled_module(s.rhs, s.invariants, quadratic_form(s.rhs), {});
     Settings settings = settings_for(5e5);
-    settings.invariant_sizes = [&](double t, const double* x, double* sizes) {
+    settings.invariant_terms = [&](double t, const double* x, long double* values,
+                                   long double* sizes) {
       std::vector<SizedNumber> inputs;
       for (std::size_t i = 0; i < s.states.size(); ++i)
         inputs.push_back(Arithmetic<SizedNumber>::plain(x[i]));
       inputs.push_back(Arithmetic<SizedNumber>::plain(t));
-      for (const SizedNumber& value : evaluate(s.invariants, inputs)) *sizes++ = value.size;
+      for (const SizedNumber& number : evaluate(s.invariants, inputs)) {
+        *values++ = number.value;
+        *sizes++ = number.size;
+      }
     };
     const Trajectory orbit = run_taylor(module, settings, start_of(s));
     ASSERT_EQ(orbit.status, Status::ok) << name;

@@ -11,12 +11,12 @@
 #include "tools/cli.hpp"
 #include "tools/ensemble_run.hpp"
 #include "tools/generated_report.hpp"
+#include "tools/judged_run.hpp"
 #include "tools/kept_parameters.hpp"
 #include "tools/output.hpp"
 #include "tools/run_options.hpp"
 #include "tools/run_report.hpp"
 #include "tools/scene_run.hpp"
-#include "tools/trust.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -79,18 +79,19 @@ void write_samples(const std::string& path, const Answer& answer, const Trajecto
   file.commit();
 }
 
-Json to_json(const Model& model, const SceneRun& run, const Answer& answer, const Method& method,
-             const Settings& settings, const CompiledModule& compiled, const Trajectory& trajectory,
-             const Trust& trust) {
+Json to_json(const Model& model, const SceneRun& run, const Answer& answer,
+             const JudgedRun& judged) {
   const Specialisation& s = run.specialisation;
+  const Trajectory& trajectory = judged.trajectory;
   Json json = {{"case", model.name},
                {"scene", s.scene},
-               {"method", method.name},
-               {"tolerance", settings.rtol},
-               {"rtol", settings.rtol},
-               {"atol", settings.atol},
+               {"method", judged.method->name},
+               {"tolerance", judged.settings.rtol},
+               {"rtol", judged.settings.rtol},
+               {"atol", judged.settings.atol},
                {"status", to_string(trajectory.status)},
                {"t", exact_text(trajectory.time)}};
+  if (!judged.chosen.empty()) json["chosen"] = judged.chosen;
   json["state"] = Json::object();
   const std::vector<double> state = answer(trajectory.time, trajectory.state);
   for (std::size_t i = 0; i < state.size(); ++i)
@@ -106,27 +107,27 @@ Json to_json(const Model& model, const SceneRun& run, const Answer& answer, cons
   json["rejected"] = trajectory.rejected;
   json["evaluations"] = trajectory.evaluations;
   json["seconds"] = {{"generate", run.generate_seconds},
-                     {"compile", compiled.seconds},
+                     {"compile", judged.compiled->seconds},
                      {"integrate", trajectory.seconds}};
-  json["from_cache"] = compiled.from_cache;
+  json["from_cache"] = judged.compiled->from_cache;
   json["left_out"] = left_out_json(s);
-  json["warnings"] = warnings_of(trust);
-  if (!compiled.warning.empty()) json["warnings"].push_back(compiled.warning);
-  json["trust"] = tools::to_json(trust);
+  json["warnings"] = judged.warnings;
+  json["trust"] = tools::to_json(judged.trust);
   if (trajectory.status != Status::ok) {
     json["stopped"] = {{"time", exact_text(trajectory.time)},
                        {"reason", trajectory.reason},
-                       {"advice", advice(trajectory.status)}};
+                       {"advice", judged.advice}};
   }
   return json;
 }
 
-void print_text(const SceneRun& run, const Answer& answer, const Method& method,
-                const Settings& settings, const CompiledModule& compiled,
-                const Trajectory& trajectory) {
+void print_text(const SceneRun& run, const Answer& answer, const JudgedRun& judged) {
   const Specialisation& s = run.specialisation;
-  fmt::print("{}, scene '{}', {} at tolerance {:g}\n", s.case_name, printable(s.scene), method.name,
-             settings.rtol);
+  const CompiledModule& compiled = *judged.compiled;
+  const Trajectory& trajectory = judged.trajectory;
+  fmt::print("{}, scene '{}', {} at tolerance {:g}\n", s.case_name, printable(s.scene),
+             judged.method->name, judged.settings.rtol);
+  if (!judged.chosen.empty()) fmt::print("  chosen by auto: {}\n", judged.chosen);
   fmt::print(
       "  generated in {}, {} in {}, integrated in {}: {} steps, {} rejected, {} evaluations\n",
       duration_text(run.generate_seconds),
@@ -143,8 +144,29 @@ void print_text(const SceneRun& run, const Answer& answer, const Method& method,
     fmt::print("  {:<10} {:>25}   drift {:.1e}\n", s.invariant_names[i],
                exact_text(trajectory.invariants[i].final), trajectory.invariants[i].drift);
   }
+  if (judged.trust.known)
+    fmt::print("  error of the state about {:.0e}; small changes of the start grow {:.0e} times\n",
+               judged.trust.error_estimate, judged.trust.conditioning);
   for (const LeftOut& item : s.left_out)
     fmt::print("  left out: {} {}, {}\n", item.kind, item.name, item.reason);
+  for (const std::string& warning : judged.warnings) fmt::print("  warning: {}\n", warning);
+}
+
+/// What a run that stopped early says beside its answer. \return  the exit status
+int report_stop(const SceneRun& run, const JudgedRun& judged) {
+  const Trajectory& trajectory = judged.trajectory;
+  std::string state;
+  for (std::size_t i = 0; i < run.specialisation.states.size(); ++i) {
+    state += fmt::format("{}{} = {:.6g}", i == 0 ? "" : ", ", run.specialisation.states[i],
+                         trajectory.state[i]);
+  }
+  std::cout.flush();
+  const bool ended = trajectory.status == Status::drift_exceeded;
+  std::cerr << fmt::format("casimir: error: the integration {} t = {}: {}\n  {}: {}\n  hint: {}\n",
+                           ended ? "cannot be trusted to" : "stopped at",
+                           exact_text(trajectory.time), trajectory.reason,
+                           ended ? "state" : "last good state", state, judged.advice);
+  return trajectory.status == Status::stopped ? kEnvironment : kNotContinued;
 }
 
 SceneOptions scene_options(const Options& options) {
@@ -174,45 +196,25 @@ int integrate_case(const Options& options) {
       options.kept.model_of(load_case(options.case_name), options.common.parameter_values()),
       options.in);
   const Scene& scene = model.scene(options.common.scene);
-  const Method& method = method_named(options.method);
+  method_named(options.method);  // throws where there is none
   const SceneRun run = prepare(model, scene, scene_options(options));
   const Answer answer(model, run, options.as);
-  Settings settings = settings_for(options.run, run);
-  settings.give_up = time_limit(options.common.time_limit);
-  if (!options.output.empty())
-    settings.sample_every = options.every > 0 ? options.every : std::abs(settings.duration) / 1000;
   if (options.every > 0 && options.output.empty())
     throw UsageError("--every needs --output FILE.csv");
-  const CompiledModule compiled = compile_for(run, method);
-  Trajectory trajectory;
-  try {
-    trajectory = integrate(compiled.module, method, settings, run.initial, run.parameters);
-  } catch (const std::invalid_argument& problem) {
-    throw UsageError(problem.what());
-  }
-  const Trust trust = assess(run, compiled, method, settings, trajectory);
-  if (!options.output.empty()) write_samples(options.output, answer, trajectory);
+  JudgedOptions how{options.method, options.run, options.common.time_limit};
+  if (!options.output.empty())
+    how.sample_every = options.every > 0 ? options.every
+                                         : std::abs(settings_for(options.run, run).duration) / 1000;
+  const JudgedRun judged = integrate_judged(model, run, how);
+  if (!options.output.empty()) write_samples(options.output, answer, judged.trajectory);
   if (options.common.json) {
-    std::cout << to_json(model, run, answer, method, settings, compiled, trajectory, trust).dump(2)
-              << '\n';
+    std::cout << to_json(model, run, answer, judged).dump(2) << '\n';
   } else if (!options.common.quiet) {
-    print_text(run, answer, method, settings, compiled, trajectory);
-    if (!compiled.warning.empty()) fmt::print("  warning: {}\n", compiled.warning);
-    for (const std::string& warning : warnings_of(trust)) fmt::print("  warning: {}\n", warning);
+    print_text(run, answer, judged);
     if (!options.output.empty())
-      fmt::print("  wrote {} states to {}\n", trajectory.samples.size(), options.output);
+      fmt::print("  wrote {} states to {}\n", judged.trajectory.samples.size(), options.output);
   }
-  if (trajectory.status == Status::ok) return kDone;
-  std::string state;
-  for (std::size_t i = 0; i < run.specialisation.states.size(); ++i) {
-    state += fmt::format("{}{} = {:.6g}", i == 0 ? "" : ", ", run.specialisation.states[i],
-                         trajectory.state[i]);
-  }
-  std::cout.flush();
-  std::cerr << fmt::format(
-      "casimir: error: the integration stopped at t = {}: {}\n  last good state: {}\n  hint: {}\n",
-      exact_text(trajectory.time), trajectory.reason, state, advice(trajectory.status));
-  return trajectory.status == Status::stopped ? kEnvironment : kNotContinued;
+  return judged.trajectory.status == Status::ok ? kDone : report_stop(run, judged);
 }
 
 }  // namespace

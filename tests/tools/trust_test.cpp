@@ -1,0 +1,151 @@
+// How far a run can be believed: what `integrate` warns of, refuses, and says of its accuracy.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/tools/program.hpp"
+
+namespace casimir::test {
+namespace {
+
+/// A free top whose constant of motion is `integral`.
+std::string top(const std::string& initial, const std::string& duration,
+                const std::string& integral = "M1^2 + M2^2 + M3^2") {
+  return "title = \"top\"\nhamiltonian = \"(M1^2 + 2*M2^2 + 3*M3^2)/2\"\n[phase_space]\n"
+         "variables = [\"M1\", \"M2\", \"M3\"]\nalgebra = \"so(3)\"\n[integrals]\nF = \"" +
+         integral + "\"\n[[scene]]\nname = \"default\"\ninitial = { " + initial +
+         " }\nduration = \"" + duration + "\"\n";
+}
+
+struct Answered {
+  int status;
+  nlohmann::json json;
+};
+
+Answered integrated(const std::string& text, std::vector<std::string> more = {}) {
+  const Folder folder;
+  const std::string file = folder.write("scene.toml", text);
+  std::vector<std::string> arguments{"integrate", file, "--json"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const Outcome outcome = run_in(folder, arguments);
+  EXPECT_TRUE(outcome.status == 0 || outcome.status == 5) << outcome.err;
+  return {outcome.status, outcome.json()};
+}
+
+double number(const nlohmann::json& text) { return std::stod(text.get<std::string>()); }
+
+TEST(Trust, InvariantsBeyondTheRangeOfDoubleAreRight) {
+  for (const auto& [size, duration, square] :
+       {std::tuple{"200", "10*10^(-200)", "e+400"}, std::tuple{"(-200)", "10*10^200", "e-400"},
+        std::tuple{"0", "10", ""}}) {
+    const std::string factor = "*10^" + std::string(size);
+    const Answered run = integrated(
+        top("M1 = \"3" + factor + "\", M2 = \"1/10" + factor + "\", M3 = \"4" + factor + "\"",
+            duration));
+    EXPECT_EQ(run.status, 0);
+    const auto& invariants = run.json.at("invariants");
+    for (const char* name : {"H", "F"}) {
+      const std::string value = invariants.at(name).at("initial");
+      // 9 + 1/100 + 16 and (9 + 2/100 + 48)/2
+      EXPECT_EQ(value.substr(0, 4), name[0] == 'F' ? *square ? "2.50" : "25.0"
+                                    : *square      ? "2.85"
+                                                   : "28.5")
+          << value;
+      const double read = std::strtod(value.c_str(), nullptr);
+      EXPECT_EQ(std::isinf(read) || read == 0, *square != 0) << value;
+      const double drift = number(invariants.at(name).at("drift"));
+      EXPECT_LT(drift, 1e-13) << size;
+    }
+    EXPECT_GT(number(invariants.at("H").at("drift")) + number(invariants.at("F").at("drift")), 0);
+  }
+}
+
+TEST(Trust, ProvedIntegralThatDriftsTooFarEndsTheRun) {
+  // A kink of the potential, which the error estimate of a collocation method does not see.
+  const std::string kink =
+      "title = \"kink\"\nhamiltonian = \"p^2/2 + sqrt(q^2)\"\n[phase_space]\nvariables = [\"q\", "
+      "\"p\"]\ncanonical = true\n[[scene]]\nname = \"default\"\ninitial = { q = \"1\", p = "
+      "\"1/10\" }\nduration = \"40\"\n";
+  const Answered lost = integrated(kink, {"--method", "gauss4", "--tolerance", "1e-6"});
+  EXPECT_EQ(lost.status, 5);
+  EXPECT_EQ(lost.json.at("status"), "drift_exceeded");
+  const std::string reason = lost.json.at("stopped").at("reason");
+  EXPECT_NE(reason.find("H is proved"), std::string::npos) << reason;
+  EXPECT_GT(number(lost.json.at("invariants").at("H").at("drift")), 0.1);
+}
+
+TEST(Trust, FunctionThatIsNoIntegralAccusesItselfAndNotTheRun) {
+  const Answered run =
+      integrated(top("M1 = \"1\", M2 = \"1/2\", M3 = \"2\"", "10", "M1^2 + M2^2 + M3"));
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.json.at("status"), "ok");
+  const std::string warnings = run.json.at("warnings").dump();
+  EXPECT_NE(warnings.find("refuted"), std::string::npos) << warnings;
+  EXPECT_EQ(
+      integrated(top("M1 = \"1\", M2 = \"1/2\", M3 = \"2\"", "10")).json.at("warnings").size(), 0U);
+}
+
+TEST(Trust, ConditioningIsThatOfTheFlow) {
+  // x'' = x: the flow's derivative is cosh and sinh, and its larger column at t = 10 is exp(10)/2,
+  // along a solution that has grown as much itself; exp(-t) has not.
+  const auto saddle = [](const char* p) {
+    return std::string("title = \"saddle\"\nhamiltonian = \"(p^2 - q^2)/2\"\n[phase_space]\n") +
+           "variables = [\"q\", \"p\"]\ncanonical = true\n[[scene]]\nname = \"default\"\ninitial = "
+           "{ q = \"1\", p = \"" +
+           p + "\" }\nduration = \"10\"\n";
+  };
+  const Answered falling = integrated(saddle("-1"));
+  EXPECT_NEAR(number(falling.json.at("trust").at("conditioning")), std::cosh(10.), 200);
+  const Answered rotor = integrated(
+      "title = \"circle\"\nhamiltonian = \"(p^2 + q^2)/2\"\n[phase_space]\nvariables = [\"q\", "
+      "\"p\"]\ncanonical = true\n[[scene]]\nname = \"default\"\ninitial = { q = \"1\", p = \"0\" "
+      "}\nduration = \"1000\"\n");
+  // A rotation: the sum of the entries of a row, |cos| + |sin|, is at most sqrt(2).
+  EXPECT_NEAR(number(rotor.json.at("trust").at("conditioning")), 1.2, 0.25);
+}
+
+TEST(Trust, EndBeyondDoublePrecisionIsSaidWithTheTimeThatSixDigitsHold) {
+  const std::string saddle =
+      "title = \"saddle\"\nhamiltonian = \"(p^2 - q^2)/2\"\n[phase_space]\nvariables = [\"q\", "
+      "\"p\"]\ncanonical = true\n[[scene]]\nname = \"default\"\ninitial = { q = \"1\", p = \"-1\" "
+      "}\nduration = \"50\"\n";
+  const Answered run = integrated(saddle);
+  const auto& trust = run.json.at("trust");
+  EXPECT_EQ(trust.at("beyond_double"), true);
+  // 2^-53 exp(t)/2 = 1e-6
+  EXPECT_NEAR(number(trust.at("six_digits_until")), std::log(2e-6 * 0x1p53), 1.5);
+  EXPECT_NE(run.json.at("warnings").dump().find("--digits"), std::string::npos);
+  EXPECT_EQ(integrated(saddle, {"--duration", "5"}).json.at("trust").at("beyond_double"), false);
+}
+
+TEST(Trust, NearlySingularCoordinatesAreNamed) {
+  // A particle that passes the centre of polar coordinates at a distance of 1e-5.
+  const auto passing = [](const char* momentum) {
+    return "title = \"polar\"\nhamiltonian = \"(pr^2 + pphi^2/r^2)/2\"\n[phase_space]\nvariables = "
+           "[\"r\", \"phi\", \"pr\", \"pphi\"]\ncanonical = true\n[[scene]]\nname = \"default\"\n"
+           "initial = { r = \"1\", phi = \"0\", pr = \"-1\", pphi = \"" +
+           std::string(momentum) + "\" }\nduration = \"2\"\n";
+  };
+  const std::string near = integrated(passing("1/100000")).json.dump();
+  EXPECT_NE(near.find("nearly singular"), std::string::npos) << near;
+  EXPECT_NE(near.find("r = 1.00"), std::string::npos) << near;
+  EXPECT_EQ(integrated(passing("1/2")).json.dump().find("nearly singular"), std::string::npos);
+}
+
+TEST(Trust, LongRunsAreExtrapolated) {
+  const std::string text = top("M1 = \"1\", M2 = \"1/2\", M3 = \"2\"", "20000");
+  const Answered run = integrated(text);
+  const auto& trust = run.json.at("trust");
+  ASSERT_TRUE(trust.contains("extrapolated_from")) << trust;
+  EXPECT_LT(number(trust.at("extrapolated_from")), 20000);
+  // The phase of an integrable motion changes in proportion to the time.
+  const Answered part = integrated(text, {"--duration", "1000"});
+  EXPECT_FALSE(part.json.at("trust").contains("extrapolated_from"));
+  const double ratio =
+      number(trust.at("conditioning")) / number(part.json.at("trust").at("conditioning"));
+  EXPECT_GT(ratio, 10);
+  EXPECT_LT(ratio, 40);
+}
+
+}  // namespace
+}  // namespace casimir::test

@@ -1,0 +1,43 @@
+#include "tools/drift_check.hpp"
+
+#include <fmt/format.h>
+
+#include "tools/limited_prove.hpp"
+
+namespace casimir::tools {
+namespace {
+
+constexpr double kSeconds = 10;
+
+Verdict verdict_on(const Model& model, const std::string& invariant) {
+  Candidates candidates;
+  candidates.integrals.push_back({invariant, {"--integral", 1, 1}, invariant});
+  const std::vector<Proof> proofs = prove_within(kSeconds, model, candidates, {});
+  return proofs.empty() ? Verdict::undecided : proofs.front().verdict;
+}
+
+}  // namespace
+
+std::vector<std::string> check_drift(const Model& model, const std::vector<std::string>& names,
+                                     Trajectory& trajectory) {
+  std::vector<std::string> doubts;
+  for (std::size_t i = 0; i < trajectory.invariants.size(); ++i) {
+    const InvariantRecord& record = trajectory.invariants[i];
+    if (record.drift <= record.allowed) continue;
+    const Verdict verdict = verdict_on(model, names[i]);
+    if (verdict != Verdict::proved) {
+      doubts.push_back(
+          fmt::format("{} changes by {:.1e} of its size, and it is {} to be an integral", names[i],
+                      record.drift, verdict == Verdict::refuted ? "refuted" : "not proved"));
+    } else if (trajectory.status == Status::ok) {
+      trajectory.status = Status::drift_exceeded;
+      trajectory.reason = fmt::format(
+          "{} is proved to be an integral, but drifted by {:.1e} of its size, where the tolerance "
+          "allows {:.1e}",
+          names[i], record.drift, record.allowed);
+    }
+  }
+  return doubts;
+}
+
+}  // namespace casimir::tools
