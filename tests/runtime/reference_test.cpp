@@ -93,7 +93,7 @@ TEST(Reference, StopsWhenAsked) {
   const Reference stopped = reference_solution(kovalevskaya_program(), kStart, 1000000, 30, {},
                                                [&] { return ++asked > 3; });
   EXPECT_FALSE(stopped.reached);
-  EXPECT_EQ(stopped.reason, "stopped");
+  EXPECT_EQ(stopped.reason, reason_of(Status::stopped));
 }
 
 // Scales far from one cost nothing but a shift of exponents.
