@@ -69,7 +69,8 @@ class Search {
   void find_loss() {
     constexpr int kLeast = 12, kWorthwhile = 40;
     if (wanted_ < kWorthwhile) return;
-    for (int working = std::max(kLeast, wanted_ / 4); working < wanted_ && !stopped_; working *= 2) {
+    for (int working = std::max(kLeast, wanted_ / 4); working < wanted_ && !stopped_;
+         working *= 2) {
       compare(working, working);
       // Nothing in common: the loss is not known, only that it is more.
       if (best_.digits > 0 || best_.run.status != Status::ok) break;

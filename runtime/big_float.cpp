@@ -160,6 +160,8 @@ BigFloat A::weighted(const Series& u, const Series& v, int k, int from, int to) 
 }
 
 void A::begin_order(int k) const {
+  constexpr int kOrdersBetween = 16;
+  if (give_up && k % kOrdersBetween == 0 && give_up()) throw GivenUp{};
   if (bits > 0) BigFloat::set_precision(bits - bits * k / order + spare);
 }
 

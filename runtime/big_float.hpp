@@ -3,6 +3,7 @@
 #include <arb.h>
 #include <cln/real.h>
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -44,7 +45,7 @@ class BigFloat {
 
   friend BigFloat operator+(const BigFloat& a, const BigFloat& b) { return with(arf_add, a, b); }
   friend BigFloat operator-(const BigFloat& a, const BigFloat& b) { return with(arf_sub, a, b); }
-  friend BigFloat operator*(const BigFloat& a, const BigFloat& b) { 
+  friend BigFloat operator*(const BigFloat& a, const BigFloat& b) {
     BigFloat result;
     arf_mul(result.mid(), a.mid(), b.mid(), bits, ARF_RND_DOWN);
     return result;
@@ -125,13 +126,17 @@ struct Arithmetic<BigFloat> {
   static N convolution(const Series& u, const Series& v, int k, int from, int to);
   /// .. and of j u_j v_{k-j}.
   static N weighted(const Series& u, const Series& v, int k, int from, int to);
-  /// The bits of coefficients of order k.
+  /// Sets the bits of coefficients of order k. \throws GivenUp
   void begin_order(int k) const;
 
   slong bits = 0;  ///< of coefficients of order 0; 0: those of the thread, for all
   int order = 1;   ///< at which none of them but the spare ones are left
   slong spare = 0;
+  std::function<bool()> give_up = {};  ///< asked now and then along a series
 };
+
+/// Thrown out of a series that was given up.
+struct GivenUp {};
 
 /// With the digits of a CLN format.
 cln::cl_F to_cln(const BigFloat& value, cln::float_format_t format);

@@ -65,7 +65,10 @@ class Runner {
       integrate();
     } catch (const std::domain_error& problem) {
       stop(Status::singularity, std::string("the equations have no value here: ") + problem.what());
+    } catch (const GivenUp&) {
+      stop(Status::stopped, reason_of(Status::stopped));
     }
+    BigFloat::set_precision(bits_);
     finish();
     run_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return std::move(run_);
@@ -73,7 +76,10 @@ class Runner {
 
  private:
   void integrate() {
-    const Arithmetic<BigFloat> arithmetic{.bits = bits_, .order = order_, .spare = kSpareBits};
+    const Arithmetic<BigFloat> arithmetic{
+        .bits = bits_, .order = order_, .spare = kSpareBits, .give_up = [this] {
+          return given_up();
+        }};
     TaylorJet<BigFloat> jet(*problem_.rhs, arithmetic, parameters_, order_);
     const Envelope envelope{.bits = static_cast<double>(bits_), .slack = kSlack};
     while (!(time_ == end_) && may_step()) {
@@ -86,10 +92,14 @@ class Runner {
     }
   }
 
+  bool given_up() const {
+    return problem_.give_up && problem_.give_up(std::exp2(time_.log2() - end_.log2()));
+  }
+
   bool may_step() {
     if (problem_.max_steps > 0 && run_.steps == problem_.max_steps) {
       stop(Status::max_steps, reason_of(Status::max_steps));
-    } else if (problem_.give_up && problem_.give_up(std::exp2(time_.log2() - end_.log2()))) {
+    } else if (given_up()) {
       stop(Status::stopped, reason_of(Status::stopped));
     }
     return run_.status == Status::ok;
@@ -108,11 +118,11 @@ class Runner {
     if (singularity && singularity->distance.sign() == end_.sign()) {
       const BigFloat place = time_ + singularity->distance;
       const bool before_the_end = singularity->distance.log2() < (end_ - time_).log2();
-      if (before_the_end && singularity->log2_spread < place.log2() - resolution)
-        predicted = place;
+      if (before_the_end && singularity->log2_spread < place.log2() - resolution) predicted = place;
     }
     // A step that does not move the time: the disk of convergence has closed, whatever the reason.
-    const bool closed = run_.steps > 0 && step < time_.log2() - resolution - kGuardDigits * kLog2Of10;
+    const bool closed =
+        run_.steps > 0 && step < time_.log2() - resolution - kGuardDigits * kLog2Of10;
     const bool near = predicted && singularity->distance.log2() < predicted->log2() + kNear;
     const bool again = predicted && predicted_ &&
                        (*predicted - *predicted_).log2() < predicted->log2() - resolution;
@@ -209,8 +219,8 @@ class Runner {
       run_.samples.push_back(run_.state);
     }
     for (std::size_t i = 0; i < initial_.size(); ++i)
-      run_.invariants.push_back({to_cln(initial_[i], format_), to_cln(final_[i], format_),
-                                 to_cln(changes_[i], format_)});
+      run_.invariants.push_back(
+          {to_cln(initial_[i], format_), to_cln(final_[i], format_), to_cln(changes_[i], format_)});
   }
 
   const PreciseProblem& problem_;

@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 /// The digits of round(|x| 10^shift).
 std::string scaled_digits(const cln::cl_RA& x, long shift) {
   const cln::cl_I power = cln::expt_pos(cln::cl_I(10), cln::cl_I(std::max(std::abs(shift), 1L)));
-  const cln::cl_RA scaled = shift > 0 ? cln::cl_RA(cln::abs(x) * power)
+  const cln::cl_RA scaled = shift > 0   ? cln::cl_RA(cln::abs(x) * power)
                             : shift < 0 ? cln::cl_RA(cln::abs(x) / power)
                                         : cln::abs(x);
   std::ostringstream text;
@@ -39,7 +39,8 @@ std::string laid_out(std::string digits, long exponent, long most) {
     if (digits.size() > 1) digits.insert(1, ".");
     return fmt::format("{}e{}{:02}", digits, exponent < 0 ? '-' : '+', std::abs(exponent));
   }
-  if (exponent < 0) return "0." + std::string(static_cast<std::size_t>(-exponent - 1), '0') + digits;
+  if (exponent < 0)
+    return "0." + std::string(static_cast<std::size_t>(-exponent - 1), '0') + digits;
   const auto whole = static_cast<std::size_t>(exponent) + 1;
   if (digits.size() <= whole) return digits + std::string(whole - digits.size(), '0');
   return digits.insert(whole, ".");
@@ -102,8 +103,7 @@ std::vector<InvariantTexts> invariant_texts(const DigitsReport& report) {
     const PreciseInvariant& one = agreed.run.invariants[i];
     const PreciseInvariant& other = agreed.checked ? agreed.check.invariants[i] : one;
     texts.push_back({sure_text(one.initial, other.initial, report.digits),
-                     sure_text(one.final, other.final, report.digits),
-                     drift_text(one, sizes[i])});
+                     sure_text(one.final, other.final, report.digits), drift_text(one, sizes[i])});
   }
   return texts;
 }
@@ -111,14 +111,9 @@ std::vector<InvariantTexts> invariant_texts(const DigitsReport& report) {
 Json trust_json(const DigitsReport& report) {
   const AgreedRun& agreed = report.agreed;
   // What is read is exact, and nothing of it is held in doubles.
-  Json trust = {{"conditioning", nullptr},
-                {"input_rounding", "0"},
-                {"error_estimate", nullptr},
-                {"beyond_double", false},
-                {"digits", nullptr},
-                {"digits_lost", nullptr},
-                {"checked_by", nullptr},
-                {"runs", agreed.runs}};
+  Json trust = {{"conditioning", nullptr}, {"input_rounding", "0"}, {"error_estimate", nullptr},
+                {"beyond_double", false},  {"digits", nullptr},     {"digits_lost", nullptr},
+                {"checked_by", nullptr},   {"runs", agreed.runs}};
   if (!agreed.checked) return trust;
   trust["error_estimate"] = power_text(agreed.log10_error);
   trust["digits"] = agreed.digits;
@@ -216,9 +211,8 @@ Json to_json(const DigitsReport& report) {
   json["warnings"] = report.warnings();
   json["trust"] = trust_json(report);
   if (report.status() != Status::ok) {
-    json["stopped"] = {{"time", report.stop_time()},
-                       {"reason", report.reason()},
-                       {"advice", report.advice()}};
+    json["stopped"] = {
+        {"time", report.stop_time()}, {"reason", report.reason()}, {"advice", report.advice()}};
   }
   return json;
 }
@@ -243,8 +237,7 @@ void print_text(const DigitsReport& report) {
     fmt::print("  left out: {} {}, {}\n", item.kind, item.name, item.reason);
   if (agreed.checked) {
     fmt::print("  checked: runs with {} and {} digits differ by {}; the motion costs {} digits\n",
-               agreed.check.digits, agreed.run.digits, power_text(agreed.log10_error),
-               agreed.lost);
+               agreed.check.digits, agreed.run.digits, power_text(agreed.log10_error), agreed.lost);
   }
 }
 
@@ -260,9 +253,8 @@ void write_samples(const std::string& path, const DigitsReport& report) {
         k < checked && agreed_digits(agreed.check.sample_times[k], agreed.run.sample_times[k],
                                      report.digits) == report.digits;
     file.stream() << decimal_text(agreed.run.sample_times[k], report.digits);
-    for (const std::string& text :
-         sure_texts(agreed.run.samples[k], same_time ? &agreed.check.samples[k] : nullptr,
-                    report.digits))
+    for (const std::string& text : sure_texts(
+             agreed.run.samples[k], same_time ? &agreed.check.samples[k] : nullptr, report.digits))
       file.stream() << ',' << text;
     file.stream() << '\n';
   }

@@ -80,16 +80,18 @@ PreciseProblem problem_of(const DigitsRequest& request, const Specialisation& s)
   };
   if (!request.output.empty()) {
     // A thousandth of the duration, unless it is given.
-    constexpr int kSamples = 1000;
-    problem.sample_every =
-        request.every > 0 ? as_written(request.every)
-                          : cln::rational(cln::abs(problem.start(request.digits).back())) / kSamples;
+    constexpr int kSamples = 1000, kMostSamples = 10000000;
+    const cln::cl_RA duration = cln::rational(cln::abs(problem.start(request.digits).back()));
+    problem.sample_every = request.every > 0 ? as_written(request.every) : duration / kSamples;
+    if (duration > problem.sample_every * kMostSamples)
+      throw UsageError(
+          fmt::format("--every {}: more than {} samples", request.every, kMostSamples));
   }
   return problem;
 }
 
 AgreedRun run(const DigitsRequest& request, const Specialisation& s) {
-  Progress progress(!request.common.quiet && !request.common.json);
+  Progress progress(!request.common.quiet);
   PreciseProblem problem = problem_of(request, s);
   problem.give_up = [&progress, out_of_time = time_limit(request.common.time_limit)](double share) {
     progress.show(share);
