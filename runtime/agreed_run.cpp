@@ -25,15 +25,24 @@ double log10_difference(const cln::cl_F& a, const cln::cl_F& b) {
   return a == b ? kNoDifference : log10_of(a - b) - log10_of(b);
 }
 
-/// The same for the component of two states that differs most. One that is below the last digit of
-/// the largest, in both, is zero to that many digits.
-double log10_difference(const std::vector<cln::cl_F>& a, const std::vector<cln::cl_F>& b,
-                        const std::vector<double>& log2_sizes, int digits) {
-  const double size = kLog10Of2 * *std::max_element(log2_sizes.begin(), log2_sizes.end());
+double largest(const std::vector<double>& values) {
+  return *std::max_element(values.begin(), values.end());
+}
+
+/// The same for the component of two end states that differs most. One is zero to that many digits,
+/// and not compared, if it is below the last digit both of the state and of its own largest value
+/// along the run; or below far more digits of whatever there was.
+double log10_difference(const PreciseRun& a, const PreciseRun& b, int digits) {
+  const int far = 2 * digits + 200;
+  std::vector<double> sizes, state;
+  for (const double size : b.log2_sizes) sizes.push_back(kLog10Of2 * size);
+  for (std::size_t i = 0; i < b.state.size(); ++i)
+    state.push_back(std::max(log10_of(a.state[i]), log10_of(b.state[i])));
   double difference = kNoDifference;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (std::max(log10_of(a[i]), log10_of(b[i])) > size - digits)
-      difference = std::max(difference, log10_difference(a[i], b[i]));
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const bool zero =
+        state[i] < std::min(sizes[i], largest(state)) - digits || state[i] < largest(sizes) - far;
+    if (!zero) difference = std::max(difference, log10_difference(a.state[i], b.state[i]));
   }
   return difference;
 }
@@ -59,7 +68,9 @@ class Search {
       if (best_.digits >= wanted_) break;
       // A state beside a singularity may have no more digits however many are spent.
       if (best_.run.status != Status::ok && round > 1) break;
-      working = std::max(working + kMoreDigits, wanted_ + best_.lost);
+      // Nothing in common: the loss is not known, only that it is more.
+      working =
+          best_.digits == 0 ? 2 * working : std::max(working + kMoreDigits, wanted_ + best_.lost);
     }
     return std::move(best_);
   }
@@ -72,7 +83,6 @@ class Search {
     for (int working = std::max(kLeast, wanted_ / 4); working < wanted_ && !stopped_;
          working *= 2) {
       compare(working, working);
-      // Nothing in common: the loss is not known, only that it is more.
       if (best_.digits > 0 || best_.run.status != Status::ok) break;
     }
   }
@@ -108,8 +118,7 @@ class Search {
     if (next.checked && next.run.singular_time && next.check.singular_time) {
       next.log10_error = log10_difference(*next.check.singular_time, *next.run.singular_time);
     } else if (next.checked && log10_difference(next.check.time, next.run.time) < -working) {
-      next.log10_error =
-          log10_difference(next.check.state, next.run.state, next.run.log2_sizes, most);
+      next.log10_error = log10_difference(next.check, next.run, most);
     }
     // Two runs that are equal by chance still have no more digits than they were made with.
     next.log10_error = std::max(next.log10_error, -static_cast<double>(next.run.digits));

@@ -13,8 +13,8 @@ struct AgreedRun {
   PreciseRun run;    ///< the better one
   PreciseRun check;  ///< its state is at the same time; empty where `checked` is false
   bool checked = false;
-  /// Digits in which the states agree, at most those asked for; of a component that is zero beside
-  /// the others to that many digits nothing is asked.
+  /// Digits in which the states agree, at most those asked for. A component that is zero to that
+  /// many digits of the state and of its own largest value is not counted.
   int digits = 0;
   double log10_error = 0;  ///< of the check: the largest relative difference behind `digits`
   int lost = 0;            ///< digits that the motion magnified errors by

@@ -17,8 +17,7 @@ struct Reference {
   std::string reason;
   std::vector<cln::cl_F> state;  ///< at `time`
   cln::cl_R time;
-  /// The largest relative difference of a component to a run with ten digits less (a component
-  /// below the last digit of the largest one is not counted).
+  /// The largest relative difference of a component to a run with ten digits less, see `AgreedRun`.
   double error_bound = 0;
   int digits = 0;  ///< of the second run
   unsigned long steps = 0;

@@ -141,13 +141,39 @@ TEST(PreciseRun, LostDigitsAreFoundAndMadeUpFor) {
   b.output(b.op(Op::neg, 1));
   const Program program = b.program();
   const cln::cl_RA third("1/3");
-  const AgreedRun agreed = agreed_run(problem(program, {third * 7 / 4, third, 60}), 50);
-  ASSERT_EQ(agreed.run.status, Status::ok) << agreed.run.reason;
-  EXPECT_EQ(agreed.digits, 50);
-  EXPECT_GT(agreed.lost, 80);
-  const cln::cl_F truth = cln::exp(cln::cl_float(-60, cln::float_format(100))) / 12 *
-                          cln::cl_float(7, cln::float_format(100));
-  EXPECT_EQ(agreed_digits(agreed.run.state[0], truth, 50), 50);
+  for (const auto& [digits, end] : {std::pair(50, 60), std::pair(17, 200)}) {
+    const AgreedRun agreed = agreed_run(problem(program, {third * 7 / 4, third, end}), digits);
+    ASSERT_EQ(agreed.run.status, Status::ok) << agreed.run.reason;
+    EXPECT_EQ(agreed.digits, digits);
+    EXPECT_GT(agreed.lost, 80);
+    const cln::cl_F truth = cln::exp(cln::cl_float(-end, cln::float_format(100))) / 12 *
+                            cln::cl_float(7, cln::float_format(100));
+    EXPECT_EQ(agreed_digits(agreed.run.state[0], truth, digits), digits);
+  }
+}
+
+// q = sin(t) and x = sin(t) at Pi: a zero has no digits, beside a state that is not zero or alone.
+TEST(PreciseRun, ZeroesAreNotWaitedFor) {
+  Builder circle({"q", "p"});
+  circle.output(1);
+  circle.output(circle.op(Op::neg, 0));
+  Builder alone({"x"});
+  alone.output(alone.op(Op::cos, alone.time()));
+  const Program both = circle.program(), one = alone.program();
+  for (const Program* program : {&both, &one}) {
+    PreciseProblem asked;
+    asked.rhs = program;
+    asked.start = [&](int digits) {
+      std::vector<cln::cl_R> start(program->outputs.size(), 0);
+      if (start.size() == 2) start[1] = 1;
+      start.push_back(cln::pi(cln::float_format(static_cast<uintE>(digits))));
+      return start;
+    };
+    const AgreedRun agreed = agreed_run(asked, 20);
+    EXPECT_EQ(agreed.run.status, Status::ok);
+    EXPECT_EQ(agreed.digits, 20);
+    EXPECT_LT(cln::abs(agreed.run.state[0]), decimal("1.0e-25"));
+  }
 }
 
 TEST(PreciseRun, SamplesAreOfTheSolution) {
