@@ -17,18 +17,14 @@ struct Reference {
   std::string reason;
   std::vector<cln::cl_F> state;  ///< at `time`
   cln::cl_R time;
-  /// A bound of the largest relative error of a component (of those tiny beside the others,
-  /// relative to them): the difference to a run with ten digits less, times 1e-6.
+  /// The largest relative difference of a component to a run with ten digits less, see `AgreedRun`.
   double error_bound = 0;
   int digits = 0;  ///< of the second run
   unsigned long steps = 0;
 };
 
-/// Integrates from time 0 by Taylor series of high order over CLN floats, on the very program that
-/// the generated code is written from. Two runs, the second with more digits and order, and further
-/// ones (four at most) with as many more as were lost, until two agree to the digits asked for; if
-/// they never do, `error_bound` says so. Cost: about order^2 products of long numbers for each
-/// multiplication of the program and step; order and steps grow like the digits.
+/// Integrates from time 0 by `agreed_run`: repeats the run with more digits until two of them agree
+/// to the digits asked for; if they never do, `error_bound` says so.
 /// \param initial   one number for each state; exact numbers stay exact until they are rounded to
 ///                  the working precision.
 /// \param duration  may be negative or zero.

@@ -49,6 +49,7 @@ class TaylorJet {
   const std::vector<std::vector<Number>>& expand(const Number& t, const std::vector<Number>& x,
                                                  const Number& unit) {
     unit_ = unit;
+    begin_order(0);
     if (!constants_known_) find_constants();
     for (std::size_t i = 0; i < x.size(); ++i) states_[i][0] = x[i];
     for (std::size_t i = 0; i < program_.code.size(); ++i) {
@@ -56,16 +57,55 @@ class TaylorJet {
     }
     advance(0);
     for (int k = 1; k < order_; ++k) {
+      begin_order(k);
       for (std::size_t i = 0; i < program_.code.size(); ++i) {
         if (!constant_[i]) extend(i, k);
       }
       advance(k);
     }
+    begin_order(0);
     return states_;
+  }
+
+  /// The series of the last expansion that can end sooner than those of the states: of operations
+  /// that have singularities of their own.
+  std::vector<const std::vector<Number>*> singular_series() const {
+    std::vector<const std::vector<Number>*> result;
+    for (std::size_t i = 0; i < program_.code.size(); ++i) {
+      if (!constant_[i] && may_be_singular(program_.code[i])) result.push_back(&series_[i]);
+    }
+    return result;
   }
 
  private:
   using Series = std::vector<Number>;
+
+  /// Whether the arithmetic has scalar products of its own, and wants to know the order.
+  static constexpr bool kHasSums = requires(const Arithmetic<Number>& m, const Series& s) {
+    m.convolution(s, s, 0, 0, 0);
+    m.weighted(s, s, 0, 0, 0);
+    m.begin_order(0);
+  };
+  void begin_order(int k) const {
+    if constexpr (kHasSums) arithmetic_.begin_order(k);
+  }
+
+  bool may_be_singular(const Instruction& line) const {
+    switch (line.op) {
+      case Op::div:
+        return !constant_[index(line.b)];
+      case Op::pow:
+      case Op::sqrt:
+      case Op::log:
+      case Op::tan:
+      case Op::asin:
+      case Op::acos:
+      case Op::atan2:
+        return true;
+      default:
+        return false;
+    }
+  }
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   const Number& integer(int k) const { return integers_[index(k)]; }
@@ -113,11 +153,13 @@ class TaylorJet {
 
   /// sum over j = from..to of u_j v_{k-j}
   Number convolution(const Series& u, const Series& v, int k, int from, int to) const {
+    if constexpr (kHasSums) return arithmetic_.convolution(u, v, k, from, to);
     return sum_of(from, to, [&](int j) -> Number { return u[index(j)] * v[index(k - j)]; });
   }
 
   /// sum over j = from..to of j u_j v_{k-j}
   Number weighted(const Series& u, const Series& v, int k, int from, int to) const {
+    if constexpr (kHasSums) return arithmetic_.weighted(u, v, k, from, to);
     return sum_of(from, to,
                   [&](int j) -> Number { return integer(j) * u[index(j)] * v[index(k - j)]; });
   }

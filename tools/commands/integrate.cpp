@@ -9,6 +9,7 @@
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
+#include "tools/digits_run.hpp"
 #include "tools/ensemble_run.hpp"
 #include "tools/generated_report.hpp"
 #include "tools/judged_run.hpp"
@@ -31,6 +32,7 @@ struct Options {
   std::vector<std::string> observe;
   double every = 0;
   int jobs = 0;
+  std::optional<int> digits;
   bool general = false;
 };
 
@@ -190,6 +192,12 @@ int integrate_members_of(const Options& options) {
 }
 
 int integrate_case(const Options& options) {
+  if (options.digits) {
+    if (!options.ensemble.empty()) throw UsageError("--digits does not go with --ensemble");
+    return integrate_with_digits({options.common, options.run, options.kept, options.case_name,
+                                  options.in, options.as, options.method, options.output,
+                                  options.every, *options.digits, scene_options(options)});
+  }
   if (!options.ensemble.empty()) return integrate_members_of(options);
   if (options.jobs > 0) throw UsageError("--jobs needs --ensemble FILE.csv");
   const Model model = in_variables(
@@ -246,6 +254,10 @@ void register_integrate(CLI::App& program, Action& action) {
                    "Integrate many at once: a CSV file whose first line names variables and "
                    "parameters, with a line for each member")
       ->type_name("FILE.csv");
+  command
+      ->add_option("--digits", options->digits,
+                   "Integrate with N decimal digits instead of double precision, by Taylor series")
+      ->type_name("N");
   command->add_option("--jobs", options->jobs, "Threads for an ensemble (default: all processors)")
       ->type_name("N")
       ->check(CLI::PositiveNumber);

@@ -10,7 +10,8 @@ logs=$build/logs
 # What casimir itself needs; tools/test adds to it.
 # shellcheck disable=SC2034
 packages=(g++ cmake ninja-build pkg-config gnuplot-nox
-  libginac-dev libcln-dev libeigen3-dev libflint-dev libtomlplusplus-dev libcli11-dev
+  libginac-dev libcln-dev libeigen3-dev libflint-dev libflint-arb-dev
+  libtomlplusplus-dev libcli11-dev
   nlohmann-json3-dev libfmt-dev libsodium-dev libsundials-dev libboost-dev)
 
 say() { printf '%s\n' "$*"; }

@@ -1,0 +1,245 @@
+#include "runtime/precise_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "runtime/evaluate.hpp"
+#include "runtime/precise_step.hpp"
+#include "runtime/taylor_jet.hpp"
+
+namespace casimir {
+namespace {
+
+constexpr double kLog2Of10 = 3.321928094887362;
+constexpr int kGuardDigits = 8;
+constexpr double kOrderPerDigit = 1.15;  // ln(10) / 2
+constexpr double kSlack = 10;
+/// Bits that every coefficient has beyond those that the envelope of terms needs.
+constexpr slong kSpareBits = 40;
+/// A singularity is believed when predictions from different steps and orders agree to all but
+/// these digits, ..
+constexpr int kUncertainDigits = 8;
+/// .. and it is so much nearer than the way made.
+constexpr double kNear = -10;
+
+slong bits_for(int digits) {
+  return static_cast<slong>((digits + kGuardDigits) * kLog2Of10 + kSlack);
+}
+
+BigFloat value_at(const LongSeries& series, const BigFloat& h) {
+  BigFloat value = series.back();
+  for (std::size_t k = series.size() - 1; k-- > 0;) value = value * h + series[k];
+  return value;
+}
+
+/// One run; see `precise_run`.
+class Runner {
+ public:
+  Runner(const PreciseProblem& problem, int digits)
+      : problem_(problem),
+        digits_(digits),
+        bits_(bits_for(digits)),
+        precision_(bits_),
+        order_(static_cast<int>(kOrderPerDigit * (digits + kGuardDigits)) + 4),
+        format_(cln::float_format(static_cast<uintE>(digits + kGuardDigits))) {
+    const std::size_t states = problem.rhs->outputs.size();
+    std::vector<BigFloat> start;
+    for (const cln::cl_R& value : problem.start(digits + kGuardDigits)) start.emplace_back(value);
+    const auto middle = start.begin() + static_cast<std::ptrdiff_t>(states);
+    state_.assign(start.begin(), middle);
+    parameters_.assign(middle, start.end() - 1);
+    end_ = problem.end ? BigFloat(*problem.end) : start.back();
+    if (problem.mark) mark_ = BigFloat(*problem.mark);
+    run_.digits = digits;
+    run_.log2_sizes.assign(states, -std::numeric_limits<double>::infinity());
+  }
+
+  PreciseRun operator()() {
+    const auto begin = std::chrono::steady_clock::now();
+    follow_invariants();
+    record_sizes();
+    record_samples({}, time_);
+    try {
+      integrate();
+    } catch (const std::domain_error& problem) {
+      stop(Status::singularity, std::string("the equations have no value here: ") + problem.what());
+    } catch (const GivenUp&) {
+      stop(Status::stopped, reason_of(Status::stopped));
+    }
+    BigFloat::set_precision(bits_);
+    finish();
+    run_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return std::move(run_);
+  }
+
+ private:
+  void integrate() {
+    const Arithmetic<BigFloat> arithmetic{
+        .bits = bits_, .order = order_, .spare = kSpareBits, .give_up = [this] {
+          return given_up();
+        }};
+    TaylorJet<BigFloat> jet(*problem_.rhs, arithmetic, parameters_, order_);
+    const Envelope envelope{.bits = static_cast<double>(bits_), .slack = kSlack};
+    while (!(time_ == end_) && may_step()) {
+      const std::vector<LongSeries>& series = jet.expand(time_, state_);
+      BigFloat::set_precision(bits_);
+      const double step = log2_step(series, jet.singular_series(), envelope);
+      if (std::isnan(step)) return stop(Status::non_finite, reason_of(Status::non_finite));
+      if (meets_singularity(series, step)) return;
+      advance(series, step);
+    }
+  }
+
+  bool given_up() const {
+    return problem_.give_up && problem_.give_up(std::exp2(time_.log2() - end_.log2()));
+  }
+
+  bool may_step() {
+    if (problem_.max_steps > 0 && run_.steps == problem_.max_steps) {
+      stop(Status::max_steps, reason_of(Status::max_steps));
+    } else if (given_up()) {
+      stop(Status::stopped, reason_of(Status::stopped));
+    }
+    return run_.status == Status::ok;
+  }
+
+  void stop(Status status, std::string reason) {
+    run_.status = status;
+    run_.reason = std::move(reason);
+  }
+
+  /// Whether the solution ends on this side of the end of the run.
+  bool meets_singularity(const std::vector<LongSeries>& series, double step) {
+    const double resolution = (digits_ - kUncertainDigits) * kLog2Of10;
+    const std::optional<Singularity> singularity = nearest_singularity(series);
+    std::optional<BigFloat> predicted;
+    if (singularity && singularity->distance.sign() == end_.sign()) {
+      const BigFloat place = time_ + singularity->distance;
+      const bool before_the_end = singularity->distance.log2() < (end_ - time_).log2();
+      if (before_the_end && singularity->log2_spread < place.log2() - resolution) predicted = place;
+    }
+    // A step that does not move the time: the disk of convergence has closed, whatever the reason.
+    const bool closed =
+        run_.steps > 0 && step < time_.log2() - resolution - kGuardDigits * kLog2Of10;
+    const bool near = predicted && singularity->distance.log2() < predicted->log2() + kNear;
+    const bool again = predicted && predicted_ &&
+                       (*predicted - *predicted_).log2() < predicted->log2() - resolution;
+    predicted_ = predicted;
+    if (!closed && !(near && again)) return false;
+    run_.singular_time = to_cln(predicted ? *predicted : time_, format_);
+    stop(Status::singularity, reason_of(Status::singularity));
+    return true;
+  }
+
+  void advance(const std::vector<LongSeries>& series, double log2_size) {
+    const BigFloat left = end_ - time_;
+    const bool last = log2_size >= left.log2();
+    BigFloat h = left;
+    if (!last) {
+      // A short number: the times of steps stay short as well, and exact.
+      const double whole = std::floor(log2_size);
+      const double digits = std::floor(std::exp2(log2_size - whole) * 0x1p16) * 0x1p-16;
+      arf_set_d(h.mid(), end_.sign() < 0 ? -digits : digits);
+      arf_mul_2exp_si(h.mid(), h.mid(), static_cast<slong>(whole));
+    }
+    const BigFloat next = last ? end_ : time_ + h;
+    record_samples(series, next);
+    if (mark_ && !passed(time_, *mark_) && !passed(*mark_, next))
+      run_.at_mark = rounded(at(series, *mark_));
+    for (std::size_t i = 0; i < state_.size(); ++i) state_[i] = value_at(series[i], h);
+    time_ = next;
+    ++run_.steps;
+    record_sizes();
+    follow_invariants();
+  }
+
+  /// Whether a is beyond b in the direction of the run.
+  bool passed(const BigFloat& a, const BigFloat& b) const {
+    return end_.sign() < 0 ? a < b : b < a;
+  }
+
+  std::vector<BigFloat> at(const std::vector<LongSeries>& series, const BigFloat& time) const {
+    std::vector<BigFloat> state;
+    for (const LongSeries& s : series) state.push_back(value_at(s, time - time_));
+    return state;
+  }
+
+  std::vector<cln::cl_F> rounded(const std::vector<BigFloat>& values) const {
+    std::vector<cln::cl_F> result;
+    for (const BigFloat& value : values) result.push_back(to_cln(value, format_));
+    return result;
+  }
+
+  void record_sizes() {
+    for (std::size_t i = 0; i < state_.size(); ++i)
+      run_.log2_sizes[i] = std::max(run_.log2_sizes[i], state_[i].log2());
+  }
+
+  /// The samples up to the next time; at the start the state itself.
+  void record_samples(const std::vector<LongSeries>& series, const BigFloat& next) {
+    if (!cln::plusp(problem_.sample_every)) return;
+    for (;; ++sample_) {
+      const BigFloat time(end_.sign() < 0 ? -problem_.sample_every * sample_
+                                          : problem_.sample_every * sample_);
+      if (passed(time, next) || (sample_ > 0 && !passed(end_, time))) return;
+      run_.sample_times.push_back(to_cln(time, format_));
+      run_.samples.push_back(rounded(series.empty() ? state_ : at(series, time)));
+      if (series.empty() && next.is_zero()) {
+        ++sample_;
+        return;
+      }
+    }
+  }
+
+  void follow_invariants() {
+    if (problem_.invariants == nullptr) return;
+    std::vector<BigFloat> inputs = state_;
+    inputs.insert(inputs.end(), parameters_.begin(), parameters_.end());
+    inputs.push_back(time_);
+    final_ = evaluate(*problem_.invariants, inputs, Arithmetic<BigFloat>{});
+    if (initial_.empty()) {
+      initial_ = final_;
+      changes_.resize(initial_.size());
+    }
+    for (std::size_t i = 0; i < final_.size(); ++i) {
+      BigFloat change = final_[i] - initial_[i];
+      if (change.sign() < 0) change = -change;
+      if (changes_[i] < change) changes_[i] = std::move(change);
+    }
+  }
+
+  void finish() {
+    run_.time = to_cln(time_, format_);
+    run_.state = rounded(state_);
+    if (mark_ && time_ == *mark_) run_.at_mark = run_.state;
+    if (cln::plusp(problem_.sample_every) && run_.sample_times.back() != run_.time) {
+      run_.sample_times.push_back(run_.time);
+      run_.samples.push_back(run_.state);
+    }
+    for (std::size_t i = 0; i < initial_.size(); ++i)
+      run_.invariants.push_back(
+          {to_cln(initial_[i], format_), to_cln(final_[i], format_), to_cln(changes_[i], format_)});
+  }
+
+  const PreciseProblem& problem_;
+  int digits_;
+  slong bits_;
+  Precision precision_;
+  int order_;
+  cln::float_format_t format_;
+  std::vector<BigFloat> state_, parameters_, initial_, final_, changes_;
+  BigFloat time_, end_;
+  std::optional<BigFloat> mark_, predicted_;
+  cln::cl_I sample_ = 0;
+  PreciseRun run_;
+};
+
+}  // namespace
+
+PreciseRun precise_run(const PreciseProblem& problem, int digits) {
+  return Runner(problem, digits)();
+}
+
+}  // namespace casimir

@@ -1,0 +1,231 @@
+// Multiprecision runs against closed forms, and what they say where there is no end to reach.
+#include <cln/float_io.h>
+#include <cln/input.h>
+#include <cln/real_io.h>
+#include <gtest/gtest.h>
+
+#include <boost/math/special_functions/jacobi_elliptic.hpp>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include "runtime/agreed_run.hpp"
+#include "tests/runtime/programs.hpp"
+
+namespace casimir::test {
+namespace {
+
+cln::cl_F decimal(const std::string& text) {
+  const cln::float_format_t format = cln::float_format(300);
+  const cln::cl_read_flags flags = {
+      cln::syntax_float, cln::lsyntax_standard, 10, {format, format, false}};
+  return cln::cl_float(cln::read_float(flags, text.c_str(), nullptr, nullptr), format);
+}
+
+/// The program with exact numbers: initial values, then the duration.
+PreciseProblem problem(const Program& program, const std::vector<cln::cl_R>& start) {
+  PreciseProblem result;
+  result.rhs = &program;
+  result.start = [start](int) { return start; };
+  return result;
+}
+
+/// x' = x^2, whose solution from 1 is 1/(1 - t).
+Program riccati() {
+  Builder b({"x"});
+  b.output(b.op(Op::mul, 0, 0));
+  return b.program();
+}
+
+Program pendulum() {
+  Builder b({"q", "p"});
+  b.output(1);
+  b.output(b.op(Op::neg, b.op(Op::sin, 0)));
+  return b.program();
+}
+
+TEST(PreciseRun, SquareReachesOneMillionToAllDigits) {
+  const Program program = riccati();
+  for (const int digits : {17, 50, 200}) {
+    const AgreedRun agreed =
+        agreed_run(problem(program, {1, cln::cl_RA("999999/1000000")}), digits);
+    ASSERT_EQ(agreed.run.status, Status::ok) << agreed.run.reason;
+    EXPECT_EQ(agreed.digits, digits);
+    const cln::cl_F truth = cln::cl_float(1000000, cln::float_format(300));
+    EXPECT_EQ(agreed_digits(agreed.run.state[0], truth, digits), digits);
+  }
+}
+
+TEST(PreciseRun, OneThousandDigits) {
+  const Program program = riccati();
+  const AgreedRun agreed = agreed_run(problem(program, {1, cln::cl_RA("1/4")}), 1000);
+  const cln::cl_F truth = cln::cl_float(cln::cl_RA("4/3"), cln::float_format(1200));
+  EXPECT_EQ(agreed_digits(agreed.run.state[0], truth, 1000), 1000);
+}
+
+// From the lowest point with the velocity 2k: sin(q/2) = k sn(t, k), q' = 2k cn(t, k).
+TEST(PreciseRun, PendulumSwingsLikeTheEllipticSine) {
+  using Long = boost::multiprecision::cpp_bin_float_100;
+  const Program program = pendulum();
+  const Long k = Long(3) / 5, t = 20;
+  const AgreedRun agreed = agreed_run(problem(program, {0, cln::cl_RA("6/5"), 20}), 80);
+  ASSERT_EQ(agreed.run.status, Status::ok) << agreed.run.reason;
+  const Long angle = 2 * asin(k * boost::math::jacobi_sn(k, t));
+  const Long velocity = 2 * k * boost::math::jacobi_cn(k, t);
+  EXPECT_EQ(agreed_digits(agreed.run.state[0], decimal(angle.str(99, std::ios::scientific)), 80),
+            80);
+  EXPECT_EQ(agreed_digits(agreed.run.state[1], decimal(velocity.str(99, std::ios::scientific)), 80),
+            80);
+}
+
+TEST(PreciseRun, BackwardAndNowhere) {
+  const Program program = pendulum();
+  const AgreedRun there = agreed_run(problem(program, {0, 1, -7}), 60);
+  const AgreedRun mirrored = agreed_run(problem(program, {0, -1, 7}), 60);
+  EXPECT_EQ(agreed_digits(there.run.state[0], mirrored.run.state[0], 60), 60);
+  const AgreedRun nowhere = agreed_run(problem(program, {0, 1, 0}), 60);
+  EXPECT_EQ(nowhere.run.status, Status::ok);
+  EXPECT_EQ(nowhere.digits, 60);
+  EXPECT_TRUE(cln::zerop(nowhere.run.state[0]));
+}
+
+TEST(PreciseRun, PoleIsKnownToAllDigits) {
+  const Program program = riccati();
+  const AgreedRun agreed = agreed_run(problem(program, {3, 2}), 100);
+  EXPECT_EQ(agreed.run.status, Status::singularity);
+  ASSERT_TRUE(agreed.run.singular_time);
+  EXPECT_TRUE(agreed.checked);
+  EXPECT_EQ(agreed.digits, 100);
+  const cln::cl_F third = cln::cl_float(cln::cl_RA("1/3"), cln::float_format(200));
+  EXPECT_GE(agreed_digits(*agreed.run.singular_time, third, 100), 100);
+  // The state left is that of a time before it.
+  EXPECT_LT(agreed.run.time, third);
+  const cln::cl_F truth = cln::cl_float(1, third) / (third - agreed.run.time);
+  EXPECT_GE(agreed_digits(agreed.run.state[0], truth, 100), 80);
+}
+
+// x' = -1/(2x): x = sqrt(1 - t) comes to an end at 1 with a finite value. x' = exp(x) from 0:
+// x = -log(1 - t).
+TEST(PreciseRun, EndsThatAreNoPoles) {
+  Builder root({"x"});
+  root.output(root.op(Op::div, root.number(cln::cl_RA("-1/2")), 0));
+  Builder logarithm({"x"});
+  logarithm.output(logarithm.op(Op::exp, 0));
+  const Program first = root.program(), second = logarithm.program();
+  for (const auto& [program, start] : {std::pair(&first, 1), std::pair(&second, 0)}) {
+    const AgreedRun agreed = agreed_run(problem(*program, {start, 2}), 40);
+    EXPECT_EQ(agreed.run.status, Status::singularity);
+    ASSERT_TRUE(agreed.run.singular_time);
+    const cln::cl_F one = cln::cl_float(1, cln::float_format(100));
+    EXPECT_GE(agreed_digits(*agreed.run.singular_time, one, 40), 40);
+  }
+}
+
+// Poles beside the real line, at 1 +- 1e-6 i, are passed: x' = 1 / ((t-1)^2 + e^2).
+TEST(PreciseRun, PolesBesideTheLineArePassed) {
+  Builder b({"x"});
+  const int d = b.op(Op::sub, b.time(), b.number(1));
+  const int square = b.op(Op::add, b.op(Op::mul, d, d), b.number(cln::cl_RA("1/1000000000000")));
+  b.output(b.op(Op::div, b.number(1), square));
+  const Program program = b.program();
+  const AgreedRun agreed = agreed_run(problem(program, {0, 2}), 40);
+  ASSERT_EQ(agreed.run.status, Status::ok) << agreed.run.reason;
+  const cln::cl_F million = cln::cl_float(1000000, cln::float_format(100));
+  const cln::cl_F truth = million * cln::cl_float(2 * cln::atan(million), million);
+  EXPECT_EQ(agreed_digits(agreed.run.state[0], truth, 40), 40);
+}
+
+// z = exp(-t)/3, x = 7z/4 is an unstable balance of x' = 3x - 7z: an error of x grows exp(4t) times
+// beside it.
+TEST(PreciseRun, LostDigitsAreFoundAndMadeUpFor) {
+  Builder b({"x", "z"});
+  b.output(b.op(Op::sub, b.op(Op::mul, b.number(3), 0), b.op(Op::mul, b.number(7), 1)));
+  b.output(b.op(Op::neg, 1));
+  const Program program = b.program();
+  const cln::cl_RA third("1/3");
+  for (const auto& [digits, end] : {std::pair(50, 60), std::pair(17, 200)}) {
+    const AgreedRun agreed = agreed_run(problem(program, {third * 7 / 4, third, end}), digits);
+    ASSERT_EQ(agreed.run.status, Status::ok) << agreed.run.reason;
+    EXPECT_EQ(agreed.digits, digits);
+    EXPECT_GT(agreed.lost, 80);
+    const cln::cl_F truth = cln::exp(cln::cl_float(-end, cln::float_format(100))) / 12 *
+                            cln::cl_float(7, cln::float_format(100));
+    EXPECT_EQ(agreed_digits(agreed.run.state[0], truth, digits), digits);
+  }
+}
+
+// q = sin(t) and x = sin(t) at Pi: a zero has no digits, beside a state that is not zero or alone.
+TEST(PreciseRun, ZeroesAreNotWaitedFor) {
+  Builder circle({"q", "p"});
+  circle.output(1);
+  circle.output(circle.op(Op::neg, 0));
+  Builder alone({"x"});
+  alone.output(alone.op(Op::cos, alone.time()));
+  const Program both = circle.program(), one = alone.program();
+  for (const Program* program : {&both, &one}) {
+    PreciseProblem asked;
+    asked.rhs = program;
+    asked.start = [&](int digits) {
+      std::vector<cln::cl_R> start(program->outputs.size(), 0);
+      if (start.size() == 2) start[1] = 1;
+      start.push_back(cln::pi(cln::float_format(static_cast<uintE>(digits))));
+      return start;
+    };
+    const AgreedRun agreed = agreed_run(asked, 20);
+    EXPECT_EQ(agreed.run.status, Status::ok);
+    EXPECT_EQ(agreed.digits, 20);
+    EXPECT_LT(cln::abs(agreed.run.state[0]), decimal("1.0e-25"));
+  }
+}
+
+TEST(PreciseRun, SamplesAreOfTheSolution) {
+  const Program program = riccati();
+  PreciseProblem asked = problem(program, {1, cln::cl_RA("9/10")});
+  asked.sample_every = cln::cl_RA("1/10");
+  const AgreedRun agreed = agreed_run(asked, 50);
+  ASSERT_EQ(agreed.run.samples.size(), 10U);
+  for (int k = 0; k < 10; ++k) {
+    const cln::cl_F truth = cln::cl_float(cln::cl_RA(10) / (10 - k), cln::float_format(100));
+    EXPECT_EQ(agreed_digits(agreed.run.samples[static_cast<std::size_t>(k)][0], truth, 50), 50)
+        << k;
+  }
+}
+
+TEST(PreciseRun, InvariantsStayToAllDigits) {
+  const Program program = pendulum();
+  Builder b({"q", "p"});
+  const int p2 = b.op(Op::mul, 1, 1);
+  b.output(b.op(Op::sub, b.op(Op::div, p2, b.number(2)), b.op(Op::cos, 0)));
+  const Program energy = b.program();
+  PreciseProblem asked = problem(program, {0, 1, 50});
+  asked.invariants = &energy;
+  const AgreedRun agreed = agreed_run(asked, 70);
+  ASSERT_EQ(agreed.run.invariants.size(), 1U);
+  EXPECT_LT(agreed.run.invariants[0].change, decimal("1.0e-70"));
+  EXPECT_GT(agreed.run.invariants[0].change, decimal("1.0e-100"));
+  EXPECT_EQ(agreed_digits(agreed.run.invariants[0].final, decimal("-0.5"), 70), 70);
+}
+
+TEST(PreciseRun, LimitsAreKept) {
+  const Program program = pendulum();
+  PreciseProblem asked = problem(program, {0, 1, 50});
+  asked.max_steps = 3;
+  const AgreedRun few = agreed_run(asked, 30);
+  EXPECT_EQ(few.run.status, Status::max_steps);
+  EXPECT_TRUE(few.checked);
+  EXPECT_EQ(few.digits, 30);  // of the state after three steps
+  EXPECT_LT(few.run.time, decimal("50.0"));
+  asked.max_steps = 0;
+  int left = 40;
+  asked.give_up = [&](double share) {
+    EXPECT_LE(share, 1);
+    return --left < 0;
+  };
+  const AgreedRun stopped = agreed_run(asked, 200);
+  EXPECT_EQ(stopped.run.status, Status::stopped);
+  // Also before the first step of a run with so many digits is done.
+  int asks = 0;
+  asked.give_up = [&](double) { return ++asks > 2; };
+  EXPECT_EQ(precise_run(asked, 3000).status, Status::stopped);
+}
+
+}  // namespace
+}  // namespace casimir::test

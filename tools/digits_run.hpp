@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "tools/cli.hpp"
+#include "tools/kept_parameters.hpp"
+#include "tools/run_options.hpp"
+
+namespace casimir::tools {
+
+/// What `integrate --digits N` was asked.
+struct DigitsRequest {
+  const Common& common;
+  const RunOptions& run;
+  const KeptParameters& kept;
+  std::string case_name, in, as, method, output;
+  double every = 0;
+  int digits = 0;
+  SceneOptions how;
+};
+
+/// Digits that double precision shows, and that a run can have in reasonable time and memory.
+inline constexpr int kLeastDigits = 17, kMostDigits = 5000;
+
+/// Integrates with that many decimal digits and reports those that are sure. \return exit status.
+int integrate_with_digits(const DigitsRequest& request);
+
+}  // namespace casimir::tools
