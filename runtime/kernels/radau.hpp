@@ -11,17 +11,18 @@ namespace radau {
 /// One step of the Radau IIA collocation method with s stages.
 ///
 /// Order 2s - 1, L-stable and stiffly accurate: for stiff and damped systems. What is solved for
-/// are the increments of the stages, iterated down to a small part of the tolerance or to rounding.
-/// The Jacobian and its factorisations are kept while the step is unchanged and the iteration
-/// contracts fast. It begins at the collocation polynomial of the last step.
+/// are the increments of the stages, iterated down to a small part of the tolerance or to rounding,
+/// from the collocation polynomial of the last step. The Jacobian and its factorisations are kept
+/// while the step is unchanged and the iteration contracts fast. Without a Jacobian in `System` the
+/// one of finite differences serves.
 ///
 /// The error estimate is the difference to a method of order s, through (gamma - h J)^-1, which
-/// takes from it what a stiff component does not feel; it behaves like h^(s + 1), and is therefore
+/// takes from it what a stiff component does not feel. It behaves like h^(s + 1), and is therefore
 /// compared with 0.01 rtol^((s + 1) / 2s) (Hairer, Wanner II, IV.8; J. Comput. Appl. Math. 111
-/// (1999) 93); atol is taken as it is, since components below it are seldom smooth. The dense
-/// output takes a shorter step of the same method from the collocation polynomial: of order 2s - 1
-/// too, and costs an implicit solve a point. Without a Jacobian in `System` the one of finite
-/// differences serves.
+/// (1999) 93, with a smaller factor, since stiff components do not have the full order); atol is
+/// taken as it is, since components below it are seldom smooth. The dense output takes a shorter
+/// step of the same method from the collocation polynomial: of order 2s - 1 too, and costs an
+/// implicit solve a point.
 template <class System, int s>
 struct Step {
   static constexpr int n = System::n, size = n * s;
@@ -34,7 +35,7 @@ struct Step {
   static constexpr double kFar = 4;       // no polynomial is extrapolated over as many steps
   static constexpr int kTurning = 20;     // steps after one whose stiff directions turned
 
-  double z[size], last_z[size];  // increments of the stages, of this step and of the last
+  double z[size] = {}, last_z[size] = {};  // increments of the stages, of this step and of the last
   double J[n * n];
   double increment[n], f[n], f1[n];
   double h = 0, last_h = 0, error = 0, last_error = 0;
