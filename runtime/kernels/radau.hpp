@@ -172,27 +172,26 @@ struct Step {
     return factored != 0;
   }
 
-  /// The estimated error of the step in units of what is allowed, for the derivative at the start.
+  /// The estimated error of the step in units of what is allowed, for the derivative at the start;
+  /// in f1 the estimate itself. The tolerance is raised for a component as far as the matrix left
+  /// its estimate as it was: what it took down is stiff, and has not the full order.
   double estimate(const double* x, const double* slope, bool adaptive) {
-    difference(slope);
-    double worst = 0;
+    double raw[n], worst = 0;
+    for (int i = 0; i < n; ++i) {
+      raw[i] = h * slope[i];
+      for (int j = 0; j < s; ++j) raw[i] += Table::e[j] * z[j * n + i];
+      f1[i] = raw[i];
+    }
+    run->solve(run->solver, 0, f1);
     for (int i = 0; i < n; ++i) {
       const double reach = larger(magnitude(x[i]), magnitude(x[i] + increment[i]));
-      const double allowed = adaptive ? raised * reach + run->atol : allowed_error(run, reach);
+      const double left = Table::gamma * magnitude(f1[i]), whole = magnitude(raw[i]);
+      const double rate = left < whole ? larger(run->rtol, raised * (left / whole)) : raised;
+      const double allowed = adaptive ? rate * reach + run->atol : allowed_error(run, reach);
       const double part = magnitude(f1[i]) / larger(allowed, kSmallest);
       worst = part <= worst ? worst : part;  // a NaN must not look like a small error
     }
     return worst;
-  }
-
-  /// The difference to the method of order s, in f1.
-  void difference(const double* slope) {
-    for (int i = 0; i < n; ++i) {
-      double sum = h * slope[i];
-      for (int j = 0; j < s; ++j) sum += Table::e[j] * z[j * n + i];
-      f1[i] = sum;
-    }
-    run->solve(run->solver, 0, f1);
   }
 
   /// With the slope at a state less that error: what is damped in the first step does not count.
