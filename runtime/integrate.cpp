@@ -1,6 +1,7 @@
 #include "runtime/integrate.hpp"
 
 #include <Eigen/LU>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
@@ -8,6 +9,7 @@
 #include "runtime/arkode.hpp"
 #include "runtime/cvode.hpp"
 #include "runtime/observer.hpp"
+#include "runtime/stiffness.hpp"
 
 namespace casimir {
 namespace {
@@ -17,20 +19,30 @@ using Clock = std::chrono::steady_clock;
 /// More samples than this are a mistake, and would fill the memory.
 constexpr double kMostSamples = 1e8;
 
-/// Eigen's dense factorisation behind the C interface of the kernels.
+/// Eigen's dense factorisations behind the C interface of the kernels.
 struct DenseSolver {
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu;
+  struct Factors {
+    Eigen::PartialPivLU<Eigen::MatrixXd> lu;
+    Eigen::VectorXd work;
+  };
+  std::array<Factors, CASIMIR_MATRICES> all;
 
-  static int factor(void* self, int n, const double* matrix) {
-    auto& lu = static_cast<DenseSolver*>(self)->lu;
+  static Factors& factors(void* self, int which) {
+    return static_cast<DenseSolver*>(self)->all[static_cast<std::size_t>(which)];
+  }
+  static int factor(void* self, int which, int n, const double* matrix) {
+    auto& lu = factors(self, which).lu;
     lu.compute(Eigen::Map<const Eigen::MatrixXd>(matrix, n, n));
     const auto diagonal = lu.matrixLU().diagonal();
     return diagonal.allFinite() && (diagonal.array() != 0).all() ? 0 : 1;
   }
-  static void solve(void* self, double* b) {
-    const auto& lu = static_cast<const DenseSolver*>(self)->lu;
+  static void solve(void* self, int which, double* b) {
+    auto& [lu, work] = factors(self, which);
     Eigen::Map<Eigen::VectorXd> right(b, lu.rows());
-    right = lu.solve(right).eval();
+    work.noalias() = lu.permutationP() * right;
+    lu.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(work);
+    lu.matrixLU().triangularView<Eigen::Upper>().solveInPlace(work);
+    right = work;
   }
 };
 
@@ -73,6 +85,16 @@ void run_kernel(const Module& module, const Settings& s, const double* parameter
   trajectory.rejected = outcome.rejected;
   trajectory.evaluations = outcome.evaluations;
   trajectory.jacobians = outcome.jacobians;
+}
+
+/// Where an explicit method got no further although nothing is singular.
+void name_stiffness(const Module& module, const Method& method, const double* parameters,
+                    Trajectory& trajectory) {
+  if (method.implicit || trajectory.steps == 0) return;
+  if (trajectory.status != Status::step_underflow && trajectory.status != Status::max_steps) return;
+  const double step = trajectory.time / static_cast<double>(trajectory.steps);
+  if (const auto why = stiffness_at(module, trajectory.time, trajectory.state, parameters, step))
+    trajectory.reason += "; " + *why;
 }
 
 }  // namespace
@@ -175,6 +197,7 @@ Trajectory integrate(const Module& module, const Method& method, const Settings&
     run_kernel(module, settings, p, observer, trajectory);
   }
   trajectory.reason = reason_of(trajectory.status);
+  name_stiffness(module, method, p, trajectory);
   observer.finish(trajectory);
   return trajectory;
 }

@@ -12,6 +12,11 @@ constexpr std::string_view kGaussText = "collocation at the Gauss nodes, symplec
 constexpr std::string_view kGaussBook =
     "Hairer, Lubich, Wanner: Geometric Numerical Integration (2006), II.1.3";
 constexpr std::string_view kGauss = "runtime/kernels/gauss.hpp";
+constexpr std::string_view kRadauText =
+    "collocation at the Radau nodes, L-stable, for stiff and damped systems";
+constexpr std::string_view kRadauBook =
+    "Hairer, Wanner: Solving Ordinary Differential Equations II (1996), IV.5, IV.8";
+constexpr std::string_view kRadau = "runtime/kernels/radau.hpp";
 constexpr std::string_view kOdeint = "runtime/kernels/odeint.hpp";
 constexpr std::string_view kTaylor = "runtime/kernels/convolved.hpp";
 constexpr std::string_view kTaylorText =
@@ -41,6 +46,10 @@ constexpr Method kMethods[] = {
      kScalar, kGaussText, kGaussBook},
     {"gauss16", 16, true, false, true, true, true, false, "", kGauss, "gauss::integrate<System, 8>",
      kScalar, kGaussText, kGaussBook},
+    {"radau5", 5, true, false, true, false, true, false, "", kRadau, "radau::integrate<System, 3>",
+     "", kRadauText, kRadauBook},
+    {"radau9", 9, true, false, true, false, true, false, "", kRadau, "radau::integrate<System, 5>",
+     "", kRadauText, kRadauBook},
     {"odeint-fehlberg78", 8, false, false, false, false, false, false, "Boost.Odeint", kOdeint,
      "odeint::integrate<System, odeint::runge_kutta_fehlberg78>", "",
      "Boost.Odeint, explicit Runge-Kutta method of Fehlberg of order 7(8)",

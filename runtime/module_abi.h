@@ -3,7 +3,10 @@
 #ifndef CASIMIR_MODULE_ABI_H
 #define CASIMIR_MODULE_ABI_H
 
-#define CASIMIR_ABI_VERSION 1
+#define CASIMIR_ABI_VERSION 2
+
+/* How many matrices a kernel may have factorised at a time. */
+#define CASIMIR_MATRICES 7
 
 /* How a run ended. */
 enum casimir_status {
@@ -37,10 +40,11 @@ struct casimir_run {
   /* Called after each accepted step unless null; a non-zero answer stops the run. */
   int (*observe)(void* observer, const struct casimir_step* step);
   void* observer;
-  /* Dense linear algebra for implicit kernels. factor: n*n entries by columns, 0 if regular.
-   * solve: overwrites n entries of b by the solution. */
-  int (*factor)(void* solver, int n, const double* matrix);
-  void (*solve)(void* solver, double* b);
+  /* Dense linear algebra for implicit kernels, for several matrices at a time, `which` of them
+   * from 0 to CASIMIR_MATRICES - 1. factor: n*n entries by columns, 0 if regular. solve:
+   * overwrites n entries of b by the solution. */
+  int (*factor)(void* solver, int which, int n, const double* matrix);
+  void (*solve)(void* solver, int which, double* b);
   void* solver;
 };
 

@@ -152,6 +152,8 @@ enum class Trial { done, not_finite, not_solved };
 ///     Trial attempt(double t, const double* x, const double* carry, double h, bool adaptive);
 ///     bool arrive(double t1, const double* x1);   f at the end of the step; is it finite?
 ///     void accept();                              the end becomes the current state
+///     double settle(double factor);  optional: by which factor the next step shall be longer, of
+///                                    an accepted one, given what its error alone would allow
 ///     static void dense(const casimir_step*, double t, double* x);  data is the Step
 ///   };
 ///
@@ -162,6 +164,8 @@ template <class System, class Step>
 void march(const casimir_run* run, double* x, casimir_outcome* out) {
   constexpr int n = System::n;
   constexpr double kSafety = 0.9, kShrink = 0.2, kGrow = 6;
+  // How fast the step may grow again that was too long to be solved.
+  constexpr double kRelief = requires(Step s) { s.settle(1.); } ? 2 : 1.1;
   Step step;
   double carry[n], next[n], next_carry[n];
   double t = run->t_begin, t_carry = 0;
@@ -280,10 +284,11 @@ void march(const casimir_run* run, double* x, casimir_outcome* out) {
     }
     if (stop && !there) status = CASIMIR_STOPPED;
     if (adaptive) {
-      const double factor = kSafety / rough_root(step.error, Step::power);
+      double factor = kSafety / rough_root(step.error, Step::power);
+      if constexpr (requires { step.settle(factor); }) factor = step.settle(factor);
       h = trial * (factor > most ? most : factor < kShrink ? kShrink : factor);
       if (magnitude(h) > ceiling) h = span < 0 ? -ceiling : ceiling;
-      if (ceiling < magnitude(span)) ceiling *= 1.1;
+      if (ceiling < magnitude(span)) ceiling *= kRelief;
       most = kGrow;
       failure = CASIMIR_STEP_UNDERFLOW;
     }

@@ -175,7 +175,7 @@ struct Step {
             for (int c = 0; c < n; ++c)
               matrix[(k * n + d) * size + j * n + c] =
                   (j == k && c == d ? 1. : 0.) - hb[j] * mu_table[j * s + k] * J[d * n + c];
-      if (run->factor(run->solver, size, matrix)) return Trial::not_solved;
+      if (run->factor(run->solver, 0, size, matrix)) return Trial::not_solved;
       double* L = stages->L;
       Watch watch(L, x);
       for (int sweep = 0; sweep < kSweeps; ++sweep) {
@@ -189,7 +189,7 @@ struct Step {
         }
         evaluations += s;
         if (!all_finite<size>(residual)) return Trial::not_finite;
-        run->solve(run->solver, residual);
+        run->solve(run->solver, 0, residual);
         for (int j = 0; j < s; ++j)
           for (int i = 0; i < n; ++i) {
             delta[i] = larger(delta[i], magnitude(residual[j * n + i]));

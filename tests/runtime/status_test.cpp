@@ -197,7 +197,7 @@ TEST(StiffSystem, NewtonTakesOver) {
   Settings settings = settings_for(10, 1e-6);
   const std::vector<double> parameter = {1e6};
   const double truth = std::cos(10.) + std::sin(10.) / 1e6;
-  for (const char* name : {"gauss4", "gauss6", "gauss8", "cvode-bdf"}) {
+  for (const char* name : {"gauss4", "gauss6", "gauss8", "radau5", "radau9", "cvode-bdf"}) {
     const Trajectory orbit = run<Stiff>(name, settings, {1}, parameter);
     EXPECT_EQ(orbit.status, Status::ok) << name << ' ' << orbit.reason;
     EXPECT_NEAR(orbit.state[0], truth, 1e-4) << name;

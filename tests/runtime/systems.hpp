@@ -6,6 +6,7 @@
 #include "runtime/integrate.hpp"
 #include "runtime/kernels/dop853.hpp"
 #include "runtime/kernels/gauss.hpp"
+#include "runtime/kernels/radau.hpp"
 #include "runtime/program.hpp"
 
 // Problems with known solutions, as the classes that kernels are instantiated with.
@@ -126,6 +127,8 @@ template <class System>
 auto* const dop853 = &casimir_kernel::dop853::integrate<System>;
 template <class System, int stages>
 auto* const gauss = &casimir_kernel::gauss::integrate<System, stages>;
+template <class System, int stages>
+auto* const radau = &casimir_kernel::radau::integrate<System, stages>;
 
 /// The kernel of this name for a system.
 template <class System>
@@ -135,6 +138,8 @@ auto kernel(const std::string& name) {
          : name == "gauss6"  ? gauss<System, 3>
          : name == "gauss8"  ? gauss<System, 4>
          : name == "gauss12" ? gauss<System, 6>
+         : name == "radau5"  ? radau<System, 3>
+         : name == "radau9"  ? radau<System, 5>
                              : gauss<System, 8>;
 }
 
