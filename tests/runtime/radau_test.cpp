@@ -162,12 +162,12 @@ class Radau : public testing::TestWithParam<std::string> {};
 TEST_P(Radau, SmallComponentsKeepTheirDigits) {
   for (const Scene& scene : {kRobertson40, kRobertson1e11}) {
     const Trajectory orbit =
-        run<Robertson>(GetParam(), settings_of(scene.duration, 1e-12, 1e-22), {1, 0, 0});
+        run<Robertson>(GetParam(), settings_of(scene.duration, 1e-11, 1e-22), {1, 0, 0});
     ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
     EXPECT_EQ(orbit.time, scene.duration);
-    EXPECT_LT(worst_relative(orbit.state, scene.reference), 1e-11);
+    EXPECT_LT(worst_relative(orbit.state, scene.reference), 1e-10);
     EXPECT_LT(orbit.evaluations, 50000u);
-    EXPECT_LT(orbit.steps, 6000u);
+    EXPECT_LT(orbit.steps, 8000u);
   }
 }
 
