@@ -165,7 +165,8 @@ void march(const casimir_run* run, double* x, casimir_outcome* out) {
   constexpr int n = System::n;
   constexpr double kSafety = 0.9, kShrink = 0.2, kGrow = 6;
   // How fast the step may grow again that was too long to be solved.
-  constexpr double kRelief = requires(Step s) { s.settle(1.); } ? 2 : 1.1;
+  constexpr double kRelief = requires(Step s) { s.settle(1.); }
+  ? 2 : 1.1;
   Step step;
   double carry[n], next[n], next_carry[n];
   double t = run->t_begin, t_carry = 0;
