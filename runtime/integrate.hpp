@@ -37,6 +37,7 @@ struct Settings {
   std::function<void(double t, const double* x, double* sizes)> invariant_sizes;
   /// If set, told after each step how far each invariant is from its first value: |I(t) - I(0)|.
   std::function<void(double t, const double* changes)> invariant_changes = {};
+  std::function<void(double t)> progress = {};  ///< if set, told the time after each step
   std::function<bool()> give_up;  ///< asked after each step; true ends the run as `stopped`
 };
 

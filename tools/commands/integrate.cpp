@@ -17,6 +17,7 @@
 #include "tools/run_report.hpp"
 #include "tools/scene_run.hpp"
 #include "tools/trust.hpp"
+#include "tools/watched_run.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -76,6 +77,9 @@ void write_samples(const std::string& path, const Answer& answer, const Trajecto
       file.stream() << ',' << exact_text(x);
     file.stream() << '\n';
   }
+  if (trajectory.status != Status::ok)
+    file.stream() << "# stopped at t = " << exact_text(trajectory.time) << ": " << trajectory.reason
+                  << '\n';
   file.commit();
 }
 
@@ -184,12 +188,15 @@ int integrate_case(const Options& options) {
   if (options.every > 0 && options.output.empty())
     throw UsageError("--every needs --output FILE.csv");
   const CompiledModule compiled = compile_for(run, method);
+  // What is written to a file is worth keeping; without one an interrupt leaves nothing behind.
+  WatchedRun watched(settings, !options.common.quiet, !options.output.empty());
   Trajectory trajectory;
   try {
     trajectory = integrate(compiled.module, method, settings, run.initial, run.parameters);
   } catch (const std::invalid_argument& problem) {
     throw UsageError(problem.what());
   }
+  const bool interrupted = watched.interrupted();
   const Trust trust = assess(run, compiled, method, settings, trajectory);
   if (!options.output.empty()) write_samples(options.output, answer, trajectory);
   if (options.common.json) {
@@ -212,7 +219,7 @@ int integrate_case(const Options& options) {
   std::cerr << fmt::format(
       "casimir: error: the integration stopped at t = {}: {}\n  last good state: {}\n  hint: {}\n",
       exact_text(trajectory.time), trajectory.reason, state, advice(trajectory.status));
-  return trajectory.status == Status::stopped ? kEnvironment : kNotContinued;
+  return trajectory.status == Status::stopped && !interrupted ? kEnvironment : kNotContinued;
 }
 
 }  // namespace
