@@ -27,7 +27,7 @@ struct casimir_step {
 };
 
 /* How many terms of a Taylor series `casimir_leading` works out. */
-enum { CASIMIR_LEADING = 3 };
+enum { CASIMIR_LEADING = 2 };
 
 /* The leading terms of a step along the series of the solution in twice the digits: for runs so
  * long that rounding errors of single steps add up. x + carry becomes x + carry + c[1] s + .. +

@@ -105,7 +105,7 @@ void QuadraticKernel::integrate(const casimir_run* asked, double* x, casimir_out
   const casimir_leading leading = {&leading_tables, tables_->target.leading};
   casimir_run careful = *asked;
   careful.leading = &leading;
-  const casimir_run* const run = asked->rtol <= kCareful ? &careful : asked;
+  const casimir_run* const run = asked->rtol > 0 && asked->rtol <= kCareful ? &careful : asked;
   if (tables_->narrow) return tables_->target.narrow(&*tables_->narrow, run, x, out);
   const casimir_wide view = tables_->wide->view();
   tables_->target.wide(&view, run, x, out);

@@ -20,42 +20,40 @@ class Leading {
 
   void add(double unit, double s, double* x, double* carry, const double* tail) {
     for (int b = 0; b < blocks; ++b)
-      put(0, b, fast_sum(load<V>(x + b * width), load<V>(carry + b * width)));
-    for (int k = 0; k < CASIMIR_LEADING; ++k)
-      for (int b = 0; b < blocks; ++b) put(k + 1, b, rate(k, b) * part(unit, k + 1));
+      put(0, b, {load<V>(x + b * width), load<V>(carry + b * width)}, 1);
+    // A power of two times 1 or 1/2: the products are exact.
+    static_assert(CASIMIR_LEADING == 2);
+    for (int b = 0; b < blocks; ++b) put(1, b, rate(0, b), unit);
+    for (int b = 0; b < blocks; ++b) put(2, b, rate(1, b), unit / 2);
     const V at = all_lanes<V>(s);
     for (int b = 0; b < blocks; ++b) {
       DoubleDouble<V> sum = {load<V>(tail + b * width), V{}};
-      for (int k = CASIMIR_LEADING; k > 0; --k) sum = get(k, b) + sum * at;
+      for (int k = CASIMIR_LEADING; k > 0; --k)
+        sum = DoubleDouble<V>{high_[k][b], low_[k][b]} + sum * at;
       sum = sum * at;
-      const DoubleDouble<V> old = get(0, b), high = exact_sum(old.high, sum.high);
-      const DoubleDouble<V> next = fast_sum(high.high, high.low + (old.low + sum.low));
+      const DoubleDouble<V> high = exact_sum(high_[0][b], sum.high);
+      const DoubleDouble<V> next = fast_sum(high.high, high.low + (low_[0][b] + sum.low));
       __builtin_memcpy(x + b * width, &next.high, sizeof next.high);
       __builtin_memcpy(carry + b * width, &next.low, sizeof next.low);
     }
   }
 
  private:
-  static constexpr int width = sizeof(V) / sizeof(double), room = blocks * width;
+  static constexpr int width = sizeof(V) / sizeof(double);
 
-  /// unit / k, to twice the digits.
-  static DoubleDouble<V> part(double unit, int k) {
-    // 1 - k (1/k), where 1/k is rounded.
-    static constexpr double kLost[CASIMIR_LEADING + 1] = {0, 0, 0, 0x1p-54};
-    const double high = 1. / k, low = kLost[k] / k;
-    return {all_lanes<V>(unit * high), all_lanes<V>(unit * low)};
+  CASIMIR_INLINE void put(int k, int b, DoubleDouble<V> value, double factor) {
+    high_[k][b] = value.high * factor;
+    low_[k][b] = value.low * factor;
   }
 
-  void put(int k, int b, DoubleDouble<V> value) {
-    __builtin_memcpy(high_[k] + b * width, &value.high, sizeof value.high);
-    __builtin_memcpy(low_[k] + b * width, &value.low, sizeof value.low);
-  }
-  DoubleDouble<V> get(int k, int b) const {
-    return {load<V>(high_[k] + b * width), load<V>(low_[k] + b * width)};
-  }
   /// Coefficient k of the states with these numbers.
-  DoubleDouble<V> of(int k, const long long* states) const {
-    return {collected<V>(high_[k], states), collected<V>(low_[k], states)};
+  CASIMIR_INLINE DoubleDouble<V> of(int k, const long long* states) const {
+    if constexpr (blocks == 1 && width > 2) {
+      const Indices<width> lanes = load<Indices<width>>(states);
+      return {permuted(high_[k][0], lanes), permuted(low_[k][0], lanes)};
+    }
+    return {collected<V>(reinterpret_cast<const double*>(high_[k]), states),
+            collected<V>(reinterpret_cast<const double*>(low_[k]), states)};
   }
   static DoubleDouble<V> factor(const double* rows) {
     return {load<V>(rows), load<V>(rows + width)};
@@ -79,7 +77,7 @@ class Leading {
   }
 
   const casimir_leading_tables& tables_;
-  double high_[CASIMIR_LEADING + 1][room], low_[CASIMIR_LEADING + 1][room];
+  V high_[CASIMIR_LEADING + 1][blocks], low_[CASIMIR_LEADING + 1][blocks];
 };
 
 template <class V, int blocks>

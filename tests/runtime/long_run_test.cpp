@@ -90,7 +90,7 @@ TEST_P(LongRun, TheEnergyErrorGrowsNoFasterThanTheRootOfTime) {
     largest = std::max(largest, drift.largest);
   }
   EXPECT_LT(exponents / std::size(kStarts), 0.65);
-  EXPECT_LT(largest, 2e-15);
+  EXPECT_LT(largest, 5e-15);
   EXPECT_GT(largest, 1e-17);  // doubles are not that good: something was measured
 }
 
