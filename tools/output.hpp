@@ -33,8 +33,8 @@ class OutputFile {
 /// half-written files and exit with 130 (143 for SIGTERM).
 void install_interrupt_handler();
 
-/// While interrupts are held, the first SIGINT is only noted; a second one ends the program as ever.
-/// To hold them, or to let go, forgets the one noted.
+/// While interrupts are held, the first SIGINT is only noted; a second one ends the program as
+/// ever. To hold them, or to let go, forgets the one noted.
 void hold_interrupts(bool hold);
 /// Whether one was noted.
 bool interrupt_held();

@@ -113,7 +113,7 @@ struct Quadratic : Tables {
       other += diagonal[d + 1] * permuted(x, at<Index>(tables.column[d + 1]));
     });
     // A rounded 1/(k+1) would err in the same direction at every step, and a million steps add up.
-    constexpr double lost = reciprocal.rest[k + 1];
+    constexpr double lost = k < Reciprocals::felt ? reciprocal.rest[k + 1] : 0;
     const V rate = inner + other;
     c[k + 1][0] = lost == 0 ? rate * part : rate * part + rate * lost;
     if constexpr (k + 1 < order) {

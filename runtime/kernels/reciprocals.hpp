@@ -5,6 +5,8 @@ namespace casimir_kernel::taylor {
 /// 1/k, for the recurrences, and what rounding it to double lost: a factor that is rounded once
 /// errs in the same direction at every step, which a million steps show.
 struct Reciprocals {
+  /// Terms beyond this order are too small for a million steps to show the error of their factor.
+  static constexpr int felt = 8;
   double of[32] = {};
   double rest[32] = {};
   constexpr Reciprocals() {

@@ -170,9 +170,11 @@ struct Wide {
       keep(own, m, (inner(m, at_start ? 1 : first, q) + p.left[0] * r) + l * p.right[0]);
     });
     combine(own, k, x);
-    const Part<V> part(all_lanes<V>(unit), k + 1);
+    const double factor = unit * reciprocal.of[k + 1];
+    const double lost = unit * reciprocal.rest[k + 1];
     CASIMIR_UNROLL
-    for (int b = 0; b < blocks; ++b) x[b] = part * x[b];
+    for (int b = 0; b < blocks; ++b)
+      x[b] = at_start || first < Reciprocals::felt ? x[b] * factor + x[b] * lost : x[b] * factor;
     store(k + 1, x);
   }
 
