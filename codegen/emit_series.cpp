@@ -334,7 +334,7 @@ class SeriesWriter {
     if (uses_time_) text += "        const double " + inputs_.back() + "_k = k == 1 ? unit : 0;\n";
     if (!order_.empty()) text += "        form_sums(k);\n";
     text += next_ + packed("left_[k]", left, "        ") + packed("right_[k]", right, "        ") +
-            "        const double step = unit * casimir_kernel::taylor::reciprocal.of[k + 1];\n";
+            "        const casimir_kernel::taylor::Part<double> step(unit, k + 1);\n";
     // A rate may be another state as it is: all are formed before any is replaced.
     for (std::size_t i = 0; i < states_; ++i)
       text += "        const double " + inputs_[i] + "_next = step * (" + rates[i] + ");\n";
@@ -423,7 +423,7 @@ class SeriesWriter {
       text += "        series_[" + std::to_string(place) +
               "][k] = " + (series.second ? "static_cast<double>(k) * " : "") + series.first +
               "_k;\n";
-    text += "        const V step = unit * casimir_kernel::taylor::reciprocal.of[k + 1];\n";
+    text += "        const casimir_kernel::taylor::Part<V> step(unit, k + 1);\n";
     for (std::size_t i = 0; i < states_; ++i)
       text +=
           "        const V " + inputs_[i] + "_next = step * (" + next(program_.outputs[i]) + ");\n";

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -70,6 +71,11 @@ Program with_numbers(Program program, const std::vector<double>& parameters) {
   return codegen::without_dead_code(program);
 }
 
+double lost_by_rounding(const cln::cl_RA& exact, double rounded) {
+  if (!std::isfinite(rounded)) return 0;
+  return cln::double_approx(exact - cln::rational(cln::cl_DF(rounded)));
+}
+
 class Expander {
  public:
   explicit Expander(const Program& program)
@@ -130,23 +136,30 @@ std::optional<QuadraticForm> quadratic_form(const Program& rhs,
   form.states = static_cast<int>(n);
   form.constant.resize(n);
   form.linear.assign(n, std::vector<double>(n));
-  std::map<std::pair<int, int>, std::vector<double>> products;
+  form.constant_rest = form.constant;
+  form.linear_rest = form.linear;
+  std::map<std::pair<int, int>, std::pair<std::vector<double>, std::vector<double>>> products;
   for (std::size_t i = 0; i < n; ++i) {
     for (const auto& [states, exact] : (*rates)[i]) {
-      const double factor = cln::double_approx(exact);
+      const double factor = cln::double_approx(exact), rest = lost_by_rounding(exact, factor);
       if (states.second == kOne) {
         form.constant[i] = factor;
+        form.constant_rest[i] = rest;
       } else if (states.first == kOne) {
         form.linear[i][static_cast<std::size_t>(states.second)] = factor;
+        form.linear_rest[i][static_cast<std::size_t>(states.second)] = rest;
       } else {
-        std::vector<double>& factors = products[states];
+        auto& [factors, rests] = products[states];
         factors.resize(n);
+        rests.resize(n);
         factors[i] = factor;
+        rests[i] = rest;
       }
     }
   }
   for (auto& [states, factors] : products)
-    form.products.push_back({states.first, states.second, std::move(factors)});
+    form.products.push_back(
+        {states.first, states.second, std::move(factors.first), std::move(factors.second)});
   return form;
 }
 

@@ -45,6 +45,7 @@ struct Settings {
   std::function<void(double t, const double* changes)> invariant_changes = {};
   /// If set and monitored, shown the state after each step.
   std::function<void(double t, const double* x)> watch = {};
+  std::function<void(double t)> progress = {};  ///< if set, told the time after each step
   std::function<bool()> give_up;  ///< asked after each step; true ends the run as `stopped`
 };
 

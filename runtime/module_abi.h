@@ -29,6 +29,19 @@ struct casimir_step {
   const void* data; /* the kernel's own */
 };
 
+/* How many terms of a Taylor series `casimir_leading` works out. */
+enum { CASIMIR_LEADING = 2 };
+
+/* The leading terms of a step along the series of the solution in twice the digits: for runs so
+ * long that rounding errors of single steps add up. x + carry becomes x + carry + c[1] s + .. +
+ * c[CASIMIR_LEADING] s^CASIMIR_LEADING + tail s^(CASIMIR_LEADING + 1), where x(t + s unit) is the
+ * sum of c[k] s^k from x + carry. All arrays are filled up with zeros as registers are. */
+struct casimir_leading {
+  const void* object;
+  void (*add)(const void* object, double t, double unit, double s, double* x, double* carry,
+              const double* tail);
+};
+
 /* What a caller asks of an integration. */
 struct casimir_run {
   double t_begin, t_end;
@@ -46,6 +59,8 @@ struct casimir_run {
   int (*factor)(void* solver, int which, int n, const double* matrix);
   void (*solve)(void* solver, int which, double* b);
   void* solver;
+  /* Null, or what makes a step of the Taylor method more exact. */
+  const struct casimir_leading* leading;
 };
 
 /* What came of it. The state array given to `integrate` then holds the state at `t`. */

@@ -54,7 +54,8 @@ Observer::Observer(const Module& module, const Settings& settings, const double*
 }
 
 bool Observer::needed() const {
-  return settings_.monitor || settings_.sample_every > 0 || static_cast<bool>(settings_.give_up);
+  return settings_.monitor || settings_.sample_every > 0 || static_cast<bool>(settings_.give_up) ||
+         static_cast<bool>(settings_.progress);
 }
 
 void Observer::record_size(const double* x) {
@@ -138,6 +139,7 @@ bool Observer::step(double t1, const double* x1,
       samples_.push_back(scratch_);
     }
   }
+  if (settings_.progress) settings_.progress(t1);
   return !settings_.give_up || !settings_.give_up();
 }
 

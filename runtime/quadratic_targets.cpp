@@ -3,24 +3,32 @@
 
 #include <optional>
 #include <stdexcept>
+#include <type_traits>
 
+#include "runtime/leading_layout.hpp"
 #include "runtime/quadratic_layout.hpp"
 
 using NarrowKernel = void(const casimir_quadratic*, const casimir_run*, double*, casimir_outcome*);
 using WideKernel = void(const casimir_wide*, const casimir_run*, double*, casimir_outcome*);
+using LeadingKernel = std::remove_pointer_t<decltype(casimir_leading::add)>;
 using SeriesKernel = void(const casimir_series*, const casimir_run*, double*, casimir_outcome*);
 extern "C" {
 #ifdef CASIMIR_X86_KERNELS
 NarrowKernel casimir_quadratic_avx512, casimir_quadratic_avx2;
 WideKernel casimir_wide_avx512, casimir_wide_avx2;
 SeriesKernel casimir_series_avx512, casimir_series_avx2;
+LeadingKernel casimir_leading_avx512, casimir_leading_avx2;
 #endif
 WideKernel casimir_wide_baseline;
 SeriesKernel casimir_series_baseline;
+LeadingKernel casimir_leading_baseline;
 }
 
 namespace casimir {
 namespace {
+
+/// At such tolerances it is rounding that limits a run, and the leading terms are worth their time.
+constexpr double kCareful = 1e-14;
 
 struct Target {
   const char* name;
@@ -28,6 +36,7 @@ struct Target {
   NarrowKernel* narrow;  ///< for systems whose states fill one register, or null
   WideKernel* wide;
   SeriesKernel* series;
+  LeadingKernel* leading;
 };
 
 /// Those that this processor runs, best first.
@@ -39,13 +48,15 @@ const std::vector<Target>& targets() {
     const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
         __builtin_cpu_supports("avx512vl")) {
-      result.push_back(
-          {"avx512", 8, casimir_quadratic_avx512, casimir_wide_avx512, casimir_series_avx512});
+      result.push_back({"avx512", 8, casimir_quadratic_avx512, casimir_wide_avx512,
+                        casimir_series_avx512, casimir_leading_avx512});
     }
     if (avx2)
-      result.push_back({"avx2", 4, casimir_quadratic_avx2, casimir_wide_avx2, casimir_series_avx2});
+      result.push_back({"avx2", 4, casimir_quadratic_avx2, casimir_wide_avx2, casimir_series_avx2,
+                        casimir_leading_avx2});
 #endif
-    result.push_back({"baseline", 2, nullptr, casimir_wide_baseline, casimir_series_baseline});
+    result.push_back({"baseline", 2, nullptr, casimir_wide_baseline, casimir_series_baseline,
+                      casimir_leading_baseline});
     return result;
   }();
   return known;
@@ -76,17 +87,25 @@ struct QuadraticKernel::Tables {
   Target target;
   std::optional<casimir_quadratic> narrow;
   std::optional<WideTables> wide;
+  std::optional<LeadingTables> leading;
 };
 
 QuadraticKernel::QuadraticKernel(const QuadraticForm& form, const std::string& target) {
-  Tables tables{target_named(target), std::nullopt, std::nullopt};
+  Tables tables{target_named(target), std::nullopt, std::nullopt, std::nullopt};
   if (tables.target.narrow && form.states <= tables.target.width)
     tables.narrow = narrow_tables(form);
   if (!tables.narrow) tables.wide.emplace(form, tables.target.width);
+  const bool half = tables.target.width == 8 && form.states <= 4;
+  tables.leading.emplace(form, half ? 4 : tables.target.width);
   tables_ = std::make_shared<const Tables>(std::move(tables));
 }
 
-void QuadraticKernel::integrate(const casimir_run* run, double* x, casimir_outcome* out) const {
+void QuadraticKernel::integrate(const casimir_run* asked, double* x, casimir_outcome* out) const {
+  const casimir_leading_tables leading_tables = tables_->leading->view();
+  const casimir_leading leading = {&leading_tables, tables_->target.leading};
+  casimir_run careful = *asked;
+  careful.leading = &leading;
+  const casimir_run* const run = asked->rtol > 0 && asked->rtol <= kCareful ? &careful : asked;
   if (tables_->narrow) return tables_->target.narrow(&*tables_->narrow, run, x, out);
   const casimir_wide view = tables_->wide->view();
   tables_->target.wide(&view, run, x, out);

@@ -28,8 +28,11 @@ std::function<ModuleFunctions::Evaluation> evaluation(const Program& program, st
 /// The equations of y with x = scale y.
 QuadraticForm scaled(QuadraticForm form, double scale) {
   for (double& constant : form.constant) constant /= scale;
-  for (QuadraticForm::Product& product : form.products)
+  for (double& constant : form.constant_rest) constant /= scale;
+  for (QuadraticForm::Product& product : form.products) {
     for (double& factor : product.factor) factor *= scale;
+    for (double& factor : product.rest) factor *= scale;
+  }
   return form;
 }
 

@@ -10,6 +10,7 @@
 #include "tools/drift_check.hpp"
 #include "tools/near_singular.hpp"
 #include "tools/run_report.hpp"
+#include "tools/watched_run.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -97,12 +98,14 @@ class Judge {
       settings.give_up = [stiffness, limit = settings.give_up] {
         return !stiffness->finding().empty() || (limit && limit());
       };
+    WatchedRun watched(settings, options_.shows_progress, options_.keeps_interrupted);
     try {
       result_.trajectory = integrate(result_.compiled->module, *result_.method, settings,
                                      run_.initial, run_.parameters);
     } catch (const std::invalid_argument& problem) {
       throw UsageError(problem.what());
     }
+    result_.interrupted = watched.interrupted();
   }
 
   void judge() {
@@ -116,8 +119,10 @@ class Judge {
     say(warnings_of(result_.trust));
     const auto singular = singular_->finding();
     if (singular && trajectory.status == Status::ok) say({*singular});
-    if (trajectory.status != Status::ok)
-      result_.advice = singular ? *singular : advice(trajectory.status);
+    if (trajectory.status == Status::ok) return;
+    result_.advice = singular               ? *singular
+                     : result_.interrupted ? "the run was interrupted: begin it again"
+                                           : advice(trajectory.status);
   }
 
   const Model& model_;

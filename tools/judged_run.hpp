@@ -21,7 +21,8 @@ struct JudgedRun {
   Trajectory trajectory;
   Trust trust;
   std::vector<std::string> warnings;
-  std::string advice;  ///< where the run stopped early
+  std::string advice;        ///< where the run stopped early
+  bool interrupted = false;  ///< by the user
 };
 
 struct JudgedOptions {
@@ -29,6 +30,8 @@ struct JudgedOptions {
   RunOptions run;
   double time_limit = 0;    ///< in seconds; 0: none
   double sample_every = 0;  ///< time between samples; 0: none
+  bool shows_progress = false;
+  bool keeps_interrupted = false;  ///< an interrupt ends the run, not the program
 };
 
 /// Integrates a scene. `auto` begins with Taylor series, at what double precision can hold where

@@ -39,7 +39,10 @@ void release_slot(const std::string& path) {
   }
 }
 
+std::atomic<bool> g_hold, g_noted;
+
 void on_signal(int signal) {
+  if (signal == SIGINT && g_hold && !g_noted.exchange(true)) return;
   abandon_compile();
   for (int i = 0; i < kSlots; ++i) {
     if (g_used[i]) unlink(g_paths[i]);
@@ -91,6 +94,13 @@ void install_interrupt_handler() {
   sigaction(SIGTERM, &action, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
 }
+
+void hold_interrupts(bool hold) {
+  g_noted = false;
+  g_hold = hold;
+}
+
+bool interrupt_held() { return g_noted; }
 
 bool may_colour(int descriptor) {
   const char* no_colour = std::getenv("NO_COLOR");

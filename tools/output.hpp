@@ -33,6 +33,12 @@ class OutputFile {
 /// half-written files and exit with 130 (143 for SIGTERM).
 void install_interrupt_handler();
 
+/// While interrupts are held, the first SIGINT is only noted; a second one ends the program as
+/// ever. To hold them, or to let go, forgets the one noted.
+void hold_interrupts(bool hold);
+/// Whether one was noted.
+bool interrupt_held();
+
 /// Whether text on this stream may be coloured: a terminal, and NO_COLOR is not set.
 bool may_colour(int descriptor);
 

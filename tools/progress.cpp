@@ -10,7 +10,7 @@ namespace casimir::tools {
 Progress::Progress(bool wanted) : visible_(wanted && isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {
-  if (visible_) fmt::print(stderr, "\r\033[K");
+  if (drawn_once_) fmt::print(stderr, "\r\033[K");
 }
 
 void Progress::begin(const std::string& what) {
@@ -26,6 +26,7 @@ void Progress::show(double share) {
 
 void Progress::draw(double share) {
   if (!visible_) return;
+  drawn_once_ = true;
   drawn_ = Clock::now();
   constexpr int kWidth = 24;
   const int full = static_cast<int>(share * kWidth);

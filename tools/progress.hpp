@@ -15,6 +15,9 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// Whether there is anybody to see it.
+  bool visible() const { return visible_; }
+
   /// A new piece of work, "kovalevskaya: measuring".
   void begin(const std::string& what);
 
@@ -25,7 +28,7 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   void draw(double share);
 
-  bool visible_ = false;
+  bool visible_ = false, drawn_once_ = false;
   std::string what_;
   Clock::time_point start_, drawn_;
 };

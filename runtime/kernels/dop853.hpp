@@ -91,8 +91,8 @@ struct Step {
     evaluations += 11;
     double squares5 = 0, squares3 = 0;
     for (int i = 0; i < n; ++i) {
-      y[i] = b1 * k1[i] + b6 * k6[i] + b7 * k7[i] + b8 * k8[i] + b9 * k9[i] + b10 * k10[i] +
-             b11 * k11[i] + b12 * k12[i];
+      y[i] = b1_rest * k1[i] + b9_rest * k9[i] + b12_rest * k12[i] + b1 * k1[i] + b6 * k6[i] +
+             b7 * k7[i] + b8 * k8[i] + b9 * k9[i] + b10 * k10[i] + b11 * k11[i] + b12 * k12[i];
       increment[i] = h * y[i];
     }
     for (int i = 0; i < n; ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "runtime/kernels/quadratic_tables.h"
+#include "runtime/kernels/reciprocals.hpp"
 #include "runtime/kernels/taylor.hpp"
 
 namespace casimir_kernel::taylor {
@@ -111,7 +112,10 @@ struct Quadratic : Tables {
       inner += diagonal[d] * permuted(x, at<Index>(tables.column[d]));
       other += diagonal[d + 1] * permuted(x, at<Index>(tables.column[d + 1]));
     });
-    c[k + 1][0] = (inner + other) * part;
+    // A rounded 1/(k+1) would err in the same direction at every step, and a million steps add up.
+    constexpr double lost = k < Reciprocals::felt ? reciprocal.rest[k + 1] : 0;
+    const V rate = inner + other;
+    c[k + 1][0] = lost == 0 ? rate * part : rate * part + rate * lost;
     if constexpr (k + 1 < order) {
       push<k>(x, left, right, sum);
       next<k + 1>(diagonal, own, factor, left, right, sum);

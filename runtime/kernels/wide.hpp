@@ -171,8 +171,10 @@ struct Wide {
     });
     combine(own, k, x);
     const double factor = unit * reciprocal.of[k + 1];
+    const double lost = unit * reciprocal.rest[k + 1];
     CASIMIR_UNROLL
-    for (int b = 0; b < blocks; ++b) x[b] = x[b] * factor;
+    for (int b = 0; b < blocks; ++b)
+      x[b] = at_start || first < Reciprocals::felt ? x[b] * factor + x[b] * lost : x[b] * factor;
     store(k + 1, x);
   }
 

@@ -77,6 +77,27 @@ void expect_tables_of(const Program& rhs, int registers, int moves) {
   }
 }
 
+TEST(QuadraticForm, KeepsWhatRoundingAFactorLoses) {
+  Program rhs;  // x' = 1/3 - x/7 + x^2/10
+  rhs.inputs = {"x", "t"};
+  rhs.constants = {cln::cl_RA("1/3"), cln::cl_RA("1/7"), cln::cl_RA("1/10")};
+  rhs.code = {{Op::input, 0},    {Op::constant, 0}, {Op::constant, 1},
+              {Op::constant, 2}, {Op::mul, 0, 2},   {Op::sub, 1, 4},
+              {Op::mul, 0, 0},   {Op::mul, 6, 3},   {Op::add, 5, 7}};
+  rhs.outputs = {8};
+  const auto form = quadratic_form(rhs);
+  ASSERT_TRUE(form);
+  const auto expect = [](double factor, double rest, const char* exact) {
+    const auto rational = [](double value) { return cln::rational(cln::cl_DF(value)); };
+    EXPECT_NE(rest, 0);
+    EXPECT_LT(cln::abs(rational(factor) + rational(rest) - cln::cl_RA(exact)),
+              cln::cl_RA("1/1000000000000000000000000000000"));
+  };
+  expect(form->constant[0], form->constant_rest[0], "1/3");
+  expect(form->linear[0][0], form->linear_rest[0][0], "-1/7");
+  expect(form->products[0].factor[0], form->products[0].rest[0], "1/10");
+}
+
 TEST(QuadraticTables, KovalevskayaFillsOneRegister) {
   expect_tables_of(specialised(kKovalevskaya).rhs, 1, 1);
 }

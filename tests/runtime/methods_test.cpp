@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <map>
 
 #include "runtime/module.hpp"
@@ -114,6 +115,28 @@ std::vector<double> order_defects(const Rows& rows, const std::map<int, double>&
     values.push_back(value);
   }
   return defects;
+}
+
+TEST(Tableau, TheRoundedDop853FulfilsTheFirstConditionsFarBeyondDouble) {
+  using namespace casimir_kernel::dop853;
+  if (std::numeric_limits<long double>::digits < 64) GTEST_SKIP() << "no wider type";
+  const std::map<int, double> rests = {{1, b1_rest}, {9, b9_rest}, {12, b12_rest}};
+  const auto defect = [&](int power, bool corrected) {
+    long double sum = 0;
+    for (const auto& [i, weight] : kWeights) {
+      long double node = 0;
+      if (i > 1)
+        for (const auto& [j, a] : dop853_rows().at(i)) node += a;
+      const auto rest = rests.find(i);
+      const long double lacks = corrected && rest != rests.end() ? rest->second : 0;
+      sum += (weight + lacks) * std::pow(node, static_cast<long double>(power));
+    }
+    return static_cast<double>(std::abs(sum - 1.L / (power + 1)));
+  };
+  for (int power = 0; power <= 2; ++power) {
+    EXPECT_LT(defect(power, true), 3e-18) << power;
+    EXPECT_GT(defect(power, false), 5e-17) << power;
+  }
 }
 
 TEST(Tableau, Dop853FulfilsAllConditionsOfOrderEight) {

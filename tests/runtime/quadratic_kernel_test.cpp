@@ -40,9 +40,10 @@ State rates(const QuadraticForm& form, const State& x) {
   State dx = form.constant;
   for (std::size_t i = 0; i < x.size(); ++i)
     for (std::size_t j = 0; j < x.size(); ++j) dx[i] += form.linear[i][j] * x[j];
-  for (const auto& [first, second, factor] : form.products) {
-    const double product = x[static_cast<std::size_t>(first)] * x[static_cast<std::size_t>(second)];
-    for (std::size_t i = 0; i < x.size(); ++i) dx[i] += factor[i] * product;
+  for (const QuadraticForm::Product& p : form.products) {
+    const double product =
+        x[static_cast<std::size_t>(p.first)] * x[static_cast<std::size_t>(p.second)];
+    for (std::size_t i = 0; i < x.size(); ++i) dx[i] += p.factor[i] * product;
   }
   return dx;
 }

@@ -120,6 +120,31 @@ TEST(Verify, CtrlCExitsWith130WithinASecond) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
 }
 
+TEST(Integrate, CtrlCLeavesTheStatesSoFarInTheFile) {
+  const Folder folder;
+  const pid_t child = start({"integrate", "euler", "--duration", "1e9", "--output", "states.csv",
+                             "--every", "1e3", "--json"},
+                            folder);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+  kill(child, SIGINT);
+  const Outcome outcome = finish(child, folder);
+  EXPECT_EQ(outcome.status, 5) << outcome.err;
+  EXPECT_EQ(outcome.json().at("status"), "stopped");
+  const std::string text = file_text(folder.path() / "states.csv");
+  EXPECT_GT(std::count(text.begin(), text.end(), '\n'), 10);
+  const std::string end = "# stopped at t = " + outcome.json().at("t").get<std::string>();
+  EXPECT_NE(text.find(end), std::string::npos) << text.substr(text.size() - 200);
+  EXPECT_LT(std::stod(outcome.json().at("t").get<std::string>()), 1e9);
+}
+
+TEST(Integrate, CtrlCWithoutAFileExitsWith130) {
+  const Folder folder;
+  const pid_t child = start({"integrate", "euler", "--duration", "1e9"}, folder);
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  kill(child, SIGINT);
+  EXPECT_EQ(finish(child, folder).status, 130);
+}
+
 TEST(Generate, WritesAHeaderAndSaysWhatWasLeftOut) {
   const Folder folder;
   const auto json = run_in(folder, {"generate", "kovalevskaya", "-o", "k.hpp", "--json"}).json();

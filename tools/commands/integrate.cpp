@@ -78,6 +78,9 @@ void write_samples(const std::string& path, const Answer& answer, const Trajecto
       file.stream() << ',' << exact_text(x);
     file.stream() << '\n';
   }
+  if (trajectory.status != Status::ok)
+    file.stream() << "# stopped at t = " << exact_text(trajectory.time) << ": " << trajectory.reason
+                  << '\n';
   file.commit();
 }
 
@@ -168,7 +171,7 @@ int report_stop(const SceneRun& run, const JudgedRun& judged) {
                            ended ? "cannot be trusted to" : "stopped at",
                            exact_text(trajectory.time), trajectory.reason,
                            ended ? "state" : "last good state", state, judged.advice);
-  return trajectory.status == Status::stopped ? kEnvironment : kNotContinued;
+  return trajectory.status == Status::stopped && !judged.interrupted ? kEnvironment : kNotContinued;
 }
 
 SceneOptions scene_options(const Options& options) {
@@ -209,7 +212,11 @@ int integrate_case(const Options& options) {
   const Answer answer(model, run, options.as);
   if (options.every > 0 && options.output.empty())
     throw UsageError("--every needs --output FILE.csv");
-  JudgedOptions how{options.method, options.run, options.common.time_limit};
+  JudgedOptions how{.method = options.method, .run = options.run};
+  how.time_limit = options.common.time_limit;
+  how.shows_progress = !options.common.quiet;
+  // What is written to a file is worth keeping; without one an interrupt leaves nothing behind.
+  how.keeps_interrupted = !options.output.empty();
   if (!options.output.empty())
     how.sample_every = options.every > 0 ? options.every
                                          : std::abs(settings_for(options.run, run).duration) / 1000;
