@@ -54,6 +54,7 @@ double log2_step(const std::vector<std::vector<cln::cl_F>>& series, double log2_
 struct Run {
   bool reached = false;
   std::string reason;
+  bool singular = false;
   std::vector<cln::cl_F> state;
   cln::cl_F time;
   unsigned long steps = 0;
@@ -96,7 +97,7 @@ Run integrate(const Program& rhs, const std::vector<cln::cl_R>& initial, const c
     const double step = log2_step(*series, log2_tolerance);
     // A step that no longer moves the time means that the solution has no value further on.
     if (step < log2_of(end) - (working - 2) * kLog2Of10 || std::isnan(step))
-      return run.reason = "the solution has a singularity here", run;
+      return run.singular = true, run.reason = "the solution has a singularity here", run;
     const bool last = step >= log2_of(left);
     const cln::cl_F size = last ? left : power_of_two(step, arithmetic);
     const cln::cl_F h = !last && backward ? -size : size;
@@ -151,6 +152,7 @@ Reference reference_solution(const Program& rhs, const std::vector<cln::cl_R>& i
   }
   reference.reached = run.reached;
   reference.reason = run.reason;
+  reference.singular = run.singular;
   reference.time = run.time;
   reference.state = std::move(run.state);
   reference.digits = working;

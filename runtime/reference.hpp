@@ -15,6 +15,7 @@ namespace casimir {
 struct Reference {
   bool reached = false;  ///< the end was reached; else `reason` says why not
   std::string reason;
+  bool singular = false;         ///< that is the reason: the solution has no value after `time`
   std::vector<cln::cl_F> state;  ///< at `time`
   cln::cl_R time;
   /// A bound of the largest relative error of a component (of those tiny beside the others,

@@ -42,6 +42,9 @@ std::string advice(Status status);
 /// 17 significant digits: reads back as the same double.
 std::string exact_text(double value);
 
+/// A CSV field: quoted where it has to be.
+std::string csv_field(const std::string& text);
+
 /// "12.3 us", "4.5 ms", "1.2 s".
 std::string duration_text(double seconds);
 
