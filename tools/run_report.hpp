@@ -24,6 +24,7 @@ struct Row {
   unsigned long long steps = 0, evaluations = 0;
   std::string status = "ok";  ///< a Status, "wrong", "too_slow", or "refused"
   std::string reason = {};    ///< a sentence, where the status needs one
+  bool refused = false;       ///< it did not arrive, and may do so
   bool failed = false;        ///< the command fails because of it
 };
 

@@ -116,7 +116,7 @@ class Stress {
  public:
   explicit Stress(const Options& options) : options_(options) {}
 
-  Matrix run() {
+  StressMatrix run() {
     Progress progress(!options_.common.quiet);
     progress_ = &progress;
     gather();
@@ -163,7 +163,7 @@ class Stress {
   void add(std::size_t source, const Scene& scene) {
     entries_.push_back({&sources_[source], &models_[source], &models_[source].scene(scene.name)});
     matrix_.lines.push_back({models_[source].name, scene.name, scene.extreme,
-                             std::vector<Cell>(matrix_.columns.size())});
+                             std::vector<StressCell>(matrix_.columns.size())});
   }
 
   void find_truths() {
@@ -191,7 +191,8 @@ class Stress {
     progress_->begin("runs");
     std::vector<Job> jobs;
     for (const Entry& entry : entries_)
-      for (const Matrix::Column& column : matrix_.columns) jobs.push_back(cell_job(entry, column));
+      for (const StressMatrix::Column& column : matrix_.columns)
+        jobs.push_back(cell_job(entry, column));
     std::vector<std::size_t> again;
     run(jobs, [&](std::size_t i, const Reply& reply) {
       if (!take(i, reply)) again.push_back(i);
@@ -203,7 +204,7 @@ class Stress {
       run(second, [&](std::size_t i, const Reply& reply) { take(again[i], reply); });
   }
 
-  Job cell_job(const Entry& entry, const Matrix::Column& column) const {
+  Job cell_job(const Entry& entry, const StressMatrix::Column& column) const {
     return {[this, &entry, &column] {
               return integrate_instead(words_of(entry, column.method, options_));
             },
@@ -214,7 +215,7 @@ class Stress {
   bool take(std::size_t i, const Reply& reply) {
     const std::size_t line = i / matrix_.columns.size(), column = i % matrix_.columns.size();
     const Entry& entry = entries_[line];
-    const Matrix::Column& how = matrix_.columns[column];
+    const StressMatrix::Column& how = matrix_.columns[column];
     const Row asked{.case_name = entry.model->name,
                     .scene = entry.scene->name,
                     .method = how.method,
@@ -252,11 +253,11 @@ class Stress {
   std::vector<Source> sources_;
   std::vector<Model> models_;
   std::vector<Entry> entries_;
-  Matrix matrix_;
+  StressMatrix matrix_;
   bool out_of_time_ = false;
 };
 
-void print(const Matrix& matrix) {
+void print(const StressMatrix& matrix) {
   std::cout << to_text(matrix) << complaints(matrix);
   fmt::print("{} cells: {} right, {} warned, {} refused, {} coarse, {} wrong",
              matrix.lines.size() * matrix.columns.size(), matrix.count(Judgement::right),
@@ -272,7 +273,7 @@ int stress(const Options& options) {
   if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
   if (!options.plot.empty()) check_plot_name(options.plot);
   Stress stress(options);
-  const Matrix matrix = stress.run();
+  const StressMatrix matrix = stress.run();
   if (!options.output.empty()) {
     OutputFile file(options.output);
     write_csv(file.stream(), matrix);

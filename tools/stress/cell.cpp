@@ -30,7 +30,7 @@ std::string complaint(const std::string& text) {
 }
 
 /// Without an answer that can be read: a run that was refused, took too long, or crashed.
-Cell without_answer(Cell cell, const Reply& reply) {
+StressCell without_answer(StressCell cell, const Reply& reply) {
   cell.row.error = cell.row.drift = kNaN;
   if (reply.killed) {
     cell.row.status = to_string(Status::stopped);
@@ -81,7 +81,7 @@ void fill(Row& row, const Json& answer) {
 }
 
 /// Why a cell is what it is, where its status does not tell.
-std::string reason_of(const Cell& cell, const Answer& answer, const Json& said,
+std::string reason_of(const StressCell& cell, const Answer& answer, const Json& said,
                       const SceneTruth& truth) {
   if (cell.verdict == Judgement::refused)
     return said.contains("stopped") ? said.at("stopped").value("reason", "") : "";
@@ -96,8 +96,8 @@ std::string reason_of(const Cell& cell, const Answer& answer, const Json& said,
 
 }  // namespace
 
-Cell cell_of(const Row& asked, bool outside, const SceneTruth& truth, const Reply& reply) {
-  Cell cell{.row = asked, .outside = outside};
+StressCell cell_of(const Row& asked, bool outside, const SceneTruth& truth, const Reply& reply) {
+  StressCell cell{.row = asked, .outside = outside};
   const Json said = Json::parse(reply.out, nullptr, false);
   if (said.is_discarded() || reply.killed) return without_answer(cell, reply);
   fill(cell.row, said);

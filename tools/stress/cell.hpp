@@ -11,7 +11,7 @@
 namespace casimir::tools {
 
 /// One scene by one method: what `integrate` answered, and what that is worth.
-struct Cell {
+struct StressCell {
   Row row;  ///< `row.failed`: a method of our own is silently wrong
   Judgement verdict = Judgement::unknown;
   bool outside = false;                   ///< the method of another library
@@ -20,6 +20,6 @@ struct Cell {
 
 /// The cell of a run of `integrate --json`.
 /// \param asked  the row as far as it is known beforehand.
-Cell cell_of(const Row& asked, bool outside, const SceneTruth& truth, const Reply& reply);
+StressCell cell_of(const Row& asked, bool outside, const SceneTruth& truth, const Reply& reply);
 
 }  // namespace casimir::tools

@@ -10,10 +10,10 @@
 namespace casimir::tools {
 
 /// Scenes by methods.
-struct Matrix {
+struct StressMatrix {
   struct Line {
     std::string case_name, scene, extreme;
-    std::vector<Cell> cells;  ///< one for each method, in their order
+    std::vector<StressCell> cells;  ///< one for each method, in their order
   };
   struct Column {
     std::string method;
@@ -30,18 +30,18 @@ struct Matrix {
 };
 
 /// The digits of a right answer, 0 to 16.
-int right_digits(const Cell& cell);
+int right_digits(const StressCell& cell);
 
 /// A table for people: a row for each scene, and a word for each cell.
-std::string to_text(const Matrix& matrix);
+std::string to_text(const StressMatrix& matrix);
 
 /// A line for each cell that is wrong or inaccurate, with the reason.
-std::string complaints(const Matrix& matrix);
+std::string complaints(const StressMatrix& matrix);
 
 /// {"rows": [..], "failed": N, "counts": {..}}.
-nlohmann::ordered_json to_json(const Matrix& matrix);
+nlohmann::ordered_json to_json(const StressMatrix& matrix);
 
 /// case,scene,method,tolerance,error,drift,seconds,steps,evaluations,status,verdict,extreme,reason
-void write_csv(std::ostream& stream, const Matrix& matrix);
+void write_csv(std::ostream& stream, const StressMatrix& matrix);
 
 }  // namespace casimir::tools

@@ -17,7 +17,7 @@ struct Look {
   const char* ink = "#000000";
 };
 
-Look look_of(const Cell& cell) {
+Look look_of(const StressCell& cell) {
   switch (cell.verdict) {
     case Judgement::right: {
       // More digits are darker.
@@ -41,7 +41,7 @@ Look look_of(const Cell& cell) {
 constexpr int kRowHeight = 22, kColumnWidth = 92;
 
 /// The cell in column x and row y, as an object and a label.
-std::string cell_commands(const Cell& cell, double x, double y, bool fastest) {
+std::string cell_commands(const StressCell& cell, double x, double y, bool fastest) {
   const Look look = look_of(cell);
   constexpr double kHalf = 0.47;
   return fmt::format(
@@ -59,13 +59,13 @@ std::string tics(const std::vector<std::string>& names) {
   return "(" + list + ")";
 }
 
-std::string script(const Matrix& matrix, const std::string& path, const std::string& output) {
+std::string script(const StressMatrix& matrix, const std::string& path, const std::string& output) {
   const std::size_t columns = matrix.columns.size(), rows = matrix.lines.size();
   std::size_t label = 0;
   std::vector<std::string> methods, scenes;
-  for (const Matrix::Column& column : matrix.columns)
+  for (const StressMatrix::Column& column : matrix.columns)
     methods.push_back(column.method + (column.outside ? " *" : ""));
-  for (const Matrix::Line& line : matrix.lines) {
+  for (const StressMatrix::Line& line : matrix.lines) {
     scenes.push_back(fmt::format("{} {} ({})", line.case_name, line.scene,
                                  line.extreme.empty() ? "ordinary" : line.extreme));
     label = std::max(label, scenes.back().size());
@@ -86,8 +86,8 @@ std::string script(const Matrix& matrix, const std::string& path, const std::str
   text += fmt::format("set xtics {}\nset x2tics {}\nset ytics {}\n", tics(methods), tics(methods),
                       tics(scenes));
   for (std::size_t y = 0; y < rows; ++y) {
-    const Matrix::Line& line = matrix.lines[y];
-    const int fastest = Matrix::fastest(line);
+    const StressMatrix::Line& line = matrix.lines[y];
+    const int fastest = StressMatrix::fastest(line);
     for (std::size_t x = 0; x < line.cells.size(); ++x)
       text += cell_commands(line.cells[x], static_cast<double>(x + 1), static_cast<double>(y + 1),
                             static_cast<int>(x) == fastest);
@@ -97,7 +97,7 @@ std::string script(const Matrix& matrix, const std::string& path, const std::str
 
 }  // namespace
 
-void draw_matrix(const Matrix& matrix, const std::string& path) {
+void draw_matrix(const StressMatrix& matrix, const std::string& path) {
   check_plot_name(path);
   OutputFile picture(path);
   draw_script(script(matrix, path, picture.temporary().string()), picture);

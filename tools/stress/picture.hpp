@@ -10,6 +10,6 @@ namespace casimir::tools {
 /// of it, so that it can be read without colour: for a right answer the digits that are right, in a
 /// heavy frame where none took less time; else a word. To SVG or PNG by the name.
 /// \throws SystemError  as `draw`.
-void draw_matrix(const Matrix& matrix, const std::string& path);
+void draw_matrix(const StressMatrix& matrix, const std::string& path);
 
 }  // namespace casimir::tools
