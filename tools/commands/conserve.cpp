@@ -33,9 +33,10 @@ constexpr double kTolerance = 1e-12;
 /// A stiff scene takes more from a method that is not made for it, and would take hours.
 constexpr unsigned long long kMostStiffSteps = 200'000;
 
-/// Whether a scene may be refused: its motion ends, or the method is not one for it.
+/// Whether a scene may be refused: its motion ends, comes close to where the variables end, or
+/// takes another method.
 bool may_be_refused(const Scene& scene) {
-  return scene.extreme == "blowup" || scene.extreme == "stiff";
+  return scene.extreme == "blowup" || scene.extreme == "gimbal" || scene.extreme == "stiff";
 }
 
 /// Which invariant drifted most, for the table.

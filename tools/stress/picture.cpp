@@ -70,29 +70,37 @@ std::string script(const StressMatrix& matrix, const std::string& path, const st
                                  line.extreme.empty() ? "ordinary" : line.extreme));
     label = std::max(label, scenes.back().size());
   }
-  const std::size_t width = 60 + 7 * label + kColumnWidth * std::max<std::size_t>(columns, 5);
-  const std::size_t height = 120 + kRowHeight * rows;
+  const std::size_t width = 60 + 7 * label + kColumnWidth * std::max<std::size_t>(columns, 4);
+  const std::size_t height = 190 + kRowHeight * rows;
   std::string text = fmt::format(
       "set encoding utf8\nset terminal {} size {},{} background rgb 'white' font 'sans,12' "
       "noenhanced\nset output {}\n",
       path.ends_with(".svg") ? "svg dynamic" : "pngcairo", width, height, quoted(output));
   text +=
-      "set title 'Scene by method: the digits that are right, or what became of it instead'\n"
-      "set xlabel 'heavy frame: the fastest right answer   WRONG: ok, and it is not   coarse: few "
-      "digits   *: of another library'\n"
-      "unset key\nunset border\nset tics scale 0\n";
+      "set label 'Scene by method: the digits that are right, or what became of it instead' at "
+      "screen 0.02, screen 1 left offset 0,-1.2 font ',14'\n"
+      "set label 'heavy frame: the fastest right answer    coarse: ok with few digits    WRONG: "
+      "ok, "
+      "and it is not' at screen 0.02, screen 0 left offset 0,2.2\n"
+      "set label '*: of another library    (in brackets: the kind of scene)' at screen 0.02, "
+      "screen "
+      "0 left offset 0,1\n"
+      "unset key\nunset border\nset tics scale 0\nset tmargin 5\nset bmargin 6\n";
   text += fmt::format("set xrange [0.5:{}.5]\nset x2range [0.5:{}.5]\nset yrange [{}.5:0.5]\n",
                       columns, columns, rows);
   text += fmt::format("set xtics {}\nset x2tics {}\nset ytics {}\n", tics(methods), tics(methods),
                       tics(scenes));
+  std::string framed;  // over its neighbours
   for (std::size_t y = 0; y < rows; ++y) {
     const StressMatrix::Line& line = matrix.lines[y];
     const int fastest = StressMatrix::fastest(line);
-    for (std::size_t x = 0; x < line.cells.size(); ++x)
-      text += cell_commands(line.cells[x], static_cast<double>(x + 1), static_cast<double>(y + 1),
-                            static_cast<int>(x) == fastest);
+    for (std::size_t x = 0; x < line.cells.size(); ++x) {
+      const bool first = static_cast<int>(x) == fastest;
+      (first ? framed : text) += cell_commands(line.cells[x], static_cast<double>(x + 1),
+                                               static_cast<double>(y + 1), first);
+    }
   }
-  return text + "plot 1/0\n";
+  return text + framed + "plot 1/0\n";
 }
 
 }  // namespace
