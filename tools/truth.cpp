@@ -187,8 +187,8 @@ bool for_stiff_equations(const Method& method) {
 }  // namespace
 
 GoodRun good_run(const SceneRun& run, const Settings& settings) {
-  // A second or so of Taylor series.
-  constexpr unsigned long long kMostSteps = 1'000'000;
+  // A second or so of Taylor series, and of a method that has few steps to take, or none.
+  constexpr unsigned long long kMostSteps = 1'000'000, kMostStiffSteps = 50'000;
   Settings limited = settings;
   limited.max_steps = kMostSteps;
   const auto with = [&](const Method& method) {
@@ -199,6 +199,7 @@ GoodRun good_run(const SceneRun& run, const Settings& settings) {
   };
   GoodRun first = with(*find_method("taylor"));
   if (first.trajectory.status != Status::max_steps) return first;
+  limited.max_steps = kMostStiffSteps;
   for (const Method& method : methods()) {
     if (!for_stiff_equations(method)) continue;
     try {
