@@ -38,7 +38,7 @@ Look look_of(const StressCell& cell) {
   }
 }
 
-constexpr int kRowHeight = 22, kColumnWidth = 92;
+constexpr int kRowHeight = 22, kColumnWidth = 70;
 
 /// The cell in column x and row y, as an object and a label.
 std::string cell_commands(const StressCell& cell, double x, double y, bool fastest) {
@@ -70,8 +70,8 @@ std::string script(const StressMatrix& matrix, const std::string& path, const st
                                  line.extreme.empty() ? "ordinary" : line.extreme));
     label = std::max(label, scenes.back().size());
   }
-  const std::size_t width = 60 + 7 * label + kColumnWidth * std::max<std::size_t>(columns, 4);
-  const std::size_t height = 190 + kRowHeight * rows;
+  const std::size_t width = 90 + 7 * label + kColumnWidth * std::max<std::size_t>(columns, 5);
+  const std::size_t height = 340 + kRowHeight * rows;
   std::string text = fmt::format(
       "set encoding utf8\nset terminal {} size {},{} background rgb 'white' font 'sans,12' "
       "noenhanced\nset output {}\n",
@@ -85,11 +85,11 @@ std::string script(const StressMatrix& matrix, const std::string& path, const st
       "set label '*: of another library    (in brackets: the kind of scene)' at screen 0.02, "
       "screen "
       "0 left offset 0,1\n"
-      "unset key\nunset border\nset tics scale 0\nset tmargin 5\nset bmargin 6\n";
+      "unset key\nunset border\nset tics scale 0\nset tmargin 9\nset bmargin 10\n";
   text += fmt::format("set xrange [0.5:{}.5]\nset x2range [0.5:{}.5]\nset yrange [{}.5:0.5]\n",
                       columns, columns, rows);
-  text += fmt::format("set xtics {}\nset x2tics {}\nset ytics {}\n", tics(methods), tics(methods),
-                      tics(scenes));
+  text += fmt::format("set xtics rotate by -35 {}\nset x2tics rotate by 35 {}\nset ytics {}\n",
+                      tics(methods), tics(methods), tics(scenes));
   std::string framed;  // over its neighbours
   for (std::size_t y = 0; y < rows; ++y) {
     const StressMatrix::Line& line = matrix.lines[y];
