@@ -162,8 +162,22 @@ class Stress {
 
   void add(std::size_t source, const Scene& scene) {
     entries_.push_back({&sources_[source], &models_[source], &models_[source].scene(scene.name)});
-    matrix_.lines.push_back({models_[source].name, scene.name, scene.extreme,
-                             std::vector<StressCell>(matrix_.columns.size())});
+    StressMatrix::Line line{models_[source].name, scene.name, scene.extreme, {}};
+    for (const StressMatrix::Column& column : matrix_.columns) {
+      StressCell cell{.row = asked(entries_.back(), column), .outside = column.outside};
+      cell.row.status = to_string(Status::stopped);
+      cell.row.reason = "it was not run";
+      line.cells.push_back(std::move(cell));
+    }
+    matrix_.lines.push_back(std::move(line));
+  }
+
+  /// A row before its run.
+  Row asked(const Entry& entry, const StressMatrix::Column& column) const {
+    return {.case_name = entry.model->name,
+            .scene = entry.scene->name,
+            .method = column.method,
+            .tolerance = options_.tolerance.value_or(0)};
   }
 
   void find_truths() {
@@ -216,11 +230,7 @@ class Stress {
     const std::size_t line = i / matrix_.columns.size(), column = i % matrix_.columns.size();
     const Entry& entry = entries_[line];
     const StressMatrix::Column& how = matrix_.columns[column];
-    const Row asked{.case_name = entry.model->name,
-                    .scene = entry.scene->name,
-                    .method = how.method,
-                    .tolerance = options_.tolerance.value_or(0)};
-    matrix_.lines[line].cells[column] = cell_of(asked, how.outside, entry.truth, reply);
+    matrix_.lines[line].cells[column] = cell_of(asked(entry, how), how.outside, entry.truth, reply);
     const nlohmann::json said = nlohmann::json::parse(reply.out, nullptr, false);
     return said.is_discarded() || said.at("status") != "stopped" ||
            said.at("seconds").at("compile").get<double>() < options_.cell_limit / 4;

@@ -123,7 +123,10 @@ void do_jobs(const std::vector<Job>& jobs, int at_once,
              const std::function<bool()>& more) {
   std::list<Child> children;
   for (std::size_t next = 0; next < jobs.size() || !children.empty();) {
-    if (next < jobs.size() && more && !more()) next = jobs.size();
+    if (more && !more()) {
+      next = jobs.size();
+      for (Child& child : children) child.end = Clock::now();
+    }
     while (next < jobs.size() && children.size() < static_cast<std::size_t>(at_once))
       children.push_back(begin(jobs, next++));
     listen(children);

@@ -23,7 +23,9 @@ struct Reply {
 
 /// Does all of the jobs, `at_once` at a time, and tells `done` of each reply in the order of their
 /// ends. The children end with this process.
-/// \param more  asked before a job is begun: false leaves the rest undone; they get no reply.
+/// \param more  asked now and then: false ends those under way, as if they took too long, and
+/// leaves
+///              the rest undone; they get no reply.
 /// \throws SystemError  if no process can be started.
 void do_jobs(const std::vector<Job>& jobs, int at_once,
              const std::function<void(std::size_t job, const Reply& reply)>& done,
