@@ -24,6 +24,7 @@ Reference reference_solution(const Program& rhs, const std::vector<cln::cl_R>& i
   Reference reference;
   reference.reached = agreed.run.status == Status::ok;
   reference.reason = agreed.run.reason;
+  reference.singular = agreed.run.singular_time.has_value();
   reference.time = agreed.run.singular_time.value_or(agreed.run.time);
   if (reference.reached) reference.error_bound = std::pow(10., agreed.log10_error);
   reference.state = std::move(agreed.run.state);

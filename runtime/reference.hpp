@@ -15,6 +15,7 @@ namespace casimir {
 struct Reference {
   bool reached = false;  ///< the end was reached; else `reason` says why not
   std::string reason;
+  bool singular = false;         ///< that is the reason: the solution has no value after `time`
   std::vector<cln::cl_F> state;  ///< at `time`
   cln::cl_R time;
   /// The largest relative difference of a component to a run with ten digits less, see `AgreedRun`.

@@ -1,22 +1,13 @@
 #include "tools/plot.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
 #include <sstream>
 
-#include "tools/cli.hpp"
+#include "tools/gnuplot.hpp"
 #include "tools/output.hpp"
-
-extern char** environ;
 
 namespace casimir::tools {
 namespace {
@@ -32,15 +23,6 @@ struct Mark {
   int open, filled;
 };
 constexpr Mark kMarks[] = {{4, 5}, {6, 7}, {8, 9}, {10, 11}, {12, 13}, {14, 15}};
-
-/// Text for gnuplot: plain characters only, so that nothing of a case file is a command there.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (c >= ' ' && c <= '~' && c != '\'' && c != '`' && c != '\\') result += c;
-  }
-  return result + "'";
-}
 
 constexpr const char* kSvg = "svg size 1000,600 dynamic background rgb 'white' font 'sans,13'";
 
@@ -98,56 +80,7 @@ std::string script(const Plot& plot, const std::string& terminal, const std::str
   return text + commands + "\n";
 }
 
-/// Runs `gnuplot FILE`; what it says is kept in `log`.
-int run_gnuplot(const std::string& file, const std::string& log) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  std::string program = "gnuplot";
-  std::string argument = file;
-  char* const arguments[] = {program.data(), argument.data(), nullptr};
-  pid_t child = 0;
-  const int problem = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (problem != 0)
-    throw SystemError(
-        fmt::format("a plot needs gnuplot, which could not be started ({}); install it with: "
-                    "apt-get install gnuplot-nox",
-                    std::strerror(problem)));
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
-}
-
-/// Lets gnuplot write to the temporary name of `picture`.
-void draw_with(const std::string& terminal, const Plot& plot, OutputFile& picture) {
-  if (picture.temporary().string().find_first_of("'`\\\n") != std::string::npos)
-    throw UsageError("a plot's name must not contain quotes");
-  const std::string beside = picture.temporary().string();
-  OutputFile commands(beside + ".gnuplot");
-  OutputFile log(beside + ".log");
-  commands.stream() << script(plot, terminal, beside);
-  commands.stream().flush();
-  if (run_gnuplot(commands.temporary().string(), log.temporary().string()) != 0) {
-    std::ifstream said(log.temporary());
-    std::string line;
-    while (line.empty() && std::getline(said, line)) {
-    }
-    throw SystemError("gnuplot failed: " + printable(line, 200));
-  }
-}
-
 }  // namespace
-
-void check_plot_name(const std::string& path) {
-  if (!path.ends_with(".svg") && !path.ends_with(".png")) {
-    throw UsageError(
-        fmt::format("'{}': a plot's name must end in .svg or .png", printable(path, 200)));
-  }
-}
 
 void draw(const Plot& plot, const std::string& path) {
   check_plot_name(path);
@@ -155,13 +88,13 @@ void draw(const Plot& plot, const std::string& path) {
                                    ? kSvg
                                    : "pngcairo size 1300,780 font 'sans,13' background rgb 'white'";
   OutputFile picture(path);
-  draw_with(terminal, plot, picture);
+  draw_script(script(plot, terminal, picture.temporary().string()), picture);
   picture.commit();
 }
 
 std::string svg_element(const Plot& plot, const std::string& name, const std::string& beside) {
   OutputFile picture(beside + "." + name + ".svg");
-  draw_with(kSvg, plot, picture);
+  draw_script(script(plot, kSvg, picture.temporary().string()), picture);
   std::ostringstream text;
   text << std::ifstream(picture.temporary(), std::ios::binary).rdbuf();
   std::string svg = text.str();

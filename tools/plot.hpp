@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "tools/gnuplot.hpp"
+
 namespace casimir::tools {
 
 /// One curve of a plot. Points without finite positive coordinates are left out of log axes.
@@ -25,9 +27,6 @@ struct Plot {
   std::string y_unit = {};         ///< "s": the labels of the axis say "100 us", "1 ms", ..
   std::vector<Curve> curves = {};  ///< one without points stays out of the legend
 };
-
-/// Throws UsageError unless the name ends in .svg or .png: before any work is done for it.
-void check_plot_name(const std::string& path);
 
 /// Draws with gnuplot, which is run directly, not through a shell.
 /// \throws SystemError  if gnuplot is missing (saying what to install), fails, or the file cannot

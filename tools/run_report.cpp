@@ -21,14 +21,6 @@ std::string spread_text(const Row& row) {
   return row.rounds < 2 ? "-" : fmt::format("{:.1f} %", 100 * row.spread / row.seconds);
 }
 
-/// A CSV field: quoted where it has to be.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 }  // namespace
 
 Json to_json(const std::vector<Row>& rows) {
@@ -60,10 +52,10 @@ void write_csv(std::ostream& stream, const std::vector<Row>& rows) {
             "status\n";
   for (const Row& row : rows) {
     stream << fmt::format("{},{},{},{},{:g},{},{},{:.6g},{:.3g},{},{},{},{}\n",
-                          field(row.case_name), field(row.scene), row.method, row.code,
+                          csv_field(row.case_name), csv_field(row.scene), row.method, row.code,
                           row.tolerance, std::isnan(row.error) ? "" : exact_text(row.error),
                           exact_text(row.drift), row.seconds, row.spread, row.rounds, row.steps,
-                          row.evaluations, field(row.status));
+                          row.evaluations, csv_field(row.status));
   }
 }
 
@@ -129,6 +121,13 @@ std::string duration_text(double seconds) {
   if (seconds < 1e-3) return fmt::format("{:.1f} us", seconds * 1e6);
   if (seconds < 1) return fmt::format("{:.2f} ms", seconds * 1e3);
   return fmt::format("{:.2f} s", seconds);
+}
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
 }
 
 }  // namespace casimir::tools

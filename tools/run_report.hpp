@@ -24,6 +24,7 @@ struct Row {
   unsigned long long steps = 0, evaluations = 0;
   std::string status = "ok";  ///< a Status, "wrong", "too_slow", or "refused"
   std::string reason = {};    ///< a sentence, where the status needs one
+  bool refused = false;       ///< it did not arrive, and may do so
   bool failed = false;        ///< the command fails because of it
 };
 
@@ -44,6 +45,9 @@ std::string exact_text(double value);
 
 /// The same for a number that may be beyond the range of double.
 std::string exact_text(long double value);
+
+/// A CSV field: quoted where it has to be.
+std::string csv_field(const std::string& text);
 
 /// "12.3 us", "4.5 ms", "1.2 s".
 std::string duration_text(double seconds);

@@ -29,6 +29,7 @@ struct EndState {
   Exit failure = kDone;
   double error_bound = 0;
   int digits = 0;
+  std::optional<double> singular_time = {};
 };
 
 /// The significant decimal digits of a number that the file writes as a decimal; 0 for one that is
@@ -93,6 +94,7 @@ EndState own_run(const SceneRun& run, const TruthOptions& options) {
                     out_of_time ? "the multiprecision run took too long" : reference.reason,
                     cln::double_approx(reference.time));
     result.failure = out_of_time ? kEnvironment : kNotContinued;
+    if (reference.singular) result.singular_time = cln::double_approx(reference.time);
   } else if (reference.error_bound > kGood) {
     result.reason = fmt::format(
         "two multiprecision runs differ by {:.1e}: more --digits are needed for a reference",
@@ -148,7 +150,8 @@ TruthOrReason truth_of(const Scene& scene, const SceneRun& run, const TruthOptio
               .error_bound = own.error_bound,
               .digits = own.digits,
               .reason = own.reason,
-              .failure = own.failure};
+              .failure = own.failure,
+              .singular_time = own.singular_time};
   }
   if (!result.reason.empty()) return result;
   Truth truth;
@@ -161,19 +164,56 @@ TruthOrReason truth_of(const Scene& scene, const SceneRun& run, const TruthOptio
   return result;
 }
 
-std::vector<double> state_sizes(const SceneRun& run) {
-  const Method& method = *find_method("taylor");
+namespace {
+
+/// What the sizes of the states are taken from: a run like this is no more exact than that.
+Settings coarse_settings(const SceneRun& run) {
   Settings settings;
   settings.duration = run.duration;
   settings.rtol = 1e-8;
-  settings.atol =
-      1e-8 * *std::max_element(run.initial.begin(), run.initial.end(),
-                               [](double a, double b) { return std::abs(a) < std::abs(b); });
-  settings.atol = std::max(std::abs(settings.atol), 1e-300);
+  double largest = 0;
+  for (const double x : run.initial) largest = std::max(largest, std::abs(x));
+  settings.atol = std::max(1e-8 * largest, 1e-300);
   settings.sample_every = std::abs(run.duration) / 200;
   settings.monitor = false;
-  const Trajectory trajectory =
-      integrate(compile_for(run, method).module, method, settings, run.initial, run.parameters);
+  return settings;
+}
+
+/// Methods for stiff equations damp; those that keep quadratic invariants cannot.
+bool for_stiff_equations(const Method& method) {
+  return method.implicit && !method.preserves_quadratic;
+}
+
+}  // namespace
+
+GoodRun good_run(const SceneRun& run, const Settings& settings) {
+  // A second or so of Taylor series, and of a method that has few steps to take, or none.
+  constexpr unsigned long long kMostSteps = 1'000'000, kMostStiffSteps = 50'000;
+  Settings limited = settings;
+  limited.max_steps = kMostSteps;
+  const auto with = [&](const Method& method) {
+    CompiledModule compiled = compile_for(run, method);
+    Trajectory trajectory =
+        integrate(compiled.module, method, limited, run.initial, run.parameters);
+    return GoodRun{&method, std::move(compiled), std::move(trajectory)};
+  };
+  GoodRun first = with(*find_method("taylor"));
+  if (first.trajectory.status != Status::max_steps) return first;
+  limited.max_steps = kMostStiffSteps;
+  for (const Method& method : methods()) {
+    if (!for_stiff_equations(method)) continue;
+    try {
+      GoodRun other = with(method);
+      if (other.trajectory.status == Status::ok) return other;
+    } catch (const std::exception&) {
+      // A library that is not there, or a tolerance that it does not take: the next one, then.
+    }
+  }
+  return first;
+}
+
+std::vector<double> state_sizes(const SceneRun& run) {
+  const Trajectory trajectory = good_run(run, coarse_settings(run)).trajectory;
   std::vector<double> sizes(run.initial.size());
   for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::abs(run.initial[i]);
   for (const std::vector<double>& x : trajectory.samples) {
@@ -182,6 +222,24 @@ std::vector<double> state_sizes(const SceneRun& run) {
   const double largest = *std::max_element(sizes.begin(), sizes.end());
   for (double& size : sizes) size = largest == 0 ? 1 : std::max(size, 1e-6 * largest);
   return sizes;
+}
+
+double growth_of(const SceneRun& run, const Truth& truth) {
+  constexpr double kTolerance = 1e-13, kStiffTolerance = 1e-10, kSeconds = 3;
+  Settings settings = coarse_settings(run);
+  settings.sample_every = 0;
+  GoodRun good = good_run(run, settings);
+  const bool stiff = for_stiff_equations(*good.method);
+  const double size = settings.atol / settings.rtol;
+  settings.rtol = stiff ? kStiffTolerance : kTolerance;
+  settings.atol = std::max(settings.rtol * size * 1e-3, 1e-300);
+  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(kSeconds));
+  settings.give_up = [end] { return Clock::now() > end; };
+  const Entrant entrant{&good.compiled.module, good.method,    settings,
+                        run.initial,           run.parameters, {}};
+  return run.specialisation.uses_time ? conditioning(entrant, truth, 1)
+                                      : conditioning(entrant, truth);
 }
 
 }  // namespace casimir::tools

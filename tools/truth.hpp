@@ -20,6 +20,8 @@ struct TruthOrReason {
   int digits = 0;           ///< significant ones: of the file's numbers, or of our own run
   std::string reason = {};  ///< why there is none
   Exit failure = kDone;     ///< what that means for a command that needs one
+  /// Where the motion has no value at the end: the time after which our own run found none.
+  std::optional<double> singular_time = {};
 };
 
 struct TruthOptions {
@@ -40,5 +42,20 @@ TruthOrReason truth_of(const Scene& scene, const SceneRun& run, const TruthOptio
 /// The largest value that each state takes along a run in double precision, at 200 times; at least
 /// a millionth of the largest of all. What errors are measured against.
 std::vector<double> state_sizes(const SceneRun& run);
+
+/// A method that reaches the end of a scene in double precision in a bearable number of steps, with
+/// its module: Taylor series, or a method for stiff equations where these take too many.
+struct GoodRun {
+  const Method* method;
+  CompiledModule compiled;
+  Trajectory trajectory;  ///< at the tolerance asked for
+};
+
+/// The first method that does; the first of all where none does, with a trajectory that is not ok.
+GoodRun good_run(const SceneRun& run, const Settings& settings);
+
+/// How much small changes of the state grow along the run: see runtime/work_precision.hpp. By the
+/// method that reaches the end. Infinite where that takes more than a few seconds.
+double growth_of(const SceneRun& run, const Truth& truth);
 
 }  // namespace casimir::tools

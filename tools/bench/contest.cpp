@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -15,8 +14,6 @@
 
 namespace casimir::tools {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// An end state so far off, in sizes of the state, has nothing to do with the reference.
 constexpr double kWrong = 0.1;
@@ -141,22 +138,6 @@ Entrant entrant_of(const Ready& ready, const Codes& codes, const RunOptions& ask
           ready.run->initial,     ready.run->parameters, codes.places_in(*ready.run)};
 }
 
-/// The growth of changes along the run, by Taylor series; infinite where that takes seconds.
-double conditioning_of(const Codes& codes, const ContestOptions& options, const Truth& truth) {
-  constexpr double kTolerance = 1e-13, kSeconds = 3;
-  const SceneRun& run = codes.specialised;
-  const Method& method = *find_method("taylor");
-  const Ready ready{{}, &method, &run, compile_for(run, method)};
-  RunOptions asked;
-  asked.duration = options.run.duration;
-  Entrant entrant = entrant_of(ready, codes, asked, kTolerance);
-  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                      std::chrono::duration<double>(kSeconds));
-  entrant.settings.give_up = [end] { return Clock::now() > end; };
-  return run.specialisation.uses_time ? conditioning(entrant, truth, 1)
-                                      : conditioning(entrant, truth);
-}
-
 /// The row of a sample: its status is more than how the run ended.
 Row row_of(const Contest& contest, const Ready& ready, const Entrant& entrant, const Truth& truth,
            const Sample& sample) {
@@ -271,7 +252,7 @@ Contest hold_contest(const Model& model, const Scene& scene, const ContestOption
   contest.reference = truth.source;
   contest.error_bound = truth.error_bound;
   contest.digits = truth.digits;
-  contest.conditioning = conditioning_of(codes, options, *truth.truth);
+  contest.conditioning = growth_of(codes.specialised, *truth.truth);
   const std::vector<Ready> ready = Gathering(options, codes, contest).run();
   measure_all(ready, codes, *truth.truth, options, contest);
   return contest;

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <iosfwd>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/stress/cell.hpp"
+
+namespace casimir::tools {
+
+/// Scenes by methods.
+struct StressMatrix {
+  struct Line {
+    std::string case_name, scene, extreme;
+    std::vector<StressCell> cells;  ///< one for each method, in their order
+  };
+  struct Column {
+    std::string method;
+    bool outside = false;
+  };
+  std::vector<Column> columns;
+  std::vector<Line> lines;
+
+  /// The fastest right cell of a line; -1 where none is right.
+  static int fastest(const Line& line);
+
+  int count(Judgement verdict) const;
+  int failed() const;
+};
+
+/// The digits of a right answer, 0 to 16.
+int right_digits(const StressCell& cell);
+
+/// A table for people: a row for each scene, and a word for each cell.
+std::string to_text(const StressMatrix& matrix);
+
+/// A line for each cell that is wrong or inaccurate, with the reason.
+std::string complaints(const StressMatrix& matrix);
+
+/// {"rows": [..], "failed": N, "counts": {..}}.
+nlohmann::ordered_json to_json(const StressMatrix& matrix);
+
+/// case,scene,method,tolerance,error,drift,seconds,steps,evaluations,status,verdict,extreme,reason
+void write_csv(std::ostream& stream, const StressMatrix& matrix);
+
+}  // namespace casimir::tools

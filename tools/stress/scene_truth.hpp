@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/work_precision.hpp"
+#include "symbolic/model.hpp"
+
+namespace casimir::tools {
+
+/// What is known about the end of a scene: what its answers are judged by.
+struct SceneTruth {
+  std::vector<std::string> states;           ///< those that are integrated
+  std::optional<Truth> truth = {};           ///< of them
+  std::string source = {};                   ///< where the truth is from, or why there is none
+  bool has_end = true;                       ///< the exact motion reaches the end time
+  std::optional<double> singular_time = {};  ///< where it does not
+  double growth = 0;                         ///< of small changes; infinite: not known
+};
+
+/// The case file's reference state, or else that of a multiprecision run of our own with 30 digits.
+/// A scene that the file calls a blow-up and gives no reference state has no end, whatever a run of
+/// our own says; so has one whose run of our own finds a singularity.
+/// \param longest  seconds that a run of our own may take.
+SceneTruth truth_of_scene(const Model& model, const Scene& scene, double longest);
+
+/// From one process to another: numbers are kept exactly.
+nlohmann::json packed(const SceneTruth& truth);
+SceneTruth unpacked(const nlohmann::json& json);
+
+}  // namespace casimir::tools
