@@ -123,7 +123,8 @@ std::string reason_of(Status status) {
     case Status::ok:
       return "";
     case Status::singularity:
-      return "the solution grows without bound or meets a pole of the equations";
+      return "the solution has a singularity: it grows without bound or meets a pole of the "
+             "equations";
     case Status::non_finite:
       return "the state or its derivative is not a finite number";
     case Status::step_underflow:

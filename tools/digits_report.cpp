@@ -78,7 +78,7 @@ std::vector<double> term_sizes(const DigitsReport& report) {
     return std::vector<double>(report.spec.invariant_names.size());
   std::vector<double> sizes;
   for (const SizedNumber& value : evaluate(report.spec.invariants, inputs))
-    sizes.push_back(std::abs(value.size));
+    sizes.push_back(static_cast<double>(std::abs(value.size)));
   return sizes;
 }
 

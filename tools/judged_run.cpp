@@ -120,7 +120,7 @@ class Judge {
     const auto singular = singular_->finding();
     if (singular && trajectory.status == Status::ok) say({*singular});
     if (trajectory.status == Status::ok) return;
-    result_.advice = singular               ? *singular
+    result_.advice = singular              ? *singular
                      : result_.interrupted ? "the run was interrupted: begin it again"
                                            : advice(trajectory.status);
   }

@@ -14,7 +14,7 @@ struct casimir_leading_tables {
   const double* constant; /* two rows for each register */
   const int *linear_begin, *product_begin;
   const double *linear_factor, *product_factor;
-  const long long *linear_state;                 /* a row for each entry */
+  const long long* linear_state;                 /* a row for each entry */
   const long long *product_left, *product_right; /* the same */
 };
 

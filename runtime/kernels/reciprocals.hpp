@@ -25,7 +25,9 @@ template <class V>
 struct Part {
   V high, low;
   Part(V unit, int k) : high(unit * reciprocal.of[k]), low(unit * reciprocal.rest[k]) {}
-  inline __attribute__((always_inline)) V operator*(V rate) const {
+  /// \param rate  a V, or a number that is the same in every lane.
+  template <class Rate>
+  inline __attribute__((always_inline)) V operator*(Rate rate) const {
     return rate * high + rate * low;
   }
 };

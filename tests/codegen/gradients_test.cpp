@@ -110,6 +110,7 @@ TEST(Gradients, CompiledCodeIsExactToRounding) {
   for (const fs::path& path : test::bundled_cases()) {
     const Model model = build_model(read_case(path));
     const Specialisation spec = specialise(model, model.scenes.at(0), with_gradients());
+    if (spec.invariant_names.empty()) continue;
     const std::string header = emit_header(spec);
     const std::size_t scope = header.find("namespace ") + 10;
     const std::string name = header.substr(scope, header.find(' ', scope) - scope);

@@ -94,7 +94,8 @@ TEST(BenchPage, OfAllCasesHasEveryOneOfThem) {
   }
   EXPECT_NE(page.find("<h2>Summary</h2>"), std::string::npos);
   // A case without a reference is there with the reason.
-  EXPECT_NE(page.find("Not measured: there is no reference state: the solution has a singularity"),
+  EXPECT_NE(page.find("Not measured: there is no reference state: the solution has a "
+                      "singularity"),
             std::string::npos);
 }
 
