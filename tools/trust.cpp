@@ -138,7 +138,9 @@ Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& 
   const std::vector<double> sizes = sizes_of(trajectory);
   const std::size_t n = run.initial.size();
   Neighbours neighbours(run, compiled, method, settings, sizes);
-  const bool repeated = 3 * trajectory.seconds < budget && neighbours.begin();
+  const bool has_time = 3 * trajectory.seconds < budget;
+  const bool repeated = has_time && neighbours.begin();
+  trust.unconfirmed = has_time && !repeated;
   std::optional<Conditioning> flow = conditioning(run, settings, trajectory.time, sizes);
   const bool short_of_end = !flow || flow->followed < 0.99 * std::abs(trajectory.time);
   const double neighbours_take = static_cast<double>(n) * 3 * trajectory.seconds;
@@ -175,8 +177,9 @@ nlohmann::ordered_json to_json(const Trust& trust) {
   }
   nlohmann::ordered_json json = {{"conditioning", exact_text(trust.conditioning)},
                                  {"input_rounding", exact_text(trust.input_rounding)},
-                                 {"error_estimate", exact_text(trust.error_estimate)},
+                                 {"error_estimate", nullptr},
                                  {"beyond_double", trust.beyond_double}};
+  if (!trust.unconfirmed) json["error_estimate"] = exact_text(trust.error_estimate);
   if (trust.six_digits_until) json["six_digits_until"] = exact_text(*trust.six_digits_until);
   if (trust.followed) json["extrapolated_from"] = exact_text(*trust.followed);
   return json;
@@ -184,6 +187,10 @@ nlohmann::ordered_json to_json(const Trust& trust) {
 
 std::vector<std::string> warnings_of(const Trust& trust) {
   std::vector<std::string> warnings;
+  if (trust.unconfirmed)
+    warnings.push_back(
+        "a run with a hundredth of the tolerance does not reach the end: nothing confirms this "
+        "one");
   if (!trust.known) return warnings;
   if (trust.beyond_double) {
     warnings.push_back(fmt::format(
@@ -194,7 +201,7 @@ std::vector<std::string> warnings_of(const Trust& trust) {
             ? fmt::format(", and six digits hold until t = {:.6g}", *trust.six_digits_until)
             : "",
         static_cast<int>(20 + std::log10(trust.conditioning))));
-  } else if (!(trust.error_estimate < kDoubtful)) {
+  } else if (!trust.unconfirmed && !(trust.error_estimate < kDoubtful)) {
     warnings.push_back(
         fmt::format("the end state may be off by {:.0e} of its size: tighten --tolerance",
                     trust.error_estimate));

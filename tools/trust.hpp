@@ -17,6 +17,7 @@ struct Trust {
   double input_rounding = 0;   ///< error from rounding the scene's exact data to double
   double error_estimate = 0;   ///< difference to a run with a hundredth of the tolerance, and
                                ///< what double arithmetic alone costs
+  bool unconfirmed = false;    ///< a run with a tighter tolerance fails: there is no estimate
   bool beyond_double = false;  ///< rounding alone spoils all but a few digits
   /// Up to when rounding leaves six digits, where it does not to the end.
   std::optional<double> six_digits_until;

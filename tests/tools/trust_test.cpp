@@ -147,5 +147,32 @@ TEST(Trust, LongRunsAreExtrapolated) {
   EXPECT_LT(ratio, 40);
 }
 
+TEST(Trust, RunThatATighterToleranceDoesNotConfirmIsDoubted) {
+  const Outcome outcome = run({"integrate", "euler-angles", "--scene", "symmetric-pole-1e-8",
+                               "--method", "taylor", "--tolerance", "1e-10", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = outcome.json();
+  EXPECT_TRUE(json.at("trust").at("error_estimate").is_null());
+  EXPECT_NE(json.at("warnings").dump().find("nothing confirms"), std::string::npos);
+}
+
+TEST(Auto, GivesStiffScenesToRadauAndSmoothOnesToTaylorSeries) {
+  const Outcome stiff = run({"integrate", "robertson", "--json"});
+  ASSERT_EQ(stiff.status, 0) << stiff.err;
+  const auto json = stiff.json();
+  EXPECT_EQ(json.at("method"), "radau9");
+  EXPECT_NE(json.at("chosen").get<std::string>().find("stiff"), std::string::npos);
+  // Hairer & Wanner, Solving Ordinary Differential Equations II, IV.10
+  EXPECT_NEAR(number(json.at("state").at("y1")), 0.7158270687193941, 1e-13);
+  EXPECT_LT(json.at("steps"), 1000);
+  const Outcome smooth = run({"integrate", "kovalevskaya", "--json"});
+  EXPECT_EQ(smooth.json().at("method"), "taylor");
+  EXPECT_LT(number(smooth.json().at("trust").at("error_estimate")), 1e-12);
+  // A fast spin is no stiffness: nothing decays.
+  const Answered fast = integrated(top("M1 = \"1\", M2 = \"1/2\", M3 = \"20000\"", "1"));
+  EXPECT_GT(fast.json.at("steps"), 1000);
+  EXPECT_EQ(fast.json.at("method"), "taylor");
+}
+
 }  // namespace
 }  // namespace casimir::test

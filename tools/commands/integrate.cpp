@@ -149,7 +149,7 @@ void print_text(const SceneRun& run, const Answer& answer, const JudgedRun& judg
     fmt::print("  {:<10} {:>25}   drift {:.1e}\n", s.invariant_names[i],
                exact_text(trajectory.invariants[i].final), trajectory.invariants[i].drift);
   }
-  if (judged.trust.known)
+  if (judged.trust.known && !judged.trust.unconfirmed)
     fmt::print("  error of the state about {:.0e}; small changes of the start grow {:.0e} times\n",
                judged.trust.error_estimate, judged.trust.conditioning);
   for (const LeftOut& item : s.left_out)
