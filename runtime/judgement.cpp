@@ -35,6 +35,7 @@ std::string to_string(Judgement judgement) {
 Judgement judge(const Answer& answer) {
   if (!answer.ok) return Judgement::refused;
   if (!answer.has_end || !answer.finite) return Judgement::wrong;
+  if (answer.meets_pole) return answer.warned ? Judgement::warned : Judgement::wrong;
   if (std::isnan(answer.error)) return Judgement::unknown;
   const bool elsewhere = !(answer.error <= answer.explained) || answer.error >= kElsewhere;
   const bool coarse = answer.error >= std::max(kThreeDigits, kAskedFor * answer.tolerance);

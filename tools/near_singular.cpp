@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include "codegen/lower.hpp"
@@ -14,12 +15,18 @@ namespace {
 
 constexpr double kNear = 1e-3;
 
-/// Lines that something is divided by: denominators, and bases of negative powers.
+/// Lines that something is divided by: the factors of denominators, and bases of negative powers.
 std::set<int> divisors_of(const Program& program) {
   const std::vector<bool> constant = codegen::constant_instructions(program);
   std::set<int> lines;
-  const auto add = [&](int line) {
-    if (!constant[static_cast<std::size_t>(line)]) lines.insert(line);
+  const std::function<void(int)> add = [&](int line) {
+    const Instruction& code = program.code[static_cast<std::size_t>(line)];
+    if (code.op == Op::mul) {
+      add(code.a);
+      add(code.b);
+    } else if (!constant[static_cast<std::size_t>(line)]) {
+      lines.insert(line);
+    }
   };
   for (const Instruction& code : program.code) {
     if (code.op == Op::div) add(code.b);
@@ -79,6 +86,8 @@ void NearSingular::see(double t, const double* x) {
     Range& range = ranges_[i];
     const double size = std::abs(values[i]);
     range.largest = std::max(range.largest, size);
+    if (values[i] * range.last < 0 && !range.crossed) range.crossed = t;
+    range.last = values[i];
     if (!range.state.empty() && !(size < range.least)) continue;
     range.least = size;
     range.time = t;
@@ -87,6 +96,13 @@ void NearSingular::see(double t, const double* x) {
 }
 
 std::optional<std::string> NearSingular::finding() const {
+  for (const Range& range : ranges_) {
+    if (range.crossed)
+      return fmt::format(
+          "the equations divide by a quantity that changes its sign before t = {:.6g}: a step went "
+          "over a pole of theirs, and what comes after it may mean nothing",
+          *range.crossed);
+  }
   const Range* worst = nullptr;
   for (const Range& range : ranges_) {
     if (range.least < kNear * range.largest &&

@@ -18,14 +18,16 @@ class NearSingular {
   bool divides() const { return !divisors_.outputs.empty(); }
   void see(double t, const double* x);
 
-  /// A sentence, if a divisor came down to less than a thousandth of its largest value: when, and
-  /// in which state.
+  /// A sentence, if a divisor changed its sign, or came down to less than a thousandth of its
+  /// largest value: when, and in which state.
   std::optional<std::string> finding() const;
 
  private:
   struct Range {
     double least = 0, largest = 0;
     double time = 0;
+    double last = 0;                ///< its value after the last step
+    std::optional<double> crossed;  ///< the first time at which it has another sign
     std::vector<double> state;
   };
   const SceneRun& run_;

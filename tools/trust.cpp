@@ -6,6 +6,9 @@
 #include <cmath>
 #include <optional>
 
+#include "codegen/quadratic.hpp"
+#include "runtime/quadratic_targets.hpp"
+#include "runtime/uncompiled.hpp"
 #include "tools/conditioning.hpp"
 #include "tools/run_report.hpp"
 
@@ -22,6 +25,8 @@ constexpr double kSpoiled = 1e-3;
 constexpr double kSixDigits = 1e-6;
 /// Estimated errors that the user is warned of.
 constexpr double kDoubtful = 1e-4;
+constexpr double kCrossCheckTolerance = 1e-10;
+constexpr unsigned long long kCrossCheckSteps = 20000;
 
 double distance(const std::vector<double>& a, const std::vector<double>& b,
                 const std::vector<double>& sizes) {
@@ -118,6 +123,36 @@ double estimate_without_repeat(const Conditioning& flow, const Settings& setting
   return flow.at_end * drift + steps * settings.rtol;
 }
 
+/// The same motion by a method of another kind: steps that jump over a narrow passage do so at
+/// every tolerance. Taylor series without a compiler, where they get through in a few thousand
+/// steps.
+struct CrossCheck {
+  bool contradicts = false;  ///< they meet a singularity on the way
+  double distance = 0;       ///< of the end states, as far as their own errors do not explain it
+};
+
+CrossCheck cross_check(const SceneRun& run, const Settings& settings, const Trajectory& trajectory,
+                       const std::vector<double>& sizes, double growth) {
+  auto form = quadratic_form(run.specialisation.rhs, run.parameters);
+  if (form && !has_quadratic_kernel(*form)) form.reset();
+  const Module module = uncompiled_module(run.specialisation.rhs, {}, form, run.parameters);
+  Settings own;
+  own.duration = trajectory.time;
+  own.rtol = kCrossCheckTolerance;
+  own.atol = settings.atol * (own.rtol / std::max(settings.rtol, kLeastTolerance));
+  own.max_steps = kCrossCheckSteps;
+  own.give_up = settings.give_up;
+  const Trajectory other =
+      integrate(module, *find_method("taylor"), own, run.initial, run.parameters);
+  CrossCheck result;
+  result.contradicts = other.status == Status::singularity || other.status == Status::non_finite ||
+                       other.status == Status::step_underflow;
+  if (other.status != Status::ok) return result;
+  const double apart = distance(other.state, trajectory.state, sizes);
+  if (apart > std::min(0.1, 100 * growth * (own.rtol + settings.rtol))) result.distance = apart;
+  return result;
+}
+
 /// The sizes of the states at both ends, where they are smaller than on the way.
 std::vector<double> end_sizes(const SceneRun& run, const Trajectory& trajectory) {
   Trajectory ends = trajectory;
@@ -161,6 +196,12 @@ Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& 
       (repeated ? distance(neighbours.better(), trajectory.state, end_sizes(run, trajectory)) +
                       flow->at_end * kUnitRoundoff
                 : estimate_without_repeat(*flow, settings, trajectory));
+  if (!method.series) {
+    const CrossCheck check =
+        cross_check(run, settings, trajectory, end_sizes(run, trajectory), flow->at_end);
+    trust.unconfirmed = trust.unconfirmed || check.contradicts;
+    trust.error_estimate = std::max(trust.error_estimate, check.distance);
+  }
   trust.beyond_double = !(flow->at_end * kUnitRoundoff < kSpoiled);
   if (trust.beyond_double) trust.six_digits_until = flow->time_of(kSixDigits / kUnitRoundoff);
   if (flow->followed > 0 && flow->followed < 0.99 * std::abs(trajectory.time))
@@ -189,8 +230,8 @@ std::vector<std::string> warnings_of(const Trust& trust) {
   std::vector<std::string> warnings;
   if (trust.unconfirmed)
     warnings.push_back(
-        "a run with a hundredth of the tolerance does not reach the end: nothing confirms this "
-        "one");
+        "a run with a hundredth of the tolerance, or one by Taylor series, does not reach the end: "
+        "nothing confirms this one");
   if (!trust.known) return warnings;
   if (trust.beyond_double) {
     warnings.push_back(fmt::format(

@@ -38,6 +38,8 @@ TEST(Judgement, WarningExcusesAnErrorAndSpoilsNoRightAnswer) {
 TEST(Judgement, OkPastTheEndOfTheMotionIsWrongThoughItWarns) {
   EXPECT_EQ(judge({.has_end = false, .error = kNaN}), Judgement::wrong);
   EXPECT_EQ(judge({.warned = true, .has_end = false, .error = kNaN}), Judgement::wrong);
+  EXPECT_EQ(judge({.meets_pole = true, .error = kNaN}), Judgement::wrong);
+  EXPECT_EQ(judge({.warned = true, .meets_pole = true, .error = kNaN}), Judgement::warned);
 }
 
 TEST(Judgement, OkWithANumberThatIsNotFiniteIsWrong) {

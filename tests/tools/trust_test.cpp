@@ -132,6 +132,24 @@ TEST(Trust, NearlySingularCoordinatesAreNamed) {
   EXPECT_EQ(integrated(passing("1/2")).json.dump().find("nearly singular"), std::string::npos);
 }
 
+TEST(Trust, StepOverAPoleIsSaid) {
+  // 0/q^2 at q = 0: no method notices, and the equations have no value there.
+  const auto through = [](const char* end) {
+    return "title = \"pole\"\nhamiltonian = \"p^2/2 + s^2/q^2\"\n[phase_space]\nvariables = "
+           "[\"q\", "
+           "\"p\", \"s\"]\nbrackets = { \"q,p\" = \"1\" }\n[[scene]]\nname = \"default\"\ninitial "
+           "= { q "
+           "= \"1\", p = \"-1\", s = \"0\" }\nduration = \"" +
+           std::string(end) + "\"\n";
+  };
+  const std::string over =
+      integrated(through("3"), {"--method", "dop853"}).json.at("warnings").dump();
+  EXPECT_NE(over.find("changes its sign"), std::string::npos) << over;
+  const std::string before =
+      integrated(through("1/2"), {"--method", "dop853"}).json.at("warnings").dump();
+  EXPECT_EQ(before.find("changes its sign"), std::string::npos) << before;
+}
+
 TEST(Trust, LongRunsAreExtrapolated) {
   const std::string text = top("M1 = \"1\", M2 = \"1/2\", M3 = \"2\"", "20000");
   const Answered run = integrated(text);

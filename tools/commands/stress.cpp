@@ -311,7 +311,8 @@ constexpr const char* kDescription =
     "  coarse   explained like that, but with less than three digits at a fine tolerance\n"
     "  wrong    it says ok, and its error is larger, or a number is not finite, or the motion "
     "does\n"
-    "           not reach that time (extreme = \"blowup\" without a reference state)\n"
+    "           not reach that time (extreme = \"blowup\" without a reference state), or it went\n"
+    "           over a pole of the equations without a warning\n"
     "Errors are against the reference state of the case file or a multiprecision run. The exit\n"
     "status is 1 if a method of our own is wrong; those of other libraries are shown beside it.";
 

@@ -88,6 +88,8 @@ std::string reason_of(const StressCell& cell, const Answer& answer, const Json& 
   if (cell.verdict == Judgement::unknown) return truth.source;
   if (cell.verdict == Judgement::right) return "";
   if (!answer.has_end) return "says ok, and the motion does not reach that time";
+  if (answer.meets_pole && cell.verdict == Judgement::wrong)
+    return "says ok, having gone over a pole of the equations";
   if (!answer.finite) return "says ok with a number that is not finite";
   if (cell.verdict == Judgement::warned) return said.at("warnings").dump();
   return fmt::format("says ok with an error of {:.1e}; tolerance and conditioning explain {:.1e}",
@@ -105,6 +107,7 @@ StressCell cell_of(const Row& asked, bool outside, const SceneTruth& truth, cons
                 .warned = warned(said),
                 .finite = std::isfinite(cell.row.drift),
                 .has_end = truth.has_end,
+                .meets_pole = truth.singular_time.has_value(),
                 .error = kNaN,
                 .explained = 0,
                 .tolerance = cell.row.tolerance};

@@ -34,8 +34,8 @@ SceneTruth truth_of_scene(const Model& model, const Scene& scene, double longest
   result.source = known.truth ? known.source : known.reason;
   result.singular_time = known.singular_time;
   const bool called_so = scene.extreme == "blowup" && scene.reference.empty();
-  result.has_end = !called_so && !known.singular_time;
-  if (!result.has_end || !known.truth) return result;
+  result.has_end = !called_so;
+  if (known.singular_time || !result.has_end || !known.truth) return result;
   result.truth = known.truth;
   result.growth = growth_of(run, *known.truth);
   return result;
