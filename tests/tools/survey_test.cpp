@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <regex>
+#include <set>
+#include <sstream>
 
 #include "tests/tools/program.hpp"
 
@@ -30,6 +33,28 @@ TEST(Survey, TheTableOfTheCasesIsWhatTheToolWrites) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(file_text(folder.path() / "README.md"), file_text(path))
       << "the cases have changed; run: build/casimir survey --output cases/README.md";
+}
+
+TEST(Survey, TagsOfTheTableAreThoseOfTheCases) {
+  const std::string text = file_text(CASIMIR_SOURCE_DIR "/cases/README.md");
+  const std::size_t begin = text.find("| tag | systems |");
+  const std::string table = text.substr(begin, text.find("## Survey") - begin);
+  std::set<std::string> explained, used;
+  const std::regex kTag("`([^`]+)`");
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) {
+    const std::string first = line.substr(0, line.find('|', 1));
+    for (std::sregex_iterator it(first.begin(), first.end(), kTag), end; it != end; ++it)
+      explained.insert((*it)[1]);
+  }
+  const auto list = run({"list", "--json"}).json();
+  for (const auto& entry : list.at("cases"))
+    for (const auto& tag : entry.at("tags")) used.insert(tag.get<std::string>());
+  for (const std::string& tag : explained) EXPECT_TRUE(used.contains(tag)) << tag;
+  for (const std::string& tag : used) {
+    const bool of_the_book = tag.starts_with("chapter-") || tag.starts_with("appendix-");
+    EXPECT_TRUE(of_the_book || explained.contains(tag)) << tag;
+  }
 }
 
 TEST(Survey, RowsStandInTheOrderOfTheBook) {
