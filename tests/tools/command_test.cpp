@@ -1,6 +1,8 @@
 // What each command prints, writes and returns, as the interface promises.
 #include <gtest/gtest.h>
+
 #include <signal.h>
+#include <set>
 
 #include <algorithm>
 #include <chrono>
@@ -288,6 +290,24 @@ TEST(Conserve, PassesAndFailsByItsBound) {
                                          "dop853", "--tolerance", "1e-4", "--json"});
   EXPECT_EQ(strict.status, 1);
   EXPECT_EQ(strict.json().at("failed"), 1);
+}
+
+TEST(Conserve, EveryBoundOfEveryCaseHolds) {
+  const Folder folder;
+  // Half of the cases need no compiler by this method.
+  const Outcome outcome = run_in(folder, {"conserve", "--all", "--method", "taylor", "--json"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = outcome.json();
+  EXPECT_EQ(json.at("failed"), 0);
+  const auto list = run({"list", "--json"}).json();
+  std::set<std::string> cases;
+  std::size_t kept = 0;
+  for (const auto& row : json.at("rows")) {
+    cases.insert(row.at("case"));
+    kept += row.at("status") == "ok";
+  }
+  EXPECT_EQ(cases.size(), list.at("cases").size());
+  EXPECT_GT(kept, json.at("rows").size() * 9 / 10);
 }
 
 TEST(Conserve, DrawsDriftAgainstTime) {
