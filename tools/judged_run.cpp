@@ -120,7 +120,9 @@ class Judge {
     const auto singular = singular_->finding();
     if (singular && trajectory.status == Status::ok) say({*singular});
     if (trajectory.status == Status::ok) return;
+    const bool stiff = trajectory.reason.find("stiff") != std::string::npos;
     result_.advice = singular              ? *singular
+                     : stiff               ? fmt::format("--method {}, or auto", kStiff)
                      : result_.interrupted ? "the run was interrupted: begin it again"
                                            : advice(trajectory.status);
   }
