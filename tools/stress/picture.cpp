@@ -70,7 +70,7 @@ std::string script(const StressMatrix& matrix, const std::string& path, const st
                                  line.extreme.empty() ? "ordinary" : line.extreme));
     label = std::max(label, scenes.back().size());
   }
-  const std::size_t width = 90 + 7 * label + kColumnWidth * std::max<std::size_t>(columns, 5);
+  const std::size_t width = 90 + 9 * label + kColumnWidth * std::max<std::size_t>(columns, 5);
   const std::size_t height = 340 + kRowHeight * rows;
   std::string text = fmt::format(
       "set encoding utf8\nset terminal {} size {},{} background rgb 'white' font 'sans,12' "
@@ -79,12 +79,11 @@ std::string script(const StressMatrix& matrix, const std::string& path, const st
   text +=
       "set label 'Scene by method: the digits that are right, or what became of it instead' at "
       "screen 0.02, screen 1 left offset 0,-1.2 font ',14'\n"
-      "set label 'heavy frame: the fastest right answer    coarse: ok with few digits    WRONG: "
-      "ok, "
-      "and it is not' at screen 0.02, screen 0 left offset 0,2.2\n"
-      "set label '*: of another library    (in brackets: the kind of scene)' at screen 0.02, "
-      "screen "
-      "0 left offset 0,1\n"
+      "set label 'heavy frame: the fastest right answer    coarse: ok with few digits' at screen "
+      "0.02, screen 0 left offset 0,3.4\n"
+      "set label 'WRONG: ok, and it is not    *: of another library' at screen 0.02, screen 0 left "
+      "offset 0,2.2\n"
+      "set label 'in brackets: the kind of scene' at screen 0.02, screen 0 left offset 0,1\n"
       "unset key\nunset border\nset tics scale 0\nset tmargin 9\nset bmargin 10\n";
   text += fmt::format("set xrange [0.5:{}.5]\nset x2range [0.5:{}.5]\nset yrange [{}.5:0.5]\n",
                       columns, columns, rows);
