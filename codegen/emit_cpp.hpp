@@ -4,6 +4,7 @@
 
 #include "codegen/literal.hpp"
 #include "codegen/specialise.hpp"
+#include "codegen/split.hpp"
 
 namespace casimir {
 
@@ -37,8 +38,10 @@ std::string emit_header(const Specialisation& specialisation, const HeaderOption
 /// \param with_series  instead of `casimir_integrate`, what the precompiled integrator along Taylor
 ///        series calls; the kernel is then the storage of recurrences
 ///        (runtime/kernels/convolved.hpp).
+/// \param splitting  if set, `System` has also the flows of the parts of the Hamiltonian, as
+///        runtime/kernels/splitting.hpp asks for them.
 std::string emit_module(const Specialisation& specialisation, const std::string& kernel_source = {},
-                        bool with_series = false);
+                        bool with_series = false, const Splitting* splitting = nullptr);
 
 /// The text of a module for ensembles: Taylor series, one trajectory in each lane of a register.
 /// Run-time parameters are those of a member. Quadratic systems have a better one, see

@@ -58,7 +58,7 @@ class ModuleWriter {
     style_.indent = "    ";
   }
 
-  std::string run(const std::string& kernel, bool with_series) {
+  std::string run(const std::string& kernel, bool with_series, const Splitting* splitting) {
     // The same text for all values of the parameters at run time: it is compiled once.
     std::string text = codegen::head_comment(spec_, false) + "\n";
     if (!kernel.empty()) text += kernel + (kernel.ends_with('\n') ? "\n" : "\n\n");
@@ -70,6 +70,7 @@ class ModuleWriter {
               function("jacobian", "J", spec_.jacobian.program, jacobian_zeros());
     }
     text += "\n" + function("invariants", "values", spec_.invariants, "");
+    if (splitting) text += flows(*splitting);
     if (with_series) text += "\n" + codegen::series_struct(spec_.rhs, names_);
     text += "};\n\n}  // namespace\n\n";
     text += exports();
@@ -104,6 +105,32 @@ class ModuleWriter {
            std::string(23 + name.size(), ' ') +
            "[[maybe_unused]] const double* p, [[maybe_unused]] double* " + target + ") {\n" +
            before + codegen::statements(program, sources_, names_, targets, style_) + "  }\n";
+  }
+
+  /// The flows of the parts, one function each, and what chooses among them.
+  std::string flows(const Splitting& splitting) const {
+    const std::size_t parts = splitting.parts.size();
+    std::string text, choice, moves;
+    for (std::size_t k = 0; k < parts; ++k) {
+      const Program& flow = splitting.flows[k];
+      const std::string name = "flow_" + std::to_string(k);
+      text += "\n" + codegen::comment_lines("What the flow of H_" + std::to_string(k) + " = " +
+                                                splitting.parts[k] + " adds in the time t.",
+                                            "  ");
+      text += function(name, "dx", flow, "");
+      choice += "    if constexpr (k == " + std::to_string(k) + ") " + name + "(t, x, p, dx);\n";
+      std::string row;
+      for (const bool moved : codegen::moved_states(flow))
+        row += (row.empty() ? "" : ", ") + std::string(moved ? "true" : "false");
+      moves += codegen::wrapped("      {" + row + "},") + "\n";
+    }
+    return "\n  // The Hamiltonian is the sum of these parts, and the flow of each is known.\n"
+           "  static constexpr int parts = " +
+           std::to_string(parts) + ";\n  static constexpr bool moves[parts][n] = {\n" + moves +
+           "  };\n" + text +
+           "\n  template <int k>\n  static inline void flow(double t, const double* x, const double* p, "
+           "double* dx) {\n" +
+           choice + "  }\n";
   }
 
   std::string exports() const {
@@ -186,8 +213,8 @@ bool needs_math_library(const Specialisation& spec) {
 }
 
 std::string emit_module(const Specialisation& spec, const std::string& kernel_source,
-                        bool with_series) {
-  return ModuleWriter(spec).run(kernel_source, with_series);
+                        bool with_series, const Splitting* splitting) {
+  return ModuleWriter(spec).run(kernel_source, with_series, splitting);
 }
 
 }  // namespace casimir

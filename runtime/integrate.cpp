@@ -51,6 +51,10 @@ int observe(void* data, const casimir_step* step) {
   return static_cast<Observer*>(data)->step(step->t1, step->x1, state_at) ? 0 : 1;
 }
 
+void project(void* data, double t, double* x, double* carry) {
+  static_cast<const Settings*>(data)->project(t, x, carry);
+}
+
 [[noreturn]] void refuse(const std::string& text) { throw std::invalid_argument(text); }
 
 void check_sizes(const Module& module, std::size_t states, std::size_t parameters) {
@@ -75,6 +79,10 @@ void run_kernel(const Module& module, const Settings& s, const double* parameter
   run.factor = DenseSolver::factor;
   run.solve = DenseSolver::solve;
   run.solver = &solver;
+  if (s.project) {
+    run.project = project;
+    run.projector = const_cast<Settings*>(&s);
+  }
   casimir_outcome outcome = {};
   const auto start = Clock::now();
   module.functions().integrate(&run, trajectory.state.data(), &outcome);
@@ -153,6 +161,8 @@ void check_settings(const Settings& s, const Method& method) {
     refuse("the step must be a positive finite number");
   if (s.fixed_step > 0 && !method.fixed_step_ok)
     refuse(std::string(method.name) + " has no constant step");
+  if (s.project && !method.outside.empty())
+    refuse(std::string(method.name) + " is another library's and cannot be projected");
   if (!(s.sample_every >= 0)) refuse("the time between samples must be positive");
   if (s.sample_every > 0 && !(std::abs(s.duration) / s.sample_every <= kMostSamples))
     refuse("the time between samples is so small that there would be more than 1e8 of them");

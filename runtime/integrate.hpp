@@ -45,6 +45,9 @@ struct Settings {
   std::function<void(double t, const double* changes)> invariant_changes = {};
   /// If set and monitored, shown the state after each step.
   std::function<void(double t, const double* x)> watch = {};
+  /// If set, shown the state and its carry at the end of each step, which it may change, before the
+  /// step is accepted: see Projector. For our own methods only.
+  std::function<void(double t, double* x, double* carry)> project = {};
   std::function<void(double t)> progress = {};  ///< if set, told the time after each step
   std::function<bool()> give_up;  ///< asked after each step; true ends the run as `stopped`
 };

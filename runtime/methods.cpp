@@ -8,65 +8,112 @@
 namespace casimir {
 namespace {
 
-constexpr std::string_view kGaussText = "collocation at the Gauss nodes, symplectic and A-stable";
-constexpr std::string_view kGaussBook =
-    "Hairer, Lubich, Wanner: Geometric Numerical Integration (2006), II.1.3";
-constexpr std::string_view kGauss = "runtime/kernels/gauss.hpp";
-constexpr std::string_view kRadauText =
-    "collocation at the Radau nodes, L-stable, for stiff and damped systems";
-constexpr std::string_view kRadauBook =
-    "Hairer, Wanner: Solving Ordinary Differential Equations II (1996), IV.5, IV.8";
-constexpr std::string_view kRadau = "runtime/kernels/radau.hpp";
-constexpr std::string_view kOdeint = "runtime/kernels/odeint.hpp";
-constexpr std::string_view kTaylor = "runtime/kernels/convolved.hpp";
-constexpr std::string_view kTaylorText =
-    "Taylor series of order 8 to 24 by recurrences, for smooth problems";
-constexpr std::string_view kTaylorBook =
-    "Jorba, Zou: A software package for the numerical integration of ODEs (2005)";
-// Short sums in a chain of dependent steps: packing them costs a third of the speed (GCC 12).
-constexpr std::string_view kScalar = "no-tree-vectorize,no-tree-slp-vectorize";
+constexpr Method gauss(std::string_view name, int order, std::string_view entry) {
+  return {.name = name,
+          .order = order,
+          .implicit = true,
+          .uses_jacobian = true,
+          .preserves_quadratic = true,
+          .fixed_step_ok = true,
+          .header = "runtime/kernels/gauss.hpp",
+          .entry = entry,
+          // Short sums in a chain of dependent steps: packing them costs a third of the speed (GCC
+          // 12).
+          .optimise = "no-tree-vectorize,no-tree-slp-vectorize",
+          .description = "collocation at the Gauss nodes, symplectic and A-stable",
+          .literature = "Hairer, Lubich, Wanner: Geometric Numerical Integration (2006), II.1.3"};
+}
 
-// name, order, implicit, needs J, uses J, quadratic, fixed step, series, outside, header, entry,
-// optimise, ..
+constexpr Method radau(std::string_view name, int order, std::string_view entry) {
+  return {.name = name,
+          .order = order,
+          .implicit = true,
+          .uses_jacobian = true,
+          .fixed_step_ok = true,
+          .header = "runtime/kernels/radau.hpp",
+          .entry = entry,
+          .description = "collocation at the Radau nodes, L-stable, for stiff and damped systems",
+          .literature = "Hairer, Wanner: Solving Ordinary Differential Equations II (1996), IV.5, "
+                        "IV.8"};
+}
+
+constexpr Method splitting(std::string_view name, int order, std::string_view entry) {
+  return {.name = name,
+          .order = order,
+          .fixed_step_ok = true,
+          .splits = true,
+          .header = "runtime/kernels/splitting.hpp",
+          .entry = entry,
+          .description = "composition of exact flows of parts of the Hamiltonian, a Poisson map",
+          .literature = "Hairer, Lubich, Wanner: Geometric Numerical Integration (2006), II.5, "
+                        "V.3, VII.4"};
+}
+
+/// Taylor series; the integrator is precompiled.
+constexpr Method taylor(std::string_view name) {
+  return {.name = name,
+          .fixed_step_ok = true,
+          .series = true,
+          .header = "runtime/kernels/convolved.hpp",
+          .description = "Taylor series of order 8 to 24 by recurrences, for smooth problems",
+          .literature = "Jorba, Zou: A software package for the numerical integration of ODEs "
+                        "(2005)"};
+}
+
+constexpr Method odeint(std::string_view name, int order, std::string_view entry,
+                        std::string_view description) {
+  return {.name = name,
+          .order = order,
+          .outside = "Boost.Odeint",
+          .header = "runtime/kernels/odeint.hpp",
+          .entry = entry,
+          .description = description,
+          .literature = "Ahnert, Mulansky: Odeint, AIP Conf. Proc. 1389 (2011) 1586"};
+}
+
+constexpr std::string_view kCvode =
+    "Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363";
+
 constexpr Method kMethods[] = {
-    {"dop853", 8, false, false, false, false, true, false, "", "runtime/kernels/dop853.hpp",
-     "dop853::integrate<System>", "", "explicit Runge-Kutta method of Dormand and Prince",
-     "Hairer, Norsett, Wanner: Solving Ordinary Differential Equations I (1993), II.5, II.10"},
-    {"taylor", 0, false, false, false, false, true, true, "", kTaylor, "", "", kTaylorText,
-     kTaylorBook},
-    {"taylor-compiled", 0, false, false, false, false, true, true, "", kTaylor, "", "", kTaylorText,
-     kTaylorBook},
-    {"gauss4", 4, true, false, true, true, true, false, "", kGauss, "gauss::integrate<System, 2>",
-     kScalar, kGaussText, kGaussBook},
-    {"gauss6", 6, true, false, true, true, true, false, "", kGauss, "gauss::integrate<System, 3>",
-     kScalar, kGaussText, kGaussBook},
-    {"gauss8", 8, true, false, true, true, true, false, "", kGauss, "gauss::integrate<System, 4>",
-     kScalar, kGaussText, kGaussBook},
-    {"gauss12", 12, true, false, true, true, true, false, "", kGauss, "gauss::integrate<System, 6>",
-     kScalar, kGaussText, kGaussBook},
-    {"gauss16", 16, true, false, true, true, true, false, "", kGauss, "gauss::integrate<System, 8>",
-     kScalar, kGaussText, kGaussBook},
-    {"radau5", 5, true, false, true, false, true, false, "", kRadau, "radau::integrate<System, 3>",
-     "", kRadauText, kRadauBook},
-    {"radau9", 9, true, false, true, false, true, false, "", kRadau, "radau::integrate<System, 5>",
-     "", kRadauText, kRadauBook},
-    {"odeint-fehlberg78", 8, false, false, false, false, false, false, "Boost.Odeint", kOdeint,
-     "odeint::integrate<System, odeint::runge_kutta_fehlberg78>", "",
-     "Boost.Odeint, explicit Runge-Kutta method of Fehlberg of order 7(8)",
-     "Ahnert, Mulansky: Odeint, AIP Conf. Proc. 1389 (2011) 1586"},
-    {"odeint-dopri5", 5, false, false, false, false, false, false, "Boost.Odeint", kOdeint,
-     "odeint::integrate<System, odeint::runge_kutta_dopri5>", "",
-     "Boost.Odeint, explicit Runge-Kutta method of Dormand and Prince of order 5(4)",
-     "Ahnert, Mulansky: Odeint, AIP Conf. Proc. 1389 (2011) 1586"},
-    {"cvode-adams", 0, false, false, false, false, false, false, "SUNDIALS", "", "", "",
-     "CVODE, Adams-Moulton methods of order 1 to 12 with functional iteration",
-     "Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363"},
-    {"cvode-bdf", 0, true, false, true, false, false, false, "SUNDIALS", "", "", "",
-     "CVODE, backward differentiation formulas of order 1 to 5 with Newton iteration",
-     "Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363"},
-    {"arkode-erk", 8, false, false, false, false, false, false, "SUNDIALS", "", "", "",
-     "ARKODE, explicit Runge-Kutta method of Fehlberg of order 8(7)",
-     "Reynolds et al., ACM Trans. Math. Softw. 49 (2023) 19"},
+    {.name = "dop853",
+     .order = 8,
+     .fixed_step_ok = true,
+     .header = "runtime/kernels/dop853.hpp",
+     .entry = "dop853::integrate<System>",
+     .description = "explicit Runge-Kutta method of Dormand and Prince",
+     .literature = "Hairer, Norsett, Wanner: Solving Ordinary Differential Equations I (1993), "
+                   "II.5, II.10"},
+    taylor("taylor"),
+    taylor("taylor-compiled"),
+    gauss("gauss4", 4, "gauss::integrate<System, 2>"),
+    gauss("gauss6", 6, "gauss::integrate<System, 3>"),
+    gauss("gauss8", 8, "gauss::integrate<System, 4>"),
+    gauss("gauss12", 12, "gauss::integrate<System, 6>"),
+    gauss("gauss16", 16, "gauss::integrate<System, 8>"),
+    radau("radau5", 5, "radau::integrate<System, 3>"),
+    radau("radau9", 9, "radau::integrate<System, 5>"),
+    splitting("splitting6", 6, "splitting::integrate<System, 6>"),
+    splitting("splitting", 8, "splitting::integrate<System, 8>"),
+    odeint("odeint-fehlberg78", 8, "odeint::integrate<System, odeint::runge_kutta_fehlberg78>",
+           "Boost.Odeint, explicit Runge-Kutta method of Fehlberg of order 7(8)"),
+    odeint("odeint-dopri5", 5, "odeint::integrate<System, odeint::runge_kutta_dopri5>",
+           "Boost.Odeint, explicit Runge-Kutta method of Dormand and Prince of order 5(4)"),
+    {.name = "cvode-adams",
+     .outside = "SUNDIALS",
+     .description = "CVODE, Adams-Moulton methods of order 1 to 12 with functional iteration",
+     .literature = kCvode},
+    {.name = "cvode-bdf",
+     .implicit = true,
+     .uses_jacobian = true,
+     .outside = "SUNDIALS",
+     .description = "CVODE, backward differentiation formulas of order 1 to 5 with Newton "
+                    "iteration",
+     .literature = kCvode},
+    {.name = "arkode-erk",
+     .order = 8,
+     .outside = "SUNDIALS",
+     .description = "ARKODE, explicit Runge-Kutta method of Fehlberg of order 8(7)",
+     .literature = "Reynolds et al., ACM Trans. Math. Softw. 49 (2023) 19"},
 };
 
 /// Appends the text of a header after those it includes, each header once.

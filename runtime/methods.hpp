@@ -10,20 +10,20 @@ namespace casimir {
 /// A numerical method as users name it, with the properties that other parts rely on.
 struct Method {
   std::string_view name;
-  int order;                  ///< of the global error; 0 = variable
-  bool implicit;              ///< solves equations in every step; suited to stiff systems
-  bool needs_jacobian;        ///< cannot do without the Jacobian of the module
-  bool uses_jacobian;         ///< is faster or more robust with it
-  bool preserves_quadratic;   ///< keeps quadratic invariants up to rounding
-  bool fixed_step_ok;         ///< accepts Settings::fixed_step
-  bool series;                ///< needs the recurrences of the system's Taylor coefficients
-  std::string_view outside;   ///< the library that does it, or empty: a kernel of our own
-  std::string_view header;    ///< of the kernel, as #include says it; empty: a library calls rhs
-  std::string_view entry;     ///< the function template of the kernel, called with <System ..>;
+  int order = 0;  ///< of the global error; 0 = variable
+  bool implicit = false;  ///< solves equations in every step; suited to stiff systems
+  bool uses_jacobian = false;  ///< is faster or more robust with it
+  bool preserves_quadratic = false;  ///< keeps quadratic invariants up to rounding
+  bool fixed_step_ok = false;  ///< accepts Settings::fixed_step
+  bool series = false;  ///< needs the recurrences of the system's Taylor coefficients
+  bool splits = false;  ///< follows the flows of the parts of a Hamiltonian
+  std::string_view outside = {};   ///< the library that does it, or empty: a kernel of our own
+  std::string_view header = {};    ///< of the kernel, as #include says it; empty: a library calls rhs
+  std::string_view entry = {};     ///< the function template of the kernel, called with <System ..>;
                               ///< empty: the integrator is precompiled, the kernel is storage
-  std::string_view optimise;  ///< options of GCC under which the kernel is fastest, or empty
-  std::string_view description;
-  std::string_view literature;
+  std::string_view optimise = {};  ///< options of GCC under which the kernel is fastest, or empty
+  std::string_view description = {};
+  std::string_view literature = {};
 };
 
 /// All methods, own ones first. A new one is a header in `kernels/` and a line in methods.cpp.

@@ -3,7 +3,7 @@
 #ifndef CASIMIR_MODULE_ABI_H
 #define CASIMIR_MODULE_ABI_H
 
-#define CASIMIR_ABI_VERSION 2
+#define CASIMIR_ABI_VERSION 3
 
 /* How many matrices a kernel may have factorised at a time. */
 #define CASIMIR_MATRICES 7
@@ -61,6 +61,10 @@ struct casimir_run {
   void* solver;
   /* Null, or what makes a step of the Taylor method more exact. */
   const struct casimir_leading* leading;
+  /* Null, or what puts the state x + carry at the end of a step back onto the level of invariants,
+   * before it is accepted. n entries each. */
+  void (*project)(void* projector, double t, double* x, double* carry);
+  void* projector;
 };
 
 /* What came of it. The state array given to `integrate` then holds the state at `t`. */

@@ -9,14 +9,14 @@ namespace {
 
 constexpr double kSeconds = 10;
 
+}  // namespace
+
 Verdict verdict_on(const Model& model, const std::string& invariant) {
   Candidates candidates;
   candidates.integrals.push_back({invariant, {"--integral", 1, 1}, invariant});
   const std::vector<Proof> proofs = prove_within(kSeconds, model, candidates, {});
   return proofs.empty() ? Verdict::undecided : proofs.front().verdict;
 }
-
-}  // namespace
 
 std::vector<std::string> check_drift(const Model& model, const std::vector<std::string>& names,
                                      Trajectory& trajectory) {

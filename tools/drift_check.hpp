@@ -5,6 +5,7 @@
 
 #include "runtime/integrate.hpp"
 #include "symbolic/model.hpp"
+#include "symbolic/prove.hpp"
 
 namespace casimir::tools {
 
@@ -14,5 +15,8 @@ namespace casimir::tools {
 /// \return       a sentence about each that is no proved integral
 std::vector<std::string> check_drift(const Model& model, const std::vector<std::string>& names,
                                      Trajectory& trajectory);
+
+/// Whether that invariant of the case, "H" or one of the file, is an integral.
+Verdict verdict_on(const Model& model, const std::string& invariant);
 
 }  // namespace casimir::tools

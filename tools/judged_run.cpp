@@ -9,6 +9,7 @@
 #include "runtime/stiffness.hpp"
 #include "tools/drift_check.hpp"
 #include "tools/near_singular.hpp"
+#include "tools/projected.hpp"
 #include "tools/run_report.hpp"
 #include "tools/watched_run.hpp"
 
@@ -68,6 +69,11 @@ class Judge {
     result_.method = &method;
     result_.settings = settings;
     result_.settings.sample_every = options_.sample_every;
+    if (options_.run.projects()) {
+      result_.warnings.clear();
+      result_.projected =
+          set_projection(options_.run, model_, run_, result_.settings, result_.warnings);
+    }
     result_.settings.give_up = time_limit(options_.time_limit);
     result_.compiled.emplace(compile_for(run_, method));
   }

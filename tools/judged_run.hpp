@@ -20,6 +20,7 @@ struct JudgedRun {
   std::optional<CompiledModule> compiled;  ///< set
   Trajectory trajectory;
   Trust trust;
+  std::vector<std::string> projected;  ///< onto the levels of these invariants
   std::vector<std::string> warnings;
   std::string advice;        ///< where the run stopped early
   bool interrupted = false;  ///< by the user

@@ -22,6 +22,15 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   positive("--step", options.step, "Constant step instead of error control");
   command.add_option("--duration", options.duration, "Duration of the run (default: the scene's)")
       ->type_name("T");
+  command.add_flag("--project", options.project,
+                   "After each step, move the state back onto the level of every invariant that is "
+                   "proved");
+  command
+      .add_option("--project-onto", options.project_onto,
+                  "The same, but only of these: H, Casimirs, integrals")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("A,B");
   command.add_option("--max-steps", options.max_steps, "Limit on the number of steps")
       ->type_name("N")
       ->check(CLI::PositiveNumber);

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "runtime/methods.hpp"
 #include "tools/cli.hpp"
@@ -14,6 +15,9 @@ struct RunOptions {
   std::optional<double> rtol, atol, tolerance, step;
   std::optional<std::string> duration;
   unsigned long long max_steps = 0;
+  bool project = false;                   ///< onto every invariant that is proved
+  std::vector<std::string> project_onto;  ///< only onto these
+  bool projects() const { return project || !project_onto.empty(); }
 };
 
 void add_run_options(CLI::App& command, RunOptions& options);

@@ -59,6 +59,7 @@ SceneRun prepare(const Model& model, const Scene& scene, const SceneOptions& opt
     run.parameter_rounding.push_back(remainder(values[next], run.parameters.back()));
   }
   run.duration = rounded(values[next]);
+  run.split_source = split_source(model, scene, s.states, s.parameters, run.no_split);
   run.generate_seconds = seconds_since(start);
   return run;
 }
@@ -79,16 +80,26 @@ InvariantTerms SceneRun::invariant_terms() const {
 
 namespace {
 
+/// \throws ModelError  where the Hamiltonian does not split.
+Splitting splitting_of(const SceneRun& run) {
+  if (!run.split_source) throw ModelError("no splitting: " + run.no_split);
+  return split(*run.split_source);
+}
+
 /// A module from the compiler.
 /// \throws CompilerMissing  without one; the text names the method that does not need it.
-CompiledModule compiled_module(Specialisation s, const Method& method) {
+CompiledModule compiled_module(const SceneRun& run, const Method& method) {
+  Specialisation s = run.specialisation;
+  std::optional<Splitting> splitting;
+  if (method.splits) splitting = splitting_of(run);
   // What no kernel of ours calls need not be compiled.
   if (!method.header.empty() && !method.uses_jacobian) s.has_jacobian = false;
   // A library that only calls the right-hand side has no kernel: one module serves them all.
   const std::string kernel = method.header.empty() ? std::string{} : kernel_source(method);
   CompileOptions options;
   options.standard_library = !method.outside.empty() && !kernel.empty();
-  const std::string text = emit_module(s, kernel, method.series);
+  const std::string text =
+      emit_module(s, kernel, method.series, splitting ? &*splitting : nullptr);
   try {
     const CompiledObject object = compile(text, options);
     return {.module = Module::load(object.path), .from_cache = object.from_cache};
@@ -106,7 +117,7 @@ CompiledModule taylor_module(const SceneRun& run, const Method& method) {
   if (form && !has_quadratic_kernel(*form)) form.reset();
   if (!form) {
     try {
-      return compiled_module(s, method);
+      return compiled_module(run, method);
     } catch (const CompilerMissing&) {
     }
   }
@@ -121,9 +132,19 @@ CompiledModule taylor_module(const SceneRun& run, const Method& method) {
 CompiledModule compile_for(const SceneRun& run, const Method& method) {
   const auto start = Clock::now();
   CompiledModule result = method.name == "taylor" ? taylor_module(run, method)
-                                                  : compiled_module(run.specialisation, method);
+                                                  : compiled_module(run, method);
   result.seconds = seconds_since(start);
   return result;
+}
+
+bool suits(const SceneRun& run, const Method& method) {
+  if (!method.splits) return true;
+  try {
+    splitting_of(run);
+    return true;
+  } catch (const ModelError&) {
+    return false;
+  }
 }
 
 std::function<bool()> time_limit(double seconds) {

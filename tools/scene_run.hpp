@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "codegen/specialise.hpp"
+#include "codegen/split.hpp"
 #include "runtime/integrate.hpp"
 #include "symbolic/model.hpp"
 
@@ -21,6 +22,8 @@ struct SceneRun {
   std::vector<double> parameters;  ///< at run time; empty when folded
   std::vector<double> parameter_rounding;
   double duration = 0;
+  std::optional<SplitSource> split_source;  ///< of a method that splits the Hamiltonian
+  std::string no_split;                     ///< why there is none
 
   /// For Settings; the scene must outlive it.
   InvariantTerms invariant_terms() const;
@@ -45,7 +48,12 @@ struct CompiledModule {
   bool compiled = true;      ///< false: table-driven or interpreted
   std::string warning = {};  ///< what the user should know about how it was made, or empty
 };
+/// \throws ModelError  where the method splits the Hamiltonian and it does not split.
 CompiledModule compile_for(const SceneRun& run, const Method& method);
+
+/// Whether the method can do anything with the scene: those that split the Hamiltonian need one
+/// that splits.
+bool suits(const SceneRun& run, const Method& method);
 
 /// What is said where a compiled module would be but for the compiler.
 inline constexpr const char* kInterpretedWarning =

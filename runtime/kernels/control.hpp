@@ -144,7 +144,8 @@ enum class Trial { done, not_finite, not_solved };
 ///
 ///   struct Step {
 ///     static constexpr int power;    the error estimate behaves like h^power
-///     double increment[n];           what `attempt` adds to the state
+///     double increment[n];           what `attempt` adds to the state; or instead, already summed,
+///     double next[n], next_carry[n];
 ///     double f[n];                   the derivative at the current state
 ///     double error;                  of the last attempt, 1 = just allowed; only if `adaptive`
 ///     unsigned long long evaluations, jacobians;
@@ -241,10 +242,16 @@ void march(const casimir_run* run, double* x, casimir_outcome* out) {
     bool good = result == Trial::done && step.error <= 1;
     if (good) {
       for (int i = 0; i < n; ++i) {
-        next[i] = x[i];
-        next_carry[i] = carry[i];
-        add_carried(next[i], next_carry[i], step.increment[i]);
+        if constexpr (requires { step.increment; }) {
+          next[i] = x[i];
+          next_carry[i] = carry[i];
+          add_carried(next[i], next_carry[i], step.increment[i]);
+        } else {
+          next[i] = step.next[i];
+          next_carry[i] = step.next_carry[i];
+        }
       }
+      if (run->project && all_finite<n>(next)) run->project(run->projector, t1, next, next_carry);
       if (!all_finite<n>(next) || !step.arrive(t1, next)) {
         good = false;
         result = Trial::not_finite;

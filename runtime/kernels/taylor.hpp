@@ -314,6 +314,7 @@ class March {
       failure_ = CASIMIR_NON_FINITE;
       return false;
     }
+    if (__builtin_expect(run_->project != nullptr, 0)) project(t1, next, next_carry);
     if (!series_.smooth || __builtin_expect(fresh_ || s > 3, 0)) {
       if (!follows(s, t1, next)) return false;
     }
@@ -334,6 +335,19 @@ class March {
     const casimir_leading& leading = *run_->leading;
     leading.add(leading.object, t_, unit_, s, reinterpret_cast<double*>(next),
                 reinterpret_cast<double*>(next_carry), reinterpret_cast<const double*>(rest));
+  }
+
+  __attribute__((cold, noinline)) void project(double t1, V* next, V* next_carry) {
+    double x[room], carry[room];
+    for (int i = 0; i < series_.states; ++i) {
+      x[i] = next[i / width][i % width];
+      carry[i] = next_carry[i / width][i % width];
+    }
+    run_->project(run_->projector, t1, x, carry);
+    for (int i = 0; i < series_.states; ++i) {
+      next[i / width][i % width] = x[i];
+      next_carry[i / width][i % width] = carry[i];
+    }
   }
 
   /// Whether the series still has the derivative that the equations ask for at the end of the step.

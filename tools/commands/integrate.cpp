@@ -1,5 +1,6 @@
 // casimir integrate: one scene by one method, with the state, the drift and the samples.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -97,6 +98,7 @@ Json to_json(const Model& model, const SceneRun& run, const Answer& answer,
                {"status", to_string(trajectory.status)},
                {"t", exact_text(trajectory.time)}};
   if (!judged.chosen.empty()) json["chosen"] = judged.chosen;
+  if (!judged.projected.empty()) json["projected"] = judged.projected;
   json["state"] = Json::object();
   const std::vector<double> state = answer(trajectory.time, trajectory.state);
   for (std::size_t i = 0; i < state.size(); ++i)
@@ -133,6 +135,8 @@ void print_text(const SceneRun& run, const Answer& answer, const JudgedRun& judg
   fmt::print("{}, scene '{}', {} at tolerance {:g}\n", s.case_name, printable(s.scene),
              judged.method->name, judged.settings.rtol);
   if (!judged.chosen.empty()) fmt::print("  chosen by auto: {}\n", judged.chosen);
+  if (!judged.projected.empty())
+    fmt::print("  every step ends on the level of {}\n", fmt::join(judged.projected, ", "));
   fmt::print(
       "  generated in {}, {} in {}, integrated in {}: {} steps, {} rejected, {} evaluations\n",
       duration_text(run.generate_seconds),

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/program.hpp"
+#include "symbolic/model.hpp"
+
+namespace casimir {
+
+/// A Hamiltonian as the sum of parts whose flows are known in closed form.
+struct Splitting {
+  std::vector<std::string> parts;  ///< each part of the Hamiltonian, over the names of the file
+  /// For each part, what its flow adds to the states in a time: inputs are the states, the run-time
+  /// parameters and the time; one output a state. Exact, whatever the time.
+  std::vector<Program> flows;
+};
+
+/// What a splitting is made from: a Hamiltonian system for the values of a scene.
+struct SplitSource {
+  std::vector<GiNaC::symbol> states, parameters;
+  GiNaC::matrix bracket;  ///< {x_i, x_j}
+  GiNaC::ex hamiltonian;
+};
+
+/// The system of a scene, or nothing and why there is none: no bracket, states left out, a
+/// dependence on time. \param states  the kept ones, as Specialisation::states
+std::optional<SplitSource> split_source(const Model& model, const Scene& scene,
+                                        const std::vector<std::string>& states,
+                                        const std::vector<std::string>& parameters,
+                                        std::string& why_not);
+
+/// Splits the Hamiltonian. Parts are sums of terms along whose common field the field itself does
+/// not change (x + t X(x): kinetic and potential energy, functions of commuting variables);
+/// functions of one variable, or of one linear form, of a Lie algebra (rotations about an axis of
+/// the body and their likes), for which quadratic forms are brought to sums of squares; and
+/// quadratic forms of canonical variables with a linear flow of the same kind (McLachlan, Quispel:
+/// Splitting methods, Acta Numerica 11 (2002) 341).
+/// \throws ModelError  naming the first term that no part can take.
+Splitting split(const SplitSource& source);
+
+namespace codegen {
+/// For each state, whether a flow adds anything but zero to it.
+std::vector<bool> moved_states(const Program& flow);
+}  // namespace codegen
+
+}  // namespace casimir
