@@ -128,7 +128,8 @@ class ModuleWriter {
            "  static constexpr int parts = " +
            std::to_string(parts) + ";\n  static constexpr bool moves[parts][n] = {\n" + moves +
            "  };\n" + text +
-           "\n  template <int k>\n  static inline void flow(double t, const double* x, const double* p, "
+           "\n  template <int k>\n  static inline void flow(double t, const double* x, const "
+           "double* p, "
            "double* dx) {\n" +
            choice + "  }\n";
   }

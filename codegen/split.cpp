@@ -22,43 +22,99 @@ bool is_null(const matrix& m) {
   return true;
 }
 
-/// Functions of the eigenvalues of a flow x' = s A x: what exp(s A) - 1 is as a polynomial in A.
-/// `coefficients[k]` stands before A^(k+1).
+/// exp(s A) - 1 as a polynomial in A: entry k stands before A^(k+1).
 using Exponential = std::vector<ex>;
 
 ex squared(const ex& e) { return GiNaC::pow(e, 2); }
 
-/// exp(s A) - 1 where A is nilpotent, a rotation (A^3 = -w^2 A), its hyperbolic twin, or a screw
-/// ((A^2 + w^2)^2 A = 0); nothing for others. Differences of near numbers are avoided: half angles.
-std::optional<Exponential> exponential(const matrix& a, const ex& s) {
-  const matrix a2 = a.mul(a), a3 = a2.mul(a);
-  if (is_null(a2)) return Exponential{s};
-  if (is_null(a3)) return Exponential{s, squared(s) / 2};
-  ex kappa = 0;  // A^3 = kappa A, if any
-  for (unsigned i = 0; i < a.nops(); ++i)
-    if (!is_null(a.op(i))) kappa = (a3.op(i) / a.op(i)).normal();
-  if (!GiNaC::is_a<GiNaC::numeric>(kappa) || !kappa.info(GiNaC::info_flags::real)) return {};
-  if (!is_null(kappa) && is_null(a3.sub(a.mul_scalar(kappa)))) {
-    if (kappa.info(GiNaC::info_flags::negative)) {
-      const ex w = GiNaC::sqrt(-kappa), half = w * s / 2;
-      return Exponential{2 * GiNaC::sin(half) * GiNaC::cos(half) / w,
-                         2 * squared(GiNaC::sin(half) / w)};
-    }
-    const ex w = GiNaC::sqrt(kappa), up = GiNaC::exp(w * s / 2), down = GiNaC::exp(-w * s / 2);
-    return Exponential{(up - down) * (up + down) / (2 * w), squared((up - down) / w) / 2};
+/// The functions (sin, 1 - cos) of w s, over w and w^2, where -w^2 = kappa; for positive kappa
+/// their hyperbolic twins. Half angles: no differences of near numbers.
+std::pair<ex, ex> waves(const ex& kappa, const ex& s) {
+  if (kappa.info(GiNaC::info_flags::negative)) {
+    const ex w = GiNaC::sqrt(-kappa), half = w * s / 2;
+    return {2 * GiNaC::sin(half) * GiNaC::cos(half) / w, 2 * squared(GiNaC::sin(half) / w)};
   }
-  // A^5 + 2 w^2 A^3 + w^4 A = 0: w^2 from the trace of A^2, which is -2 w^2 times half the rank.
-  const matrix a5 = a3.mul(a2);
-  const unsigned pairs = static_cast<unsigned>(a.rank()) / 2;
-  if (pairs == 0) return {};
-  const ex w2 = (-a2.trace() / (2 * static_cast<int>(pairs))).normal();
-  if (!w2.info(GiNaC::info_flags::positive)) return {};
-  if (!is_null(a5.add(a3.mul_scalar(2 * w2)).add(a.mul_scalar(squared(w2))))) return {};
+  const ex w = GiNaC::sqrt(kappa), up = GiNaC::exp(w * s / 2), down = GiNaC::exp(-w * s / 2);
+  return {(up - down) * (up + down) / (2 * w), squared((up - down) / w) / 2};
+}
+
+/// The rational numbers other than zero among the eigenvalues of a matrix, in order; nothing if
+/// there are others.
+std::optional<std::vector<ex>> rational_eigenvalues(const matrix& m) {
+  for (unsigned i = 0; i < m.nops(); ++i)
+    if (!m.op(i).info(GiNaC::info_flags::rational)) return {};
+  const symbol x("x");
+  const ex all = GiNaC::factor(m.charpoly(x));
+  std::vector<ex> roots;
+  const auto take = [&](const ex& factor) {
+    const ex base = GiNaC::is_a<GiNaC::power>(factor) ? factor.op(0) : factor;
+    if (!base.has(x)) return true;
+    if (base.degree(x) != 1) return false;
+    if (const ex root = -base.coeff(x, 0) / base.coeff(x, 1); !root.is_zero())
+      roots.push_back(root);
+    return true;
+  };
+  if (!GiNaC::is_a<GiNaC::mul>(all)) {
+    if (!take(all)) return {};
+  } else {
+    for (const ex& factor : all)
+      if (!take(factor)) return {};
+  }
+  std::ranges::sort(roots, [](const ex& a, const ex& b) {
+    return GiNaC::ex_to<GiNaC::numeric>(a) < GiNaC::ex_to<GiNaC::numeric>(b);
+  });
+  return roots;
+}
+
+/// For rotations and boosts, several at a time: A times the product of A^2 - kappa_i is zero.
+std::optional<Exponential> waves_exponential(const matrix& a, const ex& s,
+                                             const std::vector<ex>& kappas) {
+  const matrix a2 = a.mul(a);
+  matrix product = a;
+  for (const ex& kappa : kappas)
+    product =
+        product.mul(a2.sub(GiNaC::ex_to<matrix>(GiNaC::unit_matrix(a.rows())).mul_scalar(kappa)));
+  if (!is_null(product)) return {};
+  Exponential result(2 * kappas.size(), 0);
+  for (const ex& kappa : kappas) {
+    const auto [sine, less] = waves(kappa, s);
+    std::vector<ex> lagrange{1};  // of kappa, as a polynomial in A^2
+    for (const ex& other : kappas) {
+      if (other.is_equal(kappa)) continue;
+      lagrange.push_back(0);
+      for (std::size_t k = lagrange.size(); k-- > 0;)
+        lagrange[k] = ((k > 0 ? lagrange[k - 1] : 0) - other * lagrange[k]) / (kappa - other);
+    }
+    for (std::size_t k = 0; k < lagrange.size(); ++k) {
+      result[2 * k] += lagrange[k] * sine;
+      result[2 * k + 1] += lagrange[k] * less;
+    }
+  }
+  return result;
+}
+
+/// For a screw: (A^2 + w^2)^2 A = 0.
+std::optional<Exponential> screw_exponential(const matrix& a, const ex& s, const ex& w2) {
+  const matrix a2 = a.mul(a), a3 = a2.mul(a);
+  if (!is_null(a3.mul(a2).add(a3.mul_scalar(2 * w2)).add(a.mul_scalar(squared(w2))))) return {};
   const ex w = GiNaC::sqrt(w2), angle = w * s;
   const ex sine = GiNaC::sin(angle), less = 2 * squared(GiNaC::sin(angle / 2));
   const ex lags = angle * GiNaC::cos(angle);
   return Exponential{(3 * sine - lags) / (2 * w), (4 * less - angle * sine) / (2 * w2),
                      (sine - lags) / (2 * w * w2), (2 * less - angle * sine) / (2 * squared(w2))};
+}
+
+/// exp(s A) - 1 where A is nilpotent, a sum of commuting rotations and boosts, or a screw; nothing
+/// for others.
+std::optional<Exponential> exponential(const matrix& a, const ex& s) {
+  const matrix a2 = a.mul(a);
+  if (is_null(a2)) return Exponential{s};
+  if (is_null(a2.mul(a))) return Exponential{s, squared(s) / 2};
+  const auto kappas = rational_eigenvalues(a2);
+  if (!kappas) return {};
+  if (const auto waves = waves_exponential(a, s, *kappas)) return waves;
+  const bool one = kappas->size() == 1 && kappas->front().info(GiNaC::info_flags::negative);
+  return one ? screw_exponential(a, s, -kappas->front()) : std::nullopt;
 }
 
 /// One part and what its flow adds to the states in the time `t`.
@@ -134,8 +190,8 @@ class Splitter {
     std::vector<ex> sums, rest;
     for (const ex& term : terms_) {
       const auto alone = drifts(term);
-      const auto group = std::ranges::find_if(
-          sums, [&](const ex& sum) { return alone && drifts(sum + term); });
+      const auto group =
+          std::ranges::find_if(sums, [&](const ex& sum) { return alone && drifts(sum + term); });
       if (group != sums.end())
         *group += term;
       else
@@ -149,10 +205,10 @@ class Splitter {
     }
   }
 
-  /// The matrix A of {x, l} = A x for a linear form l; nothing if that is not linear in x.
+  /// The matrix A of a field A (x, 1) of the states and a constant 1; nothing if it is not linear.
   std::optional<matrix> linear_field(const std::vector<ex>& x) const {
     const auto size = static_cast<unsigned>(n());
-    matrix a(size, size);
+    matrix a(size + 1, size + 1);
     for (unsigned i = 0; i < size; ++i) {
       ex rest = x[i].expand();
       for (unsigned j = 0; j < size; ++j) {
@@ -160,21 +216,23 @@ class Splitter {
         if (moves(a(i, j))) return {};
       }
       for (unsigned j = 0; j < size; ++j) rest -= a(i, j) * state(j);
-      if (!is_null(rest)) return {};
+      a(i, size) = rest.expand();
+      if (moves(a(i, size))) return {};
     }
     return a;
   }
 
-  /// The flow of x' = speed A x, where the speed does not change along it.
+  /// The flow of x' = speed A (x, 1), where the speed does not change along it.
   bool take_linear_flow(const ex& hamiltonian, const matrix& a, const ex& speed) {
     const auto powers = exponential(a, time_ * speed);
     if (!powers) return false;
-    matrix x(static_cast<unsigned>(n()), 1);
-    for (unsigned i = 0; i < x.rows(); ++i) x(i, 0) = state(i);
+    matrix x(static_cast<unsigned>(n()) + 1, 1);
+    for (unsigned i = 0; i < n(); ++i) x(i, 0) = state(i);
+    x(x.rows() - 1, 0) = 1;
     Part part{hamiltonian, std::vector<ex>(n(), 0)};
     for (const ex& coefficient : *powers) {
       x = a.mul(x);
-      for (unsigned i = 0; i < x.rows(); ++i) part.added[i] += coefficient * x(i, 0).expand();
+      for (unsigned i = 0; i < n(); ++i) part.added[i] += coefficient * x(i, 0).expand();
     }
     parts_.push_back(part);
     return true;

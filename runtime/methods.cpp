@@ -33,8 +33,9 @@ constexpr Method radau(std::string_view name, int order, std::string_view entry)
           .header = "runtime/kernels/radau.hpp",
           .entry = entry,
           .description = "collocation at the Radau nodes, L-stable, for stiff and damped systems",
-          .literature = "Hairer, Wanner: Solving Ordinary Differential Equations II (1996), IV.5, "
-                        "IV.8"};
+          .literature =
+              "Hairer, Wanner: Solving Ordinary Differential Equations II (1996), IV.5, "
+              "IV.8"};
 }
 
 constexpr Method splitting(std::string_view name, int order, std::string_view entry) {
@@ -45,8 +46,9 @@ constexpr Method splitting(std::string_view name, int order, std::string_view en
           .header = "runtime/kernels/splitting.hpp",
           .entry = entry,
           .description = "composition of exact flows of parts of the Hamiltonian, a Poisson map",
-          .literature = "Hairer, Lubich, Wanner: Geometric Numerical Integration (2006), II.5, "
-                        "V.3, VII.4"};
+          .literature =
+              "Hairer, Lubich, Wanner: Geometric Numerical Integration (2006), II.5, "
+              "V.3, VII.4"};
 }
 
 /// Taylor series; the integrator is precompiled.
@@ -56,8 +58,9 @@ constexpr Method taylor(std::string_view name) {
           .series = true,
           .header = "runtime/kernels/convolved.hpp",
           .description = "Taylor series of order 8 to 24 by recurrences, for smooth problems",
-          .literature = "Jorba, Zou: A software package for the numerical integration of ODEs "
-                        "(2005)"};
+          .literature =
+              "Jorba, Zou: A software package for the numerical integration of ODEs "
+              "(2005)"};
 }
 
 constexpr Method odeint(std::string_view name, int order, std::string_view entry,
@@ -71,8 +74,7 @@ constexpr Method odeint(std::string_view name, int order, std::string_view entry
           .literature = "Ahnert, Mulansky: Odeint, AIP Conf. Proc. 1389 (2011) 1586"};
 }
 
-constexpr std::string_view kCvode =
-    "Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363";
+constexpr std::string_view kCvode = "Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363";
 
 constexpr Method kMethods[] = {
     {.name = "dop853",

@@ -10,17 +10,17 @@ namespace casimir {
 /// A numerical method as users name it, with the properties that other parts rely on.
 struct Method {
   std::string_view name;
-  int order = 0;  ///< of the global error; 0 = variable
-  bool implicit = false;  ///< solves equations in every step; suited to stiff systems
-  bool uses_jacobian = false;  ///< is faster or more robust with it
+  int order = 0;                     ///< of the global error; 0 = variable
+  bool implicit = false;             ///< solves equations in every step; suited to stiff systems
+  bool uses_jacobian = false;        ///< is faster or more robust with it
   bool preserves_quadratic = false;  ///< keeps quadratic invariants up to rounding
-  bool fixed_step_ok = false;  ///< accepts Settings::fixed_step
-  bool series = false;  ///< needs the recurrences of the system's Taylor coefficients
-  bool splits = false;  ///< follows the flows of the parts of a Hamiltonian
-  std::string_view outside = {};   ///< the library that does it, or empty: a kernel of our own
-  std::string_view header = {};    ///< of the kernel, as #include says it; empty: a library calls rhs
-  std::string_view entry = {};     ///< the function template of the kernel, called with <System ..>;
-                              ///< empty: the integrator is precompiled, the kernel is storage
+  bool fixed_step_ok = false;        ///< accepts Settings::fixed_step
+  bool series = false;               ///< needs the recurrences of the system's Taylor coefficients
+  bool splits = false;               ///< follows the flows of the parts of a Hamiltonian
+  std::string_view outside = {};     ///< the library that does it, or empty: a kernel of our own
+  std::string_view header = {};  ///< of the kernel, as #include says it; empty: a library calls rhs
+  std::string_view entry = {};   ///< the function template of the kernel, called with <System ..>;
+                                 ///< empty: the integrator is precompiled, the kernel is storage
   std::string_view optimise = {};  ///< options of GCC under which the kernel is fastest, or empty
   std::string_view description = {};
   std::string_view literature = {};

@@ -14,7 +14,8 @@ namespace casimir::tools {
 /// proved to be integrals of the case, or of those named.
 /// \param doubts  gets a sentence about each invariant that is left out because it is not proved.
 /// \return        the names of those projected onto; empty where nothing was asked for.
-/// \throws UsageError  for a name that is no invariant of the run, one that is named but not proved,
+/// \throws UsageError  for a name that is no invariant of the run, one that is named but not
+/// proved,
 ///                     and where none is left.
 std::vector<std::string> set_projection(const RunOptions& options, const Model& model,
                                         const SceneRun& run, Settings& settings,

@@ -98,8 +98,7 @@ CompiledModule compiled_module(const SceneRun& run, const Method& method) {
   const std::string kernel = method.header.empty() ? std::string{} : kernel_source(method);
   CompileOptions options;
   options.standard_library = !method.outside.empty() && !kernel.empty();
-  const std::string text =
-      emit_module(s, kernel, method.series, splitting ? &*splitting : nullptr);
+  const std::string text = emit_module(s, kernel, method.series, splitting ? &*splitting : nullptr);
   try {
     const CompiledObject object = compile(text, options);
     return {.module = Module::load(object.path), .from_cache = object.from_cache};
@@ -131,8 +130,8 @@ CompiledModule taylor_module(const SceneRun& run, const Method& method) {
 
 CompiledModule compile_for(const SceneRun& run, const Method& method) {
   const auto start = Clock::now();
-  CompiledModule result = method.name == "taylor" ? taylor_module(run, method)
-                                                  : compiled_module(run, method);
+  CompiledModule result =
+      method.name == "taylor" ? taylor_module(run, method) : compiled_module(run, method);
   result.seconds = seconds_since(start);
   return result;
 }

@@ -29,9 +29,9 @@ template <>
 struct Scheme<8> {
   static constexpr int half = 9;
   static constexpr double gamma[half] = {
-      0.13020248308889008088,  0.56116298177510838456, -0.38947496264484728641,
-      0.15884190655515560090,  -0.39590389413323757734, 0.18453964097831570709,
-      0.25837438768632204729,  0.29501172360931029887,  -0.60550853383003451170};
+      0.13020248308889008088, 0.56116298177510838456,  -0.38947496264484728641,
+      0.15884190655515560090, -0.39590389413323757734, 0.18453964097831570709,
+      0.25837438768632204729, 0.29501172360931029887,  -0.60550853383003451170};
 };
 
 /// The scheme that the error is measured with.
@@ -72,7 +72,8 @@ struct Step {
 
   /// The flow of part k for the time h.
   template <int k>
-  static inline __attribute__((always_inline)) void follow(double h, const double* p, double* x, double* carry) {
+  static inline __attribute__((always_inline)) void follow(double h, const double* p, double* x,
+                                                           double* carry) {
     double dx[n];
     System::template flow<k>(h, x, p, dx);
     CASIMIR_UNROLL
@@ -82,7 +83,8 @@ struct Step {
 
   /// The symmetric step without part k - 1 and those before: half of k, what is inside, half of k.
   template <int k>
-  static inline __attribute__((always_inline)) void inner(double h, const double* p, double* x, double* carry) {
+  static inline __attribute__((always_inline)) void inner(double h, const double* p, double* x,
+                                                          double* carry) {
     if constexpr (k + 1 == parts) {
       follow<k>(h, p, x, carry);
     } else if constexpr (k < parts) {

@@ -20,7 +20,9 @@ using State = std::vector<Number>;
 
 constexpr int kDigits = 60;
 
-Number number(const char* text) { return cln::cl_float(cln::cl_R(text), cln::float_format(kDigits)); }
+Number number(const char* text) {
+  return cln::cl_float(cln::cl_R(text), cln::float_format(kDigits));
+}
 
 struct Prepared {
   Specialisation spec;
@@ -55,7 +57,8 @@ std::string top(const std::string& hamiltonian, const std::string& algebra = "e(
 std::string canonical(const std::string& hamiltonian) {
   return "title = \"t\"\nsource = \"s\"\nhamiltonian = \"" + hamiltonian +
          "\"\n[phase_space]\nvariables = [\"q1\", \"q2\", \"p1\", \"p2\"]\ncanonical = true\n"
-         "[[scene]]\nname = \"default\"\ninitial = { q1 = \"1/5\", q2 = \"1/7\", p1 = \"1/3\", p2 = "
+         "[[scene]]\nname = \"default\"\ninitial = { q1 = \"1/5\", q2 = \"1/7\", p1 = \"1/3\", p2 "
+         "= "
          "\"-1/4\" }\nduration = \"10\"\n";
 }
 
@@ -97,7 +100,7 @@ void check_flows(const Specialisation& spec, const Splitting& splitting) {
 TEST(Split, PartsOfATopAreRotationsAndAPotential) {
   const Splitting splitting = split_of(kKovalevskaya);
   EXPECT_EQ(std::set(splitting.parts.begin(), splitting.parts.end()),
-            (std::set<std::string>{"1/2*M1^2", "1/2*M2^2", "M3^2", "-g1"}));
+            (std::set<std::string>{"M1^2/2", "M2^2/2", "M3^2", "-g1"}));
 }
 
 TEST(Split, EveryBundledCaseThatSplitsHasTheFlowsOfItsParts) {
@@ -128,9 +131,10 @@ TEST(Split, SystemsOfEveryKindSplit) {
         top("M1^4 + sin(M2) + M3", "so(3)"), top("(M1^2 + M2^2 + 2*M3^2)/2 + g1*g2 + g3^3 + M3/2"),
         top("M1^2 + M2^2/2 + M3^2/3 + M1*g1/2 - M2*g2 + M3*g3/5 + g1^2"),  // screws
         top("M1^2 + M2^2/2 + M3^2/3", "so(4)"), top("M1*g1 + M2*g2 + g1^2 + g3^2/2", "so(4)"),
-        top("M1^2 + g1^2/3 + M2*g2", "so(3,1)"), canonical("(p1^2 + p2^2)/2 + q1^2*q2 + cos(q1)"),
+        top("M1^2 + g1^2/3 + g2", "so(3,1)"), canonical("(p1^2 + p2^2)/2 + q1^2*q2 + cos(q1)"),
         canonical("(p1^2 + p2^2)/2 - (q1*p2 - q2*p1)/3 + 1/(2 + q1^2)"),
-        canonical("(p1^2 + p2^2)/2 - (q1^2 + q2^2)/2"), canonical("q1*p1 + p2^2/2 - cos(q2)")}) {
+        canonical("(p1^2 + p2^2)/2 - (q1^2 + q2^2)/2"), canonical("q1*p1 + q1*p2/3 + 2*q2*p2 + p1"),
+        canonical("q1*p1 + p2^2/2 - cos(q2)")}) {
     SCOPED_TRACE(toml);
     const Model model = model_of(toml);
     check_flows(specialise(model, model.scenes[0]), split_of(model, model.scenes[0]));
@@ -147,13 +151,16 @@ TEST(Split, WhatDoesNotSplitIsNamed) {
     return std::string("it splits");
   };
   EXPECT_NE(refusal(top("M1^2 + M2^2*g1")).find("the flow of M2^2*g1"), std::string::npos);
-  EXPECT_NE(refusal(canonical("p1^2*cos(q2) + p2^2")).find("p1^2*cos(q2)"), std::string::npos);
-  EXPECT_NE(refusal(equations({{"x", "y"}, {"y", "-x"}})).find("no Hamiltonian"), std::string::npos);
+  EXPECT_NE(refusal(canonical("p1^2*q1^2 + p2^2")).find("q1^2*p1^2"), std::string::npos);
+  // Neither a rotation nor a boost.
+  EXPECT_NE(refusal(top("M1^2 + M2*g2", "so(3,1)")).find("(M2 + g2)^2"), std::string::npos);
+  EXPECT_NE(refusal(equations({{"x", "y"}, {"y", "-x"}})).find("no Hamiltonian"),
+            std::string::npos);
 }
 
 Module compiled(const Model& model, const Method& method) {
   const Splitting splitting = split_of(model, model.scenes[0]);
-  Specialisation spec = specialise(model, model.scenes[0], {.jacobian = false});
+  const Specialisation spec = specialise(model, model.scenes[0]);
   return Module::load(compile(emit_module(spec, kernel_source(method), false, &splitting)).path);
 }
 
@@ -174,14 +181,14 @@ const std::vector<double> kFrom{1, 0.5, 1. / 3, 0.6, 0, 0.8};
 
 TEST(Splitting, HasTheOrderOfItsName) {
   const Model model = model_of(top("M1^2/2 + M2^2/3 + M3^2/5 + M1*g1/4 + g3 + g1*g2/3"));
-  for (const auto& [name, order, step] : {std::tuple{"splitting6", 6, 0.25}, {"splitting", 8, 0.4}}) {
+  for (const auto& [name, order, step] :
+       {std::tuple{"splitting6", 6, 0.25}, {"splitting", 8, 0.375}}) {
     const Method& method = *find_method(name);
     const Module module = compiled(model, method);
     Settings exact;
     exact.duration = 3;
     exact.rtol = exact.atol = 1e-14;
-    const std::vector<double> end =
-        integrate(module, method, exact, kFrom).state;
+    const std::vector<double> end = integrate(module, method, exact, kFrom).state;
     const double coarse = error_at(module, method, step, kFrom, end);
     const double fine = error_at(module, method, step / 2, kFrom, end);
     const double measured = std::log2(coarse / fine);
@@ -210,7 +217,7 @@ TEST(Splitting, AgreesWithAnotherMethodAtEveryTolerance) {
     ASSERT_EQ(orbit.status, Status::ok);
     for (std::size_t i = 0; i < end.size(); ++i)
       EXPECT_NEAR(orbit.state[i], end[i], 1000 * tolerance) << tolerance;
-    ASSERT_EQ(orbit.samples.size(), 55u);  // the dense output is on the sphere too
+    ASSERT_EQ(orbit.samples.size(), 56u);  // the dense output is on the sphere too
     for (const auto& x : orbit.samples)
       EXPECT_NEAR(x[3] * x[3] + x[4] * x[4] + x[5] * x[5], 1, 1e-14);
   }

@@ -210,6 +210,12 @@ struct System {
   static void jacobian(double, const double*, const double*, double* J) {
     J[0] = J[3] = 0; J[1] = -1; J[2] = 1;
   }
+  static constexpr int parts = 2;
+  static constexpr bool moves[parts][n] = {{true, false}, {false, true}};
+  template <int k>
+  static void flow(double t, const double* x, const double*, double* dx) {
+    if constexpr (k == 0) dx[0] = t * x[1]; else dx[1] = -t * x[0];
+  }
 };
 extern "C" {
 int casimir_abi_version(void) { return CASIMIR_ABI_VERSION; }

@@ -158,8 +158,7 @@ Trajectory run(const std::string& name, const Settings& settings, std::vector<do
 inline std::vector<std::string> own_methods() {
   std::vector<std::string> names;
   for (const Method& method : methods())
-    if (method.outside.empty() && !method.series && !method.splits)
-      names.emplace_back(method.name);
+    if (method.outside.empty() && !method.series && !method.splits) names.emplace_back(method.name);
   return names;
 }
 inline std::vector<std::string> own_and_linked_methods() {

@@ -34,7 +34,8 @@ double error(const nlohmann::json& run) {
 TEST(Projection, KeepsEveryProvedInvariantAtACoarseToleranceByEveryMethod) {
   for (const char* method : {"dop853", "taylor", "taylor-compiled", "gauss8", "radau9"}) {
     const nlohmann::json plain = integrated({"--method", method, "--tolerance", "1e-6"});
-    const nlohmann::json kept = integrated({"--method", method, "--tolerance", "1e-6", "--project"});
+    const nlohmann::json kept =
+        integrated({"--method", method, "--tolerance", "1e-6", "--project"});
     EXPECT_EQ(kept.at("projected"), (nlohmann::json{"H", "F1", "F2", "K"}));
     EXPECT_GT(drift(plain, "K"), 1e-9) << method;
     for (const char* name : {"H", "F1", "F2", "K"}) EXPECT_LT(drift(kept, name), 2e-15) << method;
@@ -53,7 +54,7 @@ TEST(Projection, OntoSomeLeavesTheOthers) {
 TEST(Projection, ADependentInvariantDoesNoHarm) {
   // At rest on the lower vertical the gradients of H and of the Casimirs depend on each other.
   const Folder folder;
-  const std::string file = folder.write("rest.toml", R"(title = "top"
+  const std::string file = folder.write("rest.toml", R"toml(title = "top"
 hamiltonian = "(M1^2 + M2^2 + 2*M3^2)/2 - g1"
 [phase_space]
 variables = ["M1", "M2", "M3", "g1", "g2", "g3"]
@@ -67,7 +68,7 @@ twice = "2*(g1^2 + g2^2 + g3^2)"
 name = "default"
 initial = { M1 = "1", M2 = "0", M3 = "0", g1 = "1", g2 = "0", g3 = "0" }
 duration = "10"
-)");
+)toml");
   const Outcome outcome =
       run_in(folder, {"integrate", file, "--json", "--project", "--method", "dop853"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -76,7 +77,7 @@ duration = "10"
 
 TEST(Projection, IsRefusedOntoWhatIsNoIntegral) {
   const Folder folder;
-  const std::string file = folder.write("top.toml", R"(title = "top"
+  const std::string file = folder.write("top.toml", R"toml(title = "top"
 hamiltonian = "(M1^2 + 2*M2^2 + 3*M3^2)/2"
 [phase_space]
 variables = ["M1", "M2", "M3"]
@@ -87,7 +88,7 @@ wrong = "M1^2 + M2^2"
 name = "default"
 initial = { M1 = "1", M2 = "1/2", M3 = "1/3" }
 duration = "1"
-)");
+)toml");
   const auto refused = [&](std::vector<std::string> more, const char* text) {
     std::vector<std::string> arguments{"integrate", file};
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -105,7 +106,8 @@ duration = "1"
 
 TEST(Splitting, IsRefusedWhereTheHamiltonianDoesNotSplit) {
   const Folder folder;
-  const Outcome outcome = run_in(folder, {"integrate", "lagrange-euler-angles", "--method", "splitting"});
+  const Outcome outcome =
+      run_in(folder, {"integrate", "linked-bodies-plane", "--method", "splitting"});
   EXPECT_EQ(outcome.status, 2) << outcome.err;
   EXPECT_NE(outcome.err.find("does not split"), std::string::npos) << outcome.err;
 }
