@@ -61,6 +61,11 @@ Row conserve_one(const Model& model, const Scene& scene, const Method& method,
           .scene = scene.name,
           .method = std::string(method.name),
           .tolerance = settings.rtol};
+  if (!suits(run, method)) {
+    row.status = "does not split";
+    row.refused = true;
+    return row;
+  }
   Trajectory trajectory;
   try {
     trajectory =
@@ -148,7 +153,10 @@ int conserve(const Options& options) {
     fmt::print("{} of {} runs keep every invariant to {:g}{}\n",
                static_cast<std::ptrdiff_t>(rows.size()) - failed - refused, rows.size(),
                options.bound,
-               refused == 0 ? "" : fmt::format("; {} on extreme scenes are refused", refused));
+               refused == 0 ? ""
+                            : fmt::format("; {} are refused: an extreme scene, or a Hamiltonian "
+                                          "that does not split",
+                                          refused));
   }
   // The rows first: pictures need a program that may be missing.
   if (!options.plot.empty()) draw(drift_picture(picture.title, picture.drifts), options.plot);
