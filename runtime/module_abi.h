@@ -74,6 +74,18 @@ struct casimir_outcome {
   unsigned long long steps, rejected, evaluations, jacobians;
 };
 
+/* An accepted step of members that stand in the lanes of registers, before their states are replaced.
+ * The state i of the member in lane l is the sum of rows[i][k * lanes + l] s^k at the time t[l] + s
+ * unit[l], from s = 0 up to taken[l]. All pointers are valid during the call only. */
+struct casimir_lane_step {
+  int lanes, states, order;
+  const double* const* rows; /* for each state, order + 1 registers */
+  const double *t, *unit, *taken;
+  const long long* member; /* in each lane; negative: none */
+  const long long* held;   /* non-zero in the lanes whose members took the step */
+  long long* finished;     /* zero; what is set ends the member in that lane as stopped */
+};
+
 /* What one thread asks of a kernel that advances many trajectories, one in each lane of a register.
  * Which trajectories stand beside each other makes no difference to any of them. */
 struct casimir_ensemble {
@@ -90,6 +102,8 @@ struct casimir_ensemble {
   /* Asked after each step: non-zero ends all members as stopped. May be null. */
   int (*give_up)(void* source);
   void* source;
+  /* Shown every accepted step, of any lane. May be null. */
+  void (*observe)(void* source, const struct casimir_lane_step* step);
 };
 
 /* A module exports, with C linkage:

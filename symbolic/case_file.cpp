@@ -233,9 +233,13 @@ CaseFile Reader::read(const toml::table& root) {
   });
   if (const toml::node* section = root.get("section")) {
     const toml::table& table = as_table(*section, "[section]");
-    allow(table, "[section]", {"function", "direction", "plot"});
+    allow(table, "[section]", {"function", "direction", "plot", "labels", "energy", "casimirs"});
     result.section = SectionText{text(required(table, "function", "[section]"), "'function'"),
-                                 optional_text(table, "direction"), texts(table, "plot")};
+                                 optional_text(table, "direction"),
+                                 texts(table, "plot"),
+                                 texts(table, "labels"),
+                                 optional_text(table, "energy"),
+                                 optional_entries(table, "casimirs")};
   }
   each(root, "scene", [&](const toml::table& table, const std::string& what) {
     result.scenes.push_back(scene(table, what));

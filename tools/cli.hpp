@@ -60,6 +60,7 @@ void register_verify(CLI::App& program, Action& action);
 void register_generate(CLI::App& program, Action& action);
 void register_integrate(CLI::App& program, Action& action);
 void register_conserve(CLI::App& program, Action& action);
+void register_section(CLI::App& program, Action& action);
 void register_bench(CLI::App& program, Action& action);
 void register_stress(CLI::App& program, Action& action);
 void register_new(CLI::App& program, Action& action);
@@ -68,7 +69,7 @@ void register_survey(CLI::App& program, Action& action);
 /// In the order in which the help shows them: a new command is one file and one line here.
 inline constexpr Register kCommands[] = {
     register_list,     register_show,  register_verify, register_generate, register_integrate,
-    register_conserve, register_bench, register_stress, register_survey,   register_new,
+    register_section, register_conserve, register_bench, register_stress, register_survey,   register_new,
 };
 
 }  // namespace casimir::tools

@@ -87,14 +87,22 @@ class March {
  public:
   March(const casimir_ensemble* run, Series& series)
       : run_(run), series_(series), span_(run->t_end - run->t_begin) {
-    for (int i = 0; i < series_.states; ++i) series_.row(i)[0] = carry_[i] = V{};
+    for (int i = 0; i < series_.states; ++i) {
+      series_.row(i)[0] = carry_[i] = V{};
+      rows_[i] = reinterpret_cast<const double*>(series_.row(i));
+    }
     for (long long& member : member_) member = -1;
   }
 
   void go() {
     refill();
     while (occupied_ > 0) {
-      const bool eventful = step();
+      bool eventful = step();
+      if (run_->observe && any(seen_enough_)) {
+        end(seen_enough_ & active_, CASIMIR_STOPPED);
+        seen_enough_ = M{};
+        eventful = true;
+      }
       if (eventful && any(ended_)) refill();
       if (run_->give_up && run_->give_up(run_->source)) stop();
     }
@@ -359,6 +367,7 @@ class March {
   }
 
   CASIMIR_INLINE void accept(M held, const Trial& trial) {
+    if (__builtin_expect(run_->observe != nullptr, 0)) observe(held, trial);
     time_ = held ? trial.t1 : time_;
     time_carry_ = held ? trial.t1_carry : time_carry_;
     steps_ += held ? all_lanes<V>(1) : V{};
@@ -369,6 +378,24 @@ class March {
       x = held ? next_[i] : x;
       carry_[i] = held ? next_carry_[i] : carry_[i];
     });
+  }
+
+  /// Shows a step while the rows still hold it. Who has seen enough of a member ends it: in its next
+  /// state, unless the step ends it anyway.
+  __attribute__((noinline)) void observe(M held, const Trial& trial) {
+    M finished = {};
+    const casimir_lane_step step = {width,
+                                    series_.states,
+                                    series_.order,
+                                    rows_,
+                                    reinterpret_cast<const double*>(&time_),
+                                    reinterpret_cast<const double*>(&unit_),
+                                    reinterpret_cast<const double*>(&trial.s),
+                                    member_,
+                                    reinterpret_cast<const long long*>(&held),
+                                    reinterpret_cast<long long*>(&finished)};
+    run_->observe(run_->source, &step);
+    seen_enough_ |= finished & held;
   }
 
   /// Where the series still has the derivative that the equations ask for at the end of the step:
@@ -440,8 +467,9 @@ class March {
   V carry_[room], next_[room], next_carry_[room], rate_[room], here_[room];
   V time_ = {}, time_carry_ = {}, unit_ = {}, steps_ = {}, rejected_ = {}, status_ = {},
     failure_ = {};
-  M active_ = {}, ended_ = {}, checked_ = {};
+  M active_ = {}, ended_ = {}, checked_ = {}, seen_enough_ = {};
   long long member_[width];
+  const double* rows_[room];
   int occupied_ = 0;
   bool empty_ = false, ready_ = false;
 };

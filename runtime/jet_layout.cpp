@@ -1,0 +1,104 @@
+#include "runtime/jet_layout.hpp"
+
+#include <stdexcept>
+
+#include "runtime/operation.hpp"
+
+extern "C" {
+#ifdef CASIMIR_X86_KERNELS
+casimir_jet_kernel casimir_jet_avx512;
+casimir_jet_kernel casimir_jet_avx2;
+#endif
+casimir_jet_kernel casimir_jet_baseline;
+}
+
+namespace casimir {
+namespace {
+
+casimir_jet_op operation(Op op) {
+  switch (op) {
+    case Op::add:
+      return CASIMIR_JET_ADD;
+    case Op::sub:
+      return CASIMIR_JET_SUB;
+    case Op::mul:
+      return CASIMIR_JET_MUL;
+    case Op::div:
+      return CASIMIR_JET_DIV;
+    case Op::neg:
+      return CASIMIR_JET_NEG;
+    case Op::pow:
+      return CASIMIR_JET_POW;
+    case Op::sqrt:
+      return CASIMIR_JET_SQRT;
+    case Op::sin:
+      return CASIMIR_JET_SIN;
+    case Op::cos:
+      return CASIMIR_JET_COS;
+    case Op::tan:
+      return CASIMIR_JET_TAN;
+    case Op::exp:
+      return CASIMIR_JET_EXP;
+    case Op::log:
+      return CASIMIR_JET_LOG;
+    case Op::asin:
+      return CASIMIR_JET_ASIN;
+    case Op::acos:
+      return CASIMIR_JET_ACOS;
+    case Op::atan2:
+      return CASIMIR_JET_ATAN2;
+    default:
+      throw std::invalid_argument("a section function cannot depend on the time");
+  }
+}
+
+/// Rows of a line: its series and what its recurrence needs.
+int rows_of(int op) {
+  switch (op) {
+    case CASIMIR_JET_SIN:
+    case CASIMIR_JET_COS:
+    case CASIMIR_JET_TAN:
+    case CASIMIR_JET_ATAN2:
+      return 2;
+    case CASIMIR_JET_ASIN:
+    case CASIMIR_JET_ACOS:
+      return 3;
+    default:
+      return 1;
+  }
+}
+
+}  // namespace
+
+JetLayout jet_layout(const Program& program, std::size_t states) {
+  JetLayout layout;
+  const Arithmetic<double> arithmetic;
+  const auto count = static_cast<std::size_t>(program.outputs.at(0)) + 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Instruction& line = program.code[i];
+    casimir_jet_line made = {CASIMIR_JET_CONSTANT, line.a, line.b, layout.rows, 0};
+    if (is_literal(line)) {
+      made.a = made.b = -1;
+      made.value = literal_value(program, line, arithmetic);
+    } else if (line.op == Op::input && static_cast<std::size_t>(line.a) < states) {
+      made.op = CASIMIR_JET_STATE;
+    } else {
+      made.op = operation(line.op);
+      if (line.op == Op::pow) made.value = layout.lines[static_cast<std::size_t>(line.b)].value;
+    }
+    layout.rows += rows_of(made.op);
+    layout.lines.push_back(made);
+  }
+  return layout;
+}
+
+casimir_jet_kernel* jet_kernel(int lanes) {
+#ifdef CASIMIR_X86_KERNELS
+  if (lanes == 8) return casimir_jet_avx512;
+  if (lanes == 4) return casimir_jet_avx2;
+#endif
+  if (lanes == 2) return casimir_jet_baseline;
+  throw std::invalid_argument("there is no kernel for series in so many lanes");
+}
+
+}  // namespace casimir

@@ -1,0 +1,162 @@
+// Poincare sections: orbits in the lanes of registers, and their crossings of a surface.
+#include "runtime/section.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <new>
+#include <stdexcept>
+#include <thread>
+
+#include "runtime/ensemble_work.hpp"
+#include "runtime/jet_layout.hpp"
+#include "runtime/section_orbit.hpp"
+
+namespace casimir {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// For ever; orbits end when they have crossed often enough.
+constexpr double kEndOfTime = 1e15;
+
+/// What the threads share.
+struct Cutting {
+  EnsembleWork& work;
+  const LaneKernel& kernel;
+  const SectionSettings& settings;
+  const PlaneOfOrbit& plane;
+  JetLayout layout;
+  std::vector<RunningOrbit> orbits;
+  std::atomic<std::size_t> found = 0;
+  std::thread::id caller = std::this_thread::get_id();
+};
+
+struct AlignedDelete {
+  void operator()(double* memory) const { ::operator delete[](memory, std::align_val_t(64)); }
+};
+
+/// What one thread gives to a kernel and takes from it, behind the plain C interface.
+class Cutter {
+ public:
+  explicit Cutter(Cutting& shared)
+      : shared_(shared),
+        tables_(shared.layout.tables()),
+        kernel_(jet_kernel(shared.kernel.lanes)),
+        memory_(new (std::align_val_t(64)) double[static_cast<std::size_t>(
+            tables_.rows * (CASIMIR_MOST_JET_ORDER + 1) * shared.kernel.lanes)]) {}
+
+  void run() {
+    casimir_ensemble request = {};
+    request.t_end = kEndOfTime;
+    request.rtol = shared_.settings.rtol;
+    request.atol = shared_.settings.atol;
+    request.next = [](void* self, double* x, const double** numbers) {
+      return static_cast<Cutter*>(self)->next(x, numbers);
+    };
+    request.done = [](void* self, long long member, const double* x,
+                      const casimir_outcome* outcome) {
+      static_cast<Cutter*>(self)->done(static_cast<std::size_t>(member), x, *outcome);
+    };
+    request.give_up = [](void* self) { return static_cast<Cutter*>(self)->give_up() ? 1 : 0; };
+    request.observe = [](void* self, const casimir_lane_step* step) {
+      static_cast<Cutter*>(self)->observe(*step);
+    };
+    request.source = this;
+    shared_.kernel.run(&request);
+  }
+
+ private:
+  long long next(double* x, const double** numbers) {
+    long long member = -1;
+    if (!again_.empty()) {
+      member = again_.back();
+      again_.pop_back();
+    } else {
+      member = shared_.work.next();
+    }
+    if (member < 0) return member;
+    const RunningOrbit& orbit = shared_.orbits[static_cast<std::size_t>(member)];
+    std::copy(orbit.start().begin(), orbit.start().end(), x);
+    numbers_.resize(shared_.kernel.numbers.outputs.size());
+    if (!numbers_.empty()) Interpreter(shared_.kernel.numbers)(&unused_, numbers_.data());
+    *numbers = numbers_.data();
+    return member;
+  }
+
+  void observe(const casimir_lane_step& step) {
+    casimir_jet_range range;
+    kernel_(&tables_, &step, memory_.get(), &range);
+    const double* const series = memory_.get() + static_cast<std::ptrdiff_t>(tables_.line[tables_.lines - 1].row) *
+                                                     (CASIMIR_MOST_JET_ORDER + 1) * step.lanes;
+    for (int lane = 0; lane < step.lanes; ++lane) {
+      if (!step.held[lane] || step.member[lane] < 0) continue;
+      RunningOrbit& orbit = shared_.orbits[static_cast<std::size_t>(step.member[lane])];
+      const std::size_t before = orbit.found();
+      if (orbit.see(LaneOfStep{step, lane, series, range}, shared_.plane, shared_.settings))
+        step.finished[lane] = -1;
+      if (orbit.found() > before) shared_.found += orbit.found() - before;
+    }
+  }
+
+  void done(std::size_t member, const double* x, const casimir_outcome& outcome) {
+    if (shared_.orbits[member].leave(x, outcome, shared_.settings))
+      again_.push_back(static_cast<long long>(member));
+  }
+
+  bool give_up() {
+    const SectionSettings& settings = shared_.settings;
+    if (settings.progress && std::this_thread::get_id() == shared_.caller && calls_ % 256 == 0) {
+      const auto all = static_cast<double>(shared_.orbits.size() * settings.points);
+      settings.progress(static_cast<double>(shared_.found) / std::max(all, 1.));
+    }
+    return shared_.work.give_up(calls_);
+  }
+
+  Cutting& shared_;
+  const casimir_jet_tables tables_;
+  casimir_jet_kernel* const kernel_;
+  const std::unique_ptr<double[], AlignedDelete> memory_;
+  std::vector<long long> again_;
+  std::vector<double> numbers_;
+  double unused_ = 0;
+  unsigned calls_ = 0;
+};
+
+}  // namespace
+
+SectionResult cut(const LaneKernel& kernel, const SectionPlane& plane,
+                  const std::vector<double>& seeds, std::size_t seed_size,
+                  const SectionSettings& settings) {
+  Settings run;
+  run.duration = kEndOfTime;
+  run.rtol = settings.rtol;
+  run.atol = settings.atol;
+  run.give_up = settings.give_up;
+  check_settings(run, *find_method("taylor"));
+  Ensemble ensemble;
+  ensemble.states = seed_size;
+  ensemble.initial = seeds;
+  EnsembleWork work(ensemble, run);
+  const PlaneOfOrbit place{plane.upwards, plane.period};
+  Cutting shared{.work = work,
+                 .kernel = kernel,
+                 .settings = settings,
+                 .plane = place,
+                 .layout = jet_layout(plane.function, settings.states),
+                 .orbits = {}};
+  for (std::size_t i = 0; i < ensemble.size(); ++i)
+    shared.orbits.emplace_back(
+        std::vector<double>(ensemble.state(i), ensemble.state(i) + seed_size));
+  const auto start = Clock::now();
+  work.on_threads(settings.jobs, kernel.lanes, [&] { Cutter(shared).run(); });
+  SectionResult result;
+  result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  result.jobs = work.result.jobs;
+  for (RunningOrbit& orbit : shared.orbits) result.orbits.push_back(std::move(orbit).result());
+  return result;
+}
+
+}  // namespace casimir

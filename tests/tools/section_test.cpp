@@ -1,0 +1,194 @@
+// casimir section: other systems than those of the book's figures, files, and what is refused.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/tools/program.hpp"
+
+namespace casimir::test {
+namespace {
+
+using nlohmann::json;
+
+const double kPi = std::acos(-1.);
+
+double number(const json& object, const char* name) {
+  return std::stod(object.at(name).get<std::string>());
+}
+
+const char* const kHenonHeiles = R"(
+title = "Henon and Heiles"
+hamiltonian = "(px^2 + py^2 + x^2 + y^2)/2 + x^2*y - y^3/3"
+[phase_space]
+variables = ["x", "y", "px", "py"]
+canonical = true
+[section]
+function = "x"
+plot = ["y", "py"]
+[[scene]]
+name = "default"
+initial = { x = "0", y = "1/10", px = "1/2", py = "0" }
+duration = "1"
+)";
+
+const char* const kSphericalPendulum = R"(
+title = "Spherical pendulum"
+hamiltonian = "(p_th^2 + p_ph^2/sin(th)^2)/2 + cos(th)"
+[phase_space]
+variables = ["th", "ph", "p_th", "p_ph"]
+canonical = true
+[integrals]
+P = "p_ph"
+[[scene]]
+name = "default"
+initial = { th = "2", ph = "0", p_th = "1/2", p_ph = "1/2" }
+duration = "1"
+)";
+
+Outcome section_of(const char* toml, std::vector<std::string> options) {
+  const Folder folder;
+  folder.write("case.toml", toml);
+  options.insert(options.begin(), {"section", "./case.toml"});
+  return run_in(folder, options);
+}
+
+TEST(Section, HenonAndHeiles) {
+  const Outcome outcome = section_of(kHenonHeiles, {"--energy", "1/12", "--orbits", "25", "--points",
+                                                    "60", "--fixed-points", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json result = outcome.json();
+  EXPECT_EQ(result.at("orbits").size(), 25U);
+  EXPECT_LT(number(result, "off_level"), 1e-10);
+  for (const json& orbit : result.at("orbits"))
+    for (const json& point : orbit.at("crossings")) {
+      const double y = number(point, "u"), py = number(point, "v");
+      EXPECT_LE(py * py / 2 + y * y / 2 - y * y * y / 3, 1. / 12 + 1e-10);  // px^2 >= 0
+    }
+  // The four fixed points of this section at 1/12: three stable, one not, the latter and one
+  // stable one on py = 0, the other two mirror images.
+  const json& cycles = result.at("cycles");
+  ASSERT_GE(cycles.size(), 4U);
+  int stable = 0;
+  for (const json& cycle : cycles) stable += cycle.at("stable") ? 1 : 0;
+  EXPECT_GE(stable, 3);
+}
+
+TEST(Section, TheOtherDirectionIsTheMirrorImage) {
+  // x -> -x, t -> t: orbits that cross downwards are mirror images of those upwards.
+  const Folder folder;
+  folder.write("case.toml", kHenonHeiles);
+  folder.write("up.csv", "x,y,px,py\n0,0.1,0.4,0.1\n");
+  folder.write("down.csv", "x,y,px,py\n0,0.1,-0.4,0.1\n");
+  const std::vector<std::string> rest{"--energy", "0.08966666666666666666", "--points", "30", "--json"};
+  std::vector<std::string> up{"section", "./case.toml", "--seeds", "up.csv"},
+      down{"section", "./case.toml", "--seeds", "down.csv", "--direction", "down"};
+  for (const std::string& word : rest) {
+    up.push_back(word);
+    down.push_back(word);
+  }
+  const Outcome first = run_in(folder, up), second = run_in(folder, down);
+  ASSERT_EQ(first.status, 0) << first.err;
+  ASSERT_EQ(second.status, 0) << second.err;
+  const json &a = first.json().at("orbits")[0].at("crossings"),
+             &b = second.json().at("orbits")[0].at("crossings");
+  ASSERT_EQ(a.size(), 30U);
+  for (std::size_t n = 0; n < 30; ++n) {
+    EXPECT_NEAR(number(a[n], "u"), number(b[n], "u"), 1e-9);
+    EXPECT_NEAR(number(a[n], "v"), number(b[n], "v"), 1e-9);
+  }
+}
+
+TEST(Section, AnAngleIsAPlaneAtEveryTurnAndPlottedOverOne) {
+  const Outcome turns = section_of(kSphericalPendulum, {"--plane", "ph = 1", "--pair", "th", "p_th",
+                                                        "--orbits", "5", "--points", "40", "--json"});
+  ASSERT_EQ(turns.status, 0) << turns.err;
+  for (const json& orbit : turns.json().at("orbits")) EXPECT_EQ(orbit.at("points"), 40);
+  const Outcome plotted = section_of(kSphericalPendulum, {"--plane", "p_th", "--pair", "ph", "th",
+                                                          "--orbits", "5", "--points", "40", "--json"});
+  ASSERT_EQ(plotted.status, 0) << plotted.err;
+  for (const json& orbit : plotted.json().at("orbits"))
+    for (const json& point : orbit.at("crossings")) {
+      EXPECT_GE(number(point, "u"), 0);
+      EXPECT_LT(number(point, "u"), 2 * kPi);
+    }
+}
+
+TEST(Section, WhatItWritesCanBeItsSeeds) {
+  const Folder folder;
+  folder.write("case.toml", kHenonHeiles);
+  const std::vector<std::string> first{"section", "./case.toml", "--energy", "1/10",    "--orbits",
+                                       "3",       "--points",    "5",        "--output", "a.csv", "--quiet"};
+  ASSERT_EQ(run_in(folder, first).status, 0);
+  const std::string table = file_text(folder.path() / "a.csv");
+  EXPECT_EQ(table.substr(0, table.find('\n')), "orbit,n,t,u,v,x,y,px,py");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 16);
+  const Outcome again = run_in(folder, {"section", "./case.toml", "--energy", "1/10", "--seeds", "a.csv",
+                                        "--points", "2", "--json"});
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(again.json().at("orbits").size(), 15U);
+}
+
+TEST(Section, LevelsWithoutMotionAreRefused) {
+  const Outcome low = section_of(kHenonHeiles, {"--energy", "-1/10", "--orbits", "5"});
+  EXPECT_EQ(low.status, 2);
+  const Outcome top = run({"section", "kovalevskaya", "--energy", "-5", "--plane", "g3", "--pair",
+                           "g1", "g2"});
+  EXPECT_EQ(top.status, 2);
+  EXPECT_NE(top.err.find("no motion with H = -5"), std::string::npos) << top.err;
+  EXPECT_NE(top.err.find("begin at"), std::string::npos) << top.err;
+}
+
+TEST(Section, SystemsWithoutASectionAreRefused) {
+  const auto refused = [](const std::vector<std::string>& command, const std::string& text) {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find(text), std::string::npos) << outcome.err;
+  };
+  refused({"section", "euler", "--plane", "M1", "--pair", "M2", "M3"}, "one degree of freedom");
+  refused({"section", "van-der-pol", "--plane", "x", "--pair", "x", "y"}, "Hamiltonian");
+  refused({"section", "kovalevskaya"}, "no [section]");
+  refused({"section", "kovalevskaya", "--plane", "g33", "--pair", "g1", "g2"}, "did you mean 'g3'");
+  refused({"section", "kovalevskaya", "--plane", "r + 1", "--pair", "g1", "g2"}, "the same everywhere");
+  refused({"section", "euler-poisson", "--casimir", "F3=1"}, "did you mean 'F1'");
+  refused({"section", "euler-poisson", "--casimir", "F1"}, "NAME=VALUE");
+  refused({"section", "euler-poisson", "--energy", "M1"}, "--energy:1:1");
+  refused({"section", "euler-poisson", "--output", "a.pdf"}, ".csv, .svg or .png");
+}
+
+TEST(Section, SeedsOffTheLevelAreRefused) {
+  const Folder folder;
+  folder.write("off.csv", "M1,M2,M3,g1,g2,g3\n0,1,2,0,1,0\n0,1,2.1,0,1,0\n");
+  Outcome outcome = run_in(folder, {"section", "euler-poisson", "--scene", "chaotic", "--seeds",
+                                    "off.csv", "--points", "3"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("seed 2"), std::string::npos) << outcome.err;
+  folder.write("few.csv", "M1,M2\n0,1\n");
+  outcome = run_in(folder, {"section", "euler-poisson", "--scene", "chaotic", "--seeds", "few.csv"});
+  EXPECT_EQ(outcome.status, 2);
+  folder.write("none.csv", "u,v\n0,3\n");
+  outcome = run_in(folder, {"section", "euler-poisson", "--scene", "chaotic", "--seeds", "none.csv"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("no motion on this level"), std::string::npos) << outcome.err;
+}
+
+TEST(Section, PicturesAreDrawn) {
+  const Folder folder;
+  folder.write("case.toml", kHenonHeiles);
+  const Outcome outcome =
+      run_in(folder, {"section", "./case.toml", "--energy", "1/8", "--orbits", "6", "--points", "30",
+                      "--output", "a.svg", "--output", "a.png", "--output", "a.csv", "--quiet"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(outcome.out.empty());
+  EXPECT_NE(file_text(folder.path() / "a.svg").find("</svg>"), std::string::npos);
+  EXPECT_EQ(file_text(folder.path() / "a.png").substr(1, 3), "PNG");
+  // Without gnuplot: the points are there, and it is said what to install.
+  const Outcome without = run_in(folder, {"section", "./case.toml", "--energy", "1/8", "--orbits", "6", "--points", "30", "--output", "b.svg", "--output", "b.csv"}, {},
+                                 {{"PATH", "/nowhere"}});
+  EXPECT_EQ(without.status, 4);
+  EXPECT_NE(without.err.find("apt-get install gnuplot"), std::string::npos) << without.err;
+  EXPECT_FALSE(file_text(folder.path() / "b.csv").empty());
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "b.svg"));
+}
+
+}  // namespace
+}  // namespace casimir::test

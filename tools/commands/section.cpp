@@ -1,0 +1,307 @@
+// casimir section: many orbits on one energy and Casimir level, cut with a surface.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "tools/case_library.hpp"
+#include "tools/cli.hpp"
+#include "tools/gnuplot.hpp"
+#include "tools/progress.hpp"
+#include "tools/run_report.hpp"
+#include "tools/section/picture.hpp"
+#include "tools/section/report.hpp"
+#include "tools/section/seeds.hpp"
+
+namespace casimir::tools {
+namespace {
+
+struct Options {
+  Common common;
+  std::string case_name, seeds;
+  SectionRequest request;
+  std::vector<std::string> outputs;
+  std::size_t orbits = 40, points = 500, cycles = 0;
+  bool fixed_points = false;
+  double tolerance = 1e-14;
+  int jobs = 0;
+
+  std::size_t longest_cycle() const { return fixed_points ? std::max<std::size_t>(cycles, 1) : cycles; }
+};
+
+/// Starts of Newton's method for cycles.
+constexpr std::size_t kStarts = 400;
+
+bool is_picture(const std::string& path) { return path.ends_with(".svg") || path.ends_with(".png"); }
+
+void check_usage(const Options& options) {
+  for (const std::string& path : options.outputs)
+    if (!is_picture(path) && !path.ends_with(".csv"))
+      throw UsageError(fmt::format("'{}': an output's name must end in .csv, .svg or .png",
+                                   printable(path, 200)));
+}
+
+/// One section from the options to the report.
+class Section {
+ public:
+  explicit Section(const Options& options)
+      : options_(options),
+        file_(load_case(options.case_name)),
+        model_(model_of(file_, options.common.parameter_values())),
+        problem_(section_problem(file_, model_, model_.scene(options.common.scene), options.request)),
+        level_(problem_),
+        progress_(!options.common.quiet),
+        cutter_(problem_,
+                {options.tolerance, options.jobs, time_limit(options.common.time_limit)},
+                options.orbits * options.points) {}
+
+  int run() {
+    const std::vector<LevelSet::Vector> seeds = chosen_seeds();
+    progress_.begin(model_.name + ": orbits");
+    SectionResult result = cutter_.orbits(seeds, options_.points,
+                                          [this](double share) { progress_.show(share); });
+    SectionReport report{.problem = problem_, .orbits = {}, .cycles = {}, .warnings = warnings_};
+    report.tolerance = options_.tolerance;
+    report.compile_seconds = cutter_.kernel().seconds;
+    report.seconds = result.seconds;
+    report.jobs = result.jobs;
+    report.lanes = cutter_.kernel().lanes->lanes;
+    report.instruction_set = cutter_.kernel().lanes->instruction_set;
+    report.from_cache = cutter_.kernel().from_cache;
+    report.orbits = judged_orbits(level_, std::move(result), seeds);
+    warn_of_orbits(report);
+    if (options_.longest_cycle() > 0) {
+      progress_.begin(model_.name + ": cycles");
+      report.cycles = find_cycles(level_, cutter_, starts(report), options_.longest_cycle(),
+                                  [this](double share) { progress_.show(share); });
+    }
+    deliver(report);
+    return verdict(report);
+  }
+
+ private:
+  const std::vector<PlacedPoint>& domain() {
+    if (!domain_.empty()) return domain_;
+    progress_.begin(model_.name + ": domain of possible motion");
+    const Returning returning = cutter_.returning();
+    std::size_t tried = 0;
+    domain_ = points_of_domain(
+        level_,
+        [&](const std::vector<PlacedPoint>& points) {
+          tried += points.size();
+          return returning(points);
+        },
+        known_points());
+    if (cutter_.interrupted())
+      throw SystemError("the time limit was reached before the domain of possible motion was known");
+    if (!domain_.empty()) return domain_;
+    if (tried == 0)
+      throw UsageError(fmt::format("no motion with {} crosses the plane {}; {}", problem_.level_text(),
+                                   problem_.plane.upwards ? "upwards" : "downwards",
+                                   energies_there(level_)));
+    throw UsageError(fmt::format(
+        "of {} orbits with {} that begin on the plane none comes back to it", tried, problem_.level_text()));
+  }
+
+  /// Points of the level that need not be found: the scene's and where its orbit crosses.
+  std::vector<LevelSet::Vector> known_points() const {
+    if (!problem_.on_scene) return {};
+    const LevelSet::Vector start = Eigen::Map<const LevelSet::Vector>(
+        problem_.run.initial.data(), static_cast<Eigen::Index>(problem_.states()));
+    std::vector<LevelSet::Vector> points{start};
+    const SectionOrbit orbit = cutter_.orbits({start}, 1).orbits.front();
+    if (orbit.size() == 1)
+      points.push_back(Eigen::Map<const LevelSet::Vector>(orbit.states.data(), start.size()));
+    return points;
+  }
+
+  std::vector<LevelSet::Vector> chosen_seeds() {
+    if (!options_.seeds.empty()) return seeds_of(options_.seeds, level_, [this] { return domain(); });
+    std::vector<LevelSet::Vector> seeds;
+    for (const PlacedPoint& point : spread_out(level_, domain(), options_.orbits))
+      seeds.push_back(point.x);
+    if (seeds.size() < options_.orbits)
+      warnings_.push_back(fmt::format("only {} different points of the section were found for {} orbits",
+                                      seeds.size(), options_.orbits));
+    return seeds;
+  }
+
+  /// For cycles: points all over the section, and where orbits nearly close.
+  std::vector<PlacedPoint> starts(const SectionReport& report) {
+    std::vector<PlacedPoint> result = spread_out(level_, domain(), kStarts);
+    const auto n = static_cast<Eigen::Index>(problem_.states());
+    for (const OrbitReport& orbit : report.orbits) {
+      for (std::size_t length = 1; length <= options_.longest_cycle(); ++length) {
+        double nearest = std::numeric_limits<double>::infinity();
+        std::optional<PlacedPoint> best;
+        for (std::size_t i = 0; i + length < orbit.places.size(); ++i) {
+          const auto at = [&](std::size_t k) -> LevelSet::Vector {
+            return Eigen::Map<const LevelSet::Vector>(
+                orbit.orbit.states.data() + static_cast<Eigen::Index>(k) * n, n);
+          };
+          const double d = level_.difference(at(i), at(i + length)).norm();
+          if (d < nearest) best = {at(i), orbit.places[i]};
+          nearest = std::min(nearest, d);
+        }
+        if (best) result.push_back(*best);
+      }
+    }
+    return result;
+  }
+
+  void warn_of_orbits(SectionReport& report) const {
+    if (problem_.leaf > 4)
+      report.warnings.push_back(fmt::format(
+          "the level has {} degrees of freedom: the picture is a projection of a section of {} "
+          "dimensions",
+          problem_.leaf / 2, problem_.leaf - 2));
+    const auto lost = std::ranges::count_if(report.orbits, [](const OrbitReport& orbit) { return !orbit.orbit.returns; });
+    if (lost > 0)
+      report.warnings.push_back(
+          fmt::format("{} of {} orbits do not come back to the plane often enough", lost, report.orbits.size()));
+  }
+
+  /// Tables first: pictures need a program that may be missing.
+  void deliver(const SectionReport& report) const {
+    bool table = false;
+    for (const std::string& path : options_.outputs) {
+      if (is_picture(path)) continue;
+      write_csv(report, path);
+      table = true;
+    }
+    if (options_.common.json)
+      std::cout << to_json(report, !table).dump(2) << '\n';
+    else if (!options_.common.quiet)
+      print_text(report);
+    std::cout.flush();
+    for (const std::string& path : options_.outputs) {
+      if (is_picture(path))
+        draw_section(problem_, model_.title + ", " + problem_.level_text(), report.orbits,
+                     report.cycles.cycles, path);
+      if (!options_.common.quiet && !options_.common.json) fmt::print("  wrote {}\n", path);
+    }
+  }
+
+  /// What went wrong, on stderr.
+  int verdict(const SectionReport& report) const {
+    for (std::size_t i = 0; i < report.orbits.size(); ++i) {
+      const OrbitReport& orbit = report.orbits[i];
+      if (orbit.leaves_level) {
+        std::cerr << fmt::format(
+            "casimir: error: orbit {} left its level by more than {:g} at crossing {}\n  hint: a "
+            "smaller --tolerance, or fewer --points\n",
+            i + 1, kOnLevel, orbit.places.size() + 1);
+        return kFailed;
+      }
+    }
+    for (std::size_t i = 0; i < report.orbits.size(); ++i) {
+      const SectionOrbit& orbit = report.orbits[i].orbit;
+      if (orbit.status == Status::ok || !orbit.returns) continue;
+      std::string state;
+      for (std::size_t k = 0; k < orbit.state.size(); ++k)
+        state += fmt::format("{}{} = {:.6g}", k == 0 ? "" : ", ",
+                             problem_.run.specialisation.states[k], orbit.state[k]);
+      const bool limit = orbit.status == Status::stopped;
+      std::cerr << fmt::format(
+          "casimir: error: orbit {} {} at t = {}, after {} of {} crossings: {}\n  last good state: "
+          "{}\n",
+          i + 1, limit ? "was stopped" : "could not be continued", exact_text(orbit.time),
+          orbit.size(), options_.points,
+          limit ? "the time limit was reached" : reason_of(orbit.status), state);
+      return limit ? kEnvironment : kNotContinued;
+    }
+    if (report.crossings() > 0) return kDone;
+    std::cerr << "casimir: error: no orbit crosses the plane\n";
+    return kNotContinued;
+  }
+
+  const Options& options_;
+  const CaseFile file_;
+  const Model model_;
+  const SectionProblem problem_;
+  const LevelSet level_;
+  Progress progress_;
+  const OrbitCutter cutter_;
+  std::vector<PlacedPoint> domain_;
+  std::vector<std::string> warnings_;
+};
+
+int section(const Options& options) {
+  check_usage(options);
+  return Section(options).run();
+}
+
+void add_plane_options(CLI::App& command, SectionRequest& request) {
+  command.add_option("--energy", request.energy, "Value of the Hamiltonian (default: the scene's)")
+      ->type_name("VALUE");
+  command
+      .add_option("--casimir", request.casimirs,
+                  "Value of a Casimir function of the case (default: the scene's; repeatable)")
+      ->allow_extra_args(false)
+      ->type_name("NAME=VALUE");
+  command
+      .add_option("--plane", request.plane,
+                  "The surface: an expression, which is zero there, or LEFT = RIGHT (default: that "
+                  "of [section])")
+      ->type_name("EXPR");
+  command.add_option("--direction", request.direction, "In which it is crossed: up (default) or down")
+      ->check(CLI::IsMember({"up", "down"}))
+      ->type_name("DIRECTION");
+  command.add_option("--pair", request.pair, "The two functions that are plotted (default: those of [section])")
+      ->expected(2)
+      ->type_name("U V");
+  command.add_option("--labels", request.labels, "Labels of the axes of a picture")
+      ->expected(2)
+      ->type_name("U V");
+}
+
+}  // namespace
+
+void register_section(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "section", "Poincare section: many orbits on one energy and Casimir level");
+  command->footer(
+      "Every crossing of the surface in that direction is a point; each keeps energy and Casimir\n"
+      "functions to 1e-10, or the exit status is 1. Angles are drawn over one period. A plane that\n"
+      "is an angle counts at every multiple of its period.");
+  add_common(*command, options->common);
+  command
+      ->add_option("CASE", options->case_name,
+                   "A bundled case, a case file, or - for standard input")
+      ->required();
+  add_plane_options(*command, options->request);
+  command->add_option("--orbits", options->orbits, "Orbits, spread over the domain of possible motion (default 40)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--points", options->points, "Crossings of each orbit (default 500)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10000000));
+  command
+      ->add_option("--seeds", options->seeds,
+                   "Where orbits begin instead: a CSV file with a column for each variable, or with "
+                   "the columns u and v")
+      ->type_name("FILE.csv");
+  command
+      ->add_option("--cycles", options->cycles,
+                   "Find cycles of the return map up to this length, with their stability")
+      ->type_name("N")
+      ->check(CLI::Range(1, 64));
+  command->add_flag("--fixed-points", options->fixed_points, "The same as --cycles 1");
+  command->add_option("--tolerance", options->tolerance, "Tolerance of a step (default 1e-14)")
+      ->type_name("X")
+      ->check(CLI::Range(1e-15, 1e-3));
+  command->add_option("--jobs", options->jobs, "Threads (default: all processors)")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--output,--plot", options->outputs,
+                   "Write the crossings to a .csv file, or draw them to an .svg or .png file "
+                   "(repeatable)")
+      ->allow_extra_args(false)
+      ->type_name("FILE");
+  command->callback([options, &action] { action = [options] { return section(*options); }; });
+}
+
+}  // namespace casimir::tools

@@ -1,0 +1,197 @@
+#include "tools/section/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/output.hpp"
+#include "tools/run_report.hpp"
+
+namespace casimir::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const Specialisation& spec_of(const SectionReport& report) {
+  return report.problem.run.specialisation;
+}
+
+std::string state_of(const OrbitReport& orbit) {
+  if (orbit.leaves_level) return "drift_exceeded";
+  if (!orbit.orbit.returns) return "no_return";
+  return to_string(orbit.orbit.status);
+}
+
+Json pair_json(const std::array<double, 2>& place) {
+  return {{"u", exact_text(place[0])}, {"v", exact_text(place[1])}};
+}
+
+Json to_json(const SectionReport& report, const OrbitReport& orbit, std::size_t number, bool points) {
+  Json json = {{"orbit", number},
+               {"status", state_of(orbit)},
+               {"points", orbit.places.size()},
+               {"t", exact_text(orbit.orbit.time)},
+               {"exponent", exact_text(orbit.exponent)},
+               {"chaotic", orbit.chaotic},
+               {"off_level", exact_text(orbit.off_level)},
+               {"seed", Json::object()}};
+  for (std::size_t i = 0; i < report.problem.states(); ++i)
+    json["seed"][spec_of(report).states[i]] = exact_text(orbit.seed[static_cast<Eigen::Index>(i)]);
+  if (!points) return json;
+  json["crossings"] = Json::array();
+  for (std::size_t i = 0; i < orbit.places.size(); ++i) {
+    Json crossing = {{"n", i + 1}, {"t", exact_text(orbit.orbit.times[i])}};
+    crossing.update(pair_json(orbit.places[i]));
+    json["crossings"].push_back(std::move(crossing));
+  }
+  return json;
+}
+
+Json to_json(const SectionReport& report, const Cycle& cycle) {
+  Json json = {{"length", cycle.length()},
+               {"points", Json::array()},
+               {"period", exact_text(cycle.period)},
+               {"trace", exact_text(cycle.trace)},
+               {"determinant", exact_text(cycle.determinant)},
+               {"kind", cycle.kind()},
+               {"stable", cycle.stable()},
+               {"residual", exact_text(cycle.residual)}};
+  for (const PlacedPoint& point : cycle.points) {
+    Json entry = pair_json(point.place);
+    entry["state"] = Json::object();
+    for (std::size_t i = 0; i < report.problem.states(); ++i)
+      entry["state"][spec_of(report).states[i]] = exact_text(point.x[static_cast<Eigen::Index>(i)]);
+    json["points"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+Json level_json(const SectionProblem& problem) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < problem.levels.size(); ++i)
+    json[problem.level_names[i]] = exact_text(problem.levels[i]);
+  return json;
+}
+
+void print_cycles(const SectionReport& report) {
+  if (report.cycles.cycles.empty() && report.cycles.degenerate == 0) return;
+  const SectionProblem& problem = report.problem;
+  fmt::print("\n  cycle  {:>14}  {:>14}  {:>12}  {:>12}  kind\n",
+             problem.plotted[0].period > 0 ? "u/pi" : "u", problem.plotted[1].period > 0 ? "v/pi" : "v",
+             "period", "trace");
+  for (const Cycle& cycle : report.cycles.cycles) {
+    for (std::size_t i = 0; i < cycle.length(); ++i) {
+      std::array<double, 2> place = cycle.points[i].place;
+      for (std::size_t k = 0; k < 2; ++k)
+        if (problem.plotted[k].period > 0) place[k] /= std::acos(-1.);
+      fmt::print("  {:>5}  {:>14.9f}  {:>14.9f}", i == 0 ? fmt::format("{}", cycle.length()) : "", place[0],
+                 place[1]);
+      if (i == 0)
+        fmt::print("  {:>12.6f}  {:>12.6f}  {}, {}", cycle.period, cycle.trace, cycle.kind(),
+                   cycle.stable() ? "stable" : "unstable");
+      fmt::print("\n");
+    }
+  }
+  if (report.cycles.degenerate > 0)
+    fmt::print("  {} more were left out: they belong to families, as in integrable systems\n",
+               report.cycles.degenerate);
+}
+
+}  // namespace
+
+std::size_t SectionReport::crossings() const {
+  std::size_t count = 0;
+  for (const OrbitReport& orbit : orbits) count += orbit.places.size();
+  return count;
+}
+
+std::size_t SectionReport::chaotic() const {
+  return static_cast<std::size_t>(std::ranges::count(orbits, true, &OrbitReport::chaotic));
+}
+
+double SectionReport::off_level() const {
+  double largest = 0;
+  for (const OrbitReport& orbit : orbits) largest = std::max(largest, orbit.off_level);
+  return largest;
+}
+
+unsigned long long SectionReport::steps() const {
+  unsigned long long count = 0;
+  for (const OrbitReport& orbit : orbits) count += orbit.orbit.steps;
+  return count;
+}
+
+void write_csv(const SectionReport& report, const std::string& path) {
+  OutputFile file(path);
+  std::string line = "orbit,n,t,u,v";
+  for (const std::string& name : spec_of(report).states) line += "," + name;
+  file.stream() << line << '\n';
+  const std::size_t n = report.problem.states();
+  for (std::size_t k = 0; k < report.orbits.size(); ++k) {
+    const OrbitReport& orbit = report.orbits[k];
+    for (std::size_t i = 0; i < orbit.places.size(); ++i) {
+      line = fmt::format("{},{},{},{},{}", k + 1, i + 1, exact_text(orbit.orbit.times[i]),
+                         exact_text(orbit.places[i][0]), exact_text(orbit.places[i][1]));
+      for (std::size_t j = 0; j < n; ++j) line += "," + exact_text(orbit.orbit.states[i * n + j]);
+      file.stream() << line << '\n';
+    }
+  }
+  file.commit();
+}
+
+Json to_json(const SectionReport& report, bool points) {
+  const SectionProblem& problem = report.problem;
+  Json json = {{"case", spec_of(report).case_name},
+               {"scene", spec_of(report).scene},
+               {"energy", exact_text(problem.levels[0])},
+               {"level", level_json(problem)},
+               {"plane", problem.plane_text},
+               {"direction", problem.plane.upwards ? "up" : "down"},
+               {"plot", {problem.plotted[0].text, problem.plotted[1].text}},
+               {"tolerance", report.tolerance},
+               {"orbits", Json::array()},
+               {"cycles", Json::array()},
+               {"degenerate_cycles", report.cycles.degenerate},
+               {"crossings", report.crossings()},
+               {"chaotic", report.chaotic()},
+               {"off_level", exact_text(report.off_level())},
+               {"steps", report.steps()},
+               {"jobs", report.jobs},
+               {"lanes", report.lanes},
+               {"instruction_set", report.instruction_set},
+               {"from_cache", report.from_cache},
+               {"seconds",
+                {{"generate", problem.run.generate_seconds},
+                 {"compile", report.compile_seconds},
+                 {"integrate", report.seconds}}},
+               {"warnings", report.warnings}};
+  for (std::size_t i = 0; i < report.orbits.size(); ++i)
+    json["orbits"].push_back(to_json(report, report.orbits[i], i + 1, points));
+  for (const Cycle& cycle : report.cycles.cycles) json["cycles"].push_back(to_json(report, cycle));
+  return json;
+}
+
+void print_text(const SectionReport& report) {
+  const SectionProblem& problem = report.problem;
+  const Specialisation& s = spec_of(report);
+  fmt::print("{}, scene '{}', Poincare section on the level {}\n", s.case_name, printable(s.scene),
+             problem.level_text());
+  fmt::print("  plane    {} = 0, crossed {}\n", printable(problem.plane_text, 200),
+             problem.plane.upwards ? "upwards" : "downwards");
+  fmt::print("  plotted  u = {}, v = {}\n", printable(problem.plotted[0].text, 200),
+             printable(problem.plotted[1].text, 200));
+  fmt::print("  {} orbits, {} crossings in {}: {} thread{}, {} orbits in a register\n",
+             report.orbits.size(), report.crossings(), duration_text(report.seconds), report.jobs,
+             report.jobs == 1 ? "" : "s", report.lanes);
+  fmt::print("  {} regular, {} chaotic; every point on its level to {:.1e}\n",
+             report.orbits.size() - report.chaotic(), report.chaotic(), report.off_level());
+  double largest = 0;
+  for (const OrbitReport& orbit : report.orbits)
+    if (orbit.chaotic) largest = std::max(largest, orbit.exponent);
+  if (report.chaotic() > 0) fmt::print("  largest Lyapunov exponent {:.4f}\n", largest);
+  print_cycles(report);
+  for (const std::string& warning : report.warnings) fmt::print("  warning: {}\n", warning);
+}
+
+}  // namespace casimir::tools

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/section/cycles.hpp"
+#include "tools/section/orbits.hpp"
+
+namespace casimir::tools {
+
+/// A section that was computed, and all that is said of it.
+struct SectionReport {
+  const SectionProblem& problem;
+  std::vector<OrbitReport> orbits;
+  CycleSearch cycles;
+  std::vector<std::string> warnings;
+  double tolerance = 0;
+  double compile_seconds = 0, seconds = 0;  ///< to get the kernel; of the integration alone
+  int jobs = 1, lanes = 1;
+  std::string instruction_set = {};
+  bool from_cache = false;
+
+  std::size_t crossings() const;
+  std::size_t chaotic() const;
+  double off_level() const;
+  unsigned long long steps() const;
+};
+
+/// orbit,n,t,u,v and the variables.
+void write_csv(const SectionReport& report, const std::string& path);
+
+/// \param points  with the crossings.
+nlohmann::ordered_json to_json(const SectionReport& report, bool points);
+
+void print_text(const SectionReport& report);
+
+}  // namespace casimir::tools

@@ -1,0 +1,90 @@
+#include "tools/section/seeds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "tools/cli.hpp"
+#include "tools/ensemble_file.hpp"
+
+namespace casimir::tools {
+namespace {
+
+using Vector = LevelSet::Vector;
+
+/// Of a state that is meant to be on the level.
+constexpr double kNear = 1e-9;
+constexpr std::size_t kTries = 12;
+
+std::optional<std::size_t> column_of(const EnsembleFile& file, const std::string& name) {
+  const auto found = std::ranges::find(file.columns, name);
+  if (found == file.columns.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - file.columns.begin());
+}
+
+/// A state from the file, moved the last bit to the level.
+Vector state_of(const LevelSet& level, Vector x, const std::string& where) {
+  const double distance = level.distance_from_level(x.data());
+  if (!(distance <= kNear)) {
+    throw UsageError(
+        fmt::format("{}: the seed is not on the level {}, but off by {:.2g} of the size of its terms",
+                    where, level.problem().level_text(), distance));
+  }
+  return x;
+}
+
+Vector state_at(const LevelSet& level, std::vector<PlacedPoint> near, const std::array<double, 2>& pair,
+                const std::string& where) {
+  const auto distance = [&](const PlacedPoint& point) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      double d = std::abs(point.place[k] - pair[k]);
+      const double period = level.problem().plotted[k].period;
+      if (period > 0) d = std::abs(d - period * std::round(d / period));
+      sum += d * d;
+    }
+    return sum;
+  };
+  std::ranges::sort(near, {}, distance);
+  for (std::size_t i = 0; i < std::min(kTries, near.size()); ++i) {
+    Vector x = near[i].x;
+    if (level.project(x, &pair) && level.speed(x) > 0) return x;
+  }
+  throw UsageError(fmt::format("{}: there is no motion on this level through u = {:.10g}, v = {:.10g}",
+                               where, pair[0], pair[1]));
+}
+
+}  // namespace
+
+std::vector<Vector> seeds_of(const std::string& path, const LevelSet& level,
+                             const std::function<std::vector<PlacedPoint>()>& near) {
+  const std::vector<std::string>& states = level.problem().run.specialisation.states;
+  std::vector<std::string> known = states;
+  for (const char* name : {"orbit", "n", "t", "u", "v"})
+    if (!std::ranges::count(known, name)) known.emplace_back(name);
+  const EnsembleFile file = read_ensemble(path, known);
+  const auto u = column_of(file, "u"), v = column_of(file, "v");
+  const bool whole =
+      std::ranges::all_of(states, [&](const auto& name) { return column_of(file, name).has_value(); });
+  if (!whole && !(u && v))
+    throw UsageError(fmt::format(
+        "{}: seeds need a column for each variable, or the columns u and v", printable(path, 200)));
+  const std::vector<PlacedPoint> points = whole ? std::vector<PlacedPoint>{} : near();
+  std::vector<Vector> seeds;
+  for (std::size_t row = 0; row < file.rows(); ++row) {
+    const double* const values = file.values.data() + row * file.columns.size();
+    const std::string where = fmt::format("{}: seed {}", printable(path, 200), row + 1);
+    if (!whole) {
+      seeds.push_back(state_at(level, points, {values[*u], values[*v]}, where));
+      continue;
+    }
+    Vector x(static_cast<Eigen::Index>(states.size()));
+    for (std::size_t i = 0; i < states.size(); ++i)
+      x[static_cast<Eigen::Index>(i)] = values[*column_of(file, states[i])];
+    seeds.push_back(state_of(level, x, where));
+  }
+  return seeds;
+}
+
+}  // namespace casimir::tools
