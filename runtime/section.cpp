@@ -65,7 +65,9 @@ class Cutter {
       static_cast<Cutter*>(self)->observe(*step);
     };
     request.source = this;
-    shared_.kernel.run(&request);
+    // Once there is no new orbit a kernel asks for none: those that are to go on then wait.
+    do shared_.kernel.run(&request);
+    while (!again_.empty() && !shared_.work.give_up(calls_));
   }
 
  private:

@@ -32,6 +32,8 @@ struct Options {
 
 /// Starts of Newton's method for cycles.
 constexpr std::size_t kStarts = 400;
+/// Orbits are begun in turns, of so many at least: they fill the registers of some cores.
+constexpr std::size_t kOrbitsOfTurn = 16, kTurns = 4;
 
 bool is_picture(const std::string& path) { return path.ends_with(".svg") || path.ends_with(".png"); }
 
@@ -57,19 +59,16 @@ class Section {
                 options.orbits * options.points) {}
 
   int run() {
-    const std::vector<LevelSet::Vector> seeds = chosen_seeds();
-    progress_.begin(model_.name + ": orbits");
-    SectionResult result = cutter_.orbits(seeds, options_.points,
-                                          [this](double share) { progress_.show(share); });
-    SectionReport report{.problem = problem_, .orbits = {}, .cycles = {}, .warnings = warnings_};
+    SectionReport report{.problem = problem_, .orbits = {}, .cycles = {}, .warnings = {}};
     report.tolerance = options_.tolerance;
     report.compile_seconds = cutter_.kernel().seconds;
-    report.seconds = result.seconds;
-    report.jobs = result.jobs;
     report.lanes = cutter_.kernel().lanes->lanes;
     report.instruction_set = cutter_.kernel().lanes->instruction_set;
     report.from_cache = cutter_.kernel().from_cache;
-    report.orbits = judged_orbits(level_, std::move(result), seeds);
+    if (!options_.seeds.empty())
+      follow(seeds_of(options_.seeds, level_, [this] { return domain(); }), 1, report);
+    else
+      follow_spread(report);
     warn_of_orbits(report);
     if (options_.longest_cycle() > 0) {
       progress_.begin(model_.name + ": cycles");
@@ -116,15 +115,39 @@ class Section {
     return points;
   }
 
-  std::vector<LevelSet::Vector> chosen_seeds() {
-    if (!options_.seeds.empty()) return seeds_of(options_.seeds, level_, [this] { return domain(); });
-    std::vector<LevelSet::Vector> seeds;
-    for (const PlacedPoint& point : spread_out(level_, domain(), options_.orbits))
-      seeds.push_back(point.x);
-    if (seeds.size() < options_.orbits)
-      warnings_.push_back(fmt::format("only {} different points of the section were found for {} orbits",
-                                      seeds.size(), options_.orbits));
-    return seeds;
+  /// Cuts the orbits of these seeds, which are the last ones up to `share` of the work.
+  void follow(const std::vector<LevelSet::Vector>& seeds, double share, SectionReport& report) {
+    const double before = done_;
+    progress_.begin(model_.name + ": orbits");
+    SectionResult result = cutter_.orbits(seeds, options_.points, [&](double part) {
+      progress_.show(before + (share - before) * part);
+    });
+    done_ = share;
+    report.seconds += result.seconds;
+    report.jobs = std::max(report.jobs, result.jobs);
+    for (OrbitReport& orbit : judged_orbits(level_, std::move(result), seeds))
+      report.orbits.push_back(std::move(orbit));
+  }
+
+  /// In a few turns: after the first, orbits begin where none has been.
+  void follow_spread(SectionReport& report) {
+    Places taken;
+    const std::size_t turns = std::clamp<std::size_t>(options_.orbits / kOrbitsOfTurn, 1, kTurns);
+    for (std::size_t turn = 0; turn < turns && !cutter_.interrupted(); ++turn) {
+      const std::size_t until = options_.orbits * (turn + 1) / turns;
+      std::vector<LevelSet::Vector> seeds;
+      for (const PlacedPoint& point :
+           spread_out(level_, domain(), until - report.orbits.size(), taken))
+        seeds.push_back(point.x);
+      const std::size_t first = report.orbits.size();
+      follow(seeds, static_cast<double>(turn + 1) / static_cast<double>(turns), report);
+      for (std::size_t i = first; i < report.orbits.size(); ++i)
+        taken.insert(taken.end(), report.orbits[i].places.begin(), report.orbits[i].places.end());
+    }
+    if (report.orbits.size() < options_.orbits && !cutter_.interrupted())
+      report.warnings.push_back(
+          fmt::format("only {} different points of the section were found for {} orbits",
+                      report.orbits.size(), options_.orbits));
   }
 
   /// For cycles: points all over the section, and where orbits nearly close.
@@ -224,7 +247,7 @@ class Section {
   Progress progress_;
   const OrbitCutter cutter_;
   std::vector<PlacedPoint> domain_;
-  std::vector<std::string> warnings_;
+  double done_ = 0;
 };
 
 int section(const Options& options) {

@@ -134,6 +134,15 @@ bool is_known(const LevelSet& level, const Cycle& cycle, const std::vector<Cycle
   });
 }
 
+/// An angle next to its period is next to 0.
+void turn_back(const LevelSet& level, Cycle& cycle) {
+  for (PlacedPoint& point : cycle.points)
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double period = level.problem().plotted[k].period;
+      if (period > 0 && point.place[k] > period * (1 - 1e-9)) point.place[k] -= period;
+    }
+}
+
 /// Begins where the first plotted function is least, so that a cycle is told in one way.
 void turn(Cycle& cycle) {
   const auto first = std::ranges::min_element(cycle.points, {}, &PlacedPoint::place);
@@ -167,6 +176,7 @@ CycleSearch find_cycles(const LevelSet& level, const OrbitCutter& cutter,
         continue;
       }
       if (std::abs(cycle.determinant - 1) > kAreaKept || is_known(level, cycle, found)) continue;
+      turn_back(level, cycle);
       turn(cycle);
       found.push_back(std::move(cycle));
     }

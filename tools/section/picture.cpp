@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 
 #include "tools/gnuplot.hpp"
 #include "tools/output.hpp"
@@ -65,21 +66,39 @@ class Drawing {
     return text;
   }
 
+  /// A little more than the points take; an angle has its period.
+  std::string range(std::size_t k, const std::vector<OrbitReport>& orbits) const {
+    if (is_angle(problem_.plotted[k])) return {};
+    double least = std::numeric_limits<double>::infinity(), largest = -least;
+    for (const OrbitReport& orbit : orbits) {
+      for (const auto& place : orbit.places) {
+        least = std::min(least, place[k]);
+        largest = std::max(largest, place[k]);
+      }
+    }
+    if (!(least < largest) || !std::isfinite(largest - least)) return {};
+    const double margin = 0.03 * (largest - least);
+    return fmt::format("set {}range [{:.9g}:{:.9g}]\n", k == 0 ? 'x' : 'y', least - margin,
+                       largest + margin);
+  }
+
+  void bound(const std::vector<OrbitReport>& orbits) { ranges_ = range(0, orbits) + range(1, orbits); }
+
   std::string script(const std::string& title, const std::string& terminal,
                      const std::string& output) const {
     std::string text = fmt::format(
         "set encoding utf8\nset terminal {} noenhanced\nset output {}\nset title {}\n", terminal,
         quoted(output), quoted(title));
-    text += axis(problem_.plotted[0], 'x') + axis(problem_.plotted[1], 'y');
-    text += "set key outside bottom center horizontal samplen 1\nset border 15 lw 1\n"
-            "set tics out nomirror\nset offsets graph 0.02, graph 0.02, graph 0.02, graph 0.02\n";
+    text += axis(problem_.plotted[0], 'x') + axis(problem_.plotted[1], 'y') + ranges_;
+    text += "set key outside top center horizontal samplen 1\nset border 15 lw 1\n"
+            "set tics out nomirror\n";
     if (plots_.empty()) return text + "set xrange [0:1]\nset yrange [0:1]\nplot 1/0 notitle\n";
     return text + blocks_ + plots_ + "\n";
   }
 
  private:
   const SectionProblem& problem_;
-  std::string blocks_, plots_;
+  std::string blocks_, plots_, ranges_;
   int count_ = 0;
 };
 
@@ -126,6 +145,7 @@ void draw_section(const SectionProblem& problem, const std::string& title,
                   const std::string& path) {
   check_plot_name(path);
   Drawing drawing(problem);
+  drawing.bound(orbits);
   add_orbits(drawing, orbits);
   add_cycles(drawing, cycles);
   const std::string terminal =

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <random>
+#include <utility>
 
 namespace casimir::tools {
 namespace {
@@ -17,6 +19,8 @@ constexpr int kRandomPoints = 1500, kRounds = 5, kParents = 120, kChildren = 4;
 /// Points that are crossed at a smaller angle are next to tangencies.
 constexpr double kLeastSpeed = 1e-6;
 constexpr double kFarAway = 30;
+/// To a side of the picture.
+constexpr double kCells = 100;
 
 /// Numbers that are the same with every standard library.
 class Chance {
@@ -133,21 +137,41 @@ std::vector<PlacedPoint> points_of_domain(const LevelSet& level, const Returning
   return search.points();
 }
 
+namespace {
+
+/// One place for each small part of the picture that has any.
+Places thinned(const std::array<double, 2>& sides, const Places& places) {
+  std::map<std::pair<long, long>, std::array<double, 2>> cells;
+  for (const auto& place : places)
+    cells.try_emplace({std::lround(kCells * place[0] / sides[0]),
+                       std::lround(kCells * place[1] / sides[1])},
+                      place);
+  Places result;
+  for (const auto& [cell, place] : cells) result.push_back(place);
+  return result;
+}
+
+}  // namespace
+
 std::vector<PlacedPoint> spread_out(const LevelSet& level, const std::vector<PlacedPoint>& points,
-                                    std::size_t count) {
+                                    std::size_t count, const Places& taken) {
   const std::array<double, 2> sides = sides_of(level, points);
   std::array<double, 2> middle{};
   for (const PlacedPoint& point : points)
     for (std::size_t k = 0; k < 2; ++k)
       middle[k] += point.place[k] / static_cast<double>(points.size());
-  std::vector<double> nearest(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    nearest[i] = 1 / (1 + distance(level, sides, points[i].place, middle));
+  std::vector<double> nearest(points.size(), std::numeric_limits<double>::infinity());
+  const Places others = thinned(sides, taken);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (const auto& place : others)
+      nearest[i] = std::min(nearest[i], distance(level, sides, points[i].place, place));
+    if (others.empty()) nearest[i] = 1 / (1 + distance(level, sides, points[i].place, middle));
+  }
   std::vector<PlacedPoint> chosen;
   while (chosen.size() < std::min(count, points.size())) {
     const auto next = static_cast<std::size_t>(std::ranges::max_element(nearest) - nearest.begin());
     if (!(nearest[next] > 0)) break;  // what is left lies where others are
-    const bool first = chosen.empty();
+    const bool first = chosen.empty() && others.empty();
     chosen.push_back(points[next]);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double d = distance(level, sides, points[i].place, points[next].place);

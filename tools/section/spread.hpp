@@ -26,10 +26,12 @@ using Returning = std::function<std::vector<bool>(const std::vector<PlacedPoint>
 std::vector<PlacedPoint> points_of_domain(const LevelSet& level, const Returning& returning,
                                           const std::vector<LevelSet::Vector>& known);
 
+using Places = std::vector<std::array<double, 2>>;
+
 /// So many of the points, each as far as possible from those chosen before it, by their places in
-/// the picture; the first is in the middle.
+/// the picture. The first is in the middle, or as far as possible from what is `taken`.
 std::vector<PlacedPoint> spread_out(const LevelSet& level, const std::vector<PlacedPoint>& points,
-                                    std::size_t count);
+                                    std::size_t count, const Places& taken = {});
 
 /// Energies that occur where the plane meets the Casimir level: a sentence for those who asked for
 /// another one.
