@@ -134,14 +134,17 @@ class Section {
     Places taken;
     const std::size_t turns = std::clamp<std::size_t>(options_.orbits / kOrbitsOfTurn, 1, kTurns);
     for (std::size_t turn = 0; turn < turns && !cutter_.interrupted(); ++turn) {
-      const std::size_t until = options_.orbits * (turn + 1) / turns;
+      // Half of them at first: the sea of chaos is large.
+      const std::size_t first_half = turns == 1 ? options_.orbits : options_.orbits / 2;
+      const std::size_t until =
+          first_half + (turn == 0 ? 0 : (options_.orbits - first_half) * turn / (turns - 1));
       std::vector<LevelSet::Vector> seeds;
       for (const PlacedPoint& point :
            spread_out(level_, domain(), until - report.orbits.size(), taken))
         seeds.push_back(point.x);
-      const std::size_t first = report.orbits.size();
+      const std::size_t before = report.orbits.size();
       follow(seeds, static_cast<double>(turn + 1) / static_cast<double>(turns), report);
-      for (std::size_t i = first; i < report.orbits.size(); ++i)
+      for (std::size_t i = before; i < report.orbits.size(); ++i)
         taken.insert(taken.end(), report.orbits[i].places.begin(), report.orbits[i].places.end());
     }
     if (report.orbits.size() < options_.orbits && !cutter_.interrupted())
@@ -208,35 +211,50 @@ class Section {
 
   /// What went wrong, on stderr.
   int verdict(const SectionReport& report) const {
-    for (std::size_t i = 0; i < report.orbits.size(); ++i) {
-      const OrbitReport& orbit = report.orbits[i];
-      if (orbit.leaves_level) {
-        std::cerr << fmt::format(
-            "casimir: error: orbit {} left its level by more than {:g} at crossing {}\n  hint: a "
-            "smaller --tolerance, or fewer --points\n",
-            i + 1, kOnLevel, orbit.places.size() + 1);
-        return kFailed;
-      }
-    }
-    for (std::size_t i = 0; i < report.orbits.size(); ++i) {
-      const SectionOrbit& orbit = report.orbits[i].orbit;
-      if (orbit.status == Status::ok || !orbit.returns) continue;
-      std::string state;
-      for (std::size_t k = 0; k < orbit.state.size(); ++k)
-        state += fmt::format("{}{} = {:.6g}", k == 0 ? "" : ", ",
-                             problem_.run.specialisation.states[k], orbit.state[k]);
-      const bool limit = orbit.status == Status::stopped;
+    const auto& orbits = report.orbits;
+    const auto off = std::ranges::find(orbits, true, &OrbitReport::leaves_level);
+    if (off != orbits.end()) {
       std::cerr << fmt::format(
-          "casimir: error: orbit {} {} at t = {}, after {} of {} crossings: {}\n  last good state: "
-          "{}\n",
-          i + 1, limit ? "was stopped" : "could not be continued", exact_text(orbit.time),
-          orbit.size(), options_.points,
-          limit ? "the time limit was reached" : reason_of(orbit.status), state);
-      return limit ? kEnvironment : kNotContinued;
+          "casimir: error: orbit {} left its level by more than {:g} at crossing {}\n  hint: a "
+          "smaller --tolerance, or fewer --points\n",
+          off - orbits.begin() + 1, kOnLevel, off->places.size() + 1);
+      return kFailed;
+    }
+    const auto stopped = [](const OrbitReport& orbit) {
+      return orbit.orbit.status == Status::stopped && orbit.orbit.returns;
+    };
+    const auto lost = [&](const OrbitReport& orbit) {
+      return orbit.orbit.status != Status::ok && orbit.orbit.returns && !stopped(orbit);
+    };
+    if (std::ranges::any_of(orbits, lost)) {
+      tell(report, lost, "could not be continued");
+      return kNotContinued;
+    }
+    if (std::ranges::any_of(orbits, stopped) || cutter_.interrupted()) {
+      tell(report, stopped, "were stopped at the time limit");
+      return kEnvironment;
     }
     if (report.crossings() > 0) return kDone;
     std::cerr << "casimir: error: no orbit crosses the plane\n";
     return kNotContinued;
+  }
+
+  template <class Which>
+  void tell(const SectionReport& report, const Which& which, const char* what) const {
+    const auto& orbits = report.orbits;
+    std::string text = fmt::format("casimir: error: {} of {} orbits {}",
+                                   std::ranges::count_if(orbits, which), orbits.size(), what);
+    const auto first = std::ranges::find_if(orbits, which);
+    if (first != orbits.end()) {
+      const SectionOrbit& orbit = first->orbit;
+      text += fmt::format("; the first is orbit {}, at t = {} after {} of {} crossings: {}\n  last good state: ",
+                          first - orbits.begin() + 1, exact_text(orbit.time), orbit.size(),
+                          options_.points, reason_of(orbit.status));
+      for (std::size_t k = 0; k < orbit.state.size(); ++k)
+        text += fmt::format("{}{} = {:.6g}", k == 0 ? "" : ", ",
+                            problem_.run.specialisation.states[k], orbit.state[k]);
+    }
+    std::cerr << text << '\n';
   }
 
   const Options& options_;

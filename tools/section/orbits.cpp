@@ -12,8 +12,9 @@ using Vector = LevelSet::Vector;
 
 /// More crossings than this take longer than a compiler.
 constexpr std::size_t kWorthCompiling = 100000;
-/// To find out whether orbits return.
-constexpr std::size_t kReturns = 2;
+/// To find out whether orbits return: so often, and to a state not so many times larger.
+constexpr std::size_t kReturns = 8;
+constexpr double kEscaped = 10;
 constexpr unsigned long long kStepsBetween = 20000, kStepsToReturn = 3000;
 
 EnsembleKernel kernel_for(const SectionProblem& problem, std::size_t work) {
@@ -86,15 +87,27 @@ Returning OrbitCutter::returning() const {
     const std::vector<Vector> none(seeds.size(), Vector::Zero(static_cast<Eigen::Index>(problem_.states())));
     std::vector<bool> result;
     for (const SectionOrbit& orbit : with_deviations(seeds, none, kReturns).orbits)
-      result.push_back(orbit.status == Status::ok);
+      result.push_back(orbit.status == Status::ok && stays(seeds[result.size()], orbit));
     return result;
   };
+}
+
+bool OrbitCutter::stays(const Vector& seed, const SectionOrbit& orbit) const {
+  double before = 0, after = 0;
+  for (std::size_t i = 0; i < problem_.states(); ++i) {
+    if (problem_.angles[i]) continue;
+    before = std::max({before, std::abs(seed[static_cast<Eigen::Index>(i)]),
+                       std::abs(problem_.run.initial[i])});
+    after = std::max(after, std::abs(orbit.state[i]));
+  }
+  return after <= kEscaped * before;
 }
 
 namespace {
 
 /// Deviations of regular orbits grow like the time, at most like its third power.
 constexpr double kLargestPower = 3;
+constexpr std::size_t kFewest = 10;
 
 /// Drops the crossings from the first that is off the level.
 void check_level(const LevelSet& level, OrbitReport& report) {
@@ -117,7 +130,10 @@ void check_level(const LevelSet& level, OrbitReport& report) {
 /// The growth after the first tenth, when a deviation has found its direction.
 void estimate_exponent(OrbitReport& report) {
   const SectionOrbit& orbit = report.orbit;
-  if (orbit.size() < 10) return;
+  // One that runs to infinity is neither regular nor chaotic.
+  report.judged = orbit.size() >= kFewest &&
+                  (orbit.status == Status::ok || orbit.status == Status::stopped);
+  if (!report.judged) return;
   const std::size_t first = orbit.size() / 10;
   const double growth = orbit.growth.back() - orbit.growth[first],
                time = orbit.times.back() - orbit.times[first];

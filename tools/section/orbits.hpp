@@ -43,6 +43,8 @@ class OrbitCutter {
 
  private:
   SectionSettings settings(std::size_t points) const;
+  /// Whether the orbit is not on its way to infinity.
+  bool stays(const LevelSet::Vector& seed, const SectionOrbit& orbit) const;
 
   const SectionProblem& problem_;
   const OrbitOptions options_;
@@ -56,6 +58,7 @@ struct OrbitReport {
   LevelSet::Vector seed;
   /// Growth of deviations per unit of time: an estimate of the largest Lyapunov exponent.
   double exponent = 0;
+  bool judged = false;     ///< it is long enough to tell, and bounded
   bool chaotic = false;    ///< deviations grow faster than a power of time
   double off_level = 0;    ///< largest deviation from the level, relative to its terms
   bool leaves_level = false;  ///< a crossing was further from it than kOnLevel, and dropped

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <limits>
@@ -15,7 +16,7 @@ namespace {
 
 /// Okabe and Ito's colours that are dark enough beside the grey of chaos.
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#882255", "#000000", "#b07000"};
-constexpr const char* kChaos = "#9c9c9c";
+constexpr const char* kChaos = "#909090";
 const double kPi = std::acos(-1.);
 
 bool is_angle(const PlottedFunction& function) { return function.period > 0; }
@@ -27,20 +28,43 @@ std::string label_of(const PlottedFunction& function) {
   return (plain ? function.label : "(" + function.label + ")") + " / pi";
 }
 
-std::string axis(const PlottedFunction& function, char name) {
-  std::string text = fmt::format("set {}label {}\n", name, quoted(label_of(function)));
-  if (is_angle(function))
-    text += fmt::format("set {}range [0:{:.9g}]\nset {}tics 0.25*{:.9g}\n", name,
-                        function.period / kPi, name, function.period / kPi);
-  return text;
+/// An axis of the picture: which part of it is shown.
+struct Axis {
+  double from = 0, to = 0;  ///< nothing to show where they are equal
+  double period = 0;
+
+  double at(double value) const {
+    return period > 0 ? from + std::fmod(value - from + 2 * period, period) : value;
+  }
+};
+
+/// An angle that does not take all values is cut open where none are.
+Axis cut_open(std::vector<double> values, double period) {
+  std::ranges::sort(values);
+  double widest = values.front() + period - values.back();
+  double from = values.front();
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    if (values[i] - values[i - 1] <= widest) continue;
+    widest = values[i] - values[i - 1];
+    from = values[i] - period;
+  }
+  constexpr double kGap = 0.1;
+  if (widest < kGap * period) return {0, period, period};
+  const double margin = 0.03 * (period - widest);
+  return {from - margin, from + period - widest + margin, period};
 }
 
-std::string point_text(const SectionProblem& problem, const std::array<double, 2>& place) {
-  const auto value = [&](std::size_t k) {
-    return is_angle(problem.plotted[k]) ? place[k] / kPi : place[k];
-  };
-  return fmt::format("{:.7g} {:.7g}\n", value(0), value(1));
+/// A little more than the values take.
+Axis axis_of(const PlottedFunction& function, std::vector<double> values) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.empty()) return {0, is_angle(function) ? function.period : 1, function.period};
+  if (is_angle(function)) return cut_open(std::move(values), function.period);
+  const auto [least, largest] = std::ranges::minmax(values);
+  const double margin = largest > least ? 0.03 * (largest - least) : 1;
+  return {least - margin, largest + margin, 0};
 }
+
+double unit_of(const PlottedFunction& function) { return is_angle(function) ? kPi : 1; }
 
 class Drawing {
  public:
@@ -61,44 +85,44 @@ class Drawing {
 
   std::string places(const std::vector<std::array<double, 2>>& places) const {
     std::string text;
-    for (const auto& place : places)
-      if (std::isfinite(place[0]) && std::isfinite(place[1])) text += point_text(problem_, place);
+    for (const auto& place : places) {
+      if (!std::isfinite(place[0]) || !std::isfinite(place[1])) continue;
+      text += fmt::format("{:.7g} {:.7g}\n", axes_[0].at(place[0]) / unit_of(problem_.plotted[0]),
+                          axes_[1].at(place[1]) / unit_of(problem_.plotted[1]));
+    }
     return text;
   }
 
-  /// A little more than the points take; an angle has its period.
-  std::string range(std::size_t k, const std::vector<OrbitReport>& orbits) const {
-    if (is_angle(problem_.plotted[k])) return {};
-    double least = std::numeric_limits<double>::infinity(), largest = -least;
-    for (const OrbitReport& orbit : orbits) {
-      for (const auto& place : orbit.places) {
-        least = std::min(least, place[k]);
-        largest = std::max(largest, place[k]);
-      }
+  void bound(const std::vector<OrbitReport>& orbits) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      std::vector<double> values;
+      for (const OrbitReport& orbit : orbits)
+        for (const auto& place : orbit.places) values.push_back(place[k]);
+      axes_[k] = axis_of(problem_.plotted[k], std::move(values));
     }
-    if (!(least < largest) || !std::isfinite(largest - least)) return {};
-    const double margin = 0.03 * (largest - least);
-    return fmt::format("set {}range [{:.9g}:{:.9g}]\n", k == 0 ? 'x' : 'y', least - margin,
-                       largest + margin);
   }
-
-  void bound(const std::vector<OrbitReport>& orbits) { ranges_ = range(0, orbits) + range(1, orbits); }
 
   std::string script(const std::string& title, const std::string& terminal,
                      const std::string& output) const {
     std::string text = fmt::format(
         "set encoding utf8\nset terminal {} noenhanced\nset output {}\nset title {}\n", terminal,
         quoted(output), quoted(title));
-    text += axis(problem_.plotted[0], 'x') + axis(problem_.plotted[1], 'y') + ranges_;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double unit = unit_of(problem_.plotted[k]);
+      text += fmt::format("set {0}label {1}\nset {0}range [{2:.9g}:{3:.9g}]\n", k == 0 ? 'x' : 'y',
+                          quoted(label_of(problem_.plotted[k])), axes_[k].from / unit,
+                          axes_[k].to / unit);
+    }
     text += "set key outside top center horizontal samplen 1\nset border 15 lw 1\n"
             "set tics out nomirror\n";
-    if (plots_.empty()) return text + "set xrange [0:1]\nset yrange [0:1]\nplot 1/0 notitle\n";
+    if (plots_.empty()) return text + "plot 1/0 notitle\n";
     return text + blocks_ + plots_ + "\n";
   }
 
  private:
   const SectionProblem& problem_;
-  std::string blocks_, plots_, ranges_;
+  std::array<Axis, 2> axes_;
+  std::string blocks_, plots_;
   int count_ = 0;
 };
 
@@ -109,11 +133,11 @@ void add_orbits(Drawing& drawing, const std::vector<OrbitReport>& orbits) {
   std::string chaos;
   bool regular = false;
   for (const OrbitReport& orbit : orbits)
-    if (orbit.chaotic) chaos += drawing.places(orbit.places);
-  drawing.add(chaos, fmt::format("pt 7 ps {:.3f} lc rgb '{}'", 0.6 * size, kChaos), "");
+    if (orbit.chaotic || !orbit.judged) chaos += drawing.places(orbit.places);
+  drawing.add(chaos, fmt::format("pt 7 ps {:.3f} lc rgb '{}'", 0.75 * size, kChaos), "");
   std::size_t colour = 0;
   for (const OrbitReport& orbit : orbits) {
-    if (orbit.chaotic) continue;
+    if (orbit.chaotic || !orbit.judged) continue;
     regular = true;
     drawing.add(drawing.places(orbit.places),
                 fmt::format("pt 7 ps {:.3f} lc rgb '{}'", size,

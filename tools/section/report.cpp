@@ -32,8 +32,8 @@ Json to_json(const SectionReport& report, const OrbitReport& orbit, std::size_t 
                {"status", state_of(orbit)},
                {"points", orbit.places.size()},
                {"t", exact_text(orbit.orbit.time)},
-               {"exponent", exact_text(orbit.exponent)},
-               {"chaotic", orbit.chaotic},
+               {"exponent", orbit.judged ? Json(exact_text(orbit.exponent)) : Json(nullptr)},
+               {"chaotic", orbit.judged ? Json(orbit.chaotic) : Json(nullptr)},
                {"off_level", exact_text(orbit.off_level)},
                {"seed", Json::object()}};
   for (std::size_t i = 0; i < report.problem.states(); ++i)
@@ -83,8 +83,10 @@ void print_cycles(const SectionReport& report) {
   for (const Cycle& cycle : report.cycles.cycles) {
     for (std::size_t i = 0; i < cycle.length(); ++i) {
       std::array<double, 2> place = cycle.points[i].place;
-      for (std::size_t k = 0; k < 2; ++k)
+      for (std::size_t k = 0; k < 2; ++k) {
         if (problem.plotted[k].period > 0) place[k] /= std::acos(-1.);
+        if (std::abs(place[k]) < 5e-10) place[k] = 0;  // not -0.000000000
+      }
       fmt::print("  {:>5}  {:>14.9f}  {:>14.9f}", i == 0 ? fmt::format("{}", cycle.length()) : "", place[0],
                  place[1]);
       if (i == 0)
@@ -177,15 +179,19 @@ void print_text(const SectionReport& report) {
   const Specialisation& s = spec_of(report);
   fmt::print("{}, scene '{}', Poincare section on the level {}\n", s.case_name, printable(s.scene),
              problem.level_text());
-  fmt::print("  plane    {} = 0, crossed {}\n", printable(problem.plane_text, 200),
+  fmt::print("  plane    {}{}, crossed {}\n", printable(problem.plane_text, 200),
+             problem.plane_text.find('=') == std::string::npos ? " = 0" : "",
              problem.plane.upwards ? "upwards" : "downwards");
   fmt::print("  plotted  u = {}, v = {}\n", printable(problem.plotted[0].text, 200),
              printable(problem.plotted[1].text, 200));
   fmt::print("  {} orbits, {} crossings in {}: {} thread{}, {} orbits in a register\n",
              report.orbits.size(), report.crossings(), duration_text(report.seconds), report.jobs,
              report.jobs == 1 ? "" : "s", report.lanes);
-  fmt::print("  {} regular, {} chaotic; every point on its level to {:.1e}\n",
-             report.orbits.size() - report.chaotic(), report.chaotic(), report.off_level());
+  const auto unknown = std::ranges::count(report.orbits, false, &OrbitReport::judged);
+  fmt::print("  {} regular, {} chaotic{}; every point on its level to {:.1e}\n",
+             report.orbits.size() - report.chaotic() - static_cast<std::size_t>(unknown),
+             report.chaotic(), unknown > 0 ? fmt::format(", {} too short to tell", unknown) : "",
+             report.off_level());
   double largest = 0;
   for (const OrbitReport& orbit : report.orbits)
     if (orbit.chaotic) largest = std::max(largest, orbit.exponent);
