@@ -91,8 +91,9 @@ class Cutter {
   void observe(const casimir_lane_step& step) {
     casimir_jet_range range;
     kernel_(&tables_, &step, memory_.get(), &range);
-    const double* const series = memory_.get() + static_cast<std::ptrdiff_t>(tables_.line[tables_.lines - 1].row) *
-                                                     (CASIMIR_MOST_JET_ORDER + 1) * step.lanes;
+    const double* const series =
+        memory_.get() + static_cast<std::ptrdiff_t>(tables_.line[tables_.lines - 1].row) *
+                            (CASIMIR_MOST_JET_ORDER + 1) * step.lanes;
     for (int lane = 0; lane < step.lanes; ++lane) {
       if (!step.held[lane] || step.member[lane] < 0) continue;
       RunningOrbit& orbit = shared_.orbits[static_cast<std::size_t>(step.member[lane])];

@@ -29,7 +29,7 @@ struct SectionSettings {
   /// Keep the deviations with the states of each crossing, as they come. Otherwise the only
   /// deviation is made small again whenever it has grown large, and its growth is kept.
   bool keep_deviations = false;
-  std::function<bool()> give_up;             ///< asked now and then from several threads
+  std::function<bool()> give_up;              ///< asked now and then from several threads
   std::function<void(double)> progress = {};  ///< told the share that is done, in this thread
 };
 

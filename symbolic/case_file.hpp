@@ -97,9 +97,9 @@ struct SectionText {
   Text function;
   std::optional<Text> direction;
   std::vector<Text> plot;
-  std::vector<Text> labels;      ///< of the axes of a picture
-  std::optional<Text> energy;    ///< the level; without it that of the scene
-  std::vector<Entry> casimirs;   ///< the same for Casimir functions
+  std::vector<Text> labels;     ///< of the axes of a picture
+  std::optional<Text> energy;   ///< the level; without it that of the scene
+  std::vector<Entry> casimirs;  ///< the same for Casimir functions
 };
 
 struct SceneText {

@@ -68,8 +68,9 @@ void register_survey(CLI::App& program, Action& action);
 
 /// In the order in which the help shows them: a new command is one file and one line here.
 inline constexpr Register kCommands[] = {
-    register_list,     register_show,  register_verify, register_generate, register_integrate,
-    register_section, register_conserve, register_bench, register_stress, register_survey,   register_new,
+    register_list,      register_show,    register_verify,   register_generate,
+    register_integrate, register_section, register_conserve, register_bench,
+    register_stress,    register_survey,  register_new,
 };
 
 }  // namespace casimir::tools

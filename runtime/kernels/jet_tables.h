@@ -41,7 +41,7 @@ struct casimir_jet_tables {
 
 /* What a step does to the function, for each lane. */
 struct casimir_jet_range {
-  double first[8], last[8];   /* its values at both ends */
+  double first[8], last[8];    /* its values at both ends */
   double least[8], largest[8]; /* bounds for those between */
 };
 

@@ -181,8 +181,7 @@ class Jet {
 
   /// u s' = +-a', u = sqrt(w), w = 1 - a^2
   void inverse(bool sine, const V* a, V* s, V* u, V* w) {
-    s[0] = each(a[0],
-                [&](double x) { return sine ? __builtin_asin(x) : __builtin_acos(x); });
+    s[0] = each(a[0], [&](double x) { return sine ? __builtin_asin(x) : __builtin_acos(x); });
     w[0] = 1 - a[0] * a[0];
     u[0] = each(w[0], [](double x) { return __builtin_sqrt(x); });
     const double sign = sine ? 1 : -1;
@@ -199,8 +198,9 @@ class Jet {
   int order_ = 0;
 };
 
-/// Between which numbers a polynomial stays for s from 0 to `taken`: its coefficients in Bernstein's
-/// basis of that interval enclose it, and the first and the last are its values at the ends.
+/// Between which numbers a polynomial stays for s from 0 to `taken`: its coefficients in
+/// Bernstein's basis of that interval enclose it, and the first and the last are its values at the
+/// ends.
 template <class V>
 void bernstein_range(const V* c, int order, V taken, casimir_jet_range& range) {
   V b[CASIMIR_MOST_JET_ORDER + 1];

@@ -380,8 +380,8 @@ class March {
     });
   }
 
-  /// Shows a step while the rows still hold it. Who has seen enough of a member ends it: in its next
-  /// state, unless the step ends it anyway.
+  /// Shows a step while the rows still hold it. Who has seen enough of a member ends it: in its
+  /// next state, unless the step ends it anyway.
   __attribute__((noinline)) void observe(M held, const Trial& trial) {
     M finished = {};
     const casimir_lane_step step = {width,

@@ -44,7 +44,8 @@ TEST(Section, CrossingsOfACircleInOneDirection) {
   for (const auto& [name, kernel] : lane_kernels(s)) {
     for (const bool upwards : {true, false}) {
       std::vector<double> seeds;
-      for (int i = 0; i < 11; ++i) seeds.insert(seeds.end(), {std::sin(0.3 * i), std::cos(0.3 * i)});
+      for (int i = 0; i < 11; ++i)
+        seeds.insert(seeds.end(), {std::sin(0.3 * i), std::cos(0.3 * i)});
       const SectionResult result = cut(kernel, plane_of(s, upwards), seeds, 2, settings_for(2, 50));
       for (int i = 0; i < 11; ++i) {
         const SectionOrbit& orbit = result.orbits[static_cast<std::size_t>(i)];
@@ -63,7 +64,8 @@ TEST(Section, CrossingsOfACircleInOneDirection) {
 }
 
 TEST(Section, ManyCrossingsInOneStepAreAllFound) {
-  const Specialisation s = with_function({{"x", "1"}}, "(x - 1)*(x - 2)*(x - 5/2)*(x - 251/100)*(x - 3)");
+  const Specialisation s =
+      with_function({{"x", "1"}}, "(x - 1)*(x - 2)*(x - 5/2)*(x - 251/100)*(x - 3)");
   const SectionResult result =
       cut(lane_kernels(s).front().second, plane_of(s, true), {0}, 1, settings_for(1, 3));
   ASSERT_EQ(result.orbits[0].size(), 3U);
@@ -100,8 +102,8 @@ TEST(Section, FunctionsOfEveryKind) {
 
 TEST(Section, AnAngleCrossesAtEveryTurn) {
   const Specialisation angle = with_function({{"x", "3"}}, "x - 1");
-  SectionResult result = cut(lane_kernels(angle).front().second, plane_of(angle, true, 2 * kPi), {0},
-                             1, settings_for(1, 20));
+  SectionResult result = cut(lane_kernels(angle).front().second, plane_of(angle, true, 2 * kPi),
+                             {0}, 1, settings_for(1, 20));
   ASSERT_EQ(result.orbits[0].size(), 20U);
   for (std::size_t n = 0; n < 20; ++n)
     EXPECT_NEAR(result.orbits[0].times[n], (1 + 2 * kPi * static_cast<double>(n)) / 3, 1e-11);
@@ -116,8 +118,8 @@ TEST(Section, AnAngleCrossesAtEveryTurn) {
 
 TEST(Section, ASeedOnThePlaneIsNoCrossing) {
   const Specialisation s = with_function(kCircle, "x");
-  const SectionResult result = cut(lane_kernels(s).front().second, plane_of(s, true), {0, 1, 0, -1},
-                                   2, settings_for(2, 3));
+  const SectionResult result =
+      cut(lane_kernels(s).front().second, plane_of(s, true), {0, 1, 0, -1}, 2, settings_for(2, 3));
   EXPECT_NEAR(result.orbits[0].times[0], 2 * kPi, 1e-13);
   EXPECT_NEAR(result.orbits[1].times[0], kPi, 1e-13);
 }
@@ -136,8 +138,8 @@ TEST(Section, AnOrbitThatDoesNotReturnIsSaidToo) {
 TEST(Section, GrowthOfADeviationGoesOnBeyondTheRangeOfNumbers) {
   const Specialisation s = with_function(
       {{"x", "y"}, {"y", "-x"}, {"z", "-z"}, {"dx", "dy"}, {"dy", "-dx"}, {"dz", "dz/2"}}, "x");
-  const SectionResult result =
-      cut(lane_kernels(s).front().second, plane_of(s, true), {0, 1, 0, 0, 0, 1}, 6, settings_for(3, 300));
+  const SectionResult result = cut(lane_kernels(s).front().second, plane_of(s, true),
+                                   {0, 1, 0, 0, 0, 1}, 6, settings_for(3, 300));
   const SectionOrbit& orbit = result.orbits[0];
   ASSERT_EQ(orbit.growth.size(), 300U);
   for (std::size_t n = 0; n < 300; ++n) EXPECT_NEAR(orbit.growth[n] / orbit.times[n], 0.5, 1e-9);

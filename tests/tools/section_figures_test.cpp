@@ -20,8 +20,8 @@ double number(const json& object, const char* name) {
 
 /// The chaotic scene of the heavy body, with cycles up to length 3: computed once.
 const json& figure_15() {
-  static const json kResult = run({"section", "euler-poisson", "--scene", "chaotic", "--orbits", "40",
-                                   "--points", "150", "--cycles", "3", "--json"})
+  static const json kResult = run({"section", "euler-poisson", "--scene", "chaotic", "--orbits",
+                                   "40", "--points", "150", "--cycles", "3", "--json"})
                                   .json();
   return kResult;
 }
@@ -129,9 +129,8 @@ double plane(const State& x) {
 TEST(SectionFigures, AnotherLibraryCrossesAtTheSameTimes) {
   const Folder folder;
   folder.write("seeds.csv", "M1,M2,M3,g1,g2,g3\n0,1,2,0,1,0\n");
-  const Outcome outcome =
-      run_in(folder, {"section", "euler-poisson", "--scene", "chaotic", "--seeds", "seeds.csv",
-                      "--points", "12", "--json"});
+  const Outcome outcome = run_in(folder, {"section", "euler-poisson", "--scene", "chaotic",
+                                          "--seeds", "seeds.csv", "--points", "12", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json orbit = outcome.json().at("orbits")[0];
   boost::numeric::odeint::runge_kutta_fehlberg78<State> stepper;
@@ -153,7 +152,8 @@ TEST(SectionFigures, AnotherLibraryCrossesAtTheSameTimes) {
       stepper.do_step(heavy_body, there, t, high);
       const json& crossing = orbit.at("crossings").at(found++);
       EXPECT_NEAR(number(crossing, "t"), t + high, 1e-9);
-      EXPECT_NEAR(std::remainder(number(crossing, "u") - std::atan2(there[0], there[1]), 2 * kPi), 0, 1e-9);
+      EXPECT_NEAR(std::remainder(number(crossing, "u") - std::atan2(there[0], there[1]), 2 * kPi),
+                  0, 1e-9);
       EXPECT_NEAR(number(crossing, "v"), there[2] / std::hypot(there[0], there[1], there[2]), 1e-9);
     }
     x = next;
@@ -197,7 +197,8 @@ TEST(SectionFigures, Figure14AreTheLevelLinesOfTheFreeTop) {
     double least = 10, largest = 0, top = 0;
     for (const json& point : orbit.at("crossings")) {
       const double l = number(point, "u"), x = number(point, "v");
-      const double level = (1 - x * x) * (2. / 3 * std::pow(std::sin(l), 2) + std::pow(std::cos(l), 2)) + x * x / 2;
+      const double level =
+          (1 - x * x) * (2. / 3 * std::pow(std::sin(l), 2) + std::pow(std::cos(l), 2)) + x * x / 2;
       least = std::min(least, level);
       largest = std::max(largest, level);
       top = std::max(top, std::abs(x));

@@ -53,8 +53,8 @@ Outcome section_of(const char* toml, std::vector<std::string> options) {
 }
 
 TEST(Section, HenonAndHeiles) {
-  const Outcome outcome = section_of(kHenonHeiles, {"--energy", "1/12", "--orbits", "25", "--points",
-                                                    "60", "--fixed-points", "--json"});
+  const Outcome outcome = section_of(kHenonHeiles, {"--energy", "1/12", "--orbits", "25",
+                                                    "--points", "60", "--fixed-points", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json result = outcome.json();
   EXPECT_EQ(result.at("orbits").size(), 25U);
@@ -79,7 +79,8 @@ TEST(Section, TheOtherDirectionIsTheMirrorImage) {
   folder.write("case.toml", kHenonHeiles);
   folder.write("up.csv", "x,y,px,py\n0,0.1,0.4,0.1\n");
   folder.write("down.csv", "x,y,px,py\n0,0.1,-0.4,0.1\n");
-  const std::vector<std::string> rest{"--energy", "0.08966666666666666666", "--points", "30", "--json"};
+  const std::vector<std::string> rest{"--energy", "0.08966666666666666666", "--points", "30",
+                                      "--json"};
   std::vector<std::string> up{"section", "./case.toml", "--seeds", "up.csv"},
       down{"section", "./case.toml", "--seeds", "down.csv", "--direction", "down"};
   for (const std::string& word : rest) {
@@ -99,12 +100,14 @@ TEST(Section, TheOtherDirectionIsTheMirrorImage) {
 }
 
 TEST(Section, AnAngleIsAPlaneAtEveryTurnAndPlottedOverOne) {
-  const Outcome turns = section_of(kSphericalPendulum, {"--plane", "ph = 1", "--pair", "th", "p_th",
-                                                        "--orbits", "5", "--points", "40", "--json"});
+  const Outcome turns = section_of(
+      kSphericalPendulum,
+      {"--plane", "ph = 1", "--pair", "th", "p_th", "--orbits", "5", "--points", "40", "--json"});
   ASSERT_EQ(turns.status, 0) << turns.err;
   for (const json& orbit : turns.json().at("orbits")) EXPECT_EQ(orbit.at("points"), 40);
-  const Outcome plotted = section_of(kSphericalPendulum, {"--plane", "p_th", "--pair", "ph", "th",
-                                                          "--orbits", "5", "--points", "40", "--json"});
+  const Outcome plotted = section_of(
+      kSphericalPendulum,
+      {"--plane", "p_th", "--pair", "ph", "th", "--orbits", "5", "--points", "40", "--json"});
   ASSERT_EQ(plotted.status, 0) << plotted.err;
   for (const json& orbit : plotted.json().at("orbits"))
     for (const json& point : orbit.at("crossings")) {
@@ -116,14 +119,15 @@ TEST(Section, AnAngleIsAPlaneAtEveryTurnAndPlottedOverOne) {
 TEST(Section, WhatItWritesCanBeItsSeeds) {
   const Folder folder;
   folder.write("case.toml", kHenonHeiles);
-  const std::vector<std::string> first{"section", "./case.toml", "--energy", "1/10",    "--orbits",
-                                       "3",       "--points",    "5",        "--output", "a.csv", "--quiet"};
+  const std::vector<std::string> first{"section",  "./case.toml", "--energy", "1/10",
+                                       "--orbits", "3",           "--points", "5",
+                                       "--output", "a.csv",       "--quiet"};
   ASSERT_EQ(run_in(folder, first).status, 0);
   const std::string table = file_text(folder.path() / "a.csv");
   EXPECT_EQ(table.substr(0, table.find('\n')), "orbit,n,t,u,v,x,y,px,py");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 16);
-  const Outcome again = run_in(folder, {"section", "./case.toml", "--energy", "1/10", "--seeds", "a.csv",
-                                        "--points", "2", "--json"});
+  const Outcome again = run_in(folder, {"section", "./case.toml", "--energy", "1/10", "--seeds",
+                                        "a.csv", "--points", "2", "--json"});
   ASSERT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(again.json().at("orbits").size(), 15U);
 }
@@ -131,8 +135,8 @@ TEST(Section, WhatItWritesCanBeItsSeeds) {
 TEST(Section, LevelsWithoutMotionAreRefused) {
   const Outcome low = section_of(kHenonHeiles, {"--energy", "-1/10", "--orbits", "5"});
   EXPECT_EQ(low.status, 2);
-  const Outcome top = run({"section", "kovalevskaya", "--energy", "-5", "--plane", "g3", "--pair",
-                           "g1", "g2"});
+  const Outcome top =
+      run({"section", "kovalevskaya", "--energy", "-5", "--plane", "g3", "--pair", "g1", "g2"});
   EXPECT_EQ(top.status, 2);
   EXPECT_NE(top.err.find("no motion with H = -5"), std::string::npos) << top.err;
   EXPECT_NE(top.err.find("begin at"), std::string::npos) << top.err;
@@ -148,7 +152,8 @@ TEST(Section, SystemsWithoutASectionAreRefused) {
   refused({"section", "van-der-pol", "--plane", "x", "--pair", "x", "y"}, "Hamiltonian");
   refused({"section", "kovalevskaya"}, "no [section]");
   refused({"section", "kovalevskaya", "--plane", "g33", "--pair", "g1", "g2"}, "did you mean 'g3'");
-  refused({"section", "kovalevskaya", "--plane", "r + 1", "--pair", "g1", "g2"}, "the same everywhere");
+  refused({"section", "kovalevskaya", "--plane", "r + 1", "--pair", "g1", "g2"},
+          "the same everywhere");
   refused({"section", "euler-poisson", "--casimir", "F3=1"}, "did you mean 'F1'");
   refused({"section", "euler-poisson", "--casimir", "F1"}, "NAME=VALUE");
   refused({"section", "euler-poisson", "--energy", "M1"}, "--energy:1:1");
@@ -163,10 +168,12 @@ TEST(Section, SeedsOffTheLevelAreRefused) {
   EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(outcome.err.find("seed 2"), std::string::npos) << outcome.err;
   folder.write("few.csv", "M1,M2\n0,1\n");
-  outcome = run_in(folder, {"section", "euler-poisson", "--scene", "chaotic", "--seeds", "few.csv"});
+  outcome =
+      run_in(folder, {"section", "euler-poisson", "--scene", "chaotic", "--seeds", "few.csv"});
   EXPECT_EQ(outcome.status, 2);
   folder.write("none.csv", "u,v\n0,3\n");
-  outcome = run_in(folder, {"section", "euler-poisson", "--scene", "chaotic", "--seeds", "none.csv"});
+  outcome =
+      run_in(folder, {"section", "euler-poisson", "--scene", "chaotic", "--seeds", "none.csv"});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(outcome.err.find("no motion on this level"), std::string::npos) << outcome.err;
 }
@@ -174,16 +181,18 @@ TEST(Section, SeedsOffTheLevelAreRefused) {
 TEST(Section, PicturesAreDrawn) {
   const Folder folder;
   folder.write("case.toml", kHenonHeiles);
-  const Outcome outcome =
-      run_in(folder, {"section", "./case.toml", "--energy", "1/8", "--orbits", "6", "--points", "30",
-                      "--output", "a.svg", "--output", "a.png", "--output", "a.csv", "--quiet"});
+  const Outcome outcome = run_in(
+      folder, {"section", "./case.toml", "--energy", "1/8", "--orbits", "6", "--points", "30",
+               "--output", "a.svg", "--output", "a.png", "--output", "a.csv", "--quiet"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_TRUE(outcome.out.empty());
   EXPECT_NE(file_text(folder.path() / "a.svg").find("</svg>"), std::string::npos);
   EXPECT_EQ(file_text(folder.path() / "a.png").substr(1, 3), "PNG");
   // Without gnuplot: the points are there, and it is said what to install.
-  const Outcome without = run_in(folder, {"section", "./case.toml", "--energy", "1/8", "--orbits", "6", "--points", "30", "--output", "b.svg", "--output", "b.csv"}, {},
-                                 {{"PATH", "/nowhere"}});
+  const Outcome without = run_in(folder,
+                                 {"section", "./case.toml", "--energy", "1/8", "--orbits", "6",
+                                  "--points", "30", "--output", "b.svg", "--output", "b.csv"},
+                                 {}, {{"PATH", "/nowhere"}});
   EXPECT_EQ(without.status, 4);
   EXPECT_NE(without.err.find("apt-get install gnuplot"), std::string::npos) << without.err;
   EXPECT_FALSE(file_text(folder.path() / "b.csv").empty());

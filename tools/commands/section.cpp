@@ -27,7 +27,9 @@ struct Options {
   double tolerance = 1e-14;
   int jobs = 0;
 
-  std::size_t longest_cycle() const { return fixed_points ? std::max<std::size_t>(cycles, 1) : cycles; }
+  std::size_t longest_cycle() const {
+    return fixed_points ? std::max<std::size_t>(cycles, 1) : cycles;
+  }
 };
 
 /// Starts of Newton's method for cycles.
@@ -35,7 +37,9 @@ constexpr std::size_t kStarts = 400;
 /// Orbits are begun in turns, of so many at least: they fill the registers of some cores.
 constexpr std::size_t kOrbitsOfTurn = 16, kTurns = 4;
 
-bool is_picture(const std::string& path) { return path.ends_with(".svg") || path.ends_with(".png"); }
+bool is_picture(const std::string& path) {
+  return path.ends_with(".svg") || path.ends_with(".png");
+}
 
 void check_usage(const Options& options) {
   for (const std::string& path : options.outputs)
@@ -51,11 +55,11 @@ class Section {
       : options_(options),
         file_(load_case(options.case_name)),
         model_(model_of(file_, options.common.parameter_values())),
-        problem_(section_problem(file_, model_, model_.scene(options.common.scene), options.request)),
+        problem_(
+            section_problem(file_, model_, model_.scene(options.common.scene), options.request)),
         level_(problem_),
         progress_(!options.common.quiet),
-        cutter_(problem_,
-                {options.tolerance, options.jobs, time_limit(options.common.time_limit)},
+        cutter_(problem_, {options.tolerance, options.jobs, time_limit(options.common.time_limit)},
                 options.orbits * options.points) {}
 
   int run() {
@@ -93,14 +97,16 @@ class Section {
         },
         known_points());
     if (cutter_.interrupted())
-      throw SystemError("the time limit was reached before the domain of possible motion was known");
+      throw SystemError(
+          "the time limit was reached before the domain of possible motion was known");
     if (!domain_.empty()) return domain_;
     if (tried == 0)
-      throw UsageError(fmt::format("no motion with {} crosses the plane {}; {}", problem_.level_text(),
-                                   problem_.plane.upwards ? "upwards" : "downwards",
-                                   energies_there(level_)));
-    throw UsageError(fmt::format(
-        "of {} orbits with {} that begin on the plane none comes back to it", tried, problem_.level_text()));
+      throw UsageError(
+          fmt::format("no motion with {} crosses the plane {}; {}", problem_.level_text(),
+                      problem_.plane.upwards ? "upwards" : "downwards", energies_there(level_)));
+    throw UsageError(
+        fmt::format("of {} orbits with {} that begin on the plane none comes back to it", tried,
+                    problem_.level_text()));
   }
 
   /// Points of the level that need not be found: the scene's and where its orbit crosses.
@@ -138,10 +144,11 @@ class Section {
       const std::size_t first_half = turns == 1 ? options_.orbits : options_.orbits / 2;
       const std::size_t until =
           first_half + (turn == 0 ? 0 : (options_.orbits - first_half) * turn / (turns - 1));
+      std::vector<PlacedPoint> chosen =
+          spread_out(level_, domain(), until - report.orbits.size(), taken);
+      if (turn == 0) chosen = centred(level_, domain(), std::move(chosen));
       std::vector<LevelSet::Vector> seeds;
-      for (const PlacedPoint& point :
-           spread_out(level_, domain(), until - report.orbits.size(), taken))
-        seeds.push_back(point.x);
+      for (const PlacedPoint& point : chosen) seeds.push_back(point.x);
       const std::size_t before = report.orbits.size();
       follow(seeds, static_cast<double>(turn + 1) / static_cast<double>(turns), report);
       for (std::size_t i = before; i < report.orbits.size(); ++i)
@@ -182,10 +189,12 @@ class Section {
           "the level has {} degrees of freedom: the picture is a projection of a section of {} "
           "dimensions",
           problem_.leaf / 2, problem_.leaf - 2));
-    const auto lost = std::ranges::count_if(report.orbits, [](const OrbitReport& orbit) { return !orbit.orbit.returns; });
+    const auto lost = std::ranges::count_if(
+        report.orbits, [](const OrbitReport& orbit) { return !orbit.orbit.returns; });
     if (lost > 0)
       report.warnings.push_back(
-          fmt::format("{} of {} orbits do not come back to the plane often enough", lost, report.orbits.size()));
+          fmt::format("{} of {} orbits do not come back to the plane often enough", lost,
+                      report.orbits.size()));
   }
 
   /// Tables first: pictures need a program that may be missing.
@@ -247,9 +256,10 @@ class Section {
     const auto first = std::ranges::find_if(orbits, which);
     if (first != orbits.end()) {
       const SectionOrbit& orbit = first->orbit;
-      text += fmt::format("; the first is orbit {}, at t = {} after {} of {} crossings: {}\n  last good state: ",
-                          first - orbits.begin() + 1, exact_text(orbit.time), orbit.size(),
-                          options_.points, reason_of(orbit.status));
+      text += fmt::format(
+          "; the first is orbit {}, at t = {} after {} of {} crossings: {}\n  last good state: ",
+          first - orbits.begin() + 1, exact_text(orbit.time), orbit.size(), options_.points,
+          reason_of(orbit.status));
       for (std::size_t k = 0; k < orbit.state.size(); ++k)
         text += fmt::format("{}{} = {:.6g}", k == 0 ? "" : ", ",
                             problem_.run.specialisation.states[k], orbit.state[k]);
@@ -286,10 +296,13 @@ void add_plane_options(CLI::App& command, SectionRequest& request) {
                   "The surface: an expression, which is zero there, or LEFT = RIGHT (default: that "
                   "of [section])")
       ->type_name("EXPR");
-  command.add_option("--direction", request.direction, "In which it is crossed: up (default) or down")
+  command
+      .add_option("--direction", request.direction, "In which it is crossed: up (default) or down")
       ->check(CLI::IsMember({"up", "down"}))
       ->type_name("DIRECTION");
-  command.add_option("--pair", request.pair, "The two functions that are plotted (default: those of [section])")
+  command
+      .add_option("--pair", request.pair,
+                  "The two functions that are plotted (default: those of [section])")
       ->expected(2)
       ->type_name("U V");
   command.add_option("--labels", request.labels, "Labels of the axes of a picture")
@@ -305,7 +318,8 @@ void register_section(CLI::App& program, Action& action) {
       "section", "Poincare section: many orbits on one energy and Casimir level");
   command->footer(
       "Every crossing of the surface in that direction is a point; each keeps energy and Casimir\n"
-      "functions to 1e-10, or the exit status is 1. Angles are drawn over one period. A plane that\n"
+      "functions to 1e-10, or the exit status is 1. Angles are drawn over one period. A plane "
+      "that\n"
       "is an angle counts at every multiple of its period.");
   add_common(*command, options->common);
   command
@@ -313,16 +327,19 @@ void register_section(CLI::App& program, Action& action) {
                    "A bundled case, a case file, or - for standard input")
       ->required();
   add_plane_options(*command, options->request);
-  command->add_option("--orbits", options->orbits, "Orbits, spread over the domain of possible motion (default 40)")
+  command
+      ->add_option("--orbits", options->orbits,
+                   "Orbits, spread over the domain of possible motion (default 40)")
       ->type_name("N")
       ->check(CLI::Range(1, 100000));
   command->add_option("--points", options->points, "Crossings of each orbit (default 500)")
       ->type_name("N")
       ->check(CLI::Range(1, 10000000));
   command
-      ->add_option("--seeds", options->seeds,
-                   "Where orbits begin instead: a CSV file with a column for each variable, or with "
-                   "the columns u and v")
+      ->add_option(
+          "--seeds", options->seeds,
+          "Where orbits begin instead: a CSV file with a column for each variable, or with "
+          "the columns u and v")
       ->type_name("FILE.csv");
   command
       ->add_option("--cycles", options->cycles,

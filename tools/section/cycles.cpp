@@ -66,8 +66,8 @@ class Newton {
     const auto n = static_cast<Eigen::Index>(level_.problem().states());
     attempt.cycle.points.clear();
     for (std::size_t k = 0; k < length_; ++k) {
-      const Vector x = Eigen::Map<const Vector>(
-          first.states.data() + 2 * static_cast<std::ptrdiff_t>(k) * n, n);
+      const Vector x =
+          Eigen::Map<const Vector>(first.states.data() + 2 * static_cast<std::ptrdiff_t>(k) * n, n);
       attempt.cycle.points.push_back({x, level_.plotted(x.data())});
     }
     const Vector& end = attempt.cycle.points.back().x;

@@ -54,7 +54,8 @@ bool LevelSet::project(Vector& x, const std::array<double, 2>* pair, bool energy
     evaluate(x.data());
     const Eigen::MatrixXd gradient = gradients(x).leftCols(rows);
     for (Eigen::Index i = 0; i < levels; ++i)
-      residual[i] = values_[static_cast<std::size_t>(i)] - problem_.levels[static_cast<std::size_t>(i)];
+      residual[i] =
+          values_[static_cast<std::size_t>(i)] - problem_.levels[static_cast<std::size_t>(i)];
     if (!energy) residual[0] = 0;
     residual[levels] = wrapped(values_[static_cast<std::size_t>(levels)], problem_.plane.period);
     for (std::size_t k = 0; pair && k < 2; ++k)

@@ -84,7 +84,8 @@ Returning OrbitCutter::returning() const {
   return [this](const std::vector<PlacedPoint>& points) {
     std::vector<Vector> seeds;
     for (const PlacedPoint& point : points) seeds.push_back(point.x);
-    const std::vector<Vector> none(seeds.size(), Vector::Zero(static_cast<Eigen::Index>(problem_.states())));
+    const std::vector<Vector> none(seeds.size(),
+                                   Vector::Zero(static_cast<Eigen::Index>(problem_.states())));
     std::vector<bool> result;
     for (const SectionOrbit& orbit : with_deviations(seeds, none, kReturns).orbits)
       result.push_back(orbit.status == Status::ok && stays(seeds[result.size()], orbit));
@@ -96,8 +97,8 @@ bool OrbitCutter::stays(const Vector& seed, const SectionOrbit& orbit) const {
   double before = 0, after = 0;
   for (std::size_t i = 0; i < problem_.states(); ++i) {
     if (problem_.angles[i]) continue;
-    before = std::max({before, std::abs(seed[static_cast<Eigen::Index>(i)]),
-                       std::abs(problem_.run.initial[i])});
+    before = std::max(
+        {before, std::abs(seed[static_cast<Eigen::Index>(i)]), std::abs(problem_.run.initial[i])});
     after = std::max(after, std::abs(orbit.state[i]));
   }
   return after <= kEscaped * before;
@@ -131,8 +132,8 @@ void check_level(const LevelSet& level, OrbitReport& report) {
 void estimate_exponent(OrbitReport& report) {
   const SectionOrbit& orbit = report.orbit;
   // One that runs to infinity is neither regular nor chaotic.
-  report.judged = orbit.size() >= kFewest &&
-                  (orbit.status == Status::ok || orbit.status == Status::stopped);
+  report.judged =
+      orbit.size() >= kFewest && (orbit.status == Status::ok || orbit.status == Status::stopped);
   if (!report.judged) return;
   const std::size_t first = orbit.size() / 10;
   const double growth = orbit.growth.back() - orbit.growth[first],

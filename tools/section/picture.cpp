@@ -15,7 +15,8 @@ namespace casimir::tools {
 namespace {
 
 /// Okabe and Ito's colours that are dark enough beside the grey of chaos.
-constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#882255", "#000000", "#b07000"};
+constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73",
+                                    "#882255", "#000000", "#b07000"};
 constexpr const char* kChaos = "#909090";
 const double kPi = std::acos(-1.);
 
@@ -73,8 +74,9 @@ class Drawing {
   void add(const std::string& points, const std::string& style, const std::string& name) {
     if (points.empty()) return;
     blocks_ += fmt::format("$set{} << EOD\n{}EOD\n", count_, points);
-    plots_ += fmt::format("{}$set{} using 1:2 with points {} {}", plots_.empty() ? "plot " : ", \\\n     ",
-                          count_++, style, name.empty() ? "notitle" : "title " + quoted(name));
+    plots_ += fmt::format("{}$set{} using 1:2 with points {} {}",
+                          plots_.empty() ? "plot " : ", \\\n     ", count_++, style,
+                          name.empty() ? "notitle" : "title " + quoted(name));
   }
 
   /// An entry of the legend, with a mark of its own: those in the picture are too small.
@@ -104,17 +106,18 @@ class Drawing {
 
   std::string script(const std::string& title, const std::string& terminal,
                      const std::string& output) const {
-    std::string text = fmt::format(
-        "set encoding utf8\nset terminal {} noenhanced\nset output {}\nset title {}\n", terminal,
-        quoted(output), quoted(title));
+    std::string text =
+        fmt::format("set encoding utf8\nset terminal {} noenhanced\nset output {}\nset title {}\n",
+                    terminal, quoted(output), quoted(title));
     for (std::size_t k = 0; k < 2; ++k) {
       const double unit = unit_of(problem_.plotted[k]);
       text += fmt::format("set {0}label {1}\nset {0}range [{2:.9g}:{3:.9g}]\n", k == 0 ? 'x' : 'y',
                           quoted(label_of(problem_.plotted[k])), axes_[k].from / unit,
                           axes_[k].to / unit);
     }
-    text += "set key outside top center horizontal samplen 1\nset border 15 lw 1\n"
-            "set tics out nomirror\n";
+    text +=
+        "set key outside top center horizontal samplen 1\nset border 15 lw 1\n"
+        "set tics out nomirror\n";
     if (plots_.empty()) return text + "plot 1/0 notitle\n";
     return text + blocks_ + plots_ + "\n";
   }
@@ -129,7 +132,8 @@ class Drawing {
 void add_orbits(Drawing& drawing, const std::vector<OrbitReport>& orbits) {
   std::size_t total = 0;
   for (const OrbitReport& orbit : orbits) total += orbit.places.size();
-  const double size = std::clamp(0.5 * std::sqrt(12000. / static_cast<double>(total + 1)), 0.16, 0.5);
+  const double size =
+      std::clamp(0.5 * std::sqrt(12000. / static_cast<double>(total + 1)), 0.16, 0.5);
   std::string chaos;
   bool regular = false;
   for (const OrbitReport& orbit : orbits)
@@ -139,13 +143,15 @@ void add_orbits(Drawing& drawing, const std::vector<OrbitReport>& orbits) {
   for (const OrbitReport& orbit : orbits) {
     if (orbit.chaotic || !orbit.judged) continue;
     regular = true;
-    drawing.add(drawing.places(orbit.places),
-                fmt::format("pt 7 ps {:.3f} lc rgb '{}'", size,
-                            kColours[colour++ % std::size(kColours)]),
-                "");
+    drawing.add(
+        drawing.places(orbit.places),
+        fmt::format("pt 7 ps {:.3f} lc rgb '{}'", size, kColours[colour++ % std::size(kColours)]),
+        "");
   }
-  if (regular) drawing.explain(fmt::format("pt 7 ps 0.8 lc rgb '{}'", kColours[0]), "regular orbits");
-  if (!chaos.empty()) drawing.explain(fmt::format("pt 7 ps 0.8 lc rgb '{}'", kChaos), "chaotic orbits");
+  if (regular)
+    drawing.explain(fmt::format("pt 7 ps 0.8 lc rgb '{}'", kColours[0]), "regular orbits");
+  if (!chaos.empty())
+    drawing.explain(fmt::format("pt 7 ps 0.8 lc rgb '{}'", kChaos), "chaotic orbits");
 }
 
 void add_cycles(Drawing& drawing, const std::vector<Cycle>& cycles) {
@@ -157,8 +163,10 @@ void add_cycles(Drawing& drawing, const std::vector<Cycle>& cycles) {
       for (const PlacedPoint& point : cycle.points) places.push_back(point.place);
       points += drawing.places(places);
     }
-    drawing.add(points, stable ? "pt 6 ps 1.3 lw 1.5 lc rgb '#000000'" : "pt 2 ps 1.3 lw 1.5 lc rgb '#000000'",
-                stable ? "stable cycles" : "unstable cycles");
+    drawing.add(
+        points,
+        stable ? "pt 6 ps 1.3 lw 1.5 lc rgb '#000000'" : "pt 2 ps 1.3 lw 1.5 lc rgb '#000000'",
+        stable ? "stable cycles" : "unstable cycles");
   }
 }
 

@@ -8,10 +8,10 @@
 
 namespace casimir::tools {
 
-/// Draws a section with gnuplot to a .svg or .png file. Chaotic orbits are a fine grey dust, regular
-/// ones darker marks that are larger, each orbit in one of a few colours; cycles are rings and
-/// crosses. An angle is drawn over one period, in units of Pi.
-/// \throws SystemError  without gnuplot.
+/// Draws a section with gnuplot to a .svg or .png file. Chaotic orbits are a fine grey dust,
+/// regular ones darker marks that are larger, each orbit in one of a few colours; cycles are rings
+/// and crosses. An angle is drawn over one period, in units of Pi. \throws SystemError  without
+/// gnuplot.
 void draw_section(const SectionProblem& problem, const std::string& title,
                   const std::vector<OrbitReport>& orbits, const std::vector<Cycle>& cycles,
                   const std::string& path);

@@ -89,7 +89,8 @@ class Maker {
   void read_pair() {
     std::vector<std::string> texts = request_.pair;
     if (!texts.empty()) {
-      for (const std::string& text : texts) pair_.push_back(model_.parse(option_text("--pair", text)));
+      for (const std::string& text : texts)
+        pair_.push_back(model_.parse(option_text("--pair", text)));
     } else {
       if (model_.section) pair_ = model_.section->plot;
       if (file_)
@@ -116,7 +117,8 @@ class Maker {
     }
   }
 
-  /// The programs of the system, its level, the plane and the pair, and of the variational equations.
+  /// The programs of the system, its level, the plane and the pair, and of the variational
+  /// equations.
   void specialise_all() {
     Model model = model_;
     model.integrals = {{"the plane", plane_, {}},
@@ -145,7 +147,8 @@ class Maker {
 
   void find_angles() {
     std::vector<GiNaC::ex> functions{model_.at_parameters(*model_.hamiltonian, scene_)};
-    for (const GiNaC::ex& rate : model_.field) functions.push_back(model_.at_parameters(rate, scene_));
+    for (const GiNaC::ex& rate : model_.field)
+      functions.push_back(model_.at_parameters(rate, scene_));
     for (const NamedExpression& c : model_.casimirs)
       functions.push_back(model_.at_parameters(c.value, scene_));
     problem_.angles = angles_among(model_.variables, functions);
@@ -160,10 +163,10 @@ class Maker {
     const Specialisation& s = problem_.run.specialisation;
     std::vector<double> inputs = problem_.run.initial, values(s.invariants.outputs.size());
     inputs.push_back(0);
-    Interpreter (s.invariants)(inputs.data(), values.data());
-    problem_.level_names.assign(s.invariant_names.begin(),
-                                s.invariant_names.begin() + 1 +
-                                    static_cast<std::ptrdiff_t>(model_.casimirs.size()));
+    Interpreter(s.invariants)(inputs.data(), values.data());
+    problem_.level_names.assign(
+        s.invariant_names.begin(),
+        s.invariant_names.begin() + 1 + static_cast<std::ptrdiff_t>(model_.casimirs.size()));
     values.resize(problem_.level_names.size());
     problem_.levels = values;
     if (request_.energy)
@@ -175,7 +178,8 @@ class Maker {
     for (const std::string& text : request_.casimirs) set_casimir(text);
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (!std::isfinite(problem_.levels[i]))
-        throw UsageError(fmt::format("{} has no finite value on the level", problem_.level_names[i]));
+        throw UsageError(
+            fmt::format("{} has no finite value on the level", problem_.level_names[i]));
       const double size = std::max(std::abs(values[i]), 1.);
       if (std::abs(problem_.levels[i] - values[i]) > 1e-12 * size) problem_.on_scene = false;
     }
@@ -185,9 +189,7 @@ class Maker {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos)
       throw UsageError(fmt::format("--casimir '{}': expected NAME=VALUE", printable(text)));
-    const Text value{text.substr(equals + 1),
-                     {"--casimir", 1, static_cast<int>(equals) + 2},
-                     text};
+    const Text value{text.substr(equals + 1), {"--casimir", 1, static_cast<int>(equals) + 2}, text};
     set_casimir({text.substr(0, equals), {"--casimir", 1, 1}, text}, real_constant(value));
   }
 
@@ -196,11 +198,11 @@ class Maker {
     const auto found = std::ranges::find(known, name.value);
     if (found == known.end()) {
       const std::string hint = suggest(name.value, known);
-      throw name.error(fmt::format("the case names no Casimir function '{}'", printable(name.value)),
-                       0,
-                       !hint.empty()   ? hint
-                       : known.empty() ? "it names none at all"
-                                       : fmt::format("known: {}", fmt::join(known, ", ")));
+      throw name.error(
+          fmt::format("the case names no Casimir function '{}'", printable(name.value)), 0,
+          !hint.empty()   ? hint
+          : known.empty() ? "it names none at all"
+                          : fmt::format("known: {}", fmt::join(known, ", ")));
     }
     problem_.levels[1 + static_cast<std::size_t>(found - known.begin())] = value;
   }
@@ -211,8 +213,8 @@ class Maker {
     const auto n = static_cast<Eigen::Index>(model_.variables.size());
     GiNaC::exmap point;
     for (std::size_t i = 0; i < model_.variables.size(); ++i)
-      point[model_.variables[i]] =
-          GiNaC::numeric(problem_.run.initial[i] + 0.1 * std::sin(1 + 1.7 * static_cast<double>(i)));
+      point[model_.variables[i]] = GiNaC::numeric(problem_.run.initial[i] +
+                                                  0.1 * std::sin(1 + 1.7 * static_cast<double>(i)));
     const auto value = [&](const GiNaC::ex& e) {
       const GiNaC::ex number = model_.at_parameters(e, scene_).subs(point).evalf();
       if (!GiNaC::is_a<GiNaC::numeric>(number)) return 0.;

@@ -29,7 +29,7 @@ struct PlottedFunction {
 
 /// A section made ready to be computed.
 struct SectionProblem {
-  SceneRun run;  ///< all states; invariants: H, the Casimirs, the plane, the plotted pair
+  SceneRun run;        ///< all states; invariants: H, the Casimirs, the plane, the plotted pair
   SceneRun deviating;  ///< the same system with one deviation, by the variational equations
   SectionPlane plane;
   std::string plane_text;

@@ -27,7 +27,8 @@ Json pair_json(const std::array<double, 2>& place) {
   return {{"u", exact_text(place[0])}, {"v", exact_text(place[1])}};
 }
 
-Json to_json(const SectionReport& report, const OrbitReport& orbit, std::size_t number, bool points) {
+Json to_json(const SectionReport& report, const OrbitReport& orbit, std::size_t number,
+             bool points) {
   Json json = {{"orbit", number},
                {"status", state_of(orbit)},
                {"points", orbit.places.size()},
@@ -78,17 +79,17 @@ void print_cycles(const SectionReport& report) {
   if (report.cycles.cycles.empty() && report.cycles.degenerate == 0) return;
   const SectionProblem& problem = report.problem;
   fmt::print("\n  cycle  {:>14}  {:>14}  {:>12}  {:>12}  kind\n",
-             problem.plotted[0].period > 0 ? "u/pi" : "u", problem.plotted[1].period > 0 ? "v/pi" : "v",
-             "period", "trace");
+             problem.plotted[0].period > 0 ? "u/pi" : "u",
+             problem.plotted[1].period > 0 ? "v/pi" : "v", "period", "trace");
   for (const Cycle& cycle : report.cycles.cycles) {
     for (std::size_t i = 0; i < cycle.length(); ++i) {
       std::array<double, 2> place = cycle.points[i].place;
       for (std::size_t k = 0; k < 2; ++k) {
         if (problem.plotted[k].period > 0) place[k] /= std::acos(-1.);
-        if (std::abs(place[k]) < 5e-10) place[k] = 0;  // not -0.000000000
+        if (std::abs(place[k]) < 5e-9) place[k] = 0;  // not -0.00000000
       }
-      fmt::print("  {:>5}  {:>14.9f}  {:>14.9f}", i == 0 ? fmt::format("{}", cycle.length()) : "", place[0],
-                 place[1]);
+      fmt::print("  {:>5}  {:>14.8f}  {:>14.8f}", i == 0 ? fmt::format("{}", cycle.length()) : "",
+                 place[0], place[1]);
       if (i == 0)
         fmt::print("  {:>12.6f}  {:>12.6f}  {}, {}", cycle.period, cycle.trace, cycle.kind(),
                    cycle.stable() ? "stable" : "unstable");

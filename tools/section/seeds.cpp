@@ -27,15 +27,15 @@ std::optional<std::size_t> column_of(const EnsembleFile& file, const std::string
 Vector state_of(const LevelSet& level, Vector x, const std::string& where) {
   const double distance = level.distance_from_level(x.data());
   if (!(distance <= kNear)) {
-    throw UsageError(
-        fmt::format("{}: the seed is not on the level {}, but off by {:.2g} of the size of its terms",
-                    where, level.problem().level_text(), distance));
+    throw UsageError(fmt::format(
+        "{}: the seed is not on the level {}, but off by {:.2g} of the size of its terms", where,
+        level.problem().level_text(), distance));
   }
   return x;
 }
 
-Vector state_at(const LevelSet& level, std::vector<PlacedPoint> near, const std::array<double, 2>& pair,
-                const std::string& where) {
+Vector state_at(const LevelSet& level, std::vector<PlacedPoint> near,
+                const std::array<double, 2>& pair, const std::string& where) {
   const auto distance = [&](const PlacedPoint& point) {
     double sum = 0;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -51,8 +51,9 @@ Vector state_at(const LevelSet& level, std::vector<PlacedPoint> near, const std:
     Vector x = near[i].x;
     if (level.project(x, &pair) && level.speed(x) > 0) return x;
   }
-  throw UsageError(fmt::format("{}: there is no motion on this level through u = {:.10g}, v = {:.10g}",
-                               where, pair[0], pair[1]));
+  throw UsageError(
+      fmt::format("{}: there is no motion on this level through u = {:.10g}, v = {:.10g}", where,
+                  pair[0], pair[1]));
 }
 
 }  // namespace
@@ -65,8 +66,8 @@ std::vector<Vector> seeds_of(const std::string& path, const LevelSet& level,
     if (!std::ranges::count(known, name)) known.emplace_back(name);
   const EnsembleFile file = read_ensemble(path, known);
   const auto u = column_of(file, "u"), v = column_of(file, "v");
-  const bool whole =
-      std::ranges::all_of(states, [&](const auto& name) { return column_of(file, name).has_value(); });
+  const bool whole = std::ranges::all_of(
+      states, [&](const auto& name) { return column_of(file, name).has_value(); });
   if (!whole && !(u && v))
     throw UsageError(fmt::format(
         "{}: seeds need a column for each variable, or the columns u and v", printable(path, 200)));

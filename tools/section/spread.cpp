@@ -21,6 +21,7 @@ constexpr double kLeastSpeed = 1e-6;
 constexpr double kFarAway = 30;
 /// To a side of the picture.
 constexpr double kCells = 100;
+constexpr int kCentrings = 3;
 
 /// Numbers that are the same with every standard library.
 class Chance {
@@ -48,17 +49,23 @@ Vector anywhere(const LevelSet& level, Chance& chance, int number) {
   return x;
 }
 
-/// Distance in the picture, whose sides have the lengths `sides`.
+/// From b to a in the picture, whose sides have the lengths `sides`; angles the short way round.
+std::array<double, 2> way(const LevelSet& level, const std::array<double, 2>& sides,
+                          const std::array<double, 2>& a, const std::array<double, 2>& b) {
+  std::array<double, 2> result{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    double d = a[k] - b[k];
+    const double period = level.problem().plotted[k].period;
+    if (period > 0) d -= period * std::round(d / period);
+    result[k] = d / sides[k];
+  }
+  return result;
+}
+
 double distance(const LevelSet& level, const std::array<double, 2>& sides,
                 const std::array<double, 2>& a, const std::array<double, 2>& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < 2; ++k) {
-    double d = std::abs(a[k] - b[k]);
-    const double period = level.problem().plotted[k].period;
-    if (period > 0) d = std::min(d, period - d);
-    sum += (d / sides[k]) * (d / sides[k]);
-  }
-  return std::sqrt(sum);
+  const auto [x, y] = way(level, sides, a, b);
+  return std::sqrt(x * x + y * y);
 }
 
 std::array<double, 2> sides_of(const LevelSet& level, const std::vector<PlacedPoint>& points) {
@@ -143,9 +150,9 @@ namespace {
 Places thinned(const std::array<double, 2>& sides, const Places& places) {
   std::map<std::pair<long, long>, std::array<double, 2>> cells;
   for (const auto& place : places)
-    cells.try_emplace({std::lround(kCells * place[0] / sides[0]),
-                       std::lround(kCells * place[1] / sides[1])},
-                      place);
+    cells.try_emplace(
+        {std::lround(kCells * place[0] / sides[0]), std::lround(kCells * place[1] / sides[1])},
+        place);
   Places result;
   for (const auto& [cell, place] : cells) result.push_back(place);
   return result;
@@ -181,6 +188,39 @@ std::vector<PlacedPoint> spread_out(const LevelSet& level, const std::vector<Pla
   return chosen;
 }
 
+std::vector<PlacedPoint> centred(const LevelSet& level, const std::vector<PlacedPoint>& points,
+                                 std::vector<PlacedPoint> chosen) {
+  const std::array<double, 2> sides = sides_of(level, points);
+  Places all;
+  for (const PlacedPoint& point : points) all.push_back(point.place);
+  all = thinned(sides, all);
+  const auto nearest_of = [&](const std::vector<PlacedPoint>& list,
+                              const std::array<double, 2>& to) {
+    return static_cast<std::size_t>(
+        std::ranges::min_element(
+            list, {},
+            [&](const PlacedPoint& point) { return distance(level, sides, point.place, to); }) -
+        list.begin());
+  };
+  for (int round = 0; round < kCentrings && !chosen.empty(); ++round) {
+    std::vector<std::array<double, 3>> sums(chosen.size());  // of the ways, and their number
+    for (const auto& place : all) {
+      const std::size_t owner = nearest_of(chosen, place);
+      const auto [x, y] = way(level, sides, place, chosen[owner].place);
+      sums[owner][0] += x;
+      sums[owner][1] += y;
+      sums[owner][2] += 1;
+    }
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      if (sums[i][2] == 0) continue;
+      std::array<double, 2> middle = chosen[i].place;
+      for (std::size_t k = 0; k < 2; ++k) middle[k] += sides[k] * sums[i][k] / sums[i][2];
+      chosen[i] = points[nearest_of(points, middle)];
+    }
+  }
+  return chosen;
+}
+
 std::string energies_there(const LevelSet& level) {
   Chance chance;
   double least = std::numeric_limits<double>::infinity(), largest = -least;
@@ -201,9 +241,11 @@ std::string energies_there(const LevelSet& level) {
     }
     least = std::min(least, level.energy(x));
   }
-  if (!(least <= largest)) return "no point with these values of the Casimir functions was found on the plane";
-  return fmt::format("with these values of the Casimir functions the energies found on the plane begin at {:.6g}",
-                     least);
+  if (!(least <= largest))
+    return "no point with these values of the Casimir functions was found on the plane";
+  return fmt::format(
+      "with these values of the Casimir functions the energies found on the plane begin at {:.6g}",
+      least);
 }
 
 }  // namespace casimir::tools

@@ -33,6 +33,11 @@ using Places = std::vector<std::array<double, 2>>;
 std::vector<PlacedPoint> spread_out(const LevelSet& level, const std::vector<PlacedPoint>& points,
                                     std::size_t count, const Places& taken = {});
 
+/// The same number of points, each moved to the middle of the part of the domain that is nearest to
+/// it (Lloyd's iteration): away from the rim, where a section shows little.
+std::vector<PlacedPoint> centred(const LevelSet& level, const std::vector<PlacedPoint>& points,
+                                 std::vector<PlacedPoint> chosen);
+
 /// Energies that occur where the plane meets the Casimir level: a sentence for those who asked for
 /// another one.
 std::string energies_there(const LevelSet& level);
