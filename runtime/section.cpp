@@ -29,10 +29,19 @@ struct Cutting {
   const SectionSettings& settings;
   const PlaneOfOrbit& plane;
   JetLayout layout;
+  std::vector<double> numbers;  ///< what the kernel wants of every orbit
   std::vector<RunningOrbit> orbits;
   std::atomic<std::size_t> found = 0;
   std::thread::id caller = std::this_thread::get_id();
 };
+
+/// Worked out here and not by the threads: exact numbers count their references without locks.
+std::vector<double> numbers_of(const LaneKernel& kernel) {
+  std::vector<double> numbers(kernel.numbers.outputs.size());
+  const double none = 0;
+  if (!numbers.empty()) Interpreter(kernel.numbers)(&none, numbers.data());
+  return numbers;
+}
 
 struct AlignedDelete {
   void operator()(double* memory) const { ::operator delete[](memory, std::align_val_t(64)); }
@@ -82,9 +91,7 @@ class Cutter {
     if (member < 0) return member;
     const RunningOrbit& orbit = shared_.orbits[static_cast<std::size_t>(member)];
     std::copy(orbit.start().begin(), orbit.start().end(), x);
-    numbers_.resize(shared_.kernel.numbers.outputs.size());
-    if (!numbers_.empty()) Interpreter(shared_.kernel.numbers)(&unused_, numbers_.data());
-    *numbers = numbers_.data();
+    *numbers = shared_.numbers.data();
     return member;
   }
 
@@ -123,8 +130,6 @@ class Cutter {
   casimir_jet_kernel* const kernel_;
   const std::unique_ptr<double[], AlignedDelete> memory_;
   std::vector<long long> again_;
-  std::vector<double> numbers_;
-  double unused_ = 0;
   unsigned calls_ = 0;
 };
 
@@ -149,6 +154,7 @@ SectionResult cut(const LaneKernel& kernel, const SectionPlane& plane,
                  .settings = settings,
                  .plane = place,
                  .layout = jet_layout(plane.function, settings.states),
+                 .numbers = numbers_of(kernel),
                  .orbits = {}};
   for (std::size_t i = 0; i < ensemble.size(); ++i)
     shared.orbits.emplace_back(
