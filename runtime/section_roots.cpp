@@ -73,7 +73,21 @@ class Isolation {
     }
   }
 
-  std::vector<Passage> found() { return std::move(found_); }
+  /// Without pairs between which the polynomial is zero to rounding: it touches zero there.
+  std::vector<Passage> found() const {
+    double size = 0;
+    for (std::size_t k = c_.size(); k-- > 0;) size = size * std::abs(end_) + std::abs(c_[k]);
+    std::vector<Passage> result;
+    for (const Passage& passage : found_) {
+      constexpr double kRounding = 0x1p-49;
+      if (!result.empty() && std::abs(value((result.back().at + passage.at) / 2 / end_)) <=
+                                 kRounding * size)
+        result.pop_back();
+      else
+        result.push_back(passage);
+    }
+    return result;
+  }
 
  private:
   double value(double share) const {

@@ -29,8 +29,8 @@ double value(const Coefficients& c, double s) {
 }
 
 TEST(Passages, OfAProductAreItsFactors) {
-  const std::vector<double> roots{0.1, 0.35, 0.3500001, 0.6, 0.95};
-  const Coefficients c = with_roots({0.1, 0.35, 0.3500001, 0.6, 0.95, -0.2, 1.3});
+  const std::vector<double> roots{0.1, 0.35, 0.35001, 0.6, 0.95};
+  const Coefficients c = with_roots({0.1, 0.35, 0.35001, 0.6, 0.95, -0.2, 1.3});
   const std::vector<Passage> found = passages(c, 1, value(c, 0) > 0);
   ASSERT_EQ(found.size(), roots.size());
   for (std::size_t i = 0; i < roots.size(); ++i) {

@@ -16,7 +16,7 @@ double number(const json& object, const char* name) {
   return std::stod(object.at(name).get<std::string>());
 }
 
-const char* const kHenonHeiles = R"(
+const char* const kHenonHeiles = R"toml(
 title = "Henon and Heiles"
 hamiltonian = "(px^2 + py^2 + x^2 + y^2)/2 + x^2*y - y^3/3"
 [phase_space]
@@ -29,9 +29,9 @@ plot = ["y", "py"]
 name = "default"
 initial = { x = "0", y = "1/10", px = "1/2", py = "0" }
 duration = "1"
-)";
+)toml";
 
-const char* const kSphericalPendulum = R"(
+const char* const kSphericalPendulum = R"toml(
 title = "Spherical pendulum"
 hamiltonian = "(p_th^2 + p_ph^2/sin(th)^2)/2 + cos(th)"
 [phase_space]
@@ -43,7 +43,7 @@ P = "p_ph"
 name = "default"
 initial = { th = "2", ph = "0", p_th = "1/2", p_ph = "1/2" }
 duration = "1"
-)";
+)toml";
 
 Outcome section_of(const char* toml, std::vector<std::string> options) {
   const Folder folder;
