@@ -1,5 +1,6 @@
 #include "runtime/jet_layout.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "runtime/operation.hpp"
@@ -68,7 +69,56 @@ int rows_of(int op) {
   }
 }
 
+double value_of_line(const casimir_jet_line& line, double a, double b) {
+  switch (line.op) {
+    case CASIMIR_JET_ADD:
+      return a + b;
+    case CASIMIR_JET_SUB:
+      return a - b;
+    case CASIMIR_JET_MUL:
+      return a * b;
+    case CASIMIR_JET_DIV:
+      return a / b;
+    case CASIMIR_JET_NEG:
+      return -a;
+    case CASIMIR_JET_POW:
+      return std::pow(a, line.value);
+    case CASIMIR_JET_SQRT:
+      return std::sqrt(a);
+    case CASIMIR_JET_SIN:
+      return std::sin(a);
+    case CASIMIR_JET_COS:
+      return std::cos(a);
+    case CASIMIR_JET_TAN:
+      return std::tan(a);
+    case CASIMIR_JET_EXP:
+      return std::exp(a);
+    case CASIMIR_JET_LOG:
+      return std::log(a);
+    case CASIMIR_JET_ASIN:
+      return std::asin(a);
+    case CASIMIR_JET_ACOS:
+      return std::acos(a);
+    case CASIMIR_JET_ATAN2:
+      return std::atan2(a, b);
+    default:
+      return line.value;
+  }
+}
+
 }  // namespace
+
+double value_of(const JetLayout& layout, const double* states, std::vector<double>& values) {
+  values.clear();
+  for (const casimir_jet_line& line : layout.lines) {
+    const auto at = [&](int i) { return i < 0 ? 0 : values[static_cast<std::size_t>(i)]; };
+    values.push_back(line.op == CASIMIR_JET_STATE ? states[line.a]
+                     : line.op == CASIMIR_JET_CONSTANT
+                         ? line.value
+                         : value_of_line(line, at(line.a), at(line.b)));
+  }
+  return values.back();
+}
 
 JetLayout jet_layout(const Program& program, std::size_t states) {
   JetLayout layout;

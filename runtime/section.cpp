@@ -2,6 +2,7 @@
 #include "runtime/section.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -12,6 +13,7 @@
 
 #include "runtime/ensemble_work.hpp"
 #include "runtime/jet_layout.hpp"
+#include "runtime/part_of_step.hpp"
 #include "runtime/section_orbit.hpp"
 
 namespace casimir {
@@ -22,13 +24,18 @@ using Clock = std::chrono::steady_clock;
 /// For ever; orbits end when they have crossed often enough.
 constexpr double kEndOfTime = 1e15;
 
+/// The series of the function has converged where its last two terms are not larger. The zeros of
+/// it are then made exact; see RunningOrbit.
+constexpr double kTail = 1e-10;
+constexpr int kMostParts = 1024;
+
 /// What the threads share.
 struct Cutting {
   EnsembleWork& work;
   const LaneKernel& kernel;
   const SectionSettings& settings;
   const PlaneOfOrbit& plane;
-  JetLayout layout;
+  const JetLayout& layout;
   std::vector<double> numbers;  ///< what the kernel wants of every orbit
   std::vector<RunningOrbit> orbits;
   std::atomic<std::size_t> found = 0;
@@ -96,19 +103,51 @@ class Cutter {
   }
 
   void observe(const casimir_lane_step& step) {
-    casimir_jet_range range;
-    kernel_(&tables_, &step, memory_.get(), &range);
+    kernel_(&tables_, &step, memory_.get(), &range_);
+    const auto converged = [&](int lane) { return range_.tail[lane] <= kTail; };
+    std::array<bool, 8> in_parts{};
+    for (int lane = 0; lane < step.lanes; ++lane) {
+      if (!step.held[lane] || step.member[lane] < 0) continue;
+      if (converged(lane))
+        step.finished[lane] = see(step, lane) ? -1 : 0;
+      else
+        in_parts[static_cast<std::size_t>(lane)] = true;
+    }
+    for (int lane = 0; lane < step.lanes; ++lane)
+      if (in_parts[static_cast<std::size_t>(lane)])
+        step.finished[lane] = see_in_parts(step, lane) ? -1 : 0;
+  }
+
+  /// As many parts of a step as the series of the function needs. What is done to a lane does not
+  /// depend on the others.
+  bool see_in_parts(const casimir_lane_step& whole, int lane) {
+    int parts = 2;
+    for (bool fine = false; !fine && parts < kMostParts; parts *= fine ? 1 : 2) {
+      fine = true;
+      for (int which = 0; which < parts && fine; ++which) {
+        kernel_(&tables_, &part_.take(whole, which, parts), memory_.get(), &range_);
+        fine = range_.tail[lane] <= kTail;
+      }
+    }
+    for (int which = 0; which < parts; ++which) {
+      const casimir_lane_step& step = part_.take(whole, which, parts);
+      kernel_(&tables_, &step, memory_.get(), &range_);
+      if (see(step, lane)) return true;
+    }
+    return false;
+  }
+
+  /// Shows the step that the kernel has worked on to the orbit in a lane. Whether it has seen enough.
+  bool see(const casimir_lane_step& step, int lane) {
     const double* const series =
         memory_.get() + static_cast<std::ptrdiff_t>(tables_.line[tables_.lines - 1].row) *
                             (CASIMIR_MOST_JET_ORDER + 1) * step.lanes;
-    for (int lane = 0; lane < step.lanes; ++lane) {
-      if (!step.held[lane] || step.member[lane] < 0) continue;
-      RunningOrbit& orbit = shared_.orbits[static_cast<std::size_t>(step.member[lane])];
-      const std::size_t before = orbit.found();
-      if (orbit.see(LaneOfStep{step, lane, series, range}, shared_.plane, shared_.settings))
-        step.finished[lane] = -1;
-      if (orbit.found() > before) shared_.found += orbit.found() - before;
-    }
+    RunningOrbit& orbit = shared_.orbits[static_cast<std::size_t>(step.member[lane])];
+    const std::size_t before = orbit.found();
+    const bool enough =
+        orbit.see(LaneOfStep{step, lane, series, range_}, shared_.plane, shared_.settings);
+    if (orbit.found() > before) shared_.found += orbit.found() - before;
+    return enough;
   }
 
   void done(std::size_t member, const double* x, const casimir_outcome& outcome) {
@@ -129,6 +168,8 @@ class Cutter {
   const casimir_jet_tables tables_;
   casimir_jet_kernel* const kernel_;
   const std::unique_ptr<double[], AlignedDelete> memory_;
+  casimir_jet_range range_ = {};
+  PartOfStep part_;
   std::vector<long long> again_;
   unsigned calls_ = 0;
 };
@@ -148,12 +189,13 @@ SectionResult cut(const LaneKernel& kernel, const SectionPlane& plane,
   ensemble.states = seed_size;
   ensemble.initial = seeds;
   EnsembleWork work(ensemble, run);
-  const PlaneOfOrbit place{plane.upwards, plane.period};
+  const JetLayout layout = jet_layout(plane.function, settings.states);
+  const PlaneOfOrbit place{plane.upwards, plane.period, layout};
   Cutting shared{.work = work,
                  .kernel = kernel,
                  .settings = settings,
                  .plane = place,
-                 .layout = jet_layout(plane.function, settings.states),
+                 .layout = layout,
                  .numbers = numbers_of(kernel),
                  .orbits = {}};
   for (std::size_t i = 0; i < ensemble.size(); ++i)

@@ -20,6 +20,13 @@ double span_of(const LaneOfStep& step) {
 
 }  // namespace
 
+double LaneOfStep::state(std::size_t i, double s) const {
+  const double* const row = step.rows[i];
+  double sum = 0;
+  for (int k = step.order; k >= 0; --k) sum = sum * s + row[k * step.lanes + lane];
+  return sum;
+}
+
 void RunningOrbit::begin(const LaneOfStep& step, const PlaneOfOrbit& plane) {
   const double first = step.range.first[step.lane];
   if (plane.period > 0) shift_ = -plane.period * std::round(first / plane.period);
@@ -52,7 +59,8 @@ std::vector<Passage> RunningOrbit::passages_in(const LaneOfStep& step,
     for (int k = 0; k <= step.step.order; ++k) c.push_back(step.coefficient(k));
     c[0] += shift_ - value;
     for (const Passage& passage : passages(c, step.taken(), above))
-      if (passage.rising == plane.upwards) all.push_back(passage);
+      if (passage.rising == plane.upwards)
+        all.push_back({exact_place(step, plane, passage.at, value), passage.rising});
   };
   if (!(plane.period > 0)) {
     add_level(0, 0);
@@ -66,6 +74,26 @@ std::vector<Passage> RunningOrbit::passages_in(const LaneOfStep& step,
   return all;
 }
 
+double RunningOrbit::exact_place(const LaneOfStep& step, const PlaneOfOrbit& plane, double at,
+                                 double value) const {
+  std::vector<double> x, values;
+  for (int round = 0; round < 2; ++round) {
+    x.clear();
+    for (std::size_t i = 0; i < start_.size(); ++i) x.push_back(step.state(i, at));
+    double off = value_of(plane.function, x.data(), values) + shift_ - value;
+    if (plane.period > 0) off -= plane.period * std::round(off / plane.period);
+    double slope = 0;
+    for (int k = step.step.order; k > 0; --k) slope = slope * at + k * step.coefficient(k);
+    const double next = at - off / slope;
+    // Where it only just passes, the place is not better known than that.
+    constexpr double kSmall = 1e-6;
+    if (!(std::abs(next - at) <= kSmall * std::abs(step.taken()))) break;
+    at = next;
+  }
+  const double end = step.taken();
+  return std::clamp(at, std::min(0., end), std::max(0., end));
+}
+
 double RunningOrbit::size_of_deviation(const double* deviation,
                                        const SectionSettings& settings) const {
   double sum = 0;
@@ -76,17 +104,11 @@ double RunningOrbit::size_of_deviation(const double* deviation,
 void RunningOrbit::record(const LaneOfStep& step, double at, const SectionSettings& settings) {
   const casimir_lane_step& all = step.step;
   result_.times.push_back(offset_ + (all.t[step.lane] + at * all.unit[step.lane]));
-  const auto value = [&](std::size_t i) {
-    const double* const row = all.rows[i];
-    double sum = 0;
-    for (int k = all.order; k >= 0; --k) sum = sum * at + row[k * all.lanes + step.lane];
-    return sum;
-  };
   const std::size_t kept = settings.keep_deviations ? start_.size() : settings.states;
-  for (std::size_t i = 0; i < kept; ++i) result_.states.push_back(value(i));
+  for (std::size_t i = 0; i < kept; ++i) result_.states.push_back(step.state(i, at));
   if (settings.keep_deviations || start_.size() == settings.states) return;
   std::vector<double> deviation;
-  for (std::size_t i = settings.states; i < start_.size(); ++i) deviation.push_back(value(i));
+  for (std::size_t i = settings.states; i < start_.size(); ++i) deviation.push_back(step.state(i, at));
   result_.growth.push_back(log_growth_ + std::log(size_of_deviation(deviation.data(), settings)));
 }
 

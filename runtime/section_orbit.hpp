@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "runtime/kernels/jet_tables.h"
+#include "runtime/jet_layout.hpp"
 #include "runtime/module_abi.h"
 #include "runtime/section.hpp"
 #include "runtime/section_roots.hpp"
@@ -12,6 +12,7 @@ namespace casimir {
 struct PlaneOfOrbit {
   bool upwards = true;
   double period = 0;
+  const JetLayout& function;
 };
 
 /// What a step is to the orbit in one of its lanes.
@@ -23,6 +24,8 @@ struct LaneOfStep {
 
   double coefficient(int k) const { return series[k * step.lanes + lane]; }
   double taken() const { return step.taken[lane]; }
+  /// State i at s units after the beginning.
+  double state(std::size_t i, double s) const;
 };
 
 /// An orbit on its way: on which side of the plane it is, and what has been found of it.
@@ -50,6 +53,9 @@ class RunningOrbit {
   /// Makes the values of this step those that follow the last one's.
   void join(const LaneOfStep& step, const PlaneOfOrbit& plane);
   std::vector<Passage> passages_in(const LaneOfStep& step, const PlaneOfOrbit& plane) const;
+  /// The place where the function itself is `value`, next to where its series is.
+  double exact_place(const LaneOfStep& step, const PlaneOfOrbit& plane, double at,
+                     double value) const;
   void record(const LaneOfStep& step, double at, const SectionSettings& settings);
   double size_of_deviation(const double* deviation, const SectionSettings& settings) const;
 

@@ -43,6 +43,7 @@ struct casimir_jet_tables {
 struct casimir_jet_range {
   double first[8], last[8];    /* its values at both ends */
   double least[8], largest[8]; /* bounds for those between */
+  double tail[8];              /* the last two terms of the series, beside all of them */
 };
 
 struct casimir_lane_step;

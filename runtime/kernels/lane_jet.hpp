@@ -204,10 +204,13 @@ class Jet {
 template <class V>
 void bernstein_range(const V* c, int order, V taken, casimir_jet_range& range) {
   V b[CASIMIR_MOST_JET_ORDER + 1];
-  V power = all_lanes<V>(1);
+  V power = all_lanes<V>(1), size = V{}, tail = V{};
   double binomial = 1;
   for (int k = 0; k <= order; ++k) {
-    b[k] = c[k] * power * (1 / binomial);
+    const V term = c[k] * power;
+    size += absolute(term);
+    if (k + 2 > order) tail += absolute(term);
+    b[k] = term * (1 / binomial);
     power *= taken;
     binomial *= static_cast<double>(order - k) / (k + 1);
   }
@@ -224,6 +227,7 @@ void bernstein_range(const V* c, int order, V taken, casimir_jet_range& range) {
     range.last[lane] = b[order][lane];
     range.least[lane] = least[lane];
     range.largest[lane] = largest[lane];
+    range.tail[lane] = size[lane] > 0 ? tail[lane] / size[lane] : 0;
   }
 }
 

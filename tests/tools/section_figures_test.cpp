@@ -218,7 +218,8 @@ TEST(SectionFigures, FixedPointsOfFigure14) {
                                "--points", "100", "--fixed-points", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   std::map<int, int> found;  // by l in units of Pi/2
-  for (const json& cycle : outcome.json().at("cycles")) {
+  const json result = outcome.json();
+  for (const json& cycle : result.at("cycles")) {
     const double l = number(cycle.at("points")[0], "u"), x = number(cycle.at("points")[0], "v");
     const int quarter = static_cast<int>(std::lround(2 * l / kPi)) % 4;
     if (std::abs(x) > 0.99) continue;  // the poles, where l is no coordinate

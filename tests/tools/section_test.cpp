@@ -90,8 +90,8 @@ TEST(Section, TheOtherDirectionIsTheMirrorImage) {
   const Outcome first = run_in(folder, up), second = run_in(folder, down);
   ASSERT_EQ(first.status, 0) << first.err;
   ASSERT_EQ(second.status, 0) << second.err;
-  const json &a = first.json().at("orbits")[0].at("crossings"),
-             &b = second.json().at("orbits")[0].at("crossings");
+  const json a = first.json().at("orbits")[0].at("crossings"),
+             b = second.json().at("orbits")[0].at("crossings");
   ASSERT_EQ(a.size(), 30U);
   for (std::size_t n = 0; n < 30; ++n) {
     EXPECT_NEAR(number(a[n], "u"), number(b[n], "u"), 1e-9);
@@ -104,12 +104,14 @@ TEST(Section, AnAngleIsAPlaneAtEveryTurnAndPlottedOverOne) {
       kSphericalPendulum,
       {"--plane", "ph = 1", "--pair", "th", "p_th", "--orbits", "5", "--points", "40", "--json"});
   ASSERT_EQ(turns.status, 0) << turns.err;
-  for (const json& orbit : turns.json().at("orbits")) EXPECT_EQ(orbit.at("points"), 40);
+  const json every = turns.json();
+  for (const json& orbit : every.at("orbits")) EXPECT_EQ(orbit.at("points"), 40);
   const Outcome plotted = section_of(
       kSphericalPendulum,
       {"--plane", "p_th", "--pair", "ph", "th", "--orbits", "5", "--points", "40", "--json"});
   ASSERT_EQ(plotted.status, 0) << plotted.err;
-  for (const json& orbit : plotted.json().at("orbits"))
+  const json round = plotted.json();
+  for (const json& orbit : round.at("orbits"))
     for (const json& point : orbit.at("crossings")) {
       EXPECT_GE(number(point, "u"), 0);
       EXPECT_LT(number(point, "u"), 2 * kPi);
