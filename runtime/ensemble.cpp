@@ -76,7 +76,9 @@ EnsembleResult integrate_in_lanes(const Ensemble& ensemble, const LaneKernel& ke
   EnsembleWork work(ensemble, settings);
   const auto start = Clock::now();
   work.on_threads(jobs, kernel.lanes, [&] {
+    std::unique_lock lock(exact_constants_guard());
     Feed feed(work, kernel, invariants);
+    lock.unlock();
     casimir_ensemble run = {};
     run.t_end = settings.duration;
     run.rtol = settings.rtol;
@@ -87,6 +89,7 @@ EnsembleResult integrate_in_lanes(const Ensemble& ensemble, const LaneKernel& ke
     run.give_up = Feed::give_up;
     run.source = &feed;
     kernel.run(&run);
+    lock.lock();  // until the feed is gone
   });
   work.result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return std::move(work.result);
@@ -100,7 +103,9 @@ EnsembleResult integrate_members(const Ensemble& ensemble,
   const auto start = Clock::now();
   work.on_threads(jobs, 1, [&] {
     const Module module = module_for_thread();
+    std::unique_lock lock(exact_constants_guard());
     EndCheck check(ensemble, invariants);
+    lock.unlock();
     unsigned calls = 0;
     Settings own = settings;
     own.monitor = false;
@@ -116,6 +121,7 @@ EnsembleResult integrate_members(const Ensemble& ensemble,
                 trajectory.steps,  trajectory.rejected};
       check(member, result);
     }
+    lock.lock();  // until the check is gone
   });
   work.result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return std::move(work.result);

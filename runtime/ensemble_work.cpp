@@ -61,6 +61,11 @@ void EnsembleWork::on_threads(int jobs, int lanes, const std::function<void()>& 
   if (problem_) std::rethrow_exception(problem_);
 }
 
+std::mutex& exact_constants_guard() {
+  static std::mutex guard;
+  return guard;
+}
+
 EndCheck::EndCheck(const Ensemble& ensemble, const Program& invariants)
     : ensemble_(ensemble),
       program_(invariants),
@@ -87,6 +92,7 @@ void EndCheck::evaluate_at(std::size_t member, const double* state, double time,
 
 void EndCheck::operator()(std::size_t member, MemberResult& result) {
   if (first_.empty()) return;
+  const std::lock_guard lock(exact_constants_guard());
   std::fill(sizes_.begin(), sizes_.end(), 0.);
   evaluate_at(member, ensemble_.state(member), 0, first_);
   evaluate_at(member, result.state.data(), result.time, last_);

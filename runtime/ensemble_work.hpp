@@ -40,7 +40,12 @@ class EnsembleWork {
   std::exception_ptr problem_;
 };
 
-/// Compares the invariants of a member at its start and its end. One for each thread.
+/// Exact constants of programs count their references without locks: who makes, copies, destroys or
+/// evaluates one in a thread holds this.
+std::mutex& exact_constants_guard();
+
+/// Compares the invariants of a member at its start and its end. One for each thread, made and
+/// destroyed under `exact_constants_guard`, which it takes itself when it compares.
 class EndCheck {
  public:
   EndCheck(const Ensemble& ensemble, const Program& invariants);

@@ -182,7 +182,7 @@ void draw_section(const SectionProblem& problem, const std::string& title,
   add_cycles(drawing, cycles);
   const std::string terminal =
       path.ends_with(".svg") ? "svg size 1000,700 dynamic background rgb 'white' font 'sans,14'"
-                             : "pngcairo size 1500,1050 font 'sans,17' background rgb 'white'";
+                             : "pngcairo size 1400,980 font 'sans,16' background rgb 'white'";
   OutputFile picture(path);
   draw_script(drawing.script(title, terminal, picture.temporary().string()), picture);
   picture.commit();
