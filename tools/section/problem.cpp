@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "codegen/specialise.hpp"
-#include "runtime/interpreter.hpp"
+#include "runtime/evaluate.hpp"
 #include "symbolic/expression.hpp"
 #include "tools/cli.hpp"
 #include "tools/section/periods.hpp"
@@ -161,9 +161,17 @@ class Maker {
 
   void set_levels() {
     const Specialisation& s = problem_.run.specialisation;
-    std::vector<double> inputs = problem_.run.initial, values(s.invariants.outputs.size());
-    inputs.push_back(0);
-    Interpreter(s.invariants)(inputs.data(), values.data());
+    // From the exact data: a Casimir function that is zero is not 1e-16.
+    const Arithmetic<cln::cl_F> arithmetic(kConstantDigits);
+    std::vector<cln::cl_F> inputs = start_values(s, kConstantDigits);
+    inputs.resize(s.states.size());
+    inputs.push_back(arithmetic.from(cln::cl_RA(0)));
+    std::vector<double> values;
+    for (const cln::cl_F& value : evaluate(s.invariants, inputs, arithmetic)) {
+      constexpr double kZero = 1e-50;
+      values.push_back(rounded(value));
+      if (std::abs(values.back()) < kZero) values.back() = 0;
+    }
     problem_.level_names.assign(
         s.invariant_names.begin(),
         s.invariant_names.begin() + 1 + static_cast<std::ptrdiff_t>(model_.casimirs.size()));
