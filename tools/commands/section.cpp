@@ -48,6 +48,16 @@ void check_usage(const Options& options) {
                                    printable(path, 200)));
 }
 
+/// What is kept of all crossings: the state, the pair, time and growth.
+void check_memory(const Options& options, std::size_t states) {
+  constexpr double kMost = 4e9;
+  const double bytes = 8. * static_cast<double>(options.orbits) *
+                       static_cast<double>(options.points) * static_cast<double>(states + 4);
+  if (bytes > kMost)
+    throw UsageError(fmt::format("{} orbits of {} points take {:.1f} GB; at most {:.0f} are allowed",
+                                 options.orbits, options.points, bytes / 1e9, kMost / 1e9));
+}
+
 /// One section from the options to the report.
 class Section {
  public:
@@ -63,6 +73,7 @@ class Section {
                 options.orbits * options.points) {}
 
   int run() {
+    check_memory(options_, problem_.states());
     SectionReport report{.problem = problem_, .orbits = {}, .cycles = {}, .warnings = {}};
     report.tolerance = options_.tolerance;
     report.compile_seconds = cutter_.kernel().seconds;
@@ -78,6 +89,7 @@ class Section {
       progress_.begin(model_.name + ": cycles");
       report.cycles = find_cycles(level_, cutter_, starts(report), options_.longest_cycle(),
                                   [this](double share) { progress_.show(share); });
+      cut_short_ = cut_short_ || cutter_.interrupted();
     }
     deliver(report);
     return verdict(report);
@@ -154,7 +166,8 @@ class Section {
       for (std::size_t i = before; i < report.orbits.size(); ++i)
         taken.insert(taken.end(), report.orbits[i].places.begin(), report.orbits[i].places.end());
     }
-    if (report.orbits.size() < options_.orbits && !cutter_.interrupted())
+    cut_short_ = report.orbits.size() < options_.orbits && cutter_.interrupted();
+    if (report.orbits.size() < options_.orbits && !cut_short_)
       report.warnings.push_back(
           fmt::format("only {} different points of the section were found for {} orbits",
                       report.orbits.size(), options_.orbits));
@@ -239,8 +252,12 @@ class Section {
       tell(report, lost, "could not be continued");
       return kNotContinued;
     }
-    if (std::ranges::any_of(orbits, stopped) || cutter_.interrupted()) {
+    if (std::ranges::any_of(orbits, stopped)) {
       tell(report, stopped, "were stopped at the time limit");
+      return kEnvironment;
+    }
+    if (cut_short_) {
+      std::cerr << "casimir: error: the time limit was reached before all was done\n";
       return kEnvironment;
     }
     if (report.crossings() > 0) return kDone;
@@ -276,6 +293,7 @@ class Section {
   const OrbitCutter cutter_;
   std::vector<PlacedPoint> domain_;
   double done_ = 0;
+  bool cut_short_ = false;  ///< by the time limit
 };
 
 int section(const Options& options) {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "codegen/specialise.hpp"
@@ -34,6 +35,7 @@ class Maker {
       : file_(file.section), model_(model), scene_(scene), request_(request) {}
 
   SectionProblem make() {
+    const auto start = std::chrono::steady_clock::now();
     check_system();
     read_plane();
     read_pair();
@@ -41,6 +43,8 @@ class Maker {
     find_angles();
     set_levels();
     count_dimensions();
+    problem_.run.generate_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return std::move(problem_);
   }
 
