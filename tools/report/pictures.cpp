@@ -1,0 +1,42 @@
+#include "tools/report/pictures.hpp"
+
+#include "tools/bench/report.hpp"
+
+namespace casimir::tools {
+namespace {
+
+/// Without a title, which the page has.
+std::string drawn(Plot plot, const std::string& name, const std::string& beside) {
+  plot.title.clear();
+  return page_svg(plot, name, beside);
+}
+
+}  // namespace
+
+Pictures draw_pictures(const Model& model, const Findings& findings, const std::string& beside) {
+  Pictures pictures;
+  try {
+    if (findings.motion && findings.motion->times.size() > 1) {
+      const Motion& motion = *findings.motion;
+      const Scene& scene = *findings.scene;
+      pictures.motion = drawn(time_picture(model, scene, motion, {}), "motion", beside);
+      if (has_sphere(motion))
+        pictures.sphere = drawn(sphere_picture(model, scene, motion, ""), "sphere", beside);
+      if (has_apex(model, motion))
+        pictures.apex = drawn(apex_picture(model, scene, motion, ""), "apex", beside);
+    }
+    if (!findings.drifts.empty())
+      pictures.drift = drawn(drift_picture("", findings.drifts), "drift", beside);
+    if (findings.contest)
+      pictures.work_precision = drawn(picture_of(*findings.contest), "work-precision", beside);
+    if (findings.scene && model.section)
+      pictures.section = section_svg(model, *findings.scene, beside);
+  } catch (const SystemError& problem) {
+    pictures.problem = problem.what();
+  }
+  return pictures;
+}
+
+std::string section_svg(const Model&, const Scene&, const std::string&) { return {}; }
+
+}  // namespace casimir::tools
