@@ -38,17 +38,27 @@ bool drawn(const Plot& plot, const std::pair<double, double>& point) {
   return std::isfinite(x) && std::isfinite(y) && (!plot.log_x || x > 0) && (!plot.log_y || y > 0);
 }
 
+/// So that a long line has a few marks, which do not lie above those of the others.
+std::size_t marked_every(const Curve& curve, std::size_t group) {
+  constexpr std::size_t kMarksOfLine = 8, kStagger = 9;
+  const std::size_t points = curve.points.size();
+  return std::max<std::size_t>(1, points / kMarksOfLine + group % 6 * points / (kStagger * 12));
+}
+
 std::string style_of(const Curve& curve, std::size_t group) {
   const Mark mark = kMarks[group % std::size(kMarks)];
   const char* colour = kColours[group % std::size(kColours)];
-  constexpr std::size_t kMarksOfLine = 8;
   switch (curve.style) {
     case Curve::Style::line:
       return fmt::format("linespoints lw 1.6 dt {} pt {} ps 0.9 pi {} lc rgb '{}'",
                          kDashes[group % std::size(kDashes)], mark.filled,
-                         std::max<std::size_t>(1, curve.points.size() / kMarksOfLine), colour);
+                         marked_every(curve, group), colour);
     case Curve::Style::path:
       return fmt::format("lines lw 1.2 lc rgb '{}'", colour);
+    case Curve::Style::mark:
+      return fmt::format("points lw 1.6 pt {} ps 1.3 lc rgb '{}'", kMarks[1].filled, colour);
+    case Curve::Style::far_mark:
+      return fmt::format("points lw 1.6 pt {} ps 1.3 lc rgb '{}'", kMarks[1].open, colour);
     case Curve::Style::guide:
       return fmt::format("lines lw 0.8 lc rgb '{}'", kGuide);
     case Curve::Style::faint:
@@ -212,15 +222,24 @@ std::string svg_element(const Plot& plot, const std::string& name, const std::st
 }
 
 std::string page_svg(const Plot& plot, const std::string& name, const std::string& beside) {
-  constexpr std::size_t kColumns = 3;
-  constexpr std::size_t kWidth = 640, kHeight = 440, kLine = 22;
-  const auto entries = static_cast<std::size_t>(std::ranges::count_if(plot.curves, in_legend));
-  const std::size_t lines = (entries + kColumns - 1) / kColumns;
+  constexpr std::size_t kWidth = 640, kHeight = 440, kLine = 24;
+  // As many columns as the longest name allows: gnuplot itself would take one.
+  constexpr std::size_t kSample = 90, kLetter = 9;
+  std::size_t entries = 0, longest = 0;
+  for (const Curve& curve : plot.curves) {
+    if (!in_legend(curve)) continue;
+    ++entries;
+    longest = std::max(longest, curve.name.size());
+  }
+  const std::size_t columns =
+      std::clamp<std::size_t>(kWidth / (kSample + kLetter * longest), 1, 4);
+  const std::size_t lines = (entries + columns - 1) / columns;
   OutputFile picture(beside + "." + name + ".svg");
   const std::string terminal =
       fmt::format("svg size {},{} dynamic background rgb 'white' font 'sans,15'",
                   plot.square ? kHeight : kWidth, kHeight + kLine * lines);
-  draw_script(script(plot, terminal, fmt::format("below center Left reverse maxcols {}", kColumns),
+  draw_script(script(plot, terminal,
+                     fmt::format("below center Left reverse maxrows {} spacing 1.15", lines),
                      picture.temporary().string()),
               picture);
   std::string svg = element_of(picture, name);

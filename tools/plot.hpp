@@ -14,12 +14,14 @@ struct Curve {
   std::vector<std::pair<double, double>> points;
   enum class Style {
     plain,
-    line,     ///< marks at a few of many points
-    path,     ///< a line that may cross itself, without marks
-    guide,    ///< thin and grey, outside the legend: what helps the eye
-    faint,    ///< thin and dotted, in the colour of the curve after it: what is behind
-    outside,  ///< dashed, with open marks: what others offer
-    variant,  ///< of the curve before it: the same colour, larger open marks, no line of its own
+    line,      ///< marks at a few of many points
+    path,      ///< a line that may cross itself, without marks
+    mark,      ///< one filled point
+    far_mark,  ///< one open point
+    guide,     ///< thin and grey, outside the legend: what helps the eye
+    faint,     ///< thin and dotted, in the colour of the curve after it: what is behind
+    outside,   ///< dashed, with open marks: what others offer
+    variant,   ///< of the curve before it: the same colour, larger open marks, no line of its own
   };
   Style style = Style::plain;
 };

@@ -89,7 +89,7 @@ Plot globe(const std::string& title, const std::string& label, const Path& path)
   const Seen first = seen(path.front());
   plot.curves.push_back({"start",
                          {{first.x, first.y}},
-                         first.in_front ? Curve::Style::plain : Curve::Style::outside});
+                         first.in_front ? Curve::Style::mark : Curve::Style::far_mark});
   return plot;
 }
 

@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
   Common common;
   RunOptions run;
-  std::string case_name, method = "auto", output;
+  std::string case_name, task = "integrate", method = "auto", output;
   std::vector<std::string> over, lets, observe;
   int jobs = 0;
   bool restart = false;
@@ -241,6 +241,9 @@ void register_sweep(CLI::App& program, Action& action) {
                    "varies, as in --over theta=0:Pi:50 --let g1=sin(theta) (repeatable)")
       ->allow_extra_args(false)
       ->type_name("NAME=EXPR");
+  command->add_option("--do", options->task, "What is done at each point: integrate (default)")
+      ->check(CLI::IsMember({"integrate"}))
+      ->type_name("WHAT");
   command->add_option("--method", options->method, "A method, or auto: " + method_list())
       ->type_name("NAME");
   add_run_options(*command, options->run);

@@ -18,6 +18,7 @@ struct Piece {
   std::string markup;
   std::size_t width = 0;  ///< roughly, in letters
   bool breaks_before = false;
+  bool tall = false;  ///< higher than a line: brackets around it grow
 };
 using Pieces = std::vector<Piece>;
 
@@ -85,6 +86,7 @@ class Reader {
     }
     row.back().markup += piece.markup;
     row.back().width += piece.width;
+    row.back().tall = row.back().tall || piece.tall;
   }
 
   static void put(Pieces& row, const Pieces& pieces) {
@@ -96,6 +98,7 @@ class Reader {
     for (const Piece& piece : row) {
       result.markup += piece.markup;
       result.width += piece.width;
+      result.tall = result.tall || piece.tall;
     }
     return result;
   }
@@ -161,10 +164,10 @@ class Reader {
     if (take("{")) {
       const Pieces inside = row("");
       take("}");
-      return {one(inside), joined(inside).width};
+      return {one(inside), joined(inside).width, false, joined(inside).tall};
     }
     const Piece inside = joined(atom());
-    return {element("mrow", inside.markup), inside.width};
+    return {element("mrow", inside.markup), inside.width, false, inside.tall};
   }
 
   /// The letters between braces, as they are.
@@ -224,11 +227,12 @@ class Reader {
   Pieces structure(const std::string& name) {
     if (name == "frac") {
       const Piece above = argument(), below = argument();
-      return {{element("mfrac", above.markup + below.markup), std::max(above.width, below.width)}};
+      return {{element("mfrac", above.markup + below.markup), std::max(above.width, below.width),
+               false, true}};
     }
     if (name == "sqrt") {
       const Piece inside = argument();
-      return {{element("msqrt", inside.markup), inside.width + 1}};
+      return {{element("msqrt", inside.markup), inside.width + 1, false, inside.tall}};
     }
     if (name == "boldsymbol") {
       const Piece inside = argument();
@@ -261,8 +265,9 @@ class Reader {
     const std::string right = delimiter();
     const Piece all = joined(inside);
     if (all.width < kLongBracket) {
-      return {{"<mrow><mo>" + left + "</mo>" + all.markup + "<mo>" + right + "</mo></mrow>",
-               all.width + 2}};
+      const char* mo = all.tall ? "<mo>" : "<mo stretchy=\"false\">";
+      return {{"<mrow>" + (mo + left) + "</mo>" + all.markup + mo + right + "</mo></mrow>",
+               all.width + 2, false, all.tall}};
     }
     Pieces result{{"<mo stretchy=\"false\" form=\"prefix\">" + left + "</mo>", 1}};
     for (std::size_t i = 0; i < inside.size(); ++i) {

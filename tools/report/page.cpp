@@ -25,11 +25,16 @@ std::string shell_word(const std::string& word) {
 struct Entry {
   const char *id, *words;
 };
-constexpr Entry kContents[] = {{"system", "System"},       {"claims", "Claims"},
-                               {"code", "Generated code"}, {"motion", "Motion"},
-                               {"drift", "Drift"},         {"section", "Section"},
-                               {"runs", "Runs"},           {"work-precision", "Error against time"},
-                               {"machine", "Machine"},     {"reproduce", "Reproduce"}};
+constexpr Entry kContents[] = {{"system", "System"},
+                               {"claims", "Claims"},
+                               {"code", "Generated code"},
+                               {"motion", "Motion"},
+                               {"drift", "Drift"},
+                               {"section", "Section"},
+                               {"work-precision", "Error against time"},
+                               {"runs", "Runs"},
+                               {"machine", "Machine"},
+                               {"reproduce", "Reproduce"}};
 
 std::string contents(const std::string& body, const std::string& index) {
   std::string text = "<nav aria-label=\"Contents\"><ul>\n";

@@ -11,6 +11,13 @@ std::string drawn(Plot plot, const std::string& name, const std::string& beside)
   return page_svg(plot, name, beside);
 }
 
+/// Its label is short enough for the height that it has in a page.
+Plot drift_of(const Findings& findings) {
+  Plot plot = drift_picture("", findings.drifts);
+  plot.y_label = findings.drifts.size() == 1 ? "relative drift" : "largest relative drift";
+  return plot;
+}
+
 }  // namespace
 
 Pictures draw_pictures(const Model& model, const Findings& findings, const std::string& beside) {
@@ -25,8 +32,7 @@ Pictures draw_pictures(const Model& model, const Findings& findings, const std::
       if (has_apex(model, motion))
         pictures.apex = drawn(apex_picture(model, scene, motion, ""), "apex", beside);
     }
-    if (!findings.drifts.empty())
-      pictures.drift = drawn(drift_picture("", findings.drifts), "drift", beside);
+    if (!findings.drifts.empty()) pictures.drift = drawn(drift_of(findings), "drift", beside);
     if (findings.contest)
       pictures.work_precision = drawn(picture_of(*findings.contest), "work-precision", beside);
     if (findings.scene && model.section)

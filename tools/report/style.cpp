@@ -28,7 +28,7 @@ a{color:var(--link)}
 small,.soft,figcaption,.time,.kind,.on,.label{color:var(--soft)}
 small{font-size:.85em}
 code,pre,.name{font-family:ui-monospace,"DejaVu Sans Mono",Menlo,Consolas,monospace;font-size:.88em}
-math{font-family:"Latin Modern Math","STIX Two Math","Cambria Math",math}
+math{font-family:"Latin Modern Math","STIX Two Math","Cambria Math","TeX Gyre Termes Math","DejaVu Math TeX Gyre",math}
 .vector{font-weight:bold}
 nav ul{list-style:none;display:flex;flex-wrap:wrap;gap:.1rem 1.1rem;margin:.8rem 0;padding:0}
 .badge{display:inline-block;border:1.5px solid currentColor;border-radius:.3rem;padding:0 .5rem;
@@ -51,10 +51,11 @@ nav ul{list-style:none;display:flex;flex-wrap:wrap;gap:.1rem 1.1rem;margin:.8rem
 .evidence{grid-column:2/-1;font-size:.9em;color:var(--soft)}
 .evidence .label{font-style:italic}
 table{border-collapse:collapse;margin:.5rem 0;font-variant-numeric:tabular-nums;font-size:.88em}
-th,td{padding:.2rem .65rem;text-align:right;border-bottom:1px solid var(--line);vertical-align:top}
+th,td{padding:.2rem .65rem;text-align:right;white-space:nowrap;border-bottom:1px solid var(--line);vertical-align:top}
 th{font-weight:600;border-bottom-color:var(--soft)}
 th:first-child,td:first-child,.words th,.words td,.words2 :is(th,td):is(:nth-child(2),:last-child){
  text-align:left}
+.words :is(th,td),.words2 td:last-child,th{white-space:normal}
 th:first-child,td:first-child{padding-left:0}
 tr.own td:first-child{font-weight:600}
 tr.wrong td{color:var(--refuted)} tr.other td{color:var(--soft)}

@@ -83,7 +83,6 @@ std::string hdf5_version() {
 
 void write_hdf5(const std::string& path, const SweepTable& table) {
   OutputFile output(path);
-  output.stream().close();  // the library opens it itself
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   {
     const Handle file(
