@@ -9,11 +9,6 @@
 #include "tools/cli.hpp"
 #include "tools/output.hpp"
 
-namespace casimir::tools {
-void register_report(CLI::App& program, Action& action);
-void register_sweep(CLI::App& program, Action& action);
-}  // namespace casimir::tools
-
 namespace {
 
 using namespace casimir;
@@ -53,8 +48,6 @@ int run(int argc, char** argv) {
   program.failure_message(CLI::FailureMessage::simple);
   Action action;
   for (const Register add : kCommands) add(program, action);
-  register_report(program, action);
-  register_sweep(program, action);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -224,24 +224,24 @@ std::string svg_element(const Plot& plot, const std::string& name, const std::st
 std::string page_svg(const Plot& plot, const std::string& name, const std::string& beside) {
   constexpr std::size_t kWidth = 640, kHeight = 440, kLine = 24;
   // As many columns as the longest name allows: gnuplot itself would take one.
-  constexpr std::size_t kSample = 90, kLetter = 9;
+  constexpr std::size_t kSample = 60, kLetter = 8;
   std::size_t entries = 0, longest = 0;
   for (const Curve& curve : plot.curves) {
     if (!in_legend(curve)) continue;
     ++entries;
     longest = std::max(longest, curve.name.size());
   }
-  const std::size_t columns =
-      std::clamp<std::size_t>(kWidth / (kSample + kLetter * longest), 1, 4);
+  const std::size_t columns = std::clamp<std::size_t>(kWidth / (kSample + kLetter * longest), 1, 4);
   const std::size_t lines = (entries + columns - 1) / columns;
   OutputFile picture(beside + "." + name + ".svg");
   const std::string terminal =
       fmt::format("svg size {},{} dynamic background rgb 'white' font 'sans,15'",
                   plot.square ? kHeight : kWidth, kHeight + kLine * lines);
-  draw_script(script(plot, terminal,
-                     fmt::format("below center Left reverse maxrows {} spacing 1.15", lines),
-                     picture.temporary().string()),
-              picture);
+  const std::string key = fmt::format(
+      "below center vertical maxrows {} Left reverse spacing 1.15 font ',13'\n"
+      "set xlabel offset 0,0.4",
+      lines);
+  draw_script(script(plot, terminal, key, picture.temporary().string()), picture);
   std::string svg = element_of(picture, name);
   use_variables(svg);
   return svg;

@@ -34,7 +34,7 @@ void expect_readable(const Seen& seen, const View& view) {
     EXPECT_GE(plot.at("points"), 20) << id;
     EXPECT_GE(plot.at("width"), 200) << id;
     EXPECT_GE(plot.at("contrast"), kCurves) << id;
-    if (!plot.at("words").is_null()) EXPECT_GE(plot.at("words"), kWords) << id;
+    EXPECT_GE(plot.at("words"), kWords) << id;
   }
 }
 
@@ -49,7 +49,7 @@ TEST(Report, OfACaseHasEverythingAndIsReadableEverywhere) {
   for (const char* part :
        {"Kovalevskaya top", "✓", "proved", "Liouville integrability", "Hamiltonian",
         "right-hand side, specialised", "multiplications", "folded to 1", "figure-drift",
-        "figure-motion", "figure-apex", "figure-work-precision", "Versions and machine", "g++",
+        "figure-motion", "figure-apex", "figure-work-precision", "Versions and machine", "SUNDIALS",
         "casimir verify kovalevskaya", "casimir report kovalevskaya", "algebra = &quot;e(3)&quot;"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   const auto json = outcome.json();
@@ -73,7 +73,7 @@ TEST(Report, TextOfStrangersIsNoMarkupAndWhatIsRefutedIsShown) {
       folder, {"report", file, "--scene", "<i>&amp;", "--budget", "0", "--output", "e.html"});
   EXPECT_EQ(outcome.status, 1) << outcome.err;
   const std::string page = file_text(folder.path() / "e.html");
-  expect_self_contained(page);
+  EXPECT_EQ(nesting_problem(page), "");
   for (const char* markup : {"<script", "<i>", "<u>", "<img", "<b>"})
     EXPECT_EQ(page.find(markup), std::string::npos) << markup;
   for (const char* part : {"&lt;script&gt;alert(&#39;1&#39;)", "✗", "refuted", "witness",

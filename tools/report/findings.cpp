@@ -122,6 +122,10 @@ class Investigation {
         const bool drawn = &scene == result_.scene;
         result_.runs.push_back(conserve_scene(model_, scene, method_named(method), what,
                                               drawn ? &result_.drifts : nullptr));
+        if (result_.runs.back().status != to_string(Status::stopped)) continue;
+        result_.runs.pop_back();  // by the time limit: it says nothing
+        result_.stopped = true;
+        return;
       }
     }
   }

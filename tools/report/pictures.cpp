@@ -18,6 +18,14 @@ Plot drift_of(const Findings& findings) {
   return plot;
 }
 
+/// General code has a table of its own, and would lie on top of the specialised.
+Plot contest_of(const Findings& findings) {
+  Plot plot = picture_of(*findings.contest);
+  std::erase_if(plot.curves,
+                [](const Curve& curve) { return curve.style == Curve::Style::variant; });
+  return plot;
+}
+
 }  // namespace
 
 Pictures draw_pictures(const Model& model, const Findings& findings, const std::string& beside) {
@@ -34,7 +42,7 @@ Pictures draw_pictures(const Model& model, const Findings& findings, const std::
     }
     if (!findings.drifts.empty()) pictures.drift = drawn(drift_of(findings), "drift", beside);
     if (findings.contest)
-      pictures.work_precision = drawn(picture_of(*findings.contest), "work-precision", beside);
+      pictures.work_precision = drawn(contest_of(findings), "work-precision", beside);
     if (findings.scene && model.section)
       pictures.section = section_svg(model, *findings.scene, beside);
   } catch (const SystemError& problem) {
