@@ -37,7 +37,13 @@ std::string text(const std::string& stranger, std::size_t limit) {
 std::string lines(const std::string& stranger) {
   std::string result;
   std::istringstream stream(stranger);
-  for (std::string line; std::getline(stream, line);) result += text(line) + '\n';
+  constexpr std::size_t kLongLine = 1 << 20;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.ends_with('\r')) line.pop_back();
+    for (char& c : line)
+      if (c == '\t') c = ' ';
+    result += text(line, kLongLine) + '\n';
+  }
   return result;
 }
 

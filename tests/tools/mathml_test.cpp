@@ -56,7 +56,9 @@ TEST(MathMl, UnderstandsWhatEveryBundledCaseShows) {
   const auto list = run({"list", "--json"}).json();
   for (const auto& entry : list.at("cases")) {
     const std::string name = entry.at("name");
-    std::istringstream latex(run({"show", name, "--format", "latex"}).out);
+    const Outcome shown = run({"show", name, "--format", "latex"});
+    EXPECT_EQ(shown.status, 0) << name << ": " << shown.err;
+    std::istringstream latex(shown.out);
     for (std::string line; std::getline(latex, line);) {
       if (line.starts_with("\\begin") || line.starts_with("\\end")) continue;
       for (const char* mark : {"\\\\", "\\qquad", "\\operatorname{rank}", "\\begin{pmatrix}"})

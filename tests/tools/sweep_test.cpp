@@ -109,12 +109,13 @@ TEST(Sweep, SaysWhatIsWrongWithAGrid) {
   EXPECT_EQ(folder.files(), 0U);
 }
 
-/// Waits until the journal has some points, then kills the sweep.
-bool kill_when_some_are_done(pid_t child, const Folder& folder, const std::string& journal) {
+/// Waits until the journal has some points, then sends the sweep a signal.
+bool kill_when_some_are_done(pid_t child, const Folder& folder, const std::string& journal,
+                             int signal = SIGKILL) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (std::chrono::steady_clock::now() < end) {
     if (file_text(folder.path() / journal).size() > 20000) {
-      kill(child, SIGKILL);
+      kill(child, signal);
       return true;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -148,6 +149,16 @@ TEST(Sweep, GoesOnAfterAKill) {
   EXPECT_FALSE(std::filesystem::exists(journal));
   ASSERT_EQ(run_in(folder, sweep_arguments(points, "whole.csv")).status, 0);
   EXPECT_TRUE(file_text(folder.path() / "killed.csv") == file_text(folder.path() / "whole.csv"));
+}
+
+TEST(Sweep, AnInterruptKeepsWhatIsDoneAndSaysSo) {
+  const Folder folder;
+  const pid_t child = start(sweep_arguments("200000", "s.csv"), folder);
+  ASSERT_TRUE(kill_when_some_are_done(child, folder, "s.csv.journal", SIGINT));
+  const Outcome outcome = finish(child, folder);
+  EXPECT_EQ(outcome.status, 130);
+  EXPECT_NE(outcome.err.find("the same command goes on"), std::string::npos) << outcome.err;
+  EXPECT_EQ(folder.files(), 1U) << "the journal";
 }
 
 TEST(Sweep, ATimeLimitKeepsWhatIsDone) {

@@ -109,9 +109,9 @@ class Investigation {
       result_.notes.push_back("motion: " + warning);
   }
 
+  /// Every scene by every method, none for longer than a reader would wait.
   void conserve() {
-    const ConserveOptions what{.code = options_.code, .give_up = give_up()};
-    result_.drift_bound = what.bound;
+    result_.drift_bound = ConserveOptions{}.bound;
     for (const Scene& scene : model_.scenes) {
       if (!scene.unusable.empty()) continue;
       for (const std::string& method : conserving_methods()) {
@@ -119,15 +119,26 @@ class Investigation {
           result_.stopped = true;
           return;
         }
-        const bool drawn = &scene == result_.scene;
-        result_.runs.push_back(conserve_scene(model_, scene, method_named(method), what,
-                                              drawn ? &result_.drifts : nullptr));
-        if (result_.runs.back().status != to_string(Status::stopped)) continue;
-        result_.runs.pop_back();  // by the time limit: it says nothing
-        result_.stopped = true;
-        return;
+        conserve_one(scene, method_named(method));
       }
     }
+  }
+
+  void conserve_one(const Scene& scene, const Method& method) {
+    constexpr double kLongestRun = 5;
+    const double seconds =
+        options_.time_limit > 0 ? std::clamp(left(), 1e-3, kLongestRun) : kLongestRun;
+    const ConserveOptions what{.code = options_.code, .give_up = time_limit(seconds)};
+    std::vector<DriftRecord> drifts;
+    Row row = conserve_scene(model_, scene, method, what, &drifts);
+    if (row.status == to_string(Status::stopped)) {
+      row.failed = false;
+      row.refused = true;
+      row.reason = fmt::format("not at its end after {:.2g} s", seconds);
+    }
+    if (&scene == result_.scene)
+      result_.drifts.insert(result_.drifts.end(), drifts.begin(), drifts.end());
+    result_.runs.push_back(std::move(row));
   }
 
   void measure() {

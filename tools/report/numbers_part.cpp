@@ -102,10 +102,9 @@ std::string drift_part(const Findings& findings, const Pictures& pictures) {
     kept += !row.failed && !row.refused ? 1 : 0;
     refused += row.refused ? 1 : 0;
   }
-  text += html::paragraph(
-      fmt::format("{} of {} runs keep every invariant to {:g} of its size{}.", kept,
-                  findings.runs.size(), findings.drift_bound,
-                  refused == 0 ? "" : fmt::format("; {} on extreme scenes are refused", refused)));
+  text += html::paragraph(fmt::format(
+      "{} of {} runs keep every invariant to {:g} of its size{}.", kept, findings.runs.size(),
+      findings.drift_bound, refused == 0 ? "" : fmt::format("; {} are refused", refused)));
   text += missing_picture(pictures);
   text += figure(
       pictures.drift, "drift",

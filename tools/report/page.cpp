@@ -5,6 +5,7 @@
 
 #include <ctime>
 
+#include "symbolic/error.hpp"
 #include "tools/html.hpp"
 #include "tools/proof_table.hpp"
 #include "tools/report/style.hpp"
@@ -67,6 +68,16 @@ std::string notes_part(const Findings& findings, const Pictures& pictures) {
   return lines.empty() ? "" : "<div class=\"notes\"><ul>\n" + lines + "</ul></div>\n";
 }
 
+/// An expression that cannot be written down must not cost the rest of the page.
+std::string typeset_system(const Model& model) {
+  try {
+    return system_part(model);
+  } catch (const ModelError& problem) {
+    return "<section id=\"system\">\n<h2>The system</h2>\n" +
+           html::paragraph(std::string("It cannot be typeset: ") + problem.what()) + "</section>\n";
+  }
+}
+
 }  // namespace
 
 std::string page_head(const std::string& title, const std::string& description) {
@@ -115,7 +126,7 @@ std::string reproduce_part(const Model& model, const Findings& findings, const P
 std::string report_page(const Model& model, const Findings& findings, const Pictures& pictures,
                         const PageSource& source) {
   const std::string body =
-      notes_part(findings, pictures) + system_part(model) + claims_part(model, findings) +
+      notes_part(findings, pictures) + typeset_system(model) + claims_part(model, findings) +
       code_part(findings) + motion_part(findings, pictures) + drift_part(findings, pictures) +
       section_part(model, pictures) + work_precision_part(findings, pictures) +
       runs_part(findings) + machine_part(findings) + reproduce_part(model, findings, source);

@@ -40,6 +40,8 @@ nav ul{list-style:none;display:flex;flex-wrap:wrap;gap:.1rem 1.1rem;margin:.8rem
 .display{margin:.5rem 0 .5rem 1rem}
 .equations{display:grid;grid-template-columns:auto minmax(0,1fr);gap:.4rem .5rem;margin:.4rem 0 .6rem 1rem;
  align-items:baseline}
+.equations.stacked{grid-template-columns:minmax(0,1fr);gap:0}
+.stacked>.right{margin-left:1.5rem;margin-bottom:.6rem}
 .equations>div{overflow-x:auto;overflow-y:hidden;padding:.12rem 0}
 .equations>.right{padding-left:1.6rem;text-indent:-1.6rem}
 .equations .on{white-space:normal;padding-left:.8em}
@@ -73,7 +75,6 @@ footer{margin-top:3rem;border-top:1px solid var(--line);color:var(--soft);font-s
 @media (max-width:40rem){
  h1{font-size:1.5rem}
  .equations,.display{margin-left:0}
- .equations.wide{grid-template-columns:minmax(0,1fr)}
  .claim{grid-template-columns:auto 1fr auto}
  .claim .name,.evidence{grid-column:1/-1}
  .claim .kind{justify-self:start}

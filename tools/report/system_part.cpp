@@ -1,6 +1,9 @@
 // The system of a report, typeset.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <sstream>
+
 #include "tools/html.hpp"
 #include "tools/report/mathml.hpp"
 #include "tools/report/page.hpp"
@@ -14,9 +17,12 @@ constexpr std::size_t kMany = 14;
 
 std::string heading(const std::string& words) { return "<h3>" + html::text(words) + "</h3>\n"; }
 
-/// Formulas with their equal signs below each other.
+/// Formulas with their equal signs below each other; where a left side is long, below it.
 std::string equations(const std::vector<Formula>& formulas) {
-  std::string text = "<div class=\"equations\">\n";
+  constexpr std::size_t kLongLeft = 60;  // bytes of LaTeX
+  const bool stacked =
+      std::ranges::any_of(formulas, [](const Formula& f) { return f.left.size() > kLongLeft; });
+  std::string text = fmt::format("<div class=\"equations{}\">\n", stacked ? " stacked" : "");
   for (const Formula& f : formulas) {
     std::string on;
     for (const std::string& level : f.on) on += (on.empty() ? "" : " = ") + level;

@@ -40,6 +40,78 @@ std::size_t place_in(const std::vector<std::string>& names, const std::string& n
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
+/// The constraints and assumptions of a case, at states and parameters in double.
+class PointCheck {
+ public:
+  PointCheck(const Model& model, const Scene& scene, const Specialisation& s) : model_(model) {
+    std::vector<GiNaC::ex> functions;
+    for (const NamedExpression& c : model.constraints) functions.push_back(c.value);
+    for (const Assumption& a : model.assumptions) functions.push_back(a.difference);
+    std::vector<GiNaC::symbol> symbols = model.variables;
+    symbols.insert(symbols.end(), model.parameters.begin(), model.parameters.end());
+    program_ = program_of(functions, symbols);
+    const auto add = [&](const GiNaC::ex& e) {
+      inputs_.push_back(
+          Arithmetic<SizedNumber>::plain(GiNaC::ex_to<GiNaC::numeric>(e.evalf()).to_double()));
+    };
+    for (const GiNaC::ex& e : scene.initial) add(e);
+    for (const GiNaC::ex& e : scene.parameters) add(e);
+    for (const std::string& name : s.states) states_.push_back(place_among(symbols, name));
+    for (const std::string& name : s.parameters) parameters_.push_back(place_among(symbols, name));
+  }
+
+  /// Empty: nothing is.
+  std::string what_is_wrong(const std::vector<double>& state,
+                            const std::vector<double>& parameters) {
+    for (std::size_t i = 0; i < state.size(); ++i)
+      inputs_[states_[i]] = Arithmetic<SizedNumber>::plain(state[i]);
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      inputs_[parameters_[i]] = Arithmetic<SizedNumber>::plain(parameters[i]);
+    if (std::ranges::any_of(inputs_, [](const SizedNumber& x) { return !std::isfinite(x.value); }))
+      return "a value is no number";
+    const std::vector<SizedNumber> values = evaluate(program_, inputs_);
+    for (std::size_t i = 0; i < model_.constraints.size(); ++i) {
+      if (!vanishes(values[i]))
+        return fmt::format(
+            "the constraint {} is {:.3g} instead of 0\n  hint: --let can give a state as an "
+            "expression, as in --over theta=0:Pi:50 --let g1=sin(theta)",
+            model_.constraints[i].name, static_cast<double>(values[i].value));
+    }
+    for (std::size_t i = 0; i < model_.assumptions.size(); ++i) {
+      if (!holds(model_.assumptions[i], values[model_.constraints.size() + i]))
+        return fmt::format("the assumption {} does not hold", model_.assumptions[i].text);
+    }
+    return {};
+  }
+
+ private:
+  static std::size_t place_among(const std::vector<GiNaC::symbol>& symbols,
+                                 const std::string& name) {
+    const auto found = std::ranges::find_if(
+        symbols, [&](const GiNaC::symbol& symbol) { return symbol.get_name() == name; });
+    return static_cast<std::size_t>(found - symbols.begin());
+  }
+
+  static bool vanishes(const SizedNumber& x) {
+    constexpr long double kRounding = 1e-13L;
+    return std::abs(x.value) <= kRounding * std::max(x.size, 1.0L);
+  }
+
+  static bool holds(const Assumption& a, const SizedNumber& x) {
+    return a.relation == "!="   ? x.value != 0
+           : a.relation == "==" ? vanishes(x)
+           : a.relation == ">"  ? x.value > 0
+           : a.relation == ">=" ? x.value >= 0
+           : a.relation == "<"  ? x.value < 0
+                                : x.value <= 0;
+  }
+
+  const Model& model_;
+  Program program_;
+  std::vector<SizedNumber> inputs_;  ///< variables and parameters: the scene's, then the point's
+  std::vector<std::size_t> states_, parameters_;  ///< where those of the run are among them
+};
+
 }  // namespace
 
 std::vector<std::string> Places::names(const Grid& grid, const std::vector<std::string>& lets) {
@@ -119,63 +191,16 @@ std::pair<std::vector<double>, std::vector<double>> Places::at(std::size_t point
 
 /// What the scene was checked for exactly holds to rounding at every point.
 void Places::check(const Model& model, const Scene& scene) const {
-  constexpr long double kRounding = 1e-13L;
-  std::vector<GiNaC::ex> functions;
-  std::vector<GiNaC::symbol> symbols = model.variables;
-  symbols.insert(symbols.end(), model.parameters.begin(), model.parameters.end());
-  for (const NamedExpression& c : model.constraints) functions.push_back(c.value);
-  for (const Assumption& a : model.assumptions) functions.push_back(a.difference);
-  const Program program = program_of(functions, symbols);
-  const Specialisation& s = run_.specialisation;
-  std::vector<SizedNumber> inputs;
-  const auto number = [](const GiNaC::ex& e) {
-    return Arithmetic<SizedNumber>::plain(GiNaC::ex_to<GiNaC::numeric>(e.evalf()).to_double());
-  };
-  for (const GiNaC::ex& e : scene.initial) inputs.push_back(number(e));
-  for (const GiNaC::ex& e : scene.parameters) inputs.push_back(number(e));
+  PointCheck check(model, scene, run_.specialisation);
   for (std::size_t point = 0; point < grid_.points(); ++point) {
     const auto [state, parameters] = at(point);
-    const auto fail = [&](const std::string& what) {
-      std::string where;
-      const std::vector<double> values = grid_.at(point);
-      for (std::size_t i = 0; i < values.size(); ++i)
-        where += fmt::format("{}{} = {:g}", i == 0 ? "" : ", ", grid_.axes[i].name, values[i]);
-      throw UsageError(fmt::format("at {}: {}", where, what));
-    };
-    for (std::size_t i = 0; i < model.variables.size(); ++i) {
-      const std::size_t place = place_in(s.states, model.variables[i].get_name());
-      if (place >= state.size()) continue;
-      inputs[i] = Arithmetic<SizedNumber>::plain(state[place]);
-      if (!std::isfinite(state[place])) fail(s.states[place] + " is no number");
-    }
-    for (std::size_t i = 0; i < model.parameters.size(); ++i) {
-      const std::size_t place = place_in(s.parameters, model.parameters[i].get_name());
-      if (place >= parameters.size()) continue;
-      inputs[model.variables.size() + i] = Arithmetic<SizedNumber>::plain(parameters[place]);
-      if (!std::isfinite(parameters[place])) fail(s.parameters[place] + " is no number");
-    }
-    if (functions.empty()) continue;
-    const std::vector<SizedNumber> values = evaluate(program, inputs);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const long double x = values[i].value;
-      if (i < model.constraints.size()) {
-        if (!(std::abs(x) <= kRounding * std::max(values[i].size, 1.0L)))
-          fail(fmt::format(
-              "the constraint {} is {:.3g} instead of 0\n  hint: --let can give a state "
-              "as an expression, such as --over theta=0:Pi:50 --let g1=sin(theta)",
-              model.constraints[i].name, static_cast<double>(x)));
-        continue;
-      }
-      const Assumption& a = model.assumptions[i - model.constraints.size()];
-      const bool holds = a.relation == "!=" ? x != 0
-                         : a.relation == "=="
-                             ? std::abs(x) <= kRounding * std::max(values[i].size, 1.0L)
-                         : a.relation == ">"  ? x > 0
-                         : a.relation == ">=" ? x >= 0
-                         : a.relation == "<"  ? x < 0
-                                              : x <= 0;
-      if (!holds) fail(fmt::format("the assumption {} does not hold", a.text));
-    }
+    const std::string wrong = check.what_is_wrong(state, parameters);
+    if (wrong.empty()) continue;
+    std::string where;
+    const std::vector<double> values = grid_.at(point);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      where += fmt::format("{}{} = {:g}", i == 0 ? "" : ", ", grid_.axes[i].name, values[i]);
+    throw UsageError(fmt::format("at {}: {}", where, wrong));
   }
 }
 
