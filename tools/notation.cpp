@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "symbolic/error.hpp"
+
 namespace casimir::tools {
 namespace {
 
@@ -39,6 +41,15 @@ std::string bold(const std::string& letters) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
       });
   return command ? "\\boldsymbol" + letters : "\\boldsymbol{" + letters + "}";
+}
+
+/// Products of conjugates have imaginary factors, and are real when they are multiplied out.
+codegen::Scaled converted(codegen::Dag& dag, const ex& e) {
+  try {
+    return dag.convert(e);
+  } catch (const ModelError&) {
+    return dag.convert(e.expand());
+  }
 }
 
 }  // namespace
@@ -139,11 +150,11 @@ std::string Notation::render(const codegen::Scaled& e, Markup markup) const {
 }
 
 std::string Notation::components(const ex& e, Markup markup) {
-  return render(dag_->convert(e), markup);
+  return render(converted(*dag_, e), markup);
 }
 
 std::string Notation::expression(const ex& e, Markup markup) {
-  return render(scalar_products_->in(dag_->convert(e)), markup);
+  return render(scalar_products_->in(converted(*dag_, e)), markup);
 }
 
 std::string Notation::combination(const std::vector<std::pair<ex, Phrase>>& terms, Markup markup) {

@@ -1,9 +1,7 @@
 // The page of casimir bench: complete, by itself, and safe whatever a case file calls itself.
 #include <gtest/gtest.h>
 
-#include <regex>
-#include <set>
-
+#include "tests/tools/page_checks.hpp"
 #include "tests/tools/program.hpp"
 
 namespace casimir::test {
@@ -15,43 +13,6 @@ std::vector<std::string> bench_arguments(const std::string& what, const std::str
   arguments.insert(arguments.end(), {"--tolerances", "1e-4,1e-9", "--repeat", "1"});
   arguments.insert(arguments.end(), {"--output", output, "--quiet"});
   return arguments;
-}
-
-/// What is wrong with the nesting of the elements, or empty.
-std::string nesting_problem(const std::string& page) {
-  static const std::regex kTag(R"(<(/?)([A-Za-z][A-Za-z0-9]*)([^<>]*)>)");
-  static const std::set<std::string> kEmpty{"meta", "br", "hr", "img", "input", "link"};
-  std::vector<std::string> open;
-  for (std::sregex_iterator it(page.begin(), page.end(), kTag), end; it != end; ++it) {
-    const std::string name = (*it)[2], rest = (*it)[3];
-    if (kEmpty.contains(name) || rest.ends_with("/")) continue;
-    if ((*it)[1] != "/") {
-      open.push_back(name);
-    } else if (open.empty() || open.back() != name) {
-      return "</" + name + "> closes " + (open.empty() ? "nothing" : open.back());
-    } else {
-      open.pop_back();
-    }
-  }
-  return open.empty() ? "" : "<" + open.back() + "> is open";
-}
-
-/// A page that needs nothing but itself: no address to load from, no script, no identifier twice.
-void expect_self_contained(const std::string& page) {
-  EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
-  EXPECT_EQ(nesting_problem(page), "");
-  const std::regex kLoads(R"((src|href|action|data)\s*=\s*["']?\s*(https?:|//|file:))");
-  EXPECT_FALSE(std::regex_search(page, kLoads));
-  for (const char* bad : {"<script", "<link", "<iframe", "<img", "@import", "url(http", "onload="})
-    EXPECT_EQ(page.find(bad), std::string::npos) << bad;
-  const std::regex kId(R"(\sid\s*=\s*["']([^"']*)["'])");
-  std::set<std::string> ids;
-  for (std::sregex_iterator it(page.begin(), page.end(), kId), end; it != end; ++it)
-    EXPECT_TRUE(ids.insert((*it)[1]).second) << (*it)[1];
-  // Every reference inside the page leads somewhere.
-  const std::regex kReference(R"(href\s*=\s*["']#([^"']*)["'])");
-  for (std::sregex_iterator it(page.begin(), page.end(), kReference), end; it != end; ++it)
-    EXPECT_TRUE(ids.contains((*it)[1])) << (*it)[1];
 }
 
 TEST(BenchPage, NestingIsChecked) {

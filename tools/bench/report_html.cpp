@@ -3,9 +3,10 @@
 
 #include <cmath>
 
-#include "symbolic/error.hpp"
 #include "tools/bench/comparison.hpp"
 #include "tools/bench/report.hpp"
+#include "tools/bench/report_html.hpp"
+#include "tools/html.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -24,48 +25,6 @@ small { color: #666; } figure { margin: 1rem 0; } svg { max-width: 100%; height:
 summary { cursor: pointer; } .scroll { overflow-x: auto; }
 )";
 
-/// Text that a stranger wrote: no markup, no control characters.
-std::string html(const std::string& text) {
-  constexpr std::size_t kLimit = 1000;
-  std::string result;
-  for (const char c : printable(text, kLimit)) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\'':
-        result += "&#39;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
-std::string paragraph(const std::string& text) { return "<p>" + html(text) + "</p>\n"; }
-
-/// A table row of cells that are markup already.
-std::string row(const std::vector<std::string>& cells, const char* tag = "td",
-                const std::string& style = {}) {
-  std::string text = style.empty() ? "<tr>" : "<tr class=\"" + style + "\">";
-  for (const std::string& cell : cells) text += fmt::format("<{0}>{1}</{0}>", tag, cell);
-  return text + "</tr>\n";
-}
-
-std::string table(const std::string& rows) {
-  return "<div class=\"scroll\"><table>\n" + rows + "</table></div>\n";
-}
-
 std::string ratio_text(double ratio) {
   return std::isnan(ratio) ? "" : fmt::format("{:.{}f}&times;", ratio, ratio < 100 ? 1 : 0);
 }
@@ -81,108 +40,114 @@ std::vector<std::string> level_heads(const std::string& first) {
   return heads;
 }
 
-std::string equal_error_table(const Contest& contest) {
+}  // namespace
+
+std::string html::equal_error_table(const Contest& contest) {
   std::vector<std::string> heads = level_heads("method");
   heads.emplace_back("best error");
   heads.emplace_back("time for it");
-  std::string rows = row(heads, "th");
+  std::string rows = html::row(heads, "th");
   for (const Line& line : equal_error_lines(contest)) {
-    std::vector<std::string> cells{html(line.contender.label())};
+    std::vector<std::string> cells{html::text(line.contender.label())};
     for (const Cell& cell : line.levels) cells.push_back(cell_text(cell));
     cells.push_back(fmt::format("{:.1e}", line.best.error));
     cells.push_back(cell_text(line.best));
-    rows += row(cells, "td", line.contender.own() ? "own" : "");
+    rows += html::row(cells, "td", line.contender.own() ? "own" : "");
   }
   return "<h3>Time at equal error, and how many times as long as the fastest of ours</h3>\n" +
-         table(rows);
+         html::table(rows);
 }
 
-std::string code_table(const Contest& contest) {
-  std::string rows =
-      row({"one right-hand side", "multiplications", "additions", "divisions", "calls", "states"},
-          "th");
+std::string html::code_table(const Contest& contest) {
+  std::string rows = html::row(
+      {"one right-hand side", "multiplications", "additions", "divisions", "calls", "states"},
+      "th");
   const auto counts = [](const char* name, const OperationCount& count,
                          const std::vector<std::string>& states) {
-    return row({name, std::to_string(count.mul), std::to_string(count.add),
-                std::to_string(count.div), std::to_string(count.calls),
-                std::to_string(states.size())});
+    return html::row({name, std::to_string(count.mul), std::to_string(count.add),
+                      std::to_string(count.div), std::to_string(count.calls),
+                      std::to_string(states.size())});
   };
   rows += counts("general", contest.general, contest.all_states);
   rows += counts("specialised", contest.specialised, contest.states);
-  std::string text = "<h3>Specialised code beside general code</h3>\n" + table(rows);
+  std::string text = "<h3>Specialised code beside general code</h3>\n" + html::table(rows);
   const std::vector<CodeLine> lines = code_lines(contest);
   if (lines.empty()) return text;
-  std::string ratios = row(level_heads("general takes, at error"), "th");
+  std::string ratios = html::row(level_heads("general takes, at error"), "th");
   for (const CodeLine& line : lines) {
-    std::vector<std::string> cells{html(line.method)};
+    std::vector<std::string> cells{html::text(line.method)};
     for (const double ratio : line.ratios)
       cells.push_back(std::isnan(ratio) ? "&ndash;" : fmt::format("{:.2f}&times;", ratio));
-    ratios += row(cells);
+    ratios += html::row(cells);
   }
-  return text + table(ratios);
+  return text + html::table(ratios);
 }
 
-std::string rows_table(const Contest& contest) {
-  std::string rows = row({"method", "code", "tolerance", "error", "drift", "time", "spread",
-                          "steps", "evaluations", "status"},
-                         "th");
+std::string html::rows_table(const Contest& contest) {
+  std::string rows = html::row({"method", "code", "tolerance", "error", "drift", "time", "spread",
+                                "steps", "evaluations", "status"},
+                               "th");
   for (const Row& r : contest.rows) {
     const std::string style = r.status == "wrong" ? "wrong" : r.status == "ok" ? "" : "other";
     const std::string status = r.reason.empty() ? r.status : r.status + ": " + r.reason;
-    rows += row({html(r.method), html(r.code), fmt::format("{:.0e}", r.tolerance),
-                 std::isnan(r.error) ? "&ndash;" : fmt::format("{:.2e}", r.error),
-                 fmt::format("{:.1e}", r.drift), duration_text(r.seconds), duration_text(r.spread),
-                 std::to_string(r.steps), std::to_string(r.evaluations), html(status)},
-                "td", style);
+    rows += html::row(
+        {html::text(r.method), html::text(r.code), fmt::format("{:.0e}", r.tolerance),
+         std::isnan(r.error) ? "&ndash;" : fmt::format("{:.2e}", r.error),
+         fmt::format("{:.1e}", r.drift), duration_text(r.seconds), duration_text(r.spread),
+         std::to_string(r.steps), std::to_string(r.evaluations), html::text(status)},
+        "td", style);
   }
-  return "<details><summary>all rows</summary>\n" + table(rows) + "</details>\n";
+  return "<details><summary>all rows</summary>\n" + html::table(rows) + "</details>\n";
 }
 
+namespace {
+
 std::string section(const Contest& contest, std::size_t index, const std::string& picture) {
-  std::string text =
-      fmt::format("<section id=\"case-{}\">\n<h2>{} <small>{}, scene {}</small></h2>\n", index,
-                  html(contest.title), html(contest.case_name), html(contest.scene));
+  std::string text = fmt::format(
+      "<section id=\"case-{}\">\n<h2>{} <small>{}, scene {}</small></h2>\n", index,
+      html::text(contest.title), html::text(contest.case_name), html::text(contest.scene));
   if (!contest.no_reference.empty())
-    return text + paragraph("Not measured: " + contest.no_reference) + "</section>\n";
-  text += paragraph(fmt::format(
+    return text + html::paragraph("Not measured: " + contest.no_reference) + "</section>\n";
+  text += html::paragraph(fmt::format(
       "Reference: {}; its error is below {:.0e}. Small changes of the state grow {:.2g} times "
       "along the run at most.",
       contest.reference, contest.error_bound, contest.conditioning));
-  for (const std::string& note : contest.notes) text += paragraph("Note: " + note);
-  text += picture.empty() ? paragraph("There is no picture: it needs gnuplot.")
+  for (const std::string& note : contest.notes) text += html::paragraph("Note: " + note);
+  text += picture.empty() ? html::paragraph("There is no picture: it needs gnuplot.")
                           : "<figure>\n" + picture + "</figure>\n";
-  text += equal_error_table(contest);
-  for (const std::string& sentence : sentences(contest)) text += paragraph(sentence);
-  return text + code_table(contest) + rows_table(contest) + "</section>\n";
+  text += html::equal_error_table(contest);
+  for (const std::string& sentence : sentences(contest)) text += html::paragraph(sentence);
+  return text + html::code_table(contest) + html::rows_table(contest) + "</section>\n";
 }
 
 std::string summary(const BenchReport& report) {
   std::vector<std::string> heads = level_heads("method");
   heads.emplace_back("best error it reaches");
-  std::string rows = row(heads, "th");
+  std::string rows = html::row(heads, "th");
   std::vector<std::string> cells;
   for (const Mean& mean : means(report.contests)) {
-    if (!cells.empty() && cells.front() != html(mean.peer)) {
-      rows += row(cells);
+    if (!cells.empty() && cells.front() != html::text(mean.peer)) {
+      rows += html::row(cells);
       cells.clear();
     }
-    if (cells.empty()) cells.push_back(html(mean.peer));
-    cells.push_back(mean.cases == 0 ? "&ndash;"
-                                    : fmt::format("{} <small>{} cases, least {} ({})</small>",
-                                                  ratio_text(mean.ratio), mean.cases,
-                                                  ratio_text(mean.least), html(mean.least_case)));
+    if (cells.empty()) cells.push_back(html::text(mean.peer));
+    cells.push_back(mean.cases == 0
+                        ? "&ndash;"
+                        : fmt::format("{} <small>{} cases, least {} ({})</small>",
+                                      ratio_text(mean.ratio), mean.cases, ratio_text(mean.least),
+                                      html::text(mean.least_case)));
   }
-  if (!cells.empty()) rows += row(cells);
+  if (!cells.empty()) rows += html::row(cells);
   return "<h2>Summary</h2>\n<p>How many times as long as the fastest of ours others take for the "
          "same error: geometric means over the cases.</p>\n" +
-         table(rows);
+         html::table(rows);
 }
 
 std::string contents(const BenchReport& report) {
   std::string text = "<ul>\n";
   for (std::size_t i = 0; i < report.contests.size(); ++i) {
     const Contest& contest = report.contests[i];
-    text += fmt::format("<li><a href=\"#case-{}\">{}</a>{}</li>\n", i, html(contest.title),
+    text += fmt::format("<li><a href=\"#case-{}\">{}</a>{}</li>\n", i, html::text(contest.title),
                         contest.no_reference.empty() ? "" : ": not measured");
   }
   return text + "</ul>\n";
@@ -197,8 +162,8 @@ std::string to_html(const BenchReport& report, const std::vector<std::string>& p
       "<title>Error against run time</title>\n<style>{}</style>\n</head>\n<body>\n"
       "<h1>Error against run time</h1>\n",
       kStyle);
-  text += paragraph(processor_text(report.machine) + "; " + report.machine.system + "; " +
-                    versions_text(report.machine));
+  text += html::paragraph(processor_text(report.machine) + "; " + report.machine.system + "; " +
+                          versions_text(report.machine));
   if (report.several) text += contents(report) + summary(report);
   for (std::size_t i = 0; i < report.contests.size(); ++i)
     text += section(report.contests[i], i, pictures[i]);

@@ -8,12 +8,9 @@
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
-#include "tools/drift_plot.hpp"
+#include "tools/conserve_run.hpp"
 #include "tools/kept_parameters.hpp"
 #include "tools/output.hpp"
-#include "tools/run_options.hpp"
-#include "tools/run_report.hpp"
-#include "tools/truth.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -24,75 +21,10 @@ struct Options {
   KeptParameters kept;
   std::string case_name, output, plot;
   std::string in, tag;
-  std::vector<std::string> methods{"taylor", "dop853", "gauss8"};
+  std::vector<std::string> methods = conserving_methods();
   double bound = 1e-9;
   bool all = false;
 };
-
-constexpr double kTolerance = 1e-12;
-/// A stiff scene takes more from a method that is not made for it, and would take hours.
-constexpr unsigned long long kMostStiffSteps = 200'000;
-
-/// Whether a scene may be refused: its motion ends, comes close to where the variables end, or
-/// takes another method.
-bool may_be_refused(const Scene& scene) {
-  return scene.extreme == "blowup" || scene.extreme == "gimbal" || scene.extreme == "stiff";
-}
-
-/// Which invariant drifted most, for the table.
-double largest_drift(const Trajectory& trajectory) {
-  double drift = 0;
-  for (const InvariantRecord& record : trajectory.invariants) drift = std::max(drift, record.drift);
-  return drift;
-}
-
-Row conserve_one(const Model& model, const Scene& scene, const Method& method,
-                 const Options& options, const std::function<bool()>& give_up,
-                 std::vector<DriftRecord>* drifts) {
-  const SceneRun run =
-      prepare(model, scene, options.kept.in<SceneOptions>({.observe = std::vector<std::string>{}}));
-  Settings settings = settings_for(options.run, run, kTolerance);
-  settings.give_up = give_up;
-  if (scene.extreme == "stiff" && settings.max_steps == 0) settings.max_steps = kMostStiffSteps;
-  DriftRecord drift(std::string(method.name), run.specialisation.invariant_names,
-                    settings.duration);
-  if (drifts) drift.follow(settings);
-  Row row{.case_name = model.name,
-          .scene = scene.name,
-          .method = std::string(method.name),
-          .tolerance = settings.rtol};
-  if (!suits(run, method)) {
-    row.status = "does not split";
-    row.refused = true;
-    return row;
-  }
-  Trajectory trajectory;
-  try {
-    trajectory =
-        integrate(compile_for(run, method).module, method, settings, run.initial, run.parameters);
-  } catch (const std::invalid_argument& problem) {
-    throw UsageError(problem.what());
-  }
-  if (drifts) {
-    drift.finish(trajectory);
-    drifts->push_back(drift);
-  }
-  row.drift = largest_drift(trajectory);
-  row.seconds = trajectory.seconds;
-  row.steps = trajectory.steps;
-  row.evaluations = trajectory.evaluations;
-  row.status = to_string(trajectory.status);
-  if (trajectory.status == Status::ok && !scene.reference.empty() && !options.run.duration) {
-    const TruthOrReason truth = truth_of(scene, run, {.give_up = give_up});
-    if (truth.truth) row.error = error_of(trajectory.state, *truth.truth);
-  }
-  row.refused = trajectory.status != Status::ok && may_be_refused(scene);
-  // Written so that a drift that is not a number fails too.
-  row.failed = !row.refused && (trajectory.status != Status::ok || !(row.drift <= options.bound));
-  if (trajectory.status == Status::ok && row.failed)
-    row.status = fmt::format("drift above {:g}", options.bound);
-  return row;
-}
 
 /// Of one scene: that of --scene, or the default one.
 struct Picture {
@@ -112,10 +44,14 @@ void conserve_case(const CaseFile& file, const Options& options,
   if (scenes.empty() && !options.all) model.scene("default");  // throws: there is none
   const Scene* drawn = picture ? &model.scene(options.common.scene) : nullptr;
   if (picture) picture->title = fmt::format("{}, scene {}", model.name, drawn->name);
+  const ConserveOptions what{.run = options.run,
+                             .code = options.kept.in<SceneOptions>(),
+                             .bound = options.bound,
+                             .give_up = give_up};
   for (const Scene* scene : scenes) {
     for (const std::string& method : options.methods)
-      rows.push_back(conserve_one(model, *scene, method_named(method), options, give_up,
-                                  scene == drawn ? &picture->drifts : nullptr));
+      rows.push_back(conserve_scene(model, *scene, method_named(method), what,
+                                    scene == drawn ? &picture->drifts : nullptr));
   }
 }
 

@@ -15,6 +15,7 @@
 #include "tools/generated_report.hpp"
 #include "tools/judged_run.hpp"
 #include "tools/kept_parameters.hpp"
+#include "tools/motion_options.hpp"
 #include "tools/output.hpp"
 #include "tools/run_options.hpp"
 #include "tools/run_report.hpp"
@@ -29,6 +30,7 @@ struct Options {
   Common common;
   RunOptions run;
   KeptParameters kept;
+  MotionOptions picture;
   std::string case_name, method = "auto", output, ensemble, in, as;
   std::vector<std::string> observe;
   double every = 0;
@@ -198,7 +200,29 @@ int integrate_members_of(const Options& options) {
                              scene_options(options), options.jobs});
 }
 
+/// Before anything is integrated: what cannot be drawn is bad input, and so are its names.
+void check_picture(const Model& model, const Scene& scene, const SceneRun& run,
+                   const Options& options) {
+  if (!options.picture.wanted()) return;
+  const Motion start{.names = run.specialisation.states, .times = {0.0}, .states = {run.initial}};
+  options.picture.picture(model, scene, start);
+}
+
+void draw_motion(const Model& model, const Scene& scene, const SceneRun& run,
+                 const JudgedRun& judged, const Options& options) {
+  if (!options.picture.wanted()) return;
+  draw(options.picture.picture(model, scene, motion_of(run, judged, options.every)),
+       options.picture.file());
+  if (!options.common.json && !options.common.quiet)
+    fmt::print("  drew {}\n", options.picture.file());
+}
+
 int integrate_case(const Options& options) {
+  options.picture.check();
+  if (options.picture.wanted() && (options.digits || !options.ensemble.empty()))
+    throw UsageError("--plot goes with a run in double precision, not with --digits or --ensemble");
+  if (options.picture.wanted() && !options.as.empty())
+    throw UsageError("--plot does not go with --as; --in integrates and draws in other variables");
   if (options.digits) {
     if (!options.ensemble.empty()) throw UsageError("--digits does not go with --ensemble");
     return integrate_with_digits({options.common, options.run, options.kept, options.case_name,
@@ -214,8 +238,9 @@ int integrate_case(const Options& options) {
   method_named(options.method);  // throws where there is none
   const SceneRun run = prepare(model, scene, scene_options(options));
   const Answer answer(model, run, options.as);
-  if (options.every > 0 && options.output.empty())
-    throw UsageError("--every needs --output FILE.csv");
+  if (options.every > 0 && options.output.empty() && !options.picture.wanted())
+    throw UsageError("--every needs --output FILE.csv or --plot FILE.svg");
+  check_picture(model, scene, run, options);
   JudgedOptions how{.method = options.method, .run = options.run};
   how.time_limit = options.common.time_limit;
   how.shows_progress = !options.common.quiet;
@@ -233,7 +258,10 @@ int integrate_case(const Options& options) {
     if (!options.output.empty())
       fmt::print("  wrote {} states to {}\n", judged.trajectory.samples.size(), options.output);
   }
-  return judged.trajectory.status == Status::ok ? kDone : report_stop(run, judged);
+  const int status = judged.trajectory.status == Status::ok ? kDone : report_stop(run, judged);
+  // The answer first: pictures need a program that may be missing.
+  draw_motion(model, scene, run, judged, options);
+  return status;
 }
 
 }  // namespace
@@ -257,7 +285,8 @@ void register_integrate(CLI::App& program, Action& action) {
       ->type_name("FILE.csv");
   command
       ->add_option("--every", options->every,
-                   "Time between the states written (default: a thousandth of the duration)")
+                   "Time between the states written (default: a thousandth of the duration) or "
+                   "drawn")
       ->type_name("DT")
       ->check(CLI::PositiveNumber);
   command
@@ -278,6 +307,7 @@ void register_integrate(CLI::App& program, Action& action) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("A,B");
+  options->picture.add_to(*command);
   command->add_flag("--general", options->general,
                     "Parameters at run time and nothing left out, for comparison");
   command->callback(

@@ -58,6 +58,8 @@ as_root() {
   fi
 }
 
+new_packages=''  # yes: the build may find more than when it was configured
+
 # install_packages NAME..: installs those that are missing; asks the network only then.
 install_packages() {
   local -a missing prefix apt
@@ -82,6 +84,7 @@ install_packages() {
     show_log "$log"
     fail 4 "Installing packages failed. By hand, as root:" "$by_hand"
   fi
+  new_packages=yes
 }
 
 cached() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt" 2>/dev/null || true; }
@@ -93,7 +96,7 @@ configure() {
   local -a fresh=()
   [[ $(cached CASIMIR_TESTS) == ON ]] && tests=ON
   if [[ $(cached CMAKE_HOME_DIRECTORY) == "$root" && $(cached CMAKE_GENERATOR) == Ninja ]]; then
-    if [[ -f $build/build.ninja && $(cached CMAKE_BUILD_TYPE) == Release &&
+    if [[ -z $new_packages && -f $build/build.ninja && $(cached CMAKE_BUILD_TYPE) == Release &&
           $(cached CASIMIR_TESTS) == "$tests" ]]; then
       return
     fi

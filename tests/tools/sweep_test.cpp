@@ -1,0 +1,245 @@
+// casimir sweep: grids, the same numbers as single runs, kills, MPI and HDF5.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <sstream>
+#include <thread>
+
+#include "tests/tools/program.hpp"
+
+namespace casimir::test {
+namespace {
+
+std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream stream(csv);
+  for (std::string line; std::getline(stream, line);) {
+    std::vector<std::string> fields(1);
+    for (const char c : line) {
+      if (c == ',')
+        fields.emplace_back();
+      else
+        fields.back() += c;
+    }
+    rows.push_back(fields);
+  }
+  return rows;
+}
+
+std::vector<std::string> sweep_arguments(const std::string& points, const std::string& output) {
+  return {"sweep",    "kovalevskaya", "--over",     "r=1/2:3/2:" + points,
+          "--over",   "M3=-1:1:7",    "--duration", "20",
+          "--output", output,         "--quiet"};
+}
+
+TEST(Sweep, GivesTheNumbersOfAnEnsemble) {
+  const Folder folder;
+  ASSERT_EQ(run_in(folder, {"sweep", "kovalevskaya", "--over", "r=1/2:3/2:3", "--over", "M1=-1:1:3",
+                            "--duration", "20", "--output", "s.csv", "--quiet"})
+                .status,
+            0);
+  folder.write("members.csv", "r,M1\n0.5,-1\n0.5,0\n0.5,1\n1,-1\n1,0\n1,1\n1.5,-1\n1.5,0\n1.5,1\n");
+  ASSERT_EQ(run_in(folder, {"integrate", "kovalevskaya", "--ensemble", "members.csv", "--duration",
+                            "20", "--output", "e.csv", "--quiet"})
+                .status,
+            0);
+  const auto swept = rows_of(file_text(folder.path() / "s.csv"));
+  const auto members = rows_of(file_text(folder.path() / "e.csv"));
+  ASSERT_EQ(swept.size(), 10U);
+  ASSERT_EQ(members.size(), 10U);
+  EXPECT_EQ(swept[0][0] + swept[0][1] + swept[0][2] + swept[0][3], "pointrM1(0)status");
+  for (std::size_t i = 0; i < swept.size(); ++i) {
+    ASSERT_EQ(swept[i].size(), members[i].size() + 2);
+    for (std::size_t k = 1; k < members[i].size(); ++k)
+      EXPECT_EQ(swept[i][k + 2], members[i][k]) << i << ' ' << k;
+  }
+}
+
+TEST(Sweep, GridValuesAreTheNearestToTheExactOnes) {
+  const Folder folder;
+  ASSERT_EQ(run_in(folder, {"sweep", "kovalevskaya", "--over", "r=1/10:7/10:7", "--duration", "1/8",
+                            "--output", "s.csv", "--quiet"})
+                .status,
+            0);
+  const auto rows = rows_of(file_text(folder.path() / "s.csv"));
+  ASSERT_EQ(rows.size(), 8U);
+  const double exact[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7};
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(std::stod(rows[i + 1][1]), exact[i]);
+}
+
+TEST(Sweep, LetsAnInitialStateFollowAnAngle) {
+  const Folder folder;
+  const std::vector<std::string> arguments{
+      "sweep",    "kovalevskaya", "--over", "theta=0:Pi:5",  "--let",      "g1=sin(theta)",
+      "--let",    "g2=0",         "--let",  "g3=cos(theta)", "--duration", "5",
+      "--output", "s.csv",        "--quiet"};
+  ASSERT_EQ(run_in(folder, arguments).status, 0);
+  EXPECT_EQ(rows_of(file_text(folder.path() / "s.csv")).size(), 6U);
+  // Without it the constraint of the case is left, and that is said.
+  const Outcome off = run_in(folder, {"sweep", "kovalevskaya", "--over", "g1=0:1:3"});
+  EXPECT_EQ(off.status, 2);
+  EXPECT_NE(off.err.find("at g1 = 0"), std::string::npos) << off.err;
+  EXPECT_NE(off.err.find("--let"), std::string::npos) << off.err;
+  const Outcome zero = run_in(folder, {"sweep", "kovalevskaya", "--over", "r=-1:1:3"});
+  EXPECT_EQ(zero.status, 2);
+  EXPECT_NE(zero.err.find("r != 0"), std::string::npos) << zero.err;
+}
+
+TEST(Sweep, SaysWhatIsWrongWithAGrid) {
+  const Folder folder;
+  const auto error = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"sweep", "clebsch"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = run_in(folder, arguments);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_NE(error({}).find("--over"), std::string::npos);
+  EXPECT_NE(error({"--over", "a4=1:2:3"}).find("did you mean"), std::string::npos);
+  EXPECT_NE(error({"--over", "a1=1:2"}).find("FROM:TO:N"), std::string::npos);
+  EXPECT_NE(error({"--over", "a1=1:2:0"}).find("--over:1:8"), std::string::npos);
+  EXPECT_NE(error({"--over", "a1=1:two:3"}).find("--over:1:6"), std::string::npos);
+  EXPECT_NE(error({"--over", "a1=1:2:1"}).find("at least 2"), std::string::npos);
+  EXPECT_NE(error({"--over", "a1=1:2:3", "--over", "a1=1:2:3"}).find("two 'a1'"),
+            std::string::npos);
+  EXPECT_NE(error({"--over", "a1=1:2:3", "--param", "a1=1"}).find("--param"), std::string::npos);
+  EXPECT_NE(error({"--over", "a1=1:2:99999999"}).find("more than"), std::string::npos);
+  EXPECT_NE(error({"--over", "a1=1:2:3", "--output", "x.txt"}).find(".csv"), std::string::npos);
+  EXPECT_EQ(folder.files(), 0U);
+}
+
+/// Waits until the journal has some points, then sends the sweep a signal.
+bool kill_when_some_are_done(pid_t child, const Folder& folder, const std::string& journal,
+                             int signal = SIGKILL) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (std::chrono::steady_clock::now() < end) {
+    if (file_text(folder.path() / journal).size() > 20000) {
+      kill(child, signal);
+      return true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
+}
+
+TEST(Sweep, GoesOnAfterAKill) {
+  const Folder folder;
+  const std::string points = "3000";
+  const pid_t child = start(sweep_arguments(points, "killed.csv"), folder);
+  ASSERT_TRUE(kill_when_some_are_done(child, folder, "killed.csv.journal"));
+  EXPECT_EQ(finish(child, folder).status, 128 + SIGKILL);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "killed.csv")) << "it was too fast";
+  // A torn last line and a damaged one are not there.
+  const std::filesystem::path journal = folder.path() / "killed.csv.journal";
+  std::string text = file_text(journal);
+  const std::size_t second = text.find('\n', text.find('\n') + 1);
+  text[second - 12] = text[second - 12] == '7' ? '8' : '7';
+  text += "17,0,2";
+  folder.write("killed.csv.journal", text);
+  std::vector<std::string> arguments = sweep_arguments(points, "killed.csv");
+  arguments.back() = "--json";
+  const Outcome outcome = run_in(folder, arguments);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = outcome.json();
+  const std::size_t lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  EXPECT_EQ(json.at("resumed"), lines - 2) << "the head and the damaged line";
+  EXPECT_EQ(json.at("points").get<std::size_t>(),
+            json.at("resumed").get<std::size_t>() + json.at("computed").get<std::size_t>());
+  EXPECT_FALSE(std::filesystem::exists(journal));
+  ASSERT_EQ(run_in(folder, sweep_arguments(points, "whole.csv")).status, 0);
+  EXPECT_TRUE(file_text(folder.path() / "killed.csv") == file_text(folder.path() / "whole.csv"));
+}
+
+TEST(Sweep, AnInterruptKeepsWhatIsDoneAndSaysSo) {
+  const Folder folder;
+  const pid_t child = start(sweep_arguments("200000", "s.csv"), folder);
+  ASSERT_TRUE(kill_when_some_are_done(child, folder, "s.csv.journal", SIGINT));
+  const Outcome outcome = finish(child, folder);
+  EXPECT_EQ(outcome.status, 130);
+  EXPECT_NE(outcome.err.find("the same command goes on"), std::string::npos) << outcome.err;
+  EXPECT_EQ(folder.files(), 1U) << "the journal";
+}
+
+TEST(Sweep, ATimeLimitKeepsWhatIsDone) {
+  const Folder folder;
+  std::vector<std::string> arguments = sweep_arguments("200000", "s.csv");
+  arguments.insert(arguments.end(), {"--time-limit", "0.5"});
+  const Outcome outcome = run_in(folder, arguments);
+  EXPECT_EQ(outcome.status, 4) << outcome.err;
+  EXPECT_NE(outcome.err.find("s.csv.journal"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "s.csv"));
+  // Another sweep does not go on from it.
+  const Outcome other = run_in(folder, sweep_arguments("3", "s.csv"));
+  EXPECT_EQ(other.status, 2);
+  EXPECT_NE(other.err.find("--restart"), std::string::npos) << other.err;
+  arguments = sweep_arguments("3", "s.csv");
+  arguments.emplace_back("--restart");
+  EXPECT_EQ(run_in(folder, arguments).status, 0);
+}
+
+TEST(Sweep, PointsThatCannotBeIntegratedAreToldAndTheRestIsThere) {
+  const Folder folder;
+  const Outcome outcome = run_in(folder, {"sweep", "riccati", "--over", "sigma=-1:1:3",
+                                          "--duration", "1", "--output", "s.csv"});
+  EXPECT_EQ(outcome.status, 5) << outcome.err;
+  EXPECT_NE(outcome.err.find("sigma(0) = 1"), std::string::npos) << outcome.err;
+  EXPECT_EQ(rows_of(file_text(folder.path() / "s.csv")).size(), 4U);
+}
+
+int run_mpi(const Folder& folder, const std::vector<std::string>& arguments) {
+  std::string command = "cd '" + folder.path().string() + "' && '" + CASIMIR_MPIEXEC +
+                        "' --allow-run-as-root --oversubscribe -n 2 '" + CASIMIR_PROGRAM + "'";
+  for (const std::string& argument : arguments) command += " '" + argument + "'";
+  const int status = std::system((command + " > out.txt 2> err.txt").c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(Sweep, OnTwoMpiRanksIsTheSameToTheBit) {
+  if (std::string(CASIMIR_MPIEXEC).empty()) GTEST_SKIP() << "this build has no MPI";
+  const Folder folder;
+  ASSERT_EQ(run_in(folder, sweep_arguments("40", "one.csv")).status, 0);
+  std::vector<std::string> arguments = sweep_arguments("40", "two.csv");
+  arguments.back() = "--json";
+  ASSERT_EQ(run_mpi(folder, arguments), 0) << file_text(folder.path() / "err.txt");
+  const auto json = nlohmann::json::parse(file_text(folder.path() / "out.txt"));
+  EXPECT_EQ(json.at("ranks"), 2);
+  EXPECT_EQ(json.at("points"), 280);
+  const std::string one = file_text(folder.path() / "one.csv");
+  EXPECT_EQ(std::count(one.begin(), one.end(), '\n'), 281);
+  EXPECT_TRUE(one == file_text(folder.path() / "two.csv"));
+  // What is wrong is said once.
+  EXPECT_EQ(run_mpi(folder, {"sweep", "clebsch", "--over", "nothing=1:2:3"}), 2);
+  const std::string error = file_text(folder.path() / "err.txt");
+  const std::size_t at = error.find("there is no parameter");
+  ASSERT_NE(at, std::string::npos) << error;
+  EXPECT_EQ(error.find("there is no parameter", at + 1), std::string::npos) << error;
+}
+
+TEST(Sweep, AsHdf5HasArraysOfTheGridsShape) {
+  const Folder folder;
+  const Outcome outcome = run_in(folder, sweep_arguments("3", "s.h5"));
+  if (std::string(CASIMIR_H5DUMP).empty()) {
+    EXPECT_EQ(outcome.status == 0 || outcome.status == 4, true) << outcome.err;
+    GTEST_SKIP() << "this build has no HDF5, or there is no h5dump";
+  }
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  ASSERT_EQ(run_in(folder, sweep_arguments("3", "s.csv")).status, 0);
+  const std::string command = std::string("'") + CASIMIR_H5DUMP + "' -y -w 1 -m %.17g -d /g1 '" +
+                              folder / "s.h5" + "' > '" + folder / "dump" + "'";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const std::string dump = file_text(folder.path() / "dump");
+  EXPECT_NE(dump.find("( 3, 7 ) / ( 3, 7 )"), std::string::npos) << dump;
+  const auto rows = rows_of(file_text(folder.path() / "s.csv"));
+  const auto column =
+      static_cast<std::size_t>(std::find(rows[0].begin(), rows[0].end(), "g1") - rows[0].begin());
+  std::istringstream data(dump.substr(dump.find("DATA {") + 6));
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    std::string number;
+    data >> number;
+    EXPECT_EQ(std::stod(number), std::stod(rows[i][column])) << i;
+  }
+}
+
+}  // namespace
+}  // namespace casimir::test

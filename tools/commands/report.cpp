@@ -1,0 +1,326 @@
+// casimir report: one page about a case, or about all of them with an index.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <set>
+#include <sstream>
+
+#include "tools/atlas.hpp"
+#include "tools/book_order.hpp"
+#include "tools/case_library.hpp"
+#include "tools/cli.hpp"
+#include "tools/output.hpp"
+#include "tools/progress.hpp"
+#include "tools/proof_table.hpp"
+#include "tools/report/index.hpp"
+#include "tools/report/page.hpp"
+
+namespace casimir::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  Common common;
+  std::string case_name, output, in, tag;
+  bool all = false;
+  double budget = -1;  ///< negative: not given
+};
+
+constexpr double kBudget = 4, kBudgetOfMany = 0.5;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+bool is_page(const std::string& path) { return path.ends_with(".html") || path.ends_with(".htm"); }
+
+/// The text of a case file; empty where it cannot be read a second time.
+std::string text_of(const CaseFile& file) {
+  std::ostringstream text;
+  std::ifstream stream(file.file, std::ios::binary);
+  if (stream) text << stream.rdbuf();
+  return text.str();
+}
+
+/// The options that change what a command is about, as they were typed.
+std::vector<std::string> repeated_options(const Options& options) {
+  std::vector<std::string> result;
+  for (const std::string& value : options.common.params) {
+    result.emplace_back("--param");
+    result.push_back(value);
+  }
+  if (options.common.scene_given) result.insert(result.end(), {"--scene", options.common.scene});
+  if (!options.in.empty()) result.insert(result.end(), {"--in", options.in});
+  return result;
+}
+
+/// A page that has been written.
+struct Written {
+  IndexEntry entry;
+  Machine machine;
+  Json json;
+  int status = kDone;
+  std::vector<std::string> problems;
+};
+
+std::vector<std::string> drawn(const Pictures& pictures) {
+  std::vector<std::string> names;
+  const auto add = [&](const char* name, const std::string& svg) {
+    if (!svg.empty()) names.emplace_back(name);
+  };
+  add("motion", pictures.motion);
+  add("sphere", pictures.sphere);
+  add("apex", pictures.apex);
+  add("drift", pictures.drift);
+  add("section", pictures.section);
+  add("work-precision", pictures.work_precision);
+  return names;
+}
+
+Json to_json(const Model& model, const Findings& findings, const Pictures& pictures,
+             const std::string& path, double seconds) {
+  const Tally tally = tally_of(model, findings.proofs);
+  Json json = {
+      {"case", model.name},
+      {"scene", findings.scene ? Json(findings.scene->name) : Json(nullptr)},
+      {"file", path},
+      {"verdict", to_string(findings.verdict)},
+      {"claims",
+       {{"proved", tally.proved}, {"refuted", tally.refuted}, {"undecided", tally.undecided}}},
+      {"runs", findings.runs.size() + (findings.contest ? findings.contest->rows.size() : 0)},
+      {"plots", drawn(pictures)},
+      {"notes", findings.notes},
+      {"problems", findings.problems}};
+  if (!pictures.problem.empty()) json["problems"].push_back(pictures.problem);
+  json["seconds"] = seconds;
+  return json;
+}
+
+/// Investigates a case and writes its page.
+Written write_report(const CaseFile& file, const Options& options, const std::string& path,
+                     PageSource source, double time_limit, Progress& progress) {
+  const auto start = Clock::now();
+  const Model model = in_variables(model_of(file, options.common.parameter_values()), options.in);
+  ReportOptions what{.scene = options.common.scene, .time_limit = time_limit};
+  what.budget = options.budget >= 0 ? options.budget : options.all ? kBudgetOfMany : kBudget;
+  if (options.all && !model.scenes.empty() && !options.common.scene_given)
+    what.scene = model.scenes.front().name;
+  std::string doing;
+  what.progress = [&](const std::string& now, double share) {
+    if (now != doing) progress.begin(model.name + ": " + now);
+    doing = now;
+    progress.show(share);
+  };
+  OutputFile page(path);  // refused before any work is done for it
+  const Findings findings = investigate(model, what);
+  const Pictures pictures = draw_pictures(model, findings, path);
+  source.case_text = text_of(file);
+  page.stream() << report_page(model, findings, pictures, source);
+  page.commit();
+  Written written{.entry = entry_of(model, findings, std::filesystem::path(path).filename()),
+                  .machine = findings.machine,
+                  .json = to_json(model, findings, pictures, path, seconds_since(start)),
+                  .status = findings.exit_status(),
+                  .problems = findings.problems};
+  if (!pictures.problem.empty()) {
+    written.problems.push_back(pictures.problem);
+    if (written.status == kDone) written.status = kEnvironment;
+  }
+  if (findings.stopped && written.status == kDone) written.status = kEnvironment;
+  return written;
+}
+
+void say_problems(const std::vector<std::string>& problems) {
+  std::set<std::string> said;
+  for (const std::string& problem : problems)
+    if (said.insert(problem).second) std::cerr << "casimir: error: " << problem << '\n';
+}
+
+int report_one(const Options& options) {
+  const CaseFile file = load_case(options.case_name);
+  const std::string path = options.output.empty() ? file.name + ".html" : options.output;
+  if (!is_page(path))
+    throw UsageError(fmt::format("'{}': a report's name must end in .html", printable(path, 200)));
+  Progress progress(!options.common.quiet);
+  const Written written =
+      write_report(file, options, path, {options.case_name, repeated_options(options), {}, {}},
+                   options.common.time_limit, progress);
+  if (options.common.json) {
+    std::cout << written.json.dump(2) << '\n';
+  } else if (!options.common.quiet) {
+    fmt::print("wrote {}: {}, {}\n", path, to_string(written.entry.verdict), written.entry.claims);
+    for (const auto& note : written.json.at("notes"))
+      fmt::print("  note: {}\n", note.get<std::string>());
+  }
+  std::cout.flush();
+  say_problems(written.problems);
+  return written.status;
+}
+
+/// Where the index and the pages go.
+struct Place {
+  std::filesystem::path folder, index;
+};
+
+Place place_of(const Options& options) {
+  const std::filesystem::path output = options.output.empty() ? "report" : options.output;
+  const Place place = is_page(output.string()) ? Place{output.parent_path(), output}
+                                               : Place{output, output / "index.html"};
+  std::error_code problem;
+  if (!place.folder.empty()) std::filesystem::create_directories(place.folder, problem);
+  if (problem)
+    throw SystemError(fmt::format("cannot make the folder '{}': {}",
+                                  printable(place.folder.string(), 200), problem.message()));
+  return place;
+}
+
+std::vector<CaseFile> ordered_cases(const Options& options) {
+  std::vector<CaseFile> files = tagged_cases(options.tag);
+  if (files.empty())
+    throw SystemError("no bundled cases were found; CASIMIR_CASES can name their folder");
+  std::ranges::stable_sort(
+      files, [](const CaseFile& a, const CaseFile& b) { return before_in_book(a.book, b.book); });
+  return files;
+}
+
+/// A case that has no page, with the reason.
+IndexEntry without_page(const CaseFile& file, const std::string& problem) {
+  return {.case_name = file.name, .book = file.book, .title = file.title, .problem = problem};
+}
+
+int worst(int a, int b) {
+  for (const int status : {kFailed, kBadInput, kEnvironment, kUndecided})
+    if (a == status || b == status) return status;
+  return kDone;
+}
+
+/// The pages of all cases, one after the other, and the index over them.
+class Reports {
+ public:
+  explicit Reports(const Options& options)
+      : options_(options), place_(place_of(options)), progress_(!options.common.quiet) {}
+
+  void add(const CaseFile& file) {
+    double left = 0;
+    if (options_.common.time_limit > 0)
+      left = std::max(options_.common.time_limit - seconds_since(start_), 1e-3);
+    const std::string path = (place_.folder / (file.name + ".html")).string();
+    try {
+      const Written written = write_report(
+          file, options_, path,
+          {file.name, repeated_options(options_), {}, place_.index.filename().string()}, left,
+          progress_);
+      entries_.push_back(written.entry);
+      cases_.push_back(written.json);
+      machine_ = written.machine;
+      status_ = worst(status_, written.status);
+      problems_.insert(problems_.end(), written.problems.begin(), written.problems.end());
+    } catch (const CaseError& problem) {
+      skip(file, problem);
+    } catch (const ModelError& problem) {
+      skip(file, problem);
+    }
+    if (options_.common.quiet || options_.common.json) return;
+    const IndexEntry& entry = entries_.back();
+    fmt::print("{:<10} {:<32} {}\n", entry.problem.empty() ? to_string(entry.verdict) : "no page",
+               entry.case_name, entry.problem.empty() ? entry.claims : entry.problem);
+    std::fflush(stdout);
+  }
+
+  int end() {
+    OutputFile index(place_.index);
+    index.stream() << index_page(entries_, machine_);
+    index.commit();
+    if (options_.common.json) {
+      std::cout << Json{{"cases", cases_},
+                        {"index", place_.index.string()},
+                        {"seconds", seconds_since(start_)}}
+                       .dump(2)
+                << '\n';
+    } else if (!options_.common.quiet) {
+      fmt::print("wrote {}: {} cases\n", place_.index.string(), entries_.size());
+    }
+    std::cout.flush();
+    say_problems(problems_);
+    return status_;
+  }
+
+  const Place& place() const { return place_; }
+
+ private:
+  void skip(const CaseFile& file, const std::exception& problem) {
+    entries_.push_back(without_page(file, problem.what()));
+    cases_.push_back({{"case", file.name}, {"problem", problem.what()}});
+    status_ = worst(status_, kBadInput);
+  }
+
+  const Options& options_;
+  Place place_;
+  Progress progress_;
+  Clock::time_point start_ = Clock::now();
+  std::vector<IndexEntry> entries_;
+  std::vector<std::string> problems_;
+  Json cases_ = Json::array();
+  Machine machine_ = this_machine();
+  int status_ = kDone;
+};
+
+int report_all(const Options& options) {
+  const std::vector<CaseFile> files = ordered_cases(options);
+  Reports reports(options);
+  for (const CaseFile& file : files) {
+    if (reports.place().folder / (file.name + ".html") == reports.place().index)
+      throw UsageError(fmt::format("--output '{}' would be the page of the case '{}'",
+                                   printable(options.output, 200), file.name));
+  }
+  for (const CaseFile& file : files) reports.add(file);
+  return reports.end();
+}
+
+int report(const Options& options) {
+  if (options.all == !options.case_name.empty())
+    throw UsageError("report needs either a CASE or --all");
+  if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
+  if (options.all && (!options.in.empty() || !options.common.params.empty()))
+    throw UsageError("--in and --param need a CASE");
+  return options.all ? report_all(options) : report_one(options);
+}
+
+}  // namespace
+
+void register_report(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "report", "One page about a case: equations, proofs, code, drift, error against run time");
+  command->footer(
+      "The page needs nothing but itself. The exit status is that of what it reports: 1 if a "
+      "claim\n"
+      "is refuted or an invariant drifts, 3 if a claim is undecided, 4 if something is missing.");
+  add_common(*command, options->common);
+  add_in(*command, options->in);
+  command->add_option("CASE", options->case_name,
+                      "A bundled case, a case file, or - for standard input");
+  command->add_flag("--all", options->all, "Every bundled case, and an index over them");
+  command->add_option("--tag", options->tag, "With --all: only cases with this tag")
+      ->type_name("TAG");
+  command
+      ->add_option(
+          "--budget", options->budget,
+          "Seconds of measuring error against run time (default 4, with --all 0.5 a case); "
+          "0 leaves it out")
+      ->type_name("SECONDS")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--output", options->output,
+                   "The page (default: CASE.html); with --all a folder (default: report), or the "
+                   "index page, beside which the others stand")
+      ->type_name("FILE.html");
+  command->callback([options, &action] { action = [options] { return report(*options); }; });
+}
+
+}  // namespace casimir::tools

@@ -1,0 +1,269 @@
+// casimir sweep: the same thing at every point of a grid of parameters or initial states.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/case_library.hpp"
+#include "tools/cli.hpp"
+#include "tools/output.hpp"
+#include "tools/progress.hpp"
+#include "tools/run_report.hpp"
+#include "tools/sweep/integrations.hpp"
+#include "tools/sweep/sweep.hpp"
+#include "tools/sweep/table.hpp"
+
+namespace casimir::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  Common common;
+  RunOptions run;
+  std::string case_name, task = "integrate", method = "auto", output;
+  std::vector<std::string> over, lets, observe;
+  int jobs = 0;
+  bool restart = false;
+};
+
+/// Everything that a sweep needs, in each rank.
+struct Prepared {
+  Model model;
+  Grid grid;
+  const Scene* scene = nullptr;
+  SceneRun run;
+  const Method* method = nullptr;
+  Settings settings;
+
+  Prepared(const Options& options, const CaseFile& file)
+      : model(model_of(file, options.common.parameter_values())),
+        grid(read_grid(options.over, options.lets, model)),
+        scene(&model.scene(options.common.scene)),
+        method(&method_named(options.method)) {
+    SceneOptions how;
+    const std::vector<std::string> set = Places::names(grid, options.lets);
+    for (const GiNaC::symbol& p : model.parameters)
+      if (std::ranges::find(set, p.get_name()) != set.end())
+        how.keep_parameters.push_back(p.get_name());
+    if (!options.observe.empty()) how.observe = options.observe;
+    run = prepare(model, *scene, how);
+    settings = settings_for(options.run, run);
+    settings.invariant_terms = nullptr;
+  }
+};
+
+/// How often each status occurs.
+std::map<std::string, std::size_t> counts_of(const std::vector<PointResult>& rows) {
+  std::map<std::string, std::size_t> counts;
+  for (const PointResult& row : rows) ++counts[to_string(row.status)];
+  return counts;
+}
+
+struct Report {
+  const Options& options;
+  const Prepared& prepared;
+  const Ranks& ranks;
+  const SweepOutcome& outcome;
+  std::string output;
+  int threads = 1, lanes = 1;
+  double seconds = 0;
+  std::string warning;
+};
+
+Json to_json(const Report& report) {
+  const Prepared& p = report.prepared;
+  Json json = {{"case", p.model.name},
+               {"scene", p.scene->name},
+               {"method", p.method->name},
+               {"tolerance", p.settings.rtol},
+               {"over", Json::array()}};
+  for (const Axis& axis : p.grid.axes)
+    json["over"].push_back({{"name", axis.name},
+                            {"from", exact_text(axis.values.front())},
+                            {"to", exact_text(axis.values.back())},
+                            {"points", axis.values.size()}});
+  json["points"] = report.outcome.points;
+  json["resumed"] = report.outcome.resumed;
+  json["computed"] = report.outcome.computed;
+  json["complete"] = report.outcome.complete;
+  json["counts"] = counts_of(report.outcome.rows);
+  json["file"] = report.outcome.complete ? Json(report.output) : Json(nullptr);
+  if (!report.outcome.complete) json["journal"] = report.outcome.journal;
+  json["ranks"] = report.ranks.size();
+  json["jobs"] = report.threads;
+  json["lanes"] = report.lanes;
+  json["seconds"] = report.seconds;
+  json["warnings"] = Json::array();
+  if (!report.warning.empty()) json["warnings"].push_back(report.warning);
+  return json;
+}
+
+void print_text(const Report& report) {
+  const Prepared& p = report.prepared;
+  const SweepOutcome& outcome = report.outcome;
+  fmt::print("{}, scene '{}', {} at tolerance {:g}, {} point{}\n", p.model.name,
+             printable(p.scene->name), p.method->name, p.settings.rtol, outcome.points,
+             outcome.points == 1 ? "" : "s");
+  for (const Axis& axis : p.grid.axes)
+    fmt::print("  {} from {:g} to {:g}, {} value{}\n", axis_title(axis), axis.values.front(),
+               axis.values.back(), axis.values.size(), axis.values.size() == 1 ? "" : "s");
+  fmt::print("  {} computed in {} by {} rank{}, {} thread{} each, {} points in a register",
+             outcome.computed, duration_text(report.seconds), report.ranks.size(),
+             report.ranks.size() == 1 ? "" : "s", report.threads, report.threads == 1 ? "" : "s",
+             report.lanes);
+  fmt::print("{}\n", outcome.resumed > 0 ? fmt::format("; {} were there already", outcome.resumed)
+                                         : std::string{});
+  for (const auto& [status, count] : counts_of(outcome.rows))
+    fmt::print("  {:<16} {:>8}\n", status, count);
+  if (!report.warning.empty()) fmt::print("  warning: {}\n", report.warning);
+  if (outcome.complete) fmt::print("  wrote {}\n", report.output);
+}
+
+/// What went wrong, on stderr.
+int verdict(const Report& report, bool interrupted) {
+  const SweepOutcome& outcome = report.outcome;
+  std::cout.flush();
+  if (!outcome.complete) {
+    std::cerr << fmt::format(
+        "casimir: error: {}: {} of {} points are done and kept in {}\n  hint: the same command "
+        "goes "
+        "on from there\n",
+        interrupted ? "interrupted" : "stopped by the time limit",
+        outcome.resumed + outcome.computed, outcome.points, outcome.journal);
+    return interrupted ? kInterrupted : kEnvironment;
+  }
+  std::size_t failed = 0, first = 0;
+  for (std::size_t i = outcome.rows.size(); i-- > 0;) {
+    if (outcome.rows[i].status == Status::ok) continue;
+    ++failed;
+    first = i;
+  }
+  if (failed == 0) return kDone;
+  std::string where;
+  const std::vector<double> values = report.prepared.grid.at(first);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    where += fmt::format("{}{} = {:g}", i == 0 ? "" : ", ",
+                         axis_title(report.prepared.grid.axes[i]), values[i]);
+  std::cerr << fmt::format(
+      "casimir: error: {} of {} points could not be integrated to the end; the first is point {}, "
+      "{}, "
+      "at t = {}: {}\n",
+      failed, outcome.points, first + 1, where, exact_text(outcome.rows[first].values.front()),
+      reason_of(outcome.rows[first].status));
+  return kNotContinued;
+}
+
+int sweep_in(const Ranks& ranks, const Options& options) {
+  if (options.over.empty())
+    throw UsageError("sweep needs a grid: --over NAME=FROM:TO:N, such as --over r=1:2:11");
+  if (options.run.projects())
+    throw UsageError("--project goes with integrate: in a sweep no step is projected");
+  if (ranks.size() > 1 && options.case_name == "-")
+    throw UsageError("under mpirun only one process has standard input: give a case file");
+  const CaseFile file = load_case(options.case_name);
+  const std::string output = options.output.empty() ? file.name + "-sweep.csv" : options.output;
+  check_sweep_output(output);
+  const Prepared p(options, file);
+  const Places places(p.model, *p.scene, p.run, p.grid, options.lets);
+  const Integrations task(p.run, places, *p.method, p.settings, p.grid.points());
+  Progress progress(ranks.speaks() && !options.common.quiet);
+  progress.begin("sweep of " + p.model.name);
+  hold_interrupts(true);
+  SweepOptions how{.output = output, .restart = options.restart, .threads = options.jobs};
+  how.give_up = [limit = time_limit(options.common.time_limit)] {
+    return interrupt_held() || (limit && limit());
+  };
+  how.progress = [&](double share) { progress.show(share); };
+  const auto start = std::chrono::steady_clock::now();
+  const SweepOutcome outcome =
+      sweep_over(task, p.grid, ranks, how, [&](const std::vector<PointResult>& rows) {
+        write_sweep(output, {p.model.name, p.scene->name, std::string(p.method->name),
+                             p.settings.rtol, p.grid, task.columns(), rows});
+      });
+  const bool interrupted = interrupt_held();
+  hold_interrupts(false);
+  if (!ranks.speaks()) return kDone;
+  const Report report{
+      options,
+      p,
+      ranks,
+      outcome,
+      output,
+      options.jobs > 0 ? options.jobs : ranks.processors(),
+      task.lanes(),
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+      task.warning()};
+  if (options.common.json)
+    std::cout << to_json(report).dump(2) << '\n';
+  else if (!options.common.quiet)
+    print_text(report);
+  return verdict(report, interrupted);
+}
+
+int sweep(const Options& options) {
+  const Ranks ranks;
+  try {
+    return sweep_in(ranks, options);
+  } catch (const std::exception&) {
+    // The same happens in every rank; one says it.
+    if (ranks.speaks()) throw;
+    return kDone;
+  }
+}
+
+}  // namespace
+
+void register_sweep(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "sweep", "Integrate over a grid of parameters or initial states, resumably");
+  command->footer(
+      "Points that are done are kept beside the output until all are, and the same command goes "
+      "on\n"
+      "after a kill. Under mpirun the ranks share the points; the result is the same to the bit.");
+  add_common(*command, options->common);
+  command
+      ->add_option("CASE", options->case_name,
+                   "A bundled case, a case file, or - for standard input")
+      ->required();
+  command
+      ->add_option("--over", options->over,
+                   "NAME=FROM:TO:N, both ends included, or NAME=A,B,C: a parameter, or the initial "
+                   "value of a variable (repeatable: all combinations, the last fastest)")
+      ->allow_extra_args(false)
+      ->type_name("NAME=FROM:TO:N");
+  command
+      ->add_option("--let", options->lets,
+                   "NAME=EXPR: a parameter or an initial value as an expression of what --over "
+                   "varies, as in --over theta=0:Pi:50 --let g1=sin(theta) (repeatable)")
+      ->allow_extra_args(false)
+      ->type_name("NAME=EXPR");
+  command->add_option("--do", options->task, "What is done at each point: integrate (default)")
+      ->check(CLI::IsMember({"integrate"}))
+      ->type_name("WHAT");
+  command->add_option("--method", options->method, "A method, or auto: " + method_list())
+      ->type_name("NAME");
+  add_run_options(*command, options->run);
+  command
+      ->add_option("--observe", options->observe,
+                   "States that must be computed; what they do not need is left out")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("A,B");
+  command->add_option("--jobs", options->jobs, "Threads (default: all processors)")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--output", options->output,
+                   "Write the results to this .csv, .h5 or .hdf5 file (default: CASE-sweep.csv)")
+      ->type_name("FILE");
+  command->add_flag("--restart", options->restart, "Throw away the points that are done");
+  command->callback([options, &action] { action = [options] { return sweep(*options); }; });
+}
+
+}  // namespace casimir::tools

@@ -1,0 +1,79 @@
+// The claims of a report with their verdicts.
+#include <fmt/format.h>
+
+#include "tools/html.hpp"
+#include "tools/proof_report.hpp"
+#include "tools/proof_table.hpp"
+#include "tools/report/page.hpp"
+#include "tools/run_report.hpp"
+
+namespace casimir::tools {
+namespace {
+
+std::string labelled(const char* label, const std::string& words) {
+  return fmt::format("<div><span class=\"label\">{}</span> {}</div>", label,
+                     html::text(words, 4000));
+}
+
+std::string kind_words(std::string kind) {
+  for (char& c : kind)
+    if (c == '_') c = ' ';
+  return html::text(kind);
+}
+
+std::string details(const Proof& proof) {
+  std::string text;
+  if (!proof.evidence.empty()) text += "<div>" + html::text(proof.evidence, 4000) + "</div>";
+  if (!proof.reason.empty()) text += labelled("reason", proof.reason);
+  if (!proof.residual.empty()) text += labelled("residual", proof.residual);
+  if (proof.witness) {
+    std::string point;
+    for (const auto& [name, value] : proof.witness->point)
+      point += (point.empty() ? "" : ", ") + name + " = " + value;
+    text += labelled("witness", point) + labelled("value there", proof.witness->value);
+  }
+  for (const std::string& line : judgement_lines(proof))
+    text += "<div>" + html::text(line) + "</div>";
+  return text.empty() ? "" : "<div class=\"evidence\">" + text + "</div>";
+}
+
+std::string claim(const Proof& proof) {
+  std::string on;
+  for (const std::string& level : proof.on) on += (on.empty() ? "" : " = ") + html::text(level);
+  if (!on.empty()) on = " <span class=\"on\">on " + on + " = 0</span>";
+  return fmt::format(
+      "<li class=\"claim {}\"><span class=\"verdict\">{}</span> <span class=\"kind\">{}</span> "
+      "<span class=\"name\">{}{}</span> <span class=\"time\">{}</span>{}</li>\n",
+      to_string(proof.verdict), verdict_mark(proof.verdict), kind_words(proof.kind),
+      html::text(proof.name), on, duration_text(proof.seconds), details(proof));
+}
+
+std::string list(const std::string& heading, const std::string& claims) {
+  return claims.empty() ? ""
+                        : "<h3>" + heading + "</h3>\n<ul class=\"claims\">\n" + claims + "</ul>\n";
+}
+
+}  // namespace
+
+std::string verdict_mark(Verdict verdict) {
+  const char* mark = verdict == Verdict::proved ? "✓" : verdict == Verdict::refuted ? "✗" : "?";
+  return fmt::format("<span aria-hidden=\"true\">{}</span> {}", mark, to_string(verdict));
+}
+
+std::string claims_part(const Model& model, const Findings& findings) {
+  std::string counted, facts, notes;
+  for (const Proof& proof : findings.proofs) {
+    std::string& place = proof.note ? notes : proof.fact && !counts(model, proof) ? facts : counted;
+    place += claim(proof);
+  }
+  std::string text = "<section id=\"claims\">\n<h2>What is proved</h2>\n";
+  text += fmt::format(
+      "<p>Every claim is decided exactly, in the variables and in symbolic parameters: no floating "
+      "point, no sampling. {}; {}.</p>\n",
+      tally_of(model, findings.proofs).text(), duration_text(findings.proof_seconds));
+  text += list("Claims", counted) + list("Facts about the system", facts) +
+          list("Beside the claims", notes);
+  return text + "</section>\n";
+}
+
+}  // namespace casimir::tools

@@ -1,0 +1,182 @@
+#include "tools/report/findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "codegen/compile.hpp"
+#include "symbolic/error.hpp"
+#include "tools/conserve_run.hpp"
+#include "tools/judged_run.hpp"
+#include "tools/limited_prove.hpp"
+
+namespace casimir::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Does one part after the other; what fails is noted and the next part is done.
+class Investigation {
+ public:
+  Investigation(const Model& model, const ReportOptions& options)
+      : model_(model), options_(options) {}
+
+  Findings all() {
+    if (!model_.scenes.empty()) result_.scene = &model_.scene(options_.scene);
+    part("proofs", 0, [&] { prove_claims(); });
+    if (result_.scene) {
+      part("generated code", 0.1, [&] { generate(); });
+      part("motion", 0.2, [&] { move(); });
+      part("drift", 0.3, [&] { conserve(); });
+      if (options_.budget > 0) part("error against run time", 0.5, [&] { measure(); });
+    } else {
+      result_.notes.emplace_back("The case has no scene: nothing is generated or integrated.");
+    }
+    result_.machine = this_machine();
+    return std::move(result_);
+  }
+
+ private:
+  double left() const {
+    return options_.time_limit > 0 ? options_.time_limit - seconds_since(start_) : 1;
+  }
+
+  void part(const std::string& name, double share, const std::function<void()>& work) {
+    if (options_.progress) options_.progress(name, share);
+    if (left() <= 0) {
+      result_.stopped = true;
+      result_.notes.push_back(fmt::format("Not done within the time limit: {}.", name));
+      return;
+    }
+    const auto note = [&](const std::exception& problem) {
+      result_.notes.push_back(fmt::format("{}: {}", name, problem.what()));
+    };
+    try {
+      work();
+    } catch (const EnvironmentError& problem) {
+      result_.problems.push_back(fmt::format("{}: {}", name, problem.what()));
+    } catch (const SystemError& problem) {
+      result_.problems.push_back(fmt::format("{}: {}", name, problem.what()));
+    } catch (const CaseError& problem) {
+      note(problem);
+    } catch (const ModelError& problem) {
+      note(problem);
+    } catch (const UsageError& problem) {
+      note(problem);
+    } catch (const SingularPoint& problem) {
+      note(problem);
+    }
+  }
+
+  std::function<bool()> give_up() const {
+    return options_.time_limit > 0 ? time_limit(std::max(left(), 1e-3)) : std::function<bool()>{};
+  }
+
+  void prove_claims() {
+    const auto start = Clock::now();
+    result_.proofs =
+        prove_within(options_.time_limit > 0 ? left() : 0, model_, {}, [](const Proof&) {});
+    result_.verdict = overall(model_, result_.proofs);
+    result_.proof_seconds = seconds_since(start);
+  }
+
+  void generate() {
+    SpecialiseOptions what;
+    what.fold_parameters = options_.code.fold_parameters;
+    what.keep_parameters = options_.code.keep_parameters;
+    what.gradients = true;
+    result_.code = specialise(model_, *result_.scene, what);
+  }
+
+  void move() {
+    SceneOptions code = options_.code;
+    code.observe = std::vector<std::string>{};
+    const SceneRun run = prepare(model_, *result_.scene, code);
+    JudgedOptions how;
+    how.time_limit = options_.time_limit > 0 ? left() : 0;
+    const JudgedRun judged = integrate_judged(model_, run, how);
+    result_.motion_method = judged.method->name;
+    result_.motion = motion_of(run, judged);
+    if (judged.trajectory.status != Status::ok)
+      result_.notes.push_back(fmt::format("motion: the run stopped at t = {:.6g}: {}",
+                                          judged.trajectory.time, judged.trajectory.reason));
+    for (const std::string& warning : judged.warnings)
+      result_.notes.push_back("motion: " + warning);
+  }
+
+  /// Every scene by every method, none for longer than a reader would wait.
+  void conserve() {
+    result_.drift_bound = ConserveOptions{}.bound;
+    for (const Scene& scene : model_.scenes) {
+      if (!scene.unusable.empty()) continue;
+      for (const std::string& method : conserving_methods()) {
+        if (left() <= 0) {
+          result_.stopped = true;
+          return;
+        }
+        conserve_one(scene, method_named(method));
+      }
+    }
+  }
+
+  void conserve_one(const Scene& scene, const Method& method) {
+    constexpr double kLongestRun = 5;
+    const double seconds =
+        options_.time_limit > 0 ? std::clamp(left(), 1e-3, kLongestRun) : kLongestRun;
+    const ConserveOptions what{.code = options_.code, .give_up = time_limit(seconds)};
+    std::vector<DriftRecord> drifts;
+    Row row = conserve_scene(model_, scene, method, what, &drifts);
+    if (row.status == to_string(Status::stopped)) {
+      row.failed = false;
+      row.refused = true;
+      row.reason = fmt::format("not at its end after {:.2g} s", seconds);
+    }
+    if (&scene == result_.scene)
+      result_.drifts.insert(result_.drifts.end(), drifts.begin(), drifts.end());
+    result_.runs.push_back(std::move(row));
+  }
+
+  void measure() {
+    ContestOptions what{.tolerances = {1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13, 1e-15},
+                        .code = options_.code,
+                        .budget = options_.budget,
+                        .reference_limit = std::max(2 * options_.budget, 2.0),
+                        .give_up = give_up()};
+    if (options_.progress)
+      what.progress = [&](const std::string& doing, double share) {
+        options_.progress(doing, 0.5 + share / 2);
+      };
+    Contest contest = hold_contest(model_, *result_.scene, what);
+    if (contest.no_reference.empty())
+      result_.contest = std::move(contest);
+    else
+      result_.notes.push_back("error against run time: " + contest.no_reference);
+  }
+
+  const Model& model_;
+  const ReportOptions& options_;
+  Clock::time_point start_ = Clock::now();
+  Findings result_;
+};
+
+}  // namespace
+
+int Findings::exit_status() const {
+  const auto failed = [](const Row& row) { return row.failed; };
+  const bool wrong =
+      std::ranges::any_of(runs, failed) || (contest && std::ranges::any_of(contest->rows, failed));
+  if (verdict == Verdict::refuted || wrong) return kFailed;
+  if (!problems.empty()) return kEnvironment;
+  return verdict == Verdict::proved ? kDone : kUndecided;
+}
+
+Findings investigate(const Model& model, const ReportOptions& options) {
+  return Investigation(model, options).all();
+}
+
+}  // namespace casimir::tools

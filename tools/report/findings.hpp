@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "codegen/specialise.hpp"
+#include "symbolic/prove.hpp"
+#include "tools/bench/contest.hpp"
+#include "tools/drift_plot.hpp"
+#include "tools/machine.hpp"
+#include "tools/motion_plot.hpp"
+#include "tools/run_report.hpp"
+
+namespace casimir::tools {
+
+/// How a report is made.
+struct ReportOptions {
+  std::string scene = "default";
+  double budget = 4;      ///< seconds of measuring error against run time; 0: not at all
+  double time_limit = 0;  ///< seconds for the whole; 0: none
+  SceneOptions code = {};
+  /// Told what is being done and which share of it is done.
+  std::function<void(const std::string& what, double share)> progress = {};
+};
+
+/// Everything that a report tells of a case. Parts that could not be had are empty, and `problems`
+/// or `notes` says why.
+struct Findings {
+  std::vector<Proof> proofs;
+  Verdict verdict = Verdict::undecided;
+  double proof_seconds = 0;
+
+  const Scene* scene = nullptr;  ///< of the model; null for a case without one
+  std::optional<Specialisation> code;
+  std::vector<DriftRecord> drifts;  ///< of the scene, one for each method
+  std::vector<Row> runs;            ///< of every scene, by the methods of `conserve`
+  double drift_bound = 0;
+  std::string motion_method;
+  std::optional<Motion> motion;
+  std::optional<Contest> contest;
+  Machine machine;
+
+  std::vector<std::string> notes;     ///< what was left out for a reason of the case
+  std::vector<std::string> problems;  ///< what the environment did not allow
+  bool stopped = false;               ///< the time limit left something out
+
+  /// Whether everything that was checked holds: the exit status of `report`.
+  int exit_status() const;
+};
+
+/// Proves, generates, integrates and measures. \throws CaseError  for an unknown scene
+Findings investigate(const Model& model, const ReportOptions& options);
+
+}  // namespace casimir::tools

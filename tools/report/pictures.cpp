@@ -1,0 +1,56 @@
+#include "tools/report/pictures.hpp"
+
+#include "tools/bench/report.hpp"
+
+namespace casimir::tools {
+namespace {
+
+/// Without a title, which the page has.
+std::string drawn(Plot plot, const std::string& name, const std::string& beside) {
+  plot.title.clear();
+  return page_svg(plot, name, beside);
+}
+
+/// Its label is short enough for the height that it has in a page.
+Plot drift_of(const Findings& findings) {
+  Plot plot = drift_picture("", findings.drifts);
+  plot.y_label = findings.drifts.size() == 1 ? "relative drift" : "largest relative drift";
+  return plot;
+}
+
+/// General code has a table of its own, and would lie on top of the specialised.
+Plot contest_of(const Findings& findings) {
+  Plot plot = picture_of(*findings.contest);
+  std::erase_if(plot.curves,
+                [](const Curve& curve) { return curve.style == Curve::Style::variant; });
+  return plot;
+}
+
+}  // namespace
+
+Pictures draw_pictures(const Model& model, const Findings& findings, const std::string& beside) {
+  Pictures pictures;
+  try {
+    if (findings.motion && findings.motion->times.size() > 1) {
+      const Motion& motion = *findings.motion;
+      const Scene& scene = *findings.scene;
+      pictures.motion = drawn(time_picture(model, scene, motion, {}), "motion", beside);
+      if (has_sphere(motion))
+        pictures.sphere = drawn(sphere_picture(model, scene, motion, ""), "sphere", beside);
+      if (has_apex(model, motion))
+        pictures.apex = drawn(apex_picture(model, scene, motion, ""), "apex", beside);
+    }
+    if (!findings.drifts.empty()) pictures.drift = drawn(drift_of(findings), "drift", beside);
+    if (findings.contest)
+      pictures.work_precision = drawn(contest_of(findings), "work-precision", beside);
+    if (findings.scene && model.section)
+      pictures.section = section_svg(model, *findings.scene, beside);
+  } catch (const SystemError& problem) {
+    pictures.problem = problem.what();
+  }
+  return pictures;
+}
+
+std::string section_svg(const Model&, const Scene&, const std::string&) { return {}; }
+
+}  // namespace casimir::tools
