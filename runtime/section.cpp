@@ -137,7 +137,8 @@ class Cutter {
     return false;
   }
 
-  /// Shows the step that the kernel has worked on to the orbit in a lane. Whether it has seen enough.
+  /// Shows the step that the kernel has worked on to the orbit in a lane. Whether it has seen
+  /// enough.
   bool see(const casimir_lane_step& step, int lane) {
     const double* const series =
         memory_.get() + static_cast<std::ptrdiff_t>(tables_.line[tables_.lines - 1].row) *

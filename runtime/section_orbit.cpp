@@ -108,7 +108,8 @@ void RunningOrbit::record(const LaneOfStep& step, double at, const SectionSettin
   for (std::size_t i = 0; i < kept; ++i) result_.states.push_back(step.state(i, at));
   if (settings.keep_deviations || start_.size() == settings.states) return;
   std::vector<double> deviation;
-  for (std::size_t i = settings.states; i < start_.size(); ++i) deviation.push_back(step.state(i, at));
+  for (std::size_t i = settings.states; i < start_.size(); ++i)
+    deviation.push_back(step.state(i, at));
   result_.growth.push_back(log_growth_ + std::log(size_of_deviation(deviation.data(), settings)));
 }
 
