@@ -191,7 +191,7 @@ SectionResult cut(const LaneKernel& kernel, const SectionPlane& plane,
   ensemble.initial = seeds;
   EnsembleWork work(ensemble, run);
   const JetLayout layout = jet_layout(plane.function, settings.states);
-  const PlaneOfOrbit place{plane.upwards, plane.period, layout};
+  const PlaneOfOrbit place{plane.upwards, plane.period, layout, settings.states};
   Cutting shared{.work = work,
                  .kernel = kernel,
                  .settings = settings,
