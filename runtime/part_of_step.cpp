@@ -20,7 +20,7 @@ const casimir_lane_step& PartOfStep::take(const casimir_lane_step& whole, int wh
     return numbers.data() + (64 - address % 64) % 64 / sizeof(double);
   };
   double *const times = aligned(times_), *const lengths = aligned(lengths_),
-               *const memory = aligned(memory_);
+                *const memory = aligned(memory_);
   std::vector<double> from(lanes);
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     from[lane] = whole.taken[lane] * which / parts;

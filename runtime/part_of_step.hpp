@@ -6,8 +6,8 @@
 
 namespace casimir {
 
-/// A part of a step of trajectories in lanes: the same polynomials about a later time. The series of
-/// a function of the states may need shorter steps than those of the states do.
+/// A part of a step of trajectories in lanes: the same polynomials about a later time. The series
+/// of a function of the states may need shorter steps than those of the states do.
 class PartOfStep {
  public:
   /// Part `which` of `parts` equal ones. The step and its part must live as long as they are used.

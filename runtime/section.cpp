@@ -137,7 +137,8 @@ class Cutter {
     return false;
   }
 
-  /// Shows the step that the kernel has worked on to the orbit in a lane. Whether it has seen enough.
+  /// Shows the step that the kernel has worked on to the orbit in a lane. Whether it has seen
+  /// enough.
   bool see(const casimir_lane_step& step, int lane) {
     const double* const series =
         memory_.get() + static_cast<std::ptrdiff_t>(tables_.line[tables_.lines - 1].row) *
@@ -190,7 +191,7 @@ SectionResult cut(const LaneKernel& kernel, const SectionPlane& plane,
   ensemble.initial = seeds;
   EnsembleWork work(ensemble, run);
   const JetLayout layout = jet_layout(plane.function, settings.states);
-  const PlaneOfOrbit place{plane.upwards, plane.period, layout};
+  const PlaneOfOrbit place{plane.upwards, plane.period, layout, settings.states};
   Cutting shared{.work = work,
                  .kernel = kernel,
                  .settings = settings,

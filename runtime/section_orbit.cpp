@@ -79,7 +79,7 @@ double RunningOrbit::exact_place(const LaneOfStep& step, const PlaneOfOrbit& pla
   std::vector<double> x, values;
   for (int round = 0; round < 2; ++round) {
     x.clear();
-    for (std::size_t i = 0; i < start_.size(); ++i) x.push_back(step.state(i, at));
+    for (std::size_t i = 0; i < plane.states; ++i) x.push_back(step.state(i, at));
     double off = value_of(plane.function, x.data(), values) + shift_ - value;
     if (plane.period > 0) off -= plane.period * std::round(off / plane.period);
     double slope = 0;
@@ -87,8 +87,10 @@ double RunningOrbit::exact_place(const LaneOfStep& step, const PlaneOfOrbit& pla
     const double next = at - off / slope;
     // Where it only just passes, the place is not better known than that.
     constexpr double kSmall = 1e-6;
-    if (!(std::abs(next - at) <= kSmall * std::abs(step.taken()))) break;
+    const double change = std::abs(next - at) / std::abs(step.taken());
+    if (!(change <= kSmall)) break;
     at = next;
+    if (change < 1e-12) break;  // the next one is rounding
   }
   const double end = step.taken();
   return std::clamp(at, std::min(0., end), std::max(0., end));
@@ -108,7 +110,8 @@ void RunningOrbit::record(const LaneOfStep& step, double at, const SectionSettin
   for (std::size_t i = 0; i < kept; ++i) result_.states.push_back(step.state(i, at));
   if (settings.keep_deviations || start_.size() == settings.states) return;
   std::vector<double> deviation;
-  for (std::size_t i = settings.states; i < start_.size(); ++i) deviation.push_back(step.state(i, at));
+  for (std::size_t i = settings.states; i < start_.size(); ++i)
+    deviation.push_back(step.state(i, at));
   result_.growth.push_back(log_growth_ + std::log(size_of_deviation(deviation.data(), settings)));
 }
 

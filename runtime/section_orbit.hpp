@@ -13,6 +13,7 @@ struct PlaneOfOrbit {
   bool upwards = true;
   double period = 0;
   const JetLayout& function;
+  std::size_t states = 0;  ///< of the system, without deviations
 };
 
 /// What a step is to the orbit in one of its lanes.

@@ -80,8 +80,8 @@ class Isolation {
     std::vector<Passage> result;
     for (const Passage& passage : found_) {
       constexpr double kRounding = 0x1p-49;
-      if (!result.empty() && std::abs(value((result.back().at + passage.at) / 2 / end_)) <=
-                                 kRounding * size)
+      if (!result.empty() &&
+          std::abs(value((result.back().at + passage.at) / 2 / end_)) <= kRounding * size)
         result.pop_back();
       else
         result.push_back(passage);

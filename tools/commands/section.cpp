@@ -54,8 +54,9 @@ void check_memory(const Options& options, std::size_t states) {
   const double bytes = 8. * static_cast<double>(options.orbits) *
                        static_cast<double>(options.points) * static_cast<double>(states + 4);
   if (bytes > kMost)
-    throw UsageError(fmt::format("{} orbits of {} points take {:.1f} GB; at most {:.0f} are allowed",
-                                 options.orbits, options.points, bytes / 1e9, kMost / 1e9));
+    throw UsageError(
+        fmt::format("{} orbits of {} points take {:.1f} GB; at most {:.0f} are allowed",
+                    options.orbits, options.points, bytes / 1e9, kMost / 1e9));
 }
 
 /// One section from the options to the report.
