@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "symbolic/case_file.hpp"
 #include "tools/report/findings.hpp"
 
 namespace casimir::tools {
@@ -14,10 +15,12 @@ struct Pictures {
 };
 
 /// \param beside  the page; temporary files stand beside it
-Pictures draw_pictures(const Model& model, const Findings& findings, const std::string& beside);
+Pictures draw_pictures(const CaseFile& file, const Model& model, const Findings& findings,
+                       const std::string& beside);
 
 /// The Poincare section of a case that has one: a page_svg called `section`, or empty.
 /// \throws SystemError  where it cannot be drawn
-std::string section_svg(const Model& model, const Scene& scene, const std::string& beside);
+std::string section_svg(const CaseFile& file, const Model& model, const Scene& scene,
+                        const std::string& beside);
 
 }  // namespace casimir::tools
