@@ -44,8 +44,15 @@ Pictures draw_pictures(const CaseFile& file, const Model& model, const Findings&
     if (!findings.drifts.empty()) pictures.drift = drawn(drift_of(findings), "drift", beside);
     if (findings.contest)
       pictures.work_precision = drawn(contest_of(findings), "work-precision", beside);
-    if (findings.scene && model.section)
-      pictures.section = section_svg(file, model, *findings.scene, beside);
+    if (findings.scene && model.section) {
+      try {
+        pictures.section = section_svg(file, model, *findings.scene, beside);
+      } catch (const SystemError&) {
+        throw;
+      } catch (const std::runtime_error& problem) {
+        pictures.section_note = std::string("section: ") + problem.what();
+      }
+    }
   } catch (const SystemError& problem) {
     pictures.problem = problem.what();
   }
