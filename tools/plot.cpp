@@ -233,7 +233,6 @@ std::string page_svg(const Plot& plot, const std::string& name, const std::strin
   }
   const std::size_t columns = std::clamp<std::size_t>(kWidth / (kSample + kLetter * longest), 1, 4);
   const std::size_t lines = (entries + columns - 1) / columns;
-  OutputFile picture(beside + "." + name + ".svg");
   const std::string terminal =
       fmt::format("svg size {},{} dynamic background rgb 'white' font 'sans,15'",
                   plot.square ? kHeight : kWidth, kHeight + kLine * lines);
@@ -241,7 +240,14 @@ std::string page_svg(const Plot& plot, const std::string& name, const std::strin
       "below center vertical maxrows {} Left reverse spacing 1.15 font ',13'\n"
       "set xlabel offset 0,0.4",
       lines);
-  draw_script(script(plot, terminal, key, picture.temporary().string()), picture);
+  return page_svg([&](const std::string& output) { return script(plot, terminal, key, output); },
+                  name, beside);
+}
+
+std::string page_svg(const std::function<std::string(const std::string& output)>& script_for,
+                     const std::string& name, const std::string& beside) {
+  OutputFile picture(beside + "." + name + ".svg");
+  draw_script(script_for(picture.temporary().string()), picture);
   std::string svg = element_of(picture, name);
   use_variables(svg);
   return svg;

@@ -118,7 +118,7 @@ Written write_report(const CaseFile& file, const Options& options, const std::st
   };
   OutputFile page(path);  // refused before any work is done for it
   const Findings findings = investigate(model, what);
-  const Pictures pictures = draw_pictures(model, findings, path);
+  const Pictures pictures = draw_pictures(file, model, findings, path);
   source.case_text = text_of(file);
   page.stream() << report_page(model, findings, pictures, source);
   page.commit();

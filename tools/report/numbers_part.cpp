@@ -125,8 +125,11 @@ std::string drift_part(const Findings& findings, const Pictures& pictures) {
 
 std::string section_part(const Model& model, const Pictures& pictures) {
   if (!model.section || pictures.section.empty()) return "";
-  return "<section id=\"section\">\n<h2>Poincare section</h2>\n" +
-         figure(pictures.section, "section", "Crossings of the plane in one direction.") +
+  return "<section id=\"section\">\n<h2>Poincar&eacute; section</h2>\n" +
+         figure(
+             pictures.section, "section",
+             "Crossings of the plane in one direction, of orbits on the energy and Casimir level "
+             "of the scene.") +
          "</section>\n";
 }
 

@@ -65,6 +65,7 @@ std::string notes_part(const Findings& findings, const Pictures& pictures) {
   for (const std::string& note : findings.problems) add(note);
   if (!pictures.problem.empty()) add(pictures.problem);
   for (const std::string& note : findings.notes) add(note);
+  if (!pictures.section_note.empty()) add(pictures.section_note);
   return lines.empty() ? "" : "<div class=\"notes\"><ul>\n" + lines + "</ul></div>\n";
 }
 
@@ -111,6 +112,7 @@ std::string reproduce_part(const Model& model, const Findings& findings, const P
     add("generate " + what + " --with rhs,invariants,gradients,jacobian -o " + name + ".hpp");
     add("integrate " + what + " --plot " + name + "-motion.svg");
     add("conserve " + what + " --plot " + name + "-drift.svg");
+    if (model.section) add("section " + what + " --output " + name + "-section.svg");
     if (findings.contest) add("bench " + what + " --plot " + name + "-bench.svg");
   }
   add("report " + what);

@@ -28,7 +28,8 @@ Plot contest_of(const Findings& findings) {
 
 }  // namespace
 
-Pictures draw_pictures(const Model& model, const Findings& findings, const std::string& beside) {
+Pictures draw_pictures(const CaseFile& file, const Model& model, const Findings& findings,
+                       const std::string& beside) {
   Pictures pictures;
   try {
     if (findings.motion && findings.motion->times.size() > 1) {
@@ -43,14 +44,19 @@ Pictures draw_pictures(const Model& model, const Findings& findings, const std::
     if (!findings.drifts.empty()) pictures.drift = drawn(drift_of(findings), "drift", beside);
     if (findings.contest)
       pictures.work_precision = drawn(contest_of(findings), "work-precision", beside);
-    if (findings.scene && model.section)
-      pictures.section = section_svg(model, *findings.scene, beside);
+    if (findings.scene && model.section) {
+      try {
+        pictures.section = section_svg(file, model, *findings.scene, beside);
+      } catch (const SystemError&) {
+        throw;
+      } catch (const std::runtime_error& problem) {
+        pictures.section_note = std::string("section: ") + problem.what();
+      }
+    }
   } catch (const SystemError& problem) {
     pictures.problem = problem.what();
   }
   return pictures;
 }
-
-std::string section_svg(const Model&, const Scene&, const std::string&) { return {}; }
 
 }  // namespace casimir::tools

@@ -172,19 +172,27 @@ void add_cycles(Drawing& drawing, const std::vector<Cycle>& cycles) {
 
 }  // namespace
 
-void draw_section(const SectionProblem& problem, const std::string& title,
-                  const std::vector<OrbitReport>& orbits, const std::vector<Cycle>& cycles,
-                  const std::string& path) {
-  check_plot_name(path);
+std::string section_script(const SectionProblem& problem, const std::string& title,
+                           const std::vector<OrbitReport>& orbits, const std::vector<Cycle>& cycles,
+                           const std::string& terminal, const std::string& output) {
   Drawing drawing(problem);
   drawing.bound(orbits);
   add_orbits(drawing, orbits);
   add_cycles(drawing, cycles);
+  return drawing.script(title, terminal, output);
+}
+
+void draw_section(const SectionProblem& problem, const std::string& title,
+                  const std::vector<OrbitReport>& orbits, const std::vector<Cycle>& cycles,
+                  const std::string& path) {
+  check_plot_name(path);
   const std::string terminal =
       path.ends_with(".svg") ? "svg size 1000,700 dynamic background rgb 'white' font 'sans,14'"
                              : "pngcairo size 1400,980 font 'sans,16' background rgb 'white'";
   OutputFile picture(path);
-  draw_script(drawing.script(title, terminal, picture.temporary().string()), picture);
+  draw_script(
+      section_script(problem, title, orbits, cycles, terminal, picture.temporary().string()),
+      picture);
   picture.commit();
 }
 

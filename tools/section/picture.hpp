@@ -16,4 +16,9 @@ void draw_section(const SectionProblem& problem, const std::string& title,
                   const std::vector<OrbitReport>& orbits, const std::vector<Cycle>& cycles,
                   const std::string& path);
 
+/// The same as a script for gnuplot. \param terminal  of gnuplot \param output  what it shall write
+std::string section_script(const SectionProblem& problem, const std::string& title,
+                           const std::vector<OrbitReport>& orbits, const std::vector<Cycle>& cycles,
+                           const std::string& terminal, const std::string& output);
+
 }  // namespace casimir::tools
