@@ -162,6 +162,34 @@ TEST(Section, SystemsWithoutASectionAreRefused) {
   refused({"section", "euler-poisson", "--output", "a.pdf"}, ".csv, .svg or .png");
 }
 
+TEST(Section, PointsOffTheLevelAreDroppedAndFail) {
+  const Outcome outcome = run({"section", "euler-poisson", "--scene", "chaotic", "--orbits", "5",
+                               "--points", "50", "--tolerance", "1e-6", "--json"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("left its level"), std::string::npos) << outcome.err;
+  const json result = outcome.json();
+  EXPECT_LT(number(result, "off_level"), 1e-10);
+  EXPECT_EQ(result.at("orbits")[0].at("status"), "drift_exceeded");
+}
+
+TEST(Section, ALevelThatIsNotFixedOrChangesIsRefused) {
+  std::string text = kHenonHeiles;
+  text.replace(text.find("- y^3/3"), 7, "- y^3/3 + cos(t)*x");
+  text.replace(text.find("canonical = true"), 16, "canonical = true\ntime = \"t\"");
+  const Outcome driven = section_of(text.c_str(), {});
+  EXPECT_EQ(driven.status, 2);
+  EXPECT_NE(driven.err.find("time 't'"), std::string::npos) << driven.err;
+  const Outcome unnamed = section_of(
+      "title = \"t\"\nhamiltonian = \"(M1^2 + M2^2 + 2*M3^2)/2 - g1\"\n[phase_space]\n"
+      "variables = [\"M1\", \"M2\", \"M3\", \"g1\", \"g2\", \"g3\"]\nalgebra = \"e(3)\"\n"
+      "[[scene]]\nname = \"default\"\nduration = \"1\"\n"
+      "initial = { M1 = \"1\", M2 = \"1/2\", M3 = \"1/3\", g1 = \"3/5\", g2 = \"0\", g3 = \"4/5\" "
+      "}\n",
+      {"--plane", "M1", "--pair", "M2", "M3"});
+  EXPECT_EQ(unnamed.status, 2);
+  EXPECT_NE(unnamed.err.find("names 0"), std::string::npos) << unnamed.err;
+}
+
 TEST(Section, SeedsOffTheLevelAreRefused) {
   const Folder folder;
   folder.write("off.csv", "M1,M2,M3,g1,g2,g3\n0,1,2,0,1,0\n0,1,2.1,0,1,0\n");
