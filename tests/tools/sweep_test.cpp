@@ -180,8 +180,8 @@ TEST(Sweep, ATimeLimitKeepsWhatIsDone) {
 
 TEST(Sweep, PointsThatCannotBeIntegratedAreToldAndTheRestIsThere) {
   const Folder folder;
-  const Outcome outcome = run_in(folder, {"sweep", "riccati", "--over", "sigma=-1:1:3",
-                                          "--duration", "1", "--output", "s.csv"});
+  const Outcome outcome = run_in(folder, {"sweep", "riccati", "--scene", "pole", "--over",
+                                          "sigma=-1:1:3", "--duration", "1", "--output", "s.csv"});
   EXPECT_EQ(outcome.status, 5) << outcome.err;
   EXPECT_NE(outcome.err.find("sigma(0) = 1"), std::string::npos) << outcome.err;
   EXPECT_EQ(rows_of(file_text(folder.path() / "s.csv")).size(), 4U);
