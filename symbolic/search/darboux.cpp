@@ -1,0 +1,231 @@
+#include "symbolic/search/darboux.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "symbolic/search/monomials.hpp"
+#include "symbolic/search/polynomial_system.hpp"
+#include "symbolic/search/quasi_homogeneous.hpp"
+#include "symbolic/search/short_text.hpp"
+#include "symbolic/search/system.hpp"
+
+namespace casimir::search {
+namespace {
+
+using Exponents = std::vector<unsigned long>;
+
+class DarbouxSearch {
+ public:
+  DarbouxSearch(const Model& model, int degree, const Watch& watch);
+  DarbouxReport run();
+
+ private:
+  void find_grading();
+  int weight(const Monomials& list, std::size_t i) const;
+  void search_from(std::size_t leading);
+  void add(const Branch& branch, const Polynomial& f, const Polynomial& k);
+  Polynomial in_own_ring(const Polynomial& p) const;
+  Polynomial monomial(const Monomials& list, std::size_t i) const;
+  std::vector<Polynomial> coefficients(const Polynomial& p) const;
+  std::optional<Polynomial> in_system_ring(const Polynomial& p) const;
+
+  const Model& model_;
+  const Watch& watch_;
+  System system_;
+  std::size_t dimension_;
+  Monomials monomials_, cofactor_monomials_;
+  std::size_t first_f_, first_k_;
+  /// Where the whole field is quasi-homogeneous: then the parts of one weight of a Darboux
+  /// polynomial are some themselves, and the cofactor has the weight of 1/t.
+  std::optional<Weights> weights_;
+  PolynomialRing ring_;  ///< that of the system, the coefficients of F and those of the cofactor
+  std::vector<Polynomial> field_;
+  DarbouxReport report_;
+};
+
+int growth_of(const System& system) {
+  long degree = 1;
+  for (const Polynomial& rate : system.flow()) {
+    for (const auto& [number, exponents] : rate.term_list()) {
+      long own = 0;
+      for (const std::size_t atom : system.atoms()) own += static_cast<long>(exponents[atom]);
+      degree = std::max(degree, own);
+    }
+  }
+  return static_cast<int>(degree - 1);
+}
+
+std::size_t room_for(const System& system, const Monomials& a, const Monomials& b) {
+  return system.ring().size() + a.size() + b.size();
+}
+
+DarbouxSearch::DarbouxSearch(const Model& model, int degree, const Watch& watch)
+    : model_(model),
+      watch_(watch),
+      system_(model, {}, {}),
+      dimension_(model.variables.size()),
+      monomials_(all_monomials(std::vector<int>(dimension_, 1), degree)),
+      cofactor_monomials_(all_monomials(std::vector<int>(dimension_, 1), growth_of(system_))),
+      first_f_(system_.ring().size()),
+      first_k_(first_f_ + monomials_.size()),
+      ring_(room_for(system_, monomials_, cofactor_monomials_)) {
+  if (model.time || system_.atoms().size() > dimension_)
+    throw ModelError(
+        "Darboux polynomials need equations of motion that are rational in the variables");
+  for (const Polynomial& rate : system_.flow()) field_.push_back(in_own_ring(rate));
+  for (const std::size_t place : system_.parameters())
+    report_.generic.push_back(system_.name(place));
+  find_grading();
+}
+
+void DarbouxSearch::find_grading() {
+  std::vector<std::string> names;
+  for (const GiNaC::symbol& s : model_.variables) names.push_back(s.get_name());
+  weights_ = find_weights(field_, names);
+  for (std::size_t i = 0; weights_ && i < dimension_; ++i) {
+    for (const auto& [number, exponents] : field_[i].term_list()) {
+      if (excess(*weights_, i, exponents) == 0) continue;
+      weights_.reset();
+      break;
+    }
+  }
+}
+
+int DarbouxSearch::weight(const Monomials& list, std::size_t i) const {
+  int sum = 0;
+  for (std::size_t v = 0; v < dimension_; ++v) sum += weights_->numerators[v] * list[i][v];
+  return sum;
+}
+
+Polynomial DarbouxSearch::in_own_ring(const Polynomial& p) const {
+  TermCollector collector(ring_);
+  for (auto [number, exponents] : p.term_list()) {
+    exponents.resize(ring_.size(), 0);
+    collector.add(number, exponents);
+  }
+  return collector.finish();
+}
+
+/// Empty where coefficients are left.
+std::optional<Polynomial> DarbouxSearch::in_system_ring(const Polynomial& p) const {
+  TermCollector collector(system_.ring());
+  for (auto [number, exponents] : p.term_list()) {
+    if (std::any_of(exponents.begin() + static_cast<std::ptrdiff_t>(first_f_), exponents.end(),
+                    [](unsigned long e) { return e != 0; }))
+      return std::nullopt;
+    exponents.resize(first_f_);
+    collector.add(number, exponents);
+  }
+  return collector.finish();
+}
+
+Polynomial DarbouxSearch::monomial(const Monomials& list, std::size_t i) const {
+  Polynomial result = ring_.constant(1);
+  for (std::size_t v = 0; v < dimension_; ++v) result = result * ring_.variable(v).pow(list[i][v]);
+  return result;
+}
+
+/// Those of the monomials in the coordinates.
+std::vector<Polynomial> DarbouxSearch::coefficients(const Polynomial& p) const {
+  std::map<Exponents, std::vector<std::pair<cln::cl_RA, Exponents>>> parts;
+  for (auto [number, exponents] : p.term_list()) {
+    const Exponents own(exponents.begin(),
+                        exponents.begin() + static_cast<std::ptrdiff_t>(dimension_));
+    std::fill(exponents.begin(), exponents.begin() + static_cast<std::ptrdiff_t>(dimension_), 0);
+    parts[own].emplace_back(number, exponents);
+  }
+  std::vector<Polynomial> result;
+  for (const auto& [own, terms] : parts) {
+    TermCollector collector(ring_);
+    for (const auto& [number, exponents] : terms) collector.add(number, exponents);
+    result.push_back(collector.finish());
+  }
+  return result;
+}
+
+void DarbouxSearch::add(const Branch& branch, const Polynomial& f, const Polynomial& k) {
+  const Polynomial function = branch.reduced(f), cofactor = branch.reduced(k);
+  if (cofactor.is_zero()) return;  // an integral
+  if (!branch.decided) {
+    report_.complete = false;
+    report_.reason = "some equations for the coefficients could not be solved exactly";
+    return;
+  }
+  const std::optional<Polynomial> own = in_system_ring(function);
+  DarbouxPolynomial result;
+  result.degree = static_cast<int>(f.total_degree());
+  if (!own) {
+    // Coefficients that are algebraic numbers, or free: complex conjugates, or a pencil.
+    report_.complete = false;
+    report_.reason =
+        "there are Darboux polynomials with coefficients that are algebraic numbers, or families "
+        "of "
+        "them; these are not shown";
+    return;
+  }
+  if (own->factors().size() != 2 || own->factors()[1].second != 1) {
+    if (own->total_degree() > 1) return;  // a product of others
+  }
+  result.text = short_text(system_.prover().ring(), own->scaled(1 / own->content()));
+  // The cofactor is read off the rate.
+  Polynomial rate(system_.ring()), quotient(system_.ring());
+  for (std::size_t i = 0; i < dimension_; ++i) rate += own->derivative(i) * system_.flow()[i];
+  if (!rate.divide(*own, &quotient)) return;
+  result.cofactor = system_.prover().ring().text(quotient);
+  const auto same = [&](const DarbouxPolynomial& other) { return other.text == result.text; };
+  if (std::any_of(report_.found.begin(), report_.found.end(), same)) return;
+  Candidates candidates;
+  candidates.invariant_relations.push_back({result.text, {"found", 1, 1}, {}});
+  for (const Proof& proof : prove(model_, candidates, [](const Proof&) { return false; }))
+    result.verdict = proof.verdict;
+  report_.found.push_back(std::move(result));
+}
+
+/// All with this leading monomial: its coefficient is 1, and those of later monomials are 0.
+void DarbouxSearch::search_from(std::size_t leading) {
+  Polynomial f = monomial(monomials_, leading);
+  std::vector<std::size_t> unknowns;
+  for (std::size_t i = 0; i < leading; ++i) {
+    if (weights_ && weight(monomials_, i) != weight(monomials_, leading)) continue;
+    f += ring_.variable(first_f_ + i) * monomial(monomials_, i);
+    unknowns.push_back(first_f_ + i);
+  }
+  Polynomial k(ring_);
+  for (std::size_t i = 0; i < cofactor_monomials_.size(); ++i) {
+    if (weights_ && weight(cofactor_monomials_, i) != weights_->denominator) continue;
+    k += ring_.variable(first_k_ + i) * monomial(cofactor_monomials_, i);
+    unknowns.push_back(first_k_ + i);
+  }
+  Polynomial residual = -(k * f);
+  for (std::size_t i = 0; i < dimension_; ++i) residual += f.derivative(i) * field_[i];
+  for (const Branch& branch : solve_system(coefficients(residual), unknowns, watch_))
+    add(branch, f, k);
+}
+
+DarbouxReport DarbouxSearch::run() {
+  report_.complete = true;
+  watch_.begin("Darboux polynomials");
+  for (std::size_t leading = 1; leading < monomials_.size(); ++leading) {
+    watch_.tick(static_cast<double>(leading) / static_cast<double>(monomials_.size()));
+    search_from(leading);
+  }
+  for (const DarbouxPolynomial& found : report_.found) {
+    if (found.verdict == Verdict::proved) continue;
+    report_.complete = false;
+    report_.reason = fmt::format("'{}' was found but not proved", found.text);
+  }
+  return report_;
+}
+
+}  // namespace
+
+DarbouxReport find_darboux(const Model& model, int degree, const Watch& watch) {
+  constexpr int kHighest = 6;
+  if (degree > kHighest)
+    throw ModelError(fmt::format("Darboux polynomials are searched up to degree {}", kHighest));
+  return DarbouxSearch(model, degree, watch).run();
+}
+
+}  // namespace casimir::search

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "symbolic/model.hpp"
+#include "symbolic/prove.hpp"
+#include "symbolic/search/watch.hpp"
+
+namespace casimir::search {
+
+/// A polynomial whose rate is a multiple of it, so that its zero level is invariant.
+struct DarbouxPolynomial {
+  std::string text, cofactor;
+  std::vector<std::string> relations;  ///< between coefficients that are left, as algebraic numbers
+  int degree = 0;
+  Verdict verdict = Verdict::undecided;
+};
+
+struct DarbouxReport {
+  std::vector<DarbouxPolynomial> found;  ///< irreducible, with a cofactor that is not zero
+  bool complete = false;                 ///< there are no others, for generic parameters
+  std::string reason;
+  std::vector<std::string> generic;  ///< parameters
+};
+
+/// All irreducible Darboux polynomials up to a degree that are no integrals: the equations
+/// dF/dt = K F for the coefficients of F and K, solved by cases. Proved one by one.
+/// \throws ModelError  where the equations of motion are not polynomials
+DarbouxReport find_darboux(const Model& model, int degree, const Watch& watch = {});
+
+}  // namespace casimir::search

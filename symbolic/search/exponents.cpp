@@ -1,0 +1,448 @@
+#include "symbolic/search/exponents.hpp"
+
+#include <cln/rational_io.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <complex>
+#include <set>
+#include <sstream>
+
+#include "symbolic/expression.hpp"
+#include "symbolic/ideal.hpp"
+#include "symbolic/search/polynomial_system.hpp"
+#include "symbolic/search/quasi_homogeneous.hpp"
+#include "symbolic/search/system.hpp"
+
+namespace casimir::search {
+namespace {
+
+std::string text_of(const cln::cl_RA& number) {
+  std::ostringstream stream;
+  stream << number;
+  return stream.str();
+}
+
+/// All complex roots by Durand and Kerner's iteration; the polynomial is square-free.
+std::vector<std::pair<double, double>> numeric_roots(const std::vector<double>& coefficients) {
+  using Number = std::complex<long double>;
+  const std::size_t degree = coefficients.size() - 1;
+  std::vector<Number> roots;
+  for (std::size_t i = 0; i < degree; ++i)
+    roots.push_back(std::polar(1.0L, 0.4L + 2.1L * static_cast<long double>(i)) *
+                    (1.0L + 0.1L * static_cast<long double>(i)));
+  constexpr int kRounds = 2000;
+  for (int round = 0; round < kRounds; ++round) {
+    long double change = 0;
+    for (std::size_t i = 0; i < degree; ++i) {
+      Number value = 0, slope = static_cast<long double>(coefficients.back());
+      for (std::size_t k = degree + 1; k-- > 0;)
+        value = value * roots[i] + static_cast<long double>(coefficients[k]);
+      for (std::size_t j = 0; j < degree; ++j)
+        if (j != i) slope *= roots[i] - roots[j];
+      const Number step = value / slope;
+      roots[i] -= step;
+      change = std::max(change, std::abs(step));
+    }
+    if (change < 1e-17L) break;
+  }
+  std::vector<std::pair<double, double>> result;
+  for (const Number& root : roots) {
+    const auto imaginary = static_cast<double>(root.imag());
+    constexpr double kReal = 1e-13;
+    result.emplace_back(static_cast<double>(root.real()),
+                        std::abs(imaginary) < kReal ? 0 : imaginary);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+class Analysis {
+ public:
+  Analysis(const Model& model, const std::vector<std::pair<Text, Text>>& weights,
+           const Watch& watch);
+  ExponentReport run();
+
+ private:
+  void read_weights(const std::vector<std::pair<Text, Text>>& weights);
+  void keep_leading_terms();
+  std::optional<Balance> balance_of(const Branch& branch);
+  std::vector<Exponent> exponents_of(const Branch& branch, bool& decided);
+  std::optional<std::vector<SolvedRelation>> triangular(std::vector<Polynomial> relations) const;
+  Exponent exponent_of(const Polynomial& factor) const;
+  Polynomial in_own_ring(const Polynomial& p) const;
+  std::string text(const Polynomial& p) const;
+  std::string quotient(const Polynomial& top, const Polynomial& bottom) const;
+  void conclude();
+  cln::cl_RA weight(std::size_t i) const {
+    return cln::cl_RA(weights_.numerators[i]) / weights_.denominator;
+  }
+
+  const Model& model_;
+  const Watch& watch_;
+  System system_;
+  std::size_t dimension_;
+  PolynomialRing ring_;  ///< that of the system, with rho at the end
+  std::size_t rho_;
+  std::vector<Polynomial> field_;  ///< times factor_
+  Polynomial factor_;              ///< made of parameters
+  Weights weights_;
+  ExponentReport report_;
+};
+
+Analysis::Analysis(const Model& model, const std::vector<std::pair<Text, Text>>& weights,
+                   const Watch& watch)
+    : model_(model),
+      watch_(watch),
+      system_(model, {}, {}),
+      dimension_(model.variables.size()),
+      ring_(system_.ring().size() + 1),
+      rho_(system_.ring().size()),
+      factor_(ring_.constant(1)) {
+  if (model.time) throw ModelError("exponents need equations that do not depend on the time");
+  std::vector<Polynomial> row = system_.prover().field();
+  for (const Polynomial& rate : row) {
+    for (std::size_t g = 0; g < system_.ring().size(); ++g) {
+      if (g >= system_.prover().ring().symbols().size() && !system_.is_constant()[g] &&
+          rate.uses(g))
+        throw ModelError(
+            "exponents need equations of motion that are polynomials in the variables");
+    }
+  }
+  row.push_back(system_.ring().constant(1));
+  if (!system_.prover().ring().is_polynomial())
+    row = system_.prover().ring().common_numerators(std::move(row));
+  factor_ = in_own_ring(row.back());
+  row.pop_back();
+  for (const Polynomial& p : row) field_.push_back(in_own_ring(p));
+  read_weights(weights);
+}
+
+Polynomial Analysis::in_own_ring(const Polynomial& p) const {
+  TermCollector collector(ring_);
+  for (auto [number, exponents] : p.term_list()) {
+    exponents.push_back(0);
+    collector.add(number, exponents);
+  }
+  return collector.finish();
+}
+
+std::string Analysis::text(const Polynomial& p) const {
+  std::string result;
+  for (const auto& [number, exponents] : p.term_list()) {
+    std::string factors;
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
+      if (exponents[i] == 0) continue;
+      factors += (factors.empty() ? "" : "*") + (i == rho_ ? "rho" : system_.name(i));
+      if (exponents[i] > 1) factors += fmt::format("^{}", exponents[i]);
+    }
+    const std::string size = text_of(cln::abs(number));
+    result += cln::minusp(number) ? (result.empty() ? "-" : " - ") : (result.empty() ? "" : " + ");
+    result += factors.empty() ? size : size == "1" ? factors : size + "*" + factors;
+  }
+  return result.empty() ? "0" : result;
+}
+
+std::string Analysis::quotient(const Polynomial& top, const Polynomial& bottom) const {
+  const Polynomial common = Polynomial::gcd(top, bottom);
+  Polynomial a = top, b = bottom;
+  if (!common.is_constant()) {
+    top.divide(common, &a);
+    bottom.divide(common, &b);
+  }
+  if (b.is_constant()) return text(a.scaled(1 / b.term_list()[0].first));
+  const cln::cl_RA content = b.content();
+  a = a.scaled(1 / content);
+  b = b.scaled(1 / content);
+  const auto bracketed = [&](const Polynomial& p) {
+    return p.terms() > 1 ? "(" + text(p) + ")" : text(p);
+  };
+  return bracketed(a) + "/(" + text(b) + ")";
+}
+
+void Analysis::read_weights(const std::vector<std::pair<Text, Text>>& weights) {
+  std::vector<std::string> names;
+  for (const GiNaC::symbol& s : model_.variables) names.push_back(s.get_name());
+  if (weights.empty()) {
+    const std::optional<Weights> found = find_weights(field_, names);
+    if (!found) {
+      throw ModelError(
+          "no weights with small numbers make the equations of motion quasi-homogeneous: give them "
+          "with --weights");
+    }
+    weights_ = *found;
+  } else {
+    weights_.numerators.assign(dimension_, 1);
+    for (const auto& [name, weight] : weights) {
+      const std::size_t i =
+          symbol_position(name, name.value, 0, model_.variables, "a variable of this case");
+      int value = 0;
+      const char* end = weight.value.data() + weight.value.size();
+      const auto [stop, problem] = std::from_chars(weight.value.data(), end, value);
+      if (problem != std::errc() || stop != end || value < 1 || value > 100)
+        throw weight.error("a weight is a whole number from 1 to 100");
+      weights_.numerators[i] = value;
+    }
+  }
+  for (std::size_t i = 0; i < dimension_; ++i)
+    report_.weights.emplace_back(names[i], text_of(weight(i)));
+}
+
+void Analysis::keep_leading_terms() {
+  for (std::size_t i = 0; i < dimension_; ++i) {
+    TermCollector kept(ring_), dropped(ring_);
+    for (const auto& [number, exponents] : field_[i].term_list()) {
+      const int more = excess(weights_, i, exponents);
+      if (more > 0) {
+        throw ModelError(
+            fmt::format("with these weights the rate of {} has a term of too high a weight, so "
+                        "that no solution "
+                        "grows like a power",
+                        model_.variables[i].get_name()));
+      }
+      (more == 0 ? kept : dropped).add(number, exponents);
+    }
+    field_[i] = kept.finish();
+    const Polynomial rest = dropped.finish();
+    if (!rest.is_zero())
+      report_.left_out.push_back(
+          fmt::format("{} in the rate of {}", text(rest), model_.variables[i].get_name()));
+  }
+}
+
+Exponent Analysis::exponent_of(const Polynomial& factor) const {
+  Exponent result;
+  const std::vector<Polynomial> parts = factor.coefficients(rho_);
+  const bool constant = std::all_of(parts.begin(), parts.end(), [](const Polynomial& p) {
+    return p.is_zero() || p.is_constant();
+  });
+  const auto number = [](const Polynomial& p) {
+    return p.is_zero() ? cln::cl_RA(0) : p.term_list()[0].first;
+  };
+  if (parts.size() == 2) {
+    if (constant) {
+      const cln::cl_RA value = -number(parts[0]) / number(parts[1]);
+      result.kind =
+          cln::denominator(value) == 1 ? Exponent::Kind::integer : Exponent::Kind::rational;
+      result.text = text_of(value);
+    } else {
+      result.kind = Exponent::Kind::parametric;
+      result.text = quotient(-parts[0], parts[1]);
+    }
+    return result;
+  }
+  result.kind = constant ? Exponent::Kind::algebraic : Exponent::Kind::parametric;
+  result.text = text(factor.scaled(1 / factor.content()));
+  if (constant) {
+    std::vector<double> coefficients;
+    for (const Polynomial& p : parts) coefficients.push_back(cln::double_approx(number(p)));
+    result.values = numeric_roots(coefficients);
+  }
+  return result;
+}
+
+/// The relations one by one, each for a coefficient that those after it do not have; empty where
+/// they are not of that kind.
+std::optional<std::vector<SolvedRelation>> Analysis::triangular(
+    std::vector<Polynomial> relations) const {
+  std::vector<SolvedRelation> set;
+  std::set<std::size_t> covered;
+  const auto fresh = [&](const Polynomial& p) {
+    std::vector<std::size_t> result;
+    for (std::size_t v = 0; v < dimension_; ++v)
+      if (p.uses(v) && covered.count(v) == 0) result.push_back(v);
+    return result;
+  };
+  while (!relations.empty()) {
+    const auto best =
+        std::min_element(relations.begin(), relations.end(), [&](const auto& a, const auto& b) {
+          return std::pair(fresh(a).size(), a.total_degree()) <
+                 std::pair(fresh(b).size(), b.total_degree());
+        });
+    const Polynomial relation = *best;
+    relations.erase(best);
+    const std::vector<std::size_t> candidates = fresh(relation);
+    if (candidates.empty()) {
+      if (!pseudo_remainder(relation, set).is_zero()) return std::nullopt;
+      continue;
+    }
+    std::optional<std::size_t> main;
+    for (const std::size_t v : candidates) {
+      const Polynomial leading = relation.coefficients(v).back();
+      bool free_of_unknowns = true;
+      for (std::size_t u = 0; u < dimension_; ++u)
+        free_of_unknowns = free_of_unknowns && !leading.uses(u);
+      if (free_of_unknowns && (!main || relation.degree(v) < relation.degree(*main))) main = v;
+    }
+    if (!main) return std::nullopt;
+    for (const std::size_t v : candidates) covered.insert(v);
+    set.insert(set.begin(), {relation, *main, relation.coefficients(*main).back()});
+  }
+  return set;
+}
+
+/// The roots of det(dF/dx(c) + diag(g) - rho), by factors over the rationals; where a coefficient
+/// is an algebraic number, of the norm.
+std::vector<Exponent> Analysis::exponents_of(const Branch& branch, bool& decided) {
+  const bool simple =
+      std::all_of(branch.solved.begin(), branch.solved.end(),
+                  [](const SolvedUnknown& s) { return s.denominator.is_constant(); });
+  std::vector<std::vector<Polynomial>> matrix;
+  for (std::size_t i = 0; i < dimension_; ++i) {
+    auto& row = matrix.emplace_back();
+    for (std::size_t j = 0; j < dimension_; ++j) {
+      Polynomial entry = field_[i].derivative(j);
+      if (i == j) entry += factor_.scaled(weight(i)) - factor_ * ring_.variable(rho_);
+      row.push_back(simple ? branch.reduced(entry) : entry);
+    }
+  }
+  Polynomial characteristic = determinant_without_sign(matrix, ring_);
+  if (!simple) characteristic = branch.reduced(characteristic);
+  const std::optional<std::vector<SolvedRelation>> relations = triangular(branch.rest);
+  if (!relations) {
+    decided = false;
+    return {};
+  }
+  unsigned long norm = 1;
+  for (const SolvedRelation& r : *relations) {
+    if (!characteristic.uses(r.variable)) continue;
+    characteristic = resultant(characteristic, r.relation, r.variable);
+    norm *= static_cast<unsigned long>(r.relation.degree(r.variable));
+  }
+  std::vector<Exponent> result;
+  unsigned long degree = 0;
+  for (const auto& [factor, power] : characteristic.factors()) {
+    if (!factor.uses(rho_)) continue;
+    Exponent exponent = exponent_of(factor);
+    // Conjugate solutions: together they have every exponent that is rational `norm` times.
+    exponent.multiplicity = power % norm == 0 ? power / norm : power;
+    degree += power * static_cast<unsigned long>(factor.degree(rho_));
+    result.push_back(std::move(exponent));
+  }
+  if (degree != norm * dimension_) decided = false;
+  std::sort(result.begin(), result.end(), [](const Exponent& a, const Exponent& b) {
+    return std::pair(a.kind, std::pair(a.text.size(), a.text)) <
+           std::pair(b.kind, std::pair(b.text.size(), b.text));
+  });
+  return result;
+}
+
+std::optional<Balance> Analysis::balance_of(const Branch& branch) {
+  Balance balance;
+  balance.decided = branch.decided;
+  bool zero = true;
+  std::set<std::size_t> free;
+  for (std::size_t i = 0; i < dimension_; ++i) {
+    Polynomial top = ring_.variable(i), bottom = ring_.constant(1);
+    for (const SolvedUnknown& s : branch.solved) {
+      if (!top.uses(s.place)) continue;
+      bottom = bottom * s.denominator.pow(static_cast<unsigned long>(top.degree(s.place)));
+      top = substituted(top, s.place, s.numerator, s.denominator);
+    }
+    if (!top.is_zero()) zero = false;
+    for (std::size_t v = 0; v < dimension_; ++v)
+      if (top.uses(v)) free.insert(v);
+    balance.coefficients.emplace_back(model_.variables[i].get_name(), quotient(top, bottom));
+  }
+  if (zero) return std::nullopt;
+  if (const auto relations = triangular(branch.rest); relations && balance.decided) {
+    for (const SolvedRelation& r : *relations) {
+      balance.relations.push_back(text(r.relation) + " = 0");
+      free.erase(r.variable);
+    }
+  } else {
+    balance.decided = false;
+  }
+  for (const std::size_t v : free) balance.free.push_back(model_.variables[v].get_name());
+  if (balance.decided) balance.exponents = exponents_of(branch, balance.decided);
+  return balance;
+}
+
+void Analysis::conclude() {
+  std::vector<std::string> rational, irrational, parametric;
+  bool all_integer = report_.complete;
+  for (const Balance& balance : report_.balances) {
+    for (const Exponent& e : balance.exponents) {
+      if (e.kind == Exponent::Kind::integer) continue;
+      all_integer = false;
+      auto& list = e.kind == Exponent::Kind::rational     ? rational
+                   : e.kind == Exponent::Kind::parametric ? parametric
+                                                          : irrational;
+      const std::string entry = e.kind == Exponent::Kind::algebraic ? e.text + " = 0" : e.text;
+      if (std::find(list.begin(), list.end(), entry) == list.end()) list.push_back(entry);
+    }
+  }
+  auto& out = report_.conclusions;
+  if (report_.balances.empty() && report_.complete)
+    out.push_back("there is no balance with these weights: the test says nothing");
+  if (!irrational.empty()) {
+    out.push_back(fmt::format(
+        "exponents that are not rational ({}): the leading system is not algebraically integrable "
+        "(Yoshida 1983: all Kovalevskaya exponents of a quasi-homogeneous system that is are "
+        "rational), and its general solution branches infinitely often",
+        fmt::join(irrational, "; ")));
+  }
+  if (!rational.empty()) {
+    out.push_back(fmt::format(
+        "rational exponents that are not integers ({}): the general solution is not single-valued "
+        "in complex time (Kovalevskaya 1889, Lyapunov 1894); an algebraic integral is not excluded",
+        fmt::join(rational, "; ")));
+  }
+  if (!parametric.empty()) {
+    out.push_back(fmt::format(
+        "exponents that depend on parameters ({}): where one is not rational, the leading system "
+        "is "
+        "not algebraically integrable (Yoshida 1983); where one is not an integer, the general "
+        "solution is not single-valued (Kovalevskaya 1889, Lyapunov 1894)",
+        fmt::join(parametric, "; ")));
+  }
+  if (all_integer && !report_.balances.empty())
+    out.push_back(
+        "all exponents are integers: Kovalevskaya's necessary condition for single-valued general "
+        "solutions holds for these balances; that alone proves no integrability");
+}
+
+ExponentReport Analysis::run() {
+  keep_leading_terms();
+  std::vector<Polynomial> equations;
+  std::vector<std::size_t> unknowns;
+  for (std::size_t i = 0; i < dimension_; ++i) {
+    equations.push_back(field_[i] + factor_.scaled(weight(i)) * ring_.variable(i));
+    unknowns.push_back(i);
+  }
+  watch_.begin("balances");
+  report_.complete = true;
+  std::set<std::string> known;
+  for (const Branch& branch : solve_system(equations, unknowns, watch_)) {
+    const std::optional<Balance> balance = balance_of(branch);
+    if (!balance) continue;
+    std::string key;
+    for (const auto& [name, value] : balance->coefficients) key += value + ";";
+    for (const std::string& relation : balance->relations) key += relation + ";";
+    if (!known.insert(key).second) continue;
+    // An exponent -1 belongs to every balance, as the origin of time is arbitrary.
+    const auto is_minus_one = [](const Exponent& e) { return e.text == "-1"; };
+    if (balance->decided &&
+        std::none_of(balance->exponents.begin(), balance->exponents.end(), is_minus_one))
+      throw std::logic_error("a balance without the exponent -1");
+    if (!balance->decided) {
+      report_.complete = false;
+      report_.reason = "some equations of the balances could not be solved exactly";
+    }
+    if (balance->decided) report_.balances.push_back(*balance);
+  }
+  conclude();
+  return report_;
+}
+
+}  // namespace
+
+ExponentReport kovalevskaya_exponents(const Model& model,
+                                      const std::vector<std::pair<Text, Text>>& weights,
+                                      const Watch& watch) {
+  return Analysis(model, weights, watch).run();
+}
+
+}  // namespace casimir::search

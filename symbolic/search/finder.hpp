@@ -1,0 +1,38 @@
+#pragma once
+
+#include "symbolic/search/integral_space.hpp"
+#include "symbolic/search/search.hpp"
+
+namespace casimir::search {
+
+/// Everything that one search of a case needs, from reading to proof.
+class Finder {
+ public:
+  /// Borrows all three.
+  Finder(const Model& model, const Request& request, const Watch& watch);
+
+  Report run();
+
+  System& system() { return system_; }
+  /// The problem of the integrals, to be found beside the known ones.
+  Problem integral_problem(std::vector<Generator> known);
+
+ private:
+  std::vector<int> weights() const;
+  std::vector<Generator> casimirs_as_needed();
+  std::vector<Found> described(const std::vector<Generator>& generators,
+                               const std::vector<Generator>& known, const std::string& kind);
+  void prove_all(std::vector<Found>& list, const std::string& kind) const;
+  void check_level();
+  void take(const Solution& solution);
+
+  const Model& model_;
+  const Request& request_;
+  const Watch& watch_;
+  std::vector<NamedExpression> on_, known_;
+  System system_;
+  std::vector<int> weights_;
+  Report report_;
+};
+
+}  // namespace casimir::search

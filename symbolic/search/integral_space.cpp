@@ -1,0 +1,431 @@
+#include "symbolic/search/integral_space.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "symbolic/search/level_points.hpp"
+#include "symbolic/search/reconstruct.hpp"
+#include "symbolic/search/shorten.hpp"
+
+namespace casimir::search {
+namespace {
+
+/// A monomial of highest weighted degree of p over the places.
+std::vector<std::uint8_t> leading_monomial(const Polynomial& p,
+                                           const std::vector<std::size_t>& places,
+                                           const std::vector<int>& weights) {
+  std::vector<std::uint8_t> best(places.size(), 0);
+  int highest = -1;
+  for (const auto& [coefficient, exponents] : p.term_list()) {
+    std::vector<std::uint8_t> own(places.size());
+    int degree = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      own[i] = static_cast<std::uint8_t>(exponents[places[i]]);
+      degree += weights[i] * own[i];
+    }
+    // Of one degree, that with most of the last variables, as in c^2 + s^2 - 1 and u^2 - b.
+    if (degree > highest ||
+        (degree == highest &&
+         std::lexicographical_compare(best.rbegin(), best.rend(), own.rbegin(), own.rend()))) {
+      highest = degree;
+      best = own;
+    }
+  }
+  return best;
+}
+
+bool divides(const std::vector<std::uint8_t>& a, const std::uint8_t* b) {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (a[i] > b[i]) return false;
+  return true;
+}
+
+Monomials without_multiples(const Monomials& monomials,
+                            const std::vector<std::vector<std::uint8_t>>& leading) {
+  if (leading.empty()) return monomials;
+  Monomials result(monomials.variables());
+  for (std::size_t c = 0; c < monomials.size(); ++c) {
+    if (std::none_of(leading.begin(), leading.end(),
+                     [&](const auto& m) { return divides(m, monomials[c]); }))
+      result.add({monomials[c], monomials[c] + monomials.variables()}, monomials.degree(c));
+  }
+  return result;
+}
+
+/// No problem of this size is begun.
+void check_memory(const Problem& problem, const Watch& watch) {
+  const double bytes = bytes_of_equations(problem.fields, problem.weights, problem.degree);
+  if (bytes <= watch.memory_limit) return;
+  throw TooMuchMemory(fmt::format(
+      "degree {} has {:.3g} unknowns, whose equations take about {:.3g} GB, more than the limit "
+      "of {:.3g} GB",
+      problem.degree, count_monomials(problem.weights, problem.degree), bytes / 1e9,
+      watch.memory_limit / 1e9));
+}
+
+/// By how much the fields raise the degree.
+int growth_of(const Problem& problem) {
+  int growth = 0;
+  for (const auto& rates : problem.fields.rates) {
+    for (std::size_t i = 0; i < rates.size(); ++i) {
+      if (rates[i].is_zero()) continue;
+      growth = std::max(growth, weighted_degree(rates[i], problem.fields.places, problem.weights) -
+                                    problem.weights[i]);
+    }
+  }
+  return growth;
+}
+
+/// One search: the null space modulo a prime at a random point of the parameters, and what of it is
+/// new.
+class Run {
+ public:
+  Run(const System& system, const Problem& problem, const Watch& watch)
+      : system_(system),
+        problem_(problem),
+        watch_(watch),
+        modulus_(Modulus::nth(0)),
+        random_(11),
+        ansatz_(problem.weights.size()),
+        span_(modulus_),
+        level_(system, problem.on, problem.fields.places),
+        generators_(problem.known) {}
+
+  Solution run();
+
+ private:
+  struct Vector {
+    std::size_t block;
+    int degree;
+    std::vector<Residue> entries;  ///< over the block's columns
+    std::vector<Residue> values;   ///< at the points
+  };
+
+  void take_ansatz();
+  void eliminate();
+  bool only_trivial();
+  void draw_points(std::size_t count);
+  std::vector<Residue> column_values(std::size_t column) const;
+  std::vector<Residue> values_of(const Polynomial& f) const;
+  std::vector<Vector> null_vectors();
+  void add_products(std::size_t old);
+  std::optional<Polynomial> realise(const Vector& vector);
+  std::vector<std::vector<Residue>> trivial_vectors(int degree);
+
+  const System& system_;
+  const Problem& problem_;
+  const Watch& watch_;
+  Modulus modulus_;
+  std::mt19937_64 random_;
+  Monomials ansatz_;
+  std::vector<Relation> relations_;
+  std::size_t multipliers_ = 0;
+  bool coprime_ = true;
+  Point constants_;
+  std::vector<Block> blocks_;
+  std::vector<Echelon> echelons_;
+  std::size_t nullity_ = 0;
+  std::vector<Point> points_;
+  Span span_;
+  LevelPoints level_;
+  std::vector<Generator> generators_;
+  std::vector<std::vector<Residue>> generator_values_;
+  Solution solution_;
+};
+
+void Run::take_ansatz() {
+  Ansatz ansatz = make_ansatz(system_, problem_, watch_);
+  ansatz_ = std::move(ansatz.monomials);
+  relations_ = std::move(ansatz.relations);
+  coprime_ = ansatz.coprime;
+  for (const Relation& relation : relations_) multipliers_ += relation.multipliers.size();
+}
+
+void Run::eliminate() {
+  const Equations equations =
+      make_equations(problem_.fields, ansatz_, relations_, constants_, modulus_);
+  blocks_ = split(equations);
+  solution_.unknowns = equations.columns;
+  solution_.equations = equations.rows();
+  solution_.blocks = blocks_.size();
+  std::size_t done = 0;
+  Watch part = watch_;
+  echelons_.reserve(blocks_.size());
+  for (Block& block : blocks_) {
+    solution_.largest_block = std::max(solution_.largest_block, block.columns.size());
+    const double before = static_cast<double>(done) / static_cast<double>(equations.columns);
+    const double width =
+        static_cast<double>(block.columns.size()) / static_cast<double>(equations.columns);
+    part.tick = [&](double share) { watch_.tick(before + width * share); };
+    echelons_.emplace_back(modulus_, std::move(block.rows), block.columns.size(), part);
+    nullity_ += echelons_.back().nullity();
+    done += block.columns.size();
+  }
+}
+
+/// Whether the known functions, if they are independent, account for the whole null space: the
+/// products of independent functions are linearly independent, and need not be looked at.
+bool Run::only_trivial() {
+  if (!relations_.empty()) return false;
+  std::vector<Polynomial> functions;
+  std::vector<int> degrees;
+  for (const Generator& g : generators_) {
+    functions.push_back(g.function);
+    degrees.push_back(g.degree);
+  }
+  if (rank_of_gradients(system_, functions) < functions.size()) return false;
+  if (products_up_to(degrees, problem_.degree, 0).size() != nullity_) return false;
+  solution_.trivial = nullity_;
+  return true;
+}
+
+void Run::draw_points(std::size_t count) {
+  while (points_.size() < count) {
+    watch_.tick(static_cast<double>(points_.size()) / static_cast<double>(count));
+    std::optional<Point> point = problem_.on.empty()
+                                     ? system_.random_point(modulus_, random_, &constants_)
+                                     : level_.draw(modulus_, random_, constants_);
+    if (!point) throw ModelError("no points of the level were found modulo a prime");
+    points_.push_back(std::move(*point));
+  }
+}
+
+std::vector<Residue> Run::column_values(std::size_t column) const {
+  std::vector<Residue> values(points_.size(), 0);
+  if (column < multipliers_) return values;
+  const std::uint8_t* exponents = ansatz_[column - multipliers_];
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    Residue value = 1;
+    for (std::size_t i = 0; i < ansatz_.variables(); ++i) {
+      for (int k = 0; k < exponents[i]; ++k)
+        value = modulus_.multiply(value, points_[p][problem_.fields.places[i]]);
+    }
+    values[p] = value;
+  }
+  return values;
+}
+
+std::vector<Residue> Run::values_of(const Polynomial& f) const {
+  std::vector<Residue> values;
+  for (const Point& point : points_) {
+    const std::optional<Residue> value = value_at(f, point, modulus_);
+    if (!value) throw std::domain_error("the prime divides a denominator");
+    values.push_back(*value);
+  }
+  return values;
+}
+
+std::vector<Run::Vector> Run::null_vectors() {
+  std::vector<Vector> result;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    if (echelons_[b].nullity() == 0) continue;
+    const std::vector<std::uint32_t>& columns = blocks_[b].columns;
+    std::vector<std::vector<Residue>> values;
+    for (const std::uint32_t column : columns) values.push_back(column_values(column));
+    watch_.tick(static_cast<double>(b) / static_cast<double>(blocks_.size()));
+    for (std::vector<Residue>& entries : echelons_[b].null_basis()) {
+      std::vector<std::uint64_t> sums(points_.size(), 0);
+      int degree = -1;
+      for (std::size_t i = 0; i < entries.size(); ++i) {
+        if (entries[i] == 0) continue;
+        if (columns[i] >= multipliers_)
+          degree = std::max(degree, ansatz_.degree(columns[i] - multipliers_));
+        for (std::size_t p = 0; p < sums.size(); ++p)
+          sums[p] = modulus_.reduce(sums[p] + std::uint64_t{entries[i]} * values[i][p]);
+      }
+      result.push_back({b, degree, std::move(entries), {sums.begin(), sums.end()}});
+    }
+    watch_.tick(static_cast<double>(b) / static_cast<double>(blocks_.size()));
+  }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Vector& a, const Vector& b) { return a.degree < b.degree; });
+  return result;
+}
+
+/// Puts the products into the span that use any generator from the place `old` on.
+void Run::add_products(std::size_t old) {
+  std::vector<int> degrees;
+  for (std::size_t g = 0; g < generators_.size(); ++g) {
+    degrees.push_back(generators_[g].degree);
+    if (g >= generator_values_.size())
+      generator_values_.push_back(values_of(generators_[g].function));
+  }
+  for (const std::vector<int>& exponents : products_up_to(degrees, problem_.degree, old)) {
+    std::vector<Residue> values(points_.size(), 1);
+    for (std::size_t g = 0; g < exponents.size(); ++g) {
+      for (int k = 0; k < exponents[g]; ++k)
+        for (std::size_t p = 0; p < values.size(); ++p)
+          values[p] = modulus_.multiply(values[p], generator_values_[g][p]);
+    }
+    span_.insert(std::move(values));
+  }
+}
+
+/// Coefficients, modulo the prime, of products of generators up to a degree.
+std::vector<std::vector<Residue>> Run::trivial_vectors(int degree) {
+  constexpr std::size_t kMaxTerms = 3000, kMaxProducts = 60;
+  std::vector<int> degrees;
+  for (const Generator& g : generators_) degrees.push_back(g.degree);
+  std::unordered_map<std::string, std::size_t> columns;
+  for (std::size_t c = 0; c < ansatz_.size(); ++c)
+    columns.emplace(std::string(ansatz_[c], ansatz_[c] + ansatz_.variables()), c);
+  std::vector<std::vector<Residue>> result;
+  std::vector<std::vector<int>> products = products_up_to(degrees, degree, 0);
+  if (products.size() > kMaxProducts) return result;
+  for (const std::vector<int>& exponents : products) {
+    Polynomial product = system_.ring().constant(1);
+    for (std::size_t g = 0; g < exponents.size() && product.terms() <= kMaxTerms; ++g)
+      product = product * generators_[g].function.pow(static_cast<unsigned long>(exponents[g]));
+    if (product.terms() > kMaxTerms) continue;
+    std::vector<Residue> vector(ansatz_.size(), 0);
+    bool inside = true;
+    for (const auto& [number, powers] : product.term_list()) {
+      std::string own(ansatz_.variables(), '\0');
+      Residue coefficient = modulus_.reduce(number).value_or(0);
+      for (std::size_t i = 0; i < own.size(); ++i)
+        own[i] = static_cast<char>(powers[problem_.fields.places[i]]);
+      for (std::size_t i = 0; i < powers.size(); ++i) {
+        if (system_.is_constant()[i] && powers[i] != 0)
+          coefficient = modulus_.multiply(coefficient, modulus_.power(constants_[i], powers[i]));
+      }
+      const auto column = columns.find(own);
+      if (column == columns.end()) {
+        inside = false;
+        break;
+      }
+      vector[column->second] = modulus_.add(vector[column->second], coefficient);
+    }
+    if (inside) result.push_back(std::move(vector));
+  }
+  return result;
+}
+
+/// The function of a null vector, exactly: first made short by what is known, which leaves a few
+/// monomials, and then found again among these.
+std::optional<Polynomial> Run::realise(const Vector& vector) {
+  std::vector<Residue> coefficients(ansatz_.size(), 0);
+  const std::vector<std::uint32_t>& columns = blocks_[vector.block].columns;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i] >= multipliers_) coefficients[columns[i] - multipliers_] = vector.entries[i];
+  }
+  const std::vector<Residue> plain = coefficients;
+  coefficients = shortened(coefficients, trivial_vectors(vector.degree), modulus_);
+  for (const std::vector<Residue>& form : {coefficients, plain}) {
+    Monomials support(ansatz_.variables());
+    for (std::size_t c = 0; c < form.size(); ++c) {
+      if (form[c] != 0)
+        support.add({ansatz_[c], ansatz_[c] + ansatz_.variables()}, ansatz_.degree(c));
+    }
+    std::optional<Polynomial> f =
+        reconstruct(system_, problem_.fields, support, relations_, system_.parameters(), watch_);
+    if (f && !span_.contains(values_of(*f))) return f;
+  }
+  return std::nullopt;
+}
+
+Solution Run::run() {
+  if (!problem_.on.empty() && !level_.possible())
+    throw ModelError("the functions of the level cannot be solved one after the other");
+  const std::optional<Point> constants = system_.random_point(modulus_, random_);
+  if (!constants) throw ModelError("no values of the parameters were found modulo a prime");
+  constants_ = *constants;
+  take_ansatz();
+  eliminate();
+  if (only_trivial()) {
+    solution_.complete = true;
+    return solution_;
+  }
+  draw_points(nullity_ + 16);
+  add_products(0);
+  solution_.trivial = span_.dimension();
+  bool all_found = true;
+  for (const Vector& vector : null_vectors()) {
+    if (span_.contains(vector.values)) continue;
+    std::optional<Polynomial> f = realise(vector);
+    if (!f) {
+      all_found = false;
+      span_.insert(vector.values);
+      continue;
+    }
+    const int degree = weighted_degree(*f, problem_.fields.places, problem_.weights);
+    generators_.push_back({*f, degree});
+    solution_.found.push_back(generators_.back());
+    add_products(generators_.size() - 1);
+  }
+  solution_.complete = all_found && coprime_ && span_.dimension() == nullity_;
+  if (!all_found) {
+    solution_.reason =
+        "there seem to be further integrals, but their coefficients were not found as polynomials "
+        "of a moderate degree in the parameters with moderate numbers";
+  } else if (!coprime_) {
+    solution_.reason =
+        "only cofactors of low degree were tried, and the functions of the level may need others";
+  } else if (!solution_.complete) {
+    solution_.reason =
+        fmt::format("modulo a prime there are {} solutions, while {} were found: more may exist",
+                    nullity_, span_.dimension());
+  }
+  return solution_;
+}
+
+}  // namespace
+
+Ansatz make_ansatz(const System& system, const Problem& problem, const Watch& watch) {
+  check_memory(problem, watch);
+  const auto& places = problem.fields.places;
+  const int growth = growth_of(problem);
+  Ansatz ansatz{Monomials(places.size()), {}, true};
+  std::vector<std::vector<std::uint8_t>> leading;
+  std::vector<Polynomial> level = problem.on;
+  level.insert(level.end(), system.relations().begin(), system.relations().end());
+  for (const Polynomial& function : level) {
+    const int left = problem.degree + growth - weighted_degree(function, places, problem.weights);
+    // A multiple of an earlier relation need not be a cofactor: that one's takes it over.
+    if (left >= 0) {
+      ansatz.relations.push_back(
+          {function, without_multiples(all_monomials(problem.weights, left), leading)});
+    }
+    leading.push_back(leading_monomial(function, places, problem.weights));
+    for (std::size_t i = 0; i + 1 < leading.size(); ++i) {
+      for (std::size_t k = 0; k < places.size(); ++k)
+        ansatz.coprime = ansatz.coprime && (leading[i][k] == 0 || leading.back()[k] == 0);
+    }
+  }
+  ansatz.monomials = without_multiples(all_monomials(problem.weights, problem.degree), leading);
+  return ansatz;
+}
+
+int weighted_degree(const Polynomial& p, const std::vector<std::size_t>& places,
+                    const std::vector<int>& weights) {
+  int highest = 0;
+  for (const auto& [coefficient, exponents] : p.term_list()) {
+    int degree = 0;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      degree += weights[i] * static_cast<int>(exponents[places[i]]);
+    highest = std::max(highest, degree);
+  }
+  return highest;
+}
+
+std::size_t rank_of_gradients(const System& system, const std::vector<Polynomial>& functions) {
+  const Modulus modulus = Modulus::nth(0);
+  std::mt19937_64 random(5);
+  const std::optional<Point> point = system.random_point(modulus, random);
+  if (!point) return 0;
+  Span span(modulus);
+  for (const Polynomial& f : functions) {
+    std::vector<Residue> gradient;
+    for (const Polynomial& slope : system.gradient(f))
+      gradient.push_back(value_at(slope, *point, modulus).value_or(0));
+    span.insert(std::move(gradient));
+  }
+  return span.dimension();
+}
+
+Solution solve(const System& system, const Problem& problem, const Watch& watch) {
+  return Run(system, problem, watch).run();
+}
+
+}  // namespace casimir::search

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "symbolic/search/echelon.hpp"
+#include "symbolic/search/linear_map.hpp"
+#include "symbolic/search/span.hpp"
+#include "symbolic/search/watch.hpp"
+
+namespace casimir::search {
+
+/// A function that others are made of.
+struct Generator {
+  Polynomial function;
+  int degree;  ///< weighted
+};
+
+/// What a search has to solve.
+struct Problem {
+  Fields fields;
+  std::vector<int> weights;      ///< one for each place
+  int degree = 0;                ///< highest, weighted
+  std::vector<Polynomial> on;    ///< the level, if any
+  std::vector<Generator> known;  ///< that are not to be found again, nor what they generate
+};
+
+/// The unknowns of a problem. On a level, and where the atoms have relations, only functions are
+/// looked for that no relation makes simpler, and cofactors of the relations are unknowns too.
+struct Ansatz {
+  Monomials monomials;
+  std::vector<Relation> relations;
+  /// Whether the leading monomials of the relations have no variable in common: then what is in
+  /// their ideal has cofactors of the degrees that are searched.
+  bool coprime = true;
+};
+
+/// \throws TooMuchMemory
+Ansatz make_ansatz(const System& system, const Problem& problem, const Watch& watch);
+
+/// What came of it.
+struct Solution {
+  std::vector<Generator> found;
+  std::size_t trivial = 0;  ///< dimension of what the known ones generate, with the constants
+  bool complete = false;    ///< there are no others: proved
+  std::string reason;       ///< where it is not complete
+  std::size_t unknowns = 0, equations = 0, blocks = 0, largest_block = 0;
+};
+
+/// All polynomials up to a degree that the fields annihilate (on the level), less those that the
+/// known ones generate. Complete where the null space modulo a prime is no larger than what was
+/// found, as it can only be larger than that over the rationals. With symbolic parameters all this
+/// is about generic values of them.
+/// \throws TooMuchMemory, TimeUp
+Solution solve(const System& system, const Problem& problem, const Watch& watch);
+
+/// The weighted degree of a polynomial in the variables at `places`.
+int weighted_degree(const Polynomial& p, const std::vector<std::size_t>& places,
+                    const std::vector<int>& weights);
+
+/// The rank of the functions' gradients at a random point modulo a prime, which bounds the generic
+/// rank from below.
+std::size_t rank_of_gradients(const System& system, const std::vector<Polynomial>& functions);
+
+}  // namespace casimir::search

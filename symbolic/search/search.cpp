@@ -1,0 +1,235 @@
+#include "symbolic/search/search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "symbolic/search/finder.hpp"
+#include "symbolic/search/short_text.hpp"
+
+namespace casimir::search {
+namespace {
+
+NamedExpression read(const Model& model, const Text& text) {
+  return {text.value, model.parse(text), text.where};
+}
+
+std::vector<NamedExpression> read(const Model& model, const std::vector<Text>& texts) {
+  std::vector<NamedExpression> result;
+  for (const Text& text : texts) result.push_back(read(model, text));
+  return result;
+}
+
+std::vector<GiNaC::ex> values_of(const std::vector<NamedExpression>& list,
+                                 const std::vector<NamedExpression>& more) {
+  std::vector<GiNaC::ex> result;
+  for (const NamedExpression& f : list) result.push_back(f.value);
+  for (const NamedExpression& f : more) result.push_back(f.value);
+  return result;
+}
+
+}  // namespace
+
+Finder::Finder(const Model& model, const Request& request, const Watch& watch)
+    : model_(model),
+      request_(request),
+      watch_(watch),
+      on_(read(model, request.on)),
+      known_(read(model, request.known)),
+      system_(model, read(model, request.functions), values_of(on_, known_)),
+      weights_(weights()) {}
+
+std::vector<int> Finder::weights() const {
+  std::vector<std::string> names;
+  for (const std::size_t atom : system_.atoms()) names.push_back(system_.name(atom));
+  std::vector<int> result(names.size(), 1);
+  for (const auto& [name, weight] : request_.weights) {
+    auto place = std::find(names.begin(), names.end(), name.value);
+    // A declared function may be written in another way than the ring writes it.
+    if (place == names.end() && name.value.find_first_of("()/^*") != std::string::npos)
+      place = std::find(names.begin(), names.end(), system_.text_of(model_.parse(name)));
+    if (place == names.end()) {
+      throw name.error(fmt::format("'{}' is not a variable of the ansatz", printable(name.value)),
+                       0, suggest(name.value, names));
+    }
+    int value = 0;
+    const char* end = weight.value.data() + weight.value.size();
+    const auto [stop, problem] = std::from_chars(weight.value.data(), end, value);
+    if (problem != std::errc() || stop != end || value < 1 || value > 1000)
+      throw weight.error("a weight is a whole number from 1 to 1000");
+    result[static_cast<std::size_t>(place - names.begin())] = value;
+  }
+  constexpr int kHighestPower = 250;
+  for (const int weight : result) {
+    if (request_.degree / weight > kHighestPower)
+      throw ModelError(fmt::format("the degree {} is beyond {}, the largest that is searched",
+                                   request_.degree, kHighestPower * weight));
+  }
+  return result;
+}
+
+/// The polynomial Casimir functions, degree by degree, until there are as many independent ones as
+/// the rank of the bracket leaves room for.
+std::vector<Generator> Finder::casimirs_as_needed() {
+  if (!model_.poisson) return {};
+  Problem problem;
+  problem.fields = {system_.atoms(), system_.coordinate_flows()};
+  problem.weights = weights_;
+  // At rest, the time and functions of it alone would be some of them.
+  for (std::size_t k = problem.fields.places.size(); k-- > model_.variables.size();) {
+    if (std::any_of(problem.fields.rates.begin(), problem.fields.rates.end(),
+                    [&](const auto& row) { return !row[k].is_zero(); }))
+      continue;
+    const auto place = static_cast<std::ptrdiff_t>(k);
+    problem.fields.places.erase(problem.fields.places.begin() + place);
+    for (auto& row : problem.fields.rates) row.erase(row.begin() + place);
+    problem.weights.erase(problem.weights.begin() + place);
+  }
+  std::vector<Polynomial> functions;
+  if (request_.casimirs) {
+    problem.degree = request_.degree;
+    watch_.begin("Casimir functions");
+    const Solution solution = solve(system_, problem, watch_);
+    take(solution);
+    return solution.found;
+  }
+  // The rank of the bracket at a random point is a lower bound of the generic one.
+  std::size_t rank = 0;
+  {
+    const Modulus modulus = Modulus::nth(0);
+    std::mt19937_64 random(3);
+    const std::optional<Point> point = system_.random_point(modulus, random);
+    if (!point) return {};
+    Span span(modulus);
+    for (const auto& row : problem.fields.rates) {
+      std::vector<Residue> values;
+      for (std::size_t i = 0; i < model_.variables.size(); ++i)
+        values.push_back(value_at(row[i], *point, modulus).value_or(0));
+      span.insert(std::move(values));
+    }
+    rank = span.dimension();
+  }
+  const std::size_t room = model_.variables.size() - rank;
+  for (int degree = 1; degree <= request_.degree; ++degree) {
+    if (rank_of_gradients(system_, functions) >= room) break;
+    problem.degree = degree;
+    watch_.begin(fmt::format("Casimir functions of degree {}", degree));
+    const Solution solution = solve(system_, problem, watch_);
+    for (const Generator& g : solution.found) {
+      problem.known.push_back(g);
+      functions.push_back(g.function);
+    }
+  }
+  return problem.known;
+}
+
+Problem Finder::integral_problem(std::vector<Generator> known) {
+  Problem problem;
+  problem.fields = {system_.atoms(), {system_.flow()}};
+  problem.weights = weights_;
+  problem.degree = request_.degree;
+  problem.known = std::move(known);
+  for (const NamedExpression& f : on_) {
+    Polynomial numerator = system_.prover().ring().numerator(system_.prover().convert(f.value));
+    if (!system_.in_atoms(numerator)) {
+      throw ModelError(fmt::format("'{}' is not a polynomial in the variables of the ansatz",
+                                   printable(f.name)));
+    }
+    problem.on.push_back(std::move(numerator));
+  }
+  return problem;
+}
+
+/// On a level that the motion leaves there are no integrals to speak of.
+void Finder::check_level() {
+  if (on_.empty()) return;
+  Proof proof;
+  system_.prover().decide_invariance(proof, on_);
+  if (proof.verdict == Verdict::refuted)
+    throw request_.on[0].error("the common zero level of --on is not invariant: " + proof.reason);
+}
+
+void Finder::take(const Solution& solution) {
+  report_.trivial = solution.trivial;
+  report_.complete = solution.complete;
+  report_.reason = solution.reason;
+  report_.unknowns = solution.unknowns;
+  report_.equations = solution.equations;
+  report_.blocks = solution.blocks;
+  report_.largest_block = solution.largest_block;
+}
+
+std::vector<Found> Finder::described(const std::vector<Generator>& generators,
+                                     const std::vector<Generator>& known, const std::string& kind) {
+  std::vector<Polynomial> functions;
+  for (const Generator& g : known) functions.push_back(g.function);
+  std::size_t rank = rank_of_gradients(system_, functions);
+  std::vector<Found> list;
+  for (const Generator& g : generators) {
+    Found found;
+    found.text = short_text(system_.prover().ring(), system_.prover().ring().reduced(g.function));
+    found.degree = g.degree;
+    functions.push_back(g.function);
+    const std::size_t next = rank_of_gradients(system_, functions);
+    found.independent = next > rank;
+    rank = next;
+    list.push_back(std::move(found));
+  }
+  prove_all(list, kind);
+  return list;
+}
+
+void Finder::prove_all(std::vector<Found>& list, const std::string& kind) const {
+  for (Found& found : list) {
+    Candidates candidates;
+    const Text text{found.text, {"found", 1, 1}, {}};
+    (kind == "casimir" ? candidates.casimirs : candidates.integrals).push_back(text);
+    candidates.on = request_.on;
+    for (const Proof& proof : prove(model_, candidates, [](const Proof&) { return false; }))
+      found.verdict = proof.verdict;
+    watch_.tick(1);
+  }
+}
+
+Report Finder::run() {
+  check_level();
+  report_.kind = request_.casimirs ? "casimir" : on_.empty() ? "integral" : "conditional";
+  for (const std::size_t place : system_.parameters())
+    report_.generic.push_back(system_.name(place));
+  std::vector<Generator> casimirs = casimirs_as_needed();
+  if (request_.casimirs) {
+    report_.found = described(casimirs, {}, "casimir");
+  } else {
+    report_.casimirs = described(casimirs, {}, "casimir");
+    std::vector<Generator> known = casimirs;
+    if (const std::optional<Polynomial> h = system_.hamiltonian()) {
+      known.push_back({*h, weighted_degree(*h, system_.atoms(), weights_)});
+      report_.hamiltonian = true;
+    }
+    for (const NamedExpression& f : known_) {
+      const Polynomial p = system_.prover().ring().reduced(system_.prover().convert(f.value));
+      if (system_.in_atoms(p)) known.push_back({p, weighted_degree(p, system_.atoms(), weights_)});
+    }
+    std::erase_if(known, [](const Generator& g) { return g.degree == 0; });
+    const Problem problem = integral_problem(known);
+    watch_.begin(fmt::format("integrals of degree {}", request_.degree));
+    const Solution solution = solve(system_, problem, watch_);
+    take(solution);
+    report_.found = described(solution.found, known, report_.kind);
+  }
+  for (const Found& found : report_.found) {
+    if (found.verdict == Verdict::proved) continue;
+    report_.complete = false;
+    report_.reason = fmt::format("'{}' was found but not proved", found.text);
+  }
+  return report_;
+}
+
+Report find_integrals(const Model& model, const Request& request, const Watch& watch) {
+  if (request.casimirs && !model.poisson)
+    throw ModelError("a Casimir function needs a bracket, which this case does not have");
+  return Finder(model, request, watch).run();
+}
+
+}  // namespace casimir::search

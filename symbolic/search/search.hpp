@@ -1,0 +1,73 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "symbolic/model.hpp"
+#include "symbolic/prove.hpp"
+#include "symbolic/search/watch.hpp"
+
+namespace casimir::search {
+
+/// What a user asks for.
+struct Request {
+  int degree = 0;                                ///< highest, weighted
+  bool casimirs = false;                         ///< Casimir functions instead of integrals
+  std::vector<Text> on;                          ///< the common zero level of these
+  std::vector<Text> functions;                   ///< that the ansatz may use besides the variables
+  std::vector<std::pair<Text, Text>> weights{};  ///< name and weight; 1 for the others
+  std::vector<Text> known{};                     ///< integrals that are not to be found again
+};
+
+/// A function that was found.
+struct Found {
+  std::string text;  ///< in the notation of case files
+  int degree = 0;    ///< weighted
+  Verdict verdict = Verdict::undecided;
+  bool independent = true;  ///< functionally, of what stands before it
+};
+
+struct Report {
+  std::string kind;                  ///< "casimir", "integral" or "conditional"
+  std::vector<Found> found;          ///< without what the known ones generate
+  std::vector<Found> casimirs;       ///< polynomial ones, found first and taken as known
+  bool hamiltonian = false;          ///< it was taken as known
+  std::size_t trivial = 0;           ///< dimension of what those generate up to the degree, with 1
+  bool complete = false;             ///< proved: there are no others
+  std::string reason;                ///< where not
+  std::vector<std::string> generic;  ///< parameters that it is about generic values of
+  std::size_t unknowns = 0, equations = 0, blocks = 0, largest_block = 0;
+};
+
+/// Finds the polynomial integrals (or Casimir functions) of a case up to a degree, exactly, and
+/// proves each. Whether there are others is decided modulo a prime, where there can only be more.
+/// \throws CaseError      for names or expressions that cannot be read
+/// \throws ModelError     for what this search cannot treat
+/// \throws TooMuchMemory, TimeUp
+Report find_integrals(const Model& model, const Request& request, const Watch& watch = {});
+
+/// Values of parameters for which there is an additional integral.
+struct Condition {
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< name and value, over the others
+  std::string relation;      ///< an irreducible polynomial that vanishes; empty for a point
+  std::vector<Found> found;  ///< what is additional there; empty where this was not confirmed
+  Verdict verdict = Verdict::undecided;  ///< whether all that was found there is proved
+};
+
+struct ConditionReport {
+  Report generic;  ///< for generic values of all parameters
+  std::vector<Condition> conditions;
+  bool complete = false;  ///< every block of equations was decided
+  std::string reason;
+};
+
+/// The values of some parameters at which additional integrals appear: where a block of equations
+/// loses rank. Each is confirmed by an exact search there. For one parameter these are all values;
+/// for several, all hypersurfaces, and for two also points.
+/// \param free  names of parameters
+/// \throws as find_integrals
+ConditionReport find_conditions(const Model& model, const Request& request,
+                                const std::vector<Text>& free, const Watch& watch = {});
+
+}  // namespace casimir::search

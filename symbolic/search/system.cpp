@@ -1,0 +1,213 @@
+#include "symbolic/search/system.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "symbolic/search/modular_roots.hpp"
+
+namespace casimir::search {
+namespace {
+
+std::vector<GiNaC::ex> values_of(const std::vector<NamedExpression>& functions,
+                                 std::vector<GiNaC::ex> others) {
+  for (const NamedExpression& f : functions) others.push_back(f.value);
+  return others;
+}
+
+bool contains(const std::vector<std::size_t>& list, std::size_t i) {
+  return std::find(list.begin(), list.end(), i) != list.end();
+}
+
+}  // namespace
+
+System::System(const Model& model, const std::vector<NamedExpression>& functions,
+               const std::vector<GiNaC::ex>& others)
+    : prover_(model, values_of(functions, others)) {
+  const std::size_t dimension = model.variables.size();
+  for (std::size_t i = 0; i < dimension; ++i) moving_.push_back(i);
+  if (model.time) moving_.push_back(dimension + model.parameters.size());
+  for (std::size_t i = prover_.ring().symbols().size(); i < ring().size(); ++i)
+    bonds_.push_back(bond_of(i));
+  constant_.assign(ring().size(), true);
+  for (const std::size_t i : moving_) constant_[i] = false;
+  for (std::size_t g = prover_.ring().symbols().size(); g < ring().size(); ++g) {
+    constant_[g] = std::all_of(moving_.begin(), moving_.end(), [&](std::size_t i) {
+      return prover_.ring().derivative(ring().variable(g), i).is_zero();
+    });
+  }
+  collect_atoms(functions);
+  std::vector<Polynomial> rates = prover_.field();
+  if (model.time) rates.push_back(ring().constant(1));
+  flow_ = of_atoms(rates);
+  for (std::size_t j = 0; model.poisson && j < dimension; ++j) {
+    std::vector<Polynomial> row;
+    for (std::size_t i = 0; i < dimension; ++i) row.push_back(prover_.bracket_entry(i, j));
+    if (model.time) row.push_back(Polynomial(ring()));
+    coordinate_flows_.push_back(of_atoms(row));
+  }
+  collect_parameters();
+}
+
+/// The ring says how its generators are bound by what it makes of them.
+System::Bond System::bond_of(std::size_t place) const {
+  const FunctionRing& functions = prover_.ring();
+  const Polynomial variable = ring().variable(place);
+  std::vector<bool> marks;
+  functions.mark_denominators(variable, marks);
+  const auto mark = std::find(marks.begin(), marks.end(), true);
+  if (mark != marks.end()) {
+    return {Bond::Kind::inverse,
+            functions.denominators()[static_cast<std::size_t>(mark - marks.begin())], 1};
+  }
+  constexpr unsigned long kHighestRoot = 12;
+  for (unsigned long order = 2; order <= kHighestRoot; ++order) {
+    const Polynomial power = variable.pow(order);
+    Polynomial reduced = functions.reduced(power);
+    if (!(reduced == power)) return {Bond::Kind::root, std::move(reduced), order};
+  }
+  return {Bond::Kind::none, Polynomial(ring()), 1};
+}
+
+/// The coordinates and all functions that their rates, or the declared functions, are polynomials
+/// in once denominators are multiplied out; and the relations between them.
+void System::collect_atoms(const std::vector<NamedExpression>& functions) {
+  const std::size_t symbols = prover_.ring().symbols().size();
+  atoms_ = moving_;
+  const auto need = [&](const Polynomial& p) {
+    for (std::size_t g = symbols; g < ring().size(); ++g)
+      if (p.uses(g) && !constant_[g] && !contains(atoms_, g)) atoms_.push_back(g);
+  };
+  for (const NamedExpression& f : functions) need(prover_.convert(f.value));
+  std::vector<Polynomial> rates = prover_.field();
+  if (prover_.model().time) rates.push_back(ring().constant(1));
+  for (std::size_t known = 0; known != atoms_.size();) {
+    known = atoms_.size();
+    for (const Polynomial& rate : of_atoms(rates)) need(rate);
+    for (std::size_t a = moving_.size(); a < atoms_.size(); ++a)
+      need(bonds_[atoms_[a] - symbols].base);
+  }
+  for (std::size_t a = moving_.size(); a < atoms_.size(); ++a) {
+    const Bond& bond = bonds_[atoms_[a] - symbols];
+    const Polynomial variable = ring().variable(atoms_[a]);
+    if (bond.kind == Bond::Kind::inverse)
+      relations_.push_back(variable * bond.base - ring().constant(1));
+    if (bond.kind == Bond::Kind::root) relations_.push_back(variable.pow(bond.order) - bond.base);
+  }
+}
+
+std::vector<Polynomial> System::of_atoms(const std::vector<Polynomial>& rates) const {
+  if (prover_.ring().is_polynomial()) return rates;
+  std::vector<Polynomial> result;
+  for (const std::size_t atom : atoms_) {
+    SumOfProducts sum(ring());
+    for (std::size_t i = 0; i < moving_.size(); ++i) {
+      if (rates[i].is_zero()) continue;
+      const Polynomial slope = prover_.ring().derivative(ring().variable(atom), moving_[i]);
+      if (!slope.is_zero()) sum.add(slope, rates[i]);
+    }
+    result.push_back(sum.finish());
+  }
+  return prover_.ring().common_numerators(std::move(result));
+}
+
+std::string System::text_of(const GiNaC::ex& expression) const {
+  const FunctionRing& own = prover_.ring();
+  FunctionRing fresh(own.symbols(), model().assumptions, {expression});
+  return fresh.text(fresh.convert(expression));
+}
+
+void System::collect_parameters() {
+  for (std::size_t i = 0; i < ring().size(); ++i) {
+    if (!constant_[i]) continue;
+    const auto uses = [&](const Polynomial& p) { return p.uses(i); };
+    bool used = std::any_of(flow_.begin(), flow_.end(), uses) ||
+                std::any_of(relations_.begin(), relations_.end(), uses);
+    for (const auto& row : coordinate_flows_)
+      used = used || std::any_of(row.begin(), row.end(), uses);
+    if (used) parameters_.push_back(i);
+  }
+}
+
+std::string System::bound_parameter() const {
+  const std::size_t symbols = prover_.ring().symbols().size();
+  for (const std::size_t place : parameters_) {
+    if (place >= symbols && bonds_[place - symbols].kind != Bond::Kind::none) return name(place);
+  }
+  return {};
+}
+
+std::vector<Polynomial> System::gradient(const Polynomial& p) const {
+  std::vector<Polynomial> result;
+  for (const std::size_t i : moving_) result.push_back(prover_.ring().derivative(p, i));
+  return result;
+}
+
+bool System::in_atoms(const Polynomial& p) const {
+  for (std::size_t i = 0; i < ring().size(); ++i)
+    if (p.uses(i) && !constant_[i] && !contains(atoms_, i)) return false;
+  return true;
+}
+
+std::optional<Polynomial> System::hamiltonian() {
+  const Model& model = prover_.model();
+  if (!model.hamiltonian || model.time) return std::nullopt;
+  Polynomial h = prover_.convert(*model.hamiltonian);
+  if (!in_atoms(h)) return std::nullopt;
+  return h;
+}
+
+std::optional<Residue> System::bound_value(std::size_t place, const Point& point,
+                                           const Modulus& modulus, std::mt19937_64& random) const {
+  const Bond& bond = bonds_[place - prover_.ring().symbols().size()];
+  if (bond.kind == Bond::Kind::none) return modulus.random(random);
+  const std::optional<Residue> base = value_at(bond.base, point, modulus);
+  if (!base) return std::nullopt;
+  if (bond.kind == Bond::Kind::inverse) {
+    if (*base == 0) return std::nullopt;
+    return modulus.inverse(*base);
+  }
+  std::vector<Residue> equation(bond.order + 1, 0);
+  equation[0] = modulus.negative(*base);
+  equation[bond.order] = 1;
+  return random_root(equation, modulus, random);
+}
+
+std::optional<Point> System::random_point(const Modulus& modulus, std::mt19937_64& random,
+                                          const Point* constants) const {
+  constexpr int kTries = 400;
+  const std::size_t symbols = prover_.ring().symbols().size();
+  for (int attempt = 0; attempt < kTries; ++attempt) {
+    Point point(ring().size(), 0);
+    bool found = true;
+    for (std::size_t i = 0; i < point.size() && found; ++i) {
+      if (constants != nullptr && constant_[i]) {
+        point[i] = (*constants)[i];
+      } else if (i < symbols) {
+        point[i] = modulus.random(random);
+      } else {
+        const std::optional<Residue> value = bound_value(i, point, modulus, random);
+        found = value.has_value();
+        point[i] = value.value_or(0);
+      }
+    }
+    if (found) return point;
+  }
+  return std::nullopt;
+}
+
+std::optional<Residue> value_at(const Polynomial& p, const Point& point, const Modulus& modulus) {
+  Residue sum = 0;
+  for (const auto& [coefficient, exponents] : p.term_list()) {
+    const std::optional<Residue> number = modulus.reduce(coefficient);
+    if (!number) return std::nullopt;
+    Residue term = *number;
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
+      if (exponents[i] != 0) term = modulus.multiply(term, modulus.power(point[i], exponents[i]));
+    }
+    sum = modulus.add(sum, term);
+  }
+  return sum;
+}
+
+}  // namespace casimir::search

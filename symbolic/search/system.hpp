@@ -1,0 +1,100 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "symbolic/prover.hpp"
+#include "symbolic/search/modular.hpp"
+
+namespace casimir::search {
+
+/// A value for each variable of a ring.
+using Point = std::vector<Residue>;
+
+/// A case as a search sees it: the functions that its ansatz is made of, and the vector fields that
+/// have to annihilate what is found. Each of these functions (atoms) is a variable of the ring: the
+/// coordinates, the time if the system depends on it, and the sines, roots or denominators that the
+/// equations of motion need or the user declares. Denominators are multiplied out of a field: that
+/// changes the speed of its motion and no integral.
+class System {
+ public:
+  /// \param functions  more functions of the variables that the ansatz may use.
+  /// \param others     further expressions that will be converted.
+  /// \throws CaseError, ModelError
+  System(const Model& model, const std::vector<NamedExpression>& functions,
+         const std::vector<GiNaC::ex>& others);
+
+  const Model& model() const { return prover_.model(); }
+  Prover& prover() { return prover_; }
+  const PolynomialRing& ring() const { return prover_.ring().ring(); }
+
+  /// The places of the atoms in the ring: coordinates first, then the time, then the others.
+  const std::vector<std::size_t>& atoms() const { return atoms_; }
+  /// Functions that vanish identically, such as s^2 + c^2 - 1, which generate all of the kind.
+  const std::vector<Polynomial>& relations() const { return relations_; }
+  std::string name(std::size_t place) const { return prover_.ring().text(ring().variable(place)); }
+  /// An expression as the ring writes it; for comparison with names.
+  std::string text_of(const GiNaC::ex& expression) const;
+
+  /// Which of the ring's variables are constants of the motion: parameters and what is made of
+  /// them.
+  const std::vector<bool>& is_constant() const { return constant_; }
+  /// Those that the fields contain.
+  const std::vector<std::size_t>& parameters() const { return parameters_; }
+  /// A parameter that is bound to others, as the root of one is; empty if there is none.
+  std::string bound_parameter() const;
+
+  /// The field of the motion: the rate of each atom, times one common function.
+  const std::vector<Polynomial>& flow() const { return flow_; }
+  /// The Hamiltonian fields of the coordinates: {atom, x_j} in row j, the time at rest.
+  const std::vector<std::vector<Polynomial>>& coordinate_flows() const { return coordinate_flows_; }
+
+  /// The Hamiltonian, where it is an integral and a polynomial in the atoms.
+  std::optional<Polynomial> hamiltonian();
+
+  /// The derivatives along the coordinates and the time, through all functions of them.
+  std::vector<Polynomial> gradient(const Polynomial& p) const;
+
+  /// Whether a polynomial uses only atoms and constants.
+  bool in_atoms(const Polynomial& p) const;
+
+  /// Values of all variables of the ring that obey its relations; empty where none were found, as
+  /// roots do not always have values modulo a prime.
+  /// \param constants  if not null, the constants' values are taken from there
+  std::optional<Point> random_point(const Modulus& modulus, std::mt19937_64& random,
+                                    const Point* constants = nullptr) const;
+
+ private:
+  /// How a generator of the ring is bound to earlier variables.
+  struct Bond {
+    enum class Kind { none, inverse, root } kind = Kind::none;
+    Polynomial base;          ///< denominator, or radicand
+    unsigned long order = 1;  ///< of a root
+  };
+  Bond bond_of(std::size_t place) const;
+  void collect_atoms(const std::vector<NamedExpression>& functions);
+  /// The rates of the atoms where the coordinates and the time have these rates.
+  std::vector<Polynomial> of_atoms(const std::vector<Polynomial>& rates) const;
+  void collect_parameters();
+  std::optional<Residue> bound_value(std::size_t place, const Point& point, const Modulus& modulus,
+                                     std::mt19937_64& random) const;
+
+  Prover prover_;
+  std::vector<std::size_t> moving_;  ///< coordinates and time
+  std::vector<std::size_t> atoms_;
+  std::vector<Polynomial> relations_;
+  std::vector<Bond> bonds_;  ///< of the ring's variables after the symbols
+  std::vector<bool> constant_;
+  std::vector<std::size_t> parameters_;
+  std::vector<Polynomial> flow_;
+  std::vector<std::vector<Polynomial>> coordinate_flows_;
+};
+
+/// The value of p, where every variable of its ring has one.
+/// \return  empty where the modulus divides a denominator.
+std::optional<Residue> value_at(const Polynomial& p, const Point& point, const Modulus& modulus);
+
+}  // namespace casimir::search

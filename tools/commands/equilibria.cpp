@@ -1,0 +1,130 @@
+// casimir equilibria: equilibria and relative equilibria of a scene, with their linear stability.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "tools/atlas.hpp"
+#include "tools/case_library.hpp"
+#include "tools/equilibria.hpp"
+#include "tools/search_watch.hpp"
+
+namespace casimir::tools {
+namespace {
+
+struct Options {
+  Common common;
+  std::string case_name, in;
+};
+
+std::string stability(const Equilibrium& e) {
+  return e.growth() > 0 ? "unstable" : "spectrally stable";
+}
+
+std::string number(double value) { return fmt::format("{:.17g}", value); }
+
+nlohmann::ordered_json to_json(const Model& model, const Scene& scene,
+                               const EquilibriumReport& report, double seconds) {
+  nlohmann::ordered_json json{{"case", model.name},
+                              {"scene", scene.name},
+                              {"symmetries", report.symmetries},
+                              {"level", report.level},
+                              {"equilibria", nlohmann::json::array()},
+                              {"starts", report.starts},
+                              {"seconds", seconds}};
+  for (const Equilibrium& e : report.equilibria) {
+    nlohmann::ordered_json own{{"kind", e.velocities.empty() ? "equilibrium" : "relative"},
+                               {"state", nlohmann::json::object()}};
+    for (std::size_t i = 0; i < e.state.size(); ++i)
+      own["state"][model.variables[i].get_name()] = number(e.state[i]);
+    own["velocities"] = nlohmann::json::array();
+    for (const double v : e.velocities) own["velocities"].push_back(number(v));
+    own["eigenvalues"] = nlohmann::json::array();
+    for (const auto& value : e.eigenvalues)
+      own["eigenvalues"].push_back({number(value.real()), number(value.imag())});
+    own["stability"] = stability(e);
+    own["growth"] = number(e.growth());
+    own["family"] = e.family;
+    own["residual"] = number(e.residual);
+    json["equilibria"].push_back(own);
+  }
+  return json;
+}
+
+/// A rounded number for a table; what is nothing but rounding is 0.
+std::string rounded(double value, double scale) {
+  return std::abs(value) < 1e-7 * scale ? "0" : fmt::format("{:.6g}", value);
+}
+
+void print(const Model& model, const Scene& scene, const EquilibriumReport& report,
+           double seconds) {
+  constexpr std::size_t kMost = 12;
+  fmt::print("{}, scene '{}'{}{}\n", model.name, scene.name,
+             report.level.empty() ? "" : ": on the level of ", fmt::join(report.level, ", "));
+  if (!report.symmetries.empty())
+    fmt::print("relative equilibria move with the flow of {}\n",
+               fmt::join(report.symmetries, ", "));
+  std::size_t shown = 0;
+  for (const Equilibrium& e : report.equilibria) {
+    if (shown++ == kMost) break;
+    double scale = 1;
+    for (const auto& value : e.eigenvalues) scale = std::max(scale, std::abs(value));
+    std::string state, values;
+    for (std::size_t i = 0; i < e.state.size(); ++i)
+      state += fmt::format("{}{} = {}", i > 0 ? ", " : "", model.variables[i].get_name(),
+                           rounded(e.state[i], 1));
+    for (const auto& value : e.eigenvalues) {
+      const std::string real = rounded(value.real(), scale),
+                        imaginary = rounded(value.imag(), scale);
+      values += (values.empty() ? "" : ", ") +
+                (imaginary == "0" ? real
+                 : real == "0"    ? imaginary + "i"
+                                  : real + (imaginary[0] == '-' ? "" : "+") + imaginary + "i");
+    }
+    fmt::print("{}{}\n  {}\n", e.velocities.empty() ? "equilibrium" : "relative equilibrium",
+               e.family > 0 ? fmt::format(", one of a family of dimension {}", e.family) : "",
+               state);
+    if (!e.velocities.empty()) fmt::print("  velocity {:.6g}\n", fmt::join(e.velocities, ", "));
+    fmt::print("  eigenvalues {}: {}\n", values, stability(e));
+  }
+  if (report.equilibria.size() > kMost)
+    fmt::print("... and {} more; --json has them all\n", report.equilibria.size() - kMost);
+  fmt::print("{} found from {} random starts, which does not exclude others; {:.3f} s\n",
+             report.equilibria.size(), report.starts, seconds);
+}
+
+int equilibria(const Options& options) {
+  const Model model = in_variables(
+      model_of(load_case(options.case_name), options.common.parameter_values()), options.in);
+  const Scene& scene = model.scene(options.common.scene);
+  return with_search_errors(options.common, options.case_name, [&] {
+    SearchWatch watch(options.common, model.name);
+    watch.watch().begin("equilibria");
+    const EquilibriumReport report = find_equilibria(model, scene, watch.watch().tick);
+    const double seconds = watch.end();
+    if (options.common.json)
+      std::cout << to_json(model, scene, report, seconds).dump(2) << '\n';
+    else if (!options.common.quiet)
+      print(model, scene, report, seconds);
+    return kDone;
+  });
+}
+
+}  // namespace
+
+void register_equilibria(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "equilibria", "Equilibria and relative equilibria of a scene, with eigenvalues");
+  add_common(*command, options->common);
+  add_in(*command, options->in);
+  command
+      ->add_option("CASE", options->case_name,
+                   "A bundled case, a case file, or - for standard input")
+      ->required();
+  command->callback([options, &action] { action = [options] { return equilibria(*options); }; });
+}
+
+}  // namespace casimir::tools

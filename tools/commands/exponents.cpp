@@ -1,0 +1,147 @@
+// casimir exponents: balances and Kovalevskaya exponents of a case.
+#include <fmt/format.h>
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "symbolic/search/exponents.hpp"
+#include "tools/atlas.hpp"
+#include "tools/case_library.hpp"
+#include "tools/search_options.hpp"
+#include "tools/search_watch.hpp"
+
+namespace casimir::tools {
+namespace {
+
+using search::Balance;
+using search::Exponent;
+
+struct Options {
+  Common common;
+  std::string case_name, in;
+  std::vector<std::string> weights;
+};
+
+const char* kind_name(Exponent::Kind kind) {
+  switch (kind) {
+    case Exponent::Kind::integer:
+      return "integer";
+    case Exponent::Kind::rational:
+      return "rational";
+    case Exponent::Kind::parametric:
+      return "parametric";
+    case Exponent::Kind::algebraic:
+      return "algebraic";
+    case Exponent::Kind::numeric:
+      break;
+  }
+  return "numeric";
+}
+
+nlohmann::ordered_json to_json(const Exponent& e) {
+  nlohmann::ordered_json json{
+      {"kind", kind_name(e.kind)}, {"value", e.text}, {"multiplicity", e.multiplicity}};
+  for (const auto& [real, imaginary] : e.values)
+    json["numeric"].push_back({fmt::format("{:.17g}", real), fmt::format("{:.17g}", imaginary)});
+  return json;
+}
+
+nlohmann::ordered_json to_json(const Model& model, const search::ExponentReport& report,
+                               double seconds) {
+  nlohmann::ordered_json json{{"case", model.name}, {"weights", nlohmann::json::object()}};
+  for (const auto& [name, weight] : report.weights) json["weights"][name] = weight;
+  json["left_out"] = report.left_out;
+  json["balances"] = nlohmann::json::array();
+  for (const Balance& balance : report.balances) {
+    nlohmann::ordered_json own{{"coefficients", nlohmann::json::object()}};
+    for (const auto& [name, value] : balance.coefficients) own["coefficients"][name] = value;
+    own["relations"] = balance.relations;
+    own["free"] = balance.free;
+    own["exponents"] = nlohmann::json::array();
+    for (const Exponent& e : balance.exponents) own["exponents"].push_back(to_json(e));
+    json["balances"].push_back(own);
+  }
+  json["conclusions"] = report.conclusions;
+  json["verdict"] = report.complete ? "proved" : "undecided";
+  if (!report.reason.empty()) json["reason"] = report.reason;
+  json["seconds"] = seconds;
+  return json;
+}
+
+/// The unique numbers of an exponent: itself, or the roots of its polynomial with their values.
+std::string exponent_text(const Exponent& e) {
+  std::string text = e.text;
+  if (e.kind == Exponent::Kind::algebraic) {
+    text = fmt::format("roots of {} (", e.text);
+    for (std::size_t i = 0; i < e.values.size(); ++i) {
+      const auto& [real, imaginary] = e.values[i];
+      text += (i > 0 ? ", " : "") + fmt::format("{:.6g}", real);
+      if (imaginary != 0) text += fmt::format("{:+.6g}i", imaginary);
+    }
+    text += ")";
+  } else if (e.kind == Exponent::Kind::parametric && e.text.find("rho") != std::string::npos) {
+    text = fmt::format("roots of {}", e.text);
+  }
+  if (e.multiplicity > 1) text += fmt::format(" ({} times)", e.multiplicity);
+  return text;
+}
+
+void print(const Model& model, const search::ExponentReport& report, double seconds) {
+  fmt::print("{}: solutions x_i = c_i/(t - t0)^g_i\n", model.name);
+  std::string line;
+  for (const auto& [name, weight] : report.weights)
+    line += (line.empty() ? "" : ", ") + fmt::format("{} {}", name, weight);
+  fmt::print("weights g: {}\n", line);
+  for (const std::string& term : report.left_out)
+    fmt::print("of lower weight, left out: {}\n", term);
+  std::size_t number = 0;
+  for (const Balance& balance : report.balances) {
+    fmt::print("balance {}\n", ++number);
+    for (const auto& [name, value] : balance.coefficients)
+      if (value != "0") fmt::print("  {} = {}\n", name, value);
+    for (const std::string& relation : balance.relations) fmt::print("  where {}\n", relation);
+    for (const std::string& name : balance.free) fmt::print("  {} is arbitrary\n", name);
+    line.clear();
+    for (const Exponent& e : balance.exponents)
+      line += (line.empty() ? "" : ", ") + exponent_text(e);
+    fmt::print("  exponents: {}\n", line);
+  }
+  if (!report.complete) fmt::print("not all balances are known: {}\n", report.reason);
+  for (const std::string& conclusion : report.conclusions) fmt::print("- {}\n", conclusion);
+  fmt::print("{} balances, {:.3f} s\n", report.balances.size(), seconds);
+}
+
+int exponents(const Options& options) {
+  const Model model = in_variables(
+      model_of(load_case(options.case_name), options.common.parameter_values()), options.in);
+  if (options.common.scene_given) model.scene(options.common.scene);
+  return with_search_errors(options.common, options.case_name, [&] {
+    SearchWatch watch(options.common, model.name);
+    const search::ExponentReport report =
+        search::kovalevskaya_exponents(model, weights_of(options.weights), watch.watch());
+    const double seconds = watch.end();
+    if (options.common.json)
+      std::cout << to_json(model, report, seconds).dump(2) << '\n';
+    else if (!options.common.quiet)
+      print(model, report, seconds);
+    return report.complete ? kDone : kUndecided;
+  });
+}
+
+}  // namespace
+
+void register_exponents(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "exponents", "Kovalevskaya-Painleve analysis: balances and Kovalevskaya exponents");
+  add_common(*command, options->common);
+  add_in(*command, options->in);
+  command
+      ->add_option("CASE", options->case_name,
+                   "A bundled case, a case file, or - for standard input")
+      ->required();
+  add_weights(*command, options->weights);
+  command->callback([options, &action] { action = [options] { return exponents(*options); }; });
+}
+
+}  // namespace casimir::tools

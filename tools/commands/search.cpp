@@ -1,0 +1,122 @@
+// casimir search: finds the polynomial integrals of a case up to a degree.
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "symbolic/search/darboux.hpp"
+#include "symbolic/search/search.hpp"
+#include "tools/atlas.hpp"
+#include "tools/case_library.hpp"
+#include "tools/search_options.hpp"
+#include "tools/search_report.hpp"
+#include "tools/search_watch.hpp"
+
+namespace casimir::tools {
+namespace {
+
+struct Options {
+  Common common;
+  std::string case_name, in;
+  int degree = 0;
+  bool casimirs = false, darboux = false;
+  std::vector<std::string> on, functions, weights, free;
+  double memory = 2;
+};
+
+int find_darboux(const Options& options, const Model& model, SearchWatch& watch) {
+  const search::DarbouxReport report = search::find_darboux(model, options.degree, watch.watch());
+  const double seconds = watch.end();
+  if (options.common.json)
+    std::cout << to_json(model, options.degree, report, seconds).dump(2) << '\n';
+  else if (!options.common.quiet)
+    print(model, options.degree, report, seconds);
+  return report.complete ? kDone : kUndecided;
+}
+
+int find_conditions(const Options& options, const Model& model, const search::Request& request,
+                    SearchWatch& watch) {
+  const search::ConditionReport report = search::find_conditions(
+      model, request, texts_of(options.free, "--free", true), watch.watch());
+  const double seconds = watch.end();
+  if (options.common.json)
+    std::cout << to_json(model, options.degree, report, seconds).dump(2) << '\n';
+  else if (!options.common.quiet)
+    print(model, options.degree, report, seconds);
+  return report.complete ? kDone : kUndecided;
+}
+
+int search_case(const Options& options) {
+  const Model model = in_variables(
+      model_of(load_case(options.case_name), options.common.parameter_values()), options.in);
+  if (options.common.scene_given) model.scene(options.common.scene);
+  SearchWatch watch(options.common, model.name, options.memory * 1e9);
+  if (options.darboux) return find_darboux(options, model, watch);
+  const search::Request request{options.degree, options.casimirs, texts_of(options.on, "--on"),
+                                texts_of(options.functions, "--functions"),
+                                weights_of(options.weights)};
+  if (!options.free.empty()) return find_conditions(options, model, request, watch);
+  const search::Report report = search::find_integrals(model, request, watch.watch());
+  const double seconds = watch.end();
+  if (options.common.json)
+    std::cout << to_json(model, options.degree, report, seconds).dump(2) << '\n';
+  else if (!options.common.quiet)
+    print(model, options.degree, report, seconds);
+  return report.complete ? kDone : kUndecided;
+}
+
+int search(const Options& options) {
+  if (options.casimirs && !options.on.empty())
+    throw UsageError("--casimirs and --on do not go together");
+  if (options.casimirs && !options.free.empty())
+    throw UsageError("--casimirs and --free do not go together");
+  if (options.darboux && (options.casimirs || !options.free.empty() || !options.on.empty() ||
+                          !options.functions.empty() || !options.weights.empty()))
+    throw UsageError("--darboux takes --degree and --param only");
+  return with_search_errors(options.common, options.case_name,
+                            [&] { return search_case(options); });
+}
+
+}  // namespace
+
+void register_search(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("search", "Find all polynomial integrals up to a degree");
+  add_common(*command, options->common);
+  add_in(*command, options->in);
+  command
+      ->add_option("CASE", options->case_name,
+                   "A bundled case, a case file, or - for standard input")
+      ->required();
+  command->add_option("--degree", options->degree, "Highest degree (weighted, with --weights)")
+      ->required()
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  command->add_flag("--casimirs", options->casimirs, "Casimir functions instead of integrals");
+  command
+      ->add_option("--on", options->on,
+                   "Integrals on the common zero level of these, with polynomial cofactors "
+                   "(repeatable)")
+      ->allow_extra_args(false)
+      ->type_name("EXPR");
+  command
+      ->add_option("--functions", options->functions,
+                   "A further function that the integrals may be polynomials in, such as \"1/g3\" "
+                   "(repeatable)")
+      ->allow_extra_args(false)
+      ->type_name("EXPR");
+  add_weights(*command, options->weights);
+  command
+      ->add_option("--free", options->free,
+                   "Find the values of these parameters at which there is an additional integral")
+      ->allow_extra_args(false)
+      ->type_name("NAME,..");
+  command->add_flag("--darboux", options->darboux,
+                    "Polynomials whose zero level is invariant, instead of integrals");
+  command->add_option("--memory-limit", options->memory, "Refuse what would take more (default 2)")
+      ->type_name("GB")
+      ->check(CLI::PositiveNumber);
+  command->callback([options, &action] { action = [options] { return search(*options); }; });
+}
+
+}  // namespace casimir::tools

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "symbolic/model.hpp"
+#include "symbolic/search/darboux.hpp"
+#include "symbolic/search/search.hpp"
+
+namespace casimir::tools {
+
+/// The interface's document for `search`.
+nlohmann::ordered_json to_json(const Model& model, int degree, const search::Report& report,
+                               double seconds);
+
+nlohmann::ordered_json to_json(const Model& model, int degree,
+                               const search::ConditionReport& report, double seconds);
+nlohmann::ordered_json to_json(const Model& model, int degree, const search::DarbouxReport& report,
+                               double seconds);
+
+/// The same for a person.
+void print(const Model& model, int degree, const search::Report& report, double seconds);
+void print(const Model& model, int degree, const search::ConditionReport& report, double seconds);
+void print(const Model& model, int degree, const search::DarbouxReport& report, double seconds);
+
+}  // namespace casimir::tools
