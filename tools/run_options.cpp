@@ -22,6 +22,12 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   positive("--step", options.step, "Constant step instead of error control");
   command.add_option("--duration", options.duration, "Duration of the run (default: the scene's)")
       ->type_name("T");
+  command.add_option("--max-steps", options.max_steps, "Limit on the number of steps")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+}
+
+void add_projection(CLI::App& command, RunOptions& options) {
   command.add_flag("--project", options.project,
                    "After each step, move the state back onto the level of every invariant that is "
                    "proved");
@@ -31,9 +37,6 @@ void add_run_options(CLI::App& command, RunOptions& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("A,B");
-  command.add_option("--max-steps", options.max_steps, "Limit on the number of steps")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber);
 }
 
 Settings settings_for(const RunOptions& options, const SceneRun& run, double default_tolerance) {

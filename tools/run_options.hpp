@@ -22,6 +22,9 @@ struct RunOptions {
 
 void add_run_options(CLI::App& command, RunOptions& options);
 
+/// `--project` and `--project-onto`.
+void add_projection(CLI::App& command, RunOptions& options);
+
 /// Settings for a scene. The absolute tolerance of `--tolerance` is in units of the initial state
 /// where that is smaller than 1: a tiny scene is not all tolerance. Without any option it is a
 /// thousandth of that.

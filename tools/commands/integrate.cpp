@@ -193,6 +193,7 @@ SceneOptions scene_options(const Options& options) {
 int integrate_members_of(const Options& options) {
   if (!options.in.empty() || !options.as.empty())
     throw UsageError("--in and --as do not go with --ensemble");
+  if (options.run.projects()) throw UsageError("--project does not go with --ensemble");
   if (options.every > 0)
     throw UsageError("--every does not go with --ensemble: the end of each member is written");
   return integrate_ensemble({options.common, options.run, options.kept, options.case_name,
@@ -225,6 +226,7 @@ int integrate_case(const Options& options) {
     throw UsageError("--plot does not go with --as; --in integrates and draws in other variables");
   if (options.digits) {
     if (!options.ensemble.empty()) throw UsageError("--digits does not go with --ensemble");
+    if (options.run.projects()) throw UsageError("--project does not go with --digits");
     return integrate_with_digits({options.common, options.run, options.kept, options.case_name,
                                   options.in, options.as, options.method, options.output,
                                   options.every, *options.digits, scene_options(options)});
@@ -279,6 +281,7 @@ void register_integrate(CLI::App& program, Action& action) {
   command->add_option("--method", options->method, "A method, or auto: " + method_list())
       ->type_name("NAME");
   add_run_options(*command, options->run);
+  add_projection(*command, options->run);
   add_as(*command, options->as);
   options->kept.add_to(*command);
   command->add_option("--output", options->output, "Write states to this CSV file")

@@ -161,8 +161,6 @@ int verdict(const Report& report, bool interrupted) {
 int sweep_in(const Ranks& ranks, const Options& options) {
   if (options.over.empty())
     throw UsageError("sweep needs a grid: --over NAME=FROM:TO:N, such as --over r=1:2:11");
-  if (options.run.projects())
-    throw UsageError("--project goes with integrate: in a sweep no step is projected");
   if (ranks.size() > 1 && options.case_name == "-")
     throw UsageError("under mpirun only one process has standard input: give a case file");
   const CaseFile file = load_case(options.case_name);

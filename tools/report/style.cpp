@@ -36,7 +36,7 @@ nav ul{list-style:none;display:flex;flex-wrap:wrap;gap:.1rem 1.1rem;margin:.8rem
 .proved>.verdict,.badge.proved,td.proved{color:var(--proved)}
 .refuted>.verdict,.badge.refuted,td.refuted{color:var(--refuted)}
 .undecided>.verdict,.badge.undecided,td.undecided{color:var(--undecided)}
-.scroll{overflow-x:auto;max-width:100%}
+.scroll{overflow-x:auto;overflow-y:hidden;max-width:100%}
 .display{margin:.5rem 0 .5rem 1rem}
 .equations{display:grid;grid-template-columns:auto minmax(0,1fr);gap:.4rem .5rem;margin:.4rem 0 .6rem 1rem;
  align-items:baseline}

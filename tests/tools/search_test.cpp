@@ -1,0 +1,117 @@
+// search, exponents and equilibria from the command line.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "tests/tools/program.hpp"
+
+namespace casimir::test {
+namespace {
+
+using Json = nlohmann::json;
+
+Json answered(const Folder& folder, std::vector<std::string> arguments, int status = 0) {
+  arguments.emplace_back("--json");
+  const Outcome outcome = run_in(folder, arguments);
+  EXPECT_EQ(outcome.status, status) << outcome.out << outcome.err;
+  return outcome.json();
+}
+
+std::string heavy_top(const std::string& hamiltonian, const std::string& parameters) {
+  return "title = \"top\"\nhamiltonian = \"" + hamiltonian +
+         "\"\n[phase_space]\nvariables = [\"M1\", \"M2\", \"M3\", \"g1\", \"g2\", \"g3\"]\n"
+         "algebra = \"e(3)\"\n[parameters]\n" +
+         parameters;
+}
+
+TEST(Search, WhatItPrintsIsProvedByVerify) {
+  const Folder folder;
+  for (const char* name : {"kovalevskaya", "clebsch", "steklov", "henon-heiles"}) {
+    const Json found = answered(folder, {"search", name, "--degree", "4"});
+    EXPECT_EQ(found.at("verdict"), "proved") << name;
+    ASSERT_GE(found.at("integrals").size(), 1u) << name;
+    for (const Json& integral : found.at("integrals")) {
+      const Json checked =
+          answered(folder, {"verify", name, "--integral", integral.get<std::string>()});
+      EXPECT_EQ(checked.at("verdict"), "proved") << name << ' ' << integral;
+    }
+  }
+}
+
+// The twin: the general top has no integral but those known, and the sentence says so.
+TEST(Search, NoneIsSaidOnlyWhereItIsProved) {
+  const Folder folder;
+  const std::string file =
+      folder.write("top.toml", heavy_top("(M1^2 + 2*M2^2 + 3*M3^2)/2 - g1 - g2/2", ""));
+  const Json found = answered(folder, {"search", file, "--degree", "4"});
+  EXPECT_EQ(found.at("integrals"), Json::array());
+  EXPECT_EQ(found.at("verdict"), "proved");
+  EXPECT_EQ(found.at("casimirs").size(), 2u);
+  const Json limited =
+      answered(folder, {"search", file, "--degree", "12", "--time-limit", "0.01"}, 3);
+  EXPECT_EQ(limited.at("verdict"), "undecided");
+}
+
+TEST(Search, KovalevskayasConditionIsFound) {
+  const Folder folder;
+  const std::string file = folder.write(
+      "top.toml",
+      heavy_top("(M1^2 + M2^2 + a3*M3^2)/2 - r*g1", "r = { assume = \"r != 0\" }\na3 = {}\n"));
+  const Json found = answered(folder, {"search", file, "--degree", "4", "--free", "a3"});
+  std::set<std::string> values;
+  for (const Json& condition : found.at("conditions")) {
+    values.insert(condition.at("parameters").at("a3").get<std::string>());
+    EXPECT_EQ(condition.at("verdict"), "proved");
+    EXPECT_GE(condition.at("integrals").size(), 1u);
+  }
+  EXPECT_EQ(values, (std::set<std::string>{"1", "2"}));
+}
+
+TEST(Search, HesssRelationIsADarbouxPolynomial) {
+  const Folder folder;
+  const Json found =
+      answered(folder, {"search", "hess-special-axes", "--degree", "1", "--darboux"});
+  ASSERT_EQ(found.at("invariant_relations").size(), 1u);
+  EXPECT_EQ(found.at("invariant_relations")[0].at("expression"), "M3");
+}
+
+TEST(Search, BadInputIsNamedAndMemoryIsRefusedBeforeItIsTaken) {
+  const Folder folder;
+  const auto refused = [&](std::vector<std::string> arguments, int status, const char* text) {
+    const Outcome outcome = run_in(folder, arguments);
+    EXPECT_EQ(outcome.status, status) << outcome.err;
+    EXPECT_NE(outcome.err.find(text), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  };
+  refused({"search", "kovalevskaya"}, 2, "--degree");
+  refused({"search", "kovalevskaya", "--degree", "0"}, 2, "--degree");
+  refused({"search", "kovalevskaya", "--degree", "2", "--free", "s"}, 2, "'s'");
+  refused({"search", "kovalevskaya", "--degree", "2", "--on", "M1*g9"}, 2, "--on:1:4");
+  refused({"search", "kovalevskaya", "--degree", "2", "--weights", "M9=1"}, 2, "M9");
+  refused({"search", "kovalevskaya", "--degree", "70"}, 4, "GB");
+}
+
+TEST(Exponents, OfTheIntegrableTopsAreIntegers) {
+  const Folder folder;
+  const Json found = answered(folder, {"exponents", "kovalevskaya"});
+  EXPECT_EQ(found.at("verdict"), "proved");
+  ASSERT_GE(found.at("balances").size(), 2u);
+  EXPECT_EQ(found.at("weights").at("M1"), 1);
+  EXPECT_EQ(found.at("weights").at("g1"), 2);
+  // The twin: a general top has exponents that are no rational numbers, and is excluded.
+  const std::string file =
+      folder.write("top.toml", heavy_top("(M1^2 + 2*M2^2 + 5*M3^2)/2 - g1", ""));
+  const Outcome text = run_in(folder, {"exponents", file});
+  EXPECT_TRUE(text.status == 0 || text.status == 3) << text.err;
+  EXPECT_NE(text.out, run_in(folder, {"exponents", "kovalevskaya"}).out);
+}
+
+TEST(Equilibria, OfAHeavyTopHangAndStand) {
+  const Folder folder;
+  const Json found = answered(folder, {"equilibria", "kovalevskaya"});
+  EXPECT_GE(found.at("equilibria").size(), 2u);
+}
+
+}  // namespace
+}  // namespace casimir::test
