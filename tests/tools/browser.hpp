@@ -51,7 +51,8 @@ addEventListener('load', () => {
       points: curve(f).reduce((n, p) => n + (p.getAttribute('d').match(/[ML]/gi) || []).length, 0) +
         all('use', f).length,
       width: f.querySelector('svg').getBoundingClientRect().width,
-      contrast: least(curve(f).map(p => contrast(getComputedStyle(p).stroke))),
+      contrast: least([...curve(f).map(p => contrast(getComputedStyle(p).stroke)),
+        ...all('use[color]', f).map(p => contrast(getComputedStyle(p).color))]),
       words: least(all('text', f).map(t => contrast(getComputedStyle(t).fill)))}])),
     broken: all('a[href^="#"]').map(a => a.getAttribute('href').slice(1))
       .filter(id => !document.getElementById(id)),
