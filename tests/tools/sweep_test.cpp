@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <sstream>
 #include <thread>
@@ -54,6 +55,53 @@ TEST(Sweep, GivesTheNumbersOfAnEnsemble) {
     for (std::size_t k = 1; k < members[i].size(); ++k)
       EXPECT_EQ(swept[i][k + 2], members[i][k]) << i << ' ' << k;
   }
+}
+
+// Of the motion near the saddle of x'' = a x: the exponent is the root of a.
+TEST(Sweep, ExponentsAreThoseOfALinearSaddle) {
+  const Folder folder;
+  const std::string file = folder.write(
+      "saddle.toml",
+      "title = \"saddle\"\nhamiltonian = \"(p^2 - a*x^2)/2\"\n[phase_space]\nvariables = [\"x\", "
+      "\"p\"]\ncanonical = true\n[parameters]\na = {}\n[[scene]]\nname = \"default\"\nparameters = "
+      "{ a = \"1\" }\ninitial = { x = \"0\", p = \"0\" }\nduration = \"2000\"\n");
+  for (const char* jobs : {"1", "3"})
+    ASSERT_EQ(
+        run_in(folder, {"sweep", file, "--over", "a=-1,1/4,1,9/4", "--do", "exponents", "--output",
+                        std::string("e") + jobs + ".csv", "--jobs", jobs, "--quiet"})
+            .status,
+        0);
+  EXPECT_EQ(file_text(folder.path() / "e1.csv"), file_text(folder.path() / "e3.csv"));
+  const auto rows = rows_of(file_text(folder.path() / "e1.csv"));
+  ASSERT_EQ(rows.size(), 5U);
+  ASSERT_EQ(rows[0][4], "exponent");
+  EXPECT_NEAR(std::stod(rows[1][4]), 0, 1e-3);
+  for (std::size_t i = 2; i < 5; ++i)
+    EXPECT_NEAR(std::stod(rows[i][4]), std::sqrt(std::stod(rows[i][1])), 1e-3);
+}
+
+TEST(Sweep, SectionsCountChaoticOrbits) {
+  const Folder folder;
+  const std::string file = folder.write(
+      "hh.toml",
+      "title = \"Henon-Heiles\"\nhamiltonian = \"(px^2 + py^2 + x^2 + y^2)/2 + x^2*y + c*y^3/3\"\n"
+      "[phase_space]\nvariables = [\"x\", \"y\", \"px\", \"py\"]\ncanonical = true\n"
+      "[parameters]\nc = {}\n[section]\nfunction = \"x\"\nplot = [\"y\", \"py\"]\n[[scene]]\n"
+      "name = \"default\"\nparameters = { c = \"-1\" }\ninitial = { x = \"0\", y = \"0\", px = "
+      "\"1/2\", py = \"0\" }\nduration = \"100\"\n");
+  // H = px^2/2: regular below 1/12 or so, a sea of chaos at 1/6.
+  const Outcome outcome =
+      run_in(folder, {"sweep", file, "--over", "px=1/5,14/25", "--do", "section", "--orbits", "12",
+                      "--points", "200", "--output", "s.csv", "--quiet"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto rows = rows_of(file_text(folder.path() / "s.csv"));
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0][3], "orbits");
+  EXPECT_EQ(rows[1][3] + " " + rows[1][4], "12 2400");
+  EXPECT_EQ(rows[1][6], "0");  // chaotic
+  EXPECT_GE(std::stod(rows[2][6]), 3);
+  EXPECT_GT(std::stod(rows[2][7]), 0.05);   // exponent
+  EXPECT_LT(std::stod(rows[2][8]), 1e-10);  // off the level
 }
 
 TEST(Sweep, GridValuesAreTheNearestToTheExactOnes) {

@@ -150,7 +150,7 @@ class Section {
 
   /// In a few turns: after the first, orbits begin where none has been.
   void follow_spread(SectionReport& report) {
-    Places taken;
+    PicturePlaces taken;
     const std::size_t turns = std::clamp<std::size_t>(options_.orbits / kOrbitsOfTurn, 1, kTurns);
     for (std::size_t turn = 0; turn < turns && !cutter_.interrupted(); ++turn) {
       // Half of them at first: the sea of chaos is large.

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <iostream>
 #include <map>
+#include <memory>
 
 #include <nlohmann/json.hpp>
 
@@ -13,7 +14,9 @@
 #include "tools/output.hpp"
 #include "tools/progress.hpp"
 #include "tools/run_report.hpp"
+#include "tools/sweep/exponents.hpp"
 #include "tools/sweep/integrations.hpp"
+#include "tools/sweep/sections.hpp"
 #include "tools/sweep/sweep.hpp"
 #include "tools/sweep/table.hpp"
 
@@ -28,8 +31,13 @@ struct Options {
   std::string case_name, task = "integrate", method = "auto", output;
   std::vector<std::string> over, lets, observe;
   int jobs = 0;
+  std::size_t orbits = 16, points = 200;
   bool restart = false;
 };
+
+constexpr const char *kIntegrate = "integrate", *kSection = "section", *kExponents = "exponents";
+/// Of a step in a section: every crossing keeps the level to 1e-10.
+constexpr double kSectionTolerance = 1e-14;
 
 /// Everything that a sweep needs, in each rank.
 struct Prepared {
@@ -56,6 +64,18 @@ struct Prepared {
     settings.invariant_terms = nullptr;
   }
 };
+
+/// What is done at each point: a new one is a file in `sweep/` and a line here.
+std::unique_ptr<SweepTask> task_of(const Options& options, const CaseFile& file, const Prepared& p,
+                                   const Places& places) {
+  if (options.task == kSection)
+    return std::make_unique<Sections>(file, p.model, *p.scene, places, options.orbits,
+                                      options.points, kSectionTolerance);
+  if (options.task == kExponents)
+    return std::make_unique<LyapunovExponents>(p.model, *p.scene, p.run, places, *p.method,
+                                               p.settings);
+  return std::make_unique<Integrations>(p.run, places, *p.method, p.settings, p.grid.points());
+}
 
 /// How often each status occurs.
 std::map<std::string, std::size_t> counts_of(const std::vector<PointResult>& rows) {
@@ -151,9 +171,11 @@ int verdict(const Report& report, bool interrupted) {
                          axis_title(report.prepared.grid.axes[i]), values[i]);
   std::cerr << fmt::format(
       "casimir: error: {} of {} points could not be integrated to the end; the first is point {}, "
-      "{}, "
-      "at t = {}: {}\n",
-      failed, outcome.points, first + 1, where, exact_text(outcome.rows[first].values.front()),
+      "{}{}: {}\n",
+      failed, outcome.points, first + 1, where,
+      report.options.task == kSection
+          ? std::string{}
+          : ", at t = " + exact_text(outcome.rows[first].values.front()),
       reason_of(outcome.rows[first].status));
   return kNotContinued;
 }
@@ -168,7 +190,9 @@ int sweep_in(const Ranks& ranks, const Options& options) {
   check_sweep_output(output);
   const Prepared p(options, file);
   const Places places(p.model, *p.scene, p.run, p.grid, options.lets);
-  const Integrations task(p.run, places, *p.method, p.settings, p.grid.points());
+  const std::unique_ptr<SweepTask> doing = task_of(options, file, p, places);
+  const SweepTask& task = *doing;
+  const auto* integrations = dynamic_cast<const Integrations*>(doing.get());
   Progress progress(ranks.speaks() && !options.common.quiet);
   progress.begin("sweep of " + p.model.name);
   hold_interrupts(true);
@@ -193,9 +217,9 @@ int sweep_in(const Ranks& ranks, const Options& options) {
       outcome,
       output,
       options.jobs > 0 ? options.jobs : ranks.processors(),
-      task.lanes(),
+      integrations ? integrations->lanes() : 1,
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-      task.warning()};
+      integrations ? integrations->warning() : std::string{}};
   if (options.common.json)
     std::cout << to_json(report).dump(2) << '\n';
   else if (!options.common.quiet)
@@ -241,9 +265,18 @@ void register_sweep(CLI::App& program, Action& action) {
                    "varies, as in --over theta=0:Pi:50 --let g1=sin(theta) (repeatable)")
       ->allow_extra_args(false)
       ->type_name("NAME=EXPR");
-  command->add_option("--do", options->task, "What is done at each point: integrate (default)")
-      ->check(CLI::IsMember({"integrate"}))
+  command
+      ->add_option("--do", options->task,
+                   "What is done at each point: integrate (default); section: orbits on the level "
+                   "of the point, how many are chaotic; exponents: the largest Lyapunov exponent")
+      ->check(CLI::IsMember({kIntegrate, kSection, kExponents}))
       ->type_name("WHAT");
+  command->add_option("--orbits", options->orbits, "Orbits of a section (default 16)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--points", options->points, "Crossings of each orbit (default 200)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10000000));
   command->add_option("--method", options->method, "A method, or auto: " + method_list())
       ->type_name("NAME");
   add_run_options(*command, options->run);

@@ -147,13 +147,13 @@ std::vector<PlacedPoint> points_of_domain(const LevelSet& level, const Returning
 namespace {
 
 /// One place for each small part of the picture that has any.
-Places thinned(const std::array<double, 2>& sides, const Places& places) {
+PicturePlaces thinned(const std::array<double, 2>& sides, const PicturePlaces& places) {
   std::map<std::pair<long, long>, std::array<double, 2>> cells;
   for (const auto& place : places)
     cells.try_emplace(
         {std::lround(kCells * place[0] / sides[0]), std::lround(kCells * place[1] / sides[1])},
         place);
-  Places result;
+  PicturePlaces result;
   for (const auto& [cell, place] : cells) result.push_back(place);
   return result;
 }
@@ -161,14 +161,14 @@ Places thinned(const std::array<double, 2>& sides, const Places& places) {
 }  // namespace
 
 std::vector<PlacedPoint> spread_out(const LevelSet& level, const std::vector<PlacedPoint>& points,
-                                    std::size_t count, const Places& taken) {
+                                    std::size_t count, const PicturePlaces& taken) {
   const std::array<double, 2> sides = sides_of(level, points);
   std::array<double, 2> middle{};
   for (const PlacedPoint& point : points)
     for (std::size_t k = 0; k < 2; ++k)
       middle[k] += point.place[k] / static_cast<double>(points.size());
   std::vector<double> nearest(points.size(), std::numeric_limits<double>::infinity());
-  const Places others = thinned(sides, taken);
+  const PicturePlaces others = thinned(sides, taken);
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (const auto& place : others)
       nearest[i] = std::min(nearest[i], distance(level, sides, points[i].place, place));
@@ -191,7 +191,7 @@ std::vector<PlacedPoint> spread_out(const LevelSet& level, const std::vector<Pla
 std::vector<PlacedPoint> centred(const LevelSet& level, const std::vector<PlacedPoint>& points,
                                  std::vector<PlacedPoint> chosen) {
   const std::array<double, 2> sides = sides_of(level, points);
-  Places all;
+  PicturePlaces all;
   for (const PlacedPoint& point : points) all.push_back(point.place);
   all = thinned(sides, all);
   const auto nearest_of = [&](const std::vector<PlacedPoint>& list,

@@ -26,12 +26,12 @@ using Returning = std::function<std::vector<bool>(const std::vector<PlacedPoint>
 std::vector<PlacedPoint> points_of_domain(const LevelSet& level, const Returning& returning,
                                           const std::vector<LevelSet::Vector>& known);
 
-using Places = std::vector<std::array<double, 2>>;
+using PicturePlaces = std::vector<std::array<double, 2>>;
 
 /// So many of the points, each as far as possible from those chosen before it, by their places in
 /// the picture. The first is in the middle, or as far as possible from what is `taken`.
 std::vector<PlacedPoint> spread_out(const LevelSet& level, const std::vector<PlacedPoint>& points,
-                                    std::size_t count, const Places& taken = {});
+                                    std::size_t count, const PicturePlaces& taken = {});
 
 /// The same number of points, each moved to the middle of the part of the domain that is nearest to
 /// it (Lloyd's iteration): away from the rim, where a section shows little.

@@ -189,6 +189,26 @@ std::pair<std::vector<double>, std::vector<double>> Places::at(std::size_t point
   return {state, parameters};
 }
 
+Scene Places::scene_at(std::size_t point, const Model& model, const Scene& scene) const {
+  const auto [state, parameters] = at(point);
+  const auto exact = [](double x) {
+    return GiNaC::ex(GiNaC::numeric(cln::rational(cln::cl_DF(x))));
+  };
+  Scene placed = scene;
+  for (const auto* targets : {&axes_, &lets_})
+    for (const Target& target : *targets) {
+      if (target.state && target.place < state.size()) {
+        const int variable = run_.specialisation.state_indices[target.place];
+        placed.initial[static_cast<std::size_t>(variable)] = exact(state[target.place]);
+      } else if (!target.state && target.place < parameters.size()) {
+        for (std::size_t i = 0; i < model.parameters.size(); ++i)
+          if (model.parameters[i].get_name() == target.name)
+            placed.parameters[i] = exact(parameters[target.place]);
+      }
+    }
+  return placed;
+}
+
 /// What the scene was checked for exactly holds to rounding at every point.
 void Places::check(const Model& model, const Scene& scene) const {
   PointCheck check(model, scene, run_.specialisation);

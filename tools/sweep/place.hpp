@@ -29,6 +29,9 @@ class Places {
   /// State and parameters of the run at a point.
   std::pair<std::vector<double>, std::vector<double>> at(std::size_t point) const;
 
+  /// The scene with the values of a point, as the exact numbers that these doubles are.
+  Scene scene_at(std::size_t point, const Model& model, const Scene& scene) const;
+
  private:
   struct Target {
     bool state;
