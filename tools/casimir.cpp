@@ -3,6 +3,7 @@
 
 #include <iostream>
 #include <new>
+#include <stdexcept>
 
 #include "codegen/compile.hpp"
 #include "symbolic/error.hpp"
@@ -78,5 +79,10 @@ int main(int argc, char** argv) {
     return fail(kEnvironment, fmt::format("casimir: error: {}", problem.what()));
   } catch (const std::bad_alloc&) {
     return fail(kEnvironment, "casimir: error: out of memory");
+  } catch (const std::domain_error& problem) {
+    // Exact arithmetic at a point where an expression has no value.
+    return fail(kBadInput, fmt::format("casimir: error: an expression of the case has no value "
+                                       "where it is needed: {}",
+                                       problem.what()));
   }
 }

@@ -10,6 +10,7 @@
 
 #include "codegen/specialise.hpp"
 #include "runtime/evaluate.hpp"
+#include "runtime/term_size.hpp"
 #include "symbolic/expression.hpp"
 #include "tools/cli.hpp"
 #include "tools/section/periods.hpp"
@@ -143,10 +144,19 @@ class Maker {
     twice.invariants = {};
     for (const std::string& name : s.states) twice.states.push_back("delta_" + name);
     problem_.plane.function = s.invariants;
-    const std::size_t at = 1 + model_.casimirs.size();
+    const std::size_t at = level_count();
     problem_.plane.function.outputs = {s.invariants.outputs.at(at)};
     problem_.plane.function.output_names = {"plane"};
     problem_.plane.function = codegen::without_dead_code(problem_.plane.function);
+  }
+
+  /// The Hamiltonian and the Casimir functions, less those that are constants for the values of the
+  /// scene: what stands before the plane.
+  std::size_t level_count() const {
+    const auto& names = problem_.run.specialisation.invariant_names;
+    const auto plane = std::ranges::find(names, "the plane");
+    if (plane == names.end()) throw UsageError("the plane's function is a constant");
+    return static_cast<std::size_t>(plane - names.begin());
   }
 
   void find_angles() {
@@ -170,16 +180,23 @@ class Maker {
     std::vector<cln::cl_F> inputs = start_values(s, kConstantDigits);
     inputs.resize(s.states.size());
     inputs.push_back(arithmetic.from(cln::cl_RA(0)));
+    // The level alone: the plotted pair need not have a value at the initial state.
+    Program functions = s.invariants;
+    functions.outputs.resize(level_count());
+    functions.output_names.resize(functions.outputs.size());
+    functions = codegen::without_dead_code(functions);
+    problem_.level_names = functions.output_names;
+    std::vector<SizedNumber> sized;
+    for (const cln::cl_F& input : inputs)
+      sized.push_back(Arithmetic<SizedNumber>::plain(cln::double_approx(input)));
+    const std::vector<SizedNumber> sizes = evaluate(functions, sized);
+    const std::vector<cln::cl_F> exact = evaluate(functions, inputs, arithmetic);
     std::vector<double> values;
-    for (const cln::cl_F& value : evaluate(s.invariants, inputs, arithmetic)) {
-      constexpr double kZero = 1e-50;
-      values.push_back(rounded(value));
-      if (std::abs(values.back()) < kZero) values.back() = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      constexpr long double kZero = 1e-50L;
+      values.push_back(rounded(exact[i]));
+      if (std::abs(values.back()) < kZero * sizes[i].size) values.back() = 0;
     }
-    problem_.level_names.assign(
-        s.invariant_names.begin(),
-        s.invariant_names.begin() + 1 + static_cast<std::ptrdiff_t>(model_.casimirs.size()));
-    values.resize(problem_.level_names.size());
     problem_.levels = values;
     if (request_.energy)
       problem_.levels[0] = real_constant(option_text("--energy", *request_.energy));
