@@ -62,6 +62,10 @@ struct Prepared {
     run = prepare(model, *scene, how);
     settings = settings_for(options.run, run);
     settings.invariant_terms = nullptr;
+    if (options.task == kSection) {
+      if (method->name != "taylor") throw UsageError("--do section: orbits follow Taylor series");
+      settings.rtol = kSectionTolerance;
+    }
   }
 };
 
