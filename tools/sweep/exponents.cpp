@@ -24,7 +24,12 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 LyapunovExponents::LyapunovExponents(const Model& model, const Scene& scene, const SceneRun& run,
                                      const Places& places, const Method& method,
                                      const Settings& settings)
-    : places_(places), method_(method), settings_(settings), deviating_(run) {
+    : places_(places),
+      // The tables of the method that needs no compiler hold the values of the parameters.
+      method_(method.name == "taylor" && !run.parameters.empty() ? *find_method("taylor-compiled")
+                                                                 : method),
+      settings_(settings),
+      deviating_(run) {
   const Specialisation& s = run.specialisation;
   if (s.uses_time) throw UsageError("--do exponents: the equations depend on the time");
   SpecialiseOptions what;
