@@ -152,7 +152,7 @@ TEST(Section, SystemsWithoutASectionAreRefused) {
   };
   refused({"section", "euler", "--plane", "M1", "--pair", "M2", "M3"}, "one degree of freedom");
   refused({"section", "van-der-pol", "--plane", "x", "--pair", "x", "y"}, "Hamiltonian");
-  refused({"section", "clebsch"}, "no [section]");
+  refused({"section", "neumann-sphere"}, "no [section]");
   refused({"section", "kovalevskaya", "--plane", "g33", "--pair", "g1", "g2"}, "did you mean 'g3'");
   refused({"section", "kovalevskaya", "--plane", "r + 1", "--pair", "g1", "g2"},
           "the same everywhere");

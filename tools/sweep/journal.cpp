@@ -120,6 +120,7 @@ void Journal::read(const std::string& fingerprint, std::size_t columns) {
 }
 
 Journal::~Journal() {
+  if (file_ >= 0 && done_.empty()) remove();  // what failed at once leaves nothing behind
   if (file_ >= 0) close(file_);
 }
 
