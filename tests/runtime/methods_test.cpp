@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 
+#include "runtime/kernels/splitting.hpp"
 #include "runtime/module.hpp"
 #include "tests/folder.hpp"
 #include "tests/runtime/systems.hpp"
@@ -195,6 +196,27 @@ TEST(Tableau, GaussIsSymplecticCollocationOfOrderTwoS) {
   check_gauss<4>();
   check_gauss<6>();
   check_gauss<8>();
+}
+
+/// The sums of odd powers of the coefficients, both halves: 1, and 0 below the order (Hairer,
+/// Lubich, Wanner: Geometric Numerical Integration (2006), V.3.1).
+template <int order>
+void check_composition() {
+  using Scheme = casimir_kernel::splitting::Scheme<order>;
+  for (int power = 1; power <= order + 1; power += 2) {
+    double sum = 0;
+    for (int j = 0; j < Scheme::half; ++j)
+      sum += (j + 1 < Scheme::half ? 2 : 1) * std::pow(Scheme::gamma[j], power);
+    if (power < order)
+      EXPECT_NEAR(sum, power == 1 ? 1 : 0, 3e-16) << order << ' ' << power;
+    else
+      EXPECT_GT(std::abs(sum), 1e-6) << order;  // the twin: it is no method of order + 2
+  }
+}
+TEST(Tableau, SplittingsAreCompositionsOfTheirOrder) {
+  check_composition<4>();
+  check_composition<6>();
+  check_composition<8>();
 }
 
 TEST(Methods, NamesAreFoundAndUnique) {
