@@ -20,7 +20,7 @@ struct Seen {
   std::vector<std::string> console;  ///< everything that was written there
 };
 
-/// Whether there is a browser: the tests that need one are skipped otherwise, and say so.
+/// Whether there is a browser, which tools/test installs: the tests that need one fail otherwise.
 inline bool has_browser() { return std::string(CASIMIR_BROWSER).find('/') != std::string::npos; }
 
 /// Measures a page that has been loaded, and writes what it finds into it. Stands only in copies.

@@ -56,7 +56,7 @@ TEST(Report, OfACaseHasEverythingAndIsReadableEverywhere) {
   EXPECT_EQ(json.at("verdict"), "proved");
   EXPECT_EQ(json.at("claims").at("proved"), 12);
   EXPECT_GE(json.at("plots").size(), 5U);
-  if (!has_browser()) GTEST_SKIP() << "no browser: chromium-headless-shell is not installed";
+  ASSERT_TRUE(has_browser()) << "chromium-headless-shell is not installed; tools/test does that";
   for (const View& view : {View{1200, 900, false}, View{1200, 900, true}, View{360, 740, true}}) {
     const Seen seen = look(page, view);
     SCOPED_TRACE(std::to_string(view.width) + (view.dark ? " dark" : " light"));
@@ -79,7 +79,7 @@ TEST(Report, TextOfStrangersIsNoMarkupAndWhatIsRefutedIsShown) {
   for (const char* part : {"&lt;script&gt;alert(&#39;1&#39;)", "✗", "refuted", "witness",
                            "residual", "&lt;i&gt;&amp;amp;"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
-  if (!has_browser()) GTEST_SKIP() << "no browser: chromium-headless-shell is not installed";
+  ASSERT_TRUE(has_browser()) << "chromium-headless-shell is not installed; tools/test does that";
   const View view{360, 740, false};
   const Seen seen = look(page, view);
   ASSERT_TRUE(seen.found.is_object());
