@@ -112,6 +112,7 @@ nlohmann::ordered_json to_json(const Model& model, int degree,
     own["verdict"] = to_string(condition.verdict);
     json["conditions"].push_back(own);
   }
+  if (report.points_open) json["points"] = to_string(Verdict::undecided);
   if (!report.reason.empty()) json["reason"] = report.reason;
   json["seconds"] = seconds;
   return json;
@@ -134,7 +135,14 @@ void print(const Model& model, int degree, const search::ConditionReport& report
     fmt::print("{}   {}\n", line, verdict_text(condition.verdict, colour));
     print_list(condition.found, colour);
   }
-  if (report.conditions.empty()) fmt::print("none\n");
+  if (report.conditions.empty()) fmt::print("none found\n");
+  if (report.complete)
+    fmt::print("No other {}: {}\n", report.points_open ? "curve or surface" : "value",
+               verdict_text(Verdict::proved, colour));
+  if (report.points_open)
+    fmt::print("Whether there are other single points is {}: {}\n",
+               verdict_text(Verdict::undecided, colour),
+               "they are sought among small fractions only");
   if (!report.complete) {
     fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
                report.reason);

@@ -115,7 +115,13 @@ void ConditionFinder::add_factor(const Polynomial& factor, const std::vector<std
   try {
     const Report special = confirmed(with_value(model_, parameter(*main), value));
     condition.found = special.found;
-    if (special.found.empty()) return;  // the rank is lower there for another reason
+    if (special.found.empty()) {
+      if (special.complete) return;  // the rank is lower there for another reason
+      report_.complete = false;
+      report_.reason = fmt::format("whether there is an additional one at {} = {} is undecided: {}",
+                                   condition.parameters[0].first, condition.parameters[0].second,
+                                   special.reason);
+    }
     condition.verdict = special.complete ? Verdict::proved : Verdict::undecided;
   } catch (const ModelError&) {
     return;  // the equations have no meaning there: a denominator vanishes
@@ -190,6 +196,7 @@ ConditionReport ConditionFinder::run(const std::vector<std::size_t>& free) {
     for (const Polynomial& factor : own.factors) factors.push_back(factor);
   }
   for (const Polynomial& factor : factors) add_factor(factor, free);
+  report_.points_open = free.size() > 1;
   if (free.size() == 2) add_points(blocks, free);
   return report_;
 }

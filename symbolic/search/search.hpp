@@ -58,15 +58,19 @@ struct Condition {
 struct ConditionReport {
   Report generic;  ///< for generic values of all parameters
   std::vector<Condition> conditions;
-  bool complete = false;  ///< every block of equations was decided
+  /// Every block of equations was decided, and so was every candidate: no other value of one
+  /// parameter, no other hypersurface for several.
+  bool complete = false;
+  /// For several parameters: points beside the hypersurfaces are sought among small fractions, for
+  /// two parameters, or not at all. There may be others.
+  bool points_open = false;
   std::string reason;
 };
 
 /// The values of some parameters at which additional integrals appear: where a block of equations
 /// loses rank. Each is confirmed by an exact search there. For one parameter these are all values;
-/// for several, all hypersurfaces, and for two also points.
-/// \param free  names of parameters
-/// \throws as find_integrals
+/// for several, all hypersurfaces, and for two also those points that a search among small
+/// fractions finds. \param free  names of parameters \throws as find_integrals
 ConditionReport find_conditions(const Model& model, const Request& request,
                                 const std::vector<Text>& free, const Watch& watch = {});
 
