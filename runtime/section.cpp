@@ -122,13 +122,15 @@ class Cutter {
   /// depend on the others.
   bool see_in_parts(const casimir_lane_step& whole, int lane) {
     int parts = 2;
-    for (bool fine = false; !fine && parts < kMostParts; parts *= fine ? 1 : 2) {
+    bool fine = false;
+    for (; !fine && parts < kMostParts; parts *= fine ? 1 : 2) {
       fine = true;
       for (int which = 0; which < parts && fine; ++which) {
         kernel_(&tables_, &part_.take(whole, which, parts), memory_.get(), &range_);
         fine = range_.tail[lane] <= kTail;
       }
     }
+    if (!fine) shared_.orbits[static_cast<std::size_t>(whole.member[lane])].doubt();
     for (int which = 0; which < parts; ++which) {
       const casimir_lane_step& step = part_.take(whole, which, parts);
       kernel_(&tables_, &step, memory_.get(), &range_);

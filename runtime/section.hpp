@@ -36,11 +36,14 @@ struct SectionSettings {
 /// The crossings of an orbit.
 struct SectionOrbit {
   Status status = Status::stopped;  ///< ok: all crossings were found
-  bool returns = true;              ///< false: not for SectionSettings::steps_between steps
-  double time = 0;                  ///< at the end
-  std::vector<double> state;        ///< there
-  std::vector<double> times;        ///< of each crossing
-  std::vector<double> states;       ///< at each crossing, one after the other
+  /// Somewhere on the way the function of the plane has no value or no convergent series: a
+  /// crossing may be missed there.
+  bool uncertain = false;
+  bool returns = true;         ///< false: not for SectionSettings::steps_between steps
+  double time = 0;             ///< at the end
+  std::vector<double> state;   ///< there
+  std::vector<double> times;   ///< of each crossing
+  std::vector<double> states;  ///< at each crossing, one after the other
   /// The logarithm of the growth of the deviation up to each crossing, unless that is kept itself.
   std::vector<double> growth;
   unsigned long long steps = 0;

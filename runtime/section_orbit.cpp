@@ -125,6 +125,7 @@ bool RunningOrbit::see(const LaneOfStep& step, const PlaneOfOrbit& plane,
   ++since_;
   if (!std::isfinite(step.range.last[step.lane])) {
     begun_ = false;  // the function has no values here
+    doubt();
     return gone(settings);
   }
   if (begun_)

@@ -42,6 +42,9 @@ class RunningOrbit {
   /// back, or with a deviation that has grown large.
   bool see(const LaneOfStep& step, const PlaneOfOrbit& plane, const SectionSettings& settings);
 
+  /// The next step has no convergent series of the function.
+  void doubt() { result_.uncertain = true; }
+
   /// Takes the state in which it left its lane. Whether it is to go on from `start`.
   bool leave(const double* x, const casimir_outcome& outcome, const SectionSettings& settings);
 

@@ -203,6 +203,13 @@ class Section {
           "the level has {} degrees of freedom: the picture is a projection of a section of {} "
           "dimensions",
           problem_.leaf / 2, problem_.leaf - 2));
+    const auto uncertain = std::ranges::count_if(
+        report.orbits, [](const OrbitReport& orbit) { return orbit.orbit.uncertain; });
+    if (uncertain > 0)
+      report.warnings.push_back(fmt::format(
+          "{} of {} orbits pass where the function of the plane is singular: a crossing "
+          "may be missing there",
+          uncertain, report.orbits.size()));
     const auto lost = std::ranges::count_if(
         report.orbits, [](const OrbitReport& orbit) { return !orbit.orbit.returns; });
     if (lost > 0)
