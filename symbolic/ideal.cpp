@@ -8,10 +8,6 @@
 namespace casimir {
 namespace {
 
-constexpr std::size_t kMaxReductions = 2000;
-constexpr std::size_t kMaxBasis = 200;
-constexpr std::size_t kMaxTerms = 20000;
-
 using Monomial = std::vector<unsigned long>;
 
 Monomial leading_monomial(const Polynomial& p) { return p.term_list().front().second; }
@@ -53,7 +49,8 @@ Polynomial lifted(const Polynomial& p, const Monomial& leading, const Monomial& 
 /// his two criteria show to be superfluous.
 class Buchberger {
  public:
-  explicit Buchberger(const std::vector<Polynomial>& generators) {
+  Buchberger(const std::vector<Polynomial>& generators, const GroebnerLimits& limits)
+      : limits_(limits) {
     for (const Polynomial& g : generators) {
       const Polynomial rest = reduced(g);
       if (!rest.is_zero()) insert(rest);
@@ -63,14 +60,14 @@ class Buchberger {
   std::vector<Polynomial> basis() {
     for (std::size_t done = 0; !pairs_.empty(); ++done) {
       // What is left out below makes the rest no basis of the ideal unless everything is done.
-      if (done == kMaxReductions || elements_.size() > kMaxBasis) return elements_;
+      if (done == limits_.reductions || elements_.size() > limits_.elements) return elements_;
       const auto [size, i, j] = *pairs_.begin();
       pairs_.erase(pairs_.begin());
       const Monomial multiple = least_common_multiple(leading_[i], leading_[j]);
       if (superfluous(i, j, multiple)) continue;
       const Polynomial rest = reduced(lifted(elements_[i], leading_[i], multiple) -
                                       lifted(elements_[j], leading_[j], multiple));
-      if (rest.terms() > kMaxTerms) return elements_;
+      if (rest.terms() > limits_.terms) return elements_;
       if (!rest.is_zero()) insert(rest);
     }
     std::vector<Polynomial> result;
@@ -91,7 +88,10 @@ class Buchberger {
     elements_.push_back(p.scaled(1 / p.term_list().front().first));
     leading_.push_back(leading_monomial(p));
     for (std::size_t i = 0; i < index; ++i) {
-      if (redundant_[i]) continue;
+      if (redundant_[i]) {
+        never_.emplace(i, index);
+        continue;
+      }
       redundant_[i] = divides(leading_[index], leading_[i]);
       if (!coprime(leading_[i], leading_[index])) {
         pairs_.emplace(degree(least_common_multiple(leading_[i], leading_[index])), i, index);
@@ -100,31 +100,34 @@ class Buchberger {
     redundant_.push_back(false);
   }
 
-  bool pending(std::size_t i, std::size_t j, const Monomial& multiple) const {
-    return pairs_.contains({degree(multiple), std::min(i, j), std::max(i, j)});
+  bool done(std::size_t i, std::size_t j) const {
+    const auto [first, second] = std::minmax(i, j);
+    const Monomial multiple = least_common_multiple(leading_[first], leading_[second]);
+    return !pairs_.contains({degree(multiple), first, second}) && !never_.contains({first, second});
   }
 
   /// Whether another element links the two by pairs that are done.
   bool superfluous(std::size_t i, std::size_t j, const Monomial& multiple) const {
     for (std::size_t k = 0; k < elements_.size(); ++k) {
       if (k == i || k == j || redundant_[k] || !divides(leading_[k], multiple)) continue;
-      if (!pending(i, k, least_common_multiple(leading_[i], leading_[k])) &&
-          !pending(j, k, least_common_multiple(leading_[j], leading_[k])))
-        return true;
+      if (done(i, k) && done(j, k)) return true;
     }
     return false;
   }
 
+  const GroebnerLimits& limits_;
   std::vector<Polynomial> elements_;  ///< with leading coefficient 1
   std::vector<Monomial> leading_;
   std::vector<bool> redundant_;  ///< reduced by a later element
   std::set<std::tuple<unsigned long, std::size_t, std::size_t>> pairs_;
+  std::set<std::pair<std::size_t, std::size_t>> never_;  ///< pairs with a redundant element
 };
 
 }  // namespace
 
-std::vector<Polynomial> groebner_basis(const std::vector<Polynomial>& generators) {
-  return Buchberger(generators).basis();
+std::vector<Polynomial> groebner_basis(const std::vector<Polynomial>& generators,
+                                       const GroebnerLimits& limits) {
+  return Buchberger(generators, limits).basis();
 }
 
 std::vector<SolvedRelation> triangular_set(std::vector<Polynomial> relations,

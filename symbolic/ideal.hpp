@@ -6,10 +6,17 @@
 
 namespace casimir {
 
+/// Where a Groebner basis is given up.
+struct GroebnerLimits {
+  std::size_t reductions = 2000, elements = 200;
+  std::size_t terms = 20000;  ///< of an element
+};
+
 /// A Groebner basis of the ideal of `generators` in the ring's order, by Buchberger's algorithm
-/// with the coprime criterion. Stops early on ideals that grow too large; what it returns always
+/// with his two criteria. Stops early on ideals that grow too large; what it returns always
 /// generates the same ideal, so that remainder zero modulo it always proves membership.
-std::vector<Polynomial> groebner_basis(const std::vector<Polynomial>& generators);
+std::vector<Polynomial> groebner_basis(const std::vector<Polynomial>& generators,
+                                       const GroebnerLimits& limits = {});
 
 /// A polynomial equation seen as one for its main variable.
 struct SolvedRelation {

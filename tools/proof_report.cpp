@@ -99,9 +99,9 @@ std::vector<std::string> judgement_lines(const Proof& note) {
   return lines;
 }
 
-std::string verdict_text(Verdict verdict, bool colour) {
+std::string verdict_text(Verdict verdict, bool colour, int width) {
   const char* code = verdict == Verdict::proved ? "32" : verdict == Verdict::refuted ? "31" : "33";
-  const std::string word = fmt::format("{:<9}", to_string(verdict));
+  const std::string word = fmt::format("{:<{}}", to_string(verdict), width);
   return colour ? fmt::format("\x1b[{}m{}\x1b[0m", code, word) : word;
 }
 

@@ -18,7 +18,10 @@ nlohmann::ordered_json to_json(const Model& model, const std::vector<Proof>& pro
 /// The findings of a judgement in words: "it is no Casimir function: ..".
 std::vector<std::string> judgement_lines(const Proof& note);
 
-/// "proved" and the others, coloured for a terminal.
-std::string verdict_text(Verdict verdict, bool colour);
+/// That of the longest verdict.
+inline constexpr int kVerdictWidth = 9;
+
+/// "proved" and the others, coloured for a terminal and filled up to a width.
+std::string verdict_text(Verdict verdict, bool colour, int width = 0);
 
 }  // namespace casimir::tools

@@ -12,8 +12,7 @@
 namespace casimir::tools {
 namespace {
 
-constexpr std::size_t kVerdictWidth = 9;  // "undecided"
-constexpr std::size_t kTimeWidth = 9;     // "999.99 ms"
+constexpr std::size_t kTimeWidth = 9;  // "999.99 ms"
 constexpr std::size_t kLeastName = 24;
 constexpr std::size_t kLeastText = 30;
 const std::string kGap = "  ";
@@ -79,8 +78,8 @@ std::string ProofTable::heading() const {
 
 std::string ProofTable::row(const Proof& proof) const {
   const std::vector<std::string> name = wrapped(name_of(proof), name_width_);
-  std::string text =
-      line(verdict_text(proof.verdict, colour_), proof.kind, name[0], duration_text(proof.seconds));
+  std::string text = line(verdict_text(proof.verdict, colour_, kVerdictWidth), proof.kind, name[0],
+                          duration_text(proof.seconds));
   const std::size_t used =
       indent_ + kVerdictWidth + kind_width_ + name_width_ + kTimeWidth + 4 * kGap.size();
   const bool beside = used + display_width(proof.evidence) <= width_;

@@ -49,7 +49,7 @@ void CaseReport::end(const std::vector<Proof>& proofs, double seconds) const {
   const Tally claims = tally_of(model_, proofs);
   const auto beside = std::ranges::count_if(
       proofs, [&](const Proof& proof) { return proof.fact && !counts(model_, proof); });
-  fmt::print("\n{}  {}: {}", verdict_text(overall(model_, proofs), colour()),
+  fmt::print("\n{}  {}: {}", verdict_text(overall(model_, proofs), colour(), kVerdictWidth),
              plural(claims.all(), "claim"), claims.text());
   if (beside > 0) fmt::print(" (and {} beside)", plural(static_cast<std::size_t>(beside), "fact"));
   fmt::print("; {}\n", duration_text(seconds));
@@ -73,7 +73,8 @@ AllReport::AllReport(const std::vector<std::filesystem::path>& paths) {
 
 void AllReport::row(const CaseOutcome& outcome) {
   const Tally& tally = outcome.tally;
-  fmt::print("{}  {}  {:6}  {:6}  {:7}  {:9}  {:>9}\n", verdict_text(outcome.verdict, colour()),
+  fmt::print("{}  {}  {:6}  {:6}  {:7}  {:9}  {:>9}\n",
+             verdict_text(outcome.verdict, colour(), kVerdictWidth),
              padded(outcome.name, name_width_), tally.all(), tally.proved, tally.refuted,
              tally.undecided, duration_text(outcome.seconds));
   const ProofTable table(outcome.open, output_width(), colour(), 11);
@@ -86,8 +87,9 @@ void AllReport::row(const CaseOutcome& outcome) {
 }
 
 void AllReport::end(Verdict worst, double seconds) const {
-  fmt::print("\n{}  {}, {}: {}; {}\n", verdict_text(worst, colour()), plural(cases_, "case"),
-             plural(total_.all(), "claim"), total_.text(), duration_text(seconds));
+  fmt::print("\n{}  {}, {}: {}; {}\n", verdict_text(worst, colour(), kVerdictWidth),
+             plural(cases_, "case"), plural(total_.all(), "claim"), total_.text(),
+             duration_text(seconds));
 }
 
 }  // namespace casimir::tools

@@ -168,7 +168,8 @@ void DarbouxSearch::add(const Branch& branch, const Polynomial& f, const Polynom
   if (own->factors().size() != 2 || own->factors()[1].second != 1) {
     if (own->total_degree() > 1) return;  // a product of others
   }
-  result.text = short_text(system_.prover().ring(), own->scaled(1 / own->content()));
+  result.text =
+      short_text(system_.prover().ring(), own->scaled(1 / own->content()), system_.is_constant());
   // The cofactor is read off the rate.
   Polynomial rate(system_.ring()), quotient(system_.ring());
   for (std::size_t i = 0; i < dimension_; ++i) rate += own->derivative(i) * system_.flow()[i];

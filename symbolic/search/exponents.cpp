@@ -64,17 +64,19 @@ class Analysis {
   Analysis(const Model& model, const std::vector<std::pair<Text, Text>>& weights,
            const Watch& watch);
   ExponentReport run();
+  ExponentReport without_balances() const { return report_; }
 
  private:
   void read_weights(const std::vector<std::pair<Text, Text>>& weights);
   void keep_leading_terms();
   std::optional<Balance> balance_of(const Branch& branch);
   std::vector<Exponent> exponents_of(const Branch& branch, bool& decided);
-  std::optional<std::vector<SolvedRelation>> triangular(std::vector<Polynomial> relations) const;
   Exponent exponent_of(const Polynomial& factor) const;
   Polynomial in_own_ring(const Polynomial& p) const;
   std::string text(const Polynomial& p) const;
   std::string quotient(const Polynomial& top, const Polynomial& bottom) const;
+  bool belongs_to_another(const std::vector<Branch>& branches, std::size_t b) const;
+  void describe_leading();
   void conclude();
   cln::cl_RA weight(std::size_t i) const {
     return cln::cl_RA(weights_.numerators[i]) / weights_.denominator;
@@ -86,8 +88,9 @@ class Analysis {
   std::size_t dimension_;
   PolynomialRing ring_;  ///< that of the system, with rho at the end
   std::size_t rho_;
-  std::vector<Polynomial> field_;  ///< times factor_
-  Polynomial factor_;              ///< made of parameters
+  std::vector<std::size_t> unknowns_;  ///< the places of the coordinates
+  std::vector<Polynomial> field_;      ///< times factor_
+  Polynomial factor_;                  ///< made of parameters
   Weights weights_;
   ExponentReport report_;
 };
@@ -102,6 +105,7 @@ Analysis::Analysis(const Model& model, const std::vector<std::pair<Text, Text>>&
       rho_(system_.ring().size()),
       factor_(ring_.constant(1)) {
   if (model.time) throw ModelError("exponents need equations that do not depend on the time");
+  for (std::size_t i = 0; i < dimension_; ++i) unknowns_.push_back(i);
   std::vector<Polynomial> row = system_.prover().field();
   for (const Polynomial& rate : row) {
     for (std::size_t g = 0; g < system_.ring().size(); ++g) {
@@ -118,6 +122,8 @@ Analysis::Analysis(const Model& model, const std::vector<std::pair<Text, Text>>&
   row.pop_back();
   for (const Polynomial& p : row) field_.push_back(in_own_ring(p));
   read_weights(weights);
+  keep_leading_terms();
+  describe_leading();
 }
 
 Polynomial Analysis::in_own_ring(const Polynomial& p) const {
@@ -243,46 +249,6 @@ Exponent Analysis::exponent_of(const Polynomial& factor) const {
   return result;
 }
 
-/// The relations one by one, each for a coefficient that those after it do not have; empty where
-/// they are not of that kind.
-std::optional<std::vector<SolvedRelation>> Analysis::triangular(
-    std::vector<Polynomial> relations) const {
-  std::vector<SolvedRelation> set;
-  std::set<std::size_t> covered;
-  const auto fresh = [&](const Polynomial& p) {
-    std::vector<std::size_t> result;
-    for (std::size_t v = 0; v < dimension_; ++v)
-      if (p.uses(v) && covered.count(v) == 0) result.push_back(v);
-    return result;
-  };
-  while (!relations.empty()) {
-    const auto best =
-        std::min_element(relations.begin(), relations.end(), [&](const auto& a, const auto& b) {
-          return std::pair(fresh(a).size(), a.total_degree()) <
-                 std::pair(fresh(b).size(), b.total_degree());
-        });
-    const Polynomial relation = *best;
-    relations.erase(best);
-    const std::vector<std::size_t> candidates = fresh(relation);
-    if (candidates.empty()) {
-      if (!pseudo_remainder(relation, set).is_zero()) return std::nullopt;
-      continue;
-    }
-    std::optional<std::size_t> main;
-    for (const std::size_t v : candidates) {
-      const Polynomial leading = relation.coefficients(v).back();
-      bool free_of_unknowns = true;
-      for (std::size_t u = 0; u < dimension_; ++u)
-        free_of_unknowns = free_of_unknowns && !leading.uses(u);
-      if (free_of_unknowns && (!main || relation.degree(v) < relation.degree(*main))) main = v;
-    }
-    if (!main) return std::nullopt;
-    for (const std::size_t v : candidates) covered.insert(v);
-    set.insert(set.begin(), {relation, *main, relation.coefficients(*main).back()});
-  }
-  return set;
-}
-
 /// The roots of det(dF/dx(c) + diag(g) - rho), by factors over the rationals; where a coefficient
 /// is an algebraic number, of the norm.
 std::vector<Exponent> Analysis::exponents_of(const Branch& branch, bool& decided) {
@@ -300,7 +266,7 @@ std::vector<Exponent> Analysis::exponents_of(const Branch& branch, bool& decided
   }
   Polynomial characteristic = determinant_without_sign(matrix, ring_);
   if (!simple) characteristic = branch.reduced(characteristic);
-  const std::optional<std::vector<SolvedRelation>> relations = triangular(branch.rest);
+  const std::optional<std::vector<SolvedRelation>> relations = triangular(branch.rest, unknowns_);
   if (!relations) {
     decided = false;
     return {};
@@ -347,7 +313,7 @@ std::optional<Balance> Analysis::balance_of(const Branch& branch) {
     balance.coefficients.emplace_back(model_.variables[i].get_name(), quotient(top, bottom));
   }
   if (zero) return std::nullopt;
-  if (const auto relations = triangular(branch.rest); relations && balance.decided) {
+  if (const auto relations = triangular(branch.rest, unknowns_); relations && balance.decided) {
     for (const SolvedRelation& r : *relations) {
       balance.relations.push_back(text(r.relation) + " = 0");
       free.erase(r.variable);
@@ -404,24 +370,51 @@ void Analysis::conclude() {
         "solutions holds for these balances; that alone proves no integrability");
 }
 
-ExponentReport Analysis::run() {
-  keep_leading_terms();
-  std::vector<Polynomial> equations;
-  std::vector<std::size_t> unknowns;
-  for (std::size_t i = 0; i < dimension_; ++i) {
-    equations.push_back(field_[i] + factor_.scaled(weight(i)) * ring_.variable(i));
-    unknowns.push_back(i);
+/// Of two branches that are one, the first remains.
+bool Analysis::belongs_to_another(const std::vector<Branch>& branches, std::size_t b) const {
+  const auto decides = [](const Branch& branch) { return branch.decided; };
+  if (!decides(branches[b])) return false;
+  for (std::size_t other = 0; other < branches.size(); ++other) {
+    if (other == b || !decides(branches[other])) continue;
+    if (!contains(branches[other], branches[b], unknowns_)) continue;
+    if (other < b || !contains(branches[b], branches[other], unknowns_)) return true;
   }
+  return false;
+}
+
+/// The parameters of the leading terms; these terms themselves, where there are none.
+void Analysis::describe_leading() {
+  std::set<std::size_t> parameters;
+  LeadingSystem leading;
+  const cln::cl_RA factor = factor_.is_constant() ? factor_.term_list()[0].first : 1;
+  for (std::size_t i = 0; i < dimension_; ++i) {
+    leading.names.push_back(model_.variables[i].get_name());
+    leading.weights.push_back(cln::double_approx(weight(i)));
+    auto& rate = leading.rates.emplace_back();
+    for (auto [number, exponents] : field_[i].term_list()) {
+      for (std::size_t k = dimension_; k < exponents.size(); ++k)
+        if (exponents[k] > 0) parameters.insert(k);
+      exponents.resize(dimension_);
+      rate.push_back({cln::double_approx(number / factor), exponents});
+    }
+  }
+  for (std::size_t k = dimension_; k < ring_.size(); ++k)
+    if (factor_.uses(k)) parameters.insert(k);
+  for (const std::size_t k : parameters) report_.generic.push_back(system_.name(k));
+  if (parameters.empty()) report_.leading = std::move(leading);
+}
+
+ExponentReport Analysis::run() {
+  std::vector<Polynomial> equations;
+  for (std::size_t i = 0; i < dimension_; ++i)
+    equations.push_back(field_[i] + factor_.scaled(weight(i)) * ring_.variable(i));
   watch_.begin("balances");
   report_.complete = true;
-  std::set<std::string> known;
-  for (const Branch& branch : solve_system(equations, unknowns, watch_)) {
-    const std::optional<Balance> balance = balance_of(branch);
+  const std::vector<Branch> branches = solve_system(equations, unknowns_, watch_);
+  for (std::size_t b = 0; b < branches.size(); ++b) {
+    if (belongs_to_another(branches, b)) continue;
+    const std::optional<Balance> balance = balance_of(branches[b]);
     if (!balance) continue;
-    std::string key;
-    for (const auto& [name, value] : balance->coefficients) key += value + ";";
-    for (const std::string& relation : balance->relations) key += relation + ";";
-    if (!known.insert(key).second) continue;
     // An exponent -1 belongs to every balance, as the origin of time is arbitrary.
     const auto is_minus_one = [](const Exponent& e) { return e.text == "-1"; };
     if (balance->decided &&
@@ -443,6 +436,11 @@ ExponentReport kovalevskaya_exponents(const Model& model,
                                       const std::vector<std::pair<Text, Text>>& weights,
                                       const Watch& watch) {
   return Analysis(model, weights, watch).run();
+}
+
+ExponentReport leading_terms(const Model& model,
+                             const std::vector<std::pair<Text, Text>>& weights) {
+  return Analysis(model, weights, {}).without_balances();
 }
 
 }  // namespace casimir::search

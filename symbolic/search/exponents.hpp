@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,8 +29,20 @@ struct Balance {
   std::vector<std::pair<std::string, std::string>> coefficients;  ///< of every coordinate
   std::vector<std::string> relations;  ///< that free coefficients and algebraic numbers obey
   std::vector<std::string> free;       ///< coefficients that are arbitrary
+  std::size_t family = 0;              ///< of a numeric one: the dimension of its family
   std::vector<Exponent> exponents;
   bool decided = true;
+};
+
+/// The leading terms of the rates with numbers for all coefficients.
+struct LeadingSystem {
+  struct Term {
+    double coefficient;
+    std::vector<unsigned long> exponents;  ///< of each coordinate
+  };
+  std::vector<std::string> names;
+  std::vector<double> weights;
+  std::vector<std::vector<Term>> rates;
 };
 
 struct ExponentReport {
@@ -38,6 +51,8 @@ struct ExponentReport {
   std::vector<Balance> balances;
   bool complete = false;
   std::string reason;
+  std::vector<std::string> generic;      ///< parameters with generic values
+  std::optional<LeadingSystem> leading;  ///< where there are no parameters
   std::vector<std::string> conclusions;  ///< with the theorem used
 };
 
@@ -47,5 +62,8 @@ struct ExponentReport {
 ExponentReport kovalevskaya_exponents(const Model& model,
                                       const std::vector<std::pair<Text, Text>>& weights,
                                       const Watch& watch = {});
+
+/// The same without the balances.
+ExponentReport leading_terms(const Model& model, const std::vector<std::pair<Text, Text>>& weights);
 
 }  // namespace casimir::search

@@ -1,16 +1,17 @@
 #include "symbolic/search/polynomial_system.hpp"
 
 #include <algorithm>
-#include <optional>
-
-#include "symbolic/ideal.hpp"
+#include <set>
+#include <utility>
 
 namespace casimir::search {
 namespace {
 
 constexpr std::size_t kMostTerms = 3000;  // of an equation
-constexpr std::size_t kMostBranches = 400;
+constexpr std::size_t kMostCases = 1000;
 constexpr int kDeepest = 60;
+// Beyond these a Groebner basis is given up: it would not be short.
+constexpr GroebnerLimits kLimits{.reductions = 600, .elements = 100, .terms = 1000};
 
 class Solver {
  public:
@@ -26,11 +27,17 @@ class Solver {
     return std::any_of(unknowns_.begin(), unknowns_.end(),
                        [&](std::size_t u) { return p.uses(u); });
   }
-  std::vector<Polynomial> factors_of(const Polynomial& p) const;
+  std::vector<Polynomial> factors_of(const Polynomial& p,
+                                     const std::vector<Polynomial>& nonzero) const;
+  bool assume(Branch& branch, const Polynomial& nonzero) const;
   struct Linear {
     std::size_t equation, place;
   };
-  std::optional<Linear> find_linear(const std::vector<Polynomial>& equations) const;
+  std::optional<Linear> find_linear(const std::vector<Polynomial>& equations,
+                                    bool with_unknowns) const;
+  void eliminate(const std::vector<Polynomial>& equations, const Linear& linear, Branch branch,
+                 int depth);
+  void finish(std::vector<Polynomial> equations, Branch branch, int depth);
   void give_up(Branch branch, std::vector<Polynomial> equations) {
     branch.rest = std::move(equations);
     branch.decided = false;
@@ -39,26 +46,39 @@ class Solver {
 
   const std::vector<std::size_t>& unknowns_;
   const Watch& watch_;
+  std::size_t cases_ = 0;
 };
 
-/// The different factors with unknowns; none for a polynomial without.
-std::vector<Polynomial> Solver::factors_of(const Polynomial& p) const {
+/// The different factors that may be zero; none for a polynomial without unknowns.
+std::vector<Polynomial> Solver::factors_of(const Polynomial& p,
+                                           const std::vector<Polynomial>& nonzero) const {
   std::vector<Polynomial> result;
   for (const auto& [factor, exponent] : p.factors())
-    if (has_unknowns(factor)) result.push_back(factor);
+    if (has_unknowns(factor) && std::find(nonzero.begin(), nonzero.end(), factor) == nonzero.end())
+      result.push_back(factor);
   return result;
 }
 
+/// Whether that can be.
+bool Solver::assume(Branch& branch, const Polynomial& nonzero) const {
+  if (nonzero.is_zero()) return false;
+  for (const Polynomial& factor : factors_of(nonzero, branch.nonzero))
+    branch.nonzero.push_back(factor);
+  return true;
+}
+
 /// An equation that is linear in an unknown; the shortest one with the simplest coefficient.
-std::optional<Solver::Linear> Solver::find_linear(const std::vector<Polynomial>& equations) const {
+std::optional<Solver::Linear> Solver::find_linear(const std::vector<Polynomial>& equations,
+                                                  bool with_unknowns) const {
   std::optional<Linear> best;
   std::size_t best_cost = 0;
   for (std::size_t e = 0; e < equations.size(); ++e) {
     for (const std::size_t u : unknowns_) {
       if (equations[e].degree(u) != 1) continue;
       const Polynomial leading = equations[e].coefficients(u)[1];
-      if (has_unknowns(leading)) continue;
-      const std::size_t cost = equations[e].terms() + (leading.is_constant() ? 0 : 20);
+      if (has_unknowns(leading) != with_unknowns) continue;
+      const std::size_t cost = equations[e].terms() + (leading.is_constant() ? 0 : 20) +
+                               (with_unknowns ? leading.terms() * leading.terms() : 0);
       if (best && cost >= best_cost) continue;
       best = Linear{e, u};
       best_cost = cost;
@@ -69,7 +89,7 @@ std::optional<Solver::Linear> Solver::find_linear(const std::vector<Polynomial>&
 
 void Solver::solve(std::vector<Polynomial> equations, Branch branch, int depth, bool based) {
   watch_.tick(0.5);
-  if (branches.size() >= kMostBranches || depth > kDeepest) {
+  if (++cases_ > kMostCases || depth > kDeepest) {
     give_up(std::move(branch), std::move(equations));
     return;
   }
@@ -82,7 +102,8 @@ void Solver::solve(std::vector<Polynomial> equations, Branch branch, int depth, 
       give_up(std::move(branch), std::move(equations));
       return;
     }
-    const std::vector<Polynomial> factors = factors_of(p);
+    const std::vector<Polynomial> factors = factors_of(p, branch.nonzero);
+    if (factors.empty()) return;
     if (factors.size() > 1) {
       std::vector<Polynomial> others;
       for (const Polynomial& q : equations)
@@ -91,6 +112,7 @@ void Solver::solve(std::vector<Polynomial> equations, Branch branch, int depth, 
         std::vector<Polynomial> own = others;
         own.push_back(factor);
         solve(std::move(own), branch, depth + 1, false);
+        branch.nonzero.push_back(factor);  // the other case is done
       }
       return;
     }
@@ -98,32 +120,53 @@ void Solver::solve(std::vector<Polynomial> equations, Branch branch, int depth, 
                      [&](const Polynomial& q) { return q == factors[0]; }))
       clean.push_back(factors[0]);
   }
-  if (clean.empty()) {
-    branches.push_back(std::move(branch));
+  if (clean.empty()) return finish({}, std::move(branch), depth);
+  if (const std::optional<Linear> linear = find_linear(clean, false))
+    return eliminate(clean, *linear, std::move(branch), depth);
+  if (!based && clean.size() > 1)
+    return solve(groebner_basis(clean, kLimits), std::move(branch), depth + 1, true);
+  finish(std::move(clean), std::move(branch), depth);
+}
+
+/// Puts the unknown into the other equations; its coefficient is not zero.
+void Solver::eliminate(const std::vector<Polynomial>& equations, const Linear& linear,
+                       Branch branch, int depth) {
+  const std::vector<Polynomial> parts = equations[linear.equation].coefficients(linear.place);
+  SolvedUnknown solved{linear.place, -parts[0], parts[1]};
+  if (parts[1].is_constant()) {
+    solved.numerator = solved.numerator.scaled(1 / parts[1].term_list()[0].first);
+    solved.denominator = parts[1].ring().constant(1);
+  }
+  std::vector<Polynomial> rest;
+  for (std::size_t e = 0; e < equations.size(); ++e) {
+    if (e != linear.equation)
+      rest.push_back(substituted(equations[e], solved.place, solved.numerator, solved.denominator));
+  }
+  const std::vector<Polynomial> nonzero = std::exchange(branch.nonzero, {});
+  assume(branch, solved.denominator);
+  for (const Polynomial& p : nonzero)
+    if (!assume(branch, substituted(p, solved.place, solved.numerator, solved.denominator))) return;
+  branch.solved.push_back(std::move(solved));
+  solve(std::move(rest), std::move(branch), depth + 1, false);
+}
+
+/// Equations that neither elimination nor a Groebner basis simplifies.
+void Solver::finish(std::vector<Polynomial> equations, Branch branch, int depth) {
+  if (const auto relations = triangular(equations, unknowns_)) {
+    const bool empty =
+        std::any_of(branch.nonzero.begin(), branch.nonzero.end(),
+                    [&](const Polynomial& p) { return pseudo_remainder(p, *relations).is_zero(); });
+    branch.rest = std::move(equations);
+    if (!empty) branches.push_back(std::move(branch));
     return;
   }
-  if (const std::optional<Linear> linear = find_linear(clean)) {
-    const std::vector<Polynomial> parts = clean[linear->equation].coefficients(linear->place);
-    SolvedUnknown solved{linear->place, -parts[0], parts[1]};
-    if (parts[1].is_constant()) {
-      solved.numerator = solved.numerator.scaled(1 / parts[1].term_list()[0].first);
-      solved.denominator = parts[1].ring().constant(1);
-    }
-    std::vector<Polynomial> rest;
-    for (std::size_t e = 0; e < clean.size(); ++e) {
-      if (e != linear->equation)
-        rest.push_back(substituted(clean[e], solved.place, solved.numerator, solved.denominator));
-    }
-    branch.solved.push_back(std::move(solved));
-    solve(std::move(rest), std::move(branch), depth + 1, false);
-    return;
-  }
-  if (!based && clean.size() > 1) {
-    solve(groebner_basis(clean), std::move(branch), depth + 1, true);
-    return;
-  }
-  branch.rest = std::move(clean);
-  branches.push_back(std::move(branch));
+  const std::optional<Linear> linear = find_linear(equations, true);
+  if (!linear) return give_up(std::move(branch), std::move(equations));
+  eliminate(equations, *linear, branch, depth);
+  for (const Polynomial& part : equations[linear->equation].coefficients(linear->place))
+    equations.push_back(part);
+  equations.erase(equations.begin() + static_cast<std::ptrdiff_t>(linear->equation));
+  solve(std::move(equations), std::move(branch), depth + 1, false);
 }
 
 }  // namespace
@@ -131,6 +174,60 @@ void Solver::solve(std::vector<Polynomial> equations, Branch branch, int depth, 
 Polynomial Branch::reduced(Polynomial p) const {
   for (const SolvedUnknown& s : solved) p = substituted(p, s.place, s.numerator, s.denominator);
   return p;
+}
+
+std::optional<std::vector<SolvedRelation>> triangular(std::vector<Polynomial> equations,
+                                                      const std::vector<std::size_t>& unknowns) {
+  std::vector<SolvedRelation> set;
+  std::set<std::size_t> covered;
+  const auto fresh = [&](const Polynomial& p) {
+    std::vector<std::size_t> result;
+    for (const std::size_t v : unknowns)
+      if (p.uses(v) && covered.count(v) == 0) result.push_back(v);
+    return result;
+  };
+  const auto leading_in = [](const Polynomial& p, std::size_t v) {
+    return p.coefficients(v).back();
+  };
+  while (!equations.empty()) {
+    const auto best =
+        std::min_element(equations.begin(), equations.end(), [&](const auto& a, const auto& b) {
+          return std::pair(fresh(a).size(), a.total_degree()) <
+                 std::pair(fresh(b).size(), b.total_degree());
+        });
+    const Polynomial equation = *best;
+    equations.erase(best);
+    const std::vector<std::size_t> candidates = fresh(equation);
+    if (candidates.empty()) {
+      if (!pseudo_remainder(equation, set).is_zero()) return std::nullopt;
+      continue;
+    }
+    std::optional<std::size_t> main;
+    for (const std::size_t v : candidates) {
+      const Polynomial leading = leading_in(equation, v);
+      const bool has_none = std::none_of(unknowns.begin(), unknowns.end(),
+                                         [&](std::size_t u) { return leading.uses(u); });
+      if (has_none && (!main || equation.degree(v) < equation.degree(*main))) main = v;
+    }
+    if (!main) return std::nullopt;
+    covered.insert(candidates.begin(), candidates.end());
+    set.insert(set.begin(), {equation, *main, leading_in(equation, *main)});
+  }
+  return set;
+}
+
+bool contains(const Branch& family, const Branch& part, const std::vector<std::size_t>& unknowns) {
+  const auto relations = triangular(part.rest, unknowns);
+  if (!relations) return false;
+  const auto vanishes = [&](const Polynomial& p) {
+    return pseudo_remainder(part.reduced(p), *relations).is_zero();
+  };
+  for (const SolvedUnknown& s : family.solved) {
+    const Polynomial& bottom = s.denominator;
+    if (vanishes(bottom)) return false;
+    if (!vanishes(bottom * bottom.ring().variable(s.place) - s.numerator)) return false;
+  }
+  return std::all_of(family.rest.begin(), family.rest.end(), vanishes);
 }
 
 std::vector<Branch> solve_system(std::vector<Polynomial> equations,

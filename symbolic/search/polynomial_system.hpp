@@ -1,13 +1,15 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "symbolic/ideal.hpp"
 #include "symbolic/polynomial.hpp"
 #include "symbolic/search/watch.hpp"
 
 namespace casimir::search {
 
-/// unknown = numerator / denominator; the denominator has no unknowns.
+/// unknown = numerator / denominator, where the denominator is not zero.
 struct SolvedUnknown {
   std::size_t place;
   Polynomial numerator, denominator;
@@ -16,17 +18,27 @@ struct SolvedUnknown {
 /// A family of solutions of polynomial equations.
 struct Branch {
   std::vector<SolvedUnknown>
-      solved;                    ///< in the order of elimination: numerators use later unknowns
-  std::vector<Polynomial> rest;  ///< irreducible equations that remain between the others
-  bool decided = true;           ///< false where the equations became too large
+      solved;                       ///< in the order of elimination: numerators use later unknowns
+  std::vector<Polynomial> rest;     ///< irreducible equations that remain between the others
+  std::vector<Polynomial> nonzero;  ///< irreducible: denominators, and what other branches have
+  bool decided = true;              ///< false where the equations became too large
 
   /// p with the solved unknowns put in, times powers of their denominators.
   Polynomial reduced(Polynomial p) const;
 };
 
+/// Equations one by one, each for an unknown that those after it do not have and with a leading
+/// coefficient without unknowns; empty where they are not of that kind.
+std::optional<std::vector<SolvedRelation>> triangular(std::vector<Polynomial> equations,
+                                                      const std::vector<std::size_t>& unknowns);
+
+/// Whether all solutions of `part` belong to `family`; false where that is not found out.
+bool contains(const Branch& family, const Branch& part, const std::vector<std::size_t>& unknowns);
+
 /// Splits equations into branches: unknowns in which an equation is linear with a coefficient that
 /// has no unknowns are eliminated, products are split into cases, and where neither is possible a
-/// Groebner basis is tried. Variables that are no unknowns are parameters with generic values:
+/// Groebner basis is tried; if that is not triangular, the cases that a coefficient with unknowns
+/// is zero or not are split. Variables that are no unknowns are parameters with generic values:
 /// what has parameters only is taken not to vanish.
 /// \param unknowns  places in the ring
 std::vector<Branch> solve_system(std::vector<Polynomial> equations,

@@ -168,7 +168,8 @@ std::vector<Found> Finder::described(const std::vector<Generator>& generators,
   std::vector<Found> list;
   for (const Generator& g : generators) {
     Found found;
-    found.text = short_text(system_.prover().ring(), system_.prover().ring().reduced(g.function));
+    const FunctionRing& ring = system_.prover().ring();
+    found.text = short_text(ring, ring.reduced(g.function), system_.is_constant());
     found.degree = g.degree;
     functions.push_back(g.function);
     const std::size_t next = rank_of_gradients(system_, functions);

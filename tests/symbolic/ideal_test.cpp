@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 #include "symbolic/prove.hpp"
 #include "tests/symbolic/cases.hpp"
@@ -47,6 +48,43 @@ class Orthogonal : public testing::Test {
 
   PolynomialRing ring_{9};
 };
+
+TEST(Groebner, BasisHasEveryGeneratorAndEveryPair) {
+  std::mt19937_64 random(11);
+  const PolynomialRing ring(5);
+  for (int round = 0; round < 300; ++round) {
+    std::vector<Polynomial> generators;
+    for (int k = 0; k < 4; ++k) {
+      Polynomial sum(ring);
+      for (int t = 0; t < 3; ++t) {
+        const auto number = static_cast<int>(random() % 5) - 2;
+        sum += (ring.variable(random() % 5) * ring.variable(random() % 5).pow(random() % 2))
+                   .scaled(number);
+      }
+      if (!sum.is_zero()) generators.push_back(sum);
+    }
+    const std::vector<Polynomial> basis = groebner_basis(generators);
+    std::vector<Polynomial> quotients;
+    const auto is_in = [&](const Polynomial& p) {
+      return p.remainder(basis, &quotients).is_zero();
+    };
+    for (const Polynomial& g : generators) EXPECT_TRUE(is_in(g)) << round;
+    // Buchberger's criterion itself.
+    for (const Polynomial& a : basis) {
+      for (const Polynomial& b : basis) {
+        const auto [number_a, powers_a] = a.term_list().front();
+        const auto [number_b, powers_b] = b.term_list().front();
+        Polynomial to_a = ring.constant(1 / number_a), to_b = ring.constant(1 / number_b);
+        for (std::size_t i = 0; i < 5; ++i) {
+          const unsigned long both = std::max(powers_a[i], powers_b[i]);
+          to_a *= ring.variable(i).pow(both - powers_a[i]);
+          to_b *= ring.variable(i).pow(both - powers_b[i]);
+        }
+        EXPECT_TRUE(is_in(a * to_a - b * to_b)) << round;
+      }
+    }
+  }
+}
 
 TEST_F(Orthogonal, BasisDecidesWhatFollowsFromTheColumns) {
   const std::vector<Polynomial> basis = groebner_basis(relations());

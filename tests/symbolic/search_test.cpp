@@ -6,10 +6,10 @@
 
 #include "symbolic/search/darboux.hpp"
 #include "symbolic/search/echelon.hpp"
-#include "symbolic/search/exponents.hpp"
 #include "symbolic/search/search.hpp"
 #include "tests/bundled_cases.hpp"
 #include "tests/symbolic/cases.hpp"
+#include "tests/symbolic/search_cases.hpp"
 
 namespace casimir::test {
 namespace {
@@ -18,21 +18,6 @@ using search::Echelon;
 using search::Entry;
 using search::Modulus;
 using search::Residue;
-
-Text text(const std::string& value) { return {value, {"test", 1, 1}, value}; }
-
-search::Request up_to(int degree) {
-  search::Request request;
-  request.degree = degree;
-  return request;
-}
-
-std::string euler_poisson(const std::string& hamiltonian, const std::string& parameters = {}) {
-  return "hamiltonian = \"" + hamiltonian +
-         "\"\n[phase_space]\nvariables = [\"M1\", \"M2\", \"M3\", \"g1\", \"g2\", \"g3\"]\n"
-         "algebra = \"e(3)\"\n[parameters]\n" +
-         parameters;
-}
 
 using Rows = std::vector<std::vector<Entry>>;
 
@@ -315,34 +300,6 @@ TEST(Conditions, AnUnknownParameterIsNamed) {
   const Model model = model_of(euler_poisson("(M1^2 + M2^2 + a3*M3^2)/2", "a3 = {}\n"));
   EXPECT_THROW(search::find_conditions(model, up_to(2), {text("a4")}), CaseError);
   EXPECT_THROW(search::find_conditions(model, up_to(2), {text("a3"), text("a3")}), CaseError);
-}
-
-TEST(Exponents, OfKovalevskayasTopAreIntegersAndOfOthersNot) {
-  const auto report =
-      search::kovalevskaya_exponents(model_of(euler_poisson("(M1^2 + M2^2 + 2*M3^2)/2 - g1")), {});
-  EXPECT_TRUE(report.complete);
-  EXPECT_GE(report.balances.size(), 2U);
-  for (const auto& balance : report.balances)
-    for (const auto& e : balance.exponents) EXPECT_EQ(e.kind, search::Exponent::Kind::integer);
-  const auto other = search::kovalevskaya_exponents(
-      model_of(euler_poisson("(M1^2 + 2*M2^2 + 3*M3^2)/2 - g1")), {});
-  bool irrational = false;
-  for (const auto& balance : other.balances)
-    for (const auto& e : balance.exponents)
-      irrational = irrational || e.kind == search::Exponent::Kind::algebraic;
-  EXPECT_TRUE(irrational);
-}
-
-TEST(Exponents, WithAParameterAreConditions) {
-  // A balance has 2, 3, 4, -1 and (2 - a3)/a3, 2*(a3 - 1)/a3: integers for a3 = 1 and 2 alone.
-  const auto report = search::kovalevskaya_exponents(
-      model_of(euler_poisson("(M1^2 + M2^2 + a3*M3^2)/2 - g1", "a3 = {}\n")), {});
-  std::vector<std::string> values;
-  for (const auto& balance : report.balances)
-    for (const auto& e : balance.exponents)
-      if (e.kind == search::Exponent::Kind::parametric) values.push_back(e.text);
-  EXPECT_NE(std::find(values.begin(), values.end(), "(-a3 + 2)/(a3)"), values.end());
-  EXPECT_NE(std::find(values.begin(), values.end(), "(2*a3 - 2)/(a3)"), values.end());
 }
 
 TEST(Darboux, FindsHessAndNothingElse) {

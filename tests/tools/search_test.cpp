@@ -107,6 +107,67 @@ TEST(Exponents, OfTheIntegrableTopsAreIntegers) {
   EXPECT_NE(text.out, run_in(folder, {"exponents", "kovalevskaya"}).out);
 }
 
+/// The exponents of each balance, in order; all conjugates of an algebraic one.
+std::vector<std::vector<double>> exponents_in(const Json& found) {
+  std::vector<std::vector<double>> result;
+  for (const Json& balance : found.at("balances")) {
+    auto& own = result.emplace_back();
+    for (const Json& e : balance.at("exponents")) {
+      for (int k = 0; k < e.at("multiplicity").get<int>(); ++k) {
+        if (!e.contains("numeric")) {
+          const auto text = e.at("value").get<std::string>();
+          const std::size_t slash = text.find('/');
+          own.push_back(std::stod(text) /
+                        (slash == std::string::npos ? 1 : std::stod(text.substr(slash + 1))));
+          continue;
+        }
+        for (const Json& root : e.at("numeric"))
+          own.push_back(std::stod(root[0].get<std::string>()));
+      }
+    }
+    std::ranges::sort(own);
+  }
+  return result;
+}
+
+bool has_near(const std::vector<std::vector<double>>& list, const std::vector<double>& wanted) {
+  return std::ranges::any_of(list, [&](const std::vector<double>& own) {
+    return std::ranges::equal(own, wanted,
+                              [](double x, double y) { return std::abs(x - y) < 1e-3; });
+  });
+}
+
+TEST(Exponents, NumericOnesAreTheExactOnes) {
+  const Folder folder;
+  for (std::vector<std::string> command :
+       {std::vector<std::string>{"exponents", "kovalevskaya", "--param", "r=1"},
+        {"exponents", "goryachev-chaplygin", "--param", "r=2"},
+        {"exponents", "henon-heiles", "--param", "A=1", "--param", "B=1"},
+        {"exponents", "chaplygin", "--param", "c=3"}}) {
+    const auto exact = exponents_in(answered(folder, command));
+    command.emplace_back("--numeric");
+    const auto numeric = exponents_in(answered(folder, command));
+    ASSERT_FALSE(exact.empty()) << command[1];
+    for (const auto& balance : exact) EXPECT_TRUE(has_near(numeric, balance)) << command[1];
+    for (const auto& balance : numeric) EXPECT_TRUE(has_near(exact, balance)) << command[1];
+  }
+}
+
+// Clebsch's body has a balance of six equations that the exact analysis does not solve.
+TEST(Exponents, ThatCannotBeExactAreNumericAndMarked) {
+  const Folder folder;
+  std::vector<std::string> command{"exponents", "clebsch"};
+  const Json symbolic = answered(folder, command, 3);
+  EXPECT_EQ(symbolic.at("verdict"), "undecided");
+  for (const char* value : {"a1=1", "a2=2", "a3=4", "s=1"})
+    command.insert(command.end(), {"--param", value});
+  const Json found = answered(folder, command);
+  EXPECT_EQ(found.at("verdict"), "undecided");
+  EXPECT_GT(found.at("starts"), 0);
+  EXPECT_TRUE(has_near(exponents_in(found), {-1, 0, 1, 2, 2, 2}));
+  EXPECT_EQ(found.at("balances")[0].at("exponents")[0].at("kind"), "numeric");
+}
+
 TEST(Equilibria, OfAHeavyTopHangAndStand) {
   const Folder folder;
   const Json found = answered(folder, {"equilibria", "kovalevskaya"});

@@ -1,12 +1,15 @@
 // casimir exponents: balances and Kovalevskaya exponents of a case.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "symbolic/search/exponents.hpp"
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
+#include "tools/numeric_balances.hpp"
 #include "tools/search_options.hpp"
 #include "tools/search_watch.hpp"
 
@@ -20,6 +23,7 @@ struct Options {
   Common common;
   std::string case_name, in;
   std::vector<std::string> weights;
+  bool numeric = false;
 };
 
 const char* kind_name(Exponent::Kind kind) {
@@ -47,7 +51,7 @@ nlohmann::ordered_json to_json(const Exponent& e) {
 }
 
 nlohmann::ordered_json to_json(const Model& model, const search::ExponentReport& report,
-                               double seconds) {
+                               std::size_t starts, double seconds) {
   nlohmann::ordered_json json{{"case", model.name}, {"weights", nlohmann::json::object()}};
   for (const auto& [name, weight] : report.weights) json["weights"][name] = weight;
   json["left_out"] = report.left_out;
@@ -57,12 +61,15 @@ nlohmann::ordered_json to_json(const Model& model, const search::ExponentReport&
     for (const auto& [name, value] : balance.coefficients) own["coefficients"][name] = value;
     own["relations"] = balance.relations;
     own["free"] = balance.free;
+    if (balance.family > 0) own["family"] = balance.family;
     own["exponents"] = nlohmann::json::array();
     for (const Exponent& e : balance.exponents) own["exponents"].push_back(to_json(e));
     json["balances"].push_back(own);
   }
   json["conclusions"] = report.conclusions;
+  json["generic"] = report.generic;
   json["verdict"] = report.complete ? "proved" : "undecided";
+  if (starts > 0) json["starts"] = starts;
   if (!report.reason.empty()) json["reason"] = report.reason;
   json["seconds"] = seconds;
   return json;
@@ -86,7 +93,8 @@ std::string exponent_text(const Exponent& e) {
   return text;
 }
 
-void print(const Model& model, const search::ExponentReport& report, double seconds) {
+void print(const Model& model, const search::ExponentReport& report, std::size_t starts,
+           double seconds) {
   fmt::print("{}: solutions x_i = c_i/(t - t0)^g_i\n", model.name);
   std::string line;
   for (const auto& [name, weight] : report.weights)
@@ -101,14 +109,41 @@ void print(const Model& model, const search::ExponentReport& report, double seco
       if (value != "0") fmt::print("  {} = {}\n", name, value);
     for (const std::string& relation : balance.relations) fmt::print("  where {}\n", relation);
     for (const std::string& name : balance.free) fmt::print("  {} is arbitrary\n", name);
+    if (balance.family > 0) fmt::print("  one of a family of {} dimensions\n", balance.family);
     line.clear();
     for (const Exponent& e : balance.exponents)
       line += (line.empty() ? "" : ", ") + exponent_text(e);
     fmt::print("  exponents: {}\n", line);
   }
+  if (!report.generic.empty())
+    fmt::print("for generic values of {}\n", fmt::join(report.generic, ", "));
   if (!report.complete) fmt::print("not all balances are known: {}\n", report.reason);
+  if (starts > 0)
+    fmt::print("numeric, from {} random starts: no proof, and others are not excluded\n", starts);
   for (const std::string& conclusion : report.conclusions) fmt::print("- {}\n", conclusion);
   fmt::print("{} balances, {:.3f} s\n", report.balances.size(), seconds);
+}
+
+/// Numeric ones in place of exact ones that are not all, if the equations have numbers only.
+/// \return  the starts of the iteration; 0 if it was not done
+std::size_t complete_numerically(search::ExponentReport& report, const search::Watch& watch) {
+  if (!report.leading) {
+    report.reason += "; with numbers for all parameters (--param) they are sought numerically";
+    return 0;
+  }
+  watch.begin("numeric balances");
+  NumericBalances found =
+      find_numeric_balances(*report.leading, [&](double share) { watch.tick(share); });
+  report.balances = std::move(found.balances);
+  report.conclusions.clear();
+  const auto complex = [](const Exponent& e) { return e.values[0].second != 0; };
+  if (std::ranges::any_of(report.balances, [&](const Balance& balance) {
+        return std::ranges::any_of(balance.exponents, complex);
+      }))
+    report.conclusions.push_back(
+        "exponents that are not real cannot be rational: a proof of them would show that the "
+        "leading system is not algebraically integrable (Yoshida 1983)");
+  return found.starts;
 }
 
 int exponents(const Options& options) {
@@ -117,14 +152,21 @@ int exponents(const Options& options) {
   if (options.common.scene_given) model.scene(options.common.scene);
   return with_search_errors(options.common, options.case_name, [&] {
     SearchWatch watch(options.common, model.name);
-    const search::ExponentReport report =
-        search::kovalevskaya_exponents(model, weights_of(options.weights), watch.watch());
+    const auto weights = weights_of(options.weights);
+    search::ExponentReport report =
+        options.numeric ? search::leading_terms(model, weights)
+                        : search::kovalevskaya_exponents(model, weights, watch.watch());
+    if (options.numeric) {
+      if (!report.leading) throw UsageError("--numeric needs numbers for all parameters (--param)");
+      report.reason = "exact ones were not asked for";
+    }
+    const std::size_t starts = report.complete ? 0 : complete_numerically(report, watch.watch());
     const double seconds = watch.end();
     if (options.common.json)
-      std::cout << to_json(model, report, seconds).dump(2) << '\n';
+      std::cout << to_json(model, report, starts, seconds).dump(2) << '\n';
     else if (!options.common.quiet)
-      print(model, report, seconds);
-    return report.complete ? kDone : kUndecided;
+      print(model, report, starts, seconds);
+    return report.complete || starts > 0 ? kDone : kUndecided;
   });
 }
 
@@ -141,6 +183,8 @@ void register_exponents(CLI::App& program, Action& action) {
                    "A bundled case, a case file, or - for standard input")
       ->required();
   add_weights(*command, options->weights);
+  command->add_flag("--numeric", options->numeric,
+                    "Numeric balances only, in place of the exact analysis");
   command->callback([options, &action] { action = [options] { return exponents(*options); }; });
 }
 
