@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <set>
 
 #include "symbolic/search/darboux.hpp"
 #include "symbolic/search/echelon.hpp"
@@ -115,11 +116,49 @@ std::size_t gradient_rank_by_ginac(const Model& model, const std::vector<GiNaC::
   return gradients.rank();
 }
 
+/// The same by elimination in floating point, for functions that have no rational values.
+std::size_t numeric_gradient_rank(const Model& model, const std::vector<GiNaC::ex>& functions) {
+  std::mt19937 random(9);
+  GiNaC::exmap point;
+  for (const auto* list : {&model.variables, &model.parameters})
+    for (const GiNaC::symbol& s : *list) point[s] = static_cast<double>(random() % 1000 + 1) / 700;
+  std::vector<std::vector<double>> rows;
+  for (const GiNaC::ex& f : functions) {
+    auto& row = rows.emplace_back();
+    for (const GiNaC::symbol& s : model.variables) {
+      const GiNaC::ex value = f.diff(s).subs(point, GiNaC::subs_options::no_pattern).evalf();
+      row.push_back(GiNaC::ex_to<GiNaC::numeric>(value).to_double());
+    }
+  }
+  std::size_t rank = 0;
+  for (; rank < rows.size(); ++rank) {
+    std::size_t row = rank, column = 0;
+    for (std::size_t i = rank; i < rows.size(); ++i)
+      for (std::size_t j = 0; j < rows[i].size(); ++j)
+        if (std::abs(rows[i][j]) > std::abs(rows[row][column])) row = i, column = j;
+    if (std::abs(rows[row][column]) < 1e-9) break;
+    std::swap(rows[row], rows[rank]);
+    for (std::size_t i = rank + 1; i < rows.size(); ++i) {
+      const double factor = rows[i][column] / rows[rank][column];
+      for (std::size_t j = 0; j < rows[i].size(); ++j) rows[i][j] -= factor * rows[rank][j];
+    }
+  }
+  return rank;
+}
+
 // With no hint but the Hamiltonian: the integrals of the file are functions of what is found.
 TEST(Search, RediscoversEveryPolynomialIntegralOfTheCasesUpToDegreeFour) {
   std::size_t rediscovered = 0;
+  // Their equations are so entangled by roots that a search takes longer than a test may.
+  const std::set<std::string> too_long{"andoyer", "andoyer-lagrange", "gas-cloud-monatomic",
+                                       "self-gravitating-spheroid"};
   for (const auto& path : bundled_cases()) {
-    const Model model = build_model(read_case(path));
+    if (too_long.contains(path.stem())) continue;
+    const CaseFile file = read_case(path);
+    Model model = build_model(file);
+    const bool polynomial = std::ranges::all_of(
+        model.field, [&](const auto& f) { return polynomial_degree(model, f).has_value(); });
+    if (!polynomial && !file.scenes.empty()) model = build_model(file, file.scenes[0].parameters);
     std::vector<std::pair<std::string, GiNaC::ex>> declared;
     int degree = 0;
     for (const auto* list : {&model.casimirs, &model.integrals}) {
@@ -130,10 +169,8 @@ TEST(Search, RediscoversEveryPolynomialIntegralOfTheCasesUpToDegreeFour) {
         degree = std::max(degree, *own);
       }
     }
-    const bool polynomial = std::all_of(model.field.begin(), model.field.end(), [&](const auto& f) {
-      return polynomial_degree(model, f).has_value();
-    });
-    if (degree == 0 || !polynomial) continue;
+    if (degree == 0) continue;
+    const auto rank_of = polynomial ? gradient_rank_by_ginac : numeric_gradient_rank;
     const search::Report report = search::find_integrals(model, up_to(degree));
     EXPECT_TRUE(report.complete) << path << ": " << report.reason;
     std::vector<GiNaC::ex> found;
@@ -144,11 +181,11 @@ TEST(Search, RediscoversEveryPolynomialIntegralOfTheCasesUpToDegreeFour) {
         found.push_back(model.parse(text(f.text)));
       }
     }
-    const std::size_t rank = gradient_rank_by_ginac(model, found);
+    const std::size_t rank = rank_of(model, found);
     for (const auto& [name, f] : declared) {
       std::vector<GiNaC::ex> more = found;
       more.push_back(f);
-      EXPECT_EQ(gradient_rank_by_ginac(model, more), rank) << path << ": " << name;
+      EXPECT_EQ(rank_of(model, more), rank) << path << ": " << name;
       ++rediscovered;
     }
   }
