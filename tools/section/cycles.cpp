@@ -157,6 +157,14 @@ std::string Cycle::kind() const {
 
 bool Cycle::stable() const { return std::abs(trace) < 2; }
 
+std::array<std::complex<double>, 2> Cycle::multipliers() const {
+  const std::complex<double> half = trace / 2;
+  const std::complex<double> root = std::sqrt(half * half - 1.);
+  // The larger one without cancellation, the other by their product.
+  const std::complex<double> first = trace < 0 ? half - root : half + root;
+  return {first, 1. / first};
+}
+
 CycleSearch find_cycles(const LevelSet& level, const OrbitCutter& cutter,
                         const std::vector<PlacedPoint>& starts, std::size_t longest,
                         const std::function<void(double)>& progress) {

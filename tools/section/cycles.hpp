@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <complex>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,9 @@ struct Cycle {
   /// "elliptic", "hyperbolic", "inverse hyperbolic".
   std::string kind() const;
   bool stable() const;
+  /// The two Floquet multipliers of the periodic orbit that are not 1 by the motion along it and
+  /// across the levels: the roots of m^2 - trace*m + 1.
+  std::array<std::complex<double>, 2> multipliers() const;
 };
 
 struct CycleSearch {

@@ -55,9 +55,12 @@ Json to_json(const SectionReport& report, const Cycle& cycle) {
                {"period", exact_text(cycle.period)},
                {"trace", exact_text(cycle.trace)},
                {"determinant", exact_text(cycle.determinant)},
+               {"multipliers", Json::array()},
                {"kind", cycle.kind()},
                {"stable", cycle.stable()},
                {"residual", exact_text(cycle.residual)}};
+  for (const std::complex<double>& m : cycle.multipliers())
+    json["multipliers"].push_back({exact_text(m.real()), exact_text(m.imag())});
   for (const PlacedPoint& point : cycle.points) {
     Json entry = pair_json(point.place);
     entry["state"] = Json::object();
