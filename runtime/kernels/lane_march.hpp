@@ -204,7 +204,7 @@ class March {
     const V whole = all_lanes<V>(magnitude(span_));
     // The solution's own time scale; a guess, which the coefficients correct.
     const V scale = size / (speed > 0 ? speed : all_lanes<V>(1));
-    const V guess = (speed > 0) & (scale < whole) ? scale : whole;
+    const V guess = ((speed > 0) & (scale < whole)) ? scale : whole;
     unit_ = fresh ? towards_end(power_of_two_near(guess)) : unit_;
     checked_ &= ~fresh;
     end(fresh & ~(zero == 0), CASIMIR_NON_FINITE);
@@ -412,9 +412,9 @@ class March {
       const V most = kDefect * allowed(i) + size * kRounding;
       defect += absolute(rate_[i] * (s * unit_) - told) / most;
     }
-    failure_ = which & (defect < 1e300)    ? all_lanes<V>(CASIMIR_STEP_UNDERFLOW)
-               : which & ~(defect < 1e300) ? all_lanes<V>(CASIMIR_NON_FINITE)
-                                           : failure_;
+    failure_ = (which & (defect < 1e300))    ? all_lanes<V>(CASIMIR_STEP_UNDERFLOW)
+               : (which & ~(defect < 1e300)) ? all_lanes<V>(CASIMIR_NON_FINITE)
+                                             : failure_;
     return defect < 1;
   }
 

@@ -78,11 +78,22 @@ CASIMIR_INLINE bool any(Indices<8> mask) {
              __builtin_shufflevector(mask, mask, 4, 5, 6, 7));
 }
 
+#ifdef __clang__
+template <class V, class I>
+CASIMIR_INLINE V permuted_one_by_one(V v, I from) {
+  V result = v;
+  for (unsigned i = 0; i < sizeof(V) / sizeof(double); ++i) result[i] = v[from[i]];
+  return result;
+}
+#endif
+
 /// Lane i of the result is lane from[i] of v. The indices are in range.
 CASIMIR_INLINE Lanes4 permuted(Lanes4 v, Indices<4> from) {
 #ifdef __AVX512VL__  // GCC has a slower instruction for this
   asm("vpermpd %2, %1, %0" : "=v"(v) : "v"(from), "v"(v));
   return v;
+#elif defined __clang__
+  return permuted_one_by_one(v, from);
 #else
   return __builtin_shuffle(v, from);
 #endif
@@ -91,6 +102,8 @@ CASIMIR_INLINE Lanes8 permuted(Lanes8 v, Indices<8> from) {
 #ifdef __AVX512F__
   asm("vpermpd %2, %1, %0" : "=v"(v) : "v"(from), "v"(v));
   return v;
+#elif defined __clang__
+  return permuted_one_by_one(v, from);
 #else  // two registers, each filled from both halves
   const Lanes4 low = __builtin_shufflevector(v, v, 0, 1, 2, 3);
   const Lanes4 high = __builtin_shufflevector(v, v, 4, 5, 6, 7);
@@ -153,7 +166,7 @@ CASIMIR_INLINE Lanes8 permuted_by(Lanes8 v, const long long* from) {
 /// register and bit 62 for the third.
 template <int blocks, class V>
 CASIMIR_INLINE V gathered(const V* x, const long long* from) {
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && !defined(__clang__)
   if constexpr (gathers_in_registers<V, blocks>) {
     const Indices<8> lanes = load<Indices<8>>(from);
     if constexpr (blocks == 1) return permuted(x[0], lanes);
@@ -163,7 +176,7 @@ CASIMIR_INLINE V gathered(const V* x, const long long* from) {
       return lanes < 16 ? low : high;
     }
   }
-#elif defined(__AVX2__)
+#elif defined(__AVX2__) && !defined(__clang__)
   if constexpr (gathers_in_registers<V, blocks>) {
     const V low = permuted_by(x[0], from);
     if constexpr (blocks == 1) return low;
