@@ -159,7 +159,7 @@ TEST(EmitC, HeadersOfAllCasesGoTogether) {
   std::string all;
   for (const auto& path : test::bundled_cases()) {
     const Model model = build_model(read_case(path));
-    all += c_header(specialise(model, model.scenes.at(0), everything(false)));
+    all += c_header(specialise(model, model.scenes.at(0)));
   }
   const codegen::CompilerRun run = c_program(all, "int main(void) { return 0; }\n");
   EXPECT_TRUE(run.succeeded) << run.messages;
