@@ -32,8 +32,8 @@ struct HeaderOptions {
 /// In C99 the same functions and tables have the name of the case in front, as in
 /// `kovalevskaya_rhs`, and there are no adapters: a callback of CVODE is three lines around `rhs`.
 ///
-/// Compiles alone and without warnings; includes <cmath> only where a function is called, and
-/// <quadmath.h> for float128. The same bytes in every process.
+/// Compiles alone and without warnings; includes `<cmath>` only where a function is called, and
+/// `<quadmath.h>` for float128. The same bytes in every process.
 /// \throws ModelError  for a number outside the range of the number type, and for what C has no
 ///                     form of: templates, float128 and Taylor coefficients.
 std::string emit_header(const Specialisation& specialisation, const HeaderOptions& options = {});
