@@ -30,14 +30,15 @@ std::string c_header(const Specialisation& spec, Scalar scalar = Scalar::real64)
 }
 
 /// What a C compiler says to a program with the header, and what the program prints.
-codegen::CompilerRun c_program(const std::string& header, const std::string& program) {
+codegen::CompilerRun c_program(const std::string& header, const std::string& program,
+                               const std::vector<std::string>& libraries = {"-lm"}) {
   const Folder folder;
   testing::write(folder.path() / "top.h", header);
   testing::write(folder.path() / "user.c", "#include \"top.h\"\n" + program);
   const std::string user = (folder.path() / "user").string();
   std::vector<std::string> arguments = kC99;
-  for (const std::string& last : {user + ".c", std::string("-o"), user, std::string("-lm")})
-    arguments.push_back(last);
+  for (const std::string& last : {user + ".c", std::string("-o"), user}) arguments.push_back(last);
+  arguments.insert(arguments.end(), libraries.begin(), libraries.end());
   codegen::CompilerRun run = testing::run("cc", arguments, folder.path());
   if (run.succeeded) run = testing::run(user, {}, folder.path());
   return run;
@@ -117,14 +118,69 @@ int main(void) {
 }
 )";
 
-double defect_of(const std::string& header) {
-  const codegen::CompilerRun run = c_program(header, kUser);
+/// The callbacks of CVODE around the header's functions, and the drift of the energy.
+const char* const kCvode = R"(
+#include <cvode/cvode.h>
+#include <math.h>
+#include <nvector/nvector_serial.h>
+#include <stdio.h>
+#include <string.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+static int rhs(realtype t, N_Vector y, N_Vector ydot, void* user) {
+  (void)t;
+  kovalevskaya_rhs(N_VGetArrayPointer(y), user, N_VGetArrayPointer(ydot));
+  return 0;
+}
+
+static int jacobian(realtype t, N_Vector y, N_Vector fy, SUNMatrix J, void* user, N_Vector tmp1,
+                    N_Vector tmp2, N_Vector tmp3) {
+  (void)t, (void)fy, (void)tmp1, (void)tmp2, (void)tmp3;
+  kovalevskaya_jacobian(N_VGetArrayPointer(y), user, SUNDenseMatrix_Data(J));
+  return 0;
+}
+
+int main(void) {
+  kovalevskaya_parameters p = kovalevskaya_default_parameters;
+  double before[kovalevskaya_invariant_count], after[kovalevskaya_invariant_count], t, defect = 0;
+  SUNContext context;
+  if (SUNContext_Create(NULL, &context) != 0) return 1;
+  N_Vector y = N_VNew_Serial(kovalevskaya_dimension, context);
+  memcpy(N_VGetArrayPointer(y), kovalevskaya_initial_state, sizeof kovalevskaya_initial_state);
+  kovalevskaya_invariants(N_VGetArrayPointer(y), &p, before);
+  SUNMatrix matrix = SUNDenseMatrix(kovalevskaya_dimension, kovalevskaya_dimension, context);
+  SUNLinearSolver solver = SUNLinSol_Dense(y, matrix, context);
+  void* memory = CVodeCreate(CV_BDF, context);
+  if (CVodeInit(memory, rhs, 0, y) != 0 || CVodeSStolerances(memory, 1e-11, 1e-11) != 0) return 2;
+  if (CVodeSetUserData(memory, &p) != 0 || CVodeSetMaxNumSteps(memory, 100000) != 0) return 3;
+  if (CVodeSetLinearSolver(memory, solver, matrix) != 0) return 4;
+  if (CVodeSetJacFn(memory, jacobian) != 0 || CVode(memory, 5, y, &t, CV_NORMAL) != 0) return 5;
+  kovalevskaya_invariants(N_VGetArrayPointer(y), &p, after);
+  for (int k = 0; k < kovalevskaya_invariant_count; ++k)
+    defect = fmax(defect, fabs(after[k] - before[k]));
+  printf("%.17g\n", defect);
+  return 0;
+}
+)";
+
+double defect_of(const std::string& header, const char* program = kUser,
+                 const std::vector<std::string>& libraries = {"-lm"}) {
+  const codegen::CompilerRun run = c_program(header, program, libraries);
   EXPECT_TRUE(run.succeeded) << run.messages;
   return run.succeeded ? std::strtod(run.messages.c_str(), nullptr) : 1e300;
 }
 
 TEST(EmitC, PlainCIntegratesAndHasTheDerivatives) {
   EXPECT_LT(defect_of(c_header(specialised(kKovalevskaya, everything(false)))), 1e-6);
+}
+
+TEST(EmitC, CvodeIntegratesFromC) {
+  const std::vector<std::string> libraries{"-lsundials_cvode", "-lsundials_nvecserial",
+                                           "-lsundials_sunmatrixdense", "-lsundials_sunlinsoldense",
+                                           "-lm"};
+  const std::string header = c_header(specialised(kKovalevskaya, everything(false)));
+  EXPECT_LT(defect_of(header, kCvode, libraries), 1e-6);
 }
 
 TEST(EmitC, PlainCSeesABentEquation) {
