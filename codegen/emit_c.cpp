@@ -17,7 +17,7 @@ class CWriter {
  public:
   CWriter(const Specialisation& spec, const HeaderOptions& options)
       : context_(spec, options),
-        prefix_(Names().unique(spec.case_name) + "_"),
+        prefix_(prefix_of(spec.case_name)),
         sparse_jacobian_(options.sparse_jacobian) {}
 
   std::string run() const {
@@ -45,6 +45,11 @@ class CWriter {
   }
 
  private:
+  static std::string prefix_of(const std::string& case_name) {
+    const std::string name = Names().unique(case_name);
+    return name.ends_with('_') ? name : name + "_";
+  }
+
   std::string includes() const {
     const bool calls = needs_math_library(spec_) || calls_functions(spec_.gradients.program) ||
                        calls_functions(spec_.variational);
