@@ -33,6 +33,7 @@ class CacheUnusable : public EnvironmentError {
   using EnvironmentError::EnvironmentError;
 };
 
+/// With what is compiled, and where the objects are kept.
 struct CompileOptions {
   /// The compiler and its first arguments; empty: $CXX, or the first of c++, g++, clang++ in $PATH.
   std::string compiler;
@@ -46,6 +47,7 @@ struct CompileOptions {
   bool standard_library = false;
 };
 
+/// What came of it.
 struct CompiledObject {
   std::filesystem::path path;  ///< a shared object for dlopen
   bool from_cache = false;

@@ -76,36 +76,6 @@ std::string sundials(const HeaderContext& c) {
 
 }  // namespace
 
-HeaderContext::HeaderContext(const Specialisation& specialisation, Scalar scalar)
-    : spec(specialisation), is_template(scalar == Scalar::templated) {
-  style.scalar = scalar;
-  style.real = scalar == Scalar::real64 ? "double" : is_template ? "Real" : "real";
-  if (is_template) style.call_prefix.clear();
-  if (scalar == Scalar::float128) {
-    style.call_prefix.clear();
-    style.call_suffix = "q";
-  }
-  Names unique({"state_names", "invariant_names", "initial_state"});
-  for (std::size_t i = 0; i < spec.states.size(); ++i) {
-    sources.push_back("x[" + std::to_string(i) + "]");
-    names.push_back(unique.unique(spec.states[i]));
-  }
-  for (const std::string& parameter : spec.parameters) {
-    names.push_back(unique.unique(parameter));
-    sources.push_back("p." + names.back());
-  }
-  sources.push_back("t");
-  names.push_back("t");
-}
-
-std::string HeaderContext::parameter_type() const {
-  return is_template ? "parameters<Real>" : "parameters";
-}
-
-std::string HeaderContext::arguments(const std::string& state) const {
-  return (spec.uses_time ? "t, " : "") + state + ", " + (has_parameters() ? "p, " : "");
-}
-
 std::string using_declarations(const Program& program) {
   static constexpr std::pair<Op, const char*> kFunctions[] = {
       {Op::pow, "pow"},   {Op::sqrt, "sqrt"}, {Op::sin, "sin"},    {Op::cos, "cos"},

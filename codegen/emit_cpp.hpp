@@ -8,9 +8,14 @@
 
 namespace casimir {
 
+/// What a header is written in.
+enum class Language { cpp, c };
+
+/// What a header is like.
 struct HeaderOptions {
   Scalar scalar = Scalar::real64;
   bool sparse_jacobian = false;  ///< `jacobian_entries` as well
+  Language language = Language::cpp;
 };
 
 /// A C++20 header that needs nothing of casimir: a namespace named after the case with
@@ -24,9 +29,13 @@ struct HeaderOptions {
 /// Where they were asked for: `variational` carries a small deviation along with the state, and
 /// `taylor<Order>` writes the Taylor coefficients of the solution.
 ///
-/// Compiles alone and without warnings; includes <cmath> only where a function is called, and
-/// <quadmath.h> for float128. The same bytes in every process.
-/// \throws ModelError  for a number outside the range of the number type.
+/// In C99 the same functions and tables have the name of the case in front, as in
+/// `kovalevskaya_rhs`, and there are no adapters: a callback of CVODE is three lines around `rhs`.
+///
+/// Compiles alone and without warnings; includes `<cmath>` only where a function is called, and
+/// `<quadmath.h>` for float128. The same bytes in every process.
+/// \throws ModelError  for a number outside the range of the number type, and for what C has no
+///                     form of: templates, float128 and Taylor coefficients.
 std::string emit_header(const Specialisation& specialisation, const HeaderOptions& options = {});
 
 /// The text of a module as in runtime/module_abi.h, in double. It includes nothing.
@@ -63,6 +72,12 @@ namespace codegen {
 /// not
 ///                     depend on.
 std::string head_comment(const Specialisation& specialisation, bool with_values);
+
+/// The comment below it in what a user takes away.
+std::string ownership_comment();
+
+/// emit_header for Language::c.
+std::string emit_c_header(const Specialisation& specialisation, const HeaderOptions& options);
 
 }  // namespace codegen
 }  // namespace casimir

@@ -31,19 +31,21 @@ struct Function {
 class HeaderWriter {
  public:
   HeaderWriter(const Specialisation& spec, const HeaderOptions& options)
-      : context_(spec, options.scalar), sparse_jacobian_(options.sparse_jacobian) {}
+      : context_(spec, options), sparse_jacobian_(options.sparse_jacobian) {}
 
   std::string run() {
     Names namespaces({"state_names", "invariant_names", "initial_state"});
     const std::string scope = namespaces.unique(spec_.case_name);
     const std::string guard = guard_of(scope);
-    std::string text = codegen::head_comment(spec_, true) + "#ifndef " + guard + "\n#define " +
-                       guard + "\n\n" + includes();
+    std::string text = codegen::head_comment(spec_, true) + codegen::ownership_comment() +
+                       "#ifndef " + guard + "\n#define " + guard + "\n\n" + includes();
     text += "namespace " + scope + " {\n\n" + constants();
     text += function({"rhs", "dx", "The time derivatives of the state.", spec_.rhs});
     if (!spec_.invariant_names.empty()) {
-      text += function({"invariants", "values",
-                        "Conserved along solutions: " + invariant_list() + ".", spec_.invariants});
+      text +=
+          function({"invariants", "values",
+                    "Conserved along solutions: " + codegen::listed(spec_.invariant_names) + ".",
+                    spec_.invariants});
     }
     if (spec_.has_gradients && !spec_.invariant_names.empty()) text += gradients();
     if (spec_.has_jacobian) text += jacobian();
@@ -82,21 +84,15 @@ class HeaderWriter {
   std::string pattern() const {
     const auto& entries = spec_.jacobian.entries;
     if (entries.empty()) return "";
-    std::string rows, columns = "0";
-    std::size_t k = 0;
-    for (std::size_t column = 0; column < spec_.states.size(); ++column) {
-      for (; k < entries.size() && entries[k].second == static_cast<int>(column); ++k)
-        rows += (rows.empty() ? "" : ", ") + std::to_string(entries[k].first);
-      columns += ", " + std::to_string(k);
-    }
+    const codegen::Pattern pattern = codegen::pattern_of(spec_.jacobian, spec_.states.size());
     const auto array = [](const std::string& name, const std::string& list) {
       return codegen::wrapped("inline constexpr int " + name + "[] = {" + list + "};") + "\n";
     };
     return "// Where the Jacobian may differ from zero: column j in the rows jacobian_rows[k],\n"
            "// jacobian_columns[j] <= k < jacobian_columns[j + 1].\n"
            "inline constexpr int jacobian_nonzeros = " +
-           std::to_string(entries.size()) + ";\n" + array("jacobian_columns", columns) +
-           array("jacobian_rows", rows) + "\n";
+           std::to_string(entries.size()) + ";\n" + array("jacobian_columns", pattern.columns) +
+           array("jacobian_rows", pattern.rows) + "\n";
   }
 
   /// `#pragma once` would be a warning where the header is compiled alone.
@@ -124,29 +120,11 @@ class HeaderWriter {
            std::ranges::any_of(spec_.variational.code, is_function);
   }
 
-  std::string invariant_list() const {
-    std::string result;
-    for (const std::string& name : spec_.invariant_names)
-      result += (result.empty() ? "" : ", ") + name;
-    return result;
-  }
-
   static std::string names_array(const std::string& name, const std::vector<std::string>& values) {
     if (values.empty()) return "";
-    std::string list;
-    for (const std::string& value : values) {
-      list += (list.empty() ? "" : ", ") + codegen::string_literal(value);
-    }
-    return codegen::wrapped("inline constexpr const char* " + name + "[] = {" + list + "};") + "\n";
-  }
-
-  /// The number that output k of Specialisation::start is.
-  std::string start_value(std::size_t k, Scalar scalar) const {
-    const int i = spec_.start.outputs[k];
-    const bool rational = codegen::is_rational(spec_.start, i);
-    return codegen::number_text(codegen::constant_value(spec_.start, i), scalar,
-                                rational ? "" : codegen::constant_text(spec_.start, i))
-        .text;
+    return codegen::wrapped("inline constexpr const char* " + name + "[] = {" +
+                            codegen::quoted_list(values) + "};") +
+           "\n";
   }
 
   std::string constants() const {
@@ -160,14 +138,11 @@ class HeaderWriter {
     text += "inline constexpr int dimension = " + std::to_string(spec_.states.size()) + ";\n";
     text += names_array("state_names", spec_.states);
     text += names_array("invariant_names", spec_.invariant_names);
-    std::string initial;
-    for (std::size_t i = 0; i < spec_.states.size(); ++i) {
-      initial += (i == 0 ? "" : ", ") + start_value(i, scalar);
-    }
-    text += codegen::wrapped("inline constexpr " + real + " initial_state[] = {" + initial + "};") +
+    text += codegen::wrapped("inline constexpr " + real + " initial_state[] = {" +
+                             context_.initial_values(scalar) + "};") +
             "\n";
     text += "inline constexpr " + real +
-            " duration = " + start_value(spec_.start.outputs.size() - 1, scalar) + ";\n\n";
+            " duration = " + context_.start_value(spec_.start.outputs.size() - 1, scalar) + ";\n\n";
     return text + parameter_struct();
   }
 
@@ -177,7 +152,7 @@ class HeaderWriter {
     if (is_template_) text += "template <class Real>\n";
     text += "struct parameters {\n";
     for (std::size_t i = 0; i < spec_.parameters.size(); ++i) {
-      const std::string value = start_value(spec_.states.size() + i, style_.scalar);
+      const std::string value = context_.start_value(spec_.states.size() + i, style_.scalar);
       text += "  " + style_.real + " " + names_[spec_.states.size() + i] + " = " + value + ";\n";
     }
     return text + "};\n\n";
@@ -207,25 +182,13 @@ class HeaderWriter {
         "// The initial state in that number type.\ntemplate <class Real>\n"
         "inline void start(Real* x) {\n";
     for (std::size_t i = 0; i < spec_.states.size(); ++i) {
-      text += "  x[" + std::to_string(i) + "] = " + start_value(i, style_.scalar) + ";\n";
+      text += "  x[" + std::to_string(i) + "] = " + context_.start_value(i, style_.scalar) + ";\n";
     }
     return text + "}\n\n";
   }
 
   std::string variational() const {
-    const std::size_t n = spec_.states.size();
-    std::vector<std::string> sources(sources_.begin(), sources_.begin() + static_cast<long>(n));
-    std::vector<std::string> names(names_.begin(), names_.begin() + static_cast<long>(n));
-    std::vector<std::string> targets;
-    Names more(names_);
-    for (std::size_t i = 0; i < n; ++i) {
-      sources.push_back("delta_x[" + std::to_string(i) + "]");
-      names.push_back(more.unique("delta_" + names_[i]));
-      targets.push_back("dx[" + std::to_string(i) + "]");
-    }
-    for (std::size_t i = 0; i < n; ++i) targets.push_back("ddelta_x[" + std::to_string(i) + "]");
-    sources.insert(sources.end(), sources_.begin() + static_cast<long>(n), sources_.end());
-    names.insert(names.end(), names_.begin() + static_cast<long>(n), names_.end());
+    const codegen::Slots slots = context_.variational();
     const std::string real = style_.real;
     const std::string unused = "[[maybe_unused]] ";
     std::string text =
@@ -237,29 +200,24 @@ class HeaderWriter {
         (context_.has_parameters() ? unused + "const " + context_.parameter_type() + "& p, " : "") +
         real + "* dx, " + real + "* ddelta_x) {");
     return text + "\n" + using_declarations(spec_.variational) +
-           codegen::statements(spec_.variational, sources, names, targets, style_) + "}\n\n";
+           codegen::statements(spec_.variational, slots.sources, slots.names, slots.targets,
+                               style_) +
+           "}\n\n";
   }
 
   static bool writes(const Function& f) { return !f.program.outputs.empty() || f.matrix; }
 
   std::string function(const Function& f) const {
-    std::vector<std::string> targets;
-    for (std::size_t k = 0; k < f.program.outputs.size(); ++k) {
-      std::size_t place = k;
-      if (f.matrix) {
-        const auto& [row, column] = f.matrix->entries[k];
-        place =
-            static_cast<std::size_t>(row) + spec_.states.size() * static_cast<std::size_t>(column);
-      }
-      targets.push_back(f.target + "[" + std::to_string(place) + "]");
-    }
+    const codegen::Slots slots = context_.entries(f.target, f.program, f.matrix);
     std::string text =
         codegen::comment_lines(f.comment) + (is_template_ ? "template <class Real>\n" : "");
     text += signature(f) + using_declarations(f.program);
     if (f.matrix && f.matrix->entries.size() < spec_.states.size() * f.columns) {
       text += "  for (int i = 0; i < " + f.size + "; ++i) " + f.target + "[i] = 0;\n";
     }
-    return text + codegen::statements(f.program, sources_, names_, targets, style_) + "}\n\n";
+    return text +
+           codegen::statements(f.program, slots.sources, slots.names, slots.targets, style_) +
+           "}\n\n";
   }
 
   std::string using_declarations(const Program& program) const {
@@ -270,7 +228,6 @@ class HeaderWriter {
   const bool sparse_jacobian_;
   const Specialisation& spec_ = context_.spec;
   const StatementStyle& style_ = context_.style;
-  const std::vector<std::string>& sources_ = context_.sources;
   const std::vector<std::string>& names_ = context_.names;
   const bool is_template_ = context_.is_template;
 };
@@ -278,6 +235,7 @@ class HeaderWriter {
 }  // namespace
 
 std::string emit_header(const Specialisation& spec, const HeaderOptions& options) {
+  if (options.language == Language::c) return codegen::emit_c_header(spec, options);
   return HeaderWriter(spec, options).run();
 }
 

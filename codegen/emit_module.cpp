@@ -208,6 +208,12 @@ std::string codegen::head_comment(const Specialisation& spec, bool with_values) 
   return text;
 }
 
+std::string codegen::ownership_comment() {
+  return "//\n"
+         "// This file belongs to whoever had it generated, to use, change and pass on under any\n"
+         "// terms: the licence of casimir does not extend to it.\n";
+}
+
 bool needs_math_library(const Specialisation& spec) {
   return codegen::calls_functions(spec.rhs) || codegen::calls_functions(spec.invariants) ||
          codegen::calls_functions(spec.jacobian.program);

@@ -22,6 +22,7 @@ struct LeftOut {
   std::string reason;  ///< "folded to 1", "not needed for M1, g1", ..
 };
 
+/// What is generated of a scene, and what stays open in it.
 struct SpecialiseOptions {
   /// Replace the parameters by the scene's values; otherwise they are inputs at run time, and all
   /// that is generated is the same whatever their values.
@@ -61,7 +62,7 @@ struct Specialisation {
   SparseProgram jacobian;  ///< d rhs_row / d state_column
   bool has_jacobian = false;
   /// `rhs` and the variational equations, as the right-hand side of a system of twice the size: its
-  /// states are the kept ones and a deviation from each, named "delta_M1", ..
+  /// states are the kept ones and a deviation from each, as in "delta_M1".
   Program variational;
   bool has_variational = false;
   bool taylor = false;

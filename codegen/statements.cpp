@@ -22,9 +22,7 @@ bool is_leaf(Op op) { return op == Op::input || op == Op::constant || op == Op::
 bool is_call(Op op) { return op >= Op::pow; }
 
 const char* function_name(Op op) {
-  static constexpr const char* kNames[] = {"pow", "sqrt", "sin",  "cos",  "tan",
-                                           "exp", "log",  "asin", "acos", "atan2"};
-  return kNames[static_cast<int>(op) - static_cast<int>(Op::pow)];
+  return kFunctionNames[static_cast<int>(op) - static_cast<int>(Op::pow)];
 }
 
 class StatementWriter {
@@ -120,7 +118,7 @@ class StatementWriter {
     const auto a = static_cast<std::size_t>(c.a);
     const auto b = static_cast<std::size_t>(c.b);
     if (c.op == Op::pi) {
-      out += style_.call_prefix + "acos" + style_.call_suffix + "(" + style_.real + "(-1))";
+      out += style_.call_prefix + "acos" + style_.call_suffix + "(" + converted("-1") + ")";
     } else if (is_call(c.op)) {
       append_call(c, out);
     } else if (c.op == Op::neg) {
@@ -156,7 +154,11 @@ class StatementWriter {
     append(index, kAny, out);
     const std::string text = out.substr(before);
     if (text.find_first_not_of("-0123456789") != std::string::npos) return;
-    out = out.substr(0, before) + style_.real + "(" + text + ")";
+    out = out.substr(0, before) + converted(text);
+  }
+
+  std::string converted(const std::string& number) const {
+    return (style_.c_casts ? "(" + style_.real + ")" : style_.real) + "(" + number + ")";
   }
 
   /// -a * b is (-a) * b, the same number as -(a * b).

@@ -8,12 +8,17 @@
 
 namespace casimir::codegen {
 
+/// The functions that programs call, in the order of Op from Op::pow on.
+inline constexpr const char* kFunctionNames[] = {"pow", "sqrt", "sin",  "cos",  "tan",
+                                                 "exp", "log",  "asin", "acos", "atan2"};
+
 /// How a program is written as the body of a function.
 struct StatementStyle {
   Scalar scalar = Scalar::real64;
   std::string real = "double";        ///< the type of the locals
   std::string call_prefix = "std::";  ///< before sin, sqrt, ..
   std::string call_suffix;            ///< behind them: "q" for __float128
+  bool c_casts = false;               ///< (double)(2) instead of double(2)
   std::string indent = "  ";
 };
 

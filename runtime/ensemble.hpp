@@ -16,8 +16,11 @@ struct Ensemble {
   std::vector<double> initial;  ///< n for each member, one member after the other
   std::vector<double> values;   ///< m for each member
 
+  /// The number of members.
   std::size_t size() const { return states > 0 ? initial.size() / states : 0; }
+  /// The initial state of a member.
   const double* state(std::size_t member) const { return initial.data() + member * states; }
+  /// Its parameters.
   const double* values_of(std::size_t member) const { return values.data() + member * parameters; }
 };
 
@@ -31,6 +34,7 @@ struct MemberResult {
   unsigned long long steps = 0, rejected = 0;
 };
 
+/// What came of all of them, in the order of the ensemble.
 struct EnsembleResult {
   std::vector<MemberResult> members;
   double seconds = 0;  ///< of the integration alone

@@ -29,6 +29,7 @@ std::string to_string(Status status);
 using InvariantTerms =
     std::function<void(double t, const double* x, long double* values, long double* sizes)>;
 
+/// What a run shall be like, and what it is watched by.
 struct Settings {
   double duration = 0;  ///< may be negative: backwards in time
   double rtol = 1e-10;  ///< local error per component: atol + rtol |x_i|
@@ -52,6 +53,7 @@ struct Settings {
   std::function<bool()> give_up;  ///< asked after each step; true ends the run as `stopped`
 };
 
+/// How an invariant fared along a run.
 struct InvariantRecord {
   long double initial = 0;  ///< may be beyond the range of double
   long double final = 0;

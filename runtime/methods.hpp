@@ -18,9 +18,9 @@ struct Method {
   bool series = false;               ///< needs the recurrences of the system's Taylor coefficients
   bool splits = false;               ///< follows the flows of the parts of a Hamiltonian
   std::string_view outside = {};     ///< the library that does it, or empty: a kernel of our own
-  std::string_view header = {};  ///< of the kernel, as #include says it; empty: a library calls rhs
-  std::string_view entry = {};   ///< the function template of the kernel, called with <System ..>;
-                                 ///< empty: the integrator is precompiled, the kernel is storage
+  std::string_view header = {};      ///< of the kernel, in kernels/; empty: a library calls rhs
+  std::string_view entry = {};  ///< the function template of the kernel, called with <System ..>;
+                                ///< empty: the integrator is precompiled, the kernel is storage
   std::string_view optimise = {};  ///< options of GCC under which the kernel is fastest, or empty
   std::string_view description = {};
   std::string_view literature = {};
@@ -36,17 +36,17 @@ const Method* find_method(std::string_view name);
 std::vector<std::string> method_names();
 
 /// The text to compile in front of a generated right-hand side: the plain C interface and the
-/// kernel, without any #include, ending in
+/// kernel, with all that they include, ending in
 ///
-///   namespace casimir_kernel {
-///   template <class System> void integrate(const casimir_run*, double*, casimir_outcome*);
-///   }
+///     namespace casimir_kernel {
+///     template <class System> void integrate(const casimir_run*, double*, casimir_outcome*);
+///     }
 ///
 /// For a method without a header the interface alone, and for one without an entry no `integrate`.
 /// The same text every time; the kernels of outside methods include their library's headers.
 std::string kernel_source(const Method& method);
 
-/// The text of one header of `kernels/` with all it includes, without any #include.
+/// The text of one header of `kernels/` with all that it includes.
 std::string kernel_text(std::string_view header);
 
 }  // namespace casimir

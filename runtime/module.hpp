@@ -11,7 +11,9 @@ namespace casimir {
 /// The entry points of a module, as module_abi.h describes them: functions of a shared object or,
 /// where nothing was compiled, objects that carry a program.
 struct ModuleFunctions {
+  /// A function of time, state and parameters that writes numbers.
   using Evaluation = void(double t, const double* x, const double* p, double* values);
+  /// A whole run.
   using Integration = void(const casimir_run*, double* x, casimir_outcome*);
 
   int dimension = 0;        ///< number of states n
@@ -37,11 +39,17 @@ class Module {
   ///                                right-hand side is missing, or invariants are but counted.
   static Module from_functions(const ModuleFunctions& functions);
 
+  /// The entry points.
   const ModuleFunctions& functions() const { return functions_; }
+  /// The number of states.
   int dimension() const { return functions_.dimension; }
+  /// The number of run-time parameters.
   int parameter_count() const { return functions_.parameter_count; }
+  /// The number of invariants.
   int invariant_count() const { return functions_.invariant_count; }
+  /// Whether there is a Jacobian.
   bool has_jacobian() const { return functions_.jacobian != nullptr; }
+  /// Whether it can do a whole run by itself.
   bool has_integrate() const { return functions_.integrate != nullptr; }
 
  private:

@@ -36,6 +36,7 @@ struct Instruction {
   Op op;
   int a = -1;
   int b = -1;
+  /// The same operation of the same lines.
   friend bool operator==(const Instruction&, const Instruction&) = default;
 };
 

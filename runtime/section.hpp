@@ -17,6 +17,7 @@ struct SectionPlane {
   double period = 0;
 };
 
+/// How many crossings, and how exactly.
 struct SectionSettings {
   std::size_t points = 0;  ///< crossings of each orbit
   double rtol = 1e-14, atol = 1e-16;
@@ -48,9 +49,11 @@ struct SectionOrbit {
   std::vector<double> growth;
   unsigned long long steps = 0;
 
+  /// The number of crossings.
   std::size_t size() const { return times.size(); }
 };
 
+/// What came of all seeds, in their order.
 struct SectionResult {
   std::vector<SectionOrbit> orbits;
   double seconds = 0;

@@ -9,6 +9,7 @@
 
 namespace casimir {
 
+/// The state that runs should end in.
 struct Truth {
   std::vector<double> state;  ///< the reference rounded to double
   std::vector<double> rest;   ///< the reference less `state`

@@ -53,12 +53,14 @@ struct PhaseSpaceText {
   std::optional<Text> time;
 };
 
+/// A claim about the zero level of some functions: see LevelClaim.
 struct LevelText {
   Text name;
   Text expression;
   std::vector<Text> on;
 };
 
+/// See Identity.
 struct IdentityText {
   Text name;
   Text left;
@@ -66,6 +68,7 @@ struct IdentityText {
   std::vector<Text> on;
 };
 
+/// See LaxPair.
 struct LaxText {
   std::optional<Text> spectral;
   std::vector<std::vector<Text>> l, a;
@@ -77,6 +80,7 @@ struct MapInverseText {
   std::vector<Text> domain;
 };
 
+/// See PoissonMap.
 struct MapText {
   Text name;
   std::optional<Text> to;                  ///< an algebra or a case
@@ -88,11 +92,13 @@ struct MapText {
   std::vector<MapInverseText> inverses;
 };
 
+/// See Measure.
 struct MeasureText {
   Text density;
   bool every_hamiltonian = false;
 };
 
+/// See Section.
 struct SectionText {
   Text function;
   std::optional<Text> direction;
@@ -102,6 +108,7 @@ struct SectionText {
   std::vector<Entry> casimirs;  ///< the same for Casimir functions
 };
 
+/// See Scene.
 struct SceneText {
   Text name;
   std::vector<Entry> parameters;
@@ -114,6 +121,7 @@ struct SceneText {
   std::vector<Entry> reference;
 };
 
+/// A parameter and what is assumed of it.
 struct ParameterText {
   Text name;
   std::vector<Text> assume;

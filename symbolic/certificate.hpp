@@ -7,6 +7,7 @@
 
 namespace casimir {
 
+/// A proof that another program checks.
 struct Certificate {
   std::string text;                   ///< of the file
   std::vector<std::string> left_out;  ///< claims of other kinds: proved, but not certified

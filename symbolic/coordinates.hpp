@@ -24,6 +24,7 @@ struct CoordinateChange {
   std::string name;      ///< of the map in its case file
   std::size_t from, to;  ///< indices of Atlas::sets
   bool forward = true;   ///< the map itself: Poisson, and usable for the equations
+  /// One of several formulas, for a part of the space.
   struct Branch {
     std::vector<GiNaC::ex> expressions;  ///< one for each variable of `to`, over those of `from`
     std::vector<Assumption> domain;      ///< over the variables of `from`

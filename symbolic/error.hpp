@@ -23,7 +23,9 @@ class CaseError : public std::runtime_error {
   /// \param hint     for instance "did you mean 'M3'?", or empty.
   CaseError(Location where, std::string text, std::string excerpt = {}, std::string hint = {});
 
+  /// The place.
   const Location& where() const { return where_; }
+  /// What is wrong, without the place.
   const std::string& text() const { return text_; }
 
  private:

@@ -24,6 +24,7 @@ struct Frame {
   std::vector<GiNaC::ex> structure;            ///< k*k*k entries: c_ij^s at (i*k + j)*k + s
   std::optional<GiNaC::ex> lagrangian;         ///< L(q, w), where the file gives one
 
+  /// The structure function c_ij^s.
   GiNaC::ex c(std::size_t i, std::size_t j, std::size_t s) const {
     return structure[(i * momenta.size() + j) * momenta.size() + s];
   }

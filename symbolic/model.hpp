@@ -22,6 +22,7 @@ struct NamedExpression {
   Location where;
 };
 
+/// Their names, in order.
 std::vector<std::string> names_of(const std::vector<NamedExpression>& list);
 
 /// A condition from an `assume` or a `domain`: `difference RELATION 0`.

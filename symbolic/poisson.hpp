@@ -17,7 +17,9 @@ class PoissonStructure {
   /// \throws ModelError  if a symbol repeats or the count is wrong; the text gives both counts.
   PoissonStructure(std::vector<GiNaC::symbol> coordinates, std::vector<GiNaC::ex> upper);
 
+  /// The number of coordinates.
   std::size_t dimension() const { return coordinates_.size(); }
+  /// x_1..x_n.
   const std::vector<GiNaC::symbol>& coordinates() const { return coordinates_; }
 
   /// {x_i, x_j}, i and j from 0.

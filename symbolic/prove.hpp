@@ -48,6 +48,7 @@ struct Candidates {
   std::vector<Text> identities;  ///< "LEFT = RIGHT"
   std::vector<Text> on;
   std::string only{};  ///< without candidates: only claims and facts of this kind, or all if empty
+  /// Whether there is none, so that the claims of the file are what is asked for.
   bool empty() const {
     return integrals.empty() && casimirs.empty() && invariant_relations.empty() &&
            identities.empty();

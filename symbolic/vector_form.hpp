@@ -26,6 +26,7 @@ std::vector<Triple> find_triples(const std::vector<std::string>& names);
 struct Block {
   std::string name;
   std::vector<std::size_t> coordinates;  ///< their indices
+  /// Of three coordinates.
   bool is_vector() const { return coordinates.size() == 3; }
 };
 
@@ -43,6 +44,7 @@ struct BlockBracket {
   std::size_t a, b;          ///< a <= b: a vector comes before a scalar
   std::vector<BlockTerm> v;  ///< the vector is the sum of these
   GiNaC::ex s;
+  /// Whether the blocks commute.
   bool is_zero() const { return v.empty() && s.is_zero(); }
 };
 

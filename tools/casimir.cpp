@@ -9,6 +9,7 @@
 #include "symbolic/error.hpp"
 #include "tools/cli.hpp"
 #include "tools/output.hpp"
+#include "tools/usage/helpers.hpp"
 
 namespace {
 
@@ -49,6 +50,9 @@ int run(int argc, char** argv) {
   program.failure_message(CLI::FailureMessage::simple);
   Action action;
   for (const Register add : kCommands) add(program, action);
+  if (const std::optional<int> status =
+          run_helper(program, {argv + 1, argv + argc}, CASIMIR_VERSION))
+    return *status;
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {

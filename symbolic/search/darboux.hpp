@@ -17,6 +17,7 @@ struct DarbouxPolynomial {
   Verdict verdict = Verdict::undecided;
 };
 
+/// What a search for them found, and whether that is all.
 struct DarbouxReport {
   std::vector<DarbouxPolynomial> found;  ///< irreducible, with a cofactor that is not zero
   bool complete = false;                 ///< there are no others, for generic parameters

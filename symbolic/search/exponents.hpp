@@ -12,6 +12,7 @@ namespace casimir::search {
 
 /// A Kovalevskaya exponent, or all roots of one irreducible polynomial.
 struct Exponent {
+  /// What kind of number it is.
   enum class Kind {
     integer,
     rational,    ///< not an integer
@@ -36,6 +37,7 @@ struct Balance {
 
 /// The leading terms of the rates with numbers for all coefficients.
 struct LeadingSystem {
+  /// A monomial.
   struct Term {
     double coefficient;
     std::vector<unsigned long> exponents;  ///< of each coordinate
@@ -45,6 +47,7 @@ struct LeadingSystem {
   std::vector<std::vector<Term>> rates;
 };
 
+/// Weights, balances, and what follows from the exponents.
 struct ExponentReport {
   std::vector<std::pair<std::string, std::string>> weights;  ///< g_i, rational
   std::vector<std::string> left_out;  ///< terms of lower weight, which do not decide

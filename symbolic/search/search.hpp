@@ -28,6 +28,7 @@ struct Found {
   bool independent = true;  ///< functionally, of what stands before it
 };
 
+/// What a search found, and whether that is all.
 struct Report {
   std::string kind;                  ///< "casimir", "integral" or "conditional"
   std::vector<Found> found;          ///< without what the known ones generate
@@ -55,6 +56,7 @@ struct Condition {
   Verdict verdict = Verdict::undecided;  ///< whether all that was found there is proved
 };
 
+/// What a search for values of parameters found, and whether that is all.
 struct ConditionReport {
   Report generic;  ///< for generic values of all parameters
   std::vector<Condition> conditions;

@@ -34,6 +34,19 @@ std::string complaints(const std::string& text) {
   return run.succeeded ? "" : run.messages + " ";
 }
 
+/// The same of a C compiler to a program that includes it.
+std::string c_complaints(const std::string& header) {
+  const Folder folder;
+  testing::write(folder.path() / "header.h", header);
+  testing::write(folder.path() / "user.c", "#include \"header.h\"\nint main(void) { return 0; }\n");
+  const codegen::CompilerRun run =
+      testing::run("cc",
+                   {"-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only",
+                    (folder.path() / "user.c").string()},
+                   folder.path());
+  return run.succeeded ? "" : run.messages + " ";
+}
+
 std::string case_path(const std::string& name) {
   return std::string(CASIMIR_SOURCE_DIR) + "/cases/" + name;
 }
@@ -142,6 +155,9 @@ TEST(EmitCpp, HostileNamesAndTitlesStayHarmless) {
     EXPECT_EQ(complaints(emit_header(spec)), "") << emit_header(spec);
     EXPECT_EQ(complaints(emit_module(spec)), "") << emit_module(spec);
     EXPECT_EQ(emit_header(spec).find("\n#error"), std::string::npos);
+    const std::string c = emit_header(spec, {.language = Language::c});
+    EXPECT_EQ(c_complaints(c), "") << c;
+    EXPECT_EQ(c.find("\n#error"), std::string::npos);
   }
   // The compiler does notice.
   EXPECT_NE(complaints(emit_header(specialise(model, model.scenes[0])) + "\n#error here\n"), "");

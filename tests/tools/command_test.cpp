@@ -147,6 +147,22 @@ TEST(Integrate, CtrlCWithoutAFileExitsWith130) {
   EXPECT_EQ(finish(child, folder).status, 130);
 }
 
+TEST(Generate, PlainCIsAnotherLanguage) {
+  const Folder folder;
+  const Outcome outcome =
+      run_in(folder, {"generate", "euler-angles", "--language", "C", "-o", "top.h", "--json"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.json().at("file"), "top.h");
+  const std::string header = file_text(folder.path() / "top.h");
+  EXPECT_NE(header.find("static inline void euler_angles_rhs("), std::string::npos) << header;
+  EXPECT_EQ(header.find("namespace"), std::string::npos);
+  EXPECT_EQ(run({"generate", "euler", "--language", "c", "--with", "taylor"}).status, 2);
+  EXPECT_EQ(run({"generate", "euler", "--language", "c", "--scalar", "template"}).status, 2);
+  const Outcome unknown = run({"generate", "euler", "--language", "fortran"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_NE(unknown.err.find("'fortran' is none of c, c++"), std::string::npos) << unknown.err;
+}
+
 TEST(Generate, WritesAHeaderAndSaysWhatWasLeftOut) {
   const Folder folder;
   const auto json = run_in(folder, {"generate", "kovalevskaya", "-o", "k.hpp", "--json"}).json();

@@ -1,5 +1,6 @@
-// casimir generate: a self-contained C++ header specialised to one scene.
+// casimir generate: a self-contained C++ or C header specialised to one scene.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iostream>
@@ -21,6 +22,8 @@ const std::map<std::string, Scalar> kScalars = {{"double", Scalar::real64},
                                                 {"float128", Scalar::float128},
                                                 {"template", Scalar::templated}};
 
+const std::map<std::string, Language> kLanguages = {{"c++", Language::cpp}, {"c", Language::c}};
+
 struct Options {
   Common common;
   KeptParameters kept;
@@ -29,10 +32,27 @@ struct Options {
   std::vector<std::string> with{"rhs", "invariants", "jacobian"};
   std::vector<std::string> observe;
   Scalar scalar = Scalar::real64;
+  Language language = Language::cpp;
 };
 
 const std::vector<std::string> kParts = {
     "rhs", "invariants", "gradients", "jacobian", "sparse-jacobian", "variational", "taylor"};
+
+/// One of these names; the help has them in its text already, and shells that complete find them
+/// in the name of the check.
+template <class Value>
+CLI::Validator one_of(const std::map<std::string, Value>& values) {
+  std::vector<std::string> names;
+  for (const auto& [name, ignored] : values) names.push_back(name);
+  const auto check = [values, names](std::string& text) -> std::string {
+    const auto found = values.find(CLI::detail::to_lower(text));
+    if (found == values.end())
+      return fmt::format("'{}' is none of {}", printable(text), fmt::join(names, ", "));
+    text = std::to_string(static_cast<int>(found->second));
+    return "";
+  };
+  return {check, "", fmt::format("{{{}}}", fmt::join(names, ","))};
+}
 
 int generate(const Options& options) {
   if (options.output.empty() && options.common.json)
@@ -51,8 +71,10 @@ int generate(const Options& options) {
   what.variational = wanted("variational");
   if (!options.observe.empty()) what.observe = options.observe;
   const Specialisation specialisation = specialise(model, model.scene(options.common.scene), what);
-  const std::string header = emit_header(
-      specialisation, {.scalar = options.scalar, .sparse_jacobian = wanted("sparse-jacobian")});
+  const std::string header =
+      emit_header(specialisation, {.scalar = options.scalar,
+                                   .sparse_jacobian = wanted("sparse-jacobian"),
+                                   .language = options.language});
   if (options.output.empty()) {
     std::cout << header;
     return kDone;
@@ -82,7 +104,7 @@ int generate(const Options& options) {
 void register_generate(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand(
-      "generate", "Write a self-contained C++20 header specialised to a scene");
+      "generate", "Write a self-contained C++20 or C99 header specialised to a scene");
   add_common(*command, options->common);
   add_in(*command, options->in);
   command
@@ -99,7 +121,7 @@ void register_generate(CLI::App& program, Action& action) {
                    "variational, taylor (default: rhs,invariants,jacobian; rhs always)")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember(kParts).description(""))
+      ->check(CLI::IsMember(kParts).description("").name(CLI::IsMember(kParts).get_description()))
       ->type_name("A,B");
   command
       ->add_option("--observe", options->observe,
@@ -110,8 +132,16 @@ void register_generate(CLI::App& program, Action& action) {
   command
       ->add_option("--scalar", options->scalar,
                    "Number type: double, float, long-double, float128 or template")
-      ->transform(CLI::CheckedTransformer(kScalars, CLI::ignore_case).description(""))
+      ->transform(one_of(kScalars))
       ->type_name("TYPE");
+  command
+      ->add_option(
+          "--language", options->language,
+          "c++ (default): C++20, with adapters for Boost.Odeint and SUNDIALS; c: C99, with "
+          "the name of the case in front of every name, in double, float or long-double "
+          "and without taylor")
+      ->transform(one_of(kLanguages))
+      ->type_name("LANGUAGE");
   options->kept.add_to(*command);
   command->callback([options, &action] { action = [options] { return generate(*options); }; });
 }

@@ -1,0 +1,136 @@
+// An installed tree that was moved: the program, and the libraries for the programs of others.
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+
+#include "tests/install/shell.hpp"
+
+namespace casimir::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Install, TheProgramFindsItsCasesFromAnywhere) {
+  const Installed installed;
+  const Outcome outcome = shell(installed,
+                                "mkdir links\nln -s ../prefix/bin/casimir links/casimir\n"
+                                "cd /\n\"$HOME/links/casimir\" list\n"
+                                "PATH=\"$HOME/prefix/bin:$PATH\"\ncasimir verify kovalevskaya\n");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(shows(outcome.out, "Clebsch")) << outcome.out;
+  EXPECT_TRUE(shows(outcome.out, "12 proved, 0 refuted")) << outcome.out;
+}
+
+TEST(Install, TheProgramCompilesWhatItIntegrates) {
+  const Installed installed;
+  const Outcome outcome =
+      shell(installed,
+            "prefix/bin/casimir integrate kovalevskaya --method dop853 --duration 1\n"
+            "prefix/bin/casimir integrate euler-angles --method taylor-compiled --duration 1\n"
+            "prefix/bin/casimir integrate kovalevskaya --method odeint-dopri5 --duration 1\n"
+            "prefix/bin/casimir integrate kovalevskaya --method cvode-bdf --duration 1\n"
+            "ls cache | wc -l\n");
+  EXPECT_EQ(outcome.status, 0) << outcome.err << outcome.out;
+  EXPECT_EQ(outcome.err, "");
+}
+
+/// Debugging information and messages of sanitizers would, in the program.
+TEST(Install, NothingNamesTheFoldersItWasBuiltIn) {
+  const Installed installed;
+  const bool plain = std::string(CASIMIR_CXX_FLAGS).empty();
+  for (const fs::path& file : files_below(installed.prefix())) {
+    const bool binary = file.extension() == ".a" || file.filename() == "casimir";
+    if (binary && !plain) continue;
+    const std::string text = file_text(file);
+    EXPECT_FALSE(shows(text, CASIMIR_BUILD_DIR)) << file;
+    EXPECT_FALSE(shows(text, CASIMIR_SOURCE_DIR)) << file;
+    EXPECT_FALSE(shows(text, installed.path().string())) << file;
+  }
+}
+
+TEST(Install, HeadersIncludeOnlyWhatIsInstalled) {
+  const Installed installed;
+  const fs::path headers = installed.prefix() / "include/casimir";
+  static const std::regex kOwn(R"(#\s*include\s+"([^"]+)\")");
+  static const std::regex kOutside(R"(#\s*include\s+<([a-z]+)[/+.])");
+  const std::set<std::string> behind{"flint", "toml", "arb", "acb", "sundials", "nlohmann", "fmt"};
+  std::size_t count = 0;
+  for (const fs::path& file : files_below(headers)) {
+    ++count;
+    const std::string text = file_text(file);
+    for (std::sregex_iterator it(text.begin(), text.end(), kOwn), end; it != end; ++it)
+      EXPECT_TRUE(fs::exists(headers / (*it)[1].str())) << file << " " << (*it)[1].str();
+    for (std::sregex_iterator it(text.begin(), text.end(), kOutside), end; it != end; ++it)
+      EXPECT_FALSE(behind.contains((*it)[1].str())) << file << " " << (*it)[1].str();
+  }
+  EXPECT_GT(count, 40U);
+}
+
+TEST(Install, ExamplesBuildWithFindPackageAndRun) {
+  const Installed installed;
+  const Outcome built =
+      shell(installed, "'" CASIMIR_CMAKE
+                       "' -S prefix/share/doc/casimir/examples -B build "
+                       "-DCMAKE_PREFIX_PATH=\"$PWD/prefix\" -DCMAKE_CXX_COMPILER='" CASIMIR_CXX
+                       "' "
+                       "-DCMAKE_CXX_FLAGS='" CASIMIR_CXX_FLAGS
+                       "'\n"
+                       "'" CASIMIR_CMAKE "' --build build -j 2\n");
+  ASSERT_EQ(built.status, 0) << built.out << built.err;
+  const Outcome proofs = shell(installed, "build/prove\n");
+  EXPECT_EQ(proofs.status, 0) << proofs.err;
+  EXPECT_TRUE(shows(proofs.out, "proved  casimir  F1")) << proofs.out;
+  EXPECT_TRUE(shows(proofs.out, "refuted  integral  M3\n  its derivative is ")) << proofs.out;
+  const Outcome header =
+      shell(installed, "build/generate >pendulum.hpp\n'" CASIMIR_CXX
+                       "' -std=c++20 -Wall -Wextra -Werror -fsyntax-only -x c++ pendulum.hpp\n");
+  EXPECT_EQ(header.status, 0) << header.err;
+  const Outcome run = shell(installed, "build/integrate\n");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(shows(run.out, "q1 = 0.22514698")) << run.out;
+  EXPECT_TRUE(shows(run.out, "less than 1e-10: yes")) << run.out;
+}
+
+TEST(Install, AnUnknownVersionOrComponentIsRefused) {
+  const Installed installed;
+  installed.write("CMakeLists.txt",
+                  "cmake_minimum_required(VERSION 3.25)\nproject(x LANGUAGES CXX)\n"
+                  "find_package(casimir 99 REQUIRED)\n");
+  const Outcome outcome =
+      shell(installed, "'" CASIMIR_CMAKE "' -S . -B build -DCMAKE_PREFIX_PATH=\"$PWD/prefix\"\n");
+  EXPECT_NE(outcome.status, 0);
+  EXPECT_TRUE(shows(outcome.err, "\"99\"")) << outcome.err;
+}
+
+TEST(Install, PkgConfigBuildsAnExample) {
+  const Installed installed;
+  const Outcome outcome =
+      shell(installed,
+            "export PKG_CONFIG_PATH=\"$PWD/prefix/lib/pkgconfig\"\n"
+            "pkg-config --exact-version=$(prefix/bin/casimir --version) casimir\n"
+            "'" CASIMIR_CXX "' " CASIMIR_CXX_FLAGS
+            " -std=c++20 "
+            "prefix/share/doc/casimir/examples/integrate.cpp -o integrate "
+            "$(pkg-config --cflags --libs casimir)\n./integrate\n");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(shows(outcome.out, "less than 1e-10: yes")) << outcome.out;
+}
+
+TEST(Install, ShellsFindTheirCompletion) {
+  const Installed installed;
+  const Outcome outcome = shell(
+      installed,
+      "PATH=\"$PWD/prefix/bin:$PATH\"\n"
+      "bash --norc -c '. prefix/share/bash-completion/completions/casimir; complete -p casimir'\n"
+      "zsh -f -c 'fpath=(prefix/share/zsh/vendor-completions $fpath); autoload -U compinit; "
+      "compinit -u -D; echo zsh: $_comps[casimir]'\n"
+      "XDG_DATA_DIRS=\"$PWD/prefix/share\" fish -c 'complete -C \"casimir verif\"'\n");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(shows(outcome.out, "complete -F _casimir casimir")) << outcome.out;
+  EXPECT_TRUE(shows(outcome.out, "zsh: _casimir")) << outcome.out;
+  EXPECT_TRUE(shows(outcome.out, "verify\tProve")) << outcome.out;
+}
+
+}  // namespace
+}  // namespace casimir::test

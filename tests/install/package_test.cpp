@@ -1,0 +1,40 @@
+// Debian packages.
+#include <gtest/gtest.h>
+
+#include "tests/install/shell.hpp"
+
+namespace casimir::test {
+namespace {
+
+TEST(Package, DebianPackagesAreCleanAndRun) {
+  const Folder folder;
+  const Outcome made = shell(folder, "'" CASIMIR_CPACK "' --config '" CASIMIR_BUILD_DIR
+                                     "/CPackConfig.cmake' -G DEB -B packages "
+                                     "-D CPACK_DEBIAN_COMPRESSION_TYPE=gzip\n");
+  ASSERT_EQ(made.status, 0) << made.out << made.err;
+  const Outcome checked = shell(folder,
+                                "lintian --allow-root --fail-on error packages/casimir_*.deb "
+                                "packages/libcasimir-dev_*.deb\n");
+  EXPECT_EQ(checked.status, 0) << checked.out << checked.err;
+
+  const std::string program = shell(folder, "dpkg-deb -I packages/casimir_*.deb control\n").out;
+  for (const char* need : {"libginac", "libcln", "libflint", "libsundials", "Recommends: g++"})
+    EXPECT_TRUE(shows(program, need)) << program;
+  const std::string development =
+      shell(folder, "dpkg-deb -I packages/libcasimir-dev_*.deb control\n").out;
+  for (const char* need : {"libginac-dev", "libflint-dev", "libsundials-dev"})
+    EXPECT_TRUE(shows(development, need)) << development;
+
+  const Outcome run =
+      shell(folder,
+            "for package in packages/*.deb; do dpkg-deb -x $package root; done\n"
+            "root/usr/bin/casimir verify kovalevskaya\n"
+            "ls root/usr/lib/libcasimir_runtime.a root/usr/lib/pkgconfig/casimir.pc "
+            "root/usr/share/man/man1/casimir-verify.1.gz "
+            "root/usr/share/doc/libcasimir-dev/copyright\n");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(shows(run.out, "12 proved, 0 refuted")) << run.out;
+}
+
+}  // namespace
+}  // namespace casimir::test
