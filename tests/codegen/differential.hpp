@@ -29,7 +29,9 @@ class RandomSystem {
   static constexpr int kOrder = 6;  ///< of the Taylor coefficients
   static constexpr int kPlaces = 3;
 
-  explicit RandomSystem(std::uint64_t seed);
+  /// \param bound  all parameters are replaced by their values, and the time of all places is 0:
+  ///               what integrates begins there.
+  explicit RandomSystem(std::uint64_t seed, bool bound = false);
 
   const std::string& text() const { return text_; }
   const Model& model() const { return model_; }
@@ -43,9 +45,11 @@ class RandomSystem {
 
   /// The Taylor coefficients of each state.
   std::vector<Series> coefficients(const Place& place, std::size_t order) const;
+  /// About how many rounding errors add up in a right-hand side.
+  double operations() const { return operations_; }
 
  private:
-  std::vector<GiNaC::ex> bound(const std::vector<GiNaC::ex>& expressions) const;
+  std::vector<GiNaC::ex> with_values(const std::vector<GiNaC::ex>& expressions) const;
   SeriesEvaluator evaluator(const Place& place, std::size_t order) const;
 
   std::string text_;

@@ -21,7 +21,7 @@ unsigned system_count() {
 constexpr unsigned kSystemsOfProgram = 40;
 
 /// Errors of this many times epsilon and the size of what goes in are possible in one operation.
-constexpr double kUnits = 1;
+constexpr double kUnits = 2;
 
 struct Build {
   const char* name;
