@@ -58,16 +58,17 @@ RandomSystem::RandomSystem(std::uint64_t seed, bool bound)
   what.observe = std::vector<std::string>{};
   specialisation_ = specialise(model_, model_.scenes[0], what);
   scalar_ = static_cast<Scalar>(seed % 5);
-  field_ = with_values(model_.field);
+  field_ = model_.field;
   // Those that are emitted: constants are not.
   std::map<std::string, GiNaC::ex> named;
   if (model_.hamiltonian) named["H"] = *model_.hamiltonian;
   for (const auto* list : {&model_.casimirs, &model_.integrals})
     for (const NamedExpression& f : *list) named[f.name] = f.value;
-  std::vector<GiNaC::ex> invariants;
   for (const std::string& name : specialisation_.invariant_names)
-    invariants.push_back(named.at(name));
-  invariants_ = with_values(invariants);
+    invariants_.push_back(named.at(name));
+  for (const GiNaC::symbol& p : model_.parameters)
+    values_[p] = cln::realpart(
+        GiNaC::ex_to<GiNaC::numeric>(model_.at_parameters(p, model_.scenes[0])).to_cl_N());
   for (const auto* list : {&field_, &invariants_})
     for (const GiNaC::ex& f : *list) operations_ += operations_of(f);
   for (int tries = 0; tries < 50 && places_.size() < kPlaces; ++tries) {
@@ -85,15 +86,10 @@ RandomSystem::RandomSystem(std::uint64_t seed, bool bound)
   }
 }
 
-std::vector<GiNaC::ex> RandomSystem::with_values(const std::vector<GiNaC::ex>& expressions) const {
-  std::vector<GiNaC::ex> result;
-  for (const GiNaC::ex& e : expressions)
-    result.push_back(model_.at_parameters(e, model_.scenes[0]));
-  return result;
-}
-
 SeriesEvaluator RandomSystem::evaluator(const Place& place, std::size_t order) const {
   SeriesEvaluator result(order);
+  for (const auto& [symbol, value] : values_)
+    result.set(GiNaC::ex_to<GiNaC::symbol>(symbol), result.constant(value));
   for (std::size_t i = 0; i < place.state.size(); ++i)
     result.set(model_.variables[i], result.constant(exact_value(place.state[i])));
   if (model_.time) result.set(*model_.time, result.constant(exact_value(place.time)));
@@ -103,7 +99,7 @@ SeriesEvaluator RandomSystem::evaluator(const Place& place, std::size_t order) c
 std::vector<Series> RandomSystem::coefficients(const Place& place, std::size_t order) const {
   std::vector<cln::cl_R> state;
   for (const double x : place.state) state.push_back(exact_value(x));
-  std::map<GiNaC::ex, cln::cl_R, GiNaC::ex_is_less> fixed;
+  auto fixed = values_;
   if (model_.time) fixed[*model_.time] = exact_value(place.time);
   return solution_series(model_.variables, field_, state, fixed,
                          model_.time ? &*model_.time : nullptr, order);

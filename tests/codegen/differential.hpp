@@ -49,14 +49,15 @@ class RandomSystem {
   double operations() const { return operations_; }
 
  private:
-  std::vector<GiNaC::ex> with_values(const std::vector<GiNaC::ex>& expressions) const;
   SeriesEvaluator evaluator(const Place& place, std::size_t order) const;
 
   std::string text_;
   Model model_;
   Specialisation specialisation_;
   Scalar scalar_;
-  std::vector<GiNaC::ex> field_, invariants_;  ///< with the parameters of the scene
+  std::vector<GiNaC::ex> field_, invariants_;
+  /// Of the parameters. They are not put in: GiNaC would know that sin(Pi*a) is no rounding error.
+  std::map<GiNaC::ex, cln::cl_R, GiNaC::ex_is_less> values_;
   double operations_ = 0;
   std::vector<Place> places_;
 };
