@@ -72,7 +72,8 @@ std::vector<std::string> arguments_for(const CompileOptions& options, const fs::
 
 std::string key_of(const std::string& text, const Compiler& compiler,
                    const CompileOptions& options) {
-  std::vector<std::string> parts{text, compiler.identity, codegen::processor_identity(options.processor)};
+  std::vector<std::string> parts{text, compiler.identity,
+                                 codegen::processor_identity(options.processor)};
   const std::vector<std::string> flags = flags_for(options);
   for (const auto* list : {&compiler.arguments, &flags}) {
     parts.push_back(std::to_string(list->size()));
@@ -108,7 +109,7 @@ void check_room(const fs::path& folder) {
   unlink(probe.c_str());
   if (reason == ENOSPC || reason == EDQUOT || reason == EFBIG || reason == EROFS) {
     throw CacheUnusable("no room to compile in " + folder.parent_path().string() + ": " +
-                                 strerror(reason));
+                        strerror(reason));
   }
 }
 
@@ -158,7 +159,8 @@ CachedObject build(const std::string& text, const std::string& key, const Compil
   CompilerRun run =
       codegen::run_compiler(compiler, arguments_for(options, folder), folder, seconds);
   // What cannot be loaded must not be kept as if it could.
-  const std::string problem = run.succeeded ? codegen::loading_problem(folder / "object.so") : std::string();
+  const std::string problem =
+      run.succeeded ? codegen::loading_problem(folder / "object.so") : std::string();
   if (run.succeeded && problem.empty()) return cache.store(key, folder / "object.so");
   run.messages += problem;
   if (!run.timed_out) check_room(folder);

@@ -54,7 +54,7 @@ struct CompileOptions {
 struct CompiledObject {
   std::filesystem::path path;  ///< a shared object for dlopen
   bool from_cache = false;
-  double seconds = 0;  ///< what this call took
+  double seconds = 0;                       ///< what this call took
   std::shared_ptr<const void> in_use = {};  ///< until it is gone, no process makes room there
 };
 
@@ -63,9 +63,9 @@ struct CompiledObject {
 /// The name of the object is a digest of the text, the compiler, its arguments and the processor;
 /// a digest of its content is checked, and a damaged object is made again. Processes that want the
 /// same object at the same time compile it once; one that is killed leaves nothing that matters.
-/// The cache has at most $CASIMIR_CACHE_SIZE bytes (256M without): what was unused for longest goes.
-/// IEEE arithmetic is kept (products and sums may be fused). No shell is involved.
-/// \throws EnvironmentError  one of the classes above.
+/// The cache has at most $CASIMIR_CACHE_SIZE bytes (256M without): what was unused for longest
+/// goes. IEEE arithmetic is kept (products and sums may be fused). No shell is involved. \throws
+/// EnvironmentError  one of the classes above.
 CompiledObject compile(const std::string& text, const CompileOptions& options = {});
 
 /// For a signal handler: stops the compiler that `compile` is running, if any, and removes its

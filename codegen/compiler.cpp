@@ -124,8 +124,8 @@ int spawn(pid_t& child, const codegen::Compiler& compiler, std::vector<std::stri
   }
   posix_spawnattr_setsigdefault(&attributes, &signals);
   posix_spawnattr_setpgroup(&attributes, 0);
-  posix_spawnattr_setflags(
-      &attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setflags(&attributes,
+                           POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
 
   std::vector<std::string> environment = compiler_environment(folder);
   const int failure = posix_spawn(&child, compiler.program.c_str(), &files, &attributes,
@@ -195,8 +195,8 @@ Compiler find_compiler(const std::string& wanted) {
 
 std::string processor_identity(const fs::path& description) {
   std::ifstream in(description);
-  std::string result = std::to_string(getauxval(AT_HWCAP)) + " " +
-                       std::to_string(getauxval(AT_HWCAP2)) + "\n";
+  std::string result =
+      std::to_string(getauxval(AT_HWCAP)) + " " + std::to_string(getauxval(AT_HWCAP2)) + "\n";
 #ifdef __x86_64__
   for (const bool has : {__builtin_cpu_supports("avx"), __builtin_cpu_supports("avx2"),
                          __builtin_cpu_supports("fma"), __builtin_cpu_supports("bmi2"),
@@ -237,9 +237,9 @@ CompilerRun run_compiler(const Compiler& compiler, const std::vector<std::string
   } while (waited < 0 && errno == EINTR);
   running = 0;
   // Where the parent ignores SIGCHLD there is no status: the object tells.
-  result.succeeded = !result.timed_out && (waited == child
-                                               ? WIFEXITED(status) && WEXITSTATUS(status) == 0
-                                               : fs::exists(folder / "object.so"));
+  result.succeeded =
+      !result.timed_out && (waited == child ? WIFEXITED(status) && WEXITSTATUS(status) == 0
+                                            : fs::exists(folder / "object.so"));
   result.signal = waited == child && WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   result.messages = beginning_of(folder / "messages");
   return result;

@@ -33,9 +33,9 @@ class OutputFile {
 };
 
 /// Installs the handlers of SIGINT, SIGTERM and SIGHUP: they end the compiler if it runs, remove
-/// half-written files and exit with 130 (143 for SIGTERM, 129 for SIGHUP). So it is, with 141, where
-/// nobody reads standard output any more; other broken pipes, and files that have grown to the
-/// limit of the system, are errors of the write.
+/// half-written files and exit with 130 (143 for SIGTERM, 129 for SIGHUP). So it is, with 141,
+/// where nobody reads standard output any more; other broken pipes, and files that have grown to
+/// the limit of the system, are errors of the write.
 void install_interrupt_handler();
 
 /// While interrupts are held, the first SIGINT is only noted; a second one ends the program as

@@ -108,7 +108,8 @@ TEST_F(CompileFault, TheEnvironmentBoundsTheTimeOfTheCompiler) {
 TEST_F(CompileFault, WhatADriverThatDiesHasStartedDiesWithIt) {
   const fs::path note = folder_.path() / "grandchild";
   const std::string text = failure(
-      answer(1), with(wrapper(folder_, "sleep 1000 & echo $! > " + note.string() + "; kill -SEGV $$")));
+      answer(1),
+      with(wrapper(folder_, "sleep 1000 & echo $! > " + note.string() + "; kill -SEGV $$")));
   EXPECT_NE(text.find("stopped by signal 11 (Segmentation fault)"), std::string::npos) << text;
   const pid_t grandchild = std::stoi(testing::read(note));
   for (int i = 0; i < 1000 && is_running(grandchild); ++i) sleep_for(5);
@@ -138,7 +139,8 @@ TEST_F(CompileFault, ADiskWithoutRoomIsSaidOrAnotherFolderTaken) {
   const Variable temporary("TMPDIR", spare.c_str());
   // Source, object and messages meet the limit in turn.
   for (const std::string& text : {answer(3), answer(3) + "/*" + std::string(20000, '-') + "*/\n"}) {
-    for (const rlim_t bytes : {0, 30, 1000, 5000, 10000, 13000, 14000, 16000, 18000, 21000, 30000}) {
+    for (const rlim_t bytes :
+         {0, 30, 1000, 5000, 10000, 13000, 14000, 16000, 18000, 21000, 30000}) {
       EXPECT_EQ(in_child([&] {
                   // No file longer than that: needs no right to mount, and all disks are alike.
                   signal(SIGXFSZ, SIG_IGN);
@@ -219,7 +221,12 @@ TEST_F(CompileFault, OnlyAFileOfOursThatNobodyElseCanWriteIsAnObject) {
       [&] { fs::remove(path), fs::create_symlink(aside, path); },
       [&] { fs::remove(path), fs::create_symlink("/dev/zero", path); },
       [&] { fs::remove(path), mkfifo(path.c_str(), 0600); },
-      [&] { if (geteuid() == 0) EXPECT_EQ(chown(path.c_str(), 12345, 12345), 0); else fs::remove(path); },
+      [&] {
+        if (geteuid() == 0)
+          EXPECT_EQ(chown(path.c_str(), 12345, 12345), 0);
+        else
+          fs::remove(path);
+      },
   };
   for (std::size_t i = 0; i < forgeries.size(); ++i) {
     forgeries[i]();

@@ -58,6 +58,11 @@ RandomSystem::RandomSystem(std::uint64_t seed, bool bound)
   what.observe = std::vector<std::string>{};
   specialisation_ = specialise(model_, model_.scenes[0], what);
   scalar_ = static_cast<Scalar>(seed % 5);
+  try {
+    emit_header(specialisation_, {scalar_});
+  } catch (const ModelError&) {  // a number that float cannot hold
+    scalar_ = Scalar::real64;
+  }
   field_ = model_.field;
   // Those that are emitted: constants are not.
   std::map<std::string, GiNaC::ex> named;
@@ -190,13 +195,16 @@ std::string caller(const RandomSystem& system) {
   const bool has_parameters = !s.parameters.empty();
   const std::string time = s.uses_time ? "t, " : "";
   const std::string p = has_parameters ? "p, " : "";
-  std::string text = "static void run_" + scope + "(const double*& in, std::vector<double>& out) {\n";
+  std::string text =
+      "static void run_" + scope + "(const double*& in, std::vector<double>& out) {\n";
   text += "  using R = " + std::string(type_name(system.scalar())) + ";\n";
-  text += "  constexpr int n = " + n + ";\n  R x[n], d[n], a[n * (n + 1) * 10 + 100], b[n * n + 1];\n";
+  text +=
+      "  constexpr int n = " + n + ";\n  R x[n], d[n], a[n * (n + 1) * 10 + 100], b[n * n + 1];\n";
   text += "  for (int i = 0; i < n; ++i) x[i] = static_cast<R>(*in++);\n";
   text += "  for (int i = 0; i < n; ++i) d[i] = static_cast<R>(*in++);\n";
   text += "  [[maybe_unused]] const R t = static_cast<R>(*in++);\n";
-  if (has_parameters) text += "  const " + scope + "::parameters" + (templated ? "<R>" : "") + " p{};\n";
+  if (has_parameters)
+    text += "  const " + scope + "::parameters" + (templated ? "<R>" : "") + " p{};\n";
   const auto call = [&](const std::string& function, const std::string& inputs,
                         const std::string& outputs) {
     text += "  " + scope + "::" + function + "(" + time + inputs + p + outputs + ");\n";
@@ -217,9 +225,9 @@ std::string caller(const RandomSystem& system) {
   call("jacobian_entries", "x, ", "b");
   text += "  for (int i = 0; i < n * n; ++i) a[i] = 0;\n";
   if (!s.jacobian.entries.empty())  // else there are no such tables
-    text += "  for (int j = 0; j < n; ++j)\n    for (int k = " + scope + "::jacobian_columns[j]; k < " +
-          scope + "::jacobian_columns[j + 1]; ++k)\n      a[" + scope +
-          "::jacobian_rows[k] + n * j] = b[k];\n";
+    text += "  for (int j = 0; j < n; ++j)\n    for (int k = " + scope +
+            "::jacobian_columns[j]; k < " + scope + "::jacobian_columns[j + 1]; ++k)\n      a[" +
+            scope + "::jacobian_rows[k] + n * j] = b[k];\n";
   put("a", "n * n");
   call("variational", "x, d, ", "a, a + n");
   put("a", "2 * n");
@@ -246,8 +254,9 @@ std::string driver(const std::vector<RandomSystem>& systems) {
   for (const RandomSystem& system : systems) {
     const bool wide = system.scalar() == Scalar::float128;
     const std::string values = std::to_string(2 * system.specialisation().states.size() + 1);
-    if (wide) text += "#ifdef __clang__\n  next += " + std::to_string(system.places().size()) +
-                      " * " + values + ";\n#else\n";
+    if (wide)
+      text += "#ifdef __clang__\n  next += " + std::to_string(system.places().size()) + " * " +
+              values + ";\n#else\n";
     for (std::size_t i = 0; i < system.places().size(); ++i)
       text += "  run_" + system.specialisation().case_name + "(next, out);\n";
     if (wide) text += "#endif\n";
@@ -255,7 +264,8 @@ std::string driver(const std::vector<RandomSystem>& systems) {
   // As three doubles, which hold the digits of every type.
   return "#include <cstdio>\n#include <vector>\n\ntemplate <class R>\nstatic void put(R value, "
          "std::vector<double>& out) {\n  for (int i = 0; i < 3; ++i) {\n    const double part = "
-         "static_cast<double>(value);\n    out.push_back(part);\n    value -= static_cast<R>(part);\n"
+         "static_cast<double>(value);\n    out.push_back(part);\n    value -= "
+         "static_cast<R>(part);\n"
          "  }\n}\n\n" +
          text +
          "  file = std::fopen(files[2], \"wb\");\n  std::fwrite(out.data(), sizeof(double), "

@@ -66,15 +66,15 @@ void compare(const RandomSystem& system, const Place& place, const double*& valu
     // What has left the range of the type may be anything on the way there.
     if (!(e.exact.size * e.operations < precision.largest / 1e10)) continue;
     const double error = error_of(parts, e.exact.value);
-    const double bound = kUnits * e.operations *
-                         (precision.epsilon * e.exact.size + precision.least);
+    const double bound =
+        kUnits * e.operations * (precision.epsilon * e.exact.size + precision.least);
     const double magnitude = std::fabs(cln::double_approx(e.exact.value));
     ++tally.values;
     tally.sharp += bound < 1e-3 * magnitude || magnitude == 0;
     tally.worst = std::max(tally.worst, error / bound);
-    EXPECT_LE(error, bound) << e.what << " is " << parts[0] << " and not " << magnitude
-                            << ", size " << e.exact.size << ", number type "
-                            << static_cast<int>(system.scalar()) << ", of\n"
+    EXPECT_LE(error, bound) << e.what << " is " << parts[0] << " and not " << magnitude << ", size "
+                            << e.exact.size << ", number type " << static_cast<int>(system.scalar())
+                            << ", of\n"
                             << system.text();
   }
 }
@@ -125,7 +125,9 @@ TEST_P(Differential, EveryFormOfRandomSystemsHasItsValue) {
   RecordProperty("values", std::to_string(tally.values));
   RecordProperty("worst", std::to_string(tally.worst));
   std::printf("%u systems, %lu values, %.1f %% of them sharp, largest error %.3g of its bound\n",
-              system_count(), tally.values, 100. * static_cast<double>(tally.sharp) / static_cast<double>(tally.values), tally.worst);
+              system_count(), tally.values,
+              100. * static_cast<double>(tally.sharp) / static_cast<double>(tally.values),
+              tally.worst);
   EXPECT_GT(tally.sharp, tally.values * 8 / 10);
 }
 

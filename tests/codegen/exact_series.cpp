@@ -143,8 +143,8 @@ Series arcsine(const Series& u, int sign) {
   Series one_series(u.size(), Sized{number(std::size_t{0}), 0});
   one_series[0] = {number(std::size_t{1}), 1};
   const Series root = real_power(sum(one_series, product(u, u), -1), cln::recip(cln::cl_RA(-2)));
-  const cl_F value =
-      number(sign > 0 ? cln::realpart(cln::asin(u[0].value)) : cln::realpart(cln::acos(u[0].value)));
+  const cl_F value = number(sign > 0 ? cln::realpart(cln::asin(u[0].value))
+                                     : cln::realpart(cln::acos(u[0].value)));
   Series y = integral(at_start(value, root[0].value, u[0]), u, root);
   for (std::size_t k = 1; k < y.size() && sign < 0; ++k) y[k].value = -y[k].value;
   return y;

@@ -1,8 +1,8 @@
 #include "codegen/literal.hpp"
 
-#include <cln/integer.h>
 #include <cln/dfloat.h>
 #include <cln/float.h>
+#include <cln/integer.h>
 #include <cln/real.h>
 #include <gtest/gtest.h>
 

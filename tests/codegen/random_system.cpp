@@ -26,19 +26,20 @@ class Writer {
         return "(" + expression(depth - 1) + (random_.one_in(2) ? " + " : " - ") +
                expression(depth - 1) + ")";
       case 2:
-        return "(" + number() + "*" + expression(depth - 1) + " - " + expression(depth - 1) + " + " +
-               leaf() + ")";
+        return "(" + number() + "*" + expression(depth - 1) + " - " + expression(depth - 1) +
+               " + " + leaf() + ")";
       case 3:
       case 4:
         return expression(depth - 1) + "*" + expression(depth - 1);
       case 5:
-        return "(" + expression(depth - 1) + ")^" + std::to_string(2 + random_.below(depth > 1 ? 2 : 5));
+        return "(" + expression(depth - 1) + ")^" +
+               std::to_string(2 + random_.below(depth > 1 ? 2 : 5));
       case 6:
         return "(" + expression(depth - 1) + ")/" + positive(depth - 1);
       case 7:
-        return random_.one_in(2) ? number() + "/" + random_.of(variables_)
-                                 : random_.of(variables_) + "^(-" +
-                                       std::to_string(1 + random_.below(3)) + ")";
+        return random_.one_in(2)
+                   ? number() + "/" + random_.of(variables_)
+                   : random_.of(variables_) + "^(-" + std::to_string(1 + random_.below(3)) + ")";
       default:
         return call(depth - 1);
     }
@@ -117,12 +118,15 @@ class Writer {
 
 /// Names that a generator of code might use itself.
 const std::vector<std::string> kNames{
-    "x",        "y",        "z",      "w",       "dx",     "J",       "p",         "t1",
-    "c1",       "x_",       "values", "k",       "degree", "next",    "series_1",  "fixed_1",
-    "Order",    "delta_x",  "rhs",    "real",    "Real",   "system",  "dimension", "coefficients",
-    "dvalues",  "entries",  "start",  "initial", "sum",    "sin_1",   "cos_1",     "parameters",
-    "jacobian", "std_",     "n",      "i",       "j",      "M_1",     "y0",        "duration",
-    "taylor",   "ddelta_x", "invariants", "state", "time_series", "fixed", "a1", "alpha", "q", "std"};
+    "x",          "y",          "z",           "w",        "dx",        "J",
+    "p",          "t1",         "c1",          "x_",       "values",    "k",
+    "degree",     "next",       "series_1",    "fixed_1",  "Order",     "delta_x",
+    "rhs",        "real",       "Real",        "system",   "dimension", "coefficients",
+    "dvalues",    "entries",    "start",       "initial",  "sum",       "sin_1",
+    "cos_1",      "parameters", "jacobian",    "std_",     "n",         "i",
+    "j",          "M_1",        "y0",          "duration", "taylor",    "ddelta_x",
+    "invariants", "state",      "time_series", "fixed",    "a1",        "alpha",
+    "q",          "std"};
 
 class CaseWriter {
  public:
@@ -135,9 +139,7 @@ class CaseWriter {
     const unsigned parameters = random_.below(4);
     for (unsigned i = 0; i < parameters; ++i) parameters_.push_back(name());
     const unsigned shape = random_.below(10);
-    std::string text = shape < 6   ? by_equations()
-                       : shape < 8 ? canonical()
-                                   : on_an_algebra();
+    std::string text = shape < 6 ? by_equations() : shape < 8 ? canonical() : on_an_algebra();
     if (!parameters_.empty()) {
       text += "[parameters]\n";
       for (const std::string& p : parameters_) text += p + " = {}\n";
@@ -146,14 +148,15 @@ class CaseWriter {
     if (!parameters_.empty()) {
       text += "parameters = { ";
       for (const std::string& p : parameters_)
-        text += (p == parameters_[0] ? "" : ", ") + p + " = \"" +
-                (random_.one_in(3) ? "-" : "") + std::to_string(1 + random_.below(9)) + "/" +
-                std::to_string(1 + random_.below(7)) + "\"";
+        text += (p == parameters_[0] ? "" : ", ") + p + " = \"" + (random_.one_in(3) ? "-" : "") +
+                std::to_string(1 + random_.below(9)) + "/" + std::to_string(1 + random_.below(7)) +
+                "\"";
       text += " }\n";
     }
     text += "initial = { ";
     for (const std::string& x : variables_)
-      text += (x == variables_[0] ? "" : ", ") + x + " = \"" + std::to_string(1 + random_.below(5)) + "/4\"";
+      text += (x == variables_[0] ? "" : ", ") + x + " = \"" +
+              std::to_string(1 + random_.below(5)) + "/4\"";
     return text + " }\nduration = \"1\"\n";
   }
 
@@ -167,7 +170,8 @@ class CaseWriter {
   std::string head(const std::string& more) {
     std::string list;
     for (const std::string& x : variables_) list += (list.empty() ? "\"" : ", \"") + x + "\"";
-    return "title = \"random\"\n" + hamiltonian_ + "[phase_space]\nvariables = [" + list + "]\n" + more;
+    return "title = \"random\"\n" + hamiltonian_ + "[phase_space]\nvariables = [" + list + "]\n" +
+           more;
   }
 
   Writer writer(bool with_time) {

@@ -74,8 +74,8 @@ TEST(Fault, AReaderThatLeavesIsNoError) {
   for (const char* command :
        {"list", "verify --all", "show kovalevskaya --format json", "integrate euler"}) {
     // Far more than a pipe holds, for any command that goes on.
-    const Outcome outcome = shell(folder, std::string("(\"$C\" ") + command +
-                                              "; echo $? > status) | head -c 10");
+    const Outcome outcome =
+        shell(folder, std::string("(\"$C\" ") + command + "; echo $? > status) | head -c 10");
     EXPECT_TRUE(outcome.err.empty()) << command << outcome.err;
     EXPECT_EQ(outcome.out.size(), 10U) << command;
     const std::string status = file_text(folder / "status");
@@ -182,12 +182,14 @@ TEST(Fault, CtrlCEndsACompilerThatHangsAndAllThatItStarted) {
   const Folder folder;
   Environment environment = cache_in(folder);
   environment.emplace_back(
-      "CXX", program(folder, "cxx", "trap '' TERM INT\nsleep 1000 & echo $! > note.new\nmv note.new note\nwait"));
+      "CXX", program(folder, "cxx",
+                     "trap '' TERM INT\nsleep 1000 & echo $! > note.new\nmv note.new note\nwait"));
   const pid_t child = start({"integrate", "euler", "--method", "dop853"}, folder, {}, environment);
   while (!fs::exists(folder / "note")) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   kill(child, SIGINT);
   EXPECT_EQ(finish(child, folder).status, 130);
-  const std::string stat = "/proc/" + std::to_string(std::stoi(file_text(folder / "note"))) + "/stat";
+  const std::string stat =
+      "/proc/" + std::to_string(std::stoi(file_text(folder / "note"))) + "/stat";
   const auto runs = [&] {
     const std::string text = file_text(stat);
     return !text.empty() && text[text.rfind(") ") + 2] != 'Z';
@@ -201,15 +203,16 @@ TEST(Fault, CtrlCEndsACompilerThatHangsAndAllThatItStarted) {
 
 TEST(Fault, TwoHundredAtOnceOnAColdCacheAgree) {
   const Folder folder;
-  const Outcome outcome = shell(
-      folder,
-      "for i in $(seq 200); do \"$C\" integrate euler --method dop853 --json > $i.json & done; wait",
-      cache_in(folder));
+  const Outcome outcome = shell(folder,
+                                "for i in $(seq 200); do \"$C\" integrate euler --method dop853 "
+                                "--json > $i.json & done; wait",
+                                cache_in(folder));
   EXPECT_EQ(outcome.err, "");
   std::set<std::string> states;
   int compiled = 0;
   for (int i = 1; i <= 200; ++i) {
-    const auto json = nlohmann::json::parse(file_text(folder.path() / (std::to_string(i) + ".json")));
+    const auto json =
+        nlohmann::json::parse(file_text(folder.path() / (std::to_string(i) + ".json")));
     states.insert(json.at("state").dump());
     compiled += json.at("from_cache") == false;
   }
@@ -220,8 +223,8 @@ TEST(Fault, TwoHundredAtOnceOnAColdCacheAgree) {
 TEST(Fault, KilledAtAnyMomentItLeavesTheOldFileOrTheNewOne) {
   const Folder folder;
   const Environment environment = cache_in(folder);
-  const std::vector<std::string> arguments{"integrate", "euler", "--method",  "dop853",
-                                           "--quiet",   "--every", "0.01", "--output", "o.csv"};
+  const std::vector<std::string> arguments{"integrate", "euler", "--method", "dop853", "--quiet",
+                                           "--every",   "0.01",  "--output", "o.csv"};
   unsigned random = 2024;
   std::string complete;
   for (int i = 0; i < 40; ++i) {
