@@ -21,9 +21,9 @@ struct CachedObject {
 /// A folder of compiled objects that only its owner may write.
 class Cache {
  public:
-  /// Makes the folder if need be, with the mode 0700. It may be read-only: then nothing new goes
-  /// in. \throws CacheUnsafe    if others could have put objects there. \throws CacheUnusable  if
-  /// it cannot be made or opened; the text has the reason.
+  /// Makes the folder if need be, with the mode 0700. It may be read-only, and nothing new goes in.
+  /// \throws CacheUnsafe    if others could have put objects there.
+  /// \throws CacheUnusable  if it cannot be made or opened; the text has the reason.
   explicit Cache(std::filesystem::path folder);
 
   const std::filesystem::path& folder() const { return folder_; }

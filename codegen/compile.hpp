@@ -63,9 +63,9 @@ struct CompiledObject {
 /// The name of the object is a digest of the text, the compiler, its arguments and the processor;
 /// a digest of its content is checked, and a damaged object is made again. Processes that want the
 /// same object at the same time compile it once; one that is killed leaves nothing that matters.
-/// The cache has at most $CASIMIR_CACHE_SIZE bytes (256M without): what was unused for longest
-/// goes. IEEE arithmetic is kept (products and sums may be fused). No shell is involved. \throws
-/// EnvironmentError  one of the classes above.
+/// The cache has at most $CASIMIR_CACHE_SIZE bytes (256M): what was unused for longest goes.
+/// IEEE arithmetic is kept (products and sums may be fused). No shell is involved.
+/// \throws EnvironmentError  one of the classes above.
 CompiledObject compile(const std::string& text, const CompileOptions& options = {});
 
 /// For a signal handler: stops the compiler that `compile` is running, if any, and removes its
