@@ -2,20 +2,18 @@
 
 #include <fcntl.h>
 #include <pwd.h>
-#include <signal.h>
 #include <sodium.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <iterator>
+#include <thread>
 
 #include "codegen/compile.hpp"
 
@@ -27,31 +25,44 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kDigestDigits = 64;
 constexpr char kMark[] = "casimir-object-1";  // ends a finished object, after its digest
-constexpr std::size_t kMostObjects = 1000;
-constexpr time_t kGraceSeconds = 60;  // a process we cannot see may be alive in another container
-constexpr time_t kForgottenSeconds = 24 * 3600;
+constexpr off_t kLargestObject = off_t{1} << 30;
 
 [[noreturn]] void fail(const std::string& what, const fs::path& path) {
   throw CacheUnusable(what + " " + path.string() + ": " + std::strerror(errno));
 }
 
-std::string content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+/// An open file; closed with its last copy.
+InUse holder_of(int file) {
+  return {new int(file), [](const int* held) {
+            close(*held);
+            delete held;
+          }};
 }
 
-time_t age_of(const fs::path& path) {
-  struct stat info {};
-  return lstat(path.c_str(), &info) == 0 ? time(nullptr) - info.st_mtime : 0;
+/// The whole file, or nothing if it cannot be read.
+std::string content_of(int file, std::size_t size) {
+  std::string content(size, '\0');
+  for (std::size_t done = 0; done < size;) {
+    const ssize_t count = read(file, content.data() + done, size - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return {};
+    done += static_cast<std::size_t>(count);
+  }
+  return content;
 }
 
-/// Left by a process that is dead, or has been forgotten.
-bool is_abandoned(const fs::path& workspace) {
-  const time_t age = age_of(workspace);
-  if (age > kForgottenSeconds) return true;
-  const long pid = std::strtol(workspace.filename().c_str() + std::strlen("work-"), nullptr, 10);
-  const bool dead = pid <= 0 || (kill(static_cast<pid_t>(pid), 0) != 0 && errno == ESRCH);
-  return dead && age > kGraceSeconds;
+/// Whether what is open there is a file that only this user can have written.
+bool is_ours(const struct stat& info) {
+  return S_ISREG(info.st_mode) && info.st_uid == geteuid() &&
+         (info.st_mode & (S_IWGRP | S_IWOTH)) == 0 && info.st_size <= kLargestObject;
+}
+
+/// Whether it is an object with the digest of this key and its content.
+bool is_sound(const std::string& content, const std::string& key) {
+  const std::size_t trailer = kDigestDigits + std::strlen(kMark);
+  if (content.size() <= trailer || !content.ends_with(kMark)) return false;
+  const std::string object = content.substr(0, content.size() - trailer);
+  return content.compare(object.size(), kDigestDigits, digest({key, object})) == 0;
 }
 
 fs::path home() {
@@ -148,58 +159,69 @@ Cache::Cache(fs::path folder) : folder_(std::move(folder)) {
     throw CacheUnsafe("others may write to the cache folder " + folder_.string() +
                       ": run chmod go-w on it, or choose another one with CASIMIR_CACHE");
   }
-  if (access(folder_.c_str(), W_OK | X_OK) != 0) fail("cannot write to the folder", folder_);
+  // Who may rename a folder on the way could put another one in its place.
+  for (fs::path above = folder_.parent_path();; above = above.parent_path()) {
+    if (stat(above.c_str(), &info) == 0 && (info.st_mode & S_IWOTH) && !(info.st_mode & S_ISVTX)) {
+      throw CacheUnsafe("others may write to " + above.string() +
+                        ", and so replace the cache folder in it: choose another one with "
+                        "CASIMIR_CACHE");
+    }
+    if (above == above.parent_path()) break;
+  }
 }
 
-std::optional<fs::path> Cache::find(const std::string& key) const {
+std::optional<CachedObject> Cache::find(const std::string& key) const {
   const fs::path path = folder_ / (key + ".so");
-  const std::string content = content_of(path);
-  if (content.empty()) return std::nullopt;
-  const std::size_t trailer = kDigestDigits + std::strlen(kMark);
-  if (content.size() > trailer && content.ends_with(kMark)) {
-    const std::string object = content.substr(0, content.size() - trailer);
-    if (content.compare(object.size(), kDigestDigits, digest({key, object})) == 0) {
-      utimensat(AT_FDCWD, path.c_str(), nullptr, 0);  // used now
-      return path;
-    }
+  // What is no plain file neither holds us up nor leads us elsewhere.
+  const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) {
+    if (errno != ENOENT) unlink(path.c_str());
+    return std::nullopt;
+  }
+  InUse held = holder_of(file);
+  while (flock(file, LOCK_SH) != 0 && errno == EINTR) {
+  }
+  struct stat info {};
+  if (fstat(file, &info) != 0 || info.st_nlink == 0) return std::nullopt;  // removed to make room
+  if (is_ours(info) && is_sound(content_of(file, static_cast<std::size_t>(info.st_size)), key)) {
+    futimens(file, nullptr);  // used now
+    return CachedObject{path, std::move(held)};
   }
   unlink(path.c_str());
   return std::nullopt;
 }
 
-fs::path Cache::store(const std::string& key, const fs::path& object) const {
-  std::string content = content_of(object);
+CachedObject Cache::store(const std::string& key, const fs::path& object) const {
+  std::string content;
+  if (const int made = open(object.c_str(), O_RDONLY | O_CLOEXEC); made >= 0) {
+    const InUse closed = holder_of(made);
+    struct stat info {};
+    if (fstat(made, &info) == 0) content = content_of(made, static_cast<std::size_t>(info.st_size));
+  }
+  if (content.empty()) fail("cannot read", object);
   content += digest({key, content}) + kMark;
   // A new file, so that whoever has a damaged one mapped keeps what it had.
   const fs::path finished = object.parent_path() / "finished.so";
   write_file(finished, content);
+  const int file = open(finished.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+  if (file < 0) fail("cannot read", finished);
+  InUse held = holder_of(file);
+  flock(file, LOCK_SH | LOCK_NB);  // before others can see it
   const fs::path path = folder_ / (key + ".so");
   if (rename(finished.c_str(), path.c_str()) != 0) fail("cannot write", path);
-  return path;
+  return {path, std::move(held)};
 }
 
-void Cache::tidy() const {
-  std::error_code ignored;
-  std::vector<std::pair<time_t, fs::path>> objects;
-  for (fs::directory_iterator i(folder_, ignored), end; !ignored && i != end;
-       i.increment(ignored)) {
-    const std::string name = i->path().filename().string();
-    std::error_code failed;
-    if (name.starts_with("work-") && is_abandoned(i->path())) fs::remove_all(i->path(), failed);
-    if (name.ends_with(".so")) objects.emplace_back(age_of(i->path()), i->path());
-    if (name.starts_with("failed-") && age_of(i->path()) > kForgottenSeconds)
-      unlink(i->path().c_str());
-  }
-  if (objects.size() <= kMostObjects) return;
-  std::ranges::sort(objects);
-  for (std::size_t i = kMostObjects; i < objects.size(); ++i) unlink(objects[i].second.c_str());
-}
-
-CacheLock::CacheLock(const Cache& cache, const std::string& key) {
+CacheLock::CacheLock(const Cache& cache, const std::string& key, double seconds) {
   const fs::path path = cache.folder() / ("lock-" + key.substr(0, 2));
-  file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
+  file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0600);
   if (file_ < 0) return;
-  while (flock(file_, LOCK_EX) != 0 && errno == EINTR) {
+  const fs::path object = cache.folder() / (key + ".so");
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (flock(file_, LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK && errno != EINTR) return;
+    if (access(object.c_str(), F_OK) == 0 || std::chrono::steady_clock::now() > end) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
 }
 

@@ -1,11 +1,20 @@
 #include "codegen/compile.hpp"
 
+#include <fcntl.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <chrono>
+#include <cmath>
+#include <cstdlib>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "codegen/cache.hpp"
 #include "codegen/compiler.hpp"
+#include "codegen/shared_object.hpp"
 
 namespace casimir {
 
@@ -13,6 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using codegen::Cache;
+using codegen::CachedObject;
 using codegen::Compiler;
 using codegen::CompilerRun;
 
@@ -62,7 +72,8 @@ std::vector<std::string> arguments_for(const CompileOptions& options, const fs::
 
 std::string key_of(const std::string& text, const Compiler& compiler,
                    const CompileOptions& options) {
-  std::vector<std::string> parts{text, compiler.identity, codegen::processor_identity()};
+  std::vector<std::string> parts{text, compiler.identity,
+                                 codegen::processor_identity(options.processor)};
   const std::vector<std::string> flags = flags_for(options);
   for (const auto* list : {&compiler.arguments, &flags}) {
     parts.push_back(std::to_string(list->size()));
@@ -71,11 +82,41 @@ std::string key_of(const std::string& text, const Compiler& compiler,
   return codegen::digest(parts);
 }
 
-[[noreturn]] void report(const CompilerRun& run, const Compiler& compiler, const Cache& cache,
-                         const std::string& key, const std::string& text) {
-  if (run.signal != 0) {
-    throw CompileFailed("the C++ compiler was stopped by signal " + std::to_string(run.signal));
+constexpr double kLongestCompilation = 600;
+constexpr off_t kRoomForCompiler = off_t{4} << 20;
+
+/// \throws EnvironmentError  if the environment variable is no number of seconds.
+double seconds_to_compile(const CompileOptions& options) {
+  if (options.time_limit > 0) return options.time_limit;
+  const char* text = std::getenv("CASIMIR_COMPILE_SECONDS");
+  if (!text || !*text) return kLongestCompilation;
+  char* end = nullptr;
+  const double seconds = std::strtod(text, &end);
+  if (*end || !std::isfinite(seconds) || seconds <= 0) {
+    throw EnvironmentError(
+        "the environment variable CASIMIR_COMPILE_SECONDS is no positive number of seconds");
   }
+  return seconds;
+}
+
+/// A compiler that found no room says so in many ways, or in none where its messages had no room
+/// either. \throws CacheUnusable  if the folder takes no more.
+void check_room(const fs::path& folder) {
+  const fs::path probe = folder / "room";
+  const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  const int reason = file < 0 ? errno : posix_fallocate(file, 0, kRoomForCompiler);
+  if (file >= 0) close(file);
+  unlink(probe.c_str());
+  if (reason == ENOSPC || reason == EDQUOT || reason == EFBIG || reason == EROFS) {
+    throw CacheUnusable("no room to compile in " + folder.parent_path().string() + ": " +
+                        strerror(reason));
+  }
+}
+
+/// Why a run of the compiler was no success. \throws EnvironmentError  always
+[[noreturn]] void report(const CompilerRun& run, const Compiler& compiler, const Cache& cache,
+                         const std::string& key, const std::string& text, double seconds) {
+  const std::string name = "the C++ compiler " + compiler.program.string();
   if (run.messages.find("cc1plus") != std::string::npos &&
       run.messages.find("No such file") != std::string::npos) {
     throw CompilerMissing(
@@ -84,8 +125,20 @@ std::string key_of(const std::string& text, const Compiler& compiler,
   }
   const fs::path kept = cache.folder() / ("failed-" + key.substr(0, 16) + ".cpp");
   codegen::write_file(kept, text);
-  throw CompileFailed("the C++ compiler " + compiler.program.string() +
-                      " failed; the source is kept in " + kept.string() + "\n" + run.messages);
+  std::ostringstream why;
+  if (run.timed_out) {
+    why << name << " was stopped after " << seconds
+        << " s, which CASIMIR_COMPILE_SECONDS can change";
+  } else if (run.signal != 0) {
+    why << name << " was stopped by signal " << run.signal << " (" << strsignal(run.signal) << ")";
+  } else if (run.succeeded) {
+    why << name << " said that it succeeded, but what it made cannot be loaded";
+  } else {
+    why << name << " failed";
+  }
+  why << "; the source is kept in " << kept.string();
+  if (!run.messages.empty()) why << '\n' << run.messages;
+  throw CompileFailed(why.str());
 }
 
 /// Tells abandon_compile what to remove, while it lives.
@@ -96,26 +149,36 @@ struct Abandonable {
   Abandonable& operator=(const Abandonable&) = delete;
 };
 
-fs::path build(const std::string& text, const std::string& key, const Compiler& compiler,
-               const CompileOptions& options, const Cache& cache) {
+CachedObject build(const std::string& text, const std::string& key, const Compiler& compiler,
+                   const CompileOptions& options, const Cache& cache) {
+  const double seconds = seconds_to_compile(options);
   const codegen::Workspace workspace(cache);
-  const Abandonable abandonable(workspace.folder());
-  codegen::write_file(workspace.folder() / "source.cpp", text);
-  const CompilerRun run = codegen::run_compiler(
-      compiler, arguments_for(options, workspace.folder()), workspace.folder());
-  if (!run.succeeded) report(run, compiler, cache, key, text);
-  return cache.store(key, workspace.folder() / "object.so");
+  const fs::path& folder = workspace.folder();
+  const Abandonable abandonable(folder);
+  codegen::write_file(folder / "source.cpp", text);
+  CompilerRun run =
+      codegen::run_compiler(compiler, arguments_for(options, folder), folder, seconds);
+  // What cannot be loaded must not be kept as if it could.
+  const std::string problem =
+      run.succeeded ? codegen::loading_problem(folder / "object.so") : std::string();
+  if (run.succeeded && problem.empty()) return cache.store(key, folder / "object.so");
+  run.messages += problem;
+  if (!run.timed_out) check_room(folder);
+  report(run, compiler, cache, key, text, seconds);
 }
 
 /// The object and whether it was there.
-std::pair<fs::path, bool> find_or_build(const std::string& text, const std::string& key,
-                                        const Compiler& compiler, const CompileOptions& options,
-                                        const Cache& cache) {
+std::pair<CachedObject, bool> find_or_build(const std::string& text, const std::string& key,
+                                            const Compiler& compiler, const CompileOptions& options,
+                                            const Cache& cache) {
   if (auto found = cache.find(key)) return {*found, true};
-  const codegen::CacheLock lock(cache, key);
+  const codegen::CacheLock lock(cache, key, seconds_to_compile(options));
   if (auto found = cache.find(key)) return {*found, true};  // made while we waited
-  cache.tidy();
-  return {build(text, key, compiler, options, cache), false};
+  const std::uintmax_t most = codegen::cache_size_limit();
+  cache.tidy(most);  // before, as there may be no room, and after, for the bound
+  CachedObject made = build(text, key, compiler, options, cache);
+  cache.tidy(most);
+  return {std::move(made), false};
 }
 
 }  // namespace
@@ -129,9 +192,9 @@ CompiledObject compile(const std::string& text, const CompileOptions& options) {
   for (std::size_t i = 0; i < choice.folders.size(); ++i) {
     try {
       const Cache cache(choice.folders[i]);
-      auto [path, known] = find_or_build(text, key, compiler, options, cache);
+      auto [object, known] = find_or_build(text, key, compiler, options, cache);
       const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-      return {std::move(path), known, taken.count()};
+      return {std::move(object.path), known, taken.count(), std::move(object.in_use)};
     } catch (const CacheUnusable& e) {
       reasons += (reasons.empty() ? "" : "; ") + std::string(e.what());
     } catch (const CacheUnsafe& e) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -17,8 +18,8 @@ class CompilerMissing : public EnvironmentError {
   using EnvironmentError::EnvironmentError;
 };
 
-/// The compiler refused generated code or was stopped; the text has its own message and says where
-/// the source is kept.
+/// The compiler refused generated code, was stopped, took too long, or made nothing that can be
+/// loaded; the text has its own message and says where the source is kept.
 class CompileFailed : public EnvironmentError {
   using EnvironmentError::EnvironmentError;
 };
@@ -45,13 +46,18 @@ struct CompileOptions {
   /// The text includes headers of the standard library: exceptions, type information and the
   /// start-up code that the usual text does without.
   bool standard_library = false;
+  /// The compiler is stopped after so many seconds; 0: $CASIMIR_COMPILE_SECONDS, or ten minutes.
+  double time_limit = 0;
+  /// The file in which the system describes the processor that code is made for.
+  std::filesystem::path processor = "/proc/cpuinfo";
 };
 
 /// What came of it.
 struct CompiledObject {
   std::filesystem::path path;  ///< a shared object for dlopen
   bool from_cache = false;
-  double seconds = 0;  ///< what this call took
+  double seconds = 0;                       ///< what this call took
+  std::shared_ptr<const void> in_use = {};  ///< until it is gone, no process makes room there
 };
 
 /// Compiles C++ text to a shared object, or finds it in the cache.
@@ -59,6 +65,7 @@ struct CompiledObject {
 /// The name of the object is a digest of the text, the compiler, its arguments and the processor;
 /// a digest of its content is checked, and a damaged object is made again. Processes that want the
 /// same object at the same time compile it once; one that is killed leaves nothing that matters.
+/// The cache has at most $CASIMIR_CACHE_SIZE bytes (256M): what was unused for longest goes.
 /// IEEE arithmetic is kept (products and sums may be fused). No shell is involved.
 /// \throws EnvironmentError  one of the classes above.
 CompiledObject compile(const std::string& text, const CompileOptions& options = {});

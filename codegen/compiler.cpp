@@ -3,16 +3,21 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/auxv.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "codegen/compile.hpp"
 
@@ -27,13 +32,11 @@ namespace fs = std::filesystem;
 constexpr const char* kInstall = "install one, for instance with: apt-get install g++";
 constexpr std::size_t kMessageLimit = 8000;
 constexpr std::size_t kPathLimit = 4096;
-constexpr const char* kFilesOfRun[] = {"source.cpp", "object.so", "messages"};
 
 // What a signal handler may need. Written only between runs, read by abandon_compile.
 std::atomic<pid_t> running{0};
 std::atomic<bool> has_files{false};
 char abandoned_folder[kPathLimit];
-char abandoned_files[std::size(kFilesOfRun)][kPathLimit];
 
 std::vector<std::string> words(const std::string& command) {
   std::istringstream in(command);
@@ -120,7 +123,9 @@ int spawn(pid_t& child, const codegen::Compiler& compiler, std::vector<std::stri
     sigaddset(&signals, signal);
   }
   posix_spawnattr_setsigdefault(&attributes, &signals);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes,
+                           POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
 
   std::vector<std::string> environment = compiler_environment(folder);
   const int failure = posix_spawn(&child, compiler.program.c_str(), &files, &attributes,
@@ -128,6 +133,39 @@ int spawn(pid_t& child, const codegen::Compiler& compiler, std::vector<std::stri
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&files);
   return failure;
+}
+
+/// Waits for the end of the child but leaves its number taken. \return  false after `seconds`
+bool has_ended(pid_t child, double seconds) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  for (auto pause = std::chrono::microseconds(200);;) {
+    siginfo_t info{};
+    const int failed = waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT);
+    // Where the parent ignores SIGCHLD there is no child any more, and no status.
+    if (failed ? errno != EINTR : info.si_pid == child) return true;
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(pause);
+    pause = std::min(2 * pause, std::chrono::microseconds(5000));
+  }
+}
+
+/// Removes the files in a folder with nothing but system calls: a signal handler may not use more.
+void remove_files(int folder) {
+  struct Entry {  // as the kernel writes them
+    ino64_t inode;
+    off64_t offset;
+    unsigned short length;
+    unsigned char type;
+    char name[1];
+  };
+  alignas(Entry) char entries[4096];
+  for (long size = 0; (size = syscall(SYS_getdents64, folder, entries, sizeof entries)) > 0;) {
+    for (long at = 0; at < size;) {
+      const auto* const entry = reinterpret_cast<const Entry*>(entries + at);
+      unlinkat(folder, entry->name, 0);
+      at += entry->length;
+    }
+  }
 }
 
 }  // namespace
@@ -155,9 +193,19 @@ Compiler find_compiler(const std::string& wanted) {
                         kInstall);
 }
 
-std::string processor_identity() {
-  std::ifstream in("/proc/cpuinfo");
-  std::string result;
+std::string processor_identity(const fs::path& description) {
+  std::ifstream in(description);
+  std::string result =
+      std::to_string(getauxval(AT_HWCAP)) + " " + std::to_string(getauxval(AT_HWCAP2)) + "\n";
+#ifdef __x86_64__
+  for (const bool has : {__builtin_cpu_supports("avx"), __builtin_cpu_supports("avx2"),
+                         __builtin_cpu_supports("fma"), __builtin_cpu_supports("bmi2"),
+                         __builtin_cpu_supports("avx512f"), __builtin_cpu_supports("avx512vl"),
+                         __builtin_cpu_supports("avx512dq"), __builtin_cpu_supports("avx512bw"),
+                         __builtin_cpu_supports("avx512ifma"), __builtin_cpu_supports("gfni")}) {
+    result += has ? '1' : '0';
+  }
+#endif
   for (std::string line; std::getline(in, line) && !line.empty();) {
     for (const char* key :
          {"vendor_id", "cpu family", "model", "stepping", "flags", "Features", "CPU "}) {
@@ -168,7 +216,7 @@ std::string processor_identity() {
 }
 
 CompilerRun run_compiler(const Compiler& compiler, const std::vector<std::string>& arguments,
-                         const fs::path& folder) {
+                         const fs::path& folder, double seconds) {
   std::vector<std::string> all{compiler.program.string()};
   all.insert(all.end(), compiler.arguments.begin(), compiler.arguments.end());
   all.insert(all.end(), arguments.begin(), arguments.end());
@@ -178,16 +226,20 @@ CompilerRun run_compiler(const Compiler& compiler, const std::vector<std::string
                           " cannot be started: " + std::strerror(failure) + "; " + kInstall);
   }
   running = child;
+  CompilerRun result;
+  result.timed_out = !has_ended(child, seconds);
+  // What the driver started, too, and before the driver's number can be given to others.
+  kill(-child, SIGKILL);
   int status = 0;
   pid_t waited = -1;
   do {
     waited = waitpid(child, &status, 0);
   } while (waited < 0 && errno == EINTR);
   running = 0;
-  CompilerRun result;
   // Where the parent ignores SIGCHLD there is no status: the object tells.
-  result.succeeded = waited == child ? WIFEXITED(status) && WEXITSTATUS(status) == 0
-                                     : fs::exists(folder / "object.so");
+  result.succeeded =
+      !result.timed_out && (waited == child ? WIFEXITED(status) && WEXITSTATUS(status) == 0
+                                            : fs::exists(folder / "object.so"));
   result.signal = waited == child && WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   result.messages = beginning_of(folder / "messages");
   return result;
@@ -195,11 +247,8 @@ CompilerRun run_compiler(const Compiler& compiler, const std::vector<std::string
 
 void set_abandoned_files(const fs::path& folder) {
   has_files = false;
-  if (folder.empty() || folder.string().size() + 20 > kPathLimit) return;
+  if (folder.empty() || folder.string().size() >= kPathLimit) return;
   std::strcpy(abandoned_folder, folder.c_str());
-  for (std::size_t i = 0; i < std::size(kFilesOfRun); ++i) {
-    std::strcpy(abandoned_files[i], (folder / kFilesOfRun[i]).c_str());
-  }
   has_files = true;
 }
 
@@ -207,10 +256,11 @@ void set_abandoned_files(const fs::path& folder) {
 
 void abandon_compile() noexcept {
   const int saved = errno;
-  // SIGTERM, so that the compiler's driver removes its own temporary files.
-  if (const pid_t child = running; child > 0) kill(child, SIGTERM);
+  if (const pid_t child = running; child > 0) kill(-child, SIGKILL);
   if (has_files) {
-    for (const char* file : abandoned_files) unlink(file);
+    const int folder = open(abandoned_folder, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (folder >= 0) remove_files(folder);
+    if (folder >= 0) close(folder);
     rmdir(abandoned_folder);
   }
   errno = saved;

@@ -17,22 +17,26 @@ struct Compiler {
 /// \throws CompilerMissing
 Compiler find_compiler(const std::string& wanted);
 
-/// What `-march=native` depends on.
-std::string processor_identity();
+/// What `-march=native` depends on: the processor and its features, as the file has them (that of
+/// Linux: /proc/cpuinfo) and, in case it has nothing, as the system tells every program.
+std::string processor_identity(const std::filesystem::path& description);
 
 /// How a run of the compiler ended.
 struct CompilerRun {
   bool succeeded = false;
-  int signal = 0;        ///< that stopped it, or 0
-  std::string messages;  ///< what it said
+  bool timed_out = false;  ///< it was stopped since it took too long
+  int signal = 0;          ///< that stopped it, or 0
+  std::string messages;    ///< what it said
 };
 
-/// Runs the compiler in `folder`, which also takes its temporary files and its messages.
+/// Runs the compiler in `folder`, which also takes its temporary files and its messages, as a
+/// process group of its own: whatever it started ends with it, at the latest after `seconds`.
 /// \throws CompilerMissing  if it cannot be started.
 CompilerRun run_compiler(const Compiler& compiler, const std::vector<std::string>& arguments,
-                         const std::filesystem::path& folder);
+                         const std::filesystem::path& folder, double seconds = 600);
 
-/// What abandon_compile removes while the compiler runs: `folder` and files in it. Empty: nothing.
+/// What abandon_compile removes while the compiler runs: `folder` and the files in it. Empty:
+/// nothing.
 void set_abandoned_files(const std::filesystem::path& folder);
 
 }  // namespace casimir::codegen

@@ -26,8 +26,9 @@ class Derivation {
         values_.push_back(writer_.emit(Op::input, code.a + behind));
       } else if (code.op == Op::constant) {
         values_.push_back(writer_.number(program.constants[static_cast<std::size_t>(code.a)]));
-      } else {
-        values_.push_back(writer_.emit(code.op, value(code.a), code.b < 0 ? -1 : value(code.b)));
+      } else {  // Pi has no operand
+        values_.push_back(writer_.emit(code.op, code.a < 0 ? -1 : value(code.a),
+                                       code.b < 0 ? -1 : value(code.b)));
       }
     }
   }

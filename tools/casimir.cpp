@@ -4,11 +4,13 @@
 #include <iostream>
 #include <new>
 #include <stdexcept>
+#include <system_error>
 
 #include "codegen/compile.hpp"
 #include "symbolic/error.hpp"
 #include "tools/cli.hpp"
 #include "tools/output.hpp"
+#include "tools/standard_streams.hpp"
 #include "tools/usage/helpers.hpp"
 
 namespace {
@@ -63,10 +65,8 @@ int run(int argc, char** argv) {
   return action();
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  install_interrupt_handler();
+/// Runs the command; every kind of failure has its exit status.
+int run_guarded(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const CaseError& problem) {
@@ -88,5 +88,21 @@ int main(int argc, char** argv) {
     return fail(kBadInput, fmt::format("casimir: error: an expression of the case has no value "
                                        "where it is needed: {}",
                                        problem.what()));
+  } catch (const std::system_error& problem) {
+    // Standard output that takes no more is reported once, at the end.
+    if (standard_output_problem()) return kEnvironment;
+    return fail(kEnvironment, fmt::format("casimir: error: {}", problem.what()));
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  open_standard_streams();
+  install_interrupt_handler();
+  const int status = run_guarded(argc, argv);
+  if (const char* const problem = standard_output_problem())
+    return fail(kEnvironment,
+                fmt::format("casimir: error: cannot write to standard output: {}", problem));
+  return status;
 }

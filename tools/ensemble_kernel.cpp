@@ -24,7 +24,7 @@ constexpr std::size_t kManyProducts = 64;
 
 void load(const std::string& text, EnsembleKernel& result) {
   const CompiledObject object = compile(text);
-  result.lanes = loaded_lanes(object.path);
+  result.lanes = loaded([&] { return loaded_lanes(object.path); });
   result.compiled = true;
   result.from_cache = object.from_cache;
 }

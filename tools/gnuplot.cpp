@@ -6,8 +6,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 
 #include "tools/cli.hpp"
 
@@ -40,6 +43,16 @@ int run_gnuplot(const std::string& file, const std::string& log) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
+/// Whether the picture has its end: gnuplot does not notice where it cannot write.
+bool is_whole(const std::string& picture) {
+  std::ifstream in(picture, std::ios::binary | std::ios::ate);
+  const auto size = std::min<std::streamoff>(in.tellg(), 32);
+  std::string end(static_cast<std::size_t>(std::max<std::streamoff>(size, 0)), '\0');
+  in.seekg(-size, std::ios::end);
+  in.read(end.data(), size);
+  return in && (end.find("</svg>") != std::string::npos || end.find("IEND") != std::string::npos);
+}
+
 }  // namespace
 
 std::string quoted(const std::string& text) {
@@ -64,7 +77,9 @@ void draw_script(const std::string& script, OutputFile& picture) {
   OutputFile commands(beside + ".gnuplot");
   OutputFile log(beside + ".log");
   commands.stream() << script;
-  commands.stream().flush();
+  if (!commands.stream().flush())
+    throw SystemError(fmt::format("cannot write all of '{}': the disk may be full",
+                                  printable(commands.temporary().string(), 200)));
   if (run_gnuplot(commands.temporary().string(), log.temporary().string()) != 0) {
     std::ifstream said(log.temporary());
     std::string line;
@@ -72,6 +87,9 @@ void draw_script(const std::string& script, OutputFile& picture) {
     }
     throw SystemError("gnuplot failed: " + printable(line, 200));
   }
+  if (std::filesystem::is_regular_file(beside) && !is_whole(beside))
+    throw SystemError(fmt::format("gnuplot could not write all of '{}': the disk may be full",
+                                  printable(beside, 200)));
 }
 
 }  // namespace casimir::tools

@@ -7,7 +7,8 @@
 namespace casimir::tools {
 
 /// A file that appears under its name only when it is complete: written beside it, then renamed.
-/// An interrupted or failed command leaves nothing.
+/// An interrupted or failed command leaves nothing, or the file that was there. A symbolic link
+/// stays one, a file keeps its mode, and what is no file, as /dev/stdout, is written to as it is.
 class OutputFile {
  public:
   /// \throws SystemError  if it cannot be written.
@@ -17,6 +18,7 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   std::ofstream& stream() { return stream_; }
+  /// What is written to until then.
   const std::filesystem::path& temporary() const { return temporary_; }
 
   /// Makes it appear. \throws SystemError  if not everything could be written.
@@ -26,11 +28,14 @@ class OutputFile {
   std::filesystem::path path_;
   std::filesystem::path temporary_;
   std::ofstream stream_;
+  bool in_place_ = false;  ///< it is no file: there is nothing beside it
   bool done_ = false;
 };
 
-/// Installs the handlers of SIGINT and SIGTERM: they end the compiler if it runs, remove
-/// half-written files and exit with 130 (143 for SIGTERM).
+/// Installs the handlers of SIGINT, SIGTERM and SIGHUP: they end the compiler if it runs, remove
+/// half-written files and exit with 130 (143 for SIGTERM, 129 for SIGHUP). So it is, with 141,
+/// where nobody reads standard output any more; other broken pipes, and files that have grown to
+/// the limit of the system, are errors of the write.
 void install_interrupt_handler();
 
 /// While interrupts are held, the first SIGINT is only noted; a second one ends the program as

@@ -101,7 +101,8 @@ CompiledModule compiled_module(const SceneRun& run, const Method& method) {
   const std::string text = emit_module(s, kernel, method.series, splitting ? &*splitting : nullptr);
   try {
     const CompiledObject object = compile(text, options);
-    return {.module = Module::load(object.path), .from_cache = object.from_cache};
+    return {.module = loaded([&] { return Module::load(object.path); }),
+            .from_cache = object.from_cache};
   } catch (const CompilerMissing& problem) {
     throw CompilerMissing(std::string(problem.what()) +
                           ", or use --method taylor, which needs none");

@@ -4,9 +4,11 @@
 
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "codegen/compile.hpp"
 #include "codegen/specialise.hpp"
 #include "codegen/split.hpp"
 #include "runtime/integrate.hpp"
@@ -54,6 +56,16 @@ CompiledModule compile_for(const SceneRun& run, const Method& method);
 /// Whether the method can do anything with the scene: those that split the Hamiltonian need one
 /// that splits.
 bool suits(const SceneRun& run, const Method& method);
+
+/// What `load` loads of a compiled object. \throws EnvironmentError  where it cannot be loaded.
+template <class Load>
+auto loaded(const Load& load) {
+  try {
+    return load();
+  } catch (const std::runtime_error& problem) {
+    throw EnvironmentError(problem.what());
+  }
+}
 
 /// What is said where a compiled module would be but for the compiler.
 inline constexpr const char* kInterpretedWarning =

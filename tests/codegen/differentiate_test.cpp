@@ -165,6 +165,15 @@ bool expect_exact_at(const Program& program, std::size_t n, Points& points) {
   return true;
 }
 
+TEST(Differentiate, PiMayComeFirst) {
+  const Program program = program_of(1, {{Op::pi}, {Op::input, 0}, {Op::mul, 0, 1}}, {}, {2});
+  const SparseProgram matrix = jacobian(program, 1);
+  ASSERT_EQ(matrix.entries.size(), 1U);
+  const Instruction& entry =
+      matrix.program.code[static_cast<std::size_t>(matrix.program.outputs[0])];
+  EXPECT_EQ(entry, (Instruction{Op::pi}));
+}
+
 TEST(Differentiate, RandomPolynomialsExactly) {
   Points points;
   for (int round = 0; round < 150; ++round) {

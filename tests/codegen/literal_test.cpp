@@ -1,6 +1,9 @@
 #include "codegen/literal.hpp"
 
+#include <cln/dfloat.h>
+#include <cln/float.h>
 #include <cln/integer.h>
+#include <cln/real.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -74,6 +77,23 @@ TEST(Literal, TextIsAFloatingLiteralUnlessItIsASmallInteger) {
   EXPECT_EQ(number_text(cln::cl_RA(1) / 4, Scalar::real32).text, "0.25f");
   EXPECT_EQ(number_text(cln::cl_RA(1) / 4, Scalar::long_double).text, "0.25L");
   EXPECT_EQ(number_text(cln::cl_RA(1) / 3, Scalar::templated).text, "Real(1) / 3");
+}
+
+TEST(Literal, WideNumbersAreSumsOfWhatDoublesAreAndNotOfTheirDecimals) {
+  Program p;
+  p.code = {{Op::pi}};
+  for (const cln::cl_RA& value :
+       {constant_value(p, 0), 3 * two_to(100) + 1, ten_to(40) + 12345, cln::cl_RA(1) / ten_to(40),
+        (ten_to(45) + 1) / (3 * ten_to(14) + 7), (ten_to(20) + 1) / ten_to(320)}) {
+    for (const Scalar scalar : {Scalar::float128, Scalar::templated}) {
+      const std::string text = number_text(value, scalar, "wide").text;
+      cln::cl_RA sum = 0;
+      for (std::size_t at = text.find('('); at != std::string::npos; at = text.find('(', at + 1))
+        sum = sum + cln::rational(cln::cl_DF(std::strtod(text.c_str() + at + 1, nullptr)));
+      const cln::cl_RA error = cln::abs(sum - value);
+      EXPECT_LT(error, cln::abs(value) / two_to(115) + 1 / two_to(1022)) << text;
+    }
+  }
 }
 
 TEST(Literal, IrrationalConstantsAreRoundedFromManyDigits) {
