@@ -1,10 +1,12 @@
 // Values of instructions that depend on no input.
 #include <cln/cln.h>
 
+#include <cstdlib>
 #include <sstream>
 
 #include "codegen/literal.hpp"
 #include "symbolic/error.hpp"
+#include "symbolic/limits.hpp"
 
 namespace casimir::codegen {
 
@@ -49,11 +51,22 @@ cln::cl_R real(const cln::cl_N& value, const Program& program, int i) {
   return cln::the<cln::cl_R>(value);
 }
 
+/// Sines of giants take pi to as many digits as these have, and exponentials of them are no
+/// numbers.
+cln::cl_R checked(const cln::cl_R& value, const Program& program, int i) {
+  if (!cln::zerop(value) &&
+      std::abs(cln::float_exponent(cln::cl_float(value))) > static_cast<long>(limits().bits))
+    throw ModelError("the constant " + printable(constant_text(program, i), 200) +
+                     " has more than " + std::to_string(static_cast<long>(limits().bits)) +
+                     " bits; " + limit_hint(&Limits::bits));
+  return value;
+}
+
 cln::cl_R approximate(const Program& program, int i, const cln::float_format_t& format) {
   const Instruction& code = at(program, i);
   if (code.op == Op::constant) return cln::cl_float(number(program, code), format);
   if (code.op == Op::pi) return cln::pi(format);
-  const cln::cl_R a = approximate(program, code.a, format);
+  const cln::cl_R a = checked(approximate(program, code.a, format), program, code.a);
   const cln::cl_R b = code.b < 0 ? cln::cl_R(0) : approximate(program, code.b, format);
   switch (code.op) {
     case Op::add:
@@ -94,6 +107,16 @@ std::string binary(const Program& program, const Instruction& code, const char* 
   return "(" + constant_text(program, code.a) + sign + constant_text(program, code.b) + ")";
 }
 
+/// CLN says by errors of its own that a number is too large or too small for it.
+cln::cl_R value_with(const Program& program, int i, int digits) {
+  try {
+    return checked(approximate(program, i, cln::float_format(digits)), program, i);
+  } catch (const cln::runtime_exception&) {
+    throw ModelError("the constant " + printable(constant_text(program, i), 200) +
+                     " is too large or too small");
+  }
+}
+
 }  // namespace
 
 bool is_rational(const Program& program, int i) {
@@ -119,7 +142,7 @@ cln::cl_RA constant_value(const Program& program, int i) {
   const cln::cl_RA tolerance = 1 / cln::expt(cln::cl_RA(10), kFirstDigits - 10);
   cln::cl_RA previous = 0;
   for (int digits = kFirstDigits; digits <= kMostDigits; digits *= 2) {
-    const cln::cl_RA value = cln::rational(approximate(program, i, cln::float_format(digits)));
+    const cln::cl_RA value = cln::rational(value_with(program, i, digits));
     if (value != 0 && cln::abs(value - previous) <= tolerance * cln::abs(value)) return value;
     previous = value;
   }

@@ -281,7 +281,8 @@ class Specialiser {
     result_.specialised = count_operations(result_.rhs);
 
     std::vector<Scaled> invariants;
-    for (const auto& [name, value] : invariants_) {
+    for (const auto& [name, invariant] : invariants_) {
+      const GiNaC::ex& value = invariant;  // clang 14 cannot capture a structured binding
       invariants.push_back(within(name, [&] { return dag.convert(value); }));
       check_at_scene(name, value);
     }

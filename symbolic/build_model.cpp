@@ -11,6 +11,8 @@
 #include "symbolic/case_names.hpp"
 #include "symbolic/expression.hpp"
 #include "symbolic/lie_algebra.hpp"
+#include "symbolic/limits.hpp"
+#include "symbolic/measure.hpp"
 #include "symbolic/model.hpp"
 #include "symbolic/model_dynamics.hpp"
 #include "symbolic/phase_space.hpp"
@@ -26,6 +28,7 @@ class Builder {
       : file_(file), fixed_(fixed), find_case_(find_case), dynamics_(model_) {}
 
   Model build() {
+    check_counts();
     copy_texts();
     declare_names();
     read_equations();
@@ -36,6 +39,22 @@ class Builder {
   }
 
  private:
+  void check_counts() const {
+    const auto check = [&](std::size_t count, double Limits::*limit, const char* what) {
+      if (static_cast<double>(count) > limits().*limit)
+        throw CaseError(
+            {file_.file},
+            fmt::format("{} {} given; the limit is {:.0f}", count, what, limits().*limit), {},
+            limit_hint(limit));
+    };
+    check(file_.parameters.size(), &Limits::parameters, "parameters");
+    check(file_.scenes.size(), &Limits::scenes, "scenes");
+    check(file_.casimirs.size() + file_.integrals.size() + file_.conditionals.size() +
+              file_.invariant_relations.size() + file_.lax.size() + file_.maps.size() +
+              file_.measures.size() + file_.identities.size(),
+          &Limits::claims, "claims");
+  }
+
   void copy_texts() {
     model_.name = file_.name;
     model_.file = file_.file;
@@ -68,7 +87,7 @@ class Builder {
       known.push_back(parameter.name.value);
       if (const Text* text = fixed_value(parameter.name.value)) {
         const ex value = parse_real_constant(*text);
-        names_.declare(parameter.name, "a parameter", {value, 64, 0, 1});
+        names_.declare(parameter.name, "a parameter", measured(value));
         model_.fixed.emplace_back(parameter.name, value);
         continue;
       }
@@ -120,7 +139,7 @@ class Builder {
             "'structure_constants' and 'vector_fields'; or the file a table [equations]");
       }
       read_hamiltonian();
-      if (!has_own_H()) names_.alias("H", {*model_.hamiltonian, 64, 8, 64});
+      if (!has_own_H()) names_.alias("H", measured(*model_.hamiltonian));
       model_.field = model_.poisson->flow(*model_.hamiltonian);
     }
     names_.allow(&dynamics_);
@@ -337,8 +356,7 @@ class Builder {
     const std::vector<GiNaC::symbol> coordinates = make_variables(target);
     NameTable names;  // the bracket of the target may have the parameters of this case
     for (const GiNaC::symbol& s : model_.parameters) names.add(s.get_name(), Quantity::symbol(s));
-    for (const auto& [parameter, value] : model_.fixed)
-      names.add(parameter.value, {value, 64, 0, 1});
+    for (const auto& [parameter, value] : model_.fixed) names.add(parameter.value, measured(value));
     for (const GiNaC::symbol& s : coordinates) names.add(s.get_name(), Quantity::symbol(s));
     const std::optional<Frame> frame = make_frame(target, coordinates, model_.parameters, names);
     const std::optional<PoissonStructure> bracket = make_bracket(target, coordinates, names, frame);

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 
+#include "symbolic/decimal.hpp"
 #include "symbolic/exact_constant.hpp"
 #include "symbolic/expression.hpp"
+#include "symbolic/measure.hpp"
 
 namespace casimir {
 namespace {
@@ -54,7 +56,7 @@ class SceneReader {
     scene.parameters = complete(text.parameters, model_.parameters, "parameter");
     scene.initial = complete(text.initial, model_.variables, "variable");
     scene.duration = parse_real_constant(*text.duration);
-    if (GiNaC::ex_to<GiNaC::numeric>(scene.duration.evalf()).is_negative())
+    if (real_decimal(scene.duration)->is_negative())
       throw text.duration->error("the duration must not be negative");
     for (const Text& name : text.observe) {
       symbol_position(name, name.value, 0, model_.variables, "a variable of this case");
@@ -104,7 +106,7 @@ class SceneReader {
                              NamedExpression{relation.value, model_.parse(relation), {}});
     const GiNaC::exmap point = point_of(scene);
     for (const auto& [where, relation] : relations) {
-      const ex value = relation.value.subs(point, GiNaC::subs_options::no_pattern).normal();
+      const ex value = substituted(relation.value, point).normal();
       const auto constant = exact_constant(value);
       if (constant && constant->zero) continue;
       std::string what = fmt::format("the scene '{}' is not on the level {} = 0",
@@ -129,8 +131,8 @@ class SceneReader {
   void check_assumptions(const Text& name, const Scene& scene) const {
     const GiNaC::exmap point = point_of(scene);
     for (const Assumption& assumption : model_.assumptions) {
-      const ex value = assumption.difference.subs(point, GiNaC::subs_options::no_pattern).evalf();
-      if (!GiNaC::is_a<GiNaC::numeric>(value) || assumption.holds_at(point)) continue;
+      const ex value = substituted(assumption.difference, point);
+      if (!decimal(value) || assumption.holds_at(point)) continue;
       throw name.error(fmt::format("the scene '{}' is outside the assumption '{}'",
                                    printable(scene.name), printable(assumption.text)));
     }

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <fstream>
 
+#include "symbolic/limits.hpp"
+#include "symbolic/toml_keys.hpp"
 #include "symbolic/toml_reader.hpp"
 
 namespace casimir {
 namespace {
-
-constexpr std::size_t kMaxFileBytes = std::size_t{16} << 20;
 
 /// The tables of a case file.
 class Reader : private TomlReader {
@@ -112,14 +112,14 @@ VectorFieldsText Reader::vector_fields(const toml::table& table) const {
 
 LevelText Reader::level(const toml::table& table, const std::string& what) const {
   allow(table, what, {"name", "expression", "on"});
-  return {text(required(table, "name", what), "'name'"),
-          text(required(table, "expression", what), "'expression'"), texts(table, "on")};
+  return {name(table, what), text(required(table, "expression", what), "'expression'"),
+          texts(table, "on")};
 }
 
 MapText Reader::map(const toml::table& table, const std::string& what) const {
   allow(table, what, {"name", "to", "expressions", "on", "sign", "image", "inverse"});
   MapText result;
-  result.name = text(required(table, "name", what), "'name'");
+  result.name = name(table, what);
   const toml::node& to = required(table, "to", what);
   if (to.is_table()) {
     result.to_table = phase_space(*to.as_table(), "'to'");
@@ -142,7 +142,7 @@ SceneText Reader::scene(const toml::table& table, const std::string& what) const
   allow(table, what,
         {"name", "parameters", "initial", "on", "duration", "observe", "extreme", "reference"});
   SceneText result;
-  result.name = text(required(table, "name", what), "'name'");
+  result.name = name(table, what);
   result.parameters = optional_entries(table, "parameters");
   result.initial = entries(required(table, "initial", what), "'initial'");
   result.duration = text(required(table, "duration", what), "'duration'");
@@ -186,17 +186,17 @@ CaseFile Reader::read(const toml::table& root) {
          "scene"});
   CaseFile result;
   result.file = file_;
-  result.name = std::filesystem::path(file_).stem().string();
+  result.name = printable(std::filesystem::path(file_).stem().string(), 200);
   result.title = plain(root, "title");
   result.source = plain(root, "source");
   result.book = plain(root, "book");
-  for (const Text& tag : texts(root, "tags")) result.tags.push_back(tag.value);
+  for (const Text& tag : texts(root, "tags")) result.tags.push_back(one_line(tag.value));
   result.integrable = boolean(root, "integrable");
   result.hamiltonian = optional_text(root, "hamiltonian");
   result.lagrangian = optional_text(root, "lagrangian");
   const toml::node* space = root.get("phase_space");
   if (space == nullptr) {
-    throw CaseError({file_, 1, 1}, "the case file needs a table [phase_space]", line(1));
+    throw CaseError({file_, 1, 1}, "the case file needs a table [phase_space]", line(1).text());
   }
   result.phase_space = phase_space(as_table(*space, "[phase_space]"), "[phase_space]");
   result.parameters = parameters(root);
@@ -227,8 +227,7 @@ CaseFile Reader::read(const toml::table& root) {
   });
   each(root, "identity", [&](const toml::table& table, const std::string& what) {
     allow(table, what, {"name", "left", "right", "on"});
-    result.identities.push_back({text(required(table, "name", what), "'name'"),
-                                 text(required(table, "left", what), "'left'"),
+    result.identities.push_back({name(table, what), text(required(table, "left", what), "'left'"),
                                  optional_text(table, "right"), texts(table, "on")});
   });
   if (const toml::node* section = root.get("section")) {
@@ -240,6 +239,9 @@ CaseFile Reader::read(const toml::table& root) {
                                  texts(table, "labels"),
                                  optional_text(table, "energy"),
                                  optional_entries(table, "casimirs")};
+  }
+  if (result.section) {
+    for (Text& label : result.section->labels) label.value = one_line(label.value);
   }
   each(root, "scene", [&](const toml::table& table, const std::string& what) {
     result.scenes.push_back(scene(table, what));
@@ -256,7 +258,8 @@ std::string read_text(const std::filesystem::path& path) {
   if (!stream) throw CaseError({path.string()}, "the case file does not exist or cannot be read");
   std::string text;
   char chunk[1 << 14];
-  while (text.size() <= kMaxFileBytes && (stream.read(chunk, sizeof chunk), stream.gcount() > 0))
+  while (static_cast<double>(text.size()) <= limits().file_bytes &&
+         (stream.read(chunk, sizeof chunk), stream.gcount() > 0))
     text.append(chunk, static_cast<std::size_t>(stream.gcount()));
   return text;
 }
@@ -268,16 +271,21 @@ CaseError Text::error(const std::string& what, std::size_t offset, const std::st
   Location at = where;
   // Inside a string with escapes or line breaks only the start of the string is known.
   const std::size_t start = static_cast<std::size_t>(std::max(where.column - 1, 0));
-  const bool verbatim = excerpt.compare(std::min(start, excerpt.size()), value.size(), value) == 0;
+  const std::string& line = excerpt.text();
+  const bool verbatim =
+      flat(line.substr(std::min(start, line.size()), value.size())) == flat(value);
   if (verbatim) at.column += static_cast<int>(std::min(offset, value.size()));
-  return CaseError(at, what, excerpt, hint);
+  return CaseError(at, what, line, hint);
 }
 
 CaseFile parse_case(const std::string& toml, const std::string& file) {
-  if (toml.size() > kMaxFileBytes) {
-    throw CaseError({file}, fmt::format("the file is larger than {} MiB", kMaxFileBytes >> 20));
-  }
+  if (static_cast<double>(toml.size()) > limits().file_bytes)
+    throw CaseError(
+        {file}, fmt::format("the file is larger than {:g} MiB", limits().file_bytes / (1 << 20)),
+        {}, limit_hint(&Limits::file_bytes));
   Reader reader(toml, file);
+  if (const std::optional<int> number = line_of_deep_key(toml))
+    throw CaseError({file, *number, 1}, "a key has too many parts", reader.line(*number).text());
   try {
     return reader.read(toml::parse(toml, std::string_view(file)));
   } catch (const toml::parse_error& problem) {
@@ -285,7 +293,7 @@ CaseFile parse_case(const std::string& toml, const std::string& file) {
     const int number = std::max(1, static_cast<int>(begin.line));
     throw CaseError({file, number, std::max(1, static_cast<int>(begin.column))},
                     "this is not TOML: " + printable(std::string(problem.description()), 200),
-                    reader.line(number));
+                    reader.line(number).text());
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,11 +11,28 @@
 
 namespace casimir {
 
+/// A line of source, which all texts in it share: copies would take the square of its length.
+class SourceLine {
+ public:
+  SourceLine() = default;
+  SourceLine(const char* text) : SourceLine(std::string(text)) {}
+  SourceLine(std::string text) : text_(std::make_shared<const std::string>(std::move(text))) {}
+
+  /// The line; empty where none was given.
+  const std::string& text() const {
+    static const std::string none;
+    return text_ ? *text_ : none;
+  }
+
+ private:
+  std::shared_ptr<const std::string> text_;
+};
+
 /// A string of a case file (or of the command line) and where it stands.
 struct Text {
   std::string value;
-  Location where;       ///< of the first character of `value`
-  std::string excerpt;  ///< the source line, if `value` stands in it unchanged
+  Location where;      ///< of the first character of `value`
+  SourceLine excerpt;  ///< the source line, if `value` stands in it unchanged
 
   /// The error that something is wrong at `offset` bytes into this text.
   CaseError error(const std::string& what, std::size_t offset = 0,

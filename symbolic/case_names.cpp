@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "symbolic/limits.hpp"
+
 namespace casimir {
 
 void CaseNames::declare(const Text& name, const std::string& what, Quantity quantity) {
@@ -26,11 +28,11 @@ const Quantity* CaseNames::find(const std::string& name) {
   const auto waiting = pending_.find(name);
   if (waiting == pending_.end()) return nullptr;
   const Entry& entry = *waiting->second;
-  constexpr std::size_t kMaxChain = 100;
-  if (open_.contains(name) || open_.size() > kMaxChain) {
-    throw entry.second.error(
-        fmt::format("the definition of '{}' {}", name,
-                    open_.contains(name) ? "uses itself" : "is nested too deep"));
+  if (open_.contains(name) || static_cast<double>(open_.size()) > limits().nesting / 2) {
+    const bool itself = open_.contains(name);
+    throw entry.second.error(fmt::format("the definition of '{}' {}", name,
+                                         itself ? "uses itself" : "is nested too deep"),
+                             0, itself ? "" : limit_hint(&Limits::nesting));
   }
   open_.insert(name);
   Quantity value = parse_expression(entry.second, *this);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "symbolic/decimal.hpp"
 #include "symbolic/exact_constant.hpp"
 
 namespace casimir {
@@ -64,9 +65,9 @@ Truth holds(const Assumption& condition, const GiNaC::exmap& point) {
       return condition.relation.find('=') == std::string::npos || condition.relation == "!="
                  ? Truth::no
                  : Truth::yes;
-    const ex number = value.evalf();
-    if (!GiNaC::is_a<GiNaC::numeric>(number)) return Truth::unknown;
-    const auto& x = GiNaC::ex_to<GiNaC::numeric>(number);
+    const std::optional<GiNaC::numeric> number = decimal(value);
+    if (!number) return Truth::unknown;
+    const GiNaC::numeric& x = *number;
     if (!x.is_real()) return Truth::no;
     if (GiNaC::abs(x) < GiNaC::pow(GiNaC::numeric(10), GiNaC::numeric(-12))) return Truth::no;
     const bool positive = x.is_positive();
@@ -82,20 +83,19 @@ Truth holds(const Assumption& condition, const GiNaC::exmap& point) {
 /// Whether a function that has to vanish does not, as far as can be told.
 bool surely_nonzero(const ex& value) {
   if (const auto constant = exact_constant(value)) return !constant->zero;
-  const ex number = value.evalf();
-  return !GiNaC::is_a<GiNaC::numeric>(number) ||
-         GiNaC::abs(GiNaC::ex_to<GiNaC::numeric>(number)) >
-             GiNaC::pow(GiNaC::numeric(10), GiNaC::numeric(-12));
+  const std::optional<GiNaC::numeric> number = decimal(value);
+  return !number || GiNaC::abs(*number) > GiNaC::pow(GiNaC::numeric(10), GiNaC::numeric(-12));
+}
+
+std::string decimal_text(const ex& value) {
+  const std::optional<GiNaC::numeric> number = real_decimal(value);
+  return number ? fmt::format("{:.6g}", number->to_double()) : "?";
 }
 
 std::string point_text(const std::vector<GiNaC::symbol>& variables, const std::vector<ex>& point) {
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < variables.size(); ++i) {
-    const ex number = point[i].evalf();
-    parts.push_back(fmt::format("{} = {:.6g}", variables[i].get_name(),
-                                GiNaC::is_a<GiNaC::numeric>(number)
-                                    ? GiNaC::ex_to<GiNaC::numeric>(number).to_double()
-                                    : 0.0));
+    parts.push_back(fmt::format("{} = {}", variables[i].get_name(), decimal_text(point[i])));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -378,10 +378,7 @@ std::vector<ex> image_of(const Atlas& atlas, const CoordinateChange& change,
       const auto constant = exact_constant(value);
       throw SingularPoint(fmt::format(
           "the point is not in the image of the map '{}': {} = {}, not 0", change.name,
-          printable(f.name),
-          constant
-              ? printable(constant->text)
-              : fmt::format("{:.6g}", GiNaC::ex_to<GiNaC::numeric>(value.evalf()).to_double())));
+          printable(f.name), constant ? printable(constant->text) : decimal_text(value)));
     }
   }
   std::string failed;
@@ -404,7 +401,7 @@ std::vector<ex> image_of(const Atlas& atlas, const CoordinateChange& change,
         }
       }
       for (const ex& e : result) {
-        if (!GiNaC::is_a<GiNaC::numeric>(e.evalf())) inside = false;
+        if (!decimal(e)) inside = false;
       }
       if (inside) return result;
     } catch (const std::exception&) {

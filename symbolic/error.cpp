@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <string_view>
 #include <utility>
 
 namespace casimir {
@@ -65,6 +66,24 @@ std::size_t utf8_length(const std::string& text, std::size_t i) {
   return length;
 }
 
+/// What drives a terminal, hides, or makes text read otherwise than it stands.
+bool is_deceptive(char32_t c) {
+  const auto within = [c](char32_t first, char32_t last) { return c >= first && c <= last; };
+  return c < 0x20 || within(0x7F, 0x9F) || c == 0xAD || c == 0x61C || within(0x200B, 0x200F) ||
+         within(0x2028, 0x202E) || within(0x2060, 0x206F) || c == 0xFEFF ||
+         within(0xE0000, 0xE007F);
+}
+
+/// The character of a valid UTF-8 sequence.
+char32_t decoded(std::string_view sequence) {
+  const auto lead = static_cast<unsigned char>(sequence[0]);
+  if (sequence.size() == 1) return lead;
+  char32_t c = lead & (0x7FU >> sequence.size());
+  for (const char next : sequence.substr(1))
+    c = c << 6 | (static_cast<unsigned char>(next) & 0x3FU);
+  return c;
+}
+
 }  // namespace
 
 CaseError::CaseError(Location where, std::string text, std::string excerpt, std::string hint)
@@ -77,6 +96,9 @@ std::string suggest(const std::string& name, const std::vector<std::string>& kno
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;
   for (const std::string& candidate : known) {
+    const std::size_t lengths[] = {name.size(), candidate.size()};
+    const auto [shorter, longer] = std::minmax(lengths[0], lengths[1]);
+    if (longer - shorter >= best_distance) continue;
     const std::size_t distance = edit_distance(name, candidate);
     if (distance < best_distance) {
       best_distance = distance;
@@ -92,22 +114,25 @@ std::string printable(const std::string& text, std::size_t limit) {
   for (std::size_t i = 0; i < text.size(); ++shown) {
     if (shown == limit) return result + "...";
     const std::size_t length = utf8_length(text, i);
-    const unsigned char lead = static_cast<unsigned char>(text[i]);
-    // C0 and C1 control characters can drive a terminal; so can a raw 0x80..0x9f.
-    const bool control =
-        lead < 0x20 || lead == 0x7F ||
-        (length == 2 && lead == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0);
-    if (length == 0 || control) {
-      result += fmt::format("\\x{:02x}", lead);
-      if (control && length == 2)
-        result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[i + 1]));
-      i += std::max<std::size_t>(length, 1);
+    const std::string_view sequence =
+        std::string_view(text).substr(i, std::max<std::size_t>(length, 1));
+    if (length > 0 && !is_deceptive(decoded(sequence))) {
+      result += sequence;
     } else {
-      result += text.substr(i, length);
-      i += length;
+      for (const char byte : sequence)
+        result += fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
     }
+    i += sequence.size();
   }
   return result;
 }
+
+std::string flat(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c >= '\t' && c <= '\r'; }, ' ');
+  return text;
+}
+
+std::string one_line(const std::string& text) { return printable(flat(text), text.size()); }
 
 }  // namespace casimir

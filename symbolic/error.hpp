@@ -38,6 +38,11 @@ class ModelError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// An expression that exact algebra cannot treat within the limits of this program.
+class TooLarge : public ModelError {
+  using ModelError::ModelError;
+};
+
 /// A point that other variables cannot describe, as the vertical axis in Euler angles.
 class SingularPoint : public std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -46,8 +51,15 @@ class SingularPoint : public std::runtime_error {
 /// The name in `known` that is nearest to `name`, as "did you mean 'X'?", or empty if none is near.
 std::string suggest(const std::string& name, const std::vector<std::string>& known);
 
-/// `text` with control characters and invalid UTF-8 escaped, cut to `limit` characters: what a
-/// message may show of text that a stranger wrote.
+/// `text` with control characters, invisible ones, those that change the direction of writing, and
+/// invalid UTF-8 escaped, cut to `limit` characters: what a message may show of text that a
+/// stranger wrote.
 std::string printable(const std::string& text, std::size_t limit = 60);
+
+/// `text` with tabs and ends of lines as spaces, byte for byte.
+std::string flat(std::string text);
+
+/// All of `text` on one line, and printable.
+std::string one_line(const std::string& text);
 
 }  // namespace casimir

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <vector>
 
+#include "symbolic/decimal.hpp"
 #include "symbolic/integer_factors.hpp"
 
 namespace casimir {
@@ -333,13 +334,11 @@ std::optional<int> sign_of_constant(const ex& value) {
   constexpr long kDigits = 60;
   const long before = GiNaC::Digits;
   GiNaC::Digits = kDigits;
-  const ex digits = value.evalf();
+  const std::optional<GiNaC::numeric> number = real_decimal(value);
   GiNaC::Digits = before;
-  if (!GiNaC::is_a<GiNaC::numeric>(digits)) return std::nullopt;
-  const GiNaC::numeric number = GiNaC::ex_to<GiNaC::numeric>(digits);
   const GiNaC::numeric doubt = GiNaC::numeric(10).power(-20);
-  if (!number.is_real() || GiNaC::abs(number) < doubt) return std::nullopt;
-  return number.csgn();
+  if (!number || GiNaC::abs(*number) < doubt) return std::nullopt;
+  return number->csgn();
 }
 
 }  // namespace casimir

@@ -8,7 +8,9 @@
 #include <optional>
 #include <string_view>
 
+#include "symbolic/decimal.hpp"
 #include "symbolic/elementary.hpp"
+#include "symbolic/limits.hpp"
 
 namespace casimir {
 namespace {
@@ -40,9 +42,10 @@ class Parser {
   class Depth {
    public:
     explicit Depth(Parser& parser) : parser_(parser) {
-      if (++parser_.depth_ > kMaxNesting) {
-        parser_.fail(fmt::format("the expression is nested more than {} deep", kMaxNesting));
-      }
+      if (++parser_.depth_ > limits().nesting)
+        parser_.fail(
+            fmt::format("the expression is nested more than {:.0f} deep", limits().nesting),
+            limit_hint(&Limits::nesting));
     }
     ~Depth() { --parser_.depth_; }
     Depth(const Depth&) = delete;
@@ -81,19 +84,23 @@ class Parser {
     return "'" + printable(text_.value.substr(at_, length)) + "'";
   }
 
+  void check(double value, double Limits::*limit, std::size_t offset, const char* what) const {
+    if (value <= limits().*limit) return;  // false also for what is not a number
+    fail_at(offset, fmt::format(fmt::runtime(what), limits().*limit), limit_hint(limit));
+  }
+
   Quantity checked(Quantity q, std::size_t offset) const {
-    if (q.degree > kMaxDegree)
-      fail_at(offset, fmt::format("the degree here exceeds {:.0f}", kMaxDegree));
-    if (q.bits > kMaxBits)
-      fail_at(offset, fmt::format("a number here would have more than {:.0f} bits", kMaxBits));
-    if (q.nodes > kMaxNodes)
-      fail_at(offset,
-              fmt::format("the expression has more than {:.0f} terms and factors", kMaxNodes));
+    check(q.degree, &Limits::degree, offset, "the degree here exceeds {:.0f}");
+    check(q.bits, &Limits::bits, offset, "a number here would have more than {:.0f} bits");
+    check(q.nodes, &Limits::size, offset, "the expression has more than {:.0f} terms and factors");
+    check(q.depth, &Limits::depth, offset,
+          "the tree of the expression has more than {:.0f} levels");
     return q;
   }
 
   Quantity sum() {
     const Depth depth(*this);
+    const std::size_t start = at_;
     Quantity total = product();
     GiNaC::exvector terms{total.value};
     for (char c = peek(); c == '+' || c == '-'; c = peek()) {
@@ -103,17 +110,20 @@ class Parser {
       total.bits = std::max(total.bits, next.bits) + 1;
       total.degree = std::max(total.degree, next.degree);
       total.nodes += next.nodes;
+      total.depth = std::max(total.depth, next.depth);
       checked({0, 0, total.degree, total.nodes}, offset);
     }
     if (terms.size() > 1) {
+      total.depth += 1;
       total.bits -= static_cast<double>(terms.size()) - 1 -
                     std::ceil(std::log2(static_cast<double>(terms.size())));
-      total.value = GiNaC::add(terms);
+      total.value = evaluated(start, [&] { return ex(GiNaC::add(terms)); });
     }
     return total;
   }
 
   Quantity product() {
+    const std::size_t start = at_;
     Quantity total = unary();
     GiNaC::exvector factors{total.value};
     for (char c = peek(); c == '*' || c == '/'; c = peek()) {
@@ -122,13 +132,19 @@ class Parser {
         fail("unexpected '**'", "write a power as x^2");
       const Quantity next = unary();
       if (c == '/' && next.value.is_zero()) fail_at(offset, "division by zero");
-      factors.push_back(c == '*' ? next.value : GiNaC::pow(next.value, -1));
+      factors.push_back(c == '*' ? next.value : evaluated(offset, [&] {
+        return ex(GiNaC::pow(next.value, -1));
+      }));
       total.bits += next.bits;
       total.degree += next.degree;
       total.nodes += next.nodes;
+      total.depth = std::max(total.depth, next.depth);
       checked(total, offset);
     }
-    if (factors.size() > 1) total.value = GiNaC::mul(factors);
+    if (factors.size() > 1) {
+      total.depth += 1;
+      total.value = evaluated(start, [&] { return ex(GiNaC::mul(factors)); });
+    }
     return total;
   }
 
@@ -148,12 +164,14 @@ class Parser {
     if (peek() != '^') return base;
     const std::size_t offset = at_++;
     const Quantity exponent = unary();
-    Quantity q{0, base.bits, base.degree, base.nodes + exponent.nodes};
+    Quantity q{0, base.bits, base.degree, base.nodes + exponent.nodes,
+               1 + std::max(base.depth, exponent.depth)};
     if (GiNaC::is_a<GiNaC::numeric>(exponent.value)) {
       const GiNaC::numeric e = GiNaC::ex_to<GiNaC::numeric>(exponent.value);
       if (base.value.is_zero() && !e.is_positive())
         fail_at(offset, "zero to a power that is not positive");
-      const double size = std::max(1.0, std::abs(e.to_double()));
+      const double size =
+          std::max(1.0, e.is_real() ? std::abs(e.to_double()) : GiNaC::abs(e).to_double());
       q.bits *= size;
       q.degree *= size;
       checked(q, offset);
@@ -173,6 +191,8 @@ class Parser {
       return operation();
     } catch (const GiNaC::pole_error&) {
       fail_at(offset, "this has no value: division by zero or a pole of the function");
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& problem) {
       fail_at(offset, fmt::format("this has no value ({})", printable(problem.what(), 80)));
     }
@@ -231,7 +251,8 @@ class Parser {
     const std::string value = digits();
     if (value.empty()) fail_at(start, "a number with an empty exponent");
     if (value.size() > 6)
-      fail_at(start, fmt::format("a number here would have more than {:.0f} bits", kMaxBits));
+      fail_at(start, fmt::format("a number here would have more than {:.0f} bits", limits().bits),
+              limit_hint(&Limits::bits));
     return (negative ? -1 : 1) * std::stol(value);
   }
 
@@ -289,7 +310,8 @@ class Parser {
       fail_at(start, "there is no Poisson bracket here");
     const auto n = static_cast<double>(dynamics->dimension());
     Quantity q{0, f.bits + g.bits, f.degree + g.degree,
-               n * n * (derivative_nodes(f) + derivative_nodes(g))};
+               n * n * (derivative_nodes(f) + derivative_nodes(g)),
+               3 + 2 * std::max(f.depth, g.depth)};
     checked(q, start);
     q.value = evaluated(start, [&] { return dynamics->bracket(f.value, g.value); });
     return q;
@@ -301,7 +323,7 @@ class Parser {
     const Dynamics* dynamics = names_.dynamics();
     if (dynamics == nullptr) fail_at(start, "the equations of motion are not known here");
     const auto n = static_cast<double>(dynamics->dimension());
-    Quantity q{0, f.bits * 2, f.degree * 2, n * n * derivative_nodes(f)};
+    Quantity q{0, f.bits * 2, f.degree * 2, n * n * derivative_nodes(f), 3 + 2 * f.depth};
     checked(q, start);
     q.value = evaluated(start, [&] { return dynamics->rate(f.value); });
     return q;
@@ -314,6 +336,7 @@ class Parser {
       fail_at(start, "the second argument of 'diff' must be a variable or a parameter");
     Quantity q = given[0];
     q.nodes = derivative_nodes(given[0]);
+    q.depth = 1 + 2 * q.depth;
     checked(q, start);
     q.value = evaluated(
         start, [&] { return given[0].value.diff(GiNaC::ex_to<GiNaC::symbol>(given[1].value)); });
@@ -324,8 +347,14 @@ class Parser {
     const std::vector<Quantity> arguments = this->arguments(function.name, function.arity, start);
     const Quantity& first = arguments.front();
     const Quantity& last = arguments.back();
-    Quantity q{0, first.bits + last.bits, std::max(1.0, first.degree + last.degree),
-               1 + first.nodes + last.nodes};
+    Quantity q{0, first.bits, first.degree, 1 + first.nodes, 1 + std::max(first.depth, last.depth)};
+    if (arguments.size() > 1) {
+      q.bits += last.bits;
+      q.degree += last.degree;
+      q.nodes += last.nodes;
+    }
+    q.degree = std::max(1.0, q.degree);
+    checked(q, start);
     q.value = evaluated(start, [&] { return function.apply(first.value, last.value); });
     return checked(q, start);
   }
@@ -338,9 +367,10 @@ class Parser {
 };
 
 Quantity parse_range(const Text& text, Scope& names, std::size_t begin, std::size_t end) {
-  if (text.value.size() > kMaxExpressionBytes) {
-    throw text.error(fmt::format("the expression has {} bytes; the limit is {}", text.value.size(),
-                                 kMaxExpressionBytes));
+  if (static_cast<double>(text.value.size()) > limits().file_bytes) {
+    throw text.error(fmt::format("the expression has {} bytes; the limit is {:.0f}",
+                                 text.value.size(), limits().file_bytes),
+                     0, limit_hint(&Limits::file_bytes));
   }
   return Parser(text, names, begin, end).parse();
 }
@@ -358,9 +388,11 @@ GiNaC::ex parse_constant(const Text& text) {
 
 GiNaC::ex parse_real_constant(const Text& text) {
   const ex value = parse_constant(text);
-  const ex number = value.evalf();
-  if (!GiNaC::is_a<GiNaC::numeric>(number) || !GiNaC::ex_to<GiNaC::numeric>(number).is_real()) {
-    throw text.error("expected a real constant, such as 3/5 or sqrt(2)/2");
+  if (!real_decimal(value)) {
+    throw text.error(fmt::format(
+        "expected a real constant, such as 3/5 or sqrt(2)/2, with numbers of up to {:.0f} "
+        "bits",
+        limits().bits));
   }
   return value;
 }

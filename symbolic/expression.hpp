@@ -18,16 +18,11 @@ struct Quantity {
   double bits = 1;    ///< size of the numbers in it
   double degree = 0;  ///< total degree, counting every function as a variable
   double nodes = 1;   ///< size of the tree, counting shared parts as often as they are used
+  double depth = 1;   ///< levels of the tree
 
   static Quantity symbol(const GiNaC::symbol& s) { return {s, 1, 1, 1}; }
 };
 
-/// Limits on one expression; beyond them it is refused with an error that names the limit.
-inline constexpr std::size_t kMaxExpressionBytes = std::size_t{16} << 20;
-inline constexpr int kMaxNesting = 200;
-inline constexpr double kMaxBits = 1e5;
-inline constexpr double kMaxDegree = 1e4;
-inline constexpr double kMaxNodes = 4e6;
 inline constexpr std::size_t kMaxNameLength = 100;
 
 /// The bracket and the flow of a system, for expressions such as `{F, G}` and `rate(F)`.

@@ -15,11 +15,6 @@
 
 namespace casimir {
 
-/// An expression that exact algebra cannot treat within the size limits of this program.
-class TooLarge : public ModelError {
-  using ModelError::ModelError;
-};
-
 /// The functions of a case as polynomials: symbols are variables of the ring, and every sine,
 /// root, denominator .. is one more variable (a generator) with its derivation and, where it has
 /// one, its algebraic relation:

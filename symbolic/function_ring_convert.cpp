@@ -1,6 +1,7 @@
 // Expressions to polynomials: a FunctionRing reads GiNaC's trees.
 #include <cln/integer.h>
 #include <cln/rational.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,13 +10,12 @@
 #include <unordered_map>
 
 #include "symbolic/function_ring.hpp"
+#include "symbolic/limits.hpp"
 
 namespace casimir {
 namespace {
 
 using GiNaC::ex;
-
-constexpr double kMaxTerms = 5e6;
 
 cln::cl_RA rational(const GiNaC::numeric& number) {
   if (!number.is_rational())
@@ -35,6 +35,11 @@ class Pairs : public GiNaC::expairseq {
     return GiNaC::ex_to<GiNaC::expairseq>(e).*(&Pairs::overall_coeff);
   }
 };
+
+TooLarge too_many_terms(const char* what) {
+  return TooLarge(fmt::format("an expanded {} would have more than {:g} terms; {}", what,
+                              limits().terms, limit_hint(&Limits::terms)));
+}
 
 /// log of binomial(n + k, k): the number of terms of a general polynomial.
 double log_binomial(double n, double k) {
@@ -232,21 +237,21 @@ void FunctionRing::order(GiNaC::exvector& operands) {
 }
 
 Polynomial FunctionRing::checked_product(const Polynomial& a, const Polynomial& b) const {
-  if (static_cast<double>(a.terms()) * static_cast<double>(b.terms()) > kMaxTerms * 20) {
-    throw TooLarge("an expanded product would have too many terms");
-  }
+  // Products that cancel or coincide are fewer than the pairs of terms.
+  constexpr double kPairs = 100;
+  if (static_cast<double>(a.terms()) * static_cast<double>(b.terms()) > limits().terms * kPairs)
+    throw too_many_terms("product");
   return a * b;
 }
 
 Polynomial FunctionRing::power(const Polynomial& p, unsigned long exponent) const {
   if (p.terms() > 1 && log_binomial(static_cast<double>(p.terms()) - 1,
-                                    static_cast<double>(exponent)) > std::log(kMaxTerms)) {
+                                    static_cast<double>(exponent)) > std::log(limits().terms)) {
     // The bound by the number of monomials of that degree may be smaller.
     double used = 0;
     for (std::size_t i = 0; i < ring_->size(); ++i) used += p.uses(i) ? 1 : 0;
     const double degree = static_cast<double>(p.total_degree()) * static_cast<double>(exponent);
-    if (log_binomial(used, degree) > std::log(kMaxTerms))
-      throw TooLarge("an expanded power would have too many terms");
+    if (log_binomial(used, degree) > std::log(limits().terms)) throw too_many_terms("power");
   }
   return p.pow(exponent);
 }

@@ -207,7 +207,7 @@ std::vector<IntegerForm> invariant_forms(const LieAlgebra& algebra, std::size_t 
     for (IntegerForm& form : solutions(groups[g], by_group[g], unknowns))
       result.push_back(std::move(form));
   }
-  std::ranges::stable_partition(result, starts_with_a_power);
+  std::stable_partition(result.begin(), result.end(), starts_with_a_power);
   return result;
 }
 

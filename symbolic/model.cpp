@@ -5,6 +5,7 @@
 
 #include "symbolic/exact_constant.hpp"
 #include "symbolic/expression.hpp"
+#include "symbolic/measure.hpp"
 #include "symbolic/model_dynamics.hpp"
 
 namespace casimir {
@@ -32,7 +33,7 @@ std::vector<ex> PoissonMap::composed_brackets() const {
 
 bool Assumption::holds_at(const GiNaC::exmap& point) const {
   try {
-    const ex value = difference.subs(point, GiNaC::subs_options::no_pattern);
+    const ex value = substituted(difference, point);
     const std::optional<int> sign = sign_of_constant(value);
     if (!sign) return false;
     if (relation == "!=") return *sign != 0;
@@ -67,32 +68,48 @@ const Scene& Model::scene(const std::string& scene_name) const {
 
 namespace {
 
-/// The names of a finished model.
+/// The names of a finished model. What they stand for is measured when it is first used.
 class ModelNames : public NameTable {
  public:
   explicit ModelNames(const Model& model) : dynamics_(model) {}
   const Dynamics* dynamics() override { return &dynamics_; }
 
+  const Quantity* find(const std::string& name) override {
+    if (const auto later = unmeasured_.find(name); later != unmeasured_.end()) {
+      add(name, measured(later->second));
+      unmeasured_.erase(later);
+    }
+    return NameTable::find(name);
+  }
+
+  std::vector<std::string> known() const override {
+    std::vector<std::string> names = NameTable::known();
+    for (const auto& [name, value] : unmeasured_) names.push_back(name);
+    return names;
+  }
+
+  void add_unless_known(const std::string& name, const ex& value) {
+    if (NameTable::find(name) == nullptr) unmeasured_.try_emplace(name, value);
+  }
+
  private:
   ModelDynamics dynamics_;
+  std::map<std::string, ex> unmeasured_;
 };
 
 ModelNames names_of(const Model& model) {
   ModelNames names(model);
   const auto add = [&](const std::vector<NamedExpression>& list) {
-    for (const NamedExpression& item : list) {
-      if (names.find(item.name) == nullptr) names.add(item.name, {item.value, 64, 8, 64});
-    }
+    for (const NamedExpression& item : list) names.add_unless_known(item.name, item.value);
   };
   for (const GiNaC::symbol& s : model.variables) names.add(s.get_name(), Quantity::symbol(s));
   for (const GiNaC::symbol& s : model.parameters) names.add(s.get_name(), Quantity::symbol(s));
-  for (const auto& [parameter, value] : model.fixed) names.add(parameter.value, {value, 64, 0, 1});
+  for (const auto& [parameter, value] : model.fixed) names.add_unless_known(parameter.value, value);
   if (model.time) names.add(model.time->get_name(), Quantity::symbol(*model.time));
   add(model.definitions);
   add(model.casimirs);
   add(model.integrals);
-  if (model.hamiltonian && names.find("H") == nullptr)
-    names.add("H", {*model.hamiltonian, 64, 8, 64});
+  if (model.hamiltonian) names.add_unless_known("H", *model.hamiltonian);
   return names;
 }
 
@@ -121,7 +138,7 @@ ex Model::rate(const ex& f) const {
 GiNaC::ex Model::at_parameters(const GiNaC::ex& expression, const Scene& scene) const {
   GiNaC::exmap values;
   for (std::size_t i = 0; i < parameters.size(); ++i) values[parameters[i]] = scene.parameters[i];
-  return expression.subs(values, GiNaC::subs_options::no_pattern);
+  return substituted(expression, values);
 }
 
 }  // namespace casimir

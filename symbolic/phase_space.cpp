@@ -6,6 +6,7 @@
 #include <map>
 
 #include "symbolic/lie_algebra.hpp"
+#include "symbolic/limits.hpp"
 
 namespace casimir {
 namespace {
@@ -123,10 +124,11 @@ std::vector<ex> explicit_brackets(const std::vector<Entry>& entries, bool linear
 std::vector<GiNaC::symbol> make_variables(const PhaseSpaceText& text) {
   if (text.variables.empty())
     throw CaseError(text.where, "'variables' must name at least one variable");
-  constexpr std::size_t kMaxVariables = 200;
-  if (text.variables.size() > kMaxVariables) {
-    throw CaseError(text.where, fmt::format("{} variables given; the limit is {}",
-                                            text.variables.size(), kMaxVariables));
+  if (static_cast<double>(text.variables.size()) > limits().variables) {
+    throw CaseError(text.where,
+                    fmt::format("{} variables given; the limit is {:.0f}", text.variables.size(),
+                                limits().variables),
+                    {}, limit_hint(&Limits::variables));
   }
   Symbols result;
   for (const Text& name : text.variables) {

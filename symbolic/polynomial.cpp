@@ -8,8 +8,18 @@
 #include <stdexcept>
 
 #include "symbolic/flint_number.hpp"
+#include "symbolic/limits.hpp"
 
 namespace casimir {
+namespace {
+
+/// The exponents of all variables are added for each pair of terms.
+void count_product(const Polynomial& a, const Polynomial& b) {
+  WorkMeter::spend(static_cast<double>(a.terms()) * static_cast<double>(b.terms()) *
+                   static_cast<double>(a.ring().size()));
+}
+
+}  // namespace
 
 PolynomialRing::PolynomialRing(std::size_t variables) : size_(variables) {
   fmpq_mpoly_ctx_init(context_, static_cast<slong>(variables), ORD_DEGREVLEX);
@@ -68,11 +78,13 @@ Polynomial& Polynomial::operator-=(const Polynomial& other) {
 }
 
 Polynomial& Polynomial::operator*=(const Polynomial& other) {
+  count_product(*this, other);
   fmpq_mpoly_mul(value_, value_, other.value_, ring_->context());
   return *this;
 }
 
 Polynomial operator*(const Polynomial& a, const Polynomial& b) {
+  count_product(a, b);
   Polynomial result(*a.ring_);
   fmpq_mpoly_mul(result.value_, a.value_, b.value_, a.ring_->context());
   return result;

@@ -2,6 +2,7 @@
 #include <cln/integer.h>
 
 #include "symbolic/flint_number.hpp"
+#include "symbolic/limits.hpp"
 #include "symbolic/polynomial.hpp"
 
 namespace casimir {
@@ -72,6 +73,8 @@ SumOfProducts::~SumOfProducts() { fmpz_clear(denominator_); }
 
 void SumOfProducts::add(const Polynomial& a, const Polynomial& b) {
   if (a.is_zero() || b.is_zero()) return;
+  WorkMeter::spend(static_cast<double>(a.terms()) * static_cast<double>(b.terms()) *
+                   static_cast<double>(a.ring().size()));
   const fmpz_mpoly_ctx_struct* context = sum_.ring().context()->zctx;
   fmpq_t factor;  // of the product of the integer parts
   fmpq_init(factor);

@@ -1,12 +1,16 @@
 #include "symbolic/prove.hpp"
 
 #include <chrono>
+#include <new>
 #include <stdexcept>
 
 #include "symbolic/claims/claim.hpp"
+#include "symbolic/limits.hpp"
 
 namespace casimir {
 namespace {
+
+constexpr const char* kOutOfMemory = "out of memory: --memory-limit GB allows more";
 
 NamedExpression read(const Model& model, const Text& text) {
   return {text.value, model.parse(text), text.where};
@@ -76,6 +80,9 @@ void decide(Prover& prover, const Claim& claim, Proof& proof) {
   } catch (const std::overflow_error& limit) {
     proof.verdict = Verdict::undecided;
     proof.reason = limit.what();
+  } catch (const std::bad_alloc&) {
+    proof.verdict = Verdict::undecided;
+    proof.reason = kOutOfMemory;
   }
   proof.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -111,22 +118,28 @@ class Provers {
     for (const Claim& claim : claims)
       all.insert(all.end(), claim.expressions.begin(), claim.expressions.end());
     try {
+      const WorkMeter meter;
       shared_.emplace(model, all);
       if (shared_->ring().implied_positive().empty()) return;
       shared_.reset();
     } catch (const TooLarge&) {
       shared_.reset();  // a single claim may be small enough
+    } catch (const std::bad_alloc&) {
+      shared_.reset();
     }
   }
 
   void decide(const Claim& claim, Proof& proof) {
     try {
+      const WorkMeter meter;
       if (!shared_) own_.emplace(model_, claim.expressions);
       Prover& prover = shared_ ? *shared_ : *own_;
       prover.begin_claim();
       casimir::decide(prover, claim, proof);
     } catch (const TooLarge& limit) {
       proof.reason = limit.what();
+    } catch (const std::bad_alloc&) {
+      proof.reason = kOutOfMemory;
     }
   }
 

@@ -24,11 +24,12 @@ class TomlReader {
  public:
   TomlReader(const std::string& toml, std::string file) : file_(std::move(file)) {
     std::istringstream stream(toml);
-    for (std::string line; std::getline(stream, line);) lines_.push_back(line);
+    for (std::string line; std::getline(stream, line);) lines_.emplace_back(line);
   }
 
-  std::string line(int number) const {
-    return number >= 1 && number <= static_cast<int>(lines_.size()) ? lines_[number - 1] : "";
+  SourceLine line(int number) const {
+    return number >= 1 && number <= static_cast<int>(lines_.size()) ? lines_[number - 1]
+                                                                    : SourceLine();
   }
 
  protected:
@@ -39,12 +40,12 @@ class TomlReader {
   [[noreturn]] void fail(const toml::source_region& region, const std::string& what,
                          const std::string& hint = {}) const {
     const Location where = place(region);
-    throw CaseError(where, what, line(where.line), hint);
+    throw CaseError(where, what, line(where.line).text(), hint);
   }
 
   Text key_text(const toml::key& key) const {
     const Location where = place(key.source());
-    return {std::string(key.str()), where, line(where.line)};
+    return {one_line(std::string(key.str())), where, line(where.line)};
   }
 
   /// A string value. Integers are accepted too, since they are exact.
@@ -59,17 +60,28 @@ class TomlReader {
     }
     const auto value = node.value_exact<std::string>();
     if (!value) fail(node.source(), what + " must be a string");
-    return inside_quotes({*value, where, line(where.line)});
+    Text text = inside_quotes({*value, where, line(where.line)});
+    text.value = flat(*value);
+    return text;
+  }
+
+  /// A string that is printed as it is.
+  Text name(const toml::table& table, const std::string& what) const {
+    Text name = text(required(table, "name", what), "'name'");
+    constexpr std::size_t kMaxName = 200;
+    if (name.value.size() > kMaxName)
+      throw name.error(fmt::format("a name is longer than {} characters", kMaxName));
+    name.value = one_line(name.value);
+    return name;
   }
 
   /// Moves the place from the opening quote to the first character, where the string stands in the
   /// file as it is; otherwise (escapes, several lines) positions inside it are not known.
   static Text inside_quotes(Text text) {
     const std::size_t start = static_cast<std::size_t>(std::max(text.where.column, 1));
-    if (text.excerpt.compare(std::min(start, text.excerpt.size()), text.value.size(), text.value) ==
-        0) {
+    const std::string& line = text.excerpt.text();
+    if (line.compare(std::min(start, line.size()), text.value.size(), text.value) == 0)
       text.where.column += 1;
-    }
     return text;
   }
 
@@ -116,7 +128,7 @@ class TomlReader {
 
   std::string plain(const toml::table& table, const char* key) const {
     const std::optional<Text> value = optional_text(table, key);
-    return value ? value->value : "";
+    return value ? one_line(value->value) : "";
   }
 
   std::vector<Text> texts(const toml::table& table, const char* key) const {
@@ -175,7 +187,7 @@ class TomlReader {
   }
 
   std::string file_;
-  std::vector<std::string> lines_;
+  std::vector<SourceLine> lines_;
 };
 
 }  // namespace casimir

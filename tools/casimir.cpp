@@ -10,6 +10,7 @@
 #include "symbolic/error.hpp"
 #include "tools/cli.hpp"
 #include "tools/output.hpp"
+#include "tools/program.hpp"
 #include "tools/standard_streams.hpp"
 #include "tools/usage/helpers.hpp"
 
@@ -24,43 +25,18 @@ int fail(Exit status, const std::string& message) {
   return status;
 }
 
-/// CLI11 reports an unknown command as an extra argument; a near name helps more.
-std::string usage_message(const CLI::App& program, const CLI::ParseError& problem, int argc,
-                          char** argv) {
-  std::string message = fmt::format("casimir: error: {}", printable(problem.what(), 500));
-  const auto chosen = program.get_subcommands();
-  if (!chosen.empty())
-    return message + fmt::format("\n  see 'casimir {} --help'", chosen.front()->get_name());
-  if (argc > 1) {
-    std::vector<std::string> names;
-    for (const CLI::App* command : program.get_subcommands(nullptr))
-      names.push_back(command->get_name());
-    message = fmt::format("casimir: error: there is no command '{}'", printable(argv[1]));
-    const std::string hint = suggest(argv[1], names);
-    if (!hint.empty()) message += "\n  hint: " + hint;
-  }
-  return message + "\n  see 'casimir --help'";
-}
-
 int run(int argc, char** argv) {
-  CLI::App program(
-      "Proves the integrals of Hamiltonian systems, writes their equations as C++ and integrates "
-      "them.",
-      "casimir");
-  program.set_version_flag("--version", CASIMIR_VERSION);
-  program.require_subcommand(1);
-  program.failure_message(CLI::FailureMessage::simple);
+  Program program;
   Action action;
-  for (const Register add : kCommands) add(program, action);
   if (const std::optional<int> status =
-          run_helper(program, {argv + 1, argv + argc}, CASIMIR_VERSION))
+          run_helper(program.app(), {argv + 1, argv + argc}, CASIMIR_VERSION))
     return *status;
   try {
-    program.parse(argc, argv);
+    action = program.read(argc, argv);
   } catch (const CLI::Success& help) {
-    return program.exit(help);
+    return program.app().exit(help);
   } catch (const CLI::ParseError& problem) {
-    return fail(kBadInput, usage_message(program, problem, argc, argv));
+    return fail(kBadInput, program.usage_message(problem, argc, argv));
   }
   return action();
 }
@@ -82,7 +58,7 @@ int run_guarded(int argc, char** argv) {
   } catch (const SystemError& problem) {
     return fail(kEnvironment, fmt::format("casimir: error: {}", problem.what()));
   } catch (const std::bad_alloc&) {
-    return fail(kEnvironment, "casimir: error: out of memory");
+    return fail(kEnvironment, "casimir: error: " + out_of_memory_text());
   } catch (const std::domain_error& problem) {
     // Exact arithmetic at a point where an expression has no value.
     return fail(kBadInput, fmt::format("casimir: error: an expression of the case has no value "
@@ -92,6 +68,9 @@ int run_guarded(int argc, char** argv) {
     // Standard output that takes no more is reported once, at the end.
     if (standard_output_problem()) return kEnvironment;
     return fail(kEnvironment, fmt::format("casimir: error: {}", problem.what()));
+  } catch (const std::exception& problem) {
+    // An error of a library that nobody thought of: still a message, and not a crash.
+    return fail(kEnvironment, fmt::format("casimir: error: {}", printable(problem.what(), 500)));
   }
 }
 

@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "runtime/agreed_run.hpp"
+#include "symbolic/decimal.hpp"
 #include "symbolic/expression.hpp"
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
@@ -51,12 +52,13 @@ void check(const DigitsRequest& request) {
 cln::cl_R duration_value(const std::string& text, int digits) {
   const auto before = static_cast<long>(GiNaC::Digits);
   GiNaC::Digits = digits;
-  GiNaC::ex value = parse_constant({text, {"--duration", 1, 1}, text});
-  if (!GiNaC::is_a<GiNaC::numeric>(value)) value = value.evalf();
+  const GiNaC::ex exact = parse_constant({text, {"--duration", 1, 1}, text});
+  std::optional<GiNaC::numeric> value = real_decimal(exact);
   GiNaC::Digits = before;
-  if (!GiNaC::is_a<GiNaC::numeric>(value) || !GiNaC::ex_to<GiNaC::numeric>(value).is_real())
+  if (!value)
     throw UsageError(fmt::format("--duration '{}': expected a real number", printable(text)));
-  return cln::the<cln::cl_R>(GiNaC::ex_to<GiNaC::numeric>(value).to_cl_N());
+  if (GiNaC::is_a<GiNaC::numeric>(exact)) value = GiNaC::ex_to<GiNaC::numeric>(exact);
+  return cln::the<cln::cl_R>(value->to_cl_N());
 }
 
 /// The decimal that was written for a double: the shortest that reads back as it.
@@ -139,7 +141,8 @@ int integrate_with_digits(const DigitsRequest& request) {
     print_text(report);
     for (const std::string& warning : report.warnings()) fmt::print("  warning: {}\n", warning);
     if (!request.output.empty())
-      fmt::print("  wrote {} states to {}\n", agreed.run.samples.size(), request.output);
+      fmt::print("  wrote {} states to {}\n", agreed.run.samples.size(),
+                 printable(request.output, 200));
   }
   return say_if_it_stopped(report);
 }

@@ -252,7 +252,8 @@ int integrate_ensemble(const EnsembleRequest& request) {
   } else if (!request.common.quiet) {
     print_text(report);
     if (!request.output.empty())
-      fmt::print("  wrote {} members to {}\n", result.members.size(), request.output);
+      fmt::print("  wrote {} members to {}\n", result.members.size(),
+                 printable(request.output, 200));
   }
   return verdict(report);
 }

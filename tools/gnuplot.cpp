@@ -63,6 +63,13 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
+std::string quoted_path(const std::string& path) {
+  if (path.find_first_of("'`\\\n") != std::string::npos)
+    throw UsageError("a plot's name must not contain quotes");
+  // From the root on: gnuplot runs what follows a '|', and takes a '-' for an option.
+  return "'" + std::filesystem::absolute(path).string() + "'";
+}
+
 void check_plot_name(const std::string& path) {
   if (!path.ends_with(".svg") && !path.ends_with(".png")) {
     throw UsageError(
@@ -71,9 +78,7 @@ void check_plot_name(const std::string& path) {
 }
 
 void draw_script(const std::string& script, OutputFile& picture) {
-  if (picture.temporary().string().find_first_of("'`\\\n") != std::string::npos)
-    throw UsageError("a plot's name must not contain quotes");
-  const std::string beside = picture.temporary().string();
+  const std::string beside = std::filesystem::absolute(picture.temporary()).string();
   OutputFile commands(beside + ".gnuplot");
   OutputFile log(beside + ".log");
   commands.stream() << script;

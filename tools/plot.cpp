@@ -112,7 +112,7 @@ std::string axes(const Plot& plot) {
 std::string script(const Plot& plot, const std::string& terminal, const std::string& key,
                    const std::string& output) {
   std::string text = fmt::format("set encoding utf8\nset terminal {} noenhanced\nset output {}\n{}",
-                                 terminal, quoted(output), axes(plot));
+                                 terminal, quoted_path(output), axes(plot));
   const bool legend = std::ranges::any_of(plot.curves, in_legend);
   text += legend ? "set key " + key + "\n" : "unset key\n";
   std::string commands;

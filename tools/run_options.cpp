@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "codegen/literal.hpp"
+#include "symbolic/decimal.hpp"
 #include "symbolic/expression.hpp"
 
 namespace casimir::tools {
@@ -43,13 +44,13 @@ Settings settings_for(const RunOptions& options, const SceneRun& run, double def
   Settings settings;
   settings.duration = run.duration;
   if (options.duration) {
-    const GiNaC::ex value =
-        parse_constant({*options.duration, {"--duration", 1, 1}, *options.duration}).evalf();
-    if (!GiNaC::is_a<GiNaC::numeric>(value) || !GiNaC::ex_to<GiNaC::numeric>(value).is_real()) {
+    const std::optional<GiNaC::numeric> value =
+        real_decimal(parse_constant({*options.duration, {"--duration", 1, 1}, *options.duration}));
+    if (!value) {
       throw UsageError(
           fmt::format("--duration '{}': expected a real number", printable(*options.duration)));
     }
-    settings.duration = GiNaC::ex_to<GiNaC::numeric>(value).to_double();
+    settings.duration = value->to_double();
   }
   settings.rtol = options.rtol.value_or(options.tolerance.value_or(default_tolerance));
   double size = 0;

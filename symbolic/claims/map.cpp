@@ -79,7 +79,7 @@ Claim inverse_claim(const Model& model, std::size_t index, std::size_t branch) {
     const PoissonMap& own = owner.maps[index];
     std::vector<Residual> residuals;
     for (const auto& [label, defect] : inverse_defects(owner, own, own.inverses[branch]))
-      residuals.push_back({label, prover.convert(defect), [defect] { return defect; }});
+      residuals.push_back({label, prover.convert(defect), [value = defect] { return value; }});
     prover.decide(proof, residuals, prover.level(owner.constraints));
   };
   return claim;

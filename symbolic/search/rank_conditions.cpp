@@ -278,7 +278,7 @@ RankConditions rank_conditions(const System& system, ParametricBlock block,
   }
   for (const auto& [factor, exponent] : common->factors()) {
     const bool relevant = std::any_of(free.begin(), free.end(),
-                                      [&](std::size_t place) { return factor.uses(place); });
+                                      [&f = factor](std::size_t place) { return f.uses(place); });
     if (relevant) result.factors.push_back(factor);
   }
   return result;

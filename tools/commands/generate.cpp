@@ -94,7 +94,7 @@ int generate(const Options& options) {
                      .dump(2)
               << '\n';
   } else if (!options.common.quiet) {
-    fmt::print("wrote {}\n{}", options.output, generated_text(specialisation));
+    fmt::print("wrote {}\n{}", printable(options.output, 200), generated_text(specialisation));
   }
   return kDone;
 }

@@ -213,9 +213,9 @@ void draw_motion(const Model& model, const Scene& scene, const SceneRun& run,
                  const JudgedRun& judged, const Options& options) {
   if (!options.picture.wanted()) return;
   draw(options.picture.picture(model, scene, motion_of(run, judged, options.every)),
-       options.picture.file());
+       printable(options.picture.file(), 200));
   if (!options.common.json && !options.common.quiet)
-    fmt::print("  drew {}\n", options.picture.file());
+    fmt::print("  drew {}\n", printable(options.picture.file(), 200));
 }
 
 int integrate_case(const Options& options) {
@@ -258,7 +258,8 @@ int integrate_case(const Options& options) {
   } else if (!options.common.quiet) {
     print_text(run, answer, judged);
     if (!options.output.empty())
-      fmt::print("  wrote {} states to {}\n", judged.trajectory.samples.size(), options.output);
+      fmt::print("  wrote {} states to {}\n", judged.trajectory.samples.size(),
+                 printable(options.output, 200));
   }
   const int status = judged.trajectory.status == Status::ok ? kDone : report_stop(run, judged);
   // The answer first: pictures need a program that may be missing.

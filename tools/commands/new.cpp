@@ -51,7 +51,7 @@ int create(const Options& options) {
   if (options.common.json) {
     std::cout << nlohmann::ordered_json{{"file", path.string()}}.dump(2) << '\n';
   } else if (!options.common.quiet)
-    fmt::print("wrote {0}; next: casimir verify {0}\n", path.string());
+    fmt::print("wrote {0}; next: casimir verify {0}\n", printable(path.string(), 200));
   return kDone;
 }
 

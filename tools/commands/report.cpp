@@ -153,7 +153,8 @@ int report_one(const Options& options) {
   if (options.common.json) {
     std::cout << written.json.dump(2) << '\n';
   } else if (!options.common.quiet) {
-    fmt::print("wrote {}: {}, {}\n", path, to_string(written.entry.verdict), written.entry.claims);
+    fmt::print("wrote {}: {}, {}\n", printable(path, 200), to_string(written.entry.verdict),
+               written.entry.claims);
     for (const auto& note : written.json.at("notes"))
       fmt::print("  note: {}\n", note.get<std::string>());
   }
@@ -243,7 +244,7 @@ class Reports {
                        .dump(2)
                 << '\n';
     } else if (!options_.common.quiet) {
-      fmt::print("wrote {}: {} cases\n", place_.index.string(), entries_.size());
+      fmt::print("wrote {}: {} cases\n", printable(place_.index.string(), 200), entries_.size());
     }
     std::cout.flush();
     say_problems(problems_);

@@ -7,6 +7,7 @@
 #include "symbolic/search/search.hpp"
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
+#include "tools/resources.hpp"
 #include "tools/search_options.hpp"
 #include "tools/search_report.hpp"
 #include "tools/search_watch.hpp"
@@ -20,7 +21,6 @@ struct Options {
   int degree = 0;
   bool casimirs = false, darboux = false;
   std::vector<std::string> on, functions, weights, free;
-  double memory = 2;
 };
 
 int find_darboux(const Options& options, const Model& model, SearchWatch& watch) {
@@ -49,7 +49,7 @@ int search_case(const Options& options) {
   const Model model = in_variables(
       model_of(load_case(options.case_name), options.common.parameter_values()), options.in);
   if (options.common.scene_given) model.scene(options.common.scene);
-  SearchWatch watch(options.common, model.name, options.memory * 1e9);
+  SearchWatch watch(options.common, model.name, memory_allowed().value_or(2e9));
   if (options.darboux) return find_darboux(options, model, watch);
   const search::Request request{options.degree, options.casimirs, texts_of(options.on, "--on"),
                                 texts_of(options.functions, "--functions"),
@@ -113,9 +113,6 @@ void register_search(CLI::App& program, Action& action) {
       ->type_name("NAME,..");
   command->add_flag("--darboux", options->darboux,
                     "Polynomials whose zero level is invariant, instead of integrals");
-  command->add_option("--memory-limit", options->memory, "Refuse what would take more (default 2)")
-      ->type_name("GB")
-      ->check(CLI::PositiveNumber);
   command->callback([options, &action] { action = [options] { return search(*options); }; });
 }
 

@@ -235,7 +235,8 @@ class Section {
       if (is_picture(path))
         draw_section(problem_, model_.title + ", " + problem_.level_text(), report.orbits,
                      report.cycles.cycles, path);
-      if (!options_.common.quiet && !options_.common.json) fmt::print("  wrote {}\n", path);
+      if (!options_.common.quiet && !options_.common.json)
+        fmt::print("  wrote {}\n", printable(path, 200));
     }
   }
 

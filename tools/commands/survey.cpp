@@ -127,7 +127,8 @@ int survey(const Options& options) {
     if (options.output.empty())
       std::cout << table;
     else
-      fmt::print("wrote {}: {} case{}\n", options.output, rows.size(), rows.size() == 1 ? "" : "s");
+      fmt::print("wrote {}: {} case{}\n", printable(options.output, 200), rows.size(),
+                 rows.size() == 1 ? "" : "s");
   }
   return exit_status(rows);
 }

@@ -145,7 +145,7 @@ void print_text(const Report& report) {
   for (const auto& [status, count] : counts_of(outcome.rows))
     fmt::print("  {:<16} {:>8}\n", status, count);
   if (!report.warning.empty()) fmt::print("  warning: {}\n", report.warning);
-  if (outcome.complete) fmt::print("  wrote {}\n", report.output);
+  if (outcome.complete) fmt::print("  wrote {}\n", printable(report.output, 200));
 }
 
 /// What went wrong, on stderr.

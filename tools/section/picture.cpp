@@ -108,7 +108,7 @@ class Drawing {
                      const std::string& output) const {
     std::string text =
         fmt::format("set encoding utf8\nset terminal {} noenhanced\nset output {}\nset title {}\n",
-                    terminal, quoted(output), quoted(title));
+                    terminal, quoted_path(output), quoted(title));
     for (std::size_t k = 0; k < 2; ++k) {
       const double unit = unit_of(problem_.plotted[k]);
       text += fmt::format("set {0}label {1}\nset {0}range [{2:.9g}:{3:.9g}]\n", k == 0 ? 'x' : 'y',

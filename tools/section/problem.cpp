@@ -11,6 +11,7 @@
 #include "codegen/specialise.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/term_size.hpp"
+#include "symbolic/decimal.hpp"
 #include "symbolic/expression.hpp"
 #include "tools/cli.hpp"
 #include "tools/section/periods.hpp"
@@ -23,10 +24,9 @@ Text option_text(const std::string& option, const std::string& value) {
 }
 
 double real_constant(const Text& text) {
-  const GiNaC::ex value = parse_constant(text).evalf();
-  if (!GiNaC::is_a<GiNaC::numeric>(value) || !GiNaC::ex_to<GiNaC::numeric>(value).is_real())
-    throw text.error("expected a real number");
-  return GiNaC::ex_to<GiNaC::numeric>(value).to_double();
+  const std::optional<GiNaC::numeric> value = real_decimal(parse_constant(text));
+  if (!value) throw text.error("expected a real number");
+  return value->to_double();
 }
 
 /// Collects what a problem is made of.
@@ -245,9 +245,8 @@ class Maker {
       point[model_.variables[i]] = GiNaC::numeric(problem_.run.initial[i] +
                                                   0.1 * std::sin(1 + 1.7 * static_cast<double>(i)));
     const auto value = [&](const GiNaC::ex& e) {
-      const GiNaC::ex number = model_.at_parameters(e, scene_).subs(point).evalf();
-      if (!GiNaC::is_a<GiNaC::numeric>(number)) return 0.;
-      return GiNaC::ex_to<GiNaC::numeric>(number).to_double();
+      const auto number = real_decimal(model_.at_parameters(e, scene_).subs(point));
+      return number ? number->to_double() : 0.;
     };
     Eigen::MatrixXd bracket = Eigen::MatrixXd::Zero(n, n);
     for (Eigen::Index i = 0; i < n; ++i) {

@@ -75,7 +75,7 @@ std::string script(const StressMatrix& matrix, const std::string& path, const st
   std::string text = fmt::format(
       "set encoding utf8\nset terminal {} size {},{} background rgb 'white' font 'sans,12' "
       "noenhanced\nset output {}\n",
-      path.ends_with(".svg") ? "svg dynamic" : "pngcairo", width, height, quoted(output));
+      path.ends_with(".svg") ? "svg dynamic" : "pngcairo", width, height, quoted_path(output));
   text +=
       "set label 'Scene by method: the digits that are right, or what became of it instead' at "
       "screen 0.02, screen 1 left offset 0,-1.2 font ',14'\n"

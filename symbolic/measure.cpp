@@ -1,0 +1,95 @@
+#include "symbolic/measure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "symbolic/decimal.hpp"
+#include "symbolic/limits.hpp"
+
+namespace casimir {
+namespace {
+
+using GiNaC::ex;
+
+double bit_length(const GiNaC::numeric& number) {
+  if (!number.is_crational()) return 64;
+  return std::max<double>(number.numer().int_length(), number.denom().int_length());
+}
+
+/// Shared parts are looked at once, and count as often as they are used.
+class Measure {
+ public:
+  const Quantity& of(const ex& e) {
+    if (const auto it = known_.find(e); it != known_.end()) return it->second;
+    const Quantity q = fresh(e);
+    return known_.emplace(e, q).first->second;
+  }
+
+ private:
+  Quantity fresh(const ex& e) {
+    if (GiNaC::is_a<GiNaC::numeric>(e))
+      return {e, std::max(1.0, bit_length(GiNaC::ex_to<GiNaC::numeric>(e))), 0, 1};
+    if (GiNaC::is_a<GiNaC::symbol>(e)) return {e, 1, 1, 1};
+    if (e.nops() == 0) return {e, 1, 0, 1};
+    if (GiNaC::is_a<GiNaC::power>(e)) return power(e);
+    const bool sum = GiNaC::is_a<GiNaC::add>(e);
+    Quantity q{e, 0, 0, GiNaC::is_a<GiNaC::function>(e) ? 1. : 0., 0};
+    for (std::size_t i = 0; i < e.nops(); ++i) {
+      const Quantity& part = of(e.op(i));
+      q.bits = sum ? std::max(q.bits, part.bits) : q.bits + part.bits;
+      q.degree = sum ? std::max(q.degree, part.degree) : q.degree + part.degree;
+      q.nodes += part.nodes;
+      q.depth = std::max(q.depth, part.depth);
+    }
+    if (sum) q.bits += std::ceil(std::log2(static_cast<double>(e.nops())));
+    if (GiNaC::is_a<GiNaC::function>(e)) q.degree = std::max(1.0, q.degree);
+    q.depth += 1;
+    return q;
+  }
+
+  Quantity power(const ex& e) {
+    const Quantity& base = of(e.op(0));
+    const Quantity& exponent = of(e.op(1));
+    Quantity q{e, base.bits, base.degree, base.nodes + exponent.nodes,
+               1 + std::max(base.depth, exponent.depth)};
+    if (GiNaC::is_a<GiNaC::numeric>(e.op(1))) {
+      const double size = std::max(
+          1.0, std::abs(GiNaC::ex_to<GiNaC::numeric>(GiNaC::abs(e.op(1)).evalf()).to_double()));
+      q.bits *= size;
+      q.degree *= size;
+    } else {
+      q.bits += exponent.bits;
+      q.degree += exponent.degree;
+    }
+    return q;
+  }
+
+  std::unordered_map<ex, Quantity> known_;
+};
+
+void check_exponents(const ex& e, const GiNaC::exmap& values) {
+  for (std::size_t i = 0; i < e.nops(); ++i) check_exponents(e.op(i), values);
+  if (!GiNaC::is_a<GiNaC::power>(e) || GiNaC::is_a<GiNaC::numeric>(e.op(1))) return;
+  const auto exponent = decimal(e.op(1).subs(values, GiNaC::subs_options::no_pattern));
+  if (exponent && GiNaC::abs(*exponent) > GiNaC::numeric(limits().bits))
+    throw TooLarge(fmt::format("a power would have more than {:g} bits; {}", limits().bits,
+                               limit_hint(&Limits::bits)));
+}
+
+}  // namespace
+
+ex substituted(const ex& expression, const GiNaC::exmap& values) {
+  check_exponents(expression, values);
+  return expression.subs(values, GiNaC::subs_options::no_pattern);
+}
+
+Quantity measured(const ex& value) {
+  Quantity q = Measure().of(value);
+  q.value = value;
+  return q;
+}
+
+}  // namespace casimir

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "symbolic/expression.hpp"
+
+namespace casimir {
+
+/// The bounds of a finished expression, as reading its text would have given them.
+Quantity measured(const GiNaC::ex& value);
+
+/// `expression` with values put in. GiNaC computes a power of a number at once, as 2^r at r =
+/// 10^12. \throws TooLarge  where such an exponent exceeds the limit `bits`.
+GiNaC::ex substituted(const GiNaC::ex& expression, const GiNaC::exmap& values);
+
+}  // namespace casimir

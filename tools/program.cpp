@@ -1,0 +1,47 @@
+#include "tools/program.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+namespace casimir::tools {
+
+Program::Program()
+    : app_(
+          "Proves the integrals of Hamiltonian systems, writes their equations as C++ and "
+          "integrates them.",
+          "casimir") {
+  app_.set_version_flag("--version", CASIMIR_VERSION);
+  app_.require_subcommand(1);
+  app_.failure_message(CLI::FailureMessage::simple);
+  for (const Register add : kCommands) add(app_, action_);
+  for (CLI::App* command : app_.get_subcommands(nullptr)) add_resources(*command, resources_);
+}
+
+Action Program::read(int argc, const char* const* argv) {
+  app_.parse(argc, argv);
+  return [resources = resources_, action = action_] {
+    apply(resources);
+    return action();
+  };
+}
+
+/// CLI11 reports an unknown command as an extra argument; a near name helps more.
+std::string Program::usage_message(const CLI::ParseError& problem, int argc,
+                                   const char* const* argv) {
+  std::string message = fmt::format("casimir: error: {}", printable(problem.what(), 500));
+  const auto chosen = app_.get_subcommands();
+  if (!chosen.empty())
+    return message + fmt::format("\n  see 'casimir {} --help'", chosen.front()->get_name());
+  if (argc > 1) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app_.get_subcommands(nullptr))
+      names.push_back(command->get_name());
+    message = fmt::format("casimir: error: there is no command '{}'", printable(argv[1]));
+    const std::string hint = suggest(argv[1], names);
+    if (!hint.empty()) message += "\n  hint: " + hint;
+  }
+  return message + "\n  see 'casimir --help'";
+}
+
+}  // namespace casimir::tools
