@@ -1,0 +1,56 @@
+// Any lines as the arguments of casimir, which are read and not carried out.
+#include <cstddef>
+#include <cstdint>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/fuzz/target.hpp"
+#include "tools/program.hpp"
+#include "tools/search_options.hpp"
+
+namespace {
+
+using namespace casimir;
+using namespace casimir::tools;
+
+/// What the commands make of the values of options before they look at a case.
+void read_values(const std::vector<std::string>& words) {
+  try {
+    Common common;
+    common.params = words;
+    common.parameter_values();
+  } catch (const UsageError&) {
+  }
+  try {
+    limits_of({words, {}});
+  } catch (const UsageError&) {
+  }
+  try {
+    weights_of(words);
+  } catch (const UsageError&) {
+  }
+}
+
+}  // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static Program program;  // CLI11 forgets what it has read before it reads again
+  const casimir::test::OneSecond limit;
+  std::vector<std::string> words{"casimir"};
+  std::istringstream stream({reinterpret_cast<const char*>(data), size});
+  // A word of a command line has no character 0.
+  for (std::string word; std::getline(stream, word);) words.emplace_back(word.c_str());
+  std::vector<const char*> arguments;
+  for (const std::string& word : words) arguments.push_back(word.c_str());
+  const int count = static_cast<int>(arguments.size());
+  try {
+    program.read(count, arguments.data());
+  } catch (const CLI::Success&) {
+  } catch (const CLI::ParseError& problem) {
+    program.usage_message(problem, count, arguments.data());
+  } catch (const UsageError&) {
+  }
+  read_values(words);
+  return 0;
+}

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <ctime>
+
+#include "symbolic/limits.hpp"
+
+/// What libFuzzer and tests/fuzz/replay.cpp call for each input. Whatever it throws, and whatever a
+/// sanitizer sees, is an error.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace casimir::test {
+
+/// Ends the process where one input takes more than a second of the processor's time, which unlike
+/// libFuzzer's -timeout does not count the time of others.
+class OneSecond {
+ public:
+  OneSecond() : start_(now()) {}
+  ~OneSecond() {
+    if (now() - start_ > 1) std::abort();
+  }
+  OneSecond(const OneSecond&) = delete;
+  OneSecond& operator=(const OneSecond&) = delete;
+
+ private:
+  static double now() {
+    std::timespec time = {};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+  double start_;
+};
+
+/// The program's own limits allow work of seconds; many small inputs find more than few large ones.
+inline void use_small_limits() {
+  Limits small;
+  small.variables = 12;
+  small.parameters = 12;
+  small.nesting = 40;
+  small.depth = 100;
+  small.degree = 40;
+  small.bits = 2000;
+  small.size = 2000;
+  small.terms = 2000;
+  set_limits(small);
+}
+
+}  // namespace casimir::test
