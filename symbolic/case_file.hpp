@@ -15,7 +15,9 @@ namespace casimir {
 class SourceLine {
  public:
   SourceLine() = default;
+  /// Of a line, without its end.
   SourceLine(const char* text) : SourceLine(std::string(text)) {}
+  /// Of a line, without its end.
   SourceLine(std::string text) : text_(std::make_shared<const std::string>(std::move(text))) {}
 
   /// The line; empty where none was given.
