@@ -138,7 +138,8 @@ std::string Writer::sum(const Polynomial& p) const {
 }
 
 /// p = d*(e*m + ..)^2 + rest, where d*e^2*m^2 is the given term, and the square takes with it all
-/// terms that m divides but m^2 does not; empty where there is no such square.
+/// terms that m divides but m^2 does not; empty where there is no such square, or where it leaves
+/// as many terms.
 std::string Writer::with_square(const Polynomial& p, const cln::cl_RA& number,
                                 const Exponents& exponents, int splits) const {
   const std::optional<Exponents> root = root_of(exponents);
@@ -158,6 +159,7 @@ std::string Writer::with_square(const Polynomial& p, const cln::cl_RA& number,
   base = base.scaled(1 / content);
   factor = factor * content * content;
   const Polynomial rest = p - (base * base).scaled(factor);
+  if (rest.terms() >= p.terms()) return "";
   std::string square = bracketed(base) + "^2";
   const std::string size = ring_.text(ring.constant(cln::abs(factor)));
   if (size != "1") square = size + "*" + square;
