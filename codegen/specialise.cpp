@@ -9,6 +9,7 @@
 #include "codegen/optimise.hpp"
 #include "codegen/terms.hpp"
 #include "codegen/vanishing.hpp"
+#include "symbolic/measure.hpp"
 
 namespace casimir {
 
@@ -16,6 +17,9 @@ namespace {
 
 using codegen::Dag;
 using codegen::Scaled;
+
+/// An equation of more terms is taken to depend on all that is in it.
+constexpr double kMostTerms = 1e5;
 
 std::string joined(const std::vector<std::string>& names) {
   std::string result;
@@ -218,7 +222,7 @@ class Specialiser {
   /// Whether dx_i/dt depends on x_j; (x + y)*z - y*z does not depend on y.
   bool really_depends(std::size_t i, std::size_t j) {
     if (!depends(field_[i], model_.variables[j])) return false;
-    const GiNaC::ex expanded = field_[i].expand();
+    const GiNaC::ex expanded = expanded_within(field_[i], kMostTerms);
     if (depends(expanded, model_.variables[j])) return true;
     field_[i] = expanded;
     return false;
@@ -266,6 +270,7 @@ class Specialiser {
     const std::vector<GiNaC::symbol> symbols = kept_symbols();
     Dag dag(symbols, result_.states.size());
     std::vector<std::string> inputs;
+    inputs.reserve(symbols.size());
     for (const GiNaC::symbol& symbol : symbols) inputs.push_back(symbol.get_name());
 
     std::vector<Scaled> field;

@@ -6,6 +6,7 @@
 #include "codegen/canonical.hpp"
 #include "codegen/optimise.hpp"
 #include "symbolic/error.hpp"
+#include "symbolic/measure.hpp"
 
 namespace casimir {
 namespace {
@@ -13,6 +14,9 @@ namespace {
 using GiNaC::ex;
 using GiNaC::matrix;
 using GiNaC::symbol;
+
+/// A Hamiltonian of more terms is taken for one that does not split.
+constexpr double kMostTerms = 1e5;
 
 bool is_null(const ex& e) { return e.expand().is_zero() || e.normal().is_zero(); }
 
@@ -144,7 +148,7 @@ class Splitter {
   }
 
   void take_terms() {
-    const ex expanded = source_.hamiltonian.expand();
+    const ex expanded = expanded_within(source_.hamiltonian, kMostTerms);
     const std::size_t count = GiNaC::is_a<GiNaC::add>(expanded) ? expanded.nops() : 1;
     for (std::size_t k = 0; k < count; ++k) {
       const ex term = GiNaC::is_a<GiNaC::add>(expanded) ? expanded.op(k) : expanded;

@@ -44,8 +44,7 @@ cln::cl_I common_denominator(const Polynomial& p) {
 
 class Writer {
  public:
-  Writer(const Model& model, const std::vector<ex>& further)
-      : model_(model), prover_(model, further) {
+  Writer(const Model& model, const std::vector<ex>& further) : prover_(model, further) {
     if (!model.poisson) throw ModelError("a certificate needs a bracket");
     for (const GiNaC::symbol& s : prover_.ring().symbols()) {
       const std::string name = s.get_name();
@@ -263,7 +262,6 @@ class Writer {
         arguments_, left, right, unfold);
   }
 
-  const Model& model_;
   Prover prover_;
   std::vector<std::string> names_;
   std::string arguments_;  ///< " M1 M2 .. r"

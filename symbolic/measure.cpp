@@ -86,6 +86,30 @@ ex substituted(const ex& expression, const GiNaC::exmap& values) {
   return expression.subs(values, GiNaC::subs_options::no_pattern);
 }
 
+double most_terms(const ex& expression) {
+  double terms = 1;
+  if (GiNaC::is_a<GiNaC::add>(expression)) {
+    terms = 0;
+    for (const ex& part : expression) terms += most_terms(part);
+  } else if (GiNaC::is_a<GiNaC::mul>(expression)) {
+    for (const ex& part : expression) terms *= most_terms(part);
+  } else if (GiNaC::is_a<GiNaC::power>(expression) &&
+             !expression.op(1).info(GiNaC::info_flags::posint)) {
+    terms = most_terms(expression.op(0));
+  } else if (GiNaC::is_a<GiNaC::power>(expression)) {
+    // One for each monomial of degree n in the terms of the base: binomial(base - 1 + n, n).
+    const double others = most_terms(expression.op(0)) - 1;
+    const double n = GiNaC::ex_to<GiNaC::numeric>(expression.op(1)).to_double();
+    const double less = std::min(others, n), more = std::max(others, n);
+    for (double i = 1; i <= less && std::isfinite(terms); ++i) terms *= (more + i) / i;
+  }
+  return terms;
+}
+
+ex expanded_within(const ex& expression, double terms) {
+  return most_terms(expression) > terms ? expression : expression.expand();
+}
+
 Quantity measured(const ex& value) {
   Quantity q = Measure().of(value);
   q.value = value;

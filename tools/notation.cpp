@@ -170,8 +170,8 @@ std::string Notation::combination(const std::vector<std::pair<ex, Phrase>>& term
     const codegen::Scaled product = dag.product({dag.convert(coefficient), dag.convert(factor)});
     std::string term;
     if (markup == Markup::latex) {
-      term = dag.latex(product, [&](const std::string& symbol) {
-        return symbol == kPhrase ? phrase.latex : typeset(symbol);
+      term = dag.latex(product, [&, &latex = phrase.latex](const std::string& symbol) {
+        return symbol == kPhrase ? latex : typeset(symbol);
       });
     } else {
       term = dag.text(product);

@@ -1,5 +1,7 @@
 // The JSON of casimir show.
+#include "symbolic/measure.hpp"
 #include "tools/show.hpp"
+#include "tools/system_view.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -88,7 +90,8 @@ Json show_json(const Model& model) {
   Plain plain(model);
   if (model.poisson) plain.add_bracket(json);
   for (std::size_t i = 0; i < model.variables.size(); ++i)
-    json["equations"][model.variables[i].get_name()] = plain(model.field[i].expand());
+    json["equations"][model.variables[i].get_name()] =
+        plain(expanded_within(model.field[i], kMostTermsShown));
   plain.add_functions(json, "casimirs", model.casimirs);
   plain.add_functions(json, "integrals", model.integrals);
   plain.add_levels(json, "conditional", model.conditionals);

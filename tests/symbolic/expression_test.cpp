@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "symbolic/measure.hpp"
+
 namespace casimir {
 namespace {
 
@@ -147,6 +149,26 @@ TEST(Printable, EscapesWhatCouldDriveATerminal) {
   EXPECT_EQ(printable("\xCE\xB8"), "\xCE\xB8");
   EXPECT_EQ(printable("\xFF"), "\\xff");
   EXPECT_EQ(printable("abcdef", 3), "abc...");
+}
+
+TEST_F(Expression, HasNoMoreTermsWhenExpandedThanTheBoundSays) {
+  for (const auto& [text, bound] :
+       std::vector<std::pair<const char*, double>>{{"x", 1},
+                                                   {"3*x*y", 1},
+                                                   {"x + y + 1", 3},
+                                                   {"(x + y + 1)^4", 15},
+                                                   {"(x + y)*(x + 2)*y", 4},
+                                                   {"((x + y)^2 + 1)^3", 20},
+                                                   {"1/((x + y)^3 + 1)", 5},
+                                                   {"sin(x + y)^2", 1}}) {
+    const GiNaC::ex e = parse(text), expanded = e.expand();
+    EXPECT_EQ(most_terms(e), bound) << text;
+    EXPECT_LE(GiNaC::is_a<GiNaC::add>(expanded) ? expanded.nops() : 1, bound) << text;
+  }
+  EXPECT_GT(most_terms(parse("((x + y)^50 + 1)^200")), 1e50);
+  const GiNaC::ex large = parse("(x + y)^5000");
+  EXPECT_TRUE(expanded_within(large, 5000).is_equal(large));
+  EXPECT_EQ(expanded_within(parse("(x + y)^2"), 3).nops(), 3U);
 }
 
 }  // namespace

@@ -2,12 +2,14 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/run_report.hpp"
 #include "tools/show.hpp"
 
@@ -77,10 +79,7 @@ void register_show(CLI::App& program, Action& action) {
   add_common(*command, options->common);
   add_in(*command, options->in);
   add_as(*command, options->as);
-  command
-      ->add_option("CASE", options->case_name,
-                   "A bundled case, a case file, or - for standard input")
-      ->required();
+  add_case(*command, options->case_name);
   command->add_option("--format", options->format, "text, latex or json")
       ->check(CLI::IsMember({"text", "latex", "json"}));
   command->callback([options, &action] { action = [options] { return show(*options); }; });
