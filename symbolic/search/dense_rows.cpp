@@ -4,7 +4,9 @@
 #include <array>
 
 // The inner loops, compiled for several instruction sets; the program chooses when it starts.
-#if defined(__x86_64__) && defined(__gnu_linux__)
+#if defined(__clang__)
+#define CASIMIR_VECTORISED
+#elif defined(__x86_64__) && defined(__gnu_linux__)
 #define CASIMIR_VECTORISED \
   __attribute__((target_clones("avx512f", "avx2", "default"), optimize("O3")))
 #else

@@ -34,8 +34,6 @@ std::map<Exponents, Polynomial> parts_of(const System& system, const Polynomial&
 /// Equations by the monomial that they are the coefficients of.
 class Collector {
  public:
-  explicit Collector(const System& system) : system_(system) {}
-
   void add(std::size_t field, const Exponents& monomial, std::uint32_t column,
            const Polynomial& p) {
     auto& row = rows_[{field, monomial}];
@@ -79,7 +77,6 @@ class Collector {
   }
 
  private:
-  const System& system_;
   std::map<std::pair<std::size_t, Exponents>, std::map<std::uint32_t, Polynomial>> rows_;
 };
 
@@ -160,7 +157,7 @@ DenseRows ParametricBlock::at(const Point& point, const Modulus& modulus) const 
 std::vector<ParametricBlock> parametric_blocks(const System& system, const Fields& fields,
                                                const Monomials& ansatz,
                                                const std::vector<Relation>& relations) {
-  Collector collector(system);
+  Collector collector;
   std::uint32_t column = 0;
   const auto shifted = [](const std::uint8_t* monomial, Exponents by) {
     for (std::size_t i = 0; i < by.size(); ++i) by[i] += monomial[i];

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "symbolic/error.hpp"
 #include "symbolic/search/modular_roots.hpp"
+#include "symbolic/search/watch.hpp"
 
 namespace casimir::search {
 namespace {
@@ -22,8 +24,8 @@ bool contains(const std::vector<std::size_t>& list, std::size_t i) {
 }  // namespace
 
 System::System(const Model& model, const std::vector<NamedExpression>& functions,
-               const std::vector<GiNaC::ex>& others)
-    : prover_(model, values_of(functions, others)) {
+               const std::vector<GiNaC::ex>& others) try
+    : meter_(std::in_place), prover_(model, values_of(functions, others)) {
   const std::size_t dimension = model.variables.size();
   for (std::size_t i = 0; i < dimension; ++i) moving_.push_back(i);
   if (model.time) moving_.push_back(dimension + model.parameters.size());
@@ -47,6 +49,9 @@ System::System(const Model& model, const std::vector<NamedExpression>& functions
     coordinate_flows_.push_back(of_atoms(row));
   }
   collect_parameters();
+  meter_.reset();
+} catch (const TooLarge& problem) {
+  throw TooMuchWork(problem.what());
 }
 
 /// The ring says how its generators are bound by what it makes of them.

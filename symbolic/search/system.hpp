@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "symbolic/limits.hpp"
 #include "symbolic/prover.hpp"
 #include "symbolic/search/modular.hpp"
 
@@ -82,6 +83,7 @@ class System {
   std::optional<Residue> bound_value(std::size_t place, const Point& point, const Modulus& modulus,
                                      std::mt19937_64& random) const;
 
+  std::optional<WorkMeter> meter_;  ///< while the constructor works
   Prover prover_;
   std::vector<std::size_t> moving_;  ///< coordinates and time
   std::vector<std::size_t> atoms_;

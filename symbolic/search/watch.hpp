@@ -6,10 +6,20 @@
 
 namespace casimir::search {
 
+/// Thrown where a search ends without an answer; the message has the reason.
+class NoAnswer : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// Thrown where the time is up.
-class TimeUp : public std::runtime_error {
+class TimeUp : public NoAnswer {
  public:
-  TimeUp() : std::runtime_error("the time limit was reached") {}
+  TimeUp() : NoAnswer("the time limit was reached") {}
+};
+
+/// Thrown where the functions of a case grow beyond a limit before the search can begin.
+class TooMuchWork : public NoAnswer {
+  using NoAnswer::NoAnswer;
 };
 
 /// Thrown before anything that would not fit into memory is made; the message has the estimate and

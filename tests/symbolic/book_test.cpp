@@ -164,8 +164,9 @@ TEST(Book, EveryMisprintHasAFileThatRefutesIt) {
 TEST(Book, KnownUndecidedClaimsExist) {
   for (const auto& [file, name] : kKnownUndecided) {
     const std::vector<Proof> claims = pending(build_model(read_case(kFolder / (file + ".toml"))));
-    EXPECT_TRUE(std::any_of(claims.begin(), claims.end(),
-                            [&](const Proof& claim) { return claim.name == name; }))
+    EXPECT_TRUE(
+        std::any_of(claims.begin(), claims.end(),
+                    [&, expected = name](const Proof& claim) { return claim.name == expected; }))
         << file << ": " << name;
   }
 }
