@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/fuzz/target.hpp"
+#include "tools/errors.hpp"
 #include "tools/program.hpp"
 #include "tools/search_options.hpp"
 

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Builds the fuzz targets with clang and runs each for some seconds, from its corpus:
-#   tests/fuzz/run.sh [SECONDS [BUILD_FOLDER]]
+#   tests/fuzz/run.sh [SECONDS [BUILD_FOLDER [TARGET..]]]
 # What crashes, takes a second or a gigabyte is left in BUILD_FOLDER/found, and the exit status is 1.
 set -euo pipefail
 
 seconds=${1:-20}
 root=$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/../.." && pwd -P)
 build=${2:-$root/build-fuzz}
-targets=(case_file expression command_line)
+targets=("${@:3}")
+[[ ${#targets[@]} -gt 0 ]] || targets=(case_file expression command_line)
 
 # A folder that is configured already keeps its flags.
 if [[ ! -f $build/build.ninja ]]; then
@@ -29,7 +30,7 @@ for target in "${targets[@]}"; do
   if [[ -f $root/tests/fuzz/$target.dict ]]; then dictionary=("-dict=$root/tests/fuzz/$target.dict"); fi
   mkdir -p "$build/corpus/$target"
   log=$build/$target.log
-  if "$build/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -max_len=400 -timeout=30 \
+  if "$build/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -max_len=400 -timeout=20 -report_slow_units=1 \
       -rss_limit_mb=1024 -print_final_stats=1 -detect_leaks=0 -artifact_prefix="$build/found/$target-" \
       "${dictionary[@]}" "$build/corpus/$target" "$root/tests/fuzz/corpus/$target" >"$log" 2>&1; then
     printf '%-14s %s runs\n' "$target" "$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")"
