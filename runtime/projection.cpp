@@ -1,9 +1,9 @@
 #include "runtime/projection.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/dense.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/term_size.hpp"
 
@@ -81,9 +81,7 @@ bool Projector::improve(double t, double* x, double* carry) {
     gap[k] = static_cast<double>((level_[index] - values[index]) / unit);
   }
   if (!scaled.allFinite() || !gap.allFinite()) return false;
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(scaled.rows(), scaled.cols());
-  solver.setThreshold(1e-8);
-  const Eigen::VectorXd move = solver.compute(scaled).solve(gap);
+  const Eigen::VectorXd move = shortest_solution(scaled, gap, 1e-8);
   if (!move.allFinite() || move.lpNorm<Eigen::Infinity>() > kFarthest) return false;
   for (std::size_t i = 0; i < states_; ++i) {
     const double y = move[static_cast<Eigen::Index>(i)] * reach_[i] + carry[i];

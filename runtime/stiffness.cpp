@@ -1,9 +1,10 @@
 #include "runtime/stiffness.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+
+#include "runtime/dense.hpp"
 
 namespace casimir {
 namespace {
@@ -56,10 +57,10 @@ std::optional<Rates> rates_at(const Module& module, double t, const std::vector<
   const Eigen::MatrixXd jacobian = jacobian_at(module, t, x, p);
   const double size = Eigen::Map<const Eigen::VectorXd>(x.data(), n).lpNorm<Eigen::Infinity>();
   if (!slope.allFinite() || !jacobian.allFinite() || !std::isfinite(size)) return std::nullopt;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(jacobian, false);
-  if (solver.info() != Eigen::Success) return std::nullopt;
+  const auto eigenvalues = eigenvalues_of(jacobian);
+  if (!eigenvalues) return std::nullopt;
   Rates rates;
-  rates.decay = std::max(0.0, -solver.eigenvalues().real().minCoeff());
+  rates.decay = std::max(0.0, -eigenvalues->real().minCoeff());
   const double speed = slope.lpNorm<Eigen::Infinity>();
   rates.solution = speed > 0 ? speed / size : 0;
   return rates;

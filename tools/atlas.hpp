@@ -6,7 +6,7 @@
 
 #include "runtime/program.hpp"
 #include "symbolic/coordinates.hpp"
-#include "tools/cli.hpp"
+#include "tools/cli_names.hpp"
 
 namespace casimir::tools {
 

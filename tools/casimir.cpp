@@ -1,6 +1,7 @@
 // The command line: reads it, runs one command, and maps every kind of failure to its exit status.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <new>
 #include <stdexcept>
@@ -9,6 +10,7 @@
 #include "codegen/compile.hpp"
 #include "symbolic/error.hpp"
 #include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/output.hpp"
 #include "tools/program.hpp"
 #include "tools/standard_streams.hpp"

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
+#include "tools/errors.hpp"
+
 namespace casimir::tools {
 
 ParameterValues Common::parameter_values() const {
@@ -43,6 +47,15 @@ void add_common(CLI::App& command, Common& common) {
   command.add_option("--time-limit", common.time_limit, "Stop after this many seconds")
       ->type_name("SECONDS")
       ->check(CLI::PositiveNumber);
+}
+
+void add_case(CLI::App& command, std::string& name) {
+  command.add_option("CASE", name, kCaseText)->required();
+}
+
+void add_all(CLI::App& command, bool& all, std::string& tag, const std::string& text) {
+  command.add_flag("--all", all, text);
+  command.add_option("--tag", tag, "With --all: only cases with this tag")->type_name("TAG");
 }
 
 }  // namespace casimir::tools

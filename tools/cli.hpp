@@ -1,36 +1,13 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "symbolic/model.hpp"
+#include "tools/cli_names.hpp"
 
 namespace casimir::tools {
-
-/// Exit statuses, as the interface documents them.
-enum Exit : int {
-  kDone = 0,
-  kFailed = 1,
-  kBadInput = 2,
-  kUndecided = 3,
-  kEnvironment = 4,
-  kNotContinued = 5,
-  kInterrupted = 130,
-};
-
-/// A command line that cannot be carried out.
-class UsageError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-/// Something outside this program that does not work: a file that cannot be written, a missing
-/// tool.
-class SystemError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// The options that every command has.
 struct Common {
@@ -47,6 +24,14 @@ struct Common {
 
 /// Adds the common options to a command.
 void add_common(CLI::App& command, Common& common);
+
+inline constexpr const char* kCaseText = "A bundled case, a case file, or - for standard input";
+
+/// Adds the case that a command needs: see `load_case`.
+void add_case(CLI::App& command, std::string& name);
+
+/// Adds `--all` and `--tag`: the bundled cases in place of one that is named.
+void add_all(CLI::App& command, bool& all, std::string& tag, const std::string& text);
 
 /// Runs after the command line has been read; its result is the exit status.
 using Action = std::function<int()>;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "tools/errors.hpp"
 #include "tools/truth.hpp"
 
 namespace casimir::tools {

@@ -14,6 +14,7 @@
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/digits_report.hpp"
+#include "tools/errors.hpp"
 #include "tools/progress.hpp"
 
 namespace casimir::tools {

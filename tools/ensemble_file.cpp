@@ -18,7 +18,7 @@
 #include "codegen/literal.hpp"
 #include "codegen/optimise.hpp"
 #include "symbolic/expression.hpp"
-#include "tools/cli.hpp"
+#include "tools/errors.hpp"
 
 namespace casimir::tools {
 namespace {

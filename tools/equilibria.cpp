@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "codegen/literal.hpp"
 #include "codegen/specialise.hpp"
+#include "runtime/dense.hpp"
 #include "runtime/interpreter.hpp"
 #include "symbolic/search/search.hpp"
 
@@ -161,9 +162,7 @@ bool solve(const Equations& equations, Vector& x, Vector& v, double scale) {
     if (size < kSmall * scale * scale || (size < 1e-9 * scale * scale && size > last / 2))
       return true;
     last = size;
-    Eigen::CompleteOrthogonalDecomposition<Matrix> solver(equations.derivative(x, v));
-    solver.setThreshold(1e-10);
-    Vector step = solver.solve(residual);
+    Vector step = shortest_solution(equations.derivative(x, v), residual, 1e-10);
     const double length = step.norm(), longest = 2 * scale;
     if (length > longest) step *= longest / length;
     x -= step.head(x.size());
@@ -172,16 +171,17 @@ bool solve(const Equations& equations, Vector& x, Vector& v, double scale) {
   return false;
 }
 
-Equilibrium described(const Equations& equations, const Vector& x, const Vector& v) {
+/// Empty where the eigenvalues cannot be computed.
+std::optional<Equilibrium> described(const Equations& equations, const Vector& x, const Vector& v) {
   Equilibrium result;
   result.state.assign(x.data(), x.data() + x.size());
   const bool moves =
       v.size() > 0 && equations.rates(x, Vector::Zero(v.size())).norm() > 1e-8 * (1 + x.norm());
   if (moves) result.velocities.assign(v.data(), v.data() + v.size());
-  const Eigen::VectorXcd values =
-      equations.linearised(x, moves ? v : Vector::Zero(v.size())).eigenvalues();
-  const double small = kZero * std::max(1., values.cwiseAbs().maxCoeff());
-  for (const std::complex<double>& value : values) {
+  const auto values = eigenvalues_of(equations.linearised(x, moves ? v : Vector::Zero(v.size())));
+  if (!values) return std::nullopt;
+  const double small = kZero * std::max(1., values->cwiseAbs().maxCoeff());
+  for (const std::complex<double>& value : *values) {
     result.eigenvalues.emplace_back(std::abs(value.real()) < small ? 0 : value.real(),
                                     std::abs(value.imag()) < small ? 0 : value.imag());
   }
@@ -189,10 +189,8 @@ Equilibrium described(const Equations& equations, const Vector& x, const Vector&
     return std::pair(-std::round(a.real() * 1e5), -a.imag()) <
            std::pair(-std::round(b.real() * 1e5), -b.imag());
   });
-  Eigen::CompleteOrthogonalDecomposition<Matrix> rank;
-  rank.setThreshold(1e-8);
-  rank.compute(equations.derivative(x, v));
-  result.family = static_cast<std::size_t>(rank.cols() - rank.rank());
+  const Matrix derivative = equations.derivative(x, v);
+  result.family = static_cast<std::size_t>(derivative.cols() - rank_of(derivative, 1e-8));
   result.residual = equations.rates(x, v).lpNorm<Eigen::Infinity>();
   return result;
 }
@@ -250,10 +248,10 @@ EquilibriumReport find_equilibria(const Model& model, const Scene& scene,
       for (double& entry : x) entry = scale * normal(random);
     for (double& entry : v) entry = normal(random);
     if (!solve(equations, x, v, scale)) continue;
-    const Equilibrium found = described(equations, x, v);
-    if (std::none_of(report.equilibria.begin(), report.equilibria.end(),
-                     [&](const Equilibrium& known) { return same(known, found, scale); }))
-      report.equilibria.push_back(found);
+    const auto found = described(equations, x, v);
+    if (found && std::none_of(report.equilibria.begin(), report.equilibria.end(),
+                              [&](const Equilibrium& known) { return same(known, *found, scale); }))
+      report.equilibria.push_back(*found);
   }
   std::stable_sort(report.equilibria.begin(), report.equilibria.end(),
                    [](const auto& a, const auto& b) { return a.family < b.family; });

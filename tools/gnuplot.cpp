@@ -12,7 +12,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tools/cli.hpp"
+#include "symbolic/error.hpp"
+#include "tools/errors.hpp"
 
 extern char** environ;
 

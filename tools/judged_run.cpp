@@ -8,6 +8,7 @@
 
 #include "runtime/stiffness.hpp"
 #include "tools/drift_check.hpp"
+#include "tools/errors.hpp"
 #include "tools/near_singular.hpp"
 #include "tools/projected.hpp"
 #include "tools/run_report.hpp"

@@ -1,5 +1,6 @@
 #include "tools/kept_parameters.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <sstream>
 
@@ -49,9 +50,9 @@ Model KeptParameters::model_of(const CaseFile& file, const ParameterValues& give
   ParameterValues fixed;
   const std::vector<std::string> kept = names();
   for (const auto& [name, value] : given) {
-    const bool declared =
-        std::any_of(file.parameters.begin(), file.parameters.end(),
-                    [&](const ParameterText& p) { return p.name.value == name.value; });
+    const bool declared = std::any_of(
+        file.parameters.begin(), file.parameters.end(),
+        [&, &wanted = name](const ParameterText& p) { return p.name.value == wanted.value; });
     if (declared && (all() || std::find(kept.begin(), kept.end(), name.value) != kept.end()))
       choose(chosen, name, value);
     else

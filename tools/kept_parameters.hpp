@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tools/case_library.hpp"
-#include "tools/cli.hpp"
+#include "tools/cli_names.hpp"
 
 namespace casimir::tools {
 

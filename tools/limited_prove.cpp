@@ -12,7 +12,7 @@
 #include <cstring>
 #include <exception>
 
-#include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/proof_report.hpp"
 
 namespace casimir::tools {

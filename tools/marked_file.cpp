@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "symbolic/error.hpp"
-#include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/output.hpp"
 
 namespace casimir::tools {

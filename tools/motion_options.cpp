@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
+#include "tools/errors.hpp"
+
 namespace casimir::tools {
 namespace {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/cli.hpp"
+#include "tools/cli_names.hpp"
 #include "tools/motion_plot.hpp"
 
 namespace casimir::tools {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/cli.hpp"
 #include "tools/quantities.hpp"
 
 namespace casimir::tools {

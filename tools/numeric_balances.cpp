@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <optional>
 #include <random>
+
+#include "runtime/dense.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -18,7 +20,7 @@ using Matrix = Eigen::MatrixXcd;
 
 constexpr std::size_t kStarts = 600;
 // Of exponents: rounding splits a double one by the square root of its size, a triple one by the
-// cube root.
+// cube root; the mean of the parts has no more error than a simple one.
 constexpr double kNear = 1e-4;
 
 Number power(Number x, unsigned long exponent) {
@@ -63,14 +65,12 @@ Values values_at(const search::LeadingSystem& system, const Vector& x) {
 /// Newton's iteration with the shortest step that the linear equations allow.
 std::optional<Vector> solved(const search::LeadingSystem& system, Vector x) {
   constexpr int kRounds = 80;
-  constexpr double kSmall = 1e-13, kZero = 1e-3;
+  constexpr double kSmall = 1e-13, kZero = 1e-7;  // the zero solution is approached fast
   for (int round = 0; round < kRounds; ++round) {
     const Values values = values_at(system, x);
     const double scale = 1 + x.norm();
     if (!std::isfinite(values.residual.norm())) return std::nullopt;
-    Eigen::CompleteOrthogonalDecomposition<Matrix> solver(values.derivative);
-    solver.setThreshold(1e-10);
-    Vector step = solver.solve(values.residual);
+    Vector step = shortest_solution(values.derivative, values.residual, 1e-10);
     if (values.residual.norm() < kSmall * scale && step.norm() < 1e-9 * scale)
       return x.norm() < kZero ? std::nullopt : std::optional(x);
     if (step.norm() > scale) step *= scale / step.norm();
@@ -85,23 +85,33 @@ struct Point {
   Eigen::Index family = 0;        ///< its dimension
 };
 
-Point described(const search::LeadingSystem& system, const Vector& x) {
-  const Matrix matrix = values_at(system, x).derivative;
-  Point result{x, {}, 0};
-  for (const Number& value : Vector(matrix.eigenvalues())) {
-    const auto rounded = [](double part) {
-      return std::abs(part - std::round(part)) < kNear ? std::round(part) : part;
-    };
-    result.exponents.emplace_back(rounded(value.real()), rounded(value.imag()));
+/// Every number that is close to others becomes their mean.
+std::vector<Number> with_means(const Vector& values) {
+  std::vector<Number> result;
+  for (const Number& value : values) {
+    Number sum = 0;
+    double count = 0;
+    for (const Number& other : values) {
+      if (std::abs(other - value) > kNear) continue;
+      sum += other;
+      ++count;
+    }
+    result.push_back(sum / count);
   }
+  return result;
+}
+
+/// Empty where the exponents cannot be computed.
+std::optional<Point> described(const search::LeadingSystem& system, const Vector& x) {
+  const Matrix matrix = values_at(system, x).derivative;
+  const auto eigenvalues = eigenvalues_of(matrix);
+  if (!eigenvalues) return std::nullopt;
+  Point result{x, with_means(*eigenvalues), 0};
   std::sort(result.exponents.begin(), result.exponents.end(), [](const Number& a, const Number& b) {
     return std::pair(std::round(a.real() / kNear), a.imag()) <
            std::pair(std::round(b.real() / kNear), b.imag());
   });
-  Eigen::CompleteOrthogonalDecomposition<Matrix> rank;
-  rank.setThreshold(1e-7);
-  rank.compute(matrix);
-  result.family = matrix.cols() - rank.rank();
+  result.family = matrix.cols() - rank_of(matrix, 1e-7);
   return result;
 }
 
@@ -114,7 +124,7 @@ bool same(const Point& a, const Point& b) {
 }
 
 std::string text_of(Number value, int digits) {
-  constexpr double kRounding = 1e-12;
+  constexpr double kRounding = 1e-7;  // of what is computed from double precision twice
   const auto part = [](double x) { return std::abs(x) < kRounding ? 0 : x; };
   const double real = part(value.real()), imaginary = part(value.imag());
   if (imaginary == 0) return fmt::format("{:.{}g}", real, digits);
@@ -164,10 +174,10 @@ NumericBalances find_numeric_balances(const search::LeadingSystem& system,
     }
     const std::optional<Vector> place = solved(system, x);
     if (!place) continue;
-    Point point = described(system, *place);
-    if (std::none_of(points.begin(), points.end(),
-                     [&](const Point& known) { return same(known, point); }))
-      points.push_back(std::move(point));
+    std::optional<Point> point = described(system, *place);
+    if (point && std::none_of(points.begin(), points.end(),
+                              [&](const Point& known) { return same(known, *point); }))
+      points.push_back(std::move(*point));
   }
   for (const Point& point : points) result.balances.push_back(balance_of(system, point));
   return result;

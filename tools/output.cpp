@@ -13,7 +13,7 @@
 
 #include "codegen/compile.hpp"
 #include "symbolic/error.hpp"
-#include "tools/cli.hpp"
+#include "tools/errors.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -8,6 +8,7 @@
 #include "codegen/differentiate.hpp"
 #include "runtime/projection.hpp"
 #include "tools/drift_check.hpp"
+#include "tools/errors.hpp"
 
 namespace casimir::tools {
 namespace {

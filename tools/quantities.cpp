@@ -8,7 +8,7 @@
 #include "codegen/lower.hpp"
 #include "codegen/terms.hpp"
 #include "runtime/evaluate.hpp"
-#include "tools/cli.hpp"
+#include "tools/errors.hpp"
 
 namespace casimir::tools {
 

@@ -4,11 +4,12 @@
 #include <fmt/ranges.h>
 #include <sys/resource.h>
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 
 #include "symbolic/error.hpp"
 #include "symbolic/memory.hpp"
-#include "tools/cli.hpp"
+#include "tools/errors.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "symbolic/limits.hpp"
+#include "tools/cli_names.hpp"
 
 namespace casimir::tools {
 

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 
 #include "codegen/literal.hpp"
 #include "symbolic/decimal.hpp"
 #include "symbolic/expression.hpp"
+#include "tools/errors.hpp"
 
 namespace casimir::tools {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "runtime/methods.hpp"
-#include "tools/cli.hpp"
+#include "tools/cli_names.hpp"
 #include "tools/scene_run.hpp"
 
 namespace casimir::tools {

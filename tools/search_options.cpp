@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+
+#include "tools/errors.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "symbolic/case_file.hpp"
-#include "tools/cli.hpp"
+#include "tools/cli_names.hpp"
 
 namespace casimir::tools {
 

@@ -9,19 +9,21 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "tools/errors.hpp"
+
 namespace casimir::tools {
 namespace {
 
-/// What is said where the time is up.
-std::string time_up_text(const Common& common, const std::string& case_name) {
-  const std::string reason = search::TimeUp().what();
+/// What is said where there is no result.
+std::string undecided_text(const Common& common, const std::string& case_name,
+                           const std::string& reason, double seconds) {
   if (common.quiet && !common.json) return {};
   if (!common.json) return fmt::format("undecided: {}\n", reason);
   return nlohmann::ordered_json{{"case", case_name},
                                 {"verdict", "undecided"},
                                 {"integrals", nlohmann::json::array()},
                                 {"reason", reason},
-                                {"seconds", common.time_limit}}
+                                {"seconds", seconds}}
              .dump(2) +
          '\n';
 }
@@ -35,7 +37,9 @@ SearchWatch::SearchWatch(const Common& common, const std::string& case_name, dou
     // long after the limit, the program ends. Nothing was printed or written before.
     constexpr double kGrace = 0.5;
     const auto limit = std::chrono::duration<double>(common.time_limit + kGrace);
-    std::thread([done = done_, limit, text = time_up_text(common, case_name)] {
+    std::thread([done = done_, limit,
+                 text = undecided_text(common, case_name, search::TimeUp().what(),
+                                       common.time_limit)] {
       std::this_thread::sleep_for(limit);
       if (done->exchange(true)) return;
       std::fputs(text.c_str(), stdout);
@@ -69,6 +73,7 @@ double SearchWatch::end() {
 
 int with_search_errors(const Common& common, const std::string& case_name,
                        const std::function<int()>& work) {
+  const auto start = std::chrono::steady_clock::now();
   try {
     return work();
   } catch (const search::TooMuchMemory& problem) {
@@ -76,8 +81,9 @@ int with_search_errors(const Common& common, const std::string& case_name,
         fmt::format("{}\n  hint: a lower --degree, numbers for parameters (--param), or a higher "
                     "--memory-limit",
                     problem.what()));
-  } catch (const search::TimeUp&) {
-    std::cout << time_up_text(common, case_name);
+  } catch (const search::NoAnswer& problem) {
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    std::cout << undecided_text(common, case_name, problem.what(), spent.count());
     return kUndecided;
   }
 }

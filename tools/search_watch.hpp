@@ -38,8 +38,8 @@ class SearchWatch {
   std::shared_ptr<std::atomic<bool>> done_;  ///< or the time is up: shared with what waits for that
 };
 
-/// Runs a search; where the time is up it says so, also as JSON, and returns kUndecided.
-/// \throws SystemError  with advice, where it would take too much memory.
+/// Runs a search; where it ends without an answer it says why, also as JSON, and returns
+/// kUndecided. \throws SystemError  with advice, where it would take too much memory.
 int with_search_errors(const Common& common, const std::string& case_name,
                        const std::function<int()>& work);
 

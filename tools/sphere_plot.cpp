@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "symbolic/vector_form.hpp"
-#include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/motion_plot.hpp"
 #include "tools/quantities.hpp"
 
@@ -154,10 +154,17 @@ Eigen::Matrix3d turn(double h, const Vector3d& a, const Vector3d& middle, const 
   return Eigen::AngleAxisd(size, angle / size).toRotationMatrix();
 }
 
+/// A rotation that takes a vector to the direction of (0, 0, 1).
+Eigen::Matrix3d upright(const Vector3d& vector) {
+  const Vector3d axis = vector.cross(Vector3d::UnitZ());
+  const double size = axis.norm();
+  if (size == 0) return Vector3d(1, vector.z() < 0 ? -1 : 1, vector.z() < 0 ? -1 : 1).asDiagonal();
+  return Eigen::AngleAxisd(std::atan2(size, vector.z()), axis / size).toRotationMatrix();
+}
+
 /// The third axis of the body in space, where `vertical` is (0, 0, 1).
 Path apex(const Motion& motion, const Path& vertical, const Path& velocity) {
-  Eigen::Matrix3d attitude =
-      Eigen::Quaterniond::FromTwoVectors(vertical.front(), Vector3d::UnitZ()).toRotationMatrix();
+  Eigen::Matrix3d attitude = upright(vertical.front());
   Path path{attitude.col(2)};
   for (std::size_t k = 0; k + 2 < velocity.size(); k += 2) {
     attitude *=

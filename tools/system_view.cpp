@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "symbolic/measure.hpp"
 #include "symbolic/prove.hpp"
 
 namespace casimir::tools {
@@ -137,6 +138,7 @@ std::string Writer::rate(const std::string& letter) const {
 /// The right side of an equation as it is best read: a polynomial by its monomials, any other
 /// function in the shorter of two forms.
 ex Writer::readable(const ex& field) const {
+  if (most_terms(field) > kMostTermsShown) return field;
   const ex expanded = field.expand();
   if (const auto polynomial = grouped(expanded, model_)) return *polynomial;
   const auto length = [&](const ex& e) { return notation_.components(e, Markup::text).size(); };

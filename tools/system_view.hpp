@@ -9,6 +9,9 @@
 
 namespace casimir::tools {
 
+/// Of an equation that is multiplied out: nobody reads more.
+inline constexpr double kMostTermsShown = 5000;
+
 /// left = right, where the functions `on` vanish.
 struct Formula {
   std::string left, right;

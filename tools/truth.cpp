@@ -13,6 +13,7 @@
 #include "runtime/evaluate.hpp"
 #include "runtime/methods.hpp"
 #include "runtime/reference.hpp"
+#include "tools/errors.hpp"
 
 namespace casimir::tools {
 namespace {

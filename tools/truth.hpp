@@ -7,7 +7,7 @@
 
 #include "runtime/work_precision.hpp"
 #include "symbolic/model.hpp"
-#include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/scene_run.hpp"
 
 namespace casimir::tools {

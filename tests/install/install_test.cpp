@@ -49,6 +49,20 @@ TEST(Install, NothingNamesTheFoldersItWasBuiltIn) {
   }
 }
 
+TEST(Install, PagesLeadToPagesThatAreInstalled) {
+  const Installed installed;
+  const fs::path pages = installed.prefix() / "share/doc/casimir";
+  static const std::regex kLink(R"(\]\(([^)#:]+)(#[^)]*)?\))");
+  std::size_t links = 0;
+  for (const fs::path& file : files_below(pages)) {
+    if (file.extension() != ".md") continue;
+    const std::string text = file_text(file);
+    for (std::sregex_iterator it(text.begin(), text.end(), kLink), end; it != end; ++it, ++links)
+      EXPECT_TRUE(fs::exists(file.parent_path() / (*it)[1].str())) << file << " " << (*it)[1];
+  }
+  EXPECT_GT(links, 10U);
+}
+
 TEST(Install, HeadersIncludeOnlyWhatIsInstalled) {
   const Installed installed;
   const fs::path headers = installed.prefix() / "include/casimir";

@@ -122,12 +122,13 @@ TEST(Tableau, TheRoundedDop853FulfilsTheFirstConditionsFarBeyondDouble) {
   using namespace casimir_kernel::dop853;
   static_assert(std::numeric_limits<long double>::digits >= 64, "the rests are below double");
   const std::map<int, double> rests = {{1, b1_rest}, {9, b9_rest}, {12, b12_rest}};
+  const auto rows = dop853_rows();
   const auto defect = [&](int power, bool corrected) {
     long double sum = 0;
     for (const auto& [i, weight] : kWeights) {
       long double node = 0;
       if (i > 1)
-        for (const auto& [j, a] : dop853_rows().at(i)) node += a;
+        for (const auto& [j, a] : rows.at(i)) node += a;
       const auto rest = rests.find(i);
       const long double lacks = corrected && rest != rests.end() ? rest->second : 0;
       sum += (weight + lacks) * std::pow(node, static_cast<long double>(power));

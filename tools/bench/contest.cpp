@@ -9,6 +9,7 @@
 #include "codegen/compile.hpp"
 #include "runtime/work_precision.hpp"
 #include "symbolic/error.hpp"
+#include "tools/errors.hpp"
 #include "tools/scene_run.hpp"
 #include "tools/truth.hpp"
 

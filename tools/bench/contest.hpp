@@ -7,7 +7,7 @@
 #include "codegen/specialise.hpp"
 #include "runtime/equal_error.hpp"
 #include "symbolic/model.hpp"
-#include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/run_options.hpp"
 #include "tools/run_report.hpp"
 

@@ -1,6 +1,7 @@
 // casimir bench: error against run time, for specialised and general code, beside other libraries.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 
@@ -9,6 +10,7 @@
 #include "tools/bench/report.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/kept_parameters.hpp"
 #include "tools/output.hpp"
 #include "tools/progress.hpp"
@@ -206,9 +208,7 @@ void register_bench(CLI::App& program, Action& action) {
   options->kept.add_to(*command);
   command->add_option("CASE", options->case_names,
                       "Bundled cases, case files, or - for standard input");
-  command->add_flag("--all", options->all, "Every bundled case");
-  command->add_option("--tag", options->tag, "With --all: only cases with this tag")
-      ->type_name("TAG");
+  add_all(*command, options->all, options->tag, "Every bundled case");
   add_measurement_options(*command, options->contest);
   command
       ->add_option("--output", options->outputs,

@@ -1,6 +1,7 @@
 // casimir conserve: integrates scenes with our own methods and checks the drift of every invariant.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -9,6 +10,7 @@
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
 #include "tools/conserve_run.hpp"
+#include "tools/errors.hpp"
 #include "tools/kept_parameters.hpp"
 #include "tools/output.hpp"
 
@@ -107,11 +109,8 @@ void register_conserve(CLI::App& program, Action& action) {
       "conserve", "Check the drift of the Hamiltonian, Casimirs and integrals along every scene");
   add_common(*command, options->common);
   add_in(*command, options->in);
-  command->add_option("CASE", options->case_name,
-                      "A bundled case, a case file, or - for standard input");
-  command->add_flag("--all", options->all, "Every bundled case");
-  command->add_option("--tag", options->tag, "With --all: only cases with this tag")
-      ->type_name("TAG");
+  command->add_option("CASE", options->case_name, kCaseText);
+  add_all(*command, options->all, options->tag, "Every bundled case");
   command->add_option("--bound", options->bound, "Largest drift allowed (default 1e-9)")
       ->type_name("X")
       ->check(CLI::PositiveNumber);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/equilibria.hpp"
+#include "tools/errors.hpp"
 #include "tools/search_watch.hpp"
 
 namespace casimir::tools {
@@ -120,10 +122,7 @@ void register_equilibria(CLI::App& program, Action& action) {
       "equilibria", "Equilibria and relative equilibria of a scene, with eigenvalues");
   add_common(*command, options->common);
   add_in(*command, options->in);
-  command
-      ->add_option("CASE", options->case_name,
-                   "A bundled case, a case file, or - for standard input")
-      ->required();
+  add_case(*command, options->case_name);
   command->callback([options, &action] { action = [options] { return equilibria(*options); }; });
 }
 

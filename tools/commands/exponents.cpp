@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 #include "symbolic/search/exponents.hpp"
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
+#include "tools/errors.hpp"
 #include "tools/numeric_balances.hpp"
 #include "tools/search_options.hpp"
 #include "tools/search_watch.hpp"
@@ -178,10 +180,7 @@ void register_exponents(CLI::App& program, Action& action) {
       "exponents", "Kovalevskaya-Painleve analysis: balances and Kovalevskaya exponents");
   add_common(*command, options->common);
   add_in(*command, options->in);
-  command
-      ->add_option("CASE", options->case_name,
-                   "A bundled case, a case file, or - for standard input")
-      ->required();
+  add_case(*command, options->case_name);
   add_weights(*command, options->weights);
   command->add_flag("--numeric", options->numeric,
                     "Numeric balances only, in place of the exact analysis");

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 
@@ -9,6 +10,7 @@
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/generated_report.hpp"
 #include "tools/kept_parameters.hpp"
 #include "tools/output.hpp"
@@ -107,10 +109,7 @@ void register_generate(CLI::App& program, Action& action) {
       "generate", "Write a self-contained C++20 or C99 header specialised to a scene");
   add_common(*command, options->common);
   add_in(*command, options->in);
-  command
-      ->add_option("CASE", options->case_name,
-                   "A bundled case, a case file, or - for standard input")
-      ->required();
+  add_case(*command, options->case_name);
   command
       ->add_option("-o,--output", options->output, "The header to write (default: standard output)")
       ->type_name("FILE");

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -12,6 +13,7 @@
 #include "tools/cli.hpp"
 #include "tools/digits_run.hpp"
 #include "tools/ensemble_run.hpp"
+#include "tools/errors.hpp"
 #include "tools/generated_report.hpp"
 #include "tools/judged_run.hpp"
 #include "tools/kept_parameters.hpp"
@@ -275,10 +277,7 @@ void register_integrate(CLI::App& program, Action& action) {
       "integrate", "Compile the specialised module of a scene and integrate it");
   add_common(*command, options->common);
   add_in(*command, options->in);
-  command
-      ->add_option("CASE", options->case_name,
-                   "A bundled case, a case file, or - for standard input")
-      ->required();
+  add_case(*command, options->case_name);
   command->add_option("--method", options->method, "A method, or auto: " + method_list())
       ->type_name("NAME");
   add_run_options(*command, options->run);

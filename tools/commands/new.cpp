@@ -1,12 +1,14 @@
 // casimir new: a commented case file to start from.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "symbolic/error.hpp"
 #include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/new_case.hpp"
 #include "tools/output.hpp"
 

@@ -1,6 +1,7 @@
 // casimir report: one page about a case, or about all of them with an index.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include "tools/book_order.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/output.hpp"
 #include "tools/progress.hpp"
 #include "tools/proof_table.hpp"
@@ -304,11 +306,8 @@ void register_report(CLI::App& program, Action& action) {
       "is refuted or an invariant drifts, 3 if a claim is undecided, 4 if something is missing.");
   add_common(*command, options->common);
   add_in(*command, options->in);
-  command->add_option("CASE", options->case_name,
-                      "A bundled case, a case file, or - for standard input");
-  command->add_flag("--all", options->all, "Every bundled case, and an index over them");
-  command->add_option("--tag", options->tag, "With --all: only cases with this tag")
-      ->type_name("TAG");
+  command->add_option("CASE", options->case_name, kCaseText);
+  add_all(*command, options->all, options->tag, "Every bundled case, and an index over them");
   command
       ->add_option(
           "--budget", options->budget,

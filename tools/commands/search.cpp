@@ -1,12 +1,14 @@
 // casimir search: finds the polynomial integrals of a case up to a degree.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "symbolic/search/darboux.hpp"
 #include "symbolic/search/search.hpp"
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
+#include "tools/errors.hpp"
 #include "tools/resources.hpp"
 #include "tools/search_options.hpp"
 #include "tools/search_report.hpp"
@@ -23,20 +25,8 @@ struct Options {
   std::vector<std::string> on, functions, weights, free;
 };
 
-int find_darboux(const Options& options, const Model& model, SearchWatch& watch) {
-  const search::DarbouxReport report = search::find_darboux(model, options.degree, watch.watch());
-  const double seconds = watch.end();
-  if (options.common.json)
-    std::cout << to_json(model, options.degree, report, seconds).dump(2) << '\n';
-  else if (!options.common.quiet)
-    print(model, options.degree, report, seconds);
-  return report.complete ? kDone : kUndecided;
-}
-
-int find_conditions(const Options& options, const Model& model, const search::Request& request,
-                    SearchWatch& watch) {
-  const search::ConditionReport report = search::find_conditions(
-      model, request, texts_of(options.free, "--free", true), watch.watch());
+template <class Report>
+int answer(const Options& options, const Model& model, const Report& report, SearchWatch& watch) {
   const double seconds = watch.end();
   if (options.common.json)
     std::cout << to_json(model, options.degree, report, seconds).dump(2) << '\n';
@@ -50,18 +40,18 @@ int search_case(const Options& options) {
       model_of(load_case(options.case_name), options.common.parameter_values()), options.in);
   if (options.common.scene_given) model.scene(options.common.scene);
   SearchWatch watch(options.common, model.name, memory_allowed().value_or(2e9));
-  if (options.darboux) return find_darboux(options, model, watch);
+  if (options.darboux) {
+    return answer(options, model, search::find_darboux(model, options.degree, watch.watch()),
+                  watch);
+  }
   const search::Request request{options.degree, options.casimirs, texts_of(options.on, "--on"),
                                 texts_of(options.functions, "--functions"),
                                 weights_of(options.weights)};
-  if (!options.free.empty()) return find_conditions(options, model, request, watch);
-  const search::Report report = search::find_integrals(model, request, watch.watch());
-  const double seconds = watch.end();
-  if (options.common.json)
-    std::cout << to_json(model, options.degree, report, seconds).dump(2) << '\n';
-  else if (!options.common.quiet)
-    print(model, options.degree, report, seconds);
-  return report.complete ? kDone : kUndecided;
+  if (options.free.empty())
+    return answer(options, model, search::find_integrals(model, request, watch.watch()), watch);
+  const std::vector<Text> free = texts_of(options.free, "--free", true);
+  return answer(options, model, search::find_conditions(model, request, free, watch.watch()),
+                watch);
 }
 
 int search(const Options& options) {
@@ -84,10 +74,7 @@ void register_search(CLI::App& program, Action& action) {
       program.add_subcommand("search", "Find all polynomial integrals up to a degree");
   add_common(*command, options->common);
   add_in(*command, options->in);
-  command
-      ->add_option("CASE", options->case_name,
-                   "A bundled case, a case file, or - for standard input")
-      ->required();
+  add_case(*command, options->case_name);
   command->add_option("--degree", options->degree, "Highest degree (weighted, with --weights)")
       ->required()
       ->type_name("N")

@@ -1,12 +1,14 @@
 // casimir section: many orbits on one energy and Casimir level, cut with a surface.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <memory>
 
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/gnuplot.hpp"
 #include "tools/progress.hpp"
 #include "tools/run_report.hpp"
@@ -161,6 +163,7 @@ class Section {
           spread_out(level_, domain(), until - report.orbits.size(), taken);
       if (turn == 0) chosen = centred(level_, domain(), std::move(chosen));
       std::vector<LevelSet::Vector> seeds;
+      seeds.reserve(chosen.size());
       for (const PlacedPoint& point : chosen) seeds.push_back(point.x);
       const std::size_t before = report.orbits.size();
       follow(seeds, static_cast<double>(turn + 1) / static_cast<double>(turns), report);
@@ -349,10 +352,7 @@ void register_section(CLI::App& program, Action& action) {
       "that\n"
       "is an angle counts at every multiple of its period.");
   add_common(*command, options->common);
-  command
-      ->add_option("CASE", options->case_name,
-                   "A bundled case, a case file, or - for standard input")
-      ->required();
+  add_case(*command, options->case_name);
   add_plane_options(*command, options->request);
   command
       ->add_option("--orbits", options->orbits,

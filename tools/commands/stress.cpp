@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -12,6 +13,7 @@
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/gnuplot.hpp"
 #include "tools/output.hpp"
 #include "tools/progress.hpp"
@@ -327,9 +329,7 @@ void register_stress(CLI::App& program, Action& action) {
       "CASE", options->cases,
       "Bundled cases, case files, or - for standard input: their extreme scenes, or "
       "all where a case has none");
-  command->add_flag("--all", options->all, "The extreme scenes of every bundled case");
-  command->add_option("--tag", options->tag, "With --all: only cases with this tag")
-      ->type_name("TAG");
+  add_all(*command, options->all, options->tag, "The extreme scenes of every bundled case");
   command->add_flag("--every-scene", options->every_scene, "Scenes that are not extreme too");
   command
       ->add_option("--method", options->methods,

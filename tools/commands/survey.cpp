@@ -1,6 +1,7 @@
 // casimir survey: a table of all cases, with what is proved and what specialising saves.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -9,6 +10,7 @@
 #include "codegen/specialise.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/limited_prove.hpp"
 #include "tools/marked_file.hpp"
 #include "tools/output.hpp"

@@ -7,10 +7,12 @@
 #include <map>
 #include <memory>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/output.hpp"
 #include "tools/progress.hpp"
 #include "tools/run_report.hpp"
@@ -253,10 +255,7 @@ void register_sweep(CLI::App& program, Action& action) {
       "on\n"
       "after a kill. Under mpirun the ranks share the points; the result is the same to the bit.");
   add_common(*command, options->common);
-  command
-      ->add_option("CASE", options->case_name,
-                   "A bundled case, a case file, or - for standard input")
-      ->required();
+  add_case(*command, options->case_name);
   command
       ->add_option("--over", options->over,
                    "NAME=FROM:TO:N, both ends included, or NAME=A,B,C: a parameter, or the initial "

@@ -1,6 +1,7 @@
 // casimir verify: proves or refutes the claims of a case, or candidates typed on the command line.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <chrono>
@@ -12,6 +13,7 @@
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/limited_prove.hpp"
 #include "tools/output.hpp"
 #include "tools/proof_report.hpp"
@@ -167,11 +169,8 @@ void register_verify(CLI::App& program, Action& action) {
       program.add_subcommand("verify", "Prove or refute the claims of a case, or candidates");
   add_common(*command, options->common);
   add_in(*command, options->in);
-  command->add_option("CASE", options->case_name,
-                      "A bundled case, a case file, or - for standard input");
-  command->add_flag("--all", options->all, "Every bundled case");
-  command->add_option("--tag", options->tag, "With --all: only cases with this tag")
-      ->type_name("TAG");
+  command->add_option("CASE", options->case_name, kCaseText);
+  add_all(*command, options->all, options->tag, "Every bundled case");
   const auto repeatable = [&](const char* name, std::vector<std::string>& target,
                               const char* text) {
     command->add_option(name, target, text)->allow_extra_args(false)->type_name("EXPR");

@@ -8,6 +8,7 @@
 #include "codegen/compile.hpp"
 #include "symbolic/error.hpp"
 #include "tools/conserve_run.hpp"
+#include "tools/errors.hpp"
 #include "tools/judged_run.hpp"
 #include "tools/limited_prove.hpp"
 

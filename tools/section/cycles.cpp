@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/dense.hpp"
+
 namespace casimir::tools {
 namespace {
 
@@ -84,7 +86,8 @@ class Newton {
     }
     attempt.cycle.period = first.times.back();
     attempt.cycle.trace = attempt.derivative.trace();
-    attempt.cycle.determinant = attempt.derivative.determinant();
+    const Matrix& d = attempt.derivative;
+    attempt.cycle.determinant = d(0, 0) * d(1, 1) - d(0, 1) * d(1, 0);
     attempt.cycle.residual = attempt.miss.norm();
     attempt.failed = !std::isfinite(attempt.cycle.trace + attempt.cycle.residual);
   }
@@ -92,7 +95,7 @@ class Newton {
   void advance(Attempt& attempt) {
     const double size = attempt.x.norm();
     const Matrix equations = attempt.derivative - Matrix::Identity(2, 2);
-    Vector step = -equations.fullPivLu().solve(attempt.basis.transpose() * attempt.miss);
+    Vector step = -shortest_solution(equations, attempt.basis.transpose() * attempt.miss, 1e-15);
     if (!step.allFinite()) {
       attempt.failed = true;
       return;
@@ -146,7 +149,7 @@ void turn_back(const LevelSet& level, Cycle& cycle) {
 /// Begins where the first plotted function is least, so that a cycle is told in one way.
 void turn(Cycle& cycle) {
   const auto first = std::ranges::min_element(cycle.points, {}, &PlacedPoint::place);
-  std::ranges::rotate(cycle.points, first);
+  std::rotate(cycle.points.begin(), first, cycle.points.end());
 }
 
 }  // namespace

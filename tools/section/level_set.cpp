@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/dense.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/term_size.hpp"
 
@@ -12,6 +13,8 @@ namespace {
 constexpr int kMostSteps = 60;
 /// Of level functions beside their gradients.
 constexpr double kMet = 1e-13;
+/// Of pivots beside the largest.
+constexpr double kSingular = 1e-15;
 
 double wrapped(double value, double period) {
   return period > 0 ? value - period * std::round(value / period) : value;
@@ -79,7 +82,7 @@ bool LevelSet::project(Vector& x, const std::array<double, 2>* pair, bool energy
     start = x;
     Eigen::MatrixXd system = gradient.transpose();
     if (!energy) system.row(0).setZero();
-    step = -system.completeOrthogonalDecomposition().solve(residual);
+    step = -shortest_solution(system, residual, kSingular);
     const double longest = 0.5 * (1 + scale);
     if (step.norm() > longest) step *= longest / step.norm();
     x += step;
@@ -146,9 +149,7 @@ std::array<double, 2> LevelSet::plotted(const double* x) const {
 
 Eigen::MatrixXd LevelSet::tangent(const Vector& x) const {
   const Eigen::MatrixXd normal = gradients(x).leftCols(plane_index() + 1);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(normal, Eigen::ComputeFullU);
-  const auto dimension = static_cast<Eigen::Index>(problem_.leaf) - 2;
-  return svd.matrixU().rightCols(dimension);
+  return orthogonal_complement(normal, static_cast<Eigen::Index>(problem_.leaf) - 2);
 }
 
 LevelSet::Vector LevelSet::difference(const Vector& to, const Vector& from) const {

@@ -3,17 +3,18 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "codegen/specialise.hpp"
+#include "runtime/dense.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/term_size.hpp"
 #include "symbolic/decimal.hpp"
 #include "symbolic/expression.hpp"
-#include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/section/periods.hpp"
 
 namespace casimir::tools {
@@ -263,10 +264,7 @@ class Maker {
         gradients(i, j) = value(model_.casimirs[static_cast<std::size_t>(j)].value.diff(
             model_.variables[static_cast<std::size_t>(i)]));
     const auto rank = [](const Eigen::MatrixXd& matrix) -> Eigen::Index {
-      if (matrix.size() == 0) return 0;
-      Eigen::FullPivLU<Eigen::MatrixXd> lu(matrix);
-      lu.setThreshold(1e-9);
-      return lu.rank();
+      return matrix.size() == 0 ? 0 : rank_of(matrix, 1e-9);
     };
     judge_dimensions(rank(bracket), n - rank(bracket), rank(gradients));
   }

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "tools/cli.hpp"
 #include "tools/ensemble_file.hpp"
+#include "tools/errors.hpp"
 
 namespace casimir::tools {
 namespace {

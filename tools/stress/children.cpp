@@ -15,7 +15,7 @@
 #include <iostream>
 #include <list>
 
-#include "tools/cli.hpp"
+#include "tools/errors.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "codegen/emit_cpp.hpp"
-#include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/run_report.hpp"
 
 namespace casimir::tools {

@@ -10,7 +10,7 @@
 #include "runtime/evaluate.hpp"
 #include "runtime/number.hpp"
 #include "symbolic/expression.hpp"
-#include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/scene_run.hpp"
 
 namespace casimir::tools {

@@ -7,7 +7,7 @@
 
 #include "codegen/emit_cpp.hpp"
 #include "runtime/ensemble.hpp"
-#include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/run_report.hpp"
 
 namespace casimir::tools {

@@ -13,7 +13,8 @@
 #include <optional>
 #include <sstream>
 
-#include "tools/cli.hpp"
+#include "symbolic/error.hpp"
+#include "tools/errors.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -11,7 +11,7 @@
 #include "runtime/evaluate.hpp"
 #include "runtime/term_size.hpp"
 #include "symbolic/expression.hpp"
-#include "tools/cli.hpp"
+#include "tools/errors.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #ifdef CASIMIR_MPI
 #include <mpi.h>
 #endif

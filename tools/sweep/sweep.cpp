@@ -9,7 +9,7 @@
 #include <map>
 #include <optional>
 
-#include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/run_report.hpp"
 #include "tools/sweep/journal.hpp"
 

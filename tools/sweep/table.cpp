@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/output.hpp"
 #include "tools/run_report.hpp"
 

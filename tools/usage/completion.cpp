@@ -1,5 +1,6 @@
 #include "tools/usage/completion.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
 #include <set>

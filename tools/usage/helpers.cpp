@@ -1,9 +1,10 @@
 #include "tools/usage/helpers.hpp"
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 
-#include "tools/cli.hpp"
+#include "tools/errors.hpp"
 #include "tools/output.hpp"
 #include "tools/usage/completion.hpp"
 #include "tools/usage/manual.hpp"

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <map>
 #include <string>
+
+#include "tools/cli_names.hpp"
 
 namespace casimir::tools {
 

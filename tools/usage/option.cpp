@@ -1,5 +1,6 @@
 #include "tools/usage/option.hpp"
 
+#include <CLI/CLI.hpp>
 #include <sstream>
 
 namespace casimir::tools {

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+namespace casimir {
+
+// Decompositions of small dense matrices, instantiated once: a file that does it on its own takes a
+// compiler ten seconds.
+
+/// The shortest of the vectors that make |a x - b| least.
+/// \param threshold  pivots below it, relative to the largest, count as zero
+Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
+                                  double threshold);
+Eigen::VectorXcd shortest_solution(const Eigen::MatrixXcd& a, const Eigen::VectorXcd& b,
+                                   double threshold);
+
+/// \param threshold  as above
+Eigen::Index rank_of(const Eigen::MatrixXd& a, double threshold);
+Eigen::Index rank_of(const Eigen::MatrixXcd& a, double threshold);
+
+/// Of a square matrix, in no order; empty where the iteration does not converge.
+std::optional<Eigen::VectorXcd> eigenvalues_of(const Eigen::MatrixXd& a);
+std::optional<Eigen::VectorXcd> eigenvalues_of(const Eigen::MatrixXcd& a);
+
+/// An orthonormal basis, a column each, of `count` directions that are orthogonal to the columns of
+/// a.
+Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& a, Eigen::Index count);
+
+}  // namespace casimir
