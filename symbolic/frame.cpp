@@ -106,12 +106,15 @@ class StructureFunctions {
       const int numerator = numerators(random_);
       return cln::cl_RA(numerator) / denominators(random_);
     };
-    constexpr int kTrials = 200;
-    for (int trial = 0; trial < kTrials; ++trial) {
+    // A root has a rational value at few points. Where no point was found once, none is looked for
+    // again; where the numbers are long, fewer are tried.
+    const long trials = no_point_ ? 0 : std::clamp(4000 / (1 + ring_.argument_degree()), 5L, 200L);
+    for (long trial = 0; trial < trials; ++trial) {
       std::vector<cln::cl_RA> point;
       for (std::size_t i = 0; i < ring_.symbols().size(); ++i) point.push_back(draw());
       if (ring_.complete(point, draw, {.formal = true})) return point;
     }
+    no_point_ = true;
     return std::nullopt;
   }
 
@@ -200,6 +203,7 @@ class StructureFunctions {
   FunctionRing ring_;
   std::vector<PolynomialField> fields_;
   std::mt19937 random_{20190102};
+  bool no_point_ = false;  ///< a search for points has failed
 };
 
 }  // namespace

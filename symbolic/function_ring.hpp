@@ -100,6 +100,10 @@ class FunctionRing {
   bool complete(std::vector<cln::cl_RA>& point, const std::function<cln::cl_RA()>& draw,
                 const Freedom& freedom) const;
 
+  /// The largest total degree of the arguments of the generators: what it costs to complete a
+  /// point.
+  long argument_degree() const;
+
   /// Whether `p` has a value at a completed point: logarithms, inverse functions and I have none.
   bool has_value(const Polynomial& p) const;
 

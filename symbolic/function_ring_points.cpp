@@ -2,6 +2,7 @@
 #include <cln/integer.h>
 #include <cln/rational.h>
 
+#include <algorithm>
 #include <tuple>
 
 #include "symbolic/function_ring.hpp"
@@ -34,6 +35,12 @@ std::vector<bool> FunctionRing::bare_symbols(const Polynomial& p) const {
     if (!argument || !plain_symbol(g.base)) mark(g.base);
   }
   return bare;
+}
+
+long FunctionRing::argument_degree() const {
+  long degree = 0;
+  for (const Generator& g : generators_) degree = std::max(degree, g.base.total_degree());
+  return degree;
 }
 
 bool FunctionRing::has_value(const Polynomial& p) const {
