@@ -11,6 +11,7 @@
 
 #include "symbolic/function_ring.hpp"
 #include "symbolic/limits.hpp"
+#include "symbolic/machine_word.hpp"
 
 namespace casimir {
 namespace {
@@ -263,12 +264,11 @@ Polynomial FunctionRing::convert_power(const ex& base, const ex& exponent) {
   const Polynomial b = convert(base);
   const cln::cl_I whole = cln::floor1(e);
   const cln::cl_RA part = e - whole;
-  const long size = cln::cl_I_to_long(cln::abs(whole));
-  Polynomial result = whole >= 0 ? power(b, static_cast<unsigned long>(size))
-                                 : power(inverse(b), static_cast<unsigned long>(size));
+  const unsigned long size = machine_word(whole);
+  Polynomial result = power(whole >= 0 ? b : inverse(b), size);
   if (!cln::zerop(part)) {
-    const unsigned long q = cln::cl_I_to_ulong(cln::denominator(part));
-    result = checked_product(result, power(root(b, q), cln::cl_I_to_ulong(cln::numerator(part))));
+    const Polynomial one = root(b, machine_word(cln::denominator(part)));
+    result = checked_product(result, power(one, machine_word(cln::numerator(part))));
   }
   return result;
 }

@@ -6,6 +6,7 @@
 
 #include "symbolic/function_ring.hpp"
 #include "symbolic/integer_factors.hpp"
+#include "symbolic/machine_word.hpp"
 
 namespace casimir {
 namespace {
@@ -118,7 +119,7 @@ std::pair<Polynomial, Polynomial> FunctionRing::sine_cosine(const Polynomial& an
     if (cln::abs(times) > kMaxMultiple) throw TooLarge("a multiple of an angle is too large");
     auto [s1, c1] = std::move(*part);
     if (cln::minusp(times)) s1 = -s1;
-    for (long k = cln::cl_I_to_long(cln::abs(times)); k > 0; --k) {
+    for (unsigned long k = machine_word(times); k > 0; --k) {
       Polynomial next = checked_product(s, c1) + checked_product(c, s1);
       c = checked_product(c, c1) - checked_product(s, s1);
       s = std::move(next);
@@ -200,9 +201,8 @@ std::optional<Polynomial> FunctionRing::special_exponential(
   Polynomial argument = generators_[i - symbols_.size()].base;
   if (tag == kLogOfAbsolute) argument = absolute(argument);
   const cln::cl_I denominator = cln::denominator(coefficient);
-  if (denominator != 1) argument = root(argument, cln::cl_I_to_ulong(denominator));
-  return power(cln::minusp(times) ? inverse(argument) : argument,
-               cln::cl_I_to_ulong(cln::abs(times)));
+  if (denominator != 1) argument = root(argument, machine_word(denominator));
+  return power(cln::minusp(times) ? inverse(argument) : argument, machine_word(times));
 }
 
 Polynomial FunctionRing::exponential(const Polynomial& exponent) {
@@ -225,7 +225,7 @@ Polynomial FunctionRing::exponential(const Polynomial& exponent) {
                     [&](const Polynomial& slope) { return slope * next; });
     }
     const Polynomial base = cln::minusp(times) ? inverse(e) : e;
-    result = checked_product(result, base.pow(cln::cl_I_to_ulong(cln::abs(times))));
+    result = checked_product(result, base.pow(machine_word(times)));
   }
   return result;
 }

@@ -99,7 +99,7 @@ Polynomial FunctionRing::root(const Polynomial& p, unsigned long q) {
   const bool even = q % 2 == 0;
   // For an odd root the branch on negative numbers is a convention that nothing may rest on.
   const auto outside = [&](const Polynomial& f, unsigned long k) {
-    return even && k % 2 == 1 ? absolute(f).pow(k) : f.pow(k);
+    return power(even && k % 2 == 1 ? absolute(f) : f, k);
   };
   Polynomial factor = ring_->constant(1);
   Polynomial radicand = ring_->constant(1);
@@ -111,7 +111,7 @@ Polynomial FunctionRing::root(const Polynomial& p, unsigned long q) {
     if (!even && known_sign(f) <= 0) return plain_root(p, q);
     const unsigned long k = (exponent + q - 1) / q;
     factor = checked_product(factor, inverse(outside(f, k)));
-    radicand = checked_product(radicand, f.pow(k * q - exponent));
+    radicand = checked_product(radicand, power(f, k * q - exponent));
   }
   radicand = checked_product(radicand, top);
   const auto factors = factors_of(radicand);
@@ -142,17 +142,19 @@ Polynomial FunctionRing::root(const Polynomial& p, unsigned long q) {
 
 /// r^(1/q) for r > 0, by roots of primes: so that sqrt(6) = sqrt(2) sqrt(3).
 Polynomial FunctionRing::number_root(const cln::cl_RA& r, unsigned long q) {
-  const cln::cl_I denominator = cln::denominator(r);
-  const cln::cl_I rest = cln::numerator(r) * cln::expt_pos(denominator, cln::cl_I(q - 1));
-  Polynomial result = ring_->constant(1 / cln::cl_RA(denominator));
-  const auto take = [&](const cln::cl_I& p, unsigned long times) {
-    result = result.scaled(cln::expt(p, cln::cl_I(times / q)));
-    if (times % q != 0)
-      result = checked_product(result, plain_root(ring_->constant(p), q).pow(times % q));
-  };
-  const auto factors = prime_factors(rest);
-  if (!factors) throw TooLarge("the root of a number that is too large to be factored");
-  for (const auto& [prime, times] : *factors) take(prime, times);
+  Polynomial result = ring_->constant(1 / cln::cl_RA(cln::denominator(r)));
+  // 1/d is d^(q - 1) in the radicand, over d.
+  for (const auto& [number, copies] :
+       {std::pair(cln::numerator(r), 1UL), std::pair(cln::denominator(r), q - 1)}) {
+    const auto factors = prime_factors(number);
+    if (!factors) throw TooLarge("the root of a number that is too large to be factored");
+    for (const auto& [prime, multiplicity] : *factors) {
+      const unsigned long times = multiplicity * copies;
+      result = result.scaled(cln::expt(prime, cln::cl_I(times / q)));
+      if (times % q != 0)
+        result = checked_product(result, plain_root(ring_->constant(prime), q).pow(times % q));
+    }
+  }
   return result;
 }
 

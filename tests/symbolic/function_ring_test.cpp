@@ -111,6 +111,20 @@ TEST_F(Functions, HiddenDivisionByZeroIsRefused) {
 
 TEST_F(Functions, GiantsAreRefused) { EXPECT_THROW(zero(pow(x_ + y_ + z_ + 1, 1000)), TooLarge); }
 
+// CLN keeps the low 64 bits of a number that is too long, which would make this a square root.
+TEST_F(Functions, OrdersOfRootsBeyondAMachineWordAreRefused) {
+  const GiNaC::numeric two_more = GiNaC::numeric(2).power(64) + 2;
+  EXPECT_THROW(zero(pow(x_, 1 / two_more) - sqrt(x_)), TooLarge);
+  EXPECT_THROW(zero(exp(GiNaC::log(x_) / two_more) - sqrt(x_)), TooLarge);
+  EXPECT_THROW(zero(pow(x_, two_more) - x_ * x_), TooLarge);
+}
+
+TEST_F(Functions, RootsOfHighOrderTakeNoHighPowers) {
+  const ex e = ex(3333333333L) / ex(10000000000L);  // 0.3333333333
+  EXPECT_TRUE(zero(pow(x_ / 3, e) * pow(x_ / 3, 1 - e) - x_ / 3, {positive(x_)}));
+  EXPECT_THROW(zero(pow(x_ / (x_ * x_ + y_ * y_ + 1), e)), TooLarge);
+}
+
 TEST_F(Functions, SumsAndProductsOfAnyOperands) {
   // Monomials, numbers, powers of sums and functions take different ways to their polynomials.
   EXPECT_TRUE(zero(2 * x_ * pow(y_, 3) * pow(x_ + y_, 2) - 2 * pow(x_, 3) * pow(y_, 3) -
