@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <vector>
 
 namespace casimir::tools {
@@ -27,11 +28,37 @@ Action Program::read(int argc, const char* const* argv) {
   };
 }
 
+namespace {
+
+/// CLI11 reports an unknown option, with its value, as extra arguments; a near name helps more.
+std::string extra_message(const CLI::App& command) {
+  std::vector<std::string> extras = command.remaining();
+  const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& word) {
+    return word.size() > 1 && word[0] == '-';
+  });
+  if (option == extras.end())
+    return fmt::format("casimir: error: unexpected argument '{}'", printable(extras.at(0), 200));
+  const std::string name = option->substr(0, option->find('='));
+  std::vector<std::string> names;
+  for (const CLI::Option* known : command.get_options()) {
+    for (const std::string& word : known->get_lnames()) names.push_back("--" + word);
+  }
+  const std::string hint = suggest(name, names);
+  return fmt::format("casimir: error: '{}' has no option '{}'{}", command.get_name(),
+                     printable(name, 200), hint.empty() ? "" : "\n  hint: " + hint);
+}
+
+}  // namespace
+
 /// CLI11 reports an unknown command as an extra argument; a near name helps more.
 std::string Program::usage_message(const CLI::ParseError& problem, int argc,
                                    const char* const* argv) {
   std::string message = fmt::format("casimir: error: {}", printable(problem.what(), 500));
   const auto chosen = app_.get_subcommands();
+  if (dynamic_cast<const CLI::ConversionError*>(&problem) != nullptr)
+    message += ": a number was expected, and not too long a one";
+  if (dynamic_cast<const CLI::ExtrasError*>(&problem) != nullptr && !chosen.empty())
+    message = extra_message(*chosen.front());
   if (!chosen.empty())
     return message + fmt::format("\n  see 'casimir {} --help'", chosen.front()->get_name());
   if (argc > 1) {
