@@ -15,20 +15,19 @@ namespace {
 using namespace casimir;
 using namespace casimir::tools;
 
-/// What the commands make of the values of options before they look at a case.
+/// What the commands make of the values of options before they look at a case; one kind for each
+/// input.
 void read_values(const std::vector<std::string>& words) {
   try {
-    Common common;
-    common.params = words;
-    common.parameter_values();
-  } catch (const UsageError&) {
-  }
-  try {
-    limits_of({words, {}});
-  } catch (const UsageError&) {
-  }
-  try {
-    weights_of(words);
+    if (words.size() % 3 == 0) {
+      Common common;
+      common.params = words;
+      common.parameter_values();
+    } else if (words.size() % 3 == 1) {
+      limits_of({words, {}});
+    } else {
+      weights_of(words);
+    }
   } catch (const UsageError&) {
   }
 }
