@@ -31,13 +31,13 @@ Action Program::read(int argc, const char* const* argv) {
 namespace {
 
 /// CLI11 reports an unknown option, with its value, as extra arguments; a near name helps more.
-std::string extra_message(const CLI::App& command) {
-  std::vector<std::string> extras = command.remaining();
+std::string extra_message(const std::vector<std::string>& extras, const CLI::App& command) {
   const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& word) {
     return word.size() > 1 && word[0] == '-';
   });
   if (option == extras.end())
-    return fmt::format("casimir: error: unexpected argument '{}'", printable(extras.at(0), 200));
+    return fmt::format("casimir: error: unexpected argument '{}'",
+                       extras.empty() ? "" : printable(extras[0], 200));
   const std::string name = option->substr(0, option->find('='));
   std::vector<std::string> names;
   for (const CLI::Option* known : command.get_options()) {
@@ -58,7 +58,7 @@ std::string Program::usage_message(const CLI::ParseError& problem, int argc,
   if (dynamic_cast<const CLI::ConversionError*>(&problem) != nullptr)
     message += ": a number was expected, and not too long a one";
   if (dynamic_cast<const CLI::ExtrasError*>(&problem) != nullptr && !chosen.empty())
-    message = extra_message(*chosen.front());
+    message = extra_message(app_.remaining(true), *chosen.front());
   if (!chosen.empty())
     return message + fmt::format("\n  see 'casimir {} --help'", chosen.front()->get_name());
   if (argc > 1) {

@@ -38,6 +38,7 @@ INSTANTIATE_TEST_SUITE_P(
             {"verify", "euler", "--integrall", "M1"},
             "'verify' has no option '--integrall'\n  hint: did you mean '--integral'?"},
         Bad{"UnexpectedArgument", {"show", "euler", "extra"}, "unexpected argument 'extra'"},
+        Bad{"EmptyArgumentBeforeTheCommand", {"", "survey"}, "unexpected argument ''"},
         Bad{"TooLongANumber",
             {"integrate", "euler", "--digits", "99999999999999999999"},
             "--digits = 99999999999999999999: a number was expected"},
