@@ -18,7 +18,7 @@ using GiNaC::symbol;
 /// A Hamiltonian of more terms is taken for one that does not split.
 constexpr double kMostTerms = 1e5;
 
-bool is_null(const ex& e) { return e.expand().is_zero() || e.normal().is_zero(); }
+bool is_null(const ex& e) { return e.expand().is_zero() || normal_form(e).is_zero(); }
 
 bool is_null(const matrix& m) {
   for (unsigned i = 0; i < m.nops(); ++i)
@@ -297,14 +297,14 @@ class Splitter {
       if (!take_function_of(form, hamiltonian, 2 * factor * form)) refuse(hamiltonian);
       for (unsigned i = 0; i < size; ++i)
         for (unsigned j = 0; j < size; ++j)
-          q(i, j) = (q(i, j) - factor * row(0, i) * row(0, j)).normal();
+          q(i, j) = normal_form(q(i, j) - factor * row(0, i) * row(0, j));
     };
     while (!is_null(q)) {
       matrix row(1, size);
       unsigned i = 0;
       while (i < size && is_null(q(i, i))) ++i;
       if (i < size) {
-        for (unsigned j = 0; j < size; ++j) row(0, j) = (q(i, j) / q(i, i)).normal();
+        for (unsigned j = 0; j < size; ++j) row(0, j) = normal_form(q(i, j) / q(i, i));
         take(row, q(i, i));
         continue;
       }

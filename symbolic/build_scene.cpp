@@ -106,7 +106,7 @@ class SceneReader {
                              NamedExpression{relation.value, model_.parse(relation), {}});
     const GiNaC::exmap point = point_of(scene);
     for (const auto& [where, relation] : relations) {
-      const ex value = substituted(relation.value, point).normal();
+      const ex value = normal_form(substituted(relation.value, point));
       const auto constant = exact_constant(value);
       if (constant && constant->zero) continue;
       std::string what = fmt::format("the scene '{}' is not on the level {} = 0",

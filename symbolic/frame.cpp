@@ -8,6 +8,7 @@
 
 #include "symbolic/expression.hpp"
 #include "symbolic/function_ring.hpp"
+#include "symbolic/measure.hpp"
 #include "symbolic/rational_matrix.hpp"
 
 namespace casimir {
@@ -299,7 +300,7 @@ PoissonStructure frame_bracket(const Frame& frame, const Symbols& variables, int
 
 ex legendre_transform(const Frame& frame, const Text& text) {
   const auto k = static_cast<unsigned>(frame.velocities.size());
-  const ex& lagrangian = *frame.lagrangian;
+  const ex& lagrangian = fit_for_normal(*frame.lagrangian);
   GiNaC::matrix hessian(k, k);
   GiNaC::matrix unknown(k, 1);
   GiNaC::matrix right(k, 1);
@@ -308,7 +309,7 @@ ex legendre_transform(const Frame& frame, const Text& text) {
   for (unsigned i = 0; i < k; ++i) {
     const ex momentum = lagrangian.diff(frame.velocities[i]);
     for (unsigned j = 0; j < k; ++j) {
-      hessian(i, j) = momentum.diff(frame.velocities[j]).normal();
+      hessian(i, j) = normal_form(momentum.diff(frame.velocities[j]));
       for (const GiNaC::symbol& w : frame.velocities) {
         if (hessian(i, j).has(w)) {
           throw text.error(
@@ -320,7 +321,7 @@ ex legendre_transform(const Frame& frame, const Text& text) {
     right(i, 0) = frame.momenta[i] - momentum.subs(at_rest, GiNaC::subs_options::no_pattern);
     unknown(i, 0) = GiNaC::symbol("u");
   }
-  if (hessian.determinant().normal().is_zero())
+  if (normal_form(hessian.determinant()).is_zero())
     throw text.error("the Lagrangian is degenerate: the velocities do not follow from the momenta");
   const GiNaC::matrix velocity = hessian.solve(unknown, right);
   GiNaC::exmap values;
@@ -329,7 +330,7 @@ ex legendre_transform(const Frame& frame, const Text& text) {
     values[frame.velocities[i]] = velocity(i, 0);
     result += velocity(i, 0) * frame.momenta[i];
   }
-  return (result - lagrangian.subs(values, GiNaC::subs_options::no_pattern)).normal();
+  return normal_form(result - lagrangian.subs(values, GiNaC::subs_options::no_pattern));
 }
 
 }  // namespace casimir

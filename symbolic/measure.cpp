@@ -86,6 +86,28 @@ ex substituted(const ex& expression, const GiNaC::exmap& values) {
   return expression.subs(values, GiNaC::subs_options::no_pattern);
 }
 
+bool is_fit_for_normal(const ex& expression) {
+  GiNaC::numeric common = 1;
+  GiNaC::numeric most = 1;
+  for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
+    if (!GiNaC::is_a<GiNaC::power>(*part)) continue;
+    const ex exponent = part->op(1);
+    if (!exponent.info(GiNaC::info_flags::rational)) continue;
+    const GiNaC::numeric number = GiNaC::ex_to<GiNaC::numeric>(exponent);
+    common = GiNaC::lcm(common, number.denom());
+    most = std::max(most, GiNaC::abs(number));
+    constexpr int kMostBits = 29;  // derivatives and products add to it
+    if ((common * most).int_length() > kMostBits) return false;
+  }
+  return true;
+}
+
+const ex& fit_for_normal(const ex& expression) {
+  if (!is_fit_for_normal(expression))
+    throw TooLarge("exponents here have numerators or denominators of more than eight digits");
+  return expression;
+}
+
 double most_terms(const ex& expression) {
   double terms = 1;
   if (GiNaC::is_a<GiNaC::add>(expression)) {

@@ -14,6 +14,18 @@ double most_terms(const GiNaC::ex& expression);
 /// Expanded, if that makes no more than so many terms; else as it is.
 GiNaC::ex expanded_within(const GiNaC::ex& expression, double terms);
 
+/// Whether GiNaC's rational functions take all exponents as they are: x^(1/q), with q common to all
+/// of them, becomes a variable, whose degree is counted in 32 bits.
+bool is_fit_for_normal(const GiNaC::ex& expression);
+
+/// `expression`. \throws TooLarge  if it is not fit
+const GiNaC::ex& fit_for_normal(const GiNaC::ex& expression);
+
+/// GiNaC's quotient of polynomials, of what is fit for it. \throws TooLarge
+inline GiNaC::ex normal_form(const GiNaC::ex& expression) {
+  return fit_for_normal(expression).normal();
+}
+
 /// `expression` with values put in. GiNaC computes a power of a number at once, as 2^r at r =
 /// 10^12. \throws TooLarge  where such an exponent exceeds the limit `bits`.
 GiNaC::ex substituted(const GiNaC::ex& expression, const GiNaC::exmap& values);

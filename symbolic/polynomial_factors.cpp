@@ -1,14 +1,32 @@
 // Factors and greatest common divisors of polynomials.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
+#include "symbolic/error.hpp"
 #include "symbolic/flint_number.hpp"
 #include "symbolic/polynomial.hpp"
 
 namespace casimir {
+namespace {
+
+/// FLINT's algorithms are dense in each variable: x^1000 + x + 1 takes it two seconds, and from
+/// x^(10^9) it does not return.
+void check_degree(const Polynomial& p, long most, const char* what) {
+  for (std::size_t i = 0; p.terms() > 1 && i < p.ring().size(); ++i) {
+    if (p.degree(i) > most)
+      throw TooLarge(fmt::format("a polynomial of degree {} in one variable is too large {}",
+                                 p.degree(i), what));
+  }
+}
+
+}  // namespace
 
 std::vector<std::pair<Polynomial, unsigned long>> Polynomial::factors() const {
   if (terms() == 1) return monomial_factors();
+  constexpr long kMostDegree = 1000;
+  check_degree(*this, kMostDegree, "to be factored");
   // FLINT's preparations take time for every variable of the ring, also for those that do not
   // occur.
   std::vector<std::size_t> used;
@@ -72,6 +90,9 @@ std::vector<std::pair<Polynomial, unsigned long>> Polynomial::monomial_factors()
 }
 
 Polynomial Polynomial::gcd(const Polynomial& a, const Polynomial& b) {
+  constexpr long kMostDegree = 100'000;
+  for (const Polynomial* p : {&a, &b})
+    check_degree(*p, kMostDegree, "for a greatest common divisor");
   Polynomial result(*a.ring_);
   if (fmpq_mpoly_gcd(result.value_, a.value_, b.value_, a.ring_->context()) == 0) {
     throw std::overflow_error("polynomials are too large for their greatest common divisor");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "symbolic/measure.hpp"
+
 namespace casimir {
 namespace {
 
@@ -10,7 +12,9 @@ using GiNaC::ex;
 using Symbols = std::vector<GiNaC::symbol>;
 using Vector = std::array<ex, 3>;
 
-bool vanishes(const ex& e) { return e.expand().is_zero() || e.normal().is_zero(); }
+bool vanishes(const ex& e) {
+  return e.expand().is_zero() || (is_fit_for_normal(e) && e.normal().is_zero());
+}
 
 Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};

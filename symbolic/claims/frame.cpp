@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "symbolic/claims/claim.hpp"
+#include "symbolic/measure.hpp"
 
 namespace casimir {
 namespace {
@@ -100,7 +101,7 @@ class Lagrangian {
     const auto n = static_cast<unsigned>(frame_.coordinates.size());
     GiNaC::matrix fields(n, n);  // dx/dt = fields * w
     for (unsigned i = 0; i < n; ++i) {
-      for (unsigned s = 0; s < n; ++s) fields(i, s) = frame_.fields[s][i];
+      for (unsigned s = 0; s < n; ++s) fields(i, s) = fit_for_normal(frame_.fields[s][i]);
     }
     const GiNaC::matrix a = fields.inverse();
     std::vector<Defect> defects;

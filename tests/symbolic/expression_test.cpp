@@ -151,6 +151,15 @@ TEST(Printable, EscapesWhatCouldDriveATerminal) {
   EXPECT_EQ(printable("abcdef", 3), "abc...");
 }
 
+// GiNaC counts the degree of x^(1/q) in 32 bits, and throws beyond that or keeps the low ones.
+TEST_F(Expression, WithLongFractionsAsExponentsIsNotForGinacsNormalForm) {
+  EXPECT_TRUE(is_fit_for_normal(parse("x^100 + sqrt(x + y)*y^(5/3) + x^0.333333")));
+  EXPECT_FALSE(is_fit_for_normal(parse("x^(1/2000000000)")));
+  EXPECT_FALSE(is_fit_for_normal(parse("1 + sin(x^(2 + 1/18446744073709551618))")));
+  EXPECT_FALSE(is_fit_for_normal(parse("x^(1/20011) + y^(1/30011)")));
+  EXPECT_THROW(normal_form(parse("x^-.2222222222222222223 + 1/x")), TooLarge);
+}
+
 TEST_F(Expression, HasNoMoreTermsWhenExpandedThanTheBoundSays) {
   for (const auto& [text, bound] :
        std::vector<std::pair<const char*, double>>{{"x", 1},

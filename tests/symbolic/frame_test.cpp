@@ -75,6 +75,13 @@ TEST(Frame, AnotherHamiltonianThanTheLagrangiansIsRefuted) {
   }
 }
 
+TEST(Frame, LagrangianWithLongFractionsAsExponentsIsRefused) {
+  EXPECT_THROW(
+      model_of("lagrangian = \"(1 + ph^-.2222222222222222223)^(1/2)*(w1^2 + w2^2 + w3^2)\"\n" +
+               kEulerAngles),
+      TooLarge);
+}
+
 TEST(Frame, LagrangianThatIsNotQuadraticIsCheckedBesideItsHamiltonian) {
   // L = w^4/4: M = w^3, H = 3/4 M^(4/3), for M > 0.
   const std::string rest =

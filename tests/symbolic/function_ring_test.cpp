@@ -125,6 +125,22 @@ TEST_F(Functions, RootsOfHighOrderTakeNoHighPowers) {
   EXPECT_THROW(zero(pow(x_ / (x_ * x_ + y_ * y_ + 1), e)), TooLarge);
 }
 
+TEST_F(Functions, PolynomialsOfHighDegreeAreNotFactored) {
+  EXPECT_FALSE(zero(sqrt(pow(x_, 90) + x_ + 1)));
+  EXPECT_THROW(zero(sqrt(pow(x_, 9000) + x_ + 1)), TooLarge);
+  EXPECT_THROW(zero(GiNaC::log(1 + pow(x_, ex(333333333) / 1000000000)) * x_), TooLarge);
+}
+
+TEST_F(Functions, RootsOfNumbersThatCannotBeFactoredSoonAreRefused) {
+  const auto root_is_zero = [&](const GiNaC::numeric& n) { return zero(sqrt(ex(n)) * x_); };
+  const auto mersenne = [](long k) { return GiNaC::numeric(2).power(k) - 1; };
+  EXPECT_FALSE(root_is_zero(7 * GiNaC::numeric(10).power(301)));
+  EXPECT_FALSE(root_is_zero(6 * mersenne(127)));
+  EXPECT_FALSE(root_is_zero(mersenne(31) * mersenne(61)));
+  EXPECT_THROW(root_is_zero(mersenne(89) * mersenne(107)), TooLarge);
+  EXPECT_THROW(root_is_zero(mersenne(521)), TooLarge);
+}
+
 TEST_F(Functions, SumsAndProductsOfAnyOperands) {
   // Monomials, numbers, powers of sums and functions take different ways to their polynomials.
   EXPECT_TRUE(zero(2 * x_ * pow(y_, 3) * pow(x_ + y_, 2) - 2 * pow(x_, 3) * pow(y_, 3) -
