@@ -270,7 +270,6 @@ class Specialiser {
     const std::vector<GiNaC::symbol> symbols = kept_symbols();
     Dag dag(symbols, result_.states.size());
     std::vector<std::string> inputs;
-    inputs.reserve(symbols.size());
     for (const GiNaC::symbol& symbol : symbols) inputs.push_back(symbol.get_name());
 
     std::vector<Scaled> field;
