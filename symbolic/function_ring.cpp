@@ -123,7 +123,7 @@ Polynomial FunctionRing::generator(
   if (generators_.size() == capacity_) grow();
   const std::size_t index = generators_.size();
   const std::vector<Polynomial> base_slopes = slopes(base);
-  generators_.push_back({kind, value, base, order, {}});
+  generators_.push_back({kind, value, base, order, {}, 1 + expression_size(base)});
   std::vector<Polynomial> derivatives;
   for (const Polynomial& slope : base_slopes) {
     derivatives.push_back(slope.is_zero() ? slope : derivative_of(slope));

@@ -73,6 +73,7 @@ class FunctionRing {
   std::vector<Polynomial> spectral_coefficients(const Polynomial& p, std::size_t spectral,
                                                 std::size_t coordinates) const;
 
+  /// With the functions themselves. \throws TooLarge  beyond the limit `size`
   GiNaC::ex expression(const Polynomial& p) const;
   /// p/q with both reduced by the relations and in lowest terms as polynomials.
   GiNaC::ex quotient(const Polynomial& p, const Polynomial& q) const;
@@ -150,6 +151,7 @@ class FunctionRing {
     Polynomial base;                      ///< radicand, denominator or argument
     unsigned long order = 1;              ///< q of a root
     std::vector<Polynomial> derivatives;  ///< with respect to each symbol
+    double size = 1;                      ///< of `value` as a tree
   };
   /// What a generator of the kind `function` is, as its `order`.
   enum FunctionTag : unsigned long {
@@ -181,6 +183,8 @@ class FunctionRing {
   std::string order_key_of_sum(const GiNaC::ex& sum);
   Polynomial convert_power(const GiNaC::ex& base, const GiNaC::ex& exponent);
   Polynomial convert_function(const GiNaC::function& f);
+  /// Of the tree that `expression` makes: its symbols, with those in the arguments of functions.
+  double expression_size(const Polynomial& p) const;
   Polynomial generator(Kind kind, const GiNaC::ex& value, const Polynomial& base,
                        unsigned long order,
                        const std::function<Polynomial(const Polynomial& slope)>& derivative_of);

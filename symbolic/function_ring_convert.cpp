@@ -242,7 +242,9 @@ Polynomial FunctionRing::checked_product(const Polynomial& a, const Polynomial& 
   constexpr double kPairs = 100;
   if (static_cast<double>(a.terms()) * static_cast<double>(b.terms()) > limits().terms * kPairs)
     throw too_many_terms("product");
-  return a * b;
+  Polynomial product = a * b;
+  if (static_cast<double>(product.terms()) > limits().terms) throw too_many_terms("product");
+  return product;
 }
 
 Polynomial FunctionRing::power(const Polynomial& p, unsigned long exponent) const {

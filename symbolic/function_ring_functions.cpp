@@ -91,9 +91,10 @@ std::pair<Polynomial, Polynomial> FunctionRing::plain_sine_cosine(const Polynomi
     const Polynomial c = ring_->variable(symbols_.size() + index + 1);
     const ex angle = expression(unit);
     const std::vector<Polynomial> unit_slopes = slopes(unit);
-    Generator sine{Kind::sine, GiNaC::sin(angle), unit, 1, {}};
+    const double size = 1 + expression_size(unit);
+    Generator sine{Kind::sine, GiNaC::sin(angle), unit, 1, {}, size};
     // The relation c^2 = 1 - s^2 is stored as the "radicand" of c.
-    Generator cosine{Kind::cosine, GiNaC::cos(angle), ring_->constant(1) - s * s, 2, {}};
+    Generator cosine{Kind::cosine, GiNaC::cos(angle), ring_->constant(1) - s * s, 2, {}, size};
     for (const Polynomial& slope : unit_slopes) {
       sine.derivatives.push_back(c * slope);
       cosine.derivatives.push_back(-(s * slope));

@@ -2,16 +2,32 @@
 #include <cln/integer.h>
 #include <cln/rational.h>
 #include <cln/rational_io.h>
+#include <fmt/format.h>
 
 #include <sstream>
 
 #include "symbolic/function_ring.hpp"
+#include "symbolic/limits.hpp"
 
 namespace casimir {
 
 using GiNaC::ex;
 
+double FunctionRing::expression_size(const Polynomial& p) const {
+  double size = 0;
+  for (const auto& [coefficient, exponents] : p.term_list()) {
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
+      if (exponents[i] > 0) size += i < symbols_.size() ? 1 : generators_[i - symbols_.size()].size;
+    }
+  }
+  return size;
+}
+
 ex FunctionRing::expression(const Polynomial& p) const {
+  // GiNaC shares what is repeated, but goes through all of it to compare and to sort.
+  if (expression_size(p) > limits().size)
+    throw TooLarge(fmt::format("an expression would have more than {:g} factors; {}", limits().size,
+                               limit_hint(&Limits::size)));
   GiNaC::exvector terms;
   for (const auto& [coefficient, exponents] : p.term_list()) {
     GiNaC::exvector factors{GiNaC::numeric(coefficient)};
