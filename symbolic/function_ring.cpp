@@ -4,6 +4,7 @@
 #include <cln/rational.h>
 
 #include <algorithm>
+#include <map>
 #include <unordered_set>
 
 namespace casimir {
@@ -210,6 +211,8 @@ Polynomial FunctionRing::without_inverse(const Polynomial& p, std::size_t g,
 Polynomial FunctionRing::reduced_power(const Polynomial& p, std::size_t g) const {
   const unsigned long q = generators_[g].order;
   if (p.degree(symbols_.size() + g) < static_cast<long>(q)) return p;
+  constexpr unsigned long kDense = 64;
+  if (q > kDense) return reduced_sparse_power(p, g);
   const std::vector<Polynomial> parts = p.coefficients(symbols_.size() + g);
   std::vector<Polynomial> sums;
   Polynomial power = ring_->constant(1);
@@ -225,6 +228,23 @@ Polynomial FunctionRing::reduced_power(const Polynomial& p, std::size_t g) const
     power *= ring_->variable(symbols_.size() + g);
   }
   return Polynomial::sum(*ring_, std::move(sums));
+}
+
+/// The same for roots of a high order, of whose powers few occur.
+Polynomial FunctionRing::reduced_sparse_power(const Polynomial& p, std::size_t g) const {
+  const std::size_t place = symbols_.size() + g;
+  const unsigned long q = generators_[g].order;
+  std::map<unsigned long, TermCollector> parts;  // by the power of the base
+  for (auto& [coefficient, exponents] : p.term_list()) {
+    const unsigned long whole = exponents[place] / q;
+    std::vector<unsigned long> rest = exponents;
+    rest[place] %= q;
+    parts.try_emplace(whole, *ring_).first->second.add(coefficient, rest);
+  }
+  Polynomial result(*ring_);
+  for (auto& [whole, terms] : parts)
+    result += checked_product(terms.finish(), this->power(generators_[g].base, whole));
+  return result;
 }
 
 }  // namespace casimir

@@ -199,6 +199,7 @@ class FunctionRing {
   std::optional<std::pair<std::size_t, cln::cl_RA>> plain_symbol(const Polynomial& p) const;
   static bool depends_on(const Generator& g, std::size_t symbol);
   Polynomial reduced_power(const Polynomial& p, std::size_t g) const;
+  Polynomial reduced_sparse_power(const Polynomial& p, std::size_t g) const;
   std::vector<Polynomial> slopes(const Polynomial& p) const;
   Polynomial power(const Polynomial& p, unsigned long exponent) const;
   Polynomial inverse(const Polynomial& p);

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "symbolic/error.hpp"
 #include "symbolic/flint_number.hpp"
 #include "symbolic/limits.hpp"
 
@@ -151,6 +152,9 @@ std::vector<std::pair<cln::cl_RA, std::vector<unsigned long>>> Polynomial::term_
 }
 
 std::vector<Polynomial> Polynomial::coefficients(std::size_t variable) const {
+  constexpr long kMostDegree = 1'000'000;
+  if (degree(variable) > kMostDegree)
+    throw TooLarge("a polynomial has more than a million coefficients in one variable");
   std::vector<Polynomial> result(static_cast<std::size_t>(std::max(degree(variable), 0L)) + 1,
                                  Polynomial(*ring_));
   const fmpz_mpoly_struct* p = value_->zpoly;

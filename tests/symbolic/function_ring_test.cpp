@@ -122,6 +122,8 @@ TEST_F(Functions, OrdersOfRootsBeyondAMachineWordAreRefused) {
 TEST_F(Functions, RootsOfHighOrderTakeNoHighPowers) {
   const ex e = ex(3333333333L) / ex(10000000000L);  // 0.3333333333
   EXPECT_TRUE(zero(pow(x_ / 3, e) * pow(x_ / 3, 1 - e) - x_ / 3, {positive(x_)}));
+  EXPECT_TRUE(zero(pow(pow(x_ + y_, e), 2) * pow(x_ + y_, 2 - 2 * e) - pow(x_ + y_, 2)));
+  EXPECT_FALSE(zero(pow(pow(x_ + y_, e), 2) * pow(x_ + y_, 2 - 2 * e) - pow(x_, 2)));
   EXPECT_THROW(zero(pow(x_ / (x_ * x_ + y_ * y_ + 1), e)), TooLarge);
 }
 
