@@ -55,6 +55,7 @@ Polynomial::Polynomial(Polynomial&& other) noexcept : Polynomial(*other.ring_) {
 }
 
 Polynomial& Polynomial::operator=(const Polynomial& other) {
+  if (this == &other) return *this;
   assert(ring_ == other.ring_);
   fmpq_mpoly_set(value_, other.value_, ring_->context());
   return *this;
