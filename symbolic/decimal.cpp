@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <exception>
+#include <set>
+#include <string>
 
 #include "symbolic/limits.hpp"
 
@@ -56,7 +58,9 @@ numeric power(const ex& e) {
 
 /// CLN loses the digits of asin(10^50 + 10^50*I), and never returns from that of 10^25 + 10^25*I.
 void check_inverse(const std::string& function, const GiNaC::exvector& arguments) {
-  if (function[0] != 'a' || function == "abs") return;
+  static const std::set<std::string> inverse = {"asin",  "acos",  "atan", "atan2",
+                                                "asinh", "acosh", "atanh"};
+  if (!inverse.contains(function)) return;
   for (const ex& argument : arguments) {
     if (!GiNaC::ex_to<numeric>(argument).is_real()) throw NoValue{};
   }

@@ -235,7 +235,7 @@ Polynomial FunctionRing::reduced_sparse_power(const Polynomial& p, std::size_t g
   const std::size_t place = symbols_.size() + g;
   const unsigned long q = generators_[g].order;
   std::map<unsigned long, TermCollector> parts;  // by the power of the base
-  for (auto& [coefficient, exponents] : p.term_list()) {
+  for (const auto& [coefficient, exponents] : p.term_list()) {
     const unsigned long whole = exponents[place] / q;
     std::vector<unsigned long> rest = exponents;
     rest[place] %= q;
@@ -243,7 +243,7 @@ Polynomial FunctionRing::reduced_sparse_power(const Polynomial& p, std::size_t g
   }
   Polynomial result(*ring_);
   for (auto& [whole, terms] : parts)
-    result += checked_product(terms.finish(), this->power(generators_[g].base, whole));
+    result += checked_product(terms.finish(), power(generators_[g].base, whole));
   return result;
 }
 

@@ -104,7 +104,9 @@ bool is_fit_for_normal(const ex& expression) {
 
 const ex& fit_for_normal(const ex& expression) {
   if (!is_fit_for_normal(expression))
-    throw TooLarge("exponents here have numerators or denominators of more than eight digits");
+    throw TooLarge(
+        "the largest exponent here, times the common denominator of all, has more than eight "
+        "digits");
   return expression;
 }
 
