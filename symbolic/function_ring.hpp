@@ -208,7 +208,10 @@ class FunctionRing {
   Polynomial plain_root(const Polynomial& primitive, unsigned long q);
   Polynomial absolute(const Polynomial& p);
   int known_sign(const Polynomial& p) const;
-  void read_assumption(const Assumption& assumption, std::size_t factor_count);
+  enum class Reading { first, second };
+  void read_signs();
+  void read_assumption(const Assumption& assumption, Reading reading);
+  void read_sign(const Polynomial& p, int sign, Reading reading, bool implied);
   void imply_sign(const Polynomial& f, int sign);
   void imply_radicand(const std::vector<std::pair<Polynomial, unsigned long>>& factors);
   std::vector<std::pair<Polynomial, unsigned long>> factors_of(const Polynomial& p) const;

@@ -154,6 +154,17 @@ TEST_F(Functions, SumsAndProductsOfAnyOperands) {
   EXPECT_FALSE(zero((x_ + 1) * (y_ + 1) - x_ * y_ - x_ - y_));
 }
 
+TEST_F(Functions, SignOfAProductIsNoSignOfOneFactor) {
+  // sin(x) > 0 where its root is real; with halves of x that is 2 sin(x/2) cos(x/2), and at x = 7
+  // both are negative.
+  const ex half = sqrt(pow(sin(x_ / 2), 2)) - sin(x_ / 2);
+  FunctionRing ring({x_, y_, z_}, {}, {sqrt(sin(x_)), half});
+  EXPECT_FALSE(ring.numerator(ring.convert(half)).is_zero());
+  EXPECT_FALSE(zero(sqrt(x_ * x_) - x_, {positive(x_ / y_)}));
+  EXPECT_FALSE(zero(sqrt(x_ * x_) - x_, {positive(x_ * y_)}));
+  EXPECT_TRUE(zero(sqrt(x_ * x_) - x_, {positive(x_ / y_), positive(y_)}));
+}
+
 TEST_F(Functions, CommonNumeratorsAreOneMultipleOfTheRow) {
   const std::vector<ex> row{1 / x_ + sin(y_), pow(x_ * (1 + y_), -2), z_};
   FunctionRing ring({x_, y_, z_}, {}, row);
