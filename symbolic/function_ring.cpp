@@ -168,7 +168,7 @@ std::pair<Polynomial, Polynomial> FunctionRing::fraction(const Polynomial& p) co
     for (std::size_t k = 1; k < parts.size(); ++k)
       sum = checked_product(sum, generators_[g].base) + parts[k];
     top = std::move(sum);
-    bottom = checked_product(bottom, generators_[g].base.pow(parts.size() - 1));
+    bottom = checked_product(bottom, power(generators_[g].base, parts.size() - 1));
   }
   return {std::move(top), std::move(bottom)};
 }

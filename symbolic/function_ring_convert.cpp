@@ -42,6 +42,14 @@ TooLarge too_many_terms(const char* what) {
                               limits().terms, limit_hint(&Limits::terms)));
 }
 
+/// Numbers would grow until memory is full: roots of a high order in numbers with powers as high.
+void check_bits(double bits) {
+  if (bits > limits().bits)
+    throw TooLarge(
+        fmt::format("a number in an expanded polynomial would have more than {:.0f} bits; {}",
+                    limits().bits, limit_hint(&Limits::bits)));
+}
+
 /// log of binomial(n + k, k): the number of terms of a general polynomial.
 double log_binomial(double n, double k) {
   return std::lgamma(n + k + 1) - std::lgamma(n + 1) - std::lgamma(k + 1);
@@ -242,6 +250,7 @@ Polynomial FunctionRing::checked_product(const Polynomial& a, const Polynomial& 
   constexpr double kPairs = 100;
   if (static_cast<double>(a.terms()) * static_cast<double>(b.terms()) > limits().terms * kPairs)
     throw too_many_terms("product");
+  check_bits(a.leading_bits() + b.leading_bits());
   Polynomial product = a * b;
   if (static_cast<double>(product.terms()) > limits().terms) throw too_many_terms("product");
   return product;
@@ -256,6 +265,8 @@ Polynomial FunctionRing::power(const Polynomial& p, unsigned long exponent) cons
     const double degree = static_cast<double>(p.total_degree()) * static_cast<double>(exponent);
     if (log_binomial(used, degree) > std::log(limits().terms)) throw too_many_terms("power");
   }
+  // The bits of a unit, 1 for its numerator, denominator and content, are not its own.
+  check_bits((p.leading_bits() - 3) * static_cast<double>(exponent));
   return p.pow(exponent);
 }
 

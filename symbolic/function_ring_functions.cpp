@@ -226,7 +226,7 @@ Polynomial FunctionRing::exponential(const Polynomial& exponent) {
                     [&](const Polynomial& slope) { return slope * next; });
     }
     const Polynomial base = cln::minusp(times) ? inverse(e) : e;
-    result = checked_product(result, base.pow(machine_word(times)));
+    result = checked_product(result, power(base, machine_word(times)));
   }
   return result;
 }

@@ -31,7 +31,7 @@ Polynomial FunctionRing::inverse(const Polynomial& p) {
       y = generator(Kind::inverse, 1 / expression(factor), factor, 1,
                     [&](const Polynomial& slope) { return -(slope * next * next); });
     }
-    result = checked_product(result, y.pow(exponent));
+    result = checked_product(result, power(y, exponent));
   }
   return result;
 }

@@ -124,11 +124,11 @@ Polynomial FunctionRing::root(const Polynomial& p, unsigned long q) {
     if (!keep && exponent >= q) factor = checked_product(factor, outside(f, exponent / q));
     const unsigned long rest = keep ? exponent : exponent % q;
     if (keep || sign == 0) {
-      inside = checked_product(inside, f.pow(rest));
+      inside = checked_product(inside, power(f, rest));
     } else if (rest > 0) {
       // The root of a positive factor is a function of its own, so that sqrt(a b) = sqrt(a)
       // sqrt(b).
-      factor = checked_product(factor, plain_root(sign > 0 ? f : -f, q).pow(rest));
+      factor = checked_product(factor, power(plain_root(sign > 0 ? f : -f, q), rest));
       if (sign < 0 && rest % 2 == 1) negative = !negative;
     }
   }
@@ -152,7 +152,7 @@ Polynomial FunctionRing::number_root(const cln::cl_RA& r, unsigned long q) {
       const unsigned long times = multiplicity * copies;
       result = result.scaled(cln::expt(prime, cln::cl_I(times / q)));
       if (times % q != 0)
-        result = checked_product(result, plain_root(ring_->constant(prime), q).pow(times % q));
+        result = checked_product(result, power(plain_root(ring_->constant(prime), q), times % q));
     }
   }
   return result;

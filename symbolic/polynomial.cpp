@@ -269,6 +269,14 @@ cln::cl_RA Polynomial::content() const {
   return result.number();
 }
 
+double Polynomial::leading_bits() const {
+  if (is_zero()) return 0;
+  const fmpq* content = value_->content;
+  return static_cast<double>(fmpz_bits(fmpq_numref(content))) +
+         static_cast<double>(fmpz_bits(fmpq_denref(content))) +
+         static_cast<double>(fmpz_bits(value_->zpoly->coeffs));
+}
+
 bool Polynomial::divide(const Polynomial& divisor, Polynomial* quotient) const {
   return fmpq_mpoly_divides(quotient->value_, value_, divisor.value_, ring_->context()) != 0;
 }
