@@ -250,7 +250,7 @@ Polynomial FunctionRing::checked_product(const Polynomial& a, const Polynomial& 
   constexpr double kPairs = 100;
   if (static_cast<double>(a.terms()) * static_cast<double>(b.terms()) > limits().terms * kPairs)
     throw too_many_terms("product");
-  check_bits(a.leading_bits() + b.leading_bits());
+  check_bits(a.bits() + b.bits());
   Polynomial product = a * b;
   if (static_cast<double>(product.terms()) > limits().terms) throw too_many_terms("product");
   return product;
@@ -266,7 +266,7 @@ Polynomial FunctionRing::power(const Polynomial& p, unsigned long exponent) cons
     if (log_binomial(used, degree) > std::log(limits().terms)) throw too_many_terms("power");
   }
   // The bits of a unit, 1 for its numerator, denominator and content, are not its own.
-  check_bits((p.leading_bits() - 3) * static_cast<double>(exponent));
+  check_bits((p.bits() - 3) * static_cast<double>(exponent));
   return p.pow(exponent);
 }
 

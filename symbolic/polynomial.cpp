@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -269,12 +270,13 @@ cln::cl_RA Polynomial::content() const {
   return result.number();
 }
 
-double Polynomial::leading_bits() const {
+double Polynomial::bits() const {
   if (is_zero()) return 0;
   const fmpq* content = value_->content;
   return static_cast<double>(fmpz_bits(fmpq_numref(content))) +
          static_cast<double>(fmpz_bits(fmpq_denref(content))) +
-         static_cast<double>(fmpz_bits(value_->zpoly->coeffs));
+         std::abs(
+             static_cast<double>(_fmpz_vec_max_bits(value_->zpoly->coeffs, value_->zpoly->length)));
 }
 
 bool Polynomial::divide(const Polynomial& divisor, Polynomial* quotient) const {

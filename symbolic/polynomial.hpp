@@ -94,9 +94,8 @@ class Polynomial {
   /// coefficient; 0 for the zero polynomial.
   cln::cl_RA content() const;
 
-  /// Bits of the coefficient of the leading term, by which numbers that grow without bound are
-  /// seen.
-  double leading_bits() const;
+  /// Bits of the largest coefficient, numerator and denominator.
+  double bits() const;
 
   /// Exact quotient; false if `divisor` does not divide.
   bool divide(const Polynomial& divisor, Polynomial* quotient) const;

@@ -25,11 +25,14 @@ void check_degree(const Polynomial& p, long most, const char* what) {
 
 std::vector<std::pair<Polynomial, unsigned long>> Polynomial::factors() const {
   if (terms() == 1) return monomial_factors();
-  constexpr long kMostDegree = 1000;
+  constexpr long kMostDegree = 200;
+  constexpr double kMostBits = 10'000;  // at the degree of 200 some 0.2 s
   constexpr std::size_t kMostTerms = 20'000;
   check_degree(*this, kMostDegree, "to be factored");
   if (terms() > kMostTerms)
     throw TooLarge(fmt::format("a polynomial of {} terms is too large to be factored", terms()));
+  if (bits() > kMostBits)
+    throw TooLarge(fmt::format("a coefficient of {:.0f} bits is too large to be factored", bits()));
   // FLINT's preparations take time for every variable of the ring, also for those that do not
   // occur.
   std::vector<std::size_t> used;
