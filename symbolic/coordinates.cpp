@@ -11,6 +11,7 @@
 
 #include "symbolic/decimal.hpp"
 #include "symbolic/exact_constant.hpp"
+#include "symbolic/measure.hpp"
 
 namespace casimir {
 namespace {
@@ -60,7 +61,7 @@ enum class Truth { no, yes, unknown };
 Truth holds(const Assumption& condition, const GiNaC::exmap& point) {
   if (condition.holds_at(point)) return Truth::yes;
   try {
-    const ex value = condition.difference.subs(point, kPlain);
+    const ex value = substituted(condition.difference, point);
     if (const auto constant = exact_constant(value); constant && constant->zero)
       return condition.relation.find('=') == std::string::npos || condition.relation == "!="
                  ? Truth::no
@@ -220,7 +221,7 @@ class Carrier {
     try {
       result.initial = image_of(atlas_, inverse_, scene.initial);
       for (const NamedExpression& f : map_.on) {
-        if (surely_nonzero(f.value.subs(substitution(set_.variables, result.initial), kPlain)))
+        if (surely_nonzero(substituted(f.value, substitution(set_.variables, result.initial))))
           throw SingularPoint(fmt::format("{} is not zero there", printable(f.name)));
       }
     } catch (const SingularPoint& problem) {
@@ -373,7 +374,7 @@ std::vector<ex> image_of(const Atlas& atlas, const CoordinateChange& change,
   const Coordinates& to = atlas.sets[change.to];
   const GiNaC::exmap at = substitution(from.variables, point);
   for (const NamedExpression& f : change.image) {
-    const ex value = f.value.subs(at, kPlain);
+    const ex value = substituted(f.value, at);
     if (surely_nonzero(value)) {
       const auto constant = exact_constant(value);
       throw SingularPoint(fmt::format(

@@ -6,6 +6,8 @@
 #include <optional>
 #include <sstream>
 
+#include "symbolic/measure.hpp"
+
 namespace casimir {
 namespace {
 
@@ -30,6 +32,7 @@ struct ExactPoint::Functions : public GiNaC::map_function {
   explicit Functions(const ExactPoint& point) : point_(point) {}
 
   ex operator()(const ex& e) override {
+    if (GiNaC::is_a<GiNaC::power>(e)) return checked_power((*this)(e.op(0)), (*this)(e.op(1)));
     const ex inner = e.map(*this);
     if (!GiNaC::is_a<GiNaC::function>(inner)) return inner;
     const std::string name = GiNaC::ex_to<GiNaC::function>(inner).get_name();
@@ -102,7 +105,7 @@ ExactPoint::ExactPoint(const FunctionRing& ring, const std::vector<cln::cl_RA>& 
 
 ex ExactPoint::evaluate(const ex& expression) const {
   Functions functions(*this);
-  return functions(expression).subs(values_, GiNaC::subs_options::no_pattern);
+  return substituted(functions(expression), values_);
 }
 
 }  // namespace casimir

@@ -70,20 +70,45 @@ class Measure {
   std::unordered_map<ex, Quantity> known_;
 };
 
-void check_exponents(const ex& e, const GiNaC::exmap& values) {
-  for (std::size_t i = 0; i < e.nops(); ++i) check_exponents(e.op(i), values);
-  if (!GiNaC::is_a<GiNaC::power>(e) || GiNaC::is_a<GiNaC::numeric>(e.op(1))) return;
-  const auto exponent = decimal(e.op(1).subs(values, GiNaC::subs_options::no_pattern));
-  if (exponent && GiNaC::abs(*exponent) > GiNaC::numeric(limits().bits))
-    throw TooLarge(fmt::format("a power would have more than {:g} bits; {}", limits().bits,
-                               limit_hint(&Limits::bits)));
+/// Bits of the numbers that GiNaC raises to the power when it raises `base` to one.
+double bits_of_base(const ex& base) {
+  if (base.info(GiNaC::info_flags::rational)) return bit_length(GiNaC::ex_to<GiNaC::numeric>(base));
+  if (GiNaC::is_a<GiNaC::mul>(base)) return bits_of_base(base.op(base.nops() - 1));  // its number
+  const auto value = decimal(base);
+  return value && !value->is_zero() ? std::abs(std::log2(GiNaC::abs(*value).to_double())) : 1;
 }
+
+class Substitution : public GiNaC::map_function {
+ public:
+  explicit Substitution(const GiNaC::exmap& values) : values_(values) {}
+
+  ex operator()(const ex& e) override {
+    if (const auto it = values_.find(e); it != values_.end()) return it->second;
+    if (e.nops() == 0) return e;
+    if (GiNaC::is_a<GiNaC::power>(e)) return checked_power((*this)(e.op(0)), (*this)(e.op(1)));
+    return e.map(*this);
+  }
+
+ private:
+  const GiNaC::exmap& values_;
+};
 
 }  // namespace
 
+ex checked_power(const ex& base, const ex& exponent) {
+  // GiNaC leaves other exponents than numbers as they are.
+  const bool unit = base.is_zero() || base.is_equal(ex(1)) || base.is_equal(ex(-1));
+  if (GiNaC::is_a<GiNaC::numeric>(exponent) && !unit) {
+    const GiNaC::numeric size = GiNaC::abs(GiNaC::ex_to<GiNaC::numeric>(exponent));
+    if (size > 1 && size.to_double() * std::max(1.0, bits_of_base(base)) > limits().bits)
+      throw TooLarge(fmt::format("a power would have more than {:g} bits; {}", limits().bits,
+                                 limit_hint(&Limits::bits)));
+  }
+  return GiNaC::pow(base, exponent);
+}
+
 ex substituted(const ex& expression, const GiNaC::exmap& values) {
-  check_exponents(expression, values);
-  return expression.subs(values, GiNaC::subs_options::no_pattern);
+  return Substitution(values)(expression);
 }
 
 bool is_fit_for_normal(const ex& expression) {

@@ -26,8 +26,11 @@ inline GiNaC::ex normal_form(const GiNaC::ex& expression) {
   return fit_for_normal(expression).normal();
 }
 
-/// `expression` with values put in. GiNaC computes a power of a number at once, as 2^r at r =
-/// 10^12. \throws TooLarge  where such an exponent exceeds the limit `bits`.
+/// A power, of which GiNaC computes those of numbers at once, as 2^(10^12). \throws TooLarge  where
+/// such a number would exceed the limit `bits`.
+GiNaC::ex checked_power(const GiNaC::ex& base, const GiNaC::ex& exponent);
+
+/// `expression` with values put in, its powers checked. \throws TooLarge
 GiNaC::ex substituted(const GiNaC::ex& expression, const GiNaC::exmap& values);
 
 }  // namespace casimir

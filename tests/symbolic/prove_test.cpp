@@ -44,6 +44,17 @@ TEST(Prove, KovalevskayaWithOneSignFlippedIsRefuted) {
   EXPECT_FALSE(proof.residual.empty());
 }
 
+TEST(Prove, TowersOfPowersAreRefutedWhereTheirNumbersAreSmall) {
+  // At x = 7 and the like GiNaC would compute 7^7^7^7.
+  const Model free = model_of(
+      "hamiltonian = \"y^2/2\"\n[phase_space]\nvariables = [\"x\",\"y\"]\ncanonical = true\n");
+  for (const char* tower : {"x^x^x^x", "(2*x*y)^(x^x^x)", "2^(exp(x)^exp(x)^exp(x))"}) {
+    const Proof proof = test_integral(free, tower);
+    ASSERT_EQ(proof.verdict, Verdict::refuted) << tower;
+    EXPECT_TRUE(proof.witness.has_value()) << tower;
+  }
+}
+
 TEST(Prove, BranchOfARootDecides) {
   const char* const h = "[integrals]\nF = \"sqrt(M3^2)\"\n";
   const std::string body = "hamiltonian = \"(M1^2 + M2^2 + 2*M3^2)/2\"\n";

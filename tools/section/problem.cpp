@@ -14,6 +14,7 @@
 #include "runtime/term_size.hpp"
 #include "symbolic/decimal.hpp"
 #include "symbolic/expression.hpp"
+#include "symbolic/measure.hpp"
 #include "tools/errors.hpp"
 #include "tools/section/periods.hpp"
 
@@ -246,7 +247,7 @@ class Maker {
       point[model_.variables[i]] = GiNaC::numeric(problem_.run.initial[i] +
                                                   0.1 * std::sin(1 + 1.7 * static_cast<double>(i)));
     const auto value = [&](const GiNaC::ex& e) {
-      const auto number = real_decimal(model_.at_parameters(e, scene_).subs(point));
+      const auto number = real_decimal(substituted(model_.at_parameters(e, scene_), point));
       return number ? number->to_double() : 0.;
     };
     Eigen::MatrixXd bracket = Eigen::MatrixXd::Zero(n, n);
