@@ -92,11 +92,12 @@ ExactPoint::ExactPoint(const FunctionRing& ring, const std::vector<cln::cl_RA>& 
       }
       const cln::cl_RA t = a.sine / (1 + a.cosine);
       values_[symbol] = 2 * GiNaC::atan(ex(numeric(t))) / factor;
-      texts[a.symbol] = over("2*atan(" + shown(t) + ")", a.factor);
+      texts[a.symbol] = t == 0 ? "0" : over("2*atan(" + shown(t) + ")", a.factor);
     } else {
       exponents_.push_back({symbol, factor, numeric(a.exponential)});
       values_[symbol] = GiNaC::log(ex(numeric(a.exponential))) / factor;
-      texts[a.symbol] = over("log(" + shown(a.exponential) + ")", a.factor);
+      texts[a.symbol] =
+          a.exponential == 1 ? "0" : over("log(" + shown(a.exponential) + ")", a.factor);
     }
   }
   for (std::size_t i = 0; i < symbols.size(); ++i)

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "symbolic/exact_point.hpp"
+#include "symbolic/measure.hpp"
 #include "symbolic/witness.hpp"
 
 namespace casimir {
@@ -199,8 +200,8 @@ bool Prover::vanishes_by_substitution(const Residual& residual, const Level& lev
       if (!solved.leading.is_constant() || solved.relation.degree(solved.variable) != 1) continue;
       const Polynomial rest = solved.relation.coefficients(solved.variable)[0];
       const cln::cl_RA factor = -1 / solved.leading.term_list()[0].first;
-      value = value.subs(ring_.symbols()[solved.variable] == ring_.expression(rest.scaled(factor)),
-                         GiNaC::subs_options::no_pattern);
+      value = substituted(
+          value, {{ring_.symbols()[solved.variable], ring_.expression(rest.scaled(factor))}});
     }
     FunctionRing fresh(ring_.symbols(), model_.assumptions, {value});
     return fresh.numerator(fresh.convert(value)).is_zero();

@@ -60,7 +60,7 @@ class Lagrangian {
     }
   }
 
-  ex on_phase_space(const ex& f) const { return f.subs(values_, GiNaC::subs_options::no_pattern); }
+  ex on_phase_space(const ex& f) const { return substituted(f, values_); }
   ex momentum(std::size_t s) const {
     return on_phase_space(frame_.lagrangian->diff(frame_.velocities[s]));
   }

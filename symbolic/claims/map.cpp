@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "symbolic/claims/claim.hpp"
+#include "symbolic/measure.hpp"
 
 namespace casimir {
 namespace {
@@ -36,8 +37,7 @@ GiNaC::exmap image_point(const PoissonMap& map) {
 
 std::vector<GiNaC::ex> composed(const std::vector<GiNaC::ex>& functions, const GiNaC::exmap& at) {
   std::vector<GiNaC::ex> result;
-  for (const GiNaC::ex& f : functions)
-    result.push_back(f.subs(at, GiNaC::subs_options::no_pattern));
+  for (const GiNaC::ex& f : functions) result.push_back(substituted(f, at));
   return result;
 }
 
@@ -60,10 +60,9 @@ std::vector<std::pair<std::string, GiNaC::ex>> inverse_defects(const Model& mode
   }
   for (const NamedExpression& constraint : model.constraints)
     defects.emplace_back(fmt::format("{} at the inverse", constraint.name),
-                         constraint.value.subs(lift, GiNaC::subs_options::no_pattern));
+                         substituted(constraint.value, lift));
   for (const NamedExpression& f : map.image)
-    defects.emplace_back(fmt::format("{} on the image", f.name),
-                         f.value.subs(image, GiNaC::subs_options::no_pattern));
+    defects.emplace_back(fmt::format("{} on the image", f.name), substituted(f.value, image));
   return defects;
 }
 
