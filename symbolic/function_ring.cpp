@@ -82,6 +82,7 @@ void FunctionRing::read_assumption(const Assumption& assumption, Reading reading
 /// positive.
 void FunctionRing::read_sign(const Polynomial& p, int sign, Reading reading, bool implied) {
   const auto [top, bottom] = fraction(p);
+  if (top.is_zero()) return;                                    // 0 >= 0 says nothing
   const auto factors = checked_product(top, bottom).factors();  // of one sign with the fraction
   std::vector<Polynomial> unknown;
   std::size_t odd = 0;

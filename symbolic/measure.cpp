@@ -70,12 +70,13 @@ class Measure {
   std::unordered_map<ex, Quantity> known_;
 };
 
-/// Bits of the numbers that GiNaC raises to the power when it raises `base` to one.
+/// Bits of the number that GiNaC raises to the power when it raises `base` to one; 0 where it
+/// raises none.
 double bits_of_base(const ex& base) {
   if (base.info(GiNaC::info_flags::rational)) return bit_length(GiNaC::ex_to<GiNaC::numeric>(base));
   if (GiNaC::is_a<GiNaC::mul>(base)) return bits_of_base(base.op(base.nops() - 1));  // its number
   const auto value = decimal(base);
-  return value && !value->is_zero() ? std::abs(std::log2(GiNaC::abs(*value).to_double())) : 1;
+  return value && !value->is_zero() ? std::abs(std::log2(GiNaC::abs(*value).to_double())) : 0;
 }
 
 class Substitution : public GiNaC::map_function {
@@ -100,7 +101,7 @@ ex checked_power(const ex& base, const ex& exponent) {
   const bool unit = base.is_zero() || base.is_equal(ex(1)) || base.is_equal(ex(-1));
   if (GiNaC::is_a<GiNaC::numeric>(exponent) && !unit) {
     const GiNaC::numeric size = GiNaC::abs(GiNaC::ex_to<GiNaC::numeric>(exponent));
-    if (size > 1 && size.to_double() * std::max(1.0, bits_of_base(base)) > limits().bits)
+    if (size > 1 && size.to_double() * bits_of_base(base) > limits().bits)
       throw TooLarge(fmt::format("a power would have more than {:g} bits; {}", limits().bits,
                                  limit_hint(&Limits::bits)));
   }

@@ -19,8 +19,8 @@ inline constexpr double seconds_allowed = 1;
 inline constexpr double seconds_allowed = 5;  // with the sanitizers, about five times as long
 #endif
 
-/// Ends the process where one input takes more than a second of the processor's time, which unlike
-/// libFuzzer's -timeout does not count the time of others.
+/// Ends the process where one input takes more than `seconds_allowed` of the processor's time,
+/// which unlike libFuzzer's -timeout does not count the time of others.
 class OneSecond {
  public:
   OneSecond() : start_(now()) {}
