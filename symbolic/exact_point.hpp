@@ -28,6 +28,9 @@ class ExactPoint {
     return coordinates_;
   }
 
+  /// The value of a symbol of the ring.
+  const GiNaC::ex& value(const GiNaC::symbol& symbol) const { return values_.at(symbol); }
+
  private:
   struct Functions;
   GiNaC::exmap values_;

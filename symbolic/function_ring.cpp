@@ -41,6 +41,7 @@ void FunctionRing::build(const std::vector<ex>& expressions) {
   for (bool first = true;;) {
     known_.clear();
     signs_.clear();
+    nonzero_.clear();
     generators_.clear();
     ring_ = std::make_unique<PolynomialRing>(symbols_.size() + capacity_);
     try {
@@ -55,55 +56,6 @@ void FunctionRing::build(const std::vector<ex>& expressions) {
                              [&](const ex& e) { return uses_imaginary_unit(e, seen); });
     }
   }
-}
-
-void FunctionRing::read_signs() {
-  for (const Reading reading : {Reading::first, Reading::second}) {
-    for (const Assumption& assumption : assumptions_) read_assumption(assumption, reading);
-    // By place, and a copy: what is converted may imply more.
-    for (std::size_t i = 0; i < implied_.size(); ++i) {
-      const ex positive = implied_[i];
-      read_sign(convert(positive), 1, reading, true);
-    }
-  }
-}
-
-/// The first reading is of the inequalities that give the sign of a single factor, the second is of
-/// those that rest on signs already known.
-void FunctionRing::read_assumption(const Assumption& assumption, Reading reading) {
-  const bool positive = assumption.relation == ">" || assumption.relation == ">=";
-  const bool negative = assumption.relation == "<" || assumption.relation == "<=";
-  if (positive || negative)
-    read_sign(convert(assumption.difference), positive ? 1 : -1, reading, false);
-}
-
-/// The sign of a product of irreducible factors gives that of the only one whose own is unknown;
-/// and those of two, where a sum of them has a known sign: G > 0 and G^2 > L^2 make G - L and G + L
-/// positive.
-void FunctionRing::read_sign(const Polynomial& p, int sign, Reading reading, bool implied) {
-  const auto [top, bottom] = fraction(p);
-  if (top.is_zero()) return;                                    // 0 >= 0 says nothing
-  const auto factors = checked_product(top, bottom).factors();  // of one sign with the fraction
-  std::vector<Polynomial> unknown;
-  std::size_t odd = 0;
-  if (cln::minusp(factors[0].first.term_list()[0].first)) sign = -sign;
-  for (std::size_t k = 1; k < factors.size(); ++k) {
-    if (factors[k].second % 2 == 0) continue;
-    ++odd;
-    const int known = known_sign(factors[k].first);
-    if (known == 0) unknown.push_back(factors[k].first);
-    if (known < 0) sign = -sign;
-  }
-  if ((odd == 1) != (reading == Reading::first)) return;
-  if (unknown.size() == 1) signs_.push_back({unknown[0], sign, implied});
-  if (unknown.size() != 2) return;
-  const Polynomial sum = unknown[0] + unknown[1].scaled(sign);  // the two have one sign
-  if (sum.is_zero()) return;
-  const cln::cl_RA content = sum.content();
-  const int known = known_sign(sum.scaled(1 / content)) * (cln::minusp(content) ? -1 : 1);
-  if (known == 0) return;
-  signs_.push_back({unknown[0], known, implied});
-  signs_.push_back({unknown[1], sign * known, implied});
 }
 
 const FunctionRing::Generator* FunctionRing::find(Kind kind, const Polynomial& base,

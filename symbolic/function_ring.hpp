@@ -142,6 +142,39 @@ class FunctionRing {
   const PolynomialRing& ring() const { return *ring_; }
   /// True where everything that was converted is a polynomial in the symbols.
   bool is_polynomial() const { return generators_.empty(); }
+  /// The imaginary unit occurs, so that roots and logarithms need not be real.
+  bool is_complex() const { return complex_ && !generators_.empty(); }
+  /// What a variable of the ring stands for: a symbol, or the function of a generator.
+  GiNaC::ex variable_value(std::size_t place) const {
+    return place < symbols_.size() ? GiNaC::ex(symbols_[place])
+                                   : generators_[place - symbols_.size()].value;
+  }
+
+  /// p = first / second in lowest terms, both reduced by all relations and without generators 1/d:
+  /// where `second` vanishes nowhere, p is continuous.
+  std::pair<Polynomial, Polynomial> lowest_terms(const Polynomial& p) const;
+
+  /// Whether the assumptions, or what makes roots and logarithms real, leave no point at which `p`
+  /// vanishes: each of its factors has a strict sign, or is assumed not to be zero.
+  bool is_nowhere_zero(const Polynomial& p) const;
+
+  /// The irreducible factors of what stands under the roots and absolute values that `p` contains,
+  /// also within other functions. Where none of them vanishes, `p` is differentiable.
+  std::vector<Polynomial> radicand_factors(const Polynomial& p) const;
+
+  /// Whether `p` depends on one of the first `coordinates` symbols, through generators too.
+  bool depends_on_first(const Polynomial& p, std::size_t coordinates) const;
+
+  /// How functions hang together beyond the part of the domain where a point lies.
+  struct Pieces {
+    /// What absolute values are taken of: on the set where each keeps its sign, the functions are
+    /// restrictions of meromorphic or algebraic ones that are the same all over that set.
+    std::vector<Polynomial> switches;
+    /// False where this is not shown: what holds at a point is then known to hold at almost all
+    /// points of the connected part of the domain around it, and no more.
+    bool rigid = true;
+  };
+  Pieces pieces(const std::vector<Polynomial>& functions) const;
 
  private:
   enum class Kind { sine, cosine, exponential, root, inverse, absolute, imaginary, function };
@@ -204,16 +237,23 @@ class FunctionRing {
   Polynomial power(const Polynomial& p, unsigned long exponent) const;
   Polynomial inverse(const Polynomial& p);
   Polynomial root(const Polynomial& p, unsigned long q);
+  Polynomial complex_root(const Polynomial& p, unsigned long q);
   Polynomial number_root(const cln::cl_RA& r, unsigned long q);
   Polynomial plain_root(const Polynomial& primitive, unsigned long q);
   Polynomial absolute(const Polynomial& p);
   int known_sign(const Polynomial& p) const;
+  bool known_nonzero(const Polynomial& p) const;
   enum class Reading { first, second };
   void read_signs();
   void read_assumption(const Assumption& assumption, Reading reading);
-  void read_sign(const Polynomial& p, int sign, Reading reading, bool implied);
-  void imply_sign(const Polynomial& f, int sign);
-  void imply_radicand(const std::vector<std::pair<Polynomial, unsigned long>>& factors);
+  void read_sign(const Polynomial& p, int sign, Reading reading, bool implied, bool strict);
+  void add_sign(const Polynomial& f, int sign, bool implied, bool strict);
+  void imply_sign(const Polynomial& f, int sign, bool strict);
+  void imply_radicand(const std::vector<std::pair<Polynomial, unsigned long>>& factors,
+                      bool strict);
+  static bool is_sum_of_squares(const Polynomial& p);
+  bool is_real_everywhere(const Polynomial& p) const;
+  std::vector<std::size_t> generators_in(const std::vector<Polynomial>& functions) const;
   std::vector<std::pair<Polynomial, unsigned long>> factors_of(const Polynomial& p) const;
   std::pair<Polynomial, Polynomial> sine_cosine(const Polynomial& angle);
   std::pair<Polynomial, Polynomial> plain_sine_cosine(const Polynomial& unit);
@@ -242,9 +282,15 @@ class FunctionRing {
     Polynomial of;
     int sign;
     bool implied;  ///< by a root or a logarithm, else assumed
+    bool strict;   ///< it does not vanish
   };
   std::vector<Sign> signs_;
-  std::vector<GiNaC::ex> implied_;  ///< positive where the roots and logarithms are real
+  std::vector<Polynomial> nonzero_;  ///< assumed not to vanish; irreducible
+  struct Implied {
+    GiNaC::ex value;  ///< not negative where the roots and logarithms are real
+    bool strict;      ///< nor zero
+  };
+  std::vector<Implied> implied_;
   /// For a monomial in an angle or exponent: the least common denominator of its coefficients.
   std::vector<std::pair<GiNaC::ex, cln::cl_I>> units_;
 };

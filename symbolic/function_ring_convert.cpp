@@ -277,6 +277,13 @@ Polynomial FunctionRing::convert_power(const ex& base, const ex& exponent) {
   const Polynomial b = convert(base);
   const cln::cl_I whole = cln::floor1(e);
   const cln::cl_RA part = e - whole;
+  // GiNaC makes x^(-1/2) of both, and sqrt(-1) is not what 1/sqrt(-1) is.
+  if (complex_ && capacity_ > 0 && cln::minusp(e) && !cln::zerop(part) &&
+      (known_sign(b) <= 0 || !is_real_everywhere(b)))
+    throw TooLarge(
+        "with complex numbers, (1/x)^(1/2) and 1/x^(1/2) differ where x < 0, and are not told "
+        "apart "
+        "here");
   const unsigned long size = machine_word(whole);
   Polynomial result = power(whole >= 0 ? b : inverse(b), size);
   if (!cln::zerop(part)) {

@@ -60,6 +60,8 @@ std::optional<std::pair<Polynomial, Polynomial>> FunctionRing::algebraic_sine_co
     return std::pair(convert(GiNaC::sin(angle)), convert(GiNaC::cos(angle)));
   }
   if (cln::denominator(coefficient) != 1) return std::nullopt;
+  // On the cuts of complex inverse functions the sign of the root is a convention.
+  if (complex_ && (tag == kArcSine || tag == kArcCosine)) return std::nullopt;
   const Polynomial one = ring_->constant(1);
   const Polynomial v = convert(value.op(0));
   switch (tag) {
@@ -149,7 +151,7 @@ Polynomial FunctionRing::logarithm(const ex& whole, const Polynomial& p) {
   const bool negative_number =
       factors.size() == 2 && cln::minusp(factors[0].first.term_list()[0].first);
   if (negative_number) return generator_of(p, whole, kLogarithm);  // a complex constant
-  imply_radicand(factors);
+  imply_radicand(factors, true);
   Polynomial sum(*ring_);
   for (std::size_t k = 0; k < factors.size(); ++k) {
     const auto& [f, exponent] = factors[k];

@@ -9,29 +9,6 @@
 
 namespace casimir {
 
-/// The sign that the assumptions give to an irreducible polynomial, or 0.
-int FunctionRing::known_sign(const Polynomial& p) const {
-  for (const auto& [polynomial, sign, implied] : signs_) {
-    if (polynomial == p) return sign;
-    if (polynomial == -p) return -sign;
-  }
-  return 0;
-}
-
-/// Takes it that f has this sign, since a root or a logarithm is real only there.
-void FunctionRing::imply_sign(const Polynomial& f, int sign) {
-  if (complex_ || known_sign(f) != 0) return;
-  signs_.push_back({f, sign, true});
-  implied_.push_back(sign * expression(f));
-  // What was made without knowing it may have another form now.
-  for (const Generator& g : generators_) {
-    const bool may_change = g.kind == Kind::absolute || g.kind == Kind::root ||
-                            (g.kind == Kind::function && g.order == kLogOfAbsolute);
-    Polynomial quotient(*ring_);
-    if (may_change && !g.base.is_constant() && g.base.divide(f, &quotient)) throw Full{};
-  }
-}
-
 /// The factors of `p`, with (1 - sin)(1 + sin) as cos^2.
 std::vector<std::pair<Polynomial, unsigned long>> FunctionRing::factors_of(
     const Polynomial& p) const {
@@ -73,29 +50,12 @@ Polynomial FunctionRing::absolute(const Polynomial& p) {
       [&](const Polynomial& slope) { return (slope * next * over).scaled(cln::cl_RA(1) / 2); });
 }
 
-/// The radicand of an even root is not negative where the root is real, and that is the sign of its
-/// only factor of odd power, if it has just one.
-void FunctionRing::imply_radicand(
-    const std::vector<std::pair<Polynomial, unsigned long>>& factors) {
-  const Polynomial* odd = nullptr;
-  int sign = 1;
-  for (const auto& [f, exponent] : factors) {
-    if (exponent % 2 == 0) continue;
-    if (f.is_constant()) {
-      if (cln::minusp(f.term_list()[0].first)) sign = -sign;
-      continue;
-    }
-    if (odd != nullptr) return;
-    odd = &f;
-  }
-  if (odd != nullptr) imply_sign(*odd, sign);
-}
-
 /// p^(1/q): over a common denominator, and with q-th powers taken out of the radicand.
 Polynomial FunctionRing::root(const Polynomial& p, unsigned long q) {
   const auto [unreduced, bottom] = fraction(p);
   const Polynomial top = numerator(unreduced);  // a sin^2 + a cos^2 is a
   if (top.is_zero()) return Polynomial(*ring_);
+  if (complex_) return complex_root(p, q);
   const bool even = q % 2 == 0;
   // For an odd root the branch on negative numbers is a convention that nothing may rest on.
   const auto outside = [&](const Polynomial& f, unsigned long k) {
@@ -115,7 +75,7 @@ Polynomial FunctionRing::root(const Polynomial& p, unsigned long q) {
   }
   radicand = checked_product(radicand, top);
   const auto factors = factors_of(radicand);
-  if (even) imply_radicand(factors);
+  if (even) imply_radicand(factors, false);
   Polynomial inside = ring_->constant(1);
   bool negative = false;
   for (const auto& [f, exponent] : factors) {
@@ -138,6 +98,48 @@ Polynomial FunctionRing::root(const Polynomial& p, unsigned long q) {
   factor = checked_product(factor, number_root(content, q));
   inside = inside.scaled(1 / content);
   return inside == ring_->constant(1) ? factor : checked_product(factor, plain_root(inside, q));
+}
+
+/// The principal value, where nothing says that the root is real: (c z)^(1/q) = c^(1/q) z^(1/q) for
+/// c >= 0 and no other c, as sqrt(1/x) and 1/sqrt(x) show for x = -1.
+Polynomial FunctionRing::complex_root(const Polynomial& p, unsigned long q) {
+  const auto [top, bottom] = fraction(p);
+  Polynomial outside = ring_->constant(1);
+  Polynomial inside = ring_->constant(1);
+  for (const auto& [f, exponent] : bottom.factors()) {
+    if (!f.is_constant() && (known_sign(f) <= 0 || !is_real_everywhere(f))) return plain_root(p, q);
+    if (f.is_constant()) {
+      if (cln::minusp(f.term_list()[0].first)) return plain_root(p, q);
+      outside = checked_product(outside, number_root(1 / cln::cl_RA(f.term_list()[0].first), q));
+      continue;
+    }
+    const unsigned long k = (exponent + q - 1) / q;
+    outside = checked_product(outside, inverse(power(f, k)));
+    if (k * q > exponent)
+      outside = checked_product(outside, power(plain_root(f, q), k * q - exponent));
+  }
+  for (const auto& [f, exponent] : top.factors()) {
+    if (f.is_constant()) {
+      inside = checked_product(inside, f);
+      continue;
+    }
+    const bool real = is_real_everywhere(f);
+    const bool positive = real && known_sign(f) > 0;
+    const unsigned long whole = positive || (real && q % 2 == 0) ? exponent / q : 0;
+    if (whole > 0)
+      outside =
+          checked_product(outside, power(!positive && whole % 2 == 1 ? absolute(f) : f, whole));
+    const unsigned long rest = exponent - whole * q;
+    if (rest == 0) continue;
+    if (positive)
+      outside = checked_product(outside, power(plain_root(f, q), rest));
+    else
+      inside = checked_product(inside, power(f, rest));
+  }
+  const cln::cl_RA content = cln::abs(inside.content());
+  outside = checked_product(outside, number_root(content, q));
+  inside = inside.scaled(1 / content);
+  return inside == ring_->constant(1) ? outside : checked_product(outside, plain_root(inside, q));
 }
 
 /// r^(1/q) for r > 0, by roots of primes: so that sqrt(6) = sqrt(2) sqrt(3).

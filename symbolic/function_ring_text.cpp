@@ -123,8 +123,8 @@ void FunctionRing::mark_denominators(const Polynomial& p, std::vector<bool>& mar
 
 std::vector<Polynomial> FunctionRing::implied_positive() const {
   std::vector<Polynomial> result;
-  for (const auto& [p, sign, implied] : signs_) {
-    if (implied) result.push_back(sign > 0 ? p : -p);
+  for (const Sign& s : signs_) {
+    if (s.implied) result.push_back(s.sign > 0 ? s.of : -s.of);
   }
   return result;
 }

@@ -1,10 +1,11 @@
 #include "symbolic/generic_rank.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
+#include <map>
 
 namespace casimir {
 namespace {
@@ -24,8 +25,8 @@ bool is_skew(const PolynomialRows& rows) {
 
 /// Whether `count` of the candidates are in the kernel of all rows and independent at the point.
 bool kernel_has(const Prover& prover, const PolynomialRows& rows,
-                const std::vector<KernelCandidate>& candidates, const GenericRank& found,
-                const Rows& values, std::size_t count) {
+                const std::vector<KernelCandidate>& candidates, RealPoint& point,
+                std::size_t count) {
   const FunctionRing& ring = prover.ring();
   const auto orthogonal = [&](const KernelCandidate& candidate, std::size_t i) {
     if (candidate.orthogonal) return candidate.orthogonal(i);
@@ -33,40 +34,37 @@ bool kernel_has(const Prover& prover, const PolynomialRows& rows,
     for (std::size_t j = 0; j < rows[i].size(); ++j) sum.add(rows[i][j], candidate.vector[j]);
     return ring.numerator(sum.finish()).is_zero();
   };
-  Rows independent;
+  PolynomialRows independent;
   for (const KernelCandidate& candidate : candidates) {
     if (independent.size() == count) break;
-    if (!have_values(prover, {candidate.vector})) continue;
-    independent.push_back(values_at({candidate.vector}, found.point)[0]);
+    independent.push_back(candidate.vector);
     // What is not orthogonal at the point need not be multiplied out.
-    bool belongs = std::all_of(values.begin(), values.end(), [&](const auto& row) {
-      const auto& v = independent.back();
-      return cln::zerop(std::inner_product(row.begin(), row.end(), v.begin(), cln::cl_RA(0)));
-    });
-    belongs = belongs && rank(independent) == independent.size();
-    for (std::size_t i = 0; i < rows.size() && belongs; ++i) belongs = orthogonal(candidate, i);
+    bool belongs = point.rank(independent) == independent.size();
+    for (std::size_t i = 0; i < rows.size() && belongs; ++i)
+      belongs = point.may_be_orthogonal(rows[i], candidate.vector) && orthogonal(candidate, i);
     if (!belongs) independent.pop_back();
   }
   return independent.size() == count;
 }
 
 /// Rows and columns of a regular minor of full rank.
-std::pair<Indices, Indices> regular_minor(const Rows& values, std::size_t size) {
+std::pair<Indices, Indices> regular_minor(RealPoint& point, const PolynomialRows& matrix,
+                                          std::size_t size) {
   Indices rows;
-  Rows chosen;
-  for (std::size_t i = 0; i < values.size() && rows.size() < size; ++i) {
-    chosen.push_back(values[i]);
-    if (rank(chosen) == chosen.size())
+  PolynomialRows chosen;
+  for (std::size_t i = 0; i < matrix.size() && rows.size() < size; ++i) {
+    chosen.push_back(matrix[i]);
+    if (point.rank(chosen) == chosen.size())
       rows.push_back(i);
     else
       chosen.pop_back();
   }
   Indices columns;
-  Rows transposed;
-  for (std::size_t j = 0; j < values[0].size() && columns.size() < size; ++j) {
+  PolynomialRows transposed;
+  for (std::size_t j = 0; j < matrix[0].size() && columns.size() < size; ++j) {
     transposed.emplace_back();
-    for (const std::size_t i : rows) transposed.back().push_back(values[i][j]);
-    if (rank(transposed) == transposed.size())
+    for (const std::size_t i : rows) transposed.back().push_back(matrix[i][j]);
+    if (point.rank(transposed) == transposed.size())
       columns.push_back(j);
     else
       transposed.pop_back();
@@ -153,9 +151,10 @@ class BorderedMinors {
   double work_ = 0;
 };
 
-bool bordered_minors_vanish(const Prover& prover, const PolynomialRows& rows, const Rows& values,
+bool bordered_minors_vanish(const Prover& prover, const PolynomialRows& rows, RealPoint& point,
                             std::size_t size) {
-  auto [r, c] = regular_minor(values, size);
+  auto [r, c] = regular_minor(point, rows, size);
+  if (r.size() != size || c.size() != size) return false;
   // The sets of columns are gone through once for each further column: let these be the fewer.
   const bool transpose = rows.size() < rows[0].size();
   PolynomialRows matrix;
@@ -171,52 +170,170 @@ bool bordered_minors_vanish(const Prover& prover, const PolynomialRows& rows, co
   return BorderedMinors(prover.ring(), matrix, {r, c}).vanish();
 }
 
-}  // namespace
-
-Rows values_at(const PolynomialRows& rows, const std::vector<cln::cl_RA>& point) {
-  Rows result;
-  for (const auto& row : rows) {
-    result.emplace_back();
-    for (const Polynomial& entry : row)
-      result.back().push_back(entry.is_zero() ? 0 : entry.evaluate(point));
-  }
-  return result;
+/// The rank at the points of one piece: the largest, or where each point stands for itself alone,
+/// the smallest. `best` becomes the point.
+std::size_t rank_on(PiecePoints::Piece& piece, const PolynomialRows& rows, std::size_t* best,
+                    std::string* uneven) {
+  std::vector<std::size_t> ranks;
+  for (RealPoint& point : piece.points) ranks.push_back(point.rank(rows));
+  const auto [least, most] = std::minmax_element(ranks.begin(), ranks.end());
+  if (!piece.rigid && *least != *most)
+    *uneven =
+        fmt::format("the rank is {} at {}, but {} at {}", *least,
+                    piece.points[static_cast<std::size_t>(least - ranks.begin())].text(), *most,
+                    piece.points[static_cast<std::size_t>(most - ranks.begin())].text());
+  const auto chosen = piece.rigid ? most : least;
+  *best = static_cast<std::size_t>(chosen - ranks.begin());
+  return *chosen;
 }
 
-bool have_values(const Prover& prover, const PolynomialRows& rows) {
-  return std::all_of(rows.begin(), rows.end(), [&](const auto& row) {
-    return std::all_of(row.begin(), row.end(),
-                       [&](const Polynomial& p) { return prover.ring().has_value(p); });
+bool is_constant(const PolynomialRows& rows) {
+  return std::all_of(rows.begin(), rows.end(), [](const auto& row) {
+    return std::all_of(row.begin(), row.end(), [](const Polynomial& p) { return p.is_constant(); });
   });
+}
+
+std::size_t rank_of_constants(const PolynomialRows& rows, std::size_t variables) {
+  const std::vector<cln::cl_RA> anywhere(variables, 0);
+  Rows values;
+  for (const auto& row : rows) {
+    values.emplace_back();
+    for (const Polynomial& p : row) values.back().push_back(p.evaluate(anywhere));
+  }
+  return rank(std::move(values));
+}
+
+constexpr std::size_t kPoints = 4;       // of a piece
+constexpr std::size_t kManyPoints = 24;  // where pieces have to be found
+
+}  // namespace
+
+PiecePoints::PiecePoints(Prover& prover, const std::vector<Polynomial>& functions)
+    : prover_(prover) {
+  const FunctionRing::Pieces what = prover.ring().pieces(functions);
+  if (what.switches.empty() && what.rigid) {
+    if (auto point = draw()) pieces_.emplace_back().points.push_back(std::move(*point));
+    return;
+  }
+  sort_by_signs(what);
+}
+
+std::optional<RealPoint> PiecePoints::draw() {
+  const FunctionRing& ring = prover_.ring();
+  if (!ring.is_polynomial()) return prover_.real_points().random(prover_.domain());
+  const auto point = prover_.random_point({});
+  if (!point) return prover_.real_points().any({});
+  std::vector<GiNaC::ex> coordinates;
+  for (std::size_t i = 0; i < ring.symbols().size(); ++i)
+    coordinates.emplace_back(GiNaC::numeric((*point)[i]));
+  return RealPoint(ring, std::move(coordinates), RealPoints::kBits);
+}
+
+bool PiecePoints::add_point() {
+  if (pieces_.size() != 1 || pieces_[0].points.size() >= kPoints) return false;
+  auto point = draw();
+  if (!point) return false;
+  pieces_[0].points.push_back(std::move(*point));
+  return true;
+}
+
+void PiecePoints::sort_by_signs(const FunctionRing::Pieces& what) {
+  std::map<std::vector<int>, Piece> found;
+  for (std::size_t k = 0; k < kManyPoints; ++k) {
+    auto point = draw();
+    if (!point) break;
+    std::vector<int> signs;
+    try {
+      for (const Polynomial& p : what.switches) signs.push_back(point->value(p).sign().value_or(0));
+    } catch (const NotCertified&) {
+      continue;
+    }
+    if (std::find(signs.begin(), signs.end(), 0) != signs.end()) continue;
+    Piece& piece = found[signs];
+    piece.rigid = what.rigid;
+    if (!what.rigid || piece.points.size() < kPoints) piece.points.push_back(std::move(*point));
+  }
+  std::vector<std::string> parts;
+  for (auto& [signs, piece] : found) {
+    std::vector<std::string> conditions;
+    for (std::size_t i = 0; i < signs.size(); ++i)
+      conditions.push_back(prover_.ring().text(what.switches[i]) +
+                           (signs[i] > 0 ? " > 0" : " < 0"));
+    parts.push_back(fmt::format("{}", fmt::join(conditions, " and ")));
+    pieces_.push_back(std::move(piece));
+  }
+  if (pieces_.empty()) return;
+  if (!what.rigid) {
+    where_ = "on the connected part of the domain around " + pieces_[0].points[0].text();
+    if (pieces_[0].points.size() + pieces_.size() > 2)
+      where_ += ", and around the other points tried";
+  } else if (found.size() < std::size_t{1} << std::min<std::size_t>(what.switches.size(), 20)) {
+    where_ = fmt::format("{}", fmt::join(parts, ", or "));
+  }
+}
+
+std::string text_of(const std::vector<RealPoint>& points) {
+  std::vector<std::string> texts;
+  constexpr std::size_t kMost = 4;
+  for (std::size_t i = 0; i < std::min(points.size(), kMost); ++i)
+    texts.push_back(points[i].text());
+  return fmt::format("{}{}", fmt::join(texts, "; and at "), points.size() > kMost ? "; .." : "");
 }
 
 std::optional<GenericRank> generic_rank(
     Prover& prover, const PolynomialRows& rows,
     const std::function<std::vector<KernelCandidate>()>& kernel) {
-  if (!have_values(prover, rows)) return std::nullopt;
-  constexpr int kPoints = 4;
   const std::size_t columns = rows.empty() ? 0 : rows[0].size();
   const std::size_t full = std::min(rows.size(), columns);
+  if (is_constant(rows)) {
+    GenericRank result;
+    result.rank = rank_of_constants(rows, prover.ring().ring().size());
+    result.exact = true;
+    return result;
+  }
+  std::vector<Polynomial> entries;
+  for (const auto& row : rows) entries.insert(entries.end(), row.begin(), row.end());
+  PiecePoints found(prover, entries);
+  if (found.pieces().empty()) return std::nullopt;
   const bool skew = is_skew(rows);
   std::optional<std::vector<KernelCandidate>> candidates;
-  std::optional<GenericRank> best;
-  Rows values;
-  for (int k = 0; k < kPoints; ++k) {
-    const auto point = prover.random_point({});
-    if (!point) continue;
-    Rows here = values_at(rows, *point);
-    const std::size_t found = rank(here);
-    if (best && found <= best->rank) continue;
-    best = GenericRank{found, *point, found == full || (skew && found + 1 == full)};
-    values = std::move(here);
-    if (!best->exact && kernel) {
-      if (!candidates) candidates = kernel();
-      best->exact = kernel_has(prover, rows, *candidates, *best, values, columns - found);
+  GenericRank result;
+  result.where = found.where();
+  try {
+    for (bool first = true; first || (!result.exact && found.add_point()); first = false) {
+      result.exact = true;
+      result.points.clear();
+      std::vector<std::size_t> ranks;
+      for (PiecePoints::Piece& piece : found.pieces()) {
+        std::size_t best = 0;
+        ranks.push_back(rank_on(piece, rows, &best, &result.uneven));
+        const std::size_t rank = ranks.back();
+        bool exact = rank == full || (skew && rank + 1 == full);
+        if (!exact && kernel) {
+          if (!candidates) candidates = kernel();
+          exact = kernel_has(prover, rows, *candidates, piece.points[best], columns - rank);
+        }
+        result.exact = result.exact && exact;
+        result.points.push_back(piece.points[best]);
+      }
+      const auto [least, most] = std::minmax_element(ranks.begin(), ranks.end());
+      result.rank = *least;
+      if (*least != *most)
+        result.uneven = fmt::format(
+            "the rank is {} at {}, but {} at {}", *least,
+            result.points[static_cast<std::size_t>(least - ranks.begin())].text(), *most,
+            result.points[static_cast<std::size_t>(most - ranks.begin())].text());
     }
-    if (best->exact) return best;
+    if (!result.exact && result.uneven.empty()) {
+      result.exact = std::all_of(result.points.begin(), result.points.end(), [&](RealPoint& point) {
+        return bordered_minors_vanish(prover, rows, point, result.rank);
+      });
+    }
+    if (!result.uneven.empty()) result.exact = false;
+  } catch (const NotCertified&) {
+    return std::nullopt;
   }
-  if (best) best->exact = bordered_minors_vanish(prover, rows, values, best->rank);
-  return best;
+  return result;
 }
 
 std::optional<GenericRank> gradient_rank(Prover& prover, const std::vector<Polynomial>& functions) {
@@ -231,13 +348,6 @@ std::optional<GenericRank> gradient_rank(Prover& prover, const std::vector<Polyn
     }
     return candidates;
   });
-}
-
-std::string point_text(const Prover& prover, const std::vector<cln::cl_RA>& point) {
-  std::string text;
-  for (const auto& [name, value] : prover.describe(point))
-    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, value);
-  return text;
 }
 
 }  // namespace casimir

@@ -130,15 +130,10 @@ std::vector<Polynomial> groebner_basis(const std::vector<Polynomial>& generators
   return Buchberger(generators, limits).basis();
 }
 
-std::vector<SolvedRelation> triangular_set(std::vector<Polynomial> relations,
-                                           std::size_t coordinates) {
+std::vector<SolvedRelation> triangular_set(
+    std::vector<Polynomial> relations, std::size_t coordinates,
+    const std::function<bool(const Polynomial&)>& uses_coordinates) {
   std::vector<SolvedRelation> set;
-  const auto uses_coordinates = [&](const Polynomial& p) {
-    for (std::size_t i = 0; i < coordinates; ++i) {
-      if (p.uses(i)) return true;
-    }
-    return false;
-  };
   const auto pick = [&]() -> bool {
     for (std::size_t k = 0; k < relations.size(); ++k) {
       for (std::size_t v = 0; v < coordinates; ++v) {

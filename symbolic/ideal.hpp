@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "symbolic/polynomial.hpp"
@@ -25,12 +26,13 @@ struct SolvedRelation {
   Polynomial leading;  ///< coefficient of the variable's highest power; free of the coordinates
 };
 
-/// Orders the relations so that each has a main variable, one of the first `coordinates`, that no
-/// later one contains, with a leading coefficient free of the coordinates. Empty if that is
-/// impossible. Where the leading coefficients are not zero, reduction by such a set decides
-/// membership in the ideal.
-std::vector<SolvedRelation> triangular_set(std::vector<Polynomial> relations,
-                                           std::size_t coordinates);
+/// Orders the relations so that each has a main variable, one of the first `coordinates`,
+/// that no later one contains, with a leading coefficient that is free of the coordinates, also
+/// within functions. Empty if that is impossible. Where the leading
+/// coefficients are not zero, reduction by such a set decides membership in the ideal.
+std::vector<SolvedRelation> triangular_set(
+    std::vector<Polynomial> relations, std::size_t coordinates,
+    const std::function<bool(const Polynomial&)>& uses_coordinates);
 
 /// The remainder of pseudo-division by all of the set: zero exactly when some product of the
 /// leading coefficients times `p` lies in the ideal.

@@ -35,16 +35,19 @@ bool Assumption::holds_at(const GiNaC::exmap& point) const {
   try {
     const ex value = substituted(difference, point);
     const std::optional<int> sign = sign_of_constant(value);
-    if (!sign) return false;
-    if (relation == "!=") return *sign != 0;
-    if (relation == "==") return *sign == 0;
-    if (relation == "<") return *sign < 0;
-    if (relation == "<=") return *sign <= 0;
-    if (relation == ">") return *sign > 0;
-    return *sign >= 0;
+    return sign && allows(*sign);
   } catch (const std::exception&) {
     return false;  // a pole
   }
+}
+
+bool Assumption::allows(int sign) const {
+  if (relation == "!=") return sign != 0;
+  if (relation == "==") return sign == 0;
+  if (relation == "<") return sign < 0;
+  if (relation == "<=") return sign <= 0;
+  if (relation == ">") return sign > 0;
+  return sign >= 0;
 }
 
 const Scene& Model::scene(const std::string& scene_name) const {

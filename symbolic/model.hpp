@@ -34,6 +34,9 @@ struct Assumption {
   /// Whether it holds where `point` gives every symbol a rational value; false also where the
   /// difference has no value there or its sign is not decided by exact arithmetic.
   bool holds_at(const GiNaC::exmap& point) const;
+
+  /// Whether it holds where the difference has this sign.
+  bool allows(int sign) const;
 };
 
 /// A function whose zero level is invariant (`conditional`: that is a first integral there) on the

@@ -242,14 +242,14 @@ std::optional<Point> PointSearch::completed(const Level& level,
   return std::nullopt;
 }
 
-std::optional<Point> PointSearch::rational(const Level& level) {
+std::optional<Point> PointSearch::rational(const Level& level, int trials) {
   // Relations that contain generators cannot be solved for rational values of the symbols alone.
   for (const Polynomial& f : level.numerators) {
     for (std::size_t g = ring_.symbols().size(); g < ring_.ring().size(); ++g) {
       if (f.uses(g)) return std::nullopt;
     }
   }
-  for (int trial = 0; trial < kTrials; ++trial) {
+  for (int trial = 0; trial < trials; ++trial) {
     Point point(ring_.ring().size(), 0);
     for (std::size_t i = 0; i < ring_.symbols().size(); ++i) point[i] = draw();
     if (!level.empty() && !solve_level(point, level)) continue;

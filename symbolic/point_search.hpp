@@ -25,7 +25,7 @@ class PointSearch {
 
   /// The same with rational values of the symbols alone: the functions of the ring may have any
   /// values there.
-  std::optional<Point> rational(const Level& level);
+  std::optional<Point> rational(const Level& level, int trials = 400);
 
   /// Whether every assumption of the case holds where the symbols have these values.
   bool inside_assumptions(const Point& point) const;

@@ -80,6 +80,9 @@ void decide(Prover& prover, const Claim& claim, Proof& proof) {
   } catch (const std::overflow_error& limit) {
     proof.verdict = Verdict::undecided;
     proof.reason = limit.what();
+  } catch (const NotCertified&) {
+    proof.verdict = Verdict::undecided;
+    proof.reason = "a function has no value that is certain at the points tried";
   } catch (const std::bad_alloc&) {
     proof.verdict = Verdict::undecided;
     proof.reason = kOutOfMemory;
@@ -134,7 +137,7 @@ class Provers {
       const WorkMeter meter;
       if (!shared_) own_.emplace(model_, claim.expressions);
       Prover& prover = shared_ ? *shared_ : *own_;
-      prover.begin_claim();
+      prover.begin_claim(claim.expressions);
       casimir::decide(prover, claim, proof);
     } catch (const TooLarge& limit) {
       proof.reason = limit.what();

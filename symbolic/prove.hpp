@@ -36,6 +36,8 @@ struct Proof {
   std::string residual;         ///< what should have been zero
   std::string reason;           ///< for what is not proved
   std::optional<Witness> witness;
+  /// What the verdict depends on beyond the assumptions, as "a != 0"; only of what is proved.
+  std::vector<std::string> where;
   std::vector<std::string> nonzero;    ///< what was divided by
   std::vector<std::string> positive;   ///< so that its roots and logarithms are real
   std::vector<std::string> integrals;  ///< that a Lax pair gives

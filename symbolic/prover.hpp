@@ -13,6 +13,8 @@
 #include "symbolic/point_search.hpp"
 #include "symbolic/prove.hpp"
 #include "symbolic/rational_matrix.hpp"
+#include "symbolic/real_level_point.hpp"
+#include "symbolic/real_point.hpp"
 
 namespace casimir {
 
@@ -22,6 +24,9 @@ struct Residual {
   Polynomial value;                     ///< in the prover's ring
   std::function<GiNaC::ex()> by_ginac;  ///< the same by GiNaC alone: re-evaluates a witness
 };
+
+/// The text, or its beginning with the number of terms.
+std::string shortened(std::string text, std::size_t terms);
 
 struct ExpressionPairLess {
   using Pair = std::pair<GiNaC::ex, GiNaC::ex>;
@@ -46,7 +51,10 @@ class Prover {
   /// An expression in the ring; its denominators are from now on part of what a proof assumes.
   const Polynomial& convert(const GiNaC::ex& expression);
   /// Forgets what was divided by so far: the next claim begins.
-  void begin_claim() { divided_by_.clear(); }
+  /// \param expressions  what it is about: it says nothing where one of them has no real value
+  void begin_claim(const std::vector<GiNaC::ex>& expressions);
+  /// The expressions of the claim, and those of the bracket and the flow.
+  const std::vector<GiNaC::ex>& domain() const { return domain_; }
 
   const Polynomial& bracket_entry(std::size_t i, std::size_t j) const {
     return used(brackets_[i * dimension() + j]);
@@ -72,19 +80,34 @@ class Prover {
 
   /// Is the common zero level of the functions carried into itself? That their rates vanish there
   /// is necessary, but not enough: on q = 0 so does that of q^2, whatever the motion. The rates
-  /// have to lie in the ideal of the functions; one that only vanishes on the level joins them, and
-  /// its own rate has to vanish too, and so on.
-  void decide_invariance(Proof& proof, std::vector<NamedExpression> functions);
+  /// have to lie in the ideal of the functions, with cofactors that are continuous there; one that
+  /// only vanishes on the level joins them, and its own rate has to vanish too, and so on.
+  ///
+  /// Theorem (Gronwall): if f = (f_1, .., f_k) is continuously differentiable near the level and
+  /// df/dt = A f with A continuous, a solution that starts on f = 0 stays there. Hypotheses: no
+  /// radicand of f vanishes on the level (`is_smooth_on`), nor does a denominator of df/dt in
+  /// lowest terms (`vanishes_nowhere_on`); the leading coefficients that the level was solved by do
+  /// not vanish, or the level on which they do is invariant too.
+  void decide_invariance(Proof& proof, const std::vector<NamedExpression>& functions);
 
-  /// Fills in verdict, evidence, residual, reason and witness: are all residuals zero on the level?
+  /// Whether `f` is differentiable at every point of the level, as far as this can be told; if not,
+  /// `proof` is left undecided for this reason.
+  bool is_smooth_on(Proof& proof, const Level& level, const std::vector<NamedExpression>& list);
+
+  /// Fills in verdict, evidence, residual, reason and witness: are all residuals zero on the level,
+  /// wherever the functions of the claim have real values? A claim about nothing is not proved.
   void decide(Proof& proof, const std::vector<Residual>& residuals, const Level& level);
+
+  /// Points for ranks and the like.
+  RealPoints& real_points() { return real_points_; }
 
   /// A point of the ring at which no denominator vanishes, every assumption holds and the level's
   /// functions are zero; empty if none was found.
   std::optional<Point> random_point(const Level& level);
 
-  /// Exact values of the symbols of such a point, by name; variables first.
-  std::vector<std::pair<std::string, std::string>> describe(const Point& point) const;
+  /// A point of the level with rational coordinates, inside every assumption and at which all
+  /// functions of the claim have real values; empty if none was found.
+  std::optional<RealPoint> exact_point(const Level& level);
 
  private:
   const Polynomial& used(const Polynomial& p) const {
@@ -93,10 +116,23 @@ class Prover {
   }
   bool vanishes_by_substitution(const Residual& residual, const Level& level) const;
   Polynomial along(const Polynomial& f, const std::vector<Polynomial>& field) const;
-  /// Whether the residual is a combination of the level's functions (where nothing that the level
-  /// was solved by vanishes).
+  /// Whether the residual is a combination of the level's functions with continuous coefficients
+  /// (where nothing that the level was solved by vanishes).
   bool in_ideal(const Residual& residual, const Level& level);
   bool vanishes_on(const Residual& residual, Polynomial& rest, const Level& level, Proof& proof);
+  void decide_on(Proof& proof, const std::vector<Residual>& residuals, const Level& level);
+  void decide_invariance_once(Proof& proof, std::vector<NamedExpression> functions);
+  /// Decides again on the part of the level where what it was solved by vanishes.
+  void decide_branches(
+      Proof& proof, const std::vector<NamedExpression>& functions, int depth,
+      const std::function<void(Proof&, const std::vector<NamedExpression>&, int)>& decide_part);
+  /// Whether `p` vanishes at no point of the level at which the claim says something.
+  bool vanishes_nowhere_on(const Polynomial& p, const Level& level);
+  const std::vector<Polynomial>& explicit_divisors();
+  void check_inhabited(Proof& proof, const Level& level);
+  std::optional<Witness> witness(const Polynomial& rest, const Residual& residual,
+                                 const Level& level);
+  void say_conditions(Proof& proof);
   static std::vector<GiNaC::symbol> symbols_of(const Model& model);
   static std::vector<GiNaC::ex> with_dynamics(const Model& model,
                                               std::vector<GiNaC::ex> expressions);
@@ -108,6 +144,12 @@ class Prover {
   std::unordered_map<GiNaC::ex, std::vector<Polynomial>> flows_;
   std::map<std::pair<GiNaC::ex, GiNaC::ex>, Polynomial, ExpressionPairLess> known_brackets_;
   PointSearch points_;
+  RealPoints real_points_;
+  std::vector<GiNaC::ex> claim_, domain_, all_;
+  std::optional<std::vector<Polynomial>> divisors_;
+  std::optional<bool> all_inhabited_, claim_inhabited_;
+  std::vector<Polynomial> leads_;  ///< that the last decision took for not zero
+  bool in_branch_ = false;         ///< where less work is spent: the answer may become a condition
   mutable std::vector<bool> divided_by_;  ///< which of the ring's denominators
 };
 

@@ -1,19 +1,28 @@
 #pragma once
 
-#include <functional>
 #include <optional>
+#include <vector>
 
 #include "symbolic/point_search.hpp"
 #include "symbolic/prove.hpp"
+#include "symbolic/real_point.hpp"
 
 namespace casimir {
 
-/// A point of the level inside every assumption where an expression is not zero, shown by GiNaC's
-/// own substitution and exact arithmetic, independently of the ring; empty if none was found.
-/// \param numerator  the expression in the ring, reduced; only guides the search
-/// \param by_ginac   the expression itself, called at most once
+/// What a witness is looked for.
+struct Suspect {
+  const Polynomial& numerator;  ///< in the ring, reduced; only guides the search
+  GiNaC::ex expression;         ///< the expression itself
+  const std::vector<GiNaC::ex>&
+      domain;  ///< nothing is claimed where one of these has no real value
+};
+
+/// A point of the level inside every assumption where the expression is not zero and everything in
+/// the domain has a real value, shown by GiNaC's own substitution with exact arithmetic or balls,
+/// independently of the ring; empty if none was found.
+/// \param brief  only at points that are quickly found
 std::optional<Witness> find_witness(const Model& model, const FunctionRing& ring,
-                                    PointSearch& points, const Polynomial& numerator,
-                                    const std::function<GiNaC::ex()>& by_ginac, const Level& level);
+                                    PointSearch& points, RealPoints& real_points,
+                                    const Suspect& suspect, const Level& level, bool brief);
 
 }  // namespace casimir

@@ -20,7 +20,10 @@ Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>
                    prover.bracket(prover.ring().ring().variable(i), c),
                    [&prover, x, value] { return prover.model().poisson->bracket(x, value); }});
             }
-            prover.decide(proof, residuals, prover.level(on));
+            const Level level = prover.level(on);
+            prover.decide(proof, residuals, level);
+            if (proof.verdict == Verdict::proved && !level.empty())
+              prover.is_smooth_on(proof, level, {f});
           },
           names_of(on),
           values_of(on, f.value)};

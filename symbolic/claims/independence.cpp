@@ -39,6 +39,11 @@ PolynomialRows structure_matrix(Prover& prover) {
   return rows;
 }
 
+/// A fact about some pieces of the domain only.
+void say_where(Proof& proof, const std::string& where) {
+  if (!where.empty()) proof.where.push_back(where);
+}
+
 void decide_independence(Prover& prover, Proof& proof,
                          const std::vector<NamedExpression>& functions) {
   const PolynomialRows slopes = gradients(prover, functions);
@@ -58,10 +63,15 @@ void decide_independence(Prover& prover, Proof& proof,
   };
   const auto found = generic_rank(prover, slopes, kernel);
   if (!found) {
-    proof.reason = "no exact point was found to take the gradients at";
+    proof.reason = "no point of the domain was found to take the gradients at";
+  } else if (!found->uneven.empty()) {
+    proof.reason = found->uneven;
   } else if (found->rank == functions.size()) {
     proof.verdict = Verdict::proved;
-    proof.evidence = "the gradients are independent at " + point_text(prover, found->point);
+    proof.evidence = found->points.empty()
+                         ? "the gradients are constant and independent"
+                         : "the gradients are independent at " + text_of(found->points);
+    say_where(proof, found->where);
   } else if (found->exact) {
     proof.verdict = Verdict::refuted;
     proof.reason = fmt::format(
@@ -83,15 +93,25 @@ std::optional<GenericRank> bracket_rank(Prover& prover) {
   });
 }
 
+/// At least so many of the rows are independent.
+std::size_t independent_rows(Prover& prover, const PolynomialRows& rows) {
+  if (rows.empty()) return 0;
+  const auto found = generic_rank(prover, rows);
+  return found ? found->rank : 0;
+}
+
 void decide_rank(Prover& prover, Proof& proof) {
   const auto found = bracket_rank(prover);
   if (!found) {
-    proof.reason = "no exact point was found to take the rank at";
+    proof.reason = "no point of the domain was found to take the rank at";
+    return;
+  }
+  if (!found->uneven.empty()) {
+    proof.reason = found->uneven;
     return;
   }
   const PolynomialRows casimirs = gradients(prover, prover.model().casimirs);
-  const std::size_t independent =
-      have_values(prover, casimirs) ? rank(values_at(casimirs, found->point)) : 0;
+  const std::size_t independent = independent_rows(prover, casimirs);
   proof.name = fmt::format("rank {}", found->rank);
   if (!found->exact) {
     proof.reason = fmt::format(
@@ -100,10 +120,12 @@ void decide_rank(Prover& prover, Proof& proof) {
     return;
   }
   proof.verdict = Verdict::proved;
-  proof.evidence = fmt::format(
-      "leaves of dimension {} in dimension {}, {} independent Casimir function{}; rank taken at {}",
-      found->rank, prover.dimension(), independent, independent == 1 ? "" : "s",
-      point_text(prover, found->point));
+  proof.evidence =
+      fmt::format("leaves of dimension {} in dimension {}, {} independent Casimir function{}; {}",
+                  found->rank, prover.dimension(), independent, independent == 1 ? "" : "s",
+                  found->points.empty() ? "the bracket is constant"
+                                        : "rank taken at " + text_of(found->points));
+  say_where(proof, found->where);
 }
 
 /// For each function the set of those that it commutes with, itself included.
@@ -122,22 +144,71 @@ std::vector<unsigned> commuting(Prover& prover, const std::vector<NamedExpressio
 
 /// The largest set, up to `needed`, of functions in involution with the first one whose fields have
 /// independent values.
-unsigned largest_set(const std::vector<unsigned>& commutes,
-                     const std::vector<std::vector<cln::cl_RA>>& values, std::size_t needed) {
+unsigned largest_set(const std::vector<unsigned>& commutes, RealPoint& point,
+                     const PolynomialRows& flows, std::size_t needed) {
   unsigned best = 0;
   const auto size = [](unsigned set) { return static_cast<std::size_t>(std::popcount(set)); };
-  for (unsigned set = 1; set < (1U << values.size()) && size(best) < needed; set += 2) {
+  for (unsigned set = 1; set < (1U << flows.size()) && size(best) < needed; set += 2) {
     if (size(set) <= size(best) || size(set) > needed) continue;
     bool involutive = true;
-    std::vector<std::vector<cln::cl_RA>> rows;
-    for (std::size_t i = 0; i < values.size() && involutive; ++i) {
+    PolynomialRows rows;
+    for (std::size_t i = 0; i < flows.size() && involutive; ++i) {
       if ((set >> i & 1U) == 0) continue;
       involutive = (set & ~commutes[i]) == 0;
-      rows.push_back(values[i]);
+      rows.push_back(flows[i]);
     }
-    if (involutive && rank(rows) == rows.size()) best = set;
+    if (involutive && point.rank(rows) == rows.size()) best = set;
   }
   return best;
+}
+
+/// Sets of functions in involution, one for each piece of the domain.
+struct SetsOnPieces {
+  bool complete = false;      ///< each has as many as are needed
+  std::size_t least = 0;      ///< of the piece with the smallest set
+  unsigned set = 0;           ///< of the first piece
+  std::vector<RealPoint> at;  ///< a point on each; or on the one with too few
+  std::string where;
+};
+
+SetsOnPieces sets_on_pieces(Prover& prover, const PolynomialRows& flows,
+                            const std::vector<unsigned>& commutes, std::size_t needed) {
+  std::vector<Polynomial> entries;
+  for (const auto& row : flows) entries.insert(entries.end(), row.begin(), row.end());
+  PiecePoints found(prover, entries);
+  SetsOnPieces result;
+  if (needed == 0 || found.pieces().empty()) return result;
+  result.where = found.where();
+  const auto size = [](unsigned set) { return static_cast<std::size_t>(std::popcount(set)); };
+  // Of a rigid piece one point is enough, of another one all have to do.
+  const auto on_piece = [&](PiecePoints::Piece& piece) {
+    std::optional<std::size_t> best;
+    for (RealPoint& point : piece.points) {
+      const unsigned set = largest_set(commutes, point, flows, needed);
+      const bool better = !best || (piece.rigid ? size(set) > *best : size(set) < *best);
+      if (!better) continue;
+      best = size(set);
+      if (result.at.empty()) result.set = set;
+      if (*best >= needed && piece.rigid) break;
+    }
+    return *best;
+  };
+  do {
+    result.complete = true;
+    result.at.clear();
+    result.least = needed;
+    for (PiecePoints::Piece& piece : found.pieces()) {
+      const std::size_t own = on_piece(piece);
+      if (own < result.least) {
+        result.least = own;
+        result.complete = false;
+        result.at = {piece.points.front()};
+        break;
+      }
+      result.at.push_back(piece.points.back());
+    }
+  } while (!result.complete && found.add_point());
+  return result;
 }
 
 /// Integrals in involution that are independent on the generic leaf: as many as half its dimension?
@@ -145,7 +216,11 @@ void decide_liouville(Prover& prover, Proof& proof) {
   const std::vector<NamedExpression> functions = with_hamiltonian(prover.model(), {});
   const auto leaf = bracket_rank(prover);
   if (!leaf) {
-    proof.reason = "no exact point was found to take the rank of the bracket at";
+    proof.reason = "no point of the domain was found to take the rank of the bracket at";
+    return;
+  }
+  if (!leaf->uneven.empty()) {
+    proof.reason = leaf->uneven;
     return;
   }
   if (!leaf->exact) {
@@ -169,30 +244,26 @@ void decide_liouville(Prover& prover, Proof& proof) {
   PolynomialRows flows;
   for (const NamedExpression& f : functions) flows.push_back(prover.flow(f.value));
   const std::vector<unsigned> commutes = commuting(prover, functions);
-  std::size_t best = 0;
-  constexpr int kPoints = 4;
-  for (int k = 0; k < kPoints && have_values(prover, flows); ++k) {
-    const auto point = prover.random_point({});
-    if (!point) continue;
-    const unsigned set = largest_set(commutes, values_at(flows, *point), needed);
-    best = std::max(best, static_cast<std::size_t>(std::popcount(set)));
-    if (best < needed || needed == 0) continue;
-    std::vector<NamedExpression> chosen;
-    for (std::size_t i = 0; i < functions.size(); ++i) {
-      if ((set >> i & 1U) != 0) chosen.push_back(functions[i]);
-    }
-    proof.verdict = Verdict::proved;
-    proof.evidence =
-        chosen.size() == 1
-            ? fmt::format("{} is enough on leaves of dimension {}; it is not constant at {}",
-                          listed(chosen), leaf->rank, point_text(prover, *point))
-            : fmt::format("{} are in involution and independent on leaves of dimension {} (at {})",
-                          listed(chosen), leaf->rank, point_text(prover, *point));
+  const auto found = sets_on_pieces(prover, flows, commutes, needed);
+  if (!found.complete) {
+    proof.reason = fmt::format(
+        "leaves of dimension {} need {} independent integrals in involution; {} known{}",
+        leaf->rank, needed, found.least, found.at.empty() ? "" : " at " + text_of(found.at));
     return;
   }
-  proof.reason =
-      fmt::format("leaves of dimension {} need {} independent integrals in involution; {} known",
-                  leaf->rank, needed, best);
+  std::vector<NamedExpression> chosen;
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    if ((found.set >> i & 1U) != 0) chosen.push_back(functions[i]);
+  }
+  proof.verdict = Verdict::proved;
+  proof.evidence =
+      chosen.size() == 1
+          ? fmt::format("{} is enough on leaves of dimension {}; it is not constant at {}",
+                        listed(chosen), leaf->rank, text_of(found.at))
+          : fmt::format("{} are in involution and independent on leaves of dimension {} (at {})",
+                        listed(chosen), leaf->rank, text_of(found.at));
+  say_where(proof, leaf->where);
+  if (found.where != leaf->where) say_where(proof, found.where);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // Borisov & Mamaev, Sec. 1.1, (1.10).
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "symbolic/claims/claim.hpp"
 
 namespace casimir {
@@ -15,11 +17,21 @@ Residual rate_of(Prover& prover, const NamedExpression& f) {
 
 /// Are `residuals` zero on the level, and is the level itself invariant?
 void decide_on_invariant_level(Prover& prover, Proof& proof, const std::vector<Residual>& residuals,
-                               const std::vector<NamedExpression>& on) {
+                               const NamedExpression& f, const std::vector<NamedExpression>& on) {
+  if (on.empty()) {
+    prover.decide(proof, residuals, {});
+    return;
+  }
   Proof invariance;
   prover.decide_invariance(invariance, on);
   if (invariance.verdict == Verdict::proved) {
-    prover.decide(proof, residuals, prover.level(on));
+    const Level level = prover.level(on);
+    prover.decide(proof, residuals, level);
+    if (proof.verdict == Verdict::proved && !prover.is_smooth_on(proof, level, {f})) return;
+    for (const std::string& condition : invariance.where) {
+      if (std::find(proof.where.begin(), proof.where.end(), condition) == proof.where.end())
+        proof.where.push_back(condition);
+    }
     return;
   }
   proof.verdict = invariance.verdict;
@@ -38,7 +50,7 @@ Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression
           f.name,
           false,
           [f, on](Prover& prover, Proof& proof) {
-            decide_on_invariant_level(prover, proof, {rate_of(prover, f)}, on);
+            decide_on_invariant_level(prover, proof, {rate_of(prover, f)}, f, on);
           },
           names_of(on),
           values_of(on, f.value)};

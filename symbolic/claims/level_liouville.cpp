@@ -31,7 +31,7 @@ bool in_involution(Prover& prover, const Functions& functions, const Level& leve
       const GiNaC::ex g = functions[j].value;
       Proof proof;
       prover.decide(proof,
-                    {{"bracket", prover.bracket(f, g),
+                    {{"bracket", prover.bracket(prover.convert(f), prover.convert(g)),
                       [&prover, f, g] { return prover.model().poisson->bracket(f, g); }}},
                     level);
       if (proof.verdict != Verdict::proved) return false;
@@ -47,17 +47,6 @@ bool is_casimir(Prover& prover, const NamedExpression& f) {
   });
 }
 
-/// The bracket at the point, by rows.
-RationalMatrix bracket_at(const Prover& prover, const Point& point) {
-  RationalMatrix rows;
-  for (std::size_t i = 0; i < prover.dimension(); ++i) {
-    rows.emplace_back();
-    for (std::size_t j = 0; j < prover.dimension(); ++j)
-      rows.back().push_back(prover.bracket_entry(i, j).evaluate(point));
-  }
-  return rows;
-}
-
 void decide(Prover& prover, Proof& proof, const Functions& on) {
   if (!std::all_of(on.begin(), on.end(),
                    [&](const NamedExpression& f) { return is_casimir(prover, f); })) {
@@ -68,14 +57,31 @@ void decide(Prover& prover, Proof& proof, const Functions& on) {
   const Functions functions = integrals_on(prover.model(), on);
   PolynomialRows flows;
   for (const NamedExpression& f : functions) flows.push_back(prover.flow(f.value));
-  const auto point = have_values(prover, flows) ? prover.random_point(level) : std::nullopt;
+  std::optional<RealPoint> point = prover.exact_point(level);
   if (!point) {
     proof.reason = "no exact point of the level was found";
     return;
   }
-  // A leaf has the dimension of its tangent space at any of its points.
-  const std::size_t leaf = rank(bracket_at(prover, *point));
-  const std::size_t independent = rank(values_at(flows, *point));
+  // A leaf has the dimension of its tangent space at any of its points; those of the level have no
+  // larger one where it is that of all leaves.
+  PolynomialRows bracket;
+  for (std::size_t i = 0; i < prover.dimension(); ++i) {
+    bracket.emplace_back();
+    for (std::size_t j = 0; j < prover.dimension(); ++j)
+      bracket.back().push_back(prover.bracket_entry(i, j));
+  }
+  const auto generic = generic_rank(prover, bracket, [&] {
+    std::vector<KernelCandidate> candidates;
+    for (const NamedExpression& f : prover.model().casimirs)
+      candidates.push_back({prover.gradient(prover.convert(f.value))});
+    return candidates;
+  });
+  const std::size_t leaf = point->rank(bracket);
+  if (!generic || !generic->exact || generic->rank != leaf) {
+    proof.reason = "the dimension of the leaves on the level is not known";
+    return;
+  }
+  const std::size_t independent = point->rank(flows);
   const std::size_t needed = leaf / 2;
   if (independent < needed || functions.size() > needed ||
       !in_involution(prover, functions, level)) {
@@ -88,7 +94,7 @@ void decide(Prover& prover, Proof& proof, const Functions& on) {
   proof.verdict = Verdict::proved;
   proof.evidence =
       fmt::format("{} are in involution there and independent on leaves of dimension {} (at {})",
-                  fmt::join(names_of(functions), ", "), leaf, point_text(prover, *point));
+                  fmt::join(names_of(functions), ", "), leaf, point->text());
 }
 
 /// Whether f is in involution with every variable, as far as expanding shows it.

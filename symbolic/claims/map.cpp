@@ -25,7 +25,13 @@ void decide_map(Prover& prover, Proof& proof, const PoissonMap& map) {
            }});
     }
   }
-  prover.decide(proof, residuals, prover.level(map.on));
+  const Level level = prover.level(map.on);
+  prover.decide(proof, residuals, level);
+  if (proof.verdict != Verdict::proved || level.empty()) return;
+  std::vector<NamedExpression> functions;
+  for (std::size_t i = 0; i < y.size(); ++i)
+    functions.push_back({y[i].get_name(), map.expressions[i], {}});
+  prover.is_smooth_on(proof, level, functions);
 }
 
 GiNaC::exmap image_point(const PoissonMap& map) {

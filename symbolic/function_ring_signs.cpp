@@ -1,0 +1,169 @@
+// The signs that a FunctionRing knows: from assumptions, and since roots and logarithms are real.
+//
+// What is inferred has to hold at every point at which the assumptions hold and everything that was
+// converted has a real value, not only at almost all of them: a level may consist of the others. So
+// the difference between > and >= counts. x^2*y >= 0 says nothing of y where x = 0, nor does
+// a*b >= 0 say anything of b where a = 0.
+#include <algorithm>
+
+#include "symbolic/function_ring.hpp"
+
+namespace casimir {
+
+void FunctionRing::read_signs() {
+  for (const Reading reading : {Reading::first, Reading::second}) {
+    for (const Assumption& assumption : assumptions_) read_assumption(assumption, reading);
+    // By place, and a copy: what is converted may imply more.
+    for (std::size_t i = 0; i < implied_.size(); ++i) {
+      const Implied implied = implied_[i];
+      read_sign(convert(implied.value), 1, reading, true, implied.strict);
+    }
+  }
+}
+
+/// The first reading is of the inequalities that give the sign of a single factor, the second is of
+/// those that rest on signs already known.
+void FunctionRing::read_assumption(const Assumption& assumption, Reading reading) {
+  const std::string& relation = assumption.relation;
+  if (relation == "!=") {
+    const Polynomial difference = fraction(convert(assumption.difference)).first;
+    if (difference.is_zero()) return;
+    for (const auto& [f, exponent] : difference.factors()) {
+      if (!f.is_constant() && !known_nonzero(f)) nonzero_.push_back(f);
+    }
+    return;
+  }
+  const bool positive = relation == ">" || relation == ">=";
+  const bool negative = relation == "<" || relation == "<=";
+  const bool strict = relation == ">" || relation == "<";
+  if (positive || negative)
+    read_sign(convert(assumption.difference), positive ? 1 : -1, reading, false, strict);
+}
+
+/// The sign of a product of irreducible factors gives that of the only one whose own is unknown, if
+/// none of the others can vanish; and those of two, where a sum of them has a known sign: G > 0 and
+/// G^2 > L^2 make G - L and G + L positive.
+void FunctionRing::read_sign(const Polynomial& p, int sign, Reading reading, bool implied,
+                             bool strict) {
+  const auto [top, bottom] = fraction(p);
+  if (top.is_zero()) return;                                    // 0 >= 0 says nothing
+  const auto factors = checked_product(top, bottom).factors();  // of one sign with the fraction
+  std::vector<Polynomial> unknown;
+  std::size_t odd = 0;
+  bool others_vanish = false;
+  if (cln::minusp(factors[0].first.term_list()[0].first)) sign = -sign;
+  for (std::size_t k = 1; k < factors.size(); ++k) {
+    const Polynomial& f = factors[k].first;
+    // A product that is not zero has no factor that is; nor has a fraction with a value a
+    // denominator that is.
+    Polynomial quotient(*ring_);
+    if ((strict || bottom.divide(f, &quotient)) && !known_nonzero(f)) nonzero_.push_back(f);
+    const int known = factors[k].second % 2 == 0 ? 1 : known_sign(f);
+    if (factors[k].second % 2 == 1) ++odd;
+    if (known == 0) unknown.push_back(f);
+    if (known != 0 && !known_nonzero(f)) others_vanish = true;
+    if (known < 0) sign = -sign;
+  }
+  if ((odd == 1) != (reading == Reading::first) || others_vanish) return;
+  if (unknown.size() == 1) add_sign(unknown[0], sign, implied, strict);
+  if (unknown.size() != 2) return;
+  // f g >= 0 and f + g >= 0 make neither negative: if f were, so would be g, and the sum.
+  const Polynomial sum = unknown[0] + unknown[1].scaled(sign);  // the two have one sign
+  if (sum.is_zero()) return;
+  const cln::cl_RA content = sum.content();
+  const int known = known_sign(sum.scaled(1 / content)) * (cln::minusp(content) ? -1 : 1);
+  if (known == 0) return;
+  add_sign(unknown[0], known, implied, strict);
+  add_sign(unknown[1], sign * known, implied, strict);
+}
+
+void FunctionRing::add_sign(const Polynomial& f, int sign, bool implied, bool strict) {
+  signs_.push_back({f, sign, implied, strict});
+}
+
+/// The sign that an irreducible polynomial has wherever it does not vanish, or 0.
+int FunctionRing::known_sign(const Polynomial& p) const {
+  for (const Sign& s : signs_) {
+    if (s.of == p) return s.sign;
+    if (s.of == -p) return -s.sign;
+  }
+  if (!is_real_everywhere(p)) return 0;
+  return is_sum_of_squares(p) ? 1 : is_sum_of_squares(-p) ? -1 : 0;
+}
+
+/// Whether an irreducible polynomial is known not to vanish.
+bool FunctionRing::known_nonzero(const Polynomial& p) const {
+  if (p.is_constant()) return !p.is_zero();
+  const auto listed = [&](const Polynomial& f) { return f == p || f == -p; };
+  if (std::any_of(nonzero_.begin(), nonzero_.end(), listed)) return true;
+  if (std::any_of(signs_.begin(), signs_.end(),
+                  [&](const Sign& s) { return s.strict && listed(s.of); }))
+    return true;
+  if (is_exponential(p)) return true;
+  const bool squares = is_real_everywhere(p) && (is_sum_of_squares(p) || is_sum_of_squares(-p));
+  const std::vector<cln::cl_RA> origin(ring_->size(), 0);
+  return squares && !cln::zerop(p.evaluate(origin));
+}
+
+/// A sum of even monomials with positive coefficients.
+bool FunctionRing::is_sum_of_squares(const Polynomial& p) {
+  const auto terms = p.term_list();
+  return std::all_of(terms.begin(), terms.end(), [](const auto& term) {
+    return cln::plusp(term.first) &&
+           std::all_of(term.second.begin(), term.second.end(),
+                       [](unsigned long exponent) { return exponent % 2 == 0; });
+  });
+}
+
+/// Takes it that f has this sign, since a root or a logarithm is real only there.
+void FunctionRing::imply_sign(const Polynomial& f, int sign, bool strict) {
+  if (complex_) return;
+  if (known_sign(f) != 0) {
+    if (strict && !known_nonzero(f)) {
+      nonzero_.push_back(f);
+      implied_.push_back({sign * expression(f), true});
+    }
+    return;
+  }
+  add_sign(f, sign, true, strict);
+  implied_.push_back({sign * expression(f), strict});
+  // What was made without knowing it may have another form now.
+  for (const Generator& g : generators_) {
+    const bool may_change = g.kind == Kind::absolute || g.kind == Kind::root ||
+                            (g.kind == Kind::function && g.order == kLogOfAbsolute);
+    Polynomial quotient(*ring_);
+    if (may_change && !g.base.is_constant() && g.base.divide(f, &quotient)) throw Full{};
+  }
+}
+
+/// The radicand of an even root is not negative where the root is real, and that gives the sign of
+/// the only factor of odd power whose sign is not known, if no other factor can vanish.
+/// \param strict  it is not zero either, as what a logarithm is taken of
+void FunctionRing::imply_radicand(const std::vector<std::pair<Polynomial, unsigned long>>& factors,
+                                  bool strict) {
+  const Polynomial* unknown = nullptr;
+  std::size_t odd = 0;
+  bool others_vanish = false;
+  int sign = 1;
+  for (const auto& [f, exponent] : factors) {
+    if (exponent % 2 == 1) {
+      const int known =
+          f.is_constant() ? (cln::minusp(f.term_list()[0].first) ? -1 : 1) : known_sign(f);
+      if (known < 0) sign = -sign;
+      if (!f.is_constant()) ++odd;
+      if (known == 0 && unknown != nullptr) return;
+      if (known == 0) {
+        unknown = &f;
+        continue;
+      }
+    }
+    others_vanish = others_vanish || (!strict && !known_nonzero(f));
+  }
+  if (unknown != nullptr && !others_vanish) imply_sign(*unknown, sign, strict);
+  if (unknown == nullptr && strict && odd == 1) {
+    for (const auto& [f, exponent] : factors)
+      if (!f.is_constant() && exponent % 2 == 1) imply_sign(f, known_sign(f), strict);
+  }
+}
+
+}  // namespace casimir

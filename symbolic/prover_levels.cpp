@@ -1,0 +1,387 @@
+// Claims on levels: what vanishes there, and whether the motion keeps to it.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "symbolic/measure.hpp"
+#include "symbolic/prover.hpp"
+
+namespace casimir {
+namespace {
+
+using GiNaC::ex;
+
+constexpr std::size_t kMaxResidualText = 2000;
+constexpr GroebnerLimits kSmallBasis{200, 60, 2000};
+
+/// What holds between the functions everywhere, as c^2 - (1 - s^2): on a level such as c = 1 it
+/// says more than the normal form of the ring, that s^2 = 0.
+std::vector<Polynomial> square_relations(const FunctionRing& ring) {
+  std::vector<Polynomial> relations;
+  for (std::size_t i = ring.symbols().size(); i < ring.ring().size(); ++i) {
+    const Polynomial square = ring.ring().variable(i) * ring.ring().variable(i);
+    const Polynomial relation = square - ring.numerator(square);
+    // Not so for 1/d, whose numerator is another function.
+    if (!relation.is_zero() && ring.numerator(relation).is_zero()) relations.push_back(relation);
+  }
+  return relations;
+}
+
+std::vector<NamedExpression> functions_of(const Level& level) {
+  std::vector<NamedExpression> result;
+  for (std::size_t i = 0; i < level.functions.size(); ++i)
+    result.push_back({level.texts[i], level.functions[i], {}});
+  return result;
+}
+
+}  // namespace
+
+std::string shortened(std::string text, std::size_t terms) {
+  if (text.size() <= kMaxResidualText) return text;
+  const std::size_t cut = text.rfind(' ', kMaxResidualText);
+  return text.substr(0, cut) + fmt::format(" ... ({} terms)", terms);
+}
+
+Level Prover::level(const std::vector<NamedExpression>& on) {
+  Level result;
+  for (const NamedExpression& f : on) {
+    Polynomial numerator = ring_.lowest_terms(convert(f.value)).first;
+    if (numerator.is_zero()) continue;  // no condition, and no divisor
+    result.texts.push_back(f.name);
+    result.functions.push_back(f.value);
+    result.numerators.push_back(std::move(numerator));
+  }
+  result.solved = triangular_set(result.numerators, dimension(), [&](const Polynomial& p) {
+    return ring_.depends_on_first(p, dimension());
+  });
+  if (result.solved.empty() && !result.empty()) {
+    std::vector<Polynomial> ideal = result.numerators;
+    const std::vector<Polynomial> identities = square_relations(ring_);
+    ideal.insert(ideal.end(), identities.begin(), identities.end());
+    result.basis = groebner_basis(ideal, in_branch_ ? kSmallBasis : GroebnerLimits{});
+  }
+  result.orthogonal = orthogonal_vectors(result.numerators, dimension());
+  return result;
+}
+
+std::vector<Residual> Prover::level_rates(const Level& level) {
+  std::vector<Residual> result;
+  for (std::size_t i = 0; i < level.functions.size(); ++i) {
+    const ex f = level.functions[i];
+    result.push_back({fmt::format("d({})/dt", level.texts[i]), rate(convert(f)),
+                      [this, f] { return model_.rate(f); }});
+  }
+  return result;
+}
+
+/// What the claim, the bracket and the flow divide by, or take the logarithm of: where one of these
+/// vanishes, nothing is claimed.
+const std::vector<Polynomial>& Prover::explicit_divisors() {
+  if (divisors_) return *divisors_;
+  divisors_.emplace();
+  const auto add = [&](const ex& base) {
+    for (const auto& [f, exponent] : ring_.lowest_terms(ring_.convert(base)).first.factors()) {
+      if (!f.is_constant()) divisors_->push_back(f);
+    }
+  };
+  for (const ex& expression : domain_) {
+    for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
+      if (GiNaC::is_a<GiNaC::power>(*part)) {
+        const ex exponent = part->op(1);
+        if (!GiNaC::is_a<GiNaC::numeric>(exponent) ||
+            GiNaC::ex_to<GiNaC::numeric>(exponent).is_negative())
+          add(part->op(0));
+      } else if (GiNaC::is_a<GiNaC::function>(*part)) {
+        const std::string name = GiNaC::ex_to<GiNaC::function>(*part).get_name();
+        if (name == "log") add(part->op(0));
+        if (name == "tan") add(GiNaC::cos(part->op(0)));
+      }
+    }
+  }
+  return *divisors_;
+}
+
+/// A factor vanishes nowhere there that the assumptions keep from zero, that is divided by, or that
+/// has no zero in common with the level: then the ideal of both contains 1, or something else that
+/// vanishes nowhere (the easy half of Hilbert's Nullstellensatz).
+bool Prover::vanishes_nowhere_on(const Polynomial& p, const Level& level) {
+  const auto kept_from_zero = [&](const Polynomial& f) {
+    if (ring_.is_nowhere_zero(f)) return true;
+    const auto& divisors = explicit_divisors();
+    return std::any_of(divisors.begin(), divisors.end(),
+                       [&](const Polynomial& d) { return d == f || d == -f; });
+  };
+  const auto never = [&](const Polynomial& f) {
+    if (f.is_constant()) return !f.is_zero();
+    const auto factors = f.factors();
+    return std::all_of(factors.begin(), factors.end(), [&](const auto& factor) {
+      return factor.first.is_constant() || kept_from_zero(factor.first);
+    });
+  };
+  if (p.is_constant()) return !p.is_zero();
+  for (const auto& [f, exponent] : p.factors()) {
+    if (f.is_constant() || kept_from_zero(f)) continue;
+    std::vector<Polynomial> ideal = level.numerators;
+    const std::vector<Polynomial> identities = square_relations(ring_);
+    ideal.insert(ideal.end(), identities.begin(), identities.end());
+    ideal.push_back(f);
+    const std::vector<Polynomial> basis = groebner_basis(ideal, kSmallBasis);
+    if (std::none_of(basis.begin(), basis.end(), never)) return false;
+  }
+  return true;
+}
+
+/// The same where relations x = value are put in first: on the level the functions may be simpler
+/// than the ring knows, as sqrt(G^2 - H^2) where H = 0 and G > 0.
+bool Prover::vanishes_by_substitution(const Residual& residual, const Level& level) const {
+  if (ring_.is_polynomial() || level.solved.empty()) return false;
+  try {
+    ex value = residual.by_ginac();
+    for (const SolvedRelation& solved : level.solved) {
+      if (!solved.leading.is_constant() || solved.relation.degree(solved.variable) != 1) continue;
+      const Polynomial rest = solved.relation.coefficients(solved.variable)[0];
+      const cln::cl_RA factor = -1 / solved.leading.term_list()[0].first;
+      value = substituted(
+          value, {{ring_.symbols()[solved.variable], ring_.expression(rest.scaled(factor))}});
+    }
+    FunctionRing fresh(ring_.symbols(), model_.assumptions, {value});
+    return fresh.numerator(fresh.convert(value)).is_zero();
+  } catch (const std::exception&) {
+    return false;  // a pole on the level, or too large
+  }
+}
+
+bool Prover::in_ideal(const Residual& residual, const Level& level) {
+  const Polynomial value = ring_.lowest_terms(residual.value).first;
+  std::vector<Polynomial> quotients;
+  if (value.is_zero() || value.remainder(level.numerators, &quotients).is_zero()) return true;
+  const Polynomial rest = level.solved.empty()
+                              ? value.remainder(level.basis, &quotients)
+                              : ring_.lowest_terms(pseudo_remainder(value, level.solved)).first;
+  if (rest.is_zero()) return true;
+  if (!vanishes_by_substitution(residual, level)) return false;
+  // r(x) = r(x) - r(x') with x' on the level is a combination with continuous coefficients (the
+  // mean values of the derivatives) only where r has continuous derivatives: sqrt(x) on x = 0 has
+  // not.
+  const std::vector<Polynomial> radicands = ring_.radicand_factors(residual.value);
+  return std::all_of(radicands.begin(), radicands.end(),
+                     [&](const Polynomial& f) { return vanishes_nowhere_on(f, level); });
+}
+
+bool Prover::is_smooth_on(Proof& proof, const Level& level,
+                          const std::vector<NamedExpression>& list) {
+  if (ring_.is_polynomial()) return true;
+  for (const NamedExpression& f : list) {
+    for (const Polynomial& radicand : ring_.radicand_factors(convert(f.value))) {
+      if (vanishes_nowhere_on(radicand, level)) continue;
+      proof.verdict = Verdict::undecided;
+      proof.evidence.clear();
+      proof.reason = fmt::format(
+          "{} need not be differentiable where {} = 0, which is not excluded on the level", f.name,
+          ring_.text(radicand));
+      return false;
+    }
+  }
+  return true;
+}
+
+void Prover::decide_invariance_once(Proof& proof, std::vector<NamedExpression> functions) {
+  const Proof blank = proof;
+  constexpr int kRounds = 4;
+  for (int round = 0; round < kRounds; ++round) {
+    const Level own = level(functions);
+    const std::vector<Residual> rates = level_rates(own);
+    proof = blank;
+    decide_on(proof, rates, own);
+    if (proof.verdict != Verdict::proved || !is_smooth_on(proof, own, functions)) return;
+    const std::size_t before = functions.size();
+    for (const Residual& rate : rates) {
+      if (!in_ideal(rate, own)) functions.push_back({rate.label, rate.by_ginac(), {}});
+    }
+    if (functions.size() == before) return;
+  }
+  proof = blank;
+  proof.verdict = Verdict::undecided;
+  proof.reason =
+      "the rates of the functions vanish on their zero level, but are no combinations of them";
+}
+
+void Prover::decide_branches(
+    Proof& proof, const std::vector<NamedExpression>& functions, int depth,
+    const std::function<void(Proof&, const std::vector<NamedExpression>&, int)>& decide_part) {
+  if (proof.verdict != Verdict::proved) return;
+  constexpr int kDepth = 2;
+  const std::vector<Polynomial> leads = std::exchange(leads_, {});
+  for (const Polynomial& lead : leads) {
+    for (const auto& [f, exponent] : lead.factors()) {
+      if (f.is_constant() || vanishes_nowhere_on(f, {})) continue;
+      const std::string text = ring_.text(f);
+      const std::string condition = text + " != 0";
+      if (std::find(proof.where.begin(), proof.where.end(), condition) != proof.where.end())
+        continue;
+      Proof part;
+      part.verdict = Verdict::undecided;
+      if (depth < kDepth) {
+        std::vector<NamedExpression> more = functions;
+        more.push_back({text, ring_.expression(f), {}});
+        const bool outer = std::exchange(in_branch_, true);
+        decide_part(part, more, depth + 1);
+        in_branch_ = outer;
+      }
+      if (part.verdict == Verdict::refuted) {
+        part.on = proof.on;
+        part.kind = proof.kind;
+        part.name = proof.name;
+        part.fact = proof.fact;
+        part.note = proof.note;
+        proof = std::move(part);
+        return;
+      }
+      if (part.verdict != Verdict::proved || !part.where.empty()) proof.where.push_back(condition);
+    }
+  }
+}
+
+void Prover::decide_invariance(Proof& proof, const std::vector<NamedExpression>& functions) {
+  std::function<void(Proof&, const std::vector<NamedExpression>&, int)> decide_part;
+  decide_part = [&](Proof& part, const std::vector<NamedExpression>& own, int depth) {
+    decide_invariance_once(part, own);
+    decide_branches(part, own, depth, decide_part);
+  };
+  decide_part(proof, functions, 0);
+  check_inhabited(proof, level(functions));
+  say_conditions(proof);
+}
+
+bool Prover::vanishes_on(const Residual& residual, Polynomial& rest, const Level& level,
+                         Proof& proof) {
+  auto [top, bottom] = ring_.lowest_terms(residual.value);
+  rest = std::move(top);
+  if (rest.is_zero()) return true;
+  // Numerators say nothing where the denominator, too, vanishes.
+  if (!vanishes_nowhere_on(bottom, level)) {
+    proof.reason = fmt::format("{} has the denominator {}, which may vanish on the level",
+                               residual.label, shortened(ring_.text(bottom), bottom.terms()));
+    return false;
+  }
+  std::vector<Polynomial> cofactors;
+  const Polynomial plain = rest.remainder(level.numerators, &cofactors);
+  if (plain.is_zero()) {
+    for (std::size_t i = 0; i < cofactors.size(); ++i) {
+      if (cofactors[i].is_zero()) continue;
+      if (!proof.evidence.empty()) proof.evidence += "; ";
+      proof.evidence +=
+          fmt::format("{} has the cofactor {} of {}", residual.label,
+                      shortened(ring_.text(cofactors[i]), cofactors[i].terms()), level.texts[i]);
+    }
+    rest = plain;
+    return true;
+  }
+  bool solved_by_leads = false;
+  const auto reduced = [&](const Polynomial& p) {
+    if (level.solved.empty()) return p.remainder(level.basis, &cofactors);
+    solved_by_leads = true;
+    return ring_.lowest_terms(pseudo_remainder(p, level.solved)).first;
+  };
+  rest = reduced(rest);
+  // The ideal need not contain all that vanishes on the level: cos(q) = 1 gives sin(q)^2 = 0.
+  constexpr std::size_t kMaxSquared = 100;
+  if (!rest.is_zero() && rest.terms() <= kMaxSquared &&
+      reduced(ring_.numerator(rest * rest)).is_zero())
+    rest = Polynomial(ring_.ring());
+  if (!rest.is_zero()) {
+    solved_by_leads = false;  // only relations x = value are put in
+    if (!vanishes_by_substitution(residual, level)) return false;
+  }
+  for (const SolvedRelation& solved : level.solved) {
+    const bool listed = std::find(leads_.begin(), leads_.end(), solved.leading) != leads_.end();
+    if (solved_by_leads && !solved.leading.is_constant() && !listed)
+      leads_.push_back(solved.leading);
+  }
+  return true;
+}
+
+void Prover::decide_on(Proof& proof, const std::vector<Residual>& residuals, const Level& level) {
+  proof.verdict = Verdict::proved;
+  leads_.clear();
+  int searches = 0;
+  for (const Residual& residual : residuals) {
+    std::string singular;
+    Polynomial rest = ring_.numerator(residual.value);
+    if (!rest.is_zero() && !level.empty()) {
+      const std::string before = std::exchange(proof.reason, {});
+      const bool vanishes = vanishes_on(residual, rest, level, proof);
+      singular = std::exchange(proof.reason, before);
+      if (vanishes) continue;
+    }
+    if (rest.is_zero()) continue;
+    const bool first = proof.verdict == Verdict::proved;
+    // A level on which no exact point is found the first time is not searched again and again.
+    constexpr int kSearches = 2;
+    std::optional<Witness> found;
+    if (searches++ < kSearches || level.empty()) found = witness(rest, residual, level);
+    if (!first && !found) continue;
+    proof.verdict = found ? Verdict::refuted : Verdict::undecided;
+    proof.residual = shortened(ring_.text(rest), rest.terms());
+    proof.reason = found ? fmt::format("{} is not zero", residual.label)
+                   : !singular.empty()
+                       ? singular
+                       : fmt::format(
+                             "{} does not reduce to zero, and no exact point was found at which "
+                             "it is not zero",
+                             residual.label);
+    proof.witness = std::move(found);
+    if (proof.witness) break;
+  }
+  if (proof.verdict != Verdict::proved) proof.evidence.clear();
+}
+
+void Prover::decide(Proof& proof, const std::vector<Residual>& residuals, const Level& own) {
+  decide_on(proof, residuals, own);
+  std::function<void(Proof&, const std::vector<NamedExpression>&, int)> decide_part;
+  decide_part = [&](Proof& part, const std::vector<NamedExpression>& functions, int depth) {
+    decide_on(part, residuals, level(functions));
+    decide_branches(part, functions, depth, decide_part);
+  };
+  decide_branches(proof, functions_of(own), 0, decide_part);
+  check_inhabited(proof, own);
+  say_conditions(proof);
+}
+
+/// A claim about nothing says so: for all points of the empty set everything is true.
+void Prover::check_inhabited(Proof& proof, const Level& own) {
+  if (proof.verdict != Verdict::proved) return;
+  const bool everywhere = ring_.is_polynomial() && model_.assumptions.empty();
+  static const std::vector<ex> kNothing;
+  const std::vector<ex>& domain = ring_.is_polynomial() ? kNothing : domain_;
+  if (own.empty()) {
+    if (everywhere) return;
+    if (!all_inhabited_)
+      all_inhabited_ = real_points_.any(ring_.is_polynomial() ? kNothing : all_).has_value();
+    if (*all_inhabited_) return;
+    if (!claim_inhabited_) claim_inhabited_ = real_points_.any(domain).has_value();
+    if (*claim_inhabited_) return;
+  } else if (RealLevelPoints(ring_, real_points_, points_).exists(own, domain)) {
+    return;
+  }
+  proof.verdict = Verdict::undecided;
+  proof.evidence.clear();
+  proof.reason = own.empty()
+                     ? "no real point was found inside the assumptions at which all functions of "
+                       "the claim have real values: it may be about nothing"
+                     : "no real point of the level was found inside the assumptions at which all "
+                       "functions of the claim have real values: it may be about nothing";
+}
+
+void Prover::say_conditions(Proof& proof) {
+  proof.nonzero.clear();
+  proof.positive.clear();
+  const std::vector<Polynomial> denominators = ring_.denominators();
+  for (std::size_t k = 0; k < divided_by_.size(); ++k) {
+    if (divided_by_[k] && !ring_.is_nowhere_zero(denominators[k]))
+      proof.nonzero.push_back(ring_.text(denominators[k]));
+  }
+  for (const Polynomial& p : ring_.implied_positive()) proof.positive.push_back(ring_.text(p));
+}
+
+}  // namespace casimir
