@@ -94,15 +94,12 @@ TEST(ExponentWords, WholeExponentsOfABrokenPowerAreNoSingleValuedSolution) {
   EXPECT_TRUE(says(found, "broken powers"));
 }
 
-// x' = -x^2 + y^2, .. with c^2 = 2, d^2 = 8: each relation is irreducible, and d = 2c, d = -2c are
-// not alike. What they have together is said to be so.
+// u^2 = 1/2 and v^2 = 1/8 are irreducible, and u v = 1/4 and u v = -1/4 are not alike. What they
+// have together is said to be so.
 TEST(ExponentWords, SolutionsThatAreNotConjugateShareNoExponents) {
   const Folder folder;
-  // u = u0/t with u0^2 = 1/2 .., v0^2 = 1/8 and w' = -2 u v w: exponents 1 -+ 1/2 by the sign of
-  // uv.
   const std::string file = folder.write(
-      "n.toml",
-      equations("\"u\", \"v\", \"w\"", "u = \"-2*u^3\"\nv = \"-8*v^3\"\nw = \"2*u*v*w\""));
+      "n.toml", equations("\"u\", \"v\", \"w\"", "u = \"-u^3\"\nv = \"-4*v^3\"\nw = \"2*u*v*w\""));
   const Json found = answered(folder, {"exponents", file});
   for (const Json& balance : found.at("balances")) {
     int together = 0;
