@@ -1,8 +1,10 @@
 #include "runtime/dense.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <cmath>
 
 namespace casimir {
 namespace {
@@ -48,6 +50,20 @@ std::optional<Eigen::VectorXcd> eigenvalues_of(const Eigen::MatrixXd& a) {
 
 std::optional<Eigen::VectorXcd> eigenvalues_of(const Eigen::MatrixXcd& a) {
   return eigenvalues<Eigen::ComplexEigenSolver<Eigen::MatrixXcd>>(a);
+}
+
+std::optional<std::vector<ConditionedEigenvalue>> conditioned_eigenvalues_of(
+    const Eigen::MatrixXcd& a) {
+  const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(a);
+  if (solver.info() != Eigen::Success) return std::nullopt;
+  const Eigen::MatrixXcd& right = solver.eigenvectors();
+  const Eigen::MatrixXcd left = right.fullPivLu().inverse();
+  std::vector<ConditionedEigenvalue> result;
+  for (Eigen::Index k = 0; k < a.cols(); ++k) {
+    const double condition = left.row(k).norm() * right.col(k).norm();
+    result.push_back({solver.eigenvalues()(k), std::isfinite(condition) ? condition : HUGE_VAL});
+  }
+  return result;
 }
 
 Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& a, Eigen::Index count) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
 #include <optional>
+#include <vector>
 
 namespace casimir {
 
@@ -22,6 +24,19 @@ Eigen::Index rank_of(const Eigen::MatrixXcd& a, double threshold);
 /// Of a square matrix, in no order; empty where the iteration does not converge.
 std::optional<Eigen::VectorXcd> eigenvalues_of(const Eigen::MatrixXd& a);
 std::optional<Eigen::VectorXcd> eigenvalues_of(const Eigen::MatrixXcd& a);
+
+/// An eigenvalue, and how many times an error of the matrix it moves, to first order: infinite
+/// where eigenvectors cannot be told apart.
+struct ConditionedEigenvalue {
+  std::complex<double> value;
+  double condition;
+};
+
+/// Of a square matrix, in no order; empty where the iteration does not converge. The condition is
+/// 1 / |y' x| of the left and the right eigenvector of length 1 (Wilkinson: The Algebraic
+/// Eigenvalue Problem (1965), 2.8).
+std::optional<std::vector<ConditionedEigenvalue>> conditioned_eigenvalues_of(
+    const Eigen::MatrixXcd& a);
 
 /// An orthonormal basis, a column each, of `count` directions that are orthogonal to the columns of
 /// a.

@@ -110,6 +110,7 @@ EnsembleResult integrate_members(const Ensemble& ensemble,
     Settings own = settings;
     own.monitor = false;
     own.invariant_terms = nullptr;
+    own.invariants = nullptr;
     own.give_up = [&] { return work.give_up(calls); };
     for (long long next; (next = work.next()) >= 0;) {
       const auto member = static_cast<std::size_t>(next);

@@ -25,7 +25,7 @@ struct Ensemble {
 };
 
 /// What came of a member: see Trajectory. Its invariants are compared at the end of the run, not at
-/// every step.
+/// every step: those with angles by `least_differences`.
 struct MemberResult {
   Status status = Status::stopped;
   double time = 0;

@@ -70,6 +70,7 @@ EndCheck::EndCheck(const Ensemble& ensemble, const Program& invariants)
     : ensemble_(ensemble),
       program_(invariants),
       invariants_(invariants),
+      angles_(moving_angles(invariants, ensemble.states)),
       inputs_(invariants.inputs.size()),
       first_(invariants.outputs.size()),
       last_(first_.size()),
@@ -90,12 +91,24 @@ void EndCheck::evaluate_at(std::size_t member, const double* state, double time,
         std::max({sizes_[i], static_cast<double>(std::abs(terms[i].size)), std::abs(first_[i])});
 }
 
+/// The last values of what has angles: as near to the first as their branches allow.
+void EndCheck::put_on_one_branch(const std::vector<long double>& start) {
+  if (angles_.empty()) return;
+  const std::vector<bool> has_angles = with_angles(program_, angles_);
+  const std::vector<long double> differences = least_differences(
+      program_, angles_, start, std::vector<long double>(inputs_.begin(), inputs_.end()));
+  for (std::size_t i = 0; i < last_.size(); ++i)
+    if (has_angles[i]) last_[i] = static_cast<double>(first_[i] + differences[i]);
+}
+
 void EndCheck::operator()(std::size_t member, MemberResult& result) {
   if (first_.empty()) return;
   const std::lock_guard lock(exact_constants_guard());
   std::fill(sizes_.begin(), sizes_.end(), 0.);
   evaluate_at(member, ensemble_.state(member), 0, first_);
+  const std::vector<long double> start(inputs_.begin(), inputs_.end());
   evaluate_at(member, result.state.data(), result.time, last_);
+  put_on_one_branch(start);
   result.invariants.resize(first_.size());
   for (std::size_t i = 0; i < first_.size(); ++i) {
     const double change = std::abs(last_[i] - first_[i]);

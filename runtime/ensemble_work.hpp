@@ -6,6 +6,7 @@
 #include <mutex>
 #include <vector>
 
+#include "runtime/angle_branches.hpp"
 #include "runtime/ensemble.hpp"
 #include "runtime/interpreter.hpp"
 
@@ -54,10 +55,12 @@ class EndCheck {
  private:
   void evaluate_at(std::size_t member, const double* state, double time,
                    std::vector<double>& values);
+  void put_on_one_branch(const std::vector<long double>& start);
 
   const Ensemble& ensemble_;
   const Program& program_;
   Interpreter invariants_;
+  std::vector<Angle> angles_;
   std::vector<double> inputs_, first_, last_, sizes_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "runtime/methods.hpp"
 #include "runtime/module.hpp"
+#include "runtime/program.hpp"
 
 namespace casimir {
 
@@ -42,6 +43,9 @@ struct Settings {
   /// drift is not measured against a zero. Called at the start, after 1, 2, 4, 8, .. steps and at
   /// the end; and after every step where values or sizes leave the range of double.
   InvariantTerms invariant_terms;
+  /// If set, the program of the invariants, with the inputs of a right-hand side: those with angles
+  /// in them, which have many values, are followed on one branch. Must outlive the run.
+  const Program* invariants = nullptr;
   /// If set, told after each step how far each invariant is from its first value: |I(t) - I(0)|.
   std::function<void(double t, const double* changes)> invariant_changes = {};
   /// If set and monitored, shown the state after each step.
@@ -56,7 +60,7 @@ struct Settings {
 /// How an invariant fared along a run.
 struct InvariantRecord {
   long double initial = 0;  ///< may be beyond the range of double
-  long double final = 0;
+  long double final = 0;    ///< on the branch of `initial`, where the angles in it were followed
   double drift = 0;  ///< largest |I(t) - I(0)| after any step / max(|I(0)|, size of its terms)
   /// What the tolerance allows the drift to be: what the steps of the run can do together if each
   /// makes the local error allowed to it in every state, with a margin. Infinite where there is no

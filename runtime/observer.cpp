@@ -40,6 +40,7 @@ Observer::Observer(const Module& module, const Settings& settings, const double*
       changes_(values_.size()),
       local_(values_.size()),
       invariants_(values_.size()) {
+  follow_angles(initial);
   record_size(initial.data());
   record_terms(0, initial.data());
   evaluate(0, initial.data());
@@ -63,17 +64,38 @@ void Observer::record_size(const double* x) {
     state_sizes_[i] = std::max(state_sizes_[i], std::abs(x[i]));
 }
 
+void Observer::follow_angles(const std::vector<double>& initial) {
+  if (!settings_.monitor || settings_.invariants == nullptr || values_.empty()) return;
+  std::vector<double> parameters;
+  if (const int count = module_.functions().parameter_count; count > 0)
+    parameters.assign(parameters_, parameters_ + count);
+  angles_.emplace(
+      *settings_.invariants, std::move(parameters),
+      [this](double t, const double* x, double* rates) {
+        module_.functions().rhs(t, x, parameters_, rates);
+      },
+      0, initial);
+  if (!angles_->follows()) angles_.reset();
+}
+
 /// The invariants, into wide_.
 void Observer::evaluate(double t, const double* x) {
   if (values_.empty()) return;
-  if (leaves_range_) return settings_.invariant_terms(t, x, wide_.data(), terms_.data());
+  if (leaves_range_) return evaluate_terms(t, x);
   module_.functions().invariants(t, x, parameters_, values_.data());
   std::copy(values_.begin(), values_.end(), wide_.begin());
+  if (angles_) angles_->put(t, x, wide_.data());
+}
+
+/// The invariants into wide_ and the sizes of their terms into terms_.
+void Observer::evaluate_terms(double t, const double* x) {
+  settings_.invariant_terms(t, x, wide_.data(), terms_.data());
+  if (angles_) angles_->put(t, x, wide_.data());
 }
 
 void Observer::record_terms(double t, const double* x) {
   if (!settings_.invariant_terms || sizes_.empty()) return;
-  settings_.invariant_terms(t, x, wide_.data(), terms_.data());
+  evaluate_terms(t, x);
   for (std::size_t i = 0; i < sizes_.size(); ++i) {
     sizes_[i] = std::max(sizes_[i], std::abs(terms_[i]));
     leaves_range_ = leaves_range_ || !in_range(std::abs(terms_[i]));
@@ -91,7 +113,7 @@ void Observer::record_local_error(double t, const double* x) {
     const double allowed = settings_.atol + settings_.rtol * std::abs(x[j]);
     const double change = std::max(0x1p-20 * std::abs(x[j]), allowed);
     moved[j] = x[j] + change;
-    settings_.invariant_terms(t, moved.data(), wide_.data(), terms_.data());
+    evaluate_terms(t, moved.data());
     moved[j] = x[j];
     for (std::size_t i = 0; i < here.size(); ++i)
       local[i] += std::abs(wide_[i] - here[i]) * (allowed / change);
@@ -125,6 +147,7 @@ bool Observer::step(double t1, const double* x1,
                     const std::function<void(double t, double* x)>& state_at) {
   if (settings_.monitor) {
     record_size(x1);
+    if (angles_) angles_->advance(t1, x1, state_at);
     record_change(t1, x1);
     if (settings_.watch) settings_.watch(t1, x1);
   }

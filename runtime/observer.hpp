@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "runtime/angle_branches.hpp"
 #include "runtime/integrate.hpp"
 
 namespace casimir {
@@ -25,7 +27,9 @@ class Observer {
 
  private:
   void record_size(const double* x);
+  void follow_angles(const std::vector<double>& initial);
   void evaluate(double t, const double* x);
+  void evaluate_terms(double t, const double* x);
   void record_change(double t, const double* x);
   void record_terms(double t, const double* x);
   void record_local_error(double t, const double* x);
@@ -37,6 +41,7 @@ class Observer {
   std::vector<double> values_, changes_now_, scratch_, state_sizes_;
   std::vector<long double> wide_, terms_, sizes_, changes_, local_;
   bool leaves_range_ = false;  ///< of double: then the values come from Settings::invariant_terms
+  std::optional<AngleFollower> angles_;  ///< of the invariants, if they have any
   std::vector<InvariantRecord> invariants_;
   std::vector<double> times_;
   std::vector<std::vector<double>> samples_;

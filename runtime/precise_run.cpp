@@ -5,7 +5,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "runtime/angle_branches.hpp"
 #include "runtime/evaluate.hpp"
+#include "runtime/interpreter.hpp"
 #include "runtime/precise_step.hpp"
 #include "runtime/taylor_jet.hpp"
 
@@ -34,6 +36,14 @@ BigFloat value_at(const LongSeries& series, const BigFloat& h) {
   return value;
 }
 
+double double_of(const BigFloat& value) { return arf_get_d(value.mid(), ARF_RND_NEAR); }
+
+std::vector<double> doubles(const std::vector<BigFloat>& values) {
+  std::vector<double> result;
+  for (const BigFloat& value : values) result.push_back(double_of(value));
+  return result;
+}
+
 /// One run; see `precise_run`.
 class Runner {
  public:
@@ -58,6 +68,7 @@ class Runner {
 
   PreciseRun operator()() {
     const auto begin = std::chrono::steady_clock::now();
+    follow_angles({}, time_);
     follow_invariants();
     record_sizes();
     record_samples({}, time_);
@@ -149,6 +160,7 @@ class Runner {
     if (mark_ && !passed(time_, *mark_) && !passed(*mark_, next))
       run_.at_mark = rounded(at(series, *mark_));
     for (std::size_t i = 0; i < state_.size(); ++i) state_[i] = value_at(series[i], h);
+    follow_angles(series, next);
     time_ = next;
     ++run_.steps;
     record_sizes();
@@ -193,12 +205,38 @@ class Runner {
     }
   }
 
+  /// The angles of the invariants in double: where they are to a few digits tells their branches.
+  /// \param series  empty: at the start; else of a step that ends at the time `next`
+  void follow_angles(const std::vector<LongSeries>& series, const BigFloat& next) {
+    if (problem_.invariants == nullptr || (!series.empty() && !angles_)) return;
+    const std::vector<double> x = doubles(state_);
+    if (angles_)
+      return angles_->advance(double_of(next), x.data(), [&](double t, double* between) {
+        std::ranges::copy(doubles(at(series, BigFloat(cln::rational(cln::cl_DF(t))))), between);
+      });
+    angles_.emplace(
+        *problem_.invariants, doubles(parameters_),
+        [this, rhs = Interpreter(*problem_.rhs), inputs = std::vector<double>()](
+            double t, const double* at, double* rates) mutable {
+          inputs.assign(at, at + state_.size());
+          for (const BigFloat& p : parameters_) inputs.push_back(double_of(p));
+          inputs.push_back(t);
+          rhs(inputs.data(), rates);
+        },
+        0, x);
+    if (!angles_->follows()) angles_.reset();
+  }
+
   void follow_invariants() {
     if (problem_.invariants == nullptr) return;
     std::vector<BigFloat> inputs = state_;
     inputs.insert(inputs.end(), parameters_.begin(), parameters_.end());
     inputs.push_back(time_);
-    final_ = evaluate(*problem_.invariants, inputs, Arithmetic<BigFloat>{});
+    final_ = angles_ ? evaluate_on_branches(*problem_.invariants, inputs, angles_->angles(),
+                                            [this](std::size_t k, const BigFloat& principal) {
+                                              return angles_->half_turns(k, double_of(principal));
+                                            })
+                     : evaluate(*problem_.invariants, inputs, Arithmetic<BigFloat>{});
     if (initial_.empty()) {
       initial_ = final_;
       changes_.resize(initial_.size());
@@ -230,6 +268,7 @@ class Runner {
   int order_;
   cln::float_format_t format_;
   std::vector<BigFloat> state_, parameters_, initial_, final_, changes_;
+  std::optional<AngleFollower> angles_;  ///< of the invariants, if they have any
   BigFloat time_, end_;
   std::optional<BigFloat> mark_, predicted_;
   cln::cl_I sample_ = 0;

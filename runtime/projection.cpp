@@ -26,10 +26,15 @@ Projector::Projector(Program invariants, std::vector<std::size_t> chosen, const 
       gradients_(gradients),
       entries_(std::move(entries)),
       states_(initial.size()),
+      angles_(moving_angles(invariants_, initial.size())),
+      has_angles_(with_angles(invariants_, angles_)),
       parameters_(std::move(parameters)) {
   const std::vector<double> none(states_, 0);
   std::vector<long double> sizes;
   evaluate(0, initial.data(), none.data(), level_, sizes);
+  start_.assign(initial.begin(), initial.end());
+  start_.insert(start_.end(), parameters_.begin(), parameters_.end());
+  start_.push_back(0);
   double largest = 0;
   for (const double x : initial) largest = std::max(largest, std::abs(x));
   for (const double x : initial) reach_.push_back(std::max(std::abs(x), 1e-3 * largest));
@@ -47,6 +52,13 @@ void Projector::evaluate(double t, const double* x, const double* carry,
     values.push_back(all[k].value);
     sizes.push_back(std::abs(all[k].size));
   }
+  if (angles_.empty() || start_.empty()) return;
+  std::vector<long double> here;
+  for (const SizedNumber& input : inputs) here.push_back(input.value);
+  const std::vector<long double> differences =
+      least_differences(invariants_, angles_, start_, here);
+  for (std::size_t k = 0; k < chosen_.size(); ++k)
+    if (has_angles_[chosen_[k]]) values[k] = level_[k] + differences[chosen_[k]];
 }
 
 bool Projector::improve(double t, double* x, double* carry) {

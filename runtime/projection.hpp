@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/angle_branches.hpp"
 #include "runtime/interpreter.hpp"
 #include "runtime/program.hpp"
 
@@ -41,6 +42,9 @@ class Projector {
   Interpreter gradients_;
   std::vector<std::pair<int, int>> entries_;
   std::size_t states_;
+  std::vector<Angle> angles_;  ///< of the invariants, whose branches are not told apart
+  std::vector<bool> has_angles_;
+  std::vector<long double> start_;  ///< the inputs
   std::vector<double> parameters_;
   std::vector<long double> level_;
   std::vector<double> reach_;  ///< largest |x_i| so far

@@ -150,68 +150,279 @@ class Equations {
   Vector start_, values_;
 };
 
-/// Newton's iteration with the shortest step that the linear equations allow.
-bool solve(const Equations& equations, Vector& x, Vector& v, double scale) {
-  constexpr int kRounds = 60;
-  constexpr double kSmall = 1e-12;
-  double last = HUGE_VAL;
+/// A point: the state and the velocities.
+struct Place {
+  Vector x, v;
+};
+
+/// The equations in units of their own: states and velocities by the sizes that they have where the
+/// iteration starts, rates and levels by the sizes that they take there. What is small and what is
+/// near is asked of these numbers.
+class Scaled {
+ public:
+  Scaled(const Equations& equations, std::size_t velocities, std::mt19937_64& random)
+      : equations_(equations), velocities_(static_cast<Eigen::Index>(velocities)) {
+    const double norm = equations.start().norm();
+    length_ = norm > 0 ? norm : 1;
+    constexpr int kSamples = 16;
+    for (int k = 0; k < kSamples; ++k) {
+      const Place place = random_place(random);
+      const Vector sizes = equations.residual(place.x, place.v).cwiseAbs();
+      if (!sizes.allFinite()) continue;
+      sizes_ = sizes_.size() == 0 ? sizes : Vector(sizes_.cwiseMax(sizes));
+    }
+    if (sizes_.size() == 0)
+      sizes_ = equations.residual(equations.start(), Vector::Zero(velocities_));
+    for (double& size : sizes_)
+      if (!(size > 0) || !std::isfinite(size)) size = 1;
+  }
+
+  double length() const { return length_; }
+  /// What a rate is compared with.
+  double rate() const {
+    return sizes_.head(static_cast<Eigen::Index>(equations_.states())).maxCoeff();
+  }
+
+  Place random_place(std::mt19937_64& random) const {
+    std::normal_distribution<double> normal;
+    Place place{equations_.start(), Vector::Zero(velocities_)};
+    for (double& entry : place.x) entry = length_ * normal(random);
+    for (double& entry : place.v) entry = normal(random);
+    return place;
+  }
+  Vector residual(const Place& place) const {
+    return equations_.residual(place.x, place.v).cwiseQuotient(sizes_);
+  }
+  double error(const Place& place) const { return residual(place).lpNorm<Eigen::Infinity>(); }
+  Matrix derivative(const Place& place) const {
+    Matrix result = sizes_.cwiseInverse().asDiagonal() * equations_.derivative(place.x, place.v);
+    result.leftCols(place.x.size()) *= length_;
+    return result;
+  }
+  /// Of points, in units of the states.
+  double distance(const Place& a, const Place& b) const {
+    return std::max((a.x - b.x).lpNorm<Eigen::Infinity>() / length_,
+                    a.v.size() == 0 ? 0 : (a.v - b.v).lpNorm<Eigen::Infinity>());
+  }
+  /// place + share * (to - place)
+  static Place between(const Place& place, const Place& to, double share) {
+    return {place.x + share * (to.x - place.x), place.v + share * (to.v - place.v)};
+  }
+  Place moved(const Place& place, const Vector& step) const {
+    return {place.x + length_ * step.head(place.x.size()), place.v + step.tail(place.v.size())};
+  }
+
+ private:
+  const Equations& equations_;
+  Eigen::Index velocities_;
+  double length_ = 1;
+  Vector sizes_;
+};
+
+/// What is left of the equations where they are solved: rounding of their terms.
+constexpr double kSolved = 1e-11;
+/// Pivots below it are zero: directions in which the equations do not change to first order.
+constexpr double kFlat = 1e-8;
+constexpr double kNear = 1e-6;
+
+/// Newton's iteration with the shortest step that the linear equations allow, as long as it makes
+/// the residual smaller: at a multiple root it comes nearer by a part each time.
+bool solve(const Scaled& equations, Place& place) {
+  constexpr int kRounds = 200, kFree = 30;
+  constexpr double kLongest = 2, kShrinks = 0.7;
+  double last = equations.error(place);
   for (int round = 0; round < kRounds; ++round) {
-    const Vector residual = equations.residual(x, v);
-    const double size = residual.lpNorm<Eigen::Infinity>();
-    if (!std::isfinite(size)) return false;
-    if (size < kSmall * scale * scale || (size < 1e-9 * scale * scale && size > last / 2))
-      return true;
-    last = size;
-    Vector step = shortest_solution(equations.derivative(x, v), residual, 1e-10);
-    const double length = step.norm(), longest = 2 * scale;
-    if (length > longest) step *= longest / length;
-    x -= step.head(x.size());
-    v -= step.tail(v.size());
+    if (!std::isfinite(last)) return false;
+    const Vector step =
+        shortest_solution(equations.derivative(place), equations.residual(place), 1e-10);
+    const double length = step.norm();
+    if (!std::isfinite(length)) return false;
+    const Place next = equations.moved(
+        place, length > kLongest ? Vector(-step * (kLongest / length)) : Vector(-step));
+    const double error = equations.error(next);
+    const bool shrinks = error < kShrinks * last;
+    if (!shrinks && last < kSolved) return true;
+    if (!shrinks && round > kFree) return false;
+    place = next;
+    last = error;
+    if (last == 0) return true;
+  }
+  return last < kSolved;
+}
+
+/// The dimension of the solutions near one that is solved: a flat direction belongs to a family
+/// only if there are solutions at some distance that way. The minimum of q^10 is flat, and alone.
+std::size_t family_at(const Scaled& equations, const Place& place, std::mt19937_64& random) {
+  const Matrix derivative = equations.derivative(place);
+  const Eigen::Index flat = derivative.cols() - rank_of(derivative, kFlat);
+  if (flat == 0) return 0;
+  constexpr double kAside = 0.5, kLeast = 0.25;
+  std::normal_distribution<double> normal;
+  Matrix found(derivative.cols(), 0);
+  for (Eigen::Index k = 0; k < 3 * flat; ++k) {
+    Vector aside(derivative.cols());
+    for (double& entry : aside) entry = normal(random);
+    aside -= shortest_solution(derivative, derivative * aside, kFlat);
+    aside *= kAside / aside.norm();
+    Place other = equations.moved(place, aside);
+    if (!solve(equations, other)) continue;
+    Vector way(derivative.cols());
+    way << (other.x - place.x) / equations.length(), other.v - place.v;
+    if (way.norm() < kLeast) continue;
+    found.conservativeResize(Eigen::NoChange, found.cols() + 1);
+    found.col(found.cols() - 1) = way / way.norm();
+  }
+  // Families are curved: what is second order aside is no dimension of its own.
+  return found.cols() == 0 ? 0 : static_cast<std::size_t>(std::min(flat, rank_of(found, kAside)));
+}
+
+/// Whether nothing between two solutions tells them apart: the straight way has no residual.
+bool joined_straight(const Scaled& equations, const Place& a, const Place& b) {
+  constexpr int kParts = 16;
+  for (int k = 1; k < kParts; ++k)
+    if (equations.error(Scaled::between(a, b, static_cast<double>(k) / kParts)) > 10 * kSolved)
+      return false;
+  return true;
+}
+
+/// Whether one solution goes over into another through others: short ways towards it, each put back
+/// onto the solutions.
+bool joined(const Scaled& equations, const Place& a, const Place& b) {
+  constexpr int kWays = 60;
+  constexpr double kShort = 0.1;
+  Place here = a;
+  double left = equations.distance(here, b);
+  for (int way = 0; way < kWays; ++way) {
+    if (left < kNear) return true;
+    Place next = Scaled::between(here, b, std::min(1., kShort / left));
+    if (!solve(equations, next)) return false;
+    const double still = equations.distance(next, b);
+    if (still > left - std::min(0.2 * kShort, left / 4)) return false;
+    here = next;
+    left = still;
   }
   return false;
 }
 
+/// The same matrix in other units of the states, in which rows and columns are alike: eigenvalues
+/// stay, and its size is one of them (Osborne: J. ACM 7, 338, 1960).
+Matrix balanced(Matrix a) {
+  constexpr int kSweeps = 20;
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (Eigen::Index i = 0; i < a.rows(); ++i) {
+      const double diagonal = std::abs(a(i, i));
+      const double row = a.row(i).cwiseAbs().sum() - diagonal,
+                   column = a.col(i).cwiseAbs().sum() - diagonal;
+      if (!(row > 0) || !(column > 0)) continue;
+      const double unit = std::exp2(std::round(std::log2(row / column) / 2));
+      a.row(i) /= unit;
+      a.col(i) *= unit;
+    }
+  }
+  return a;
+}
+
 /// Empty where the eigenvalues cannot be computed.
-std::optional<Equilibrium> described(const Equations& equations, const Vector& x, const Vector& v) {
+std::optional<Equilibrium> described(const Equations& equations, const Scaled& scaled,
+                                     const Place& place) {
+  const auto& [x, v] = place;
   Equilibrium result;
   result.state.assign(x.data(), x.data() + x.size());
   const bool moves =
-      v.size() > 0 && equations.rates(x, Vector::Zero(v.size())).norm() > 1e-8 * (1 + x.norm());
+      v.size() > 0 &&
+      equations.rates(x, Vector::Zero(v.size())).lpNorm<Eigen::Infinity>() > 1e-8 * scaled.rate();
   if (moves) result.velocities.assign(v.data(), v.data() + v.size());
-  const auto values = eigenvalues_of(equations.linearised(x, moves ? v : Vector::Zero(v.size())));
+  const Matrix linearised = equations.linearised(x, moves ? v : Vector::Zero(v.size()));
+  const Matrix matrix = balanced(linearised);
+  const auto values = eigenvalues_of(matrix);
   if (!values) return std::nullopt;
-  const double small = kZero * std::max(1., values->cwiseAbs().maxCoeff());
+  const Matrix derivative = scaled.derivative(place);
+  result.degenerate = derivative.cols() > rank_of(derivative, kFlat);
+  // A flat direction is known to kFlat of the units, and its eigenvalues to the root of that.
+  const double unit_rate = scaled.rate() / scaled.length();
+  const double zero = result.degenerate ? 2 * std::sqrt(kFlat * unit_rate * linearised.norm())
+                                        : kZero * matrix.norm();
+  constexpr double kRounding = 3e-7;  // of a double eigenvalue: the root of that of an entry
+  const double small = std::max(zero, kRounding * linearised.norm());
   for (const std::complex<double>& value : *values) {
     result.eigenvalues.emplace_back(std::abs(value.real()) < small ? 0 : value.real(),
                                     std::abs(value.imag()) < small ? 0 : value.imag());
   }
-  std::sort(result.eigenvalues.begin(), result.eigenvalues.end(), [](const auto& a, const auto& b) {
-    return std::pair(-std::round(a.real() * 1e5), -a.imag()) <
-           std::pair(-std::round(b.real() * 1e5), -b.imag());
-  });
-  const Matrix derivative = equations.derivative(x, v);
-  result.family = static_cast<std::size_t>(derivative.cols() - rank_of(derivative, 1e-8));
+  const double unit = matrix.norm() > 0 ? 1e5 / matrix.norm() : 1;
+  std::sort(result.eigenvalues.begin(), result.eigenvalues.end(),
+            [unit](const auto& a, const auto& b) {
+              return std::pair(-std::round(a.real() * unit), -a.imag()) <
+                     std::pair(-std::round(b.real() * unit), -b.imag());
+            });
   result.residual = equations.rates(x, v).lpNorm<Eigen::Infinity>();
   return result;
 }
 
-/// The same point; of a family, one with the same eigenvalues.
-bool same(const Equilibrium& a, const Equilibrium& b, double scale) {
-  constexpr double kNear = 1e-6;
-  if (a.family != b.family || a.velocities.size() != b.velocities.size()) return false;
-  double distance = 0;
-  if (a.family == 0) {
-    for (std::size_t i = 0; i < a.state.size(); ++i)
-      distance = std::max(distance, std::abs(a.state[i] - b.state[i]));
-    return distance < kNear * scale;
-  }
-  double largest = 1;
+/// Whether members of two families have the same eigenvalues: then one stands for both.
+bool alike(const Equilibrium& a, const Equilibrium& b) {
+  double largest = 0, distance = 0;
   for (std::size_t i = 0; i < a.eigenvalues.size(); ++i) {
     distance = std::max(distance, std::abs(a.eigenvalues[i] - b.eigenvalues[i]));
-    largest = std::max(largest, std::abs(a.eigenvalues[i]));
+    largest = std::max({largest, std::abs(a.eigenvalues[i]), std::abs(b.eigenvalues[i])});
   }
-  return distance < std::sqrt(kNear) * largest;
+  return distance <= std::sqrt(kNear) * largest;
 }
+
+/// What was found: equilibria with all points that belong to each.
+class Collection {
+ public:
+  Collection(const Equations& equations, const Scaled& scaled, std::mt19937_64& random)
+      : equations_(equations), scaled_(scaled), random_(random) {}
+
+  void add(const Place& place) {
+    auto found = described(equations_, scaled_, place);
+    if (!found) return;
+    if (found->degenerate) found->family = family_at(scaled_, place, random_);
+    std::size_t home = groups_.size();
+    for (std::size_t g = 0; g < groups_.size();) {
+      if (!belongs(*found, place, groups_[g])) {
+        ++g;
+      } else if (home == groups_.size()) {
+        home = g++;
+      } else {  // what seemed two is one
+        auto& points = groups_[home].points;
+        points.insert(points.end(), groups_[g].points.begin(), groups_[g].points.end());
+        groups_.erase(groups_.begin() + static_cast<std::ptrdiff_t>(g));
+      }
+    }
+    if (home == groups_.size()) groups_.push_back({std::move(*found), {}});
+    groups_[home].points.push_back(place);
+  }
+
+  std::vector<Equilibrium> equilibria() const {
+    std::vector<Equilibrium> result;
+    for (const Group& group : groups_) result.push_back(group.first);
+    return result;
+  }
+
+ private:
+  struct Group {
+    Equilibrium first;
+    std::vector<Place> points;
+  };
+
+  bool belongs(const Equilibrium& found, const Place& place, const Group& group) const {
+    const Equilibrium& first = group.first;
+    if (found.velocities.size() != first.velocities.size()) return false;
+    const Place& nearest = *std::ranges::min_element(
+        group.points, {}, [&](const Place& point) { return scaled_.distance(point, place); });
+    if (scaled_.distance(nearest, place) < kNear) return true;
+    if (found.degenerate != first.degenerate) return false;
+    if (found.degenerate && joined_straight(scaled_, nearest, place)) return true;
+    if (found.family == 0 || found.family != first.family) return false;
+    return alike(found, first) || joined(scaled_, place, nearest);
+  }
+
+  const Equations& equations_;
+  const Scaled& scaled_;
+  std::mt19937_64& random_;
+  std::vector<Group> groups_;
+};
 
 }  // namespace
 
@@ -238,21 +449,17 @@ EquilibriumReport find_equilibria(const Model& model, const Scene& scene,
     report.level.push_back(symmetry ? report.symmetries[std::stoul(name.substr(9)) - 1] : name);
   }
   const Equations equations(spec, integrals.size());
-  const double scale = std::max(equations.start().norm(), 1e-3);
   std::mt19937_64 random(1);
-  std::normal_distribution<double> normal;
+  const Scaled scaled(equations, integrals.size(), random);
+  Collection collection(equations, scaled, random);
   for (; report.starts < kStarts; ++report.starts) {
     tick(static_cast<double>(report.starts) / kStarts);
-    Vector x = equations.start(), v = Vector::Zero(static_cast<Eigen::Index>(integrals.size()));
-    if (report.starts > 0)
-      for (double& entry : x) entry = scale * normal(random);
-    for (double& entry : v) entry = normal(random);
-    if (!solve(equations, x, v, scale)) continue;
-    const auto found = described(equations, x, v);
-    if (found && std::none_of(report.equilibria.begin(), report.equilibria.end(),
-                              [&](const Equilibrium& known) { return same(known, *found, scale); }))
-      report.equilibria.push_back(*found);
+    Place place = scaled.random_place(random);
+    if (report.starts == 0) place.x = equations.start();
+    if (solve(scaled, place)) collection.add(place);
   }
+  report.equilibria = collection.equilibria();
+  report.size = scaled.length();
   std::stable_sort(report.equilibria.begin(), report.equilibria.end(),
                    [](const auto& a, const auto& b) { return a.family < b.family; });
   return report;

@@ -18,7 +18,10 @@ struct Equilibrium {
   /// made are 0.
   std::vector<std::complex<double>> eigenvalues;
   std::size_t family = 0;  ///< dimension of the family of such states on the level; 0: isolated
-  double residual = 0;     ///< the largest rate that is left
+  /// Whether the equations do not change to first order in some direction: in one of a family, or
+  /// at a multiple root, whose place is known to few digits.
+  bool degenerate = false;
+  double residual = 0;  ///< the largest rate that is left
 
   /// The largest real part of an eigenvalue, or 0.
   double growth() const;
@@ -29,6 +32,7 @@ struct EquilibriumReport {
   std::vector<std::string> level;       ///< functions that have the values of the scene
   std::vector<Equilibrium> equilibria;  ///< isolated ones first
   std::size_t starts = 0;               ///< of Newton's iteration
+  double size = 1;                      ///< of the scene's state, by which all is measured
 };
 
 /// Equilibria of the equations of motion, and relative equilibria: critical points of H - sum v_k

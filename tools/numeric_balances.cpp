@@ -82,18 +82,19 @@ std::optional<Vector> solved(const search::LeadingSystem& system, Vector x) {
 struct Point {
   Vector place;
   std::vector<Number> exponents;  ///< in order
-  Eigen::Index family = 0;        ///< its dimension
+  bool has_complex_exponents = false;
+  Eigen::Index family = 0;  ///< its dimension
 };
 
 /// Every number that is close to others becomes their mean.
-std::vector<Number> with_means(const Vector& values) {
+std::vector<Number> with_means(const std::vector<ConditionedEigenvalue>& eigenvalues) {
   std::vector<Number> result;
-  for (const Number& value : values) {
+  for (const auto& [value, condition] : eigenvalues) {
     Number sum = 0;
     double count = 0;
-    for (const Number& other : values) {
-      if (std::abs(other - value) > kNear) continue;
-      sum += other;
+    for (const ConditionedEigenvalue& other : eigenvalues) {
+      if (std::abs(other.value - value) > kNear * std::max(1., std::abs(value))) continue;
+      sum += other.value;
       ++count;
     }
     result.push_back(sum / count);
@@ -101,12 +102,24 @@ std::vector<Number> with_means(const Vector& values) {
   return result;
 }
 
+/// What an error of a matrix may have made of an eigenvalue: to first order by its condition, and
+/// in any case by Elsner's theorem (Linear Algebra Appl. 71, 77, 1985), which holds for multiple
+/// ones, too: they are split by the n-th root.
+double eigenvalue_error(const Matrix& matrix, const ConditionedEigenvalue& eigenvalue) {
+  constexpr double kError = 1e-10;  // of the balance, hence of the matrix, relative to its size
+  const double size = std::max(1., matrix.norm()), n = static_cast<double>(matrix.cols());
+  return size * std::min(eigenvalue.condition * kError, 2 * std::pow(kError, 1 / n));
+}
+
 /// Empty where the exponents cannot be computed.
 std::optional<Point> described(const search::LeadingSystem& system, const Vector& x) {
   const Matrix matrix = values_at(system, x).derivative;
-  const auto eigenvalues = eigenvalues_of(matrix);
+  const auto eigenvalues = conditioned_eigenvalues_of(matrix);
   if (!eigenvalues) return std::nullopt;
-  Point result{x, with_means(*eigenvalues), 0};
+  Point result{x, with_means(*eigenvalues), false, 0};
+  result.has_complex_exponents = std::ranges::any_of(*eigenvalues, [&](const auto& eigenvalue) {
+    return std::abs(eigenvalue.value.imag()) > eigenvalue_error(matrix, eigenvalue);
+  });
   std::sort(result.exponents.begin(), result.exponents.end(), [](const Number& a, const Number& b) {
     return std::pair(std::round(a.real() / kNear), a.imag()) <
            std::pair(std::round(b.real() / kNear), b.imag());
@@ -118,15 +131,23 @@ std::optional<Point> described(const search::LeadingSystem& system, const Vector
 /// Points that differ by signs and symmetries only have the same exponents, and one stands for all.
 bool same(const Point& a, const Point& b) {
   if (a.family != b.family) return false;
-  for (std::size_t i = 0; i < a.exponents.size(); ++i)
-    if (std::abs(a.exponents[i] - b.exponents[i]) > 10 * kNear) return false;
+  std::vector<Number> others = b.exponents;  // rounding may have changed their order
+  for (const Number& value : a.exponents) {
+    const auto near = std::ranges::find_if(others, [&](const Number& other) {
+      return std::abs(other - value) <= 10 * kNear * std::max(1., std::abs(value));
+    });
+    if (near == others.end()) return false;
+    others.erase(near);
+  }
   return true;
 }
 
+constexpr double kRounding = 1e-7;  // of what is computed from double precision twice
+
+double without_rounding(double x) { return std::abs(x) < kRounding ? 0 : x; }
+
 std::string text_of(Number value, int digits) {
-  constexpr double kRounding = 1e-7;  // of what is computed from double precision twice
-  const auto part = [](double x) { return std::abs(x) < kRounding ? 0 : x; };
-  const double real = part(value.real()), imaginary = part(value.imag());
+  const double real = without_rounding(value.real()), imaginary = without_rounding(value.imag());
   if (imaginary == 0) return fmt::format("{:.{}g}", real, digits);
   if (real == 0) return fmt::format("{:.{}g}*I", imaginary, digits);
   return fmt::format("{:.{}g} {} {:.{}g}*I", real, digits, imaginary < 0 ? '-' : '+',
@@ -143,7 +164,7 @@ search::Balance balance_of(const search::LeadingSystem& system, const Point& poi
     search::Exponent exponent;
     exponent.kind = search::Exponent::Kind::numeric;
     exponent.text = text_of(value, kFewDigits);
-    exponent.values.emplace_back(value.real(), value.imag());
+    exponent.values.emplace_back(value.real(), without_rounding(value.imag()));
     if (!result.exponents.empty() && result.exponents.back().text == exponent.text)
       ++result.exponents.back().multiplicity;
     else
@@ -179,7 +200,10 @@ NumericBalances find_numeric_balances(const search::LeadingSystem& system,
                               [&](const Point& known) { return same(known, *point); }))
       points.push_back(std::move(*point));
   }
-  for (const Point& point : points) result.balances.push_back(balance_of(system, point));
+  for (const Point& point : points) {
+    result.balances.push_back(balance_of(system, point));
+    result.has_complex_exponents |= point.has_complex_exponents;
+  }
   return result;
 }
 

@@ -10,6 +10,8 @@ namespace casimir::tools {
 struct NumericBalances {
   std::vector<search::Balance> balances;  ///< with exponents that are numeric
   std::size_t starts = 0;                 ///< of Newton's iteration
+  /// Whether an exponent has an imaginary part that rounding does not explain.
+  bool has_complex_exponents = false;
 };
 
 /// Balances by Newton's iteration from random complex starts, and the eigenvalues of

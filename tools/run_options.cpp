@@ -66,6 +66,7 @@ Settings settings_for(const RunOptions& options, const SceneRun& run, double def
   settings.fixed_step = options.step.value_or(0);
   settings.max_steps = options.max_steps;
   settings.invariant_terms = run.invariant_terms();
+  settings.invariants = &run.specialisation.invariants;
   return settings;
 }
 

@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <charconv>
-#include <complex>
+#include <functional>
+#include <numeric>
 #include <set>
 #include <sstream>
 
 #include "symbolic/expression.hpp"
 #include "symbolic/ideal.hpp"
+#include "symbolic/search/polynomial_roots.hpp"
 #include "symbolic/search/polynomial_system.hpp"
 #include "symbolic/search/quasi_homogeneous.hpp"
 #include "symbolic/search/system.hpp"
@@ -23,40 +25,6 @@ std::string text_of(const cln::cl_RA& number) {
   std::ostringstream stream;
   stream << number;
   return stream.str();
-}
-
-/// All complex roots by Durand and Kerner's iteration; the polynomial is square-free.
-std::vector<std::pair<double, double>> numeric_roots(const std::vector<double>& coefficients) {
-  using Number = std::complex<long double>;
-  const std::size_t degree = coefficients.size() - 1;
-  std::vector<Number> roots;
-  for (std::size_t i = 0; i < degree; ++i)
-    roots.push_back(std::polar(1.0L, 0.4L + 2.1L * static_cast<long double>(i)) *
-                    (1.0L + 0.1L * static_cast<long double>(i)));
-  constexpr int kRounds = 2000;
-  for (int round = 0; round < kRounds; ++round) {
-    long double change = 0;
-    for (std::size_t i = 0; i < degree; ++i) {
-      Number value = 0, slope = static_cast<long double>(coefficients.back());
-      for (std::size_t k = degree + 1; k-- > 0;)
-        value = value * roots[i] + static_cast<long double>(coefficients[k]);
-      for (std::size_t j = 0; j < degree; ++j)
-        if (j != i) slope *= roots[i] - roots[j];
-      const Number step = value / slope;
-      roots[i] -= step;
-      change = std::max(change, std::abs(step));
-    }
-    if (change < 1e-17L) break;
-  }
-  std::vector<std::pair<double, double>> result;
-  for (const Number& root : roots) {
-    const auto imaginary = static_cast<double>(root.imag());
-    constexpr double kReal = 1e-13;
-    result.emplace_back(static_cast<double>(root.real()),
-                        std::abs(imaginary) < kReal ? 0 : imaginary);
-  }
-  std::sort(result.begin(), result.end());
-  return result;
 }
 
 class Analysis {
@@ -71,12 +39,15 @@ class Analysis {
   void keep_leading_terms();
   std::optional<Balance> balance_of(const Branch& branch);
   std::vector<Exponent> exponents_of(const Branch& branch, bool& decided);
+  bool are_conjugate(const std::vector<SolvedRelation>& relations) const;
   Exponent exponent_of(const Polynomial& factor) const;
   Polynomial in_own_ring(const Polynomial& p) const;
   std::string text(const Polynomial& p) const;
   std::string quotient(const Polynomial& top, const Polynomial& bottom) const;
   bool belongs_to_another(const std::vector<Branch>& branches, std::size_t b) const;
   void describe_leading();
+  long root_of_time() const;
+  bool branches_itself(const Balance& balance) const;
   void conclude();
   cln::cl_RA weight(std::size_t i) const {
     return cln::cl_RA(weights_.numerators[i]) / weights_.denominator;
@@ -232,6 +203,7 @@ Exponent Analysis::exponent_of(const Polynomial& factor) const {
       const cln::cl_RA value = -number(parts[0]) / number(parts[1]);
       result.kind =
           cln::denominator(value) == 1 ? Exponent::Kind::integer : Exponent::Kind::rational;
+      result.value = value;
       result.text = text_of(value);
     } else {
       result.kind = Exponent::Kind::parametric;
@@ -240,13 +212,52 @@ Exponent Analysis::exponent_of(const Polynomial& factor) const {
     return result;
   }
   result.kind = constant ? Exponent::Kind::algebraic : Exponent::Kind::parametric;
-  result.text = text(factor.scaled(1 / factor.content()));
+  result.is_root = true;
+  const cln::cl_RA content = factor.content();
+  result.text = text(factor.scaled(1 / content));
   if (constant) {
-    std::vector<double> coefficients;
-    for (const Polynomial& p : parts) coefficients.push_back(cln::double_approx(number(p)));
-    result.values = numeric_roots(coefficients);
+    std::vector<cln::cl_I> coefficients;
+    for (const Polynomial& p : parts) coefficients.push_back(cln::numerator(number(p) / content));
+    result.values = complex_roots(coefficients);
   }
   return result;
+}
+
+/// Whether all solutions of the relations are conjugate over the rationals (with the parameters),
+/// so that each has the same rational exponents equally often. One irreducible relation says so; of
+/// c^2 = 2, d^2 = 8 each is irreducible, and the solutions d = 2c and d = -2c are not alike. There
+/// the polynomial of a combination w of the unknowns tells: if it is irreducible for some numbers
+/// in place of the parameters, then the solutions are conjugate. False where that is not found out.
+bool Analysis::are_conjugate(const std::vector<SolvedRelation>& relations) const {
+  const auto is_linear = [](const SolvedRelation& r) { return r.relation.degree(r.variable) == 1; };
+  if (std::ranges::count_if(relations, std::not_fn(is_linear)) <= 1) return true;
+  for (const long trial : {1, 2, 3}) {
+    Polynomial combination = ring_.variable(rho_);
+    long factor = 1, expected = 1;
+    for (const SolvedRelation& r : relations) {
+      combination = combination - ring_.variable(r.variable).scaled(cln::cl_RA(factor));
+      factor = factor * 3 + trial;
+    }
+    for (const SolvedRelation& r : relations) {
+      Polynomial relation = r.relation;
+      for (std::size_t v = 0; v < rho_; ++v) {
+        const bool solved = std::ranges::any_of(
+            relations, [&](const SolvedRelation& other) { return other.variable == v; });
+        if (solved || !relation.uses(v)) continue;
+        const long number = trial * 7 + static_cast<long>(v * v) * 3 + 2;
+        relation = substituted(relation, v, ring_.constant(number), ring_.constant(1));
+      }
+      expected *= static_cast<long>(relation.degree(r.variable));
+      combination = resultant(combination, relation, r.variable);
+    }
+    const auto factors = combination.factors();
+    const bool single = std::ranges::count_if(factors, [&](const auto& f) {
+                          return f.first.uses(rho_) && f.second == 1 &&
+                                 static_cast<long>(f.first.degree(rho_)) == expected;
+                        }) == 1;
+    if (single) return true;
+  }
+  return false;
 }
 
 /// The roots of det(dF/dx(c) + diag(g) - rho), by factors over the rationals; where a coefficient
@@ -277,13 +288,15 @@ std::vector<Exponent> Analysis::exponents_of(const Branch& branch, bool& decided
     characteristic = resultant(characteristic, r.relation, r.variable);
     norm *= static_cast<unsigned long>(r.relation.degree(r.variable));
   }
+  const bool conjugate = are_conjugate(*relations);
   std::vector<Exponent> result;
   unsigned long degree = 0;
   for (const auto& [factor, power] : characteristic.factors()) {
     if (!factor.uses(rho_)) continue;
     Exponent exponent = exponent_of(factor);
-    // Conjugate solutions: together they have every exponent that is rational `norm` times.
-    exponent.multiplicity = power % norm == 0 ? power / norm : power;
+    const bool alike = conjugate && power % norm == 0;
+    exponent.multiplicity = alike ? power / norm : power;
+    exponent.solutions = alike ? 1 : norm;
     degree += power * static_cast<unsigned long>(factor.degree(rho_));
     result.push_back(std::move(exponent));
   }
@@ -308,6 +321,7 @@ std::optional<Balance> Analysis::balance_of(const Branch& branch) {
       top = substituted(top, s.place, s.numerator, s.denominator);
     }
     if (!top.is_zero()) zero = false;
+    balance.is_nonzero.push_back(!top.is_zero());
     for (std::size_t v = 0; v < dimension_; ++v)
       if (top.uses(v)) free.insert(v);
     balance.coefficients.emplace_back(model_.variables[i].get_name(), quotient(top, bottom));
@@ -326,17 +340,41 @@ std::optional<Balance> Analysis::balance_of(const Branch& branch) {
   return balance;
 }
 
+/// The least power N of t - t0 for which x_i = c_i (t - t0)^(-g_i) has whole powers of its root.
+long Analysis::root_of_time() const {
+  long result = 1;
+  for (std::size_t i = 0; i < dimension_; ++i)
+    result = std::lcm(result, cln::cl_I_to_long(cln::denominator(weight(i))));
+  return result;
+}
+
+/// Whether a coordinate of a balance that is not zero has a broken power of t - t0.
+bool Analysis::branches_itself(const Balance& balance) const {
+  for (std::size_t i = 0; i < dimension_; ++i)
+    if (cln::denominator(weight(i)) != 1 && balance.is_nonzero[i]) return true;
+  return false;
+}
+
 void Analysis::conclude() {
+  // Variations of a balance are (t - t0)^(rho - g_i) times constants, in Jordan blocks times
+  // logarithms. Solutions without branches have variations without (Lyapunov); where weights are
+  // broken, the balance itself may branch, and rho - g_i is whole where rho is not.
+  const long root = root_of_time();
   std::vector<std::string> rational, irrational, parametric;
-  bool all_integer = report_.complete;
+  bool all_integer = report_.complete, branches = false;
   for (const Balance& balance : report_.balances) {
+    branches = branches || branches_itself(balance);
     for (const Exponent& e : balance.exponents) {
       if (e.kind == Exponent::Kind::integer) continue;
       all_integer = false;
+      const bool of_root =
+          e.kind == Exponent::Kind::rational && cln::denominator(e.value * cln::cl_RA(root)) == 1;
+      if (of_root && root > 1) continue;
       auto& list = e.kind == Exponent::Kind::rational     ? rational
                    : e.kind == Exponent::Kind::parametric ? parametric
                                                           : irrational;
-      const std::string entry = e.kind == Exponent::Kind::algebraic ? e.text + " = 0" : e.text;
+      const bool is_root = e.kind == Exponent::Kind::algebraic || e.is_root;
+      const std::string entry = is_root ? e.text + " = 0" : e.text;
       if (std::find(list.begin(), list.end(), entry) == list.end()) list.push_back(entry);
     }
   }
@@ -345,29 +383,37 @@ void Analysis::conclude() {
     out.push_back("there is no balance with these weights: the test says nothing");
   if (!irrational.empty()) {
     out.push_back(fmt::format(
-        "exponents that are not rational ({}): the leading system is not algebraically integrable "
-        "(Yoshida 1983: all Kovalevskaya exponents of a quasi-homogeneous system that is are "
-        "rational), and its general solution branches infinitely often",
-        fmt::join(irrational, "; ")));
+        "exponents that are not rational ({}): the leading system is not algebraically integrable, "
+        "that is, has no {} independent algebraic integrals (Yoshida 1983, Goriely 1996: all "
+        "Kovalevskaya exponents of a quasi-homogeneous system that has are rational), and its "
+        "general solution branches infinitely often",
+        fmt::join(irrational, "; "), dimension_ - 1));
   }
   if (!rational.empty()) {
     out.push_back(fmt::format(
-        "rational exponents that are not integers ({}): the general solution is not single-valued "
-        "in complex time (Kovalevskaya 1889, Lyapunov 1894); an algebraic integral is not excluded",
+        "rational exponents that are not {} ({}): the general solution is not single-valued in "
+        "complex time (Kovalevskaya 1889, Lyapunov 1894); an algebraic integral is not excluded",
+        root == 1 ? "integers" : fmt::format("multiples of 1/{}, as the weights are", root),
         fmt::join(rational, "; ")));
   }
   if (!parametric.empty()) {
     out.push_back(fmt::format(
         "exponents that depend on parameters ({}): where one is not rational, the leading system "
-        "is "
-        "not algebraically integrable (Yoshida 1983); where one is not an integer, the general "
-        "solution is not single-valued (Kovalevskaya 1889, Lyapunov 1894)",
-        fmt::join(parametric, "; ")));
+        "is not algebraically integrable, that is, has no {} independent algebraic integrals "
+        "(Yoshida 1983, Goriely 1996); where one is not {}, the general solution is not "
+        "single-valued (Kovalevskaya 1889, Lyapunov 1894)",
+        fmt::join(parametric, "; "), dimension_ - 1,
+        root == 1 ? "an integer" : fmt::format("a multiple of 1/{}, as the weights are", root)));
   }
-  if (all_integer && !report_.balances.empty())
+  if (branches)
+    out.push_back(
+        "a balance has broken powers of t - t0: it is not single-valued in complex time, whatever "
+        "the exponents");
+  if (all_integer && !report_.balances.empty() && root == 1)
     out.push_back(
         "all exponents are integers: Kovalevskaya's necessary condition for single-valued general "
-        "solutions holds for these balances; that alone proves no integrability");
+        "solutions holds for these balances; that excludes no logarithms and alone proves no "
+        "integrability");
 }
 
 /// Of two branches that are one, the first remains.
@@ -416,7 +462,9 @@ ExponentReport Analysis::run() {
     const std::optional<Balance> balance = balance_of(branches[b]);
     if (!balance) continue;
     // An exponent -1 belongs to every balance, as the origin of time is arbitrary.
-    const auto is_minus_one = [](const Exponent& e) { return e.text == "-1"; };
+    const auto is_minus_one = [](const Exponent& e) {
+      return e.kind == Exponent::Kind::integer && e.value == -1;
+    };
     if (balance->decided &&
         std::none_of(balance->exponents.begin(), balance->exponents.end(), is_minus_one))
       throw std::logic_error("a balance without the exponent -1");

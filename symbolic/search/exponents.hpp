@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cln/rational.h>
+
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,18 +18,24 @@ struct Exponent {
   enum class Kind {
     integer,
     rational,    ///< not an integer
-    parametric,  ///< a rational function of parameters
+    parametric,  ///< a rational function of parameters, or a root of a polynomial with them
     algebraic,   ///< a root of an irreducible polynomial of degree 2 or more
     numeric,     ///< no minimal polynomial was found
   } kind = Kind::integer;
-  std::string text;  ///< the number, or the polynomial in `rho` that has it as a root
+  std::string text;      ///< the number, or the polynomial in `rho` that has it as a root
+  bool is_root = false;  ///< whether the text is a polynomial
+  cln::cl_RA value = 0;  ///< of integer and rational ones
   unsigned long multiplicity = 1;
+  /// Where they cannot be told apart over the rationals, the number of solutions of the balance's
+  /// relations that have them together; else 1: each has them so many times.
+  unsigned long solutions = 1;
   std::vector<std::pair<double, double>> values;  ///< of algebraic numbers: real, imaginary part
 };
 
 /// A solution x_i = c_i (t - t0)^(-g_i) of the quasi-homogeneous equations, or a family of them.
 struct Balance {
   std::vector<std::pair<std::string, std::string>> coefficients;  ///< of every coordinate
+  std::vector<bool> is_nonzero;        ///< of an exact one: each coefficient, in general
   std::vector<std::string> relations;  ///< that free coefficients and algebraic numbers obey
   std::vector<std::string> free;       ///< coefficients that are arbitrary
   std::size_t family = 0;              ///< of a numeric one: the dimension of its family

@@ -49,6 +49,7 @@ nlohmann::ordered_json to_json(const Model& model, const Scene& scene,
     own["stability"] = stability(e);
     own["growth"] = number(e.growth());
     own["family"] = e.family;
+    own["degenerate"] = e.degenerate;
     own["residual"] = number(e.residual);
     json["equilibria"].push_back(own);
   }
@@ -57,7 +58,7 @@ nlohmann::ordered_json to_json(const Model& model, const Scene& scene,
 
 /// A rounded number for a table; what is nothing but rounding is 0.
 std::string rounded(double value, double scale) {
-  return std::abs(value) < 1e-7 * scale ? "0" : fmt::format("{:.6g}", value);
+  return std::abs(value) <= 1e-7 * scale ? "0" : fmt::format("{:.6g}", value);
 }
 
 void print(const Model& model, const Scene& scene, const EquilibriumReport& report,
@@ -71,12 +72,12 @@ void print(const Model& model, const Scene& scene, const EquilibriumReport& repo
   std::size_t shown = 0;
   for (const Equilibrium& e : report.equilibria) {
     if (shown++ == kMost) break;
-    double scale = 1;
+    double scale = 0;
     for (const auto& value : e.eigenvalues) scale = std::max(scale, std::abs(value));
     std::string state, values;
     for (std::size_t i = 0; i < e.state.size(); ++i)
       state += fmt::format("{}{} = {}", i > 0 ? ", " : "", model.variables[i].get_name(),
-                           rounded(e.state[i], 1));
+                           rounded(e.state[i], report.size));
     for (const auto& value : e.eigenvalues) {
       const std::string real = rounded(value.real(), scale),
                         imaginary = rounded(value.imag(), scale);
@@ -86,7 +87,9 @@ void print(const Model& model, const Scene& scene, const EquilibriumReport& repo
                                   : real + (imaginary[0] == '-' ? "" : "+") + imaginary + "i");
     }
     fmt::print("{}{}\n  {}\n", e.velocities.empty() ? "equilibrium" : "relative equilibrium",
-               e.family > 0 ? fmt::format(", one of a family of dimension {}", e.family) : "",
+               e.family > 0   ? fmt::format(", one of a family of dimension {}", e.family)
+               : e.degenerate ? ", degenerate: a multiple root, known to few digits"
+                              : "",
                state);
     if (!e.velocities.empty()) fmt::print("  velocity {:.6g}\n", fmt::join(e.velocities, ", "));
     fmt::print("  eigenvalues {}: {}\n", values, stability(e));

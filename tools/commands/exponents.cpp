@@ -47,6 +47,7 @@ const char* kind_name(Exponent::Kind kind) {
 nlohmann::ordered_json to_json(const Exponent& e) {
   nlohmann::ordered_json json{
       {"kind", kind_name(e.kind)}, {"value", e.text}, {"multiplicity", e.multiplicity}};
+  if (e.solutions > 1) json["solutions"] = e.solutions;
   for (const auto& [real, imaginary] : e.values)
     json["numeric"].push_back({fmt::format("{:.17g}", real), fmt::format("{:.17g}", imaginary)});
   return json;
@@ -88,10 +89,14 @@ std::string exponent_text(const Exponent& e) {
       if (imaginary != 0) text += fmt::format("{:+.6g}i", imaginary);
     }
     text += ")";
-  } else if (e.kind == Exponent::Kind::parametric && e.text.find("rho") != std::string::npos) {
+  } else if (e.is_root) {
     text = fmt::format("roots of {}", e.text);
   }
-  if (e.multiplicity > 1) text += fmt::format(" ({} times)", e.multiplicity);
+  if (e.solutions > 1)
+    text += fmt::format(" ({} time{} in the {} solutions together)", e.multiplicity,
+                        e.multiplicity > 1 ? "s" : "", e.solutions);
+  else if (e.multiplicity > 1)
+    text += fmt::format(" ({} times)", e.multiplicity);
   return text;
 }
 
@@ -121,7 +126,10 @@ void print(const Model& model, const search::ExponentReport& report, std::size_t
     fmt::print("for generic values of {}\n", fmt::join(report.generic, ", "));
   if (!report.complete) fmt::print("not all balances are known: {}\n", report.reason);
   if (starts > 0)
-    fmt::print("numeric, from {} random starts: no proof, and others are not excluded\n", starts);
+    fmt::print(
+        "numeric, from {} random starts: no proof, and others are not excluded; of balances with "
+        "the same exponents one is shown\n",
+        starts);
   for (const std::string& conclusion : report.conclusions) fmt::print("- {}\n", conclusion);
   fmt::print("{} balances, {:.3f} s\n", report.balances.size(), seconds);
 }
@@ -136,15 +144,13 @@ std::size_t complete_numerically(search::ExponentReport& report, const search::W
   watch.begin("numeric balances");
   NumericBalances found =
       find_numeric_balances(*report.leading, [&](double share) { watch.tick(share); });
+  // What exact balances have shown remains true.
   report.balances = std::move(found.balances);
-  report.conclusions.clear();
-  const auto complex = [](const Exponent& e) { return e.values[0].second != 0; };
-  if (std::ranges::any_of(report.balances, [&](const Balance& balance) {
-        return std::ranges::any_of(balance.exponents, complex);
-      }))
+  if (found.has_complex_exponents)
     report.conclusions.push_back(
-        "exponents that are not real cannot be rational: a proof of them would show that the "
-        "leading system is not algebraically integrable (Yoshida 1983)");
+        "numeric exponents have imaginary parts that rounding does not explain, and what is not "
+        "real is not rational: a proof of them would show that the leading system is not "
+        "algebraically integrable (Yoshida 1983)");
   return found.starts;
 }
 
