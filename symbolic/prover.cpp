@@ -300,6 +300,7 @@ void Prover::decide(Proof& proof, const std::vector<Residual>& residuals, const 
                                "{} does not reduce to zero, and no exact point was found at which "
                                "it is not zero",
                                residual.label);
+    if (found) found->point = without_other_spectra(std::move(found->point));
     proof.witness = std::move(found);
     if (proof.witness) break;
   }
@@ -312,13 +313,30 @@ void Prover::decide(Proof& proof, const std::vector<Residual>& residuals, const 
   for (const Polynomial& p : ring_.implied_positive()) proof.positive.push_back(ring_.text(p));
 }
 
+std::optional<Witness> Prover::nonzero_point(const Residual& function) {
+  return find_witness(model_, ring_, points_, ring_.numerator(function.value), function.by_ginac,
+                      {});
+}
+
 std::optional<Point> Prover::random_point(const Level& level) {
   return points_.completed(level, {.formal = true});
 }
 
 std::vector<std::pair<std::string, std::string>> Prover::describe(const Point& point) const {
   // The sines of a formal point are drawn; the angles to print are those that belong to them.
-  return ExactPoint(ring_, point, std::vector<bool>(ring_.symbols().size())).coordinates();
+  return without_other_spectra(
+      ExactPoint(ring_, point, std::vector<bool>(ring_.symbols().size())).coordinates());
+}
+
+/// Of the values of all symbols of the ring, in its order, those that this claim may speak of.
+Prover::NamedValues Prover::without_other_spectra(NamedValues all) const {
+  const std::size_t own = dimension() + model_.parameters.size() + (model_.time ? 1 : 0);
+  NamedValues result;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i < own || (spectral_ && ring_.symbols()[i].is_equal(*spectral_)))
+      result.push_back(std::move(all[i]));
+  }
+  return result;
 }
 
 }  // namespace casimir

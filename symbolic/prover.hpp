@@ -46,7 +46,13 @@ class Prover {
   /// An expression in the ring; its denominators are from now on part of what a proof assumes.
   const Polynomial& convert(const GiNaC::ex& expression);
   /// Forgets what was divided by so far: the next claim begins.
-  void begin_claim() { divided_by_.clear(); }
+  void begin_claim() {
+    divided_by_.clear();
+    spectral_.reset();
+  }
+  /// The claim is about this spectral parameter. Witnesses give its value, and not those of other
+  /// Lax pairs, which may have the same name.
+  void set_spectral(const std::optional<GiNaC::symbol>& spectral) { spectral_ = spectral; }
 
   const Polynomial& bracket_entry(std::size_t i, std::size_t j) const {
     return used(brackets_[i * dimension() + j]);
@@ -79,6 +85,10 @@ class Prover {
   /// Fills in verdict, evidence, residual, reason and witness: are all residuals zero on the level?
   void decide(Proof& proof, const std::vector<Residual>& residuals, const Level& level);
 
+  /// An exact point inside every assumption at which the function is shown not to be zero; empty if
+  /// none was found.
+  std::optional<Witness> nonzero_point(const Residual& function);
+
   /// A point of the ring at which no denominator vanishes, every assumption holds and the level's
   /// functions are zero; empty if none was found.
   std::optional<Point> random_point(const Level& level);
@@ -98,6 +108,8 @@ class Prover {
   bool in_ideal(const Residual& residual, const Level& level);
   bool vanishes_on(const Residual& residual, Polynomial& rest, const Level& level, Proof& proof);
   static std::vector<GiNaC::symbol> symbols_of(const Model& model);
+  using NamedValues = std::vector<std::pair<std::string, std::string>>;
+  NamedValues without_other_spectra(NamedValues all) const;
   static std::vector<GiNaC::ex> with_dynamics(const Model& model,
                                               std::vector<GiNaC::ex> expressions);
 
@@ -108,6 +120,7 @@ class Prover {
   std::unordered_map<GiNaC::ex, std::vector<Polynomial>> flows_;
   std::map<std::pair<GiNaC::ex, GiNaC::ex>, Polynomial, ExpressionPairLess> known_brackets_;
   PointSearch points_;
+  std::optional<GiNaC::symbol> spectral_;
   mutable std::vector<bool> divided_by_;  ///< which of the ring's denominators
 };
 
