@@ -1,6 +1,7 @@
 // Invariant measures: the density rho satisfies div(rho f) + d(rho)/dt = 0 for the flow f, or for
 // the flow of every Hamiltonian, which for rho = 1 is the unimodularity of a Lie algebra
-// (Borisov & Mamaev, Sec. 1.2).
+// (Borisov & Mamaev, Sec. 1.2). A density is a real function that is not zero everywhere: of the
+// zero function the equation would say nothing.
 #include <fmt/format.h>
 
 #include "symbolic/claims/claim.hpp"
@@ -42,6 +43,50 @@ std::vector<Residual> modular_field(Prover& prover, const NamedExpression& densi
   return residuals;
 }
 
+bool has_imaginary_number(const GiNaC::ex& e) {
+  for (auto part = e.preorder_begin(); part != e.preorder_end(); ++part) {
+    if (GiNaC::is_a<GiNaC::numeric>(*part) && !GiNaC::ex_to<GiNaC::numeric>(*part).is_real())
+      return true;
+  }
+  return false;
+}
+
+/// Why the function is not known to be a density; empty where it is one.
+std::string doubt_about(Prover& prover, const GiNaC::ex& density) {
+  const Polynomial rho = prover.convert(density);
+  if (prover.ring().numerator(rho).is_zero())
+    return "the density is identically zero, which is no measure";
+  if (has_imaginary_number(density) && has_imaginary_number(density.expand()))
+    return "the density is not shown to be real";
+  if (GiNaC::is_a<GiNaC::numeric>(density)) return {};
+  if (!prover.nonzero_point({"density", rho, [density] { return density; }}))
+    return "no exact point was found at which the density has a value that is not zero";
+  return {};
+}
+
+/// Whether points are found at which the density is positive and others at which it is negative.
+bool has_both_signs(Prover& prover, const GiNaC::ex& density) {
+  const Polynomial rho = prover.convert(density);
+  const auto differs_from_size = [&](const GiNaC::ex& f) {
+    return prover.nonzero_point({"density", rho, [f] { return GiNaC::abs(f) - f; }}).has_value();
+  };
+  return differs_from_size(density) && differs_from_size(-density);
+}
+
+void decide_measure(Prover& prover, Proof& proof, const NamedExpression& density, bool every) {
+  prover.decide(
+      proof,
+      every ? modular_field(prover, density) : std::vector{divergence_of_flow(prover, density)},
+      {});
+  if (proof.verdict != Verdict::proved) return;
+  proof.reason = doubt_about(prover, density.value);
+  if (!proof.reason.empty()) {
+    proof.verdict = Verdict::undecided;
+  } else if (has_both_signs(prover, density.value)) {
+    proof.evidence = "the density has both signs: it is a measure only on parts of the domain";
+  }
+}
+
 }  // namespace
 
 std::vector<Claim> measure_claims(const Model& model) {
@@ -53,10 +98,7 @@ std::vector<Claim> measure_claims(const Model& model) {
                       density.name + (every ? ", every Hamiltonian" : ""),
                       false,
                       [density, every](Prover& prover, Proof& proof) {
-                        prover.decide(proof,
-                                      every ? modular_field(prover, density)
-                                            : std::vector{divergence_of_flow(prover, density)},
-                                      {});
+                        decide_measure(prover, proof, density, every);
                       },
                       {},
                       {density.value}});
