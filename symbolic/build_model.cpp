@@ -72,19 +72,28 @@ class Builder {
     return it == fixed_.end() ? nullptr : &it->second;
   }
 
+  /// A witness gives each symbol its value by name, and the residual's under the name `value`.
+  static void check_symbol_name(const Text& name) {
+    if (name.value == "value")
+      throw name.error("'value' names the value of a residual in a witness, and cannot name this");
+  }
+
   void declare_names() {
     model_.variables = make_variables(file_.phase_space);
     for (std::size_t i = 0; i < model_.variables.size(); ++i) {
+      check_symbol_name(file_.phase_space.variables[i]);
       names_.declare(file_.phase_space.variables[i], "a variable",
                      Quantity::symbol(model_.variables[i]));
     }
     if (const auto& time = file_.phase_space.time) {
+      check_symbol_name(*time);
       model_.time = GiNaC::symbol(time->value);
       names_.declare(*time, "the time", Quantity::symbol(*model_.time));
     }
     std::vector<std::string> known;
     for (const ParameterText& parameter : file_.parameters) {
       known.push_back(parameter.name.value);
+      check_symbol_name(parameter.name);
       if (const Text* text = fixed_value(parameter.name.value)) {
         const ex value = parse_real_constant(*text);
         names_.declare(parameter.name, "a parameter", measured(value));
@@ -311,6 +320,7 @@ class Builder {
     pair.spectral = GiNaC::symbol(text.spectral ? text.spectral->value : "(none)");
     if (text.spectral) {
       check_name(*text.spectral, "the spectral parameter");
+      check_symbol_name(*text.spectral);
       if (names_.find(text.spectral->value) != nullptr)
         throw text.spectral->error(fmt::format("'{}' is declared twice", text.spectral->value));
     }
