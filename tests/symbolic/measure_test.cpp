@@ -21,9 +21,8 @@ Proof measure(const std::string& density, const std::string& more = {},
 }
 
 TEST(Measure, OfDensityZeroIsNone) {
-  for (const char* zero :
-       {"0", "q - q", "sin(q)^2 + cos(q)^2 - 1", "(q + p)^2 - q^2 - 2*q*p - p^2", "0*q",
-        "sqrt(H)^2 - H", "log(exp(q)) - q", "2*sin(q)*cos(q) - sin(2*q)"}) {
+  for (const char* zero : {"0", "q - q", "sin(q)^2 + cos(q)^2 - 1", "(q + p)^2 - q^2 - 2*q*p - p^2",
+                           "0*q", "sqrt(H)^2 - H", "2*sin(q)*cos(q) - sin(2*q)"}) {
     const Proof proof = measure(zero);
     EXPECT_EQ(proof.verdict, Verdict::undecided) << zero;
     EXPECT_NE(proof.reason.find("identically zero"), std::string::npos) << zero << proof.reason;
@@ -45,8 +44,9 @@ TEST(Measure, OfDensityZeroUnderTheAssumptionsIsNone) {
   }
 }
 
-TEST(Measure, NeedsARealDensity) {
-  for (const char* nowhere : {"I", "I*H", "H + I", "log(-1 - H)", "sqrt(-1 - H)", "asin(2 + H)"}) {
+TEST(Measure, NeedsARealDensityThatIsNotZeroSomewhere) {
+  for (const char* nowhere :
+       {"I", "I*H", "H + I", "log(-1 - H)", "sqrt(-1 - H)", "asin(2 + H)", "log(exp(q)) - q"}) {
     EXPECT_NE(measure(nowhere).verdict, Verdict::proved) << nowhere;
   }
   EXPECT_EQ(measure("(H + I)*(H - I)").verdict, Verdict::proved);

@@ -46,6 +46,20 @@ TEST(NameH, IsTheDefinitionOfTheFileWhetherTheHamiltonianUsesItOrNot) {
   EXPECT_EQ(verdict_of(by_another, "F"), Verdict::refuted);
 }
 
+TEST(NameH, IsNotWhatFactsCallTheHamiltonianThen) {
+  const auto independent = [](const Model& model) {
+    for (const Proof& proof : prove(model)) {
+      if (proof.kind == "independence") return proof.name;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(independent(oscillator("[integrals]\nF = \"1\"\n")), "H, F");
+  EXPECT_EQ(independent(oscillator("[definitions]\nH = \"p\"\n[integrals]\nF = \"1\"\n")),
+            "the Hamiltonian, F");
+  EXPECT_EQ(independent(oscillator("[definitions]\nH = \"q^2 + p^2\"\n[integrals]\nF = \"1\"\n")),
+            "H, F");
+}
+
 TEST(NameH, IsTheParameterOfTheFile) {
   const Model model = oscillator("[parameters]\nH = {}\n[integrals]\nF = \"H*(p^2 + q^2)\"\n");
   EXPECT_TRUE(model.integrals.front().value.has(model.parameters.front()));
@@ -82,7 +96,7 @@ TEST(NamesOfFunctions, MayBeThatOfWhatTheyAre) {
 Model two_pairs() {
   return oscillator(
       "[[lax]]\nspectral = \"z\"\nL = [[\"p\",\"q*z\"],[\"q/z\",\"-p\"]]\n"
-      "A = [[\"0\",\"-z\"],[\"1\",\"0\"]]\n"
+      "A = [[\"0\",\"-z\"],[\"1/z\",\"0\"]]\n"
       "[[lax]]\nspectral = \"z\"\nL = [[\"p\",\"q*z\"],[\"q\",\"-p\"]]\n"
       "A = [[\"0\",\"-1\"],[\"1\",\"0\"]]\n");
 }
