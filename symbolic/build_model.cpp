@@ -72,19 +72,28 @@ class Builder {
     return it == fixed_.end() ? nullptr : &it->second;
   }
 
+  /// A witness gives each symbol its value by name, and the residual's under the name `value`.
+  static void check_symbol_name(const Text& name) {
+    if (name.value == "value")
+      throw name.error("'value' names the value of a residual in a witness, and cannot name this");
+  }
+
   void declare_names() {
     model_.variables = make_variables(file_.phase_space);
     for (std::size_t i = 0; i < model_.variables.size(); ++i) {
+      check_symbol_name(file_.phase_space.variables[i]);
       names_.declare(file_.phase_space.variables[i], "a variable",
                      Quantity::symbol(model_.variables[i]));
     }
     if (const auto& time = file_.phase_space.time) {
+      check_symbol_name(*time);
       model_.time = GiNaC::symbol(time->value);
       names_.declare(*time, "the time", Quantity::symbol(*model_.time));
     }
     std::vector<std::string> known;
     for (const ParameterText& parameter : file_.parameters) {
       known.push_back(parameter.name.value);
+      check_symbol_name(parameter.name);
       if (const Text* text = fixed_value(parameter.name.value)) {
         const ex value = parse_real_constant(*text);
         names_.declare(parameter.name, "a parameter", measured(value));
@@ -139,7 +148,8 @@ class Builder {
             "'structure_constants' and 'vector_fields'; or the file a table [equations]");
       }
       read_hamiltonian();
-      if (!has_own_H()) names_.alias("H", measured(*model_.hamiltonian));
+      // In a function of that name, and before it, H is not known.
+      if (!function_named_H()) names_.offer("H", measured(*model_.hamiltonian));
       model_.field = model_.poisson->flow(*model_.hamiltonian);
     }
     names_.allow(&dynamics_);
@@ -149,12 +159,14 @@ class Builder {
     }
   }
 
-  /// The file calls something else H.
-  bool has_own_H() const {
-    const auto in = [](const std::vector<Entry>& entries) {
-      return std::ranges::any_of(entries, [](const Entry& e) { return e.first.value == "H"; });
-    };
-    return in(file_.casimirs) || in(file_.integrals);
+  /// The Casimir function or integral that the file calls H, or null.
+  const Text* function_named_H() const {
+    for (const auto* entries : {&file_.casimirs, &file_.integrals}) {
+      const auto found =
+          std::ranges::find(*entries, "H", [](const Entry& e) { return e.first.value; });
+      if (found != entries->end()) return &found->first;
+    }
+    return nullptr;
   }
 
   void read_hamiltonian() {
@@ -183,10 +195,15 @@ class Builder {
     for (std::size_t s = 0; s < k; ++s) {
       const Text name = given.empty() ? Text{fmt::format("w{}", s + 1), {}, {}} : given[s];
       check_name(name, "a velocity");
-      if (names_.find(name.value) != nullptr)
+      const bool again = std::ranges::any_of(model_.frame->velocities, [&](const auto& other) {
+        return other.get_name() == name.value;
+      });
+      if (again || names_.find(name.value) != nullptr)
         throw(given.empty() ? text : name)
             .error(fmt::format("'{}' is declared twice", name.value), 0,
                    "'velocities' in [phase_space.vector_fields] names the quasi-velocities");
+      if (name.value == "H")
+        throw name.error("'H' names the Hamiltonian and cannot name a velocity");
       model_.frame->velocities.push_back(GiNaC::symbol(name.value));
     }
     ExtendedNames names(names_, model_.frame->velocities);
@@ -227,9 +244,17 @@ class Builder {
       check_name(name, "a function");
       const Quantity quantity = parse_expression(text, names_);
       result.push_back(named(name, quantity.value));
-      names_.alias(name.value, quantity);
+      names_.name_function(name, quantity);
+      check_name_H(name, quantity.value);
     }
     return result;
+  }
+
+  /// Every command calls the Hamiltonian H where it lists the integrals.
+  void check_name_H(const Text& name, const ex& value) const {
+    if (name.value == "H" && model_.hamiltonian && !value.is_equal(*model_.hamiltonian))
+      throw name.error("'H' names the Hamiltonian among the integrals; here it would be another", 0,
+                       "give this function another name, or write it as the Hamiltonian");
   }
 
   LevelClaim read_level(const LevelText& text) {
@@ -295,6 +320,7 @@ class Builder {
     pair.spectral = GiNaC::symbol(text.spectral ? text.spectral->value : "(none)");
     if (text.spectral) {
       check_name(*text.spectral, "the spectral parameter");
+      check_symbol_name(*text.spectral);
       if (names_.find(text.spectral->value) != nullptr)
         throw text.spectral->error(fmt::format("'{}' is declared twice", text.spectral->value));
     }
@@ -357,7 +383,15 @@ class Builder {
     NameTable names;  // the bracket of the target may have the parameters of this case
     for (const GiNaC::symbol& s : model_.parameters) names.add(s.get_name(), Quantity::symbol(s));
     for (const auto& [parameter, value] : model_.fixed) names.add(parameter.value, measured(value));
-    for (const GiNaC::symbol& s : coordinates) names.add(s.get_name(), Quantity::symbol(s));
+    for (std::size_t i = 0; i < coordinates.size(); ++i) {
+      const std::string name = coordinates[i].get_name();
+      // What this file writes over the target's coordinates must not be able to mean a parameter.
+      const bool written_here = text.to_table || !text.image.empty() || !text.inverses.empty();
+      if (written_here && names.find(name) != nullptr)
+        throw(text.to_table ? target.variables[i] : text.name)
+            .error(fmt::format("'{}' names a parameter of this case and a variable of 'to'", name));
+      names.add(name, Quantity::symbol(coordinates[i]));
+    }
     const std::optional<Frame> frame = make_frame(target, coordinates, model_.parameters, names);
     const std::optional<PoissonStructure> bracket = make_bracket(target, coordinates, names, frame);
     if (!bracket) throw CaseError(target.where, "the phase space of 'to' needs a bracket");

@@ -22,6 +22,17 @@ void CaseNames::define(const Entry& entry) {
   pending_[entry.first.value] = &entry;
 }
 
+void CaseNames::name_function(const Text& name, const Quantity& quantity) {
+  const Quantity* known = find(name.value);
+  if (known == nullptr) {
+    table_[name.value] = quantity;
+  } else if (!known->value.is_equal(quantity.value)) {
+    throw name.error(
+        fmt::format("'{}' is declared twice, and the two are not the same", name.value), 0,
+        "a function may share a name only with what it is, as in F = \"F\"");
+  }
+}
+
 const Quantity* CaseNames::find(const std::string& name) {
   const auto known = table_.find(name);
   if (known != table_.end()) return &known->second;

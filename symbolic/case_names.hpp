@@ -17,10 +17,15 @@ class CaseNames : public Scope {
   void declare(const Text& name, const std::string& what, Quantity quantity);
   void define(const Entry& entry);
 
-  /// Names an expression already read, unless the name is taken: for use in further expressions.
-  void alias(const std::string& name, Quantity quantity) {
-    table_.try_emplace(name, std::move(quantity));
+  /// Names a built-in, such as H for the Hamiltonian, unless the file declares the name itself:
+  /// then it means what the file says.
+  void offer(const std::string& name, Quantity quantity) {
+    if (!pending_.contains(name)) table_.try_emplace(name, std::move(quantity));
   }
+
+  /// Names a function of the file that was just read, as an integral, for use in further
+  /// expressions. \throws CaseError  where the name already stands for something else.
+  void name_function(const Text& name, const Quantity& quantity);
 
   const Quantity* find(const std::string& name) override;
   std::vector<std::string> known() const override;

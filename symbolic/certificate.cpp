@@ -1,388 +1,372 @@
 #include "symbolic/certificate.hpp"
 
-#include <cln/integer.h>
-#include <cln/integer_io.h>
-#include <cln/rational.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <set>
-#include <sstream>
+#include <stdexcept>
 
-#include "symbolic/prover.hpp"
+#include "symbolic/coq_file.hpp"
+#include "symbolic/function_ring.hpp"
+#include "symbolic/limits.hpp"
 
 namespace casimir {
 namespace {
 
 using GiNaC::ex;
 
-/// Words that Coq keeps for itself, and what the file defines.
-bool is_reserved(const std::string& name) {
-  static const std::set<std::string> kWords = {
-      "as",      "at",     "cofix",      "else",   "end", "exists", "exists2", "fix",
-      "for",     "forall", "fun",        "if",     "IF",  "in",     "let",     "match",
-      "mod",     "open",   "Prop",       "return", "Set", "SProp",  "then",    "Type",
-      "using",   "where",  "with",       "by",     "h",   "Z",      "True",    "False",
-      "Theorem", "Lemma",  "Definition", "Proof",  "Qed"};
-  return kWords.contains(name);
+/// A polynomial as it stands, with rational coefficients: nothing has to be known or assumed to
+/// read it as one.
+bool is_plain_polynomial(const ex& e) {
+  if (GiNaC::is_a<GiNaC::symbol>(e)) return true;
+  if (GiNaC::is_a<GiNaC::numeric>(e)) return GiNaC::ex_to<GiNaC::numeric>(e).is_rational();
+  if (GiNaC::is_a<GiNaC::power>(e)) {
+    return is_plain_polynomial(e.op(0)) && GiNaC::is_a<GiNaC::numeric>(e.op(1)) &&
+           GiNaC::ex_to<GiNaC::numeric>(e.op(1)).is_nonneg_integer();
+  }
+  if (!GiNaC::is_a<GiNaC::add>(e) && !GiNaC::is_a<GiNaC::mul>(e)) return false;
+  return std::all_of(e.begin(), e.end(), is_plain_polynomial);
 }
 
-/// A polynomial function of the coordinates, with integer coefficients.
-struct Function {
-  std::string name;
-  Polynomial value;
-  cln::cl_I scale;  ///< value = scale * the function of the case
+/// Why a claim has no theorem.
+class NotCovered : public std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
-cln::cl_I common_denominator(const Polynomial& p) {
-  cln::cl_I result = 1;
-  for (const auto& [coefficient, exponents] : p.term_list()) {
-    result = cln::lcm(result, cln::denominator(coefficient));
+/// A claim that the file may state.
+struct Statement {
+  NamedExpression function;
+  std::vector<NamedExpression> on;
+};
+
+/// By the kind of claim, in the order in which `prove` reports them.
+using Statements = std::map<std::string, std::vector<Statement>>;
+
+Statements statements_of(const Model& model, const Candidates& candidates) {
+  Statements result;
+  const auto add = [&](const char* kind, const std::vector<NamedExpression>& functions,
+                       const std::vector<NamedExpression>& on) {
+    for (const NamedExpression& f : functions) result[kind].push_back({f, on});
+  };
+  if (candidates.empty()) {
+    add("casimir", model.casimirs, {});
+    add("integral", model.integrals, {});
+    for (const LevelClaim& claim : model.conditionals)
+      add("conditional", {claim.expression}, claim.on);
+    if (!model.constraints.empty()) {
+      add("invariant_relation", {model.constraints.back()},
+          {model.constraints.begin(), model.constraints.end() - 1});
+    }
+    for (const LevelClaim& claim : model.invariant_relations)
+      add("invariant_relation", {claim.expression}, claim.on);
+    return result;
   }
+  const auto read = [&](const std::vector<Text>& texts, const char* prefix) {
+    std::vector<NamedExpression> functions;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      functions.push_back(
+          {fmt::format("{}{}", prefix, i + 1), model.parse(texts[i]), texts[i].where});
+    }
+    return functions;
+  };
+  const std::vector<NamedExpression> on = read(candidates.on, "on");
+  add("casimir", read(candidates.casimirs, "C"), on);
+  add("integral", read(candidates.integrals, "F"), on);
+  add("invariant_relation", read(candidates.invariant_relations, "R"), on);
   return result;
+}
+
+std::vector<GiNaC::symbol> symbols_of(const Model& model) {
+  std::vector<GiNaC::symbol> symbols = model.variables;
+  symbols.insert(symbols.end(), model.parameters.begin(), model.parameters.end());
+  return symbols;
+}
+
+/// The plain polynomials among what the file may be about.
+std::vector<ex> polynomials_of(const Model& model, const Statements& statements) {
+  std::vector<ex> all{*model.hamiltonian};
+  for (std::size_t i = 0; i < model.variables.size(); ++i) {
+    for (std::size_t j = i + 1; j < model.variables.size(); ++j)
+      all.push_back((*model.poisson)(i, j));
+  }
+  for (const auto& [kind, list] : statements) {
+    for (const Statement& s : list) {
+      all.push_back(s.function.value);
+      for (const NamedExpression& g : s.on) all.push_back(g.value);
+    }
+  }
+  std::erase_if(all, [](const ex& e) { return !is_plain_polynomial(e); });
+  return all;
 }
 
 class Writer {
  public:
-  Writer(const Model& model, const std::vector<ex>& further) : prover_(model, further) {
-    if (!model.poisson) throw ModelError("a certificate needs a bracket");
-    for (const GiNaC::symbol& s : prover_.ring().symbols()) {
-      const std::string name = s.get_name();
-      names_.push_back(is_reserved(name) ? name + "_" : name);
-      arguments_ += " " + names_.back();
+  Writer(const Model& model, const Statements& statements)
+      : model_(model),
+        // Without the assumptions of the case: what they would simplify is not what the file says.
+        ring_(symbols_of(model), {}, polynomials_of(model, statements)),
+        file_(symbols_of(model), model.variables.size()) {
+    file_.begin_part("The bracket and the Hamiltonian");
+    std::vector<Polynomial> upper;
+    for (std::size_t i = 0; i < dimension(); ++i) {
+      for (std::size_t j = i + 1; j < dimension(); ++j)
+        upper.push_back(polynomial((*model.poisson)(i, j)));
     }
-    text_ = fmt::format(
-        "(* Written by casimir for the case {0}. Check it with: coqc FILE.v\n"
-        "   Functions of {1}, with integer coefficients: denominators are cleared. For each "
-        "function\n"
-        "   f and coordinate x a lemma shows that f_d_x is the derivative:\n"
-        "     f(x + h) - f(x) = h * f_d_x(x) + h * h * (a polynomial).\n"
-        "   The theorems are identities in all variables and parameters. *)\n"
-        "Require Import ZArith Ring.\nOpen Scope Z_scope.\n\n",
-        model.name, arguments_.substr(1));
-  }
-
-  std::string take() && { return std::move(text_); }
-  Prover& prover() { return prover_; }
-
-  /// Defines the brackets {x_i, x_j}, i < j, multiplied by one common number.
-  void define_brackets() {
-    const std::size_t n = prover_.dimension();
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = i + 1; j < n; ++j) {
-        bracket_scale_ = cln::lcm(bracket_scale_, common_denominator(prover_.bracket_entry(i, j)));
+    file_.define_bracket(upper);
+    field_.assign(dimension() * dimension(), Polynomial(ring_.ring()));
+    for (std::size_t i = 0, entry = 0; i < dimension(); ++i) {
+      for (std::size_t j = i + 1; j < dimension(); ++j, ++entry) {
+        field_[i * dimension() + j] = upper[entry];
+        field_[j * dimension() + i] = -upper[entry];
       }
     }
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = i + 1; j < n; ++j) {
-        if (prover_.bracket_entry(i, j).is_zero()) continue;
-        define({fmt::format("bracket_{}_{}", names_[i], names_[j]),
-                prover_.bracket_entry(i, j).scaled(bracket_scale_), bracket_scale_});
-      }
+    hamiltonian_.emplace(file_.define("hamiltonian", polynomial(*model.hamiltonian)));
+  }
+
+  const CoqFile& file() const { return file_; }
+
+  /// \throws NotCovered, TooLarge  nothing is written then
+  void state(const std::string& kind, const Statement* statement, std::size_t number) {
+    if (kind == "skew") {
+      file_.begin_part("skew: the bracket is skew symmetric");
+      file_.state_skew_symmetry();
+    } else if (kind == "jacobi") {
+      check_jacobi();
+      file_.begin_part("jacobi: the Jacobi identity");
+      file_.state_jacobi();
+    } else if (kind == "casimir") {
+      state_casimir(*statement, number);
+    } else {
+      state_rates(kind, *statement, number);
     }
   }
 
-  /// The function as the file has it, with its derivatives.
-  Function define(const std::string& name, const ex& value) {
-    const Polynomial p = prover_.ring().convert(value);
-    const cln::cl_I scale = common_denominator(p);
-    const Function f{name, p.scaled(scale), scale};
-    define(f);
-    return f;
-  }
-
-  /// {x_i, {x_j, x_k}} + cyclic = 0.
-  void prove_jacobi() {
-    const std::size_t n = prover_.dimension();
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = i + 1; j < n; ++j) {
-        for (std::size_t k = j + 1; k < n; ++k) {
-          std::string sum;
-          const std::size_t cyclic[3][3] = {{i, j, k}, {j, k, i}, {k, i, j}};
-          for (const auto& [a, b, c] : cyclic) {
-            for (std::size_t l = 0; l < n; ++l) add(sum, bracket(a, l), bracket_slope(b, c, l));
-          }
-          if (sum.empty()) continue;
-          theorem(fmt::format("jacobi_{}_{}_{}", names_[i], names_[j], names_[k]), sum, "0");
-        }
-      }
+  /// Beside candidates: their statements do not need it.
+  void state_bracket_if_poisson() {
+    try {
+      state("skew", nullptr, 1);
+      state("jacobi", nullptr, 1);
+    } catch (const NotCovered&) {  // the bracket is one of the case all the same
     }
   }
 
-  /// {x_i, f} = 0 for every coordinate.
-  void prove_casimir(const Function& f) {
-    for (std::size_t i = 0; i < prover_.dimension(); ++i) {
-      std::string sum;
-      for (std::size_t j = 0; j < prover_.dimension(); ++j) add(sum, bracket(i, j), slope(f, j));
-      if (!sum.empty()) theorem(fmt::format("casimir_{}_{}", f.name, names_[i]), sum, "0");
-    }
+  void leave_out(const std::string& claim, const std::string& reason) {
+    file_.end_with(fmt::format("Proved, but not certified here: {}: {}", claim, reason));
   }
 
-  /// {f, H} = sum of cofactor * relation.
-  void prove_rate(const std::string& name, const Function& f, const Function& h,
-                  const std::vector<Function>& level) {
-    std::string sum;
-    for (std::size_t i = 0; i < prover_.dimension(); ++i) {
-      for (std::size_t j = 0; j < prover_.dimension(); ++j) {
-        const std::string first = slope(f, i);
-        const std::string second = slope(h, j);
-        if (!first.empty() && !second.empty()) add(sum, bracket(i, j), first + " * " + second);
-      }
-    }
-    if (sum.empty()) return;
-    const std::string right = cofactors(f, h, level, sum);
-    theorem(name, sum, right);
+  /// How the file speaks of a claim. Names that are no identifiers do not get into it.
+  static std::string title(const std::string& kind, const std::string& name, std::size_t number) {
+    const std::string place = fmt::format("{} no. {}", kind, number);
+    return is_coq_name(name) ? fmt::format("{}, {}", place, name) : place;
   }
 
  private:
-  std::string number(const cln::cl_I& value) const {
-    std::ostringstream stream;
-    stream << value;
-    return stream.str();
+  std::size_t dimension() const { return model_.variables.size(); }
+
+  Polynomial polynomial(const ex& e) {
+    if (!is_plain_polynomial(e))
+      throw NotCovered("it is not about polynomials with rational coefficients");
+    return ring_.convert(e);
   }
 
-  std::string polynomial(const Polynomial& p) const {
-    std::string result;
-    for (const auto& [coefficient, exponents] : p.term_list()) {
-      std::string factors;
-      for (std::size_t i = 0; i < exponents.size(); ++i) {
-        for (unsigned long k = 0; k < exponents[i]; ++k) {
-          factors += (factors.empty() ? "" : "*") + names_[i];
+  Polynomial bracket(const Polynomial& f, const Polynomial& g) const {
+    SumOfProducts sum(ring_.ring());
+    for (std::size_t i = 0; i < dimension(); ++i) {
+      if (f.uses(i)) sum.add(f.derivative(i), flow(i, g));
+    }
+    return sum.finish();
+  }
+
+  /// {x_i, g}
+  Polynomial flow(std::size_t i, const Polynomial& g) const {
+    SumOfProducts sum(ring_.ring());
+    for (std::size_t j = 0; j < dimension(); ++j) {
+      if (g.uses(j)) sum.add(field_[i * dimension() + j], g.derivative(j));
+    }
+    return sum.finish();
+  }
+
+  /// The polynomials q_k with p = sum q_k level_k.
+  static std::vector<Polynomial> cofactors(const Polynomial& p,
+                                           const std::vector<Polynomial>& level) {
+    std::vector<Polynomial> quotients(level.size(), Polynomial(p.ring()));
+    if (p.is_zero()) return quotients;
+    if (level.empty()) throw NotCovered("it is no identity of polynomials without assumptions");
+    if (!p.remainder(level, &quotients).is_zero())
+      throw NotCovered("division by the functions of the level gave no polynomial cofactors");
+    return quotients;
+  }
+
+  void check_jacobi() const {
+    const auto twice = [&](std::size_t i, std::size_t j, std::size_t k) {
+      return flow(i, field_[j * dimension() + k]);
+    };
+    for (std::size_t i = 0; i < dimension(); ++i) {
+      for (std::size_t j = i + 1; j < dimension(); ++j) {
+        for (std::size_t k = j + 1; k < dimension(); ++k) {
+          if (!(twice(i, j, k) + twice(j, k, i) + twice(k, i, j)).is_zero())
+            throw NotCovered("it is no identity of polynomials without assumptions");
         }
       }
-      const cln::cl_I size = cln::abs(cln::numerator(coefficient));
-      const bool minus = cln::minusp(coefficient);
-      if (result.empty())
-        result = minus ? "- " : "";
-      else
-        result += minus ? " - " : " + ";
-      if (factors.empty())
-        result += number(size);
-      else
-        result += (size == 1 ? "" : number(size) + "*") + factors;
     }
-    return result.empty() ? "0" : result;
   }
 
-  std::string call(const std::string& function) const { return "(" + function + arguments_ + ")"; }
+  /// The functions of a statement, before any of them is written.
+  struct Parts {
+    Polynomial function;
+    std::vector<Polynomial> level;
+  };
 
-  void define(const Function& f) {
-    text_ += fmt::format("Definition {} ({} : Z) : Z :=\n  {}.\n", f.name, arguments_.substr(1),
-                         polynomial(f.value));
-    unfolded_.push_back(f.name);
-    for (std::size_t i = 0; i < prover_.dimension(); ++i) {
-      if (f.value.uses(i)) define_slope(f, i);
+  Parts parts(const Statement& statement) {
+    Parts result{polynomial(statement.function.value), {}};
+    for (const NamedExpression& g : statement.on) result.level.push_back(polynomial(g.value));
+    return result;
+  }
+
+  /// Where the name of the case is an identifier and names one claim, the claim is called that.
+  static std::string identifier(const std::string& kind, const Statement& statement,
+                                std::size_t number) {
+    const bool unique = kind == "casimir" || kind == "integral";
+    if (unique) return fmt::format("{}_{}", kind, coq_name(statement.function.name));
+    return fmt::format("{}_{}", kind == "conditional" ? "conditional" : "relation", number);
+  }
+
+  std::vector<CoqFunction> define_level(const std::string& name,
+                                        const std::vector<Polynomial>& functions) {
+    std::vector<CoqFunction> level;
+    for (std::size_t k = 0; k < functions.size(); ++k)
+      level.push_back(file_.define(fmt::format("{}_level_{}", name, k + 1), functions[k]));
+    return level;
+  }
+
+  void state_casimir(const Statement& statement, std::size_t number) {
+    const Parts p = parts(statement);
+    std::vector<std::vector<Polynomial>> all;
+    for (std::size_t i = 0; i < dimension(); ++i)
+      all.push_back(cofactors(flow(i, p.function), p.level));
+    file_.begin_part(title("casimir", statement.function.name, number));
+    const std::string name = identifier("casimir", statement, number);
+    const CoqFunction f = file_.define(name, p.function);
+    if (p.level.empty()) {
+      file_.state_commutes_with_all(name + "_commutes_with_all", f);
+      return;
     }
-    text_ += "\n";
-    defined_.push_back(f);
+    const std::vector<CoqFunction> level = define_level(name, p.level);
+    for (std::size_t i = 0; i < dimension(); ++i)
+      file_.state_bracket(name + "_commutes_on_its_level_with", i, f, level, all[i]);
   }
 
-  void define_slope(const Function& f, std::size_t i) {
-    const std::string name = fmt::format("{}_d_{}", f.name, names_[i]);
-    text_ += fmt::format("Definition {} ({} : Z) : Z :=\n  {}.\n", name, arguments_.substr(1),
-                         polynomial(f.value.derivative(i)));
-    unfolded_.push_back(name);
-    // Taylor's formula: the rest after the first two terms, divided by h^2.
-    std::string rest;
-    std::string powers = "1";
-    Polynomial term = f.value.derivative(i);
-    for (long k = 2; !term.is_zero(); ++k) {
-      term = term.derivative(i).scaled(cln::cl_RA(1) / k);
-      if (term.is_zero()) break;
-      rest += (rest.empty() ? "" : " + ") + fmt::format("{}*({})", powers, polynomial(term));
-      powers += "*h";
-    }
-    std::string moved;
-    for (std::size_t k = 0; k < names_.size(); ++k) {
-      moved += k == i ? fmt::format(" ({} + h)", names_[k]) : " " + names_[k];
-    }
-    text_ += fmt::format(
-        "Lemma {0}_is_derivative : forall{1} h : Z,\n  {2}{3} - {2}{1} = h * {0}{1} + h * h * "
-        "({4}).\n"
-        "Proof. intros; unfold {2}, {0}; ring. Qed.\n",
-        name, arguments_, f.name, moved, rest.empty() ? "0" : rest);
+  /// df/dt and the rates of the functions of its level lie in the ideal of the level; that of an
+  /// invariant relation contains the function itself.
+  void state_rates(const std::string& kind, const Statement& statement, std::size_t number) {
+    const bool relation = kind == "invariant_relation";
+    const Parts p = parts(statement);
+    std::vector<Polynomial> zero = p.level;
+    if (relation) zero.push_back(p.function);
+    const auto rate = [&](const Polynomial& f) {
+      return cofactors(bracket(f, hamiltonian_->value), zero);
+    };
+    const std::vector<Polynomial> own = rate(p.function);
+    std::vector<std::vector<Polynomial>> others;
+    for (const Polynomial& g : p.level) others.push_back(rate(g));
+
+    file_.begin_part(title(kind, statement.function.name, number));
+    const std::string name = identifier(kind, statement, number);
+    const CoqFunction f = file_.define(name, p.function);
+    std::vector<CoqFunction> level = define_level(name, p.level);
+    if (relation) level.push_back(f);
+    const char* const what = relation          ? "_is_invariant"
+                             : p.level.empty() ? "_is_conserved"
+                                               : "_is_conserved_on_its_level";
+    file_.state_bracket(name + what, f, *hamiltonian_, level, own);
+    for (std::size_t k = 0; k < others.size(); ++k)
+      file_.state_bracket(level[k].name + "_is_invariant", level[k], *hamiltonian_, level,
+                          others[k]);
   }
 
-  /// The bracket of two coordinates, or empty if it is zero.
-  std::string bracket(std::size_t i, std::size_t j) const {
-    if (i == j || prover_.bracket_entry(i, j).is_zero()) return "";
-    if (i > j) return "(- " + bracket(j, i) + ")";
-    return call(fmt::format("bracket_{}_{}", names_[i], names_[j]));
-  }
-
-  std::string bracket_slope(std::size_t i, std::size_t j, std::size_t l) const {
-    if (i == j || !prover_.bracket_entry(i, j).uses(l)) return "";
-    if (i > j) return "(- " + bracket_slope(j, i, l) + ")";
-    return call(fmt::format("bracket_{}_{}_d_{}", names_[i], names_[j], names_[l]));
-  }
-
-  std::string slope(const Function& f, std::size_t i) const {
-    return f.value.uses(i) ? call(fmt::format("{}_d_{}", f.name, names_[i])) : "";
-  }
-
-  static void add(std::string& sum, const std::string& a, const std::string& b) {
-    if (a.empty() || b.empty()) return;
-    sum += fmt::format("{}{} * {}", sum.empty() ? "" : "\n  + ", a, b);
-  }
-
-  /// {f, H}, all scaled, as a combination of the level's functions; `left` is the text of {f, H}
-  /// and is multiplied by what the denominators of the cofactors ask for.
-  std::string cofactors(const Function& f, const Function& h, const std::vector<Function>& level,
-                        std::string& left) {
-    const Polynomial rate = prover_.bracket(f.value, h.value).scaled(bracket_scale_);
-    if (rate.is_zero()) return "0";
-    std::vector<Polynomial> relations;
-    for (const Function& g : level) relations.push_back(g.value);
-    std::vector<Polynomial> quotients;
-    if (level.empty() || !rate.remainder(relations, &quotients).is_zero()) {
-      throw ModelError(fmt::format("no certificate: {} has no polynomial cofactors", f.name));
-    }
-    cln::cl_I scale = 1;
-    for (const Polynomial& quotient : quotients)
-      scale = cln::lcm(scale, common_denominator(quotient));
-    if (scale != 1) left = fmt::format("{} * ({})", number(scale), left);
-    std::string sum;
-    for (std::size_t k = 0; k < level.size(); ++k) {
-      if (quotients[k].is_zero()) continue;
-      add(sum, "(" + polynomial(quotients[k].scaled(scale)) + ")", call(level[k].name));
-    }
-    return sum;
-  }
-
-  void theorem(const std::string& name, const std::string& left, const std::string& right) {
-    std::string unfold;
-    const std::string statement = left + right;
-    for (const std::string& function : unfolded_) {
-      if (statement.find("(" + function + " ") != std::string::npos) {
-        unfold += (unfold.empty() ? "" : ", ") + function;
-      }
-    }
-    text_ += fmt::format(
-        "Theorem {} : forall{} : Z,\n  {}\n  = {}.\nProof. intros; unfold {}; ring. Qed.\n\n", name,
-        arguments_, left, right, unfold);
-  }
-
-  Prover prover_;
-  std::vector<std::string> names_;
-  std::string arguments_;  ///< " M1 M2 .. r"
-  cln::cl_I bracket_scale_ = 1;
-  std::vector<std::string> unfolded_;
-  std::vector<Function> defined_;
-  std::string text_;
+  const Model& model_;
+  FunctionRing ring_;
+  CoqFile file_;
+  std::vector<Polynomial> field_;  ///< {x_i, x_j}
+  std::optional<CoqFunction> hamiltonian_;
 };
 
-std::vector<NamedExpression> read(const Model& model, const std::vector<Text>& texts,
-                                  const std::string& prefix) {
-  std::vector<NamedExpression> result;
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    result.push_back({fmt::format("{}{}", prefix, i + 1), model.parse(texts[i]), texts[i].where});
-  }
-  return result;
+/// As the bundled cases have them: words joined by dashes.
+bool is_file_name(std::string name) {
+  std::erase(name, '-');
+  return is_coq_name(name);
 }
 
-/// What is to be certified, from the file or from the command line.
-struct Statements {
-  std::vector<NamedExpression> casimirs, integrals;
-  std::vector<LevelClaim> conditionals, invariant_relations;
-};
-
-Statements statements_of(const Model& model, const Candidates& candidates) {
-  if (candidates.empty()) {
-    return {model.casimirs, model.integrals, model.conditionals, model.invariant_relations};
-  }
-  Statements s;
-  const std::vector<NamedExpression> on = read(model, candidates.on, "on");
-  s.casimirs = read(model, candidates.casimirs, "C");
-  for (NamedExpression& f : read(model, candidates.integrals, "F")) {
-    if (on.empty())
-      s.integrals.push_back(std::move(f));
-    else
-      s.conditionals.push_back({std::move(f), on});
-  }
-  for (NamedExpression& f : read(model, candidates.invariant_relations, "R")) {
-    s.invariant_relations.push_back({std::move(f), on});
-  }
-  return s;
+std::string head(const Model& model) {
+  return fmt::format(
+      "Written by casimir for the case {}. Check it with: coqc FILE.v\n"
+      "   Variables and parameters NAME are called x_NAME; each underscore of a name of the case "
+      "is\n"
+      "   doubled. Over the rational numbers Q:\n"
+      "   bracket_A_and_B is the bracket of the coordinates A and B, A before B; pairs without a\n"
+      "   definition have the bracket zero. row_A is the bracket of A with a function of gradient\n"
+      "   g_1, g_2, .., and poisson that of two functions of gradients f and g. The motion is "
+      "that\n"
+      "   of the hamiltonian: the derivative of F by time is poisson of F and the hamiltonian.\n"
+      "   For each function f and coordinate A a lemma shows that f_d_A is the derivative:\n"
+      "   f at A + h, less f, is h f_d_A plus h h times a polynomial. Of a bracket only those are\n"
+      "   defined that are not zero; 0 stands for the others.\n"
+      "   The theorems are identities of polynomials: no assumption of the case is used, and they\n"
+      "   hold over the real numbers too. On a level, the bracket is stated as a combination of "
+      "the\n"
+      "   functions that vanish there",
+      is_file_name(model.name) ? model.name : "whose name is no identifier");
 }
 
-/// Claims that are proved but have no theorem in the file, as "lax Lax pair".
-std::vector<std::string> left_out(const Model& model, const Candidates& candidates) {
-  static const std::set<std::string> kCovered = {"skew",     "jacobi",      "casimir",
-                                                 "integral", "conditional", "invariant_relation"};
-  std::vector<std::string> result;
-  for (const Proof& proof : prove(model, candidates)) {
-    if (proof.fact || proof.note) continue;
-    if (proof.verdict != Verdict::proved) {
-      throw ModelError(fmt::format("no certificate: the claim '{}' is {}", proof.name,
+}  // namespace
+
+Certificate coq_certificate(const Model& model, const Candidates& candidates,
+                            const std::vector<Proof>& proofs) {
+  for (const Proof& proof : proofs) {
+    if (!proof.note && !(proof.fact && !counts(model, proof)) && proof.verdict != Verdict::proved) {
+      throw ModelError(fmt::format("no certificate: the claim '{}' is {}", printable(proof.name),
                                    to_string(proof.verdict)));
     }
-    if (!kCovered.contains(proof.kind)) result.push_back(proof.kind + " " + proof.name);
   }
-  return result;
-}
-
-}  // namespace
-
-namespace {
-
-/// Text that cannot end the comment it stands in.
-std::string comment(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '*' || c == '"' || c == '(' || c == ')'; },
-      ' ');
-  return printable(text, 200);
-}
-
-}  // namespace
-
-Certificate coq_certificate(const Model& model, const Candidates& candidates) {
-  Certificate certificate{{}, left_out(model, candidates)};
-  const Statements statements = statements_of(model, candidates);
-  std::vector<ex> further;
-  for (const auto* list : {&statements.casimirs, &statements.integrals}) {
-    for (const NamedExpression& f : *list) further.push_back(f.value);
-  }
-  for (const auto* list : {&statements.conditionals, &statements.invariant_relations}) {
-    for (const LevelClaim& claim : *list) {
-      further.push_back(claim.expression.value);
-      for (const NamedExpression& f : claim.on) further.push_back(f.value);
-    }
-  }
-  Writer writer(model, further);
-  if (!writer.prover().ring().is_polynomial() || model.time) {
+  if (!model.poisson) throw ModelError("a certificate needs a bracket");
+  if (model.time)
     throw ModelError("no certificate: it covers polynomials that do not depend on time");
+  const WorkMeter meter;
+  const Statements statements = statements_of(model, candidates);
+  std::optional<Writer> writer;
+  try {
+    writer.emplace(model, statements);
+  } catch (const NotCovered&) {
+    throw ModelError(
+        "no certificate: it covers polynomials, and the bracket or the Hamiltonian is none");
   }
-  writer.define_brackets();
-  writer.prove_jacobi();
-  const Function h = writer.define("hamiltonian", *model.hamiltonian);
-  for (const NamedExpression& f : statements.casimirs)
-    writer.prove_casimir(writer.define("casimir_" + f.name, f.value));
-  for (const NamedExpression& f : statements.integrals) {
-    const Function function = writer.define("integral_" + f.name, f.value);
-    writer.prove_rate(function.name + "_is_conserved", function, h, {});
-  }
-  const auto on_levels = [&](const std::vector<LevelClaim>& claims, const std::string& kind,
-                             bool own) {
-    for (std::size_t c = 0; c < claims.size(); ++c) {
-      const std::string name = fmt::format("{}_{}", kind, claims[c].expression.name);
-      const Function f = writer.define(name, claims[c].expression.value);
-      std::vector<Function> level;
-      for (std::size_t k = 0; k < claims[c].on.size(); ++k) {
-        level.push_back(
-            writer.define(fmt::format("{}_level_{}", name, k + 1), claims[c].on[k].value));
-      }
-      if (own) level.push_back(f);
-      writer.prove_rate(name + "_on_its_level", f, h, level);
-      for (const Function& g : level) {
-        if (g.name != f.name) writer.prove_rate(g.name + "_is_invariant", g, h, level);
-      }
+  Certificate certificate;
+  if (!candidates.empty()) writer->state_bracket_if_poisson();
+  std::map<std::string, std::size_t> seen;
+  for (const Proof& proof : proofs) {
+    if (!counts(model, proof)) continue;
+    const std::size_t number = ++seen[proof.kind];
+    std::string reason;
+    try {
+      const auto list = statements.find(proof.kind);
+      if (list != statements.end() && number <= list->second.size())
+        writer->state(proof.kind, &list->second[number - 1], number);
+      else if (proof.kind == "skew" || proof.kind == "jacobi")
+        writer->state(proof.kind, nullptr, number);
+      else
+        reason = "claims of this kind have no theorem";
+    } catch (const NotCovered& problem) {
+      reason = problem.what();
+    } catch (const TooLarge& problem) {
+      reason = problem.what();
     }
-  };
-  on_levels(statements.conditionals, "conditional", false);
-  on_levels(statements.invariant_relations, "relation", true);
-  certificate.text = std::move(writer).take();
-  for (const std::string& claim : certificate.left_out)
-    certificate.text += "(* Proved, but not certified here: " + comment(claim) + " *)\n";
+    if (reason.empty()) continue;
+    writer->leave_out(Writer::title(proof.kind, proof.name, number), reason);
+    certificate.left_out.push_back({proof.kind, proof.name, reason});
+  }
+  certificate.text = writer->file().text(head(model));
   return certificate;
 }
 

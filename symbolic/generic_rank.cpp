@@ -226,7 +226,7 @@ std::optional<RealPoint> PiecePoints::draw() {
   std::vector<GiNaC::ex> coordinates;
   for (std::size_t i = 0; i < ring.symbols().size(); ++i)
     coordinates.emplace_back(GiNaC::numeric((*point)[i]));
-  return RealPoint(ring, std::move(coordinates), RealPoints::kBits);
+  return prover_.real_points().at(std::move(coordinates));
 }
 
 bool PiecePoints::add_point() {

@@ -69,6 +69,7 @@ Prover::Prover(const Model& model, const std::vector<ex>& expressions)
 
 void Prover::begin_claim(const std::vector<ex>& expressions) {
   divided_by_.clear();
+  spectral_.reset();
   claim_ = expressions;
   domain_ = with_dynamics(model_, expressions);
   divisors_.reset();
@@ -154,8 +155,17 @@ Polynomial Prover::divergence() const {
 
 std::optional<Witness> Prover::witness(const Polynomial& rest, const Residual& residual,
                                        const Level& level) {
-  return find_witness(model_, ring_, points_, real_points_, {rest, residual.by_ginac(), domain_},
-                      level, in_branch_);
+  auto found = find_witness(model_, ring_, points_, real_points_,
+                            {rest, residual.by_ginac(), domain_}, level, in_branch_);
+  if (!found) return found;
+  // Of the values of all symbols of the ring, in its order, those that this claim may speak of.
+  const std::size_t own = own_symbols(model_);
+  std::vector<std::pair<std::string, std::string>> all = std::exchange(found->point, {});
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i < own || (spectral_ && ring_.symbols()[i].is_equal(*spectral_)))
+      found->point.push_back(std::move(all[i]));
+  }
+  return found;
 }
 
 std::optional<Point> Prover::random_point(const Level& level) {
@@ -170,7 +180,7 @@ std::optional<RealPoint> Prover::exact_point(const Level& level) {
     std::vector<ex> coordinates;
     for (std::size_t k = 0; k < ring_.symbols().size(); ++k)
       coordinates.emplace_back(GiNaC::numeric((*found)[k]));
-    RealPoint point(ring_, std::move(coordinates), RealPoints::kBits);
+    RealPoint point = real_points_.at(std::move(coordinates));
     if (ring_.is_polynomial() || real_points_.admits(point, domain_)) return point;
   }
   return std::nullopt;

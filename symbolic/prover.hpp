@@ -53,6 +53,9 @@ class Prover {
   /// Forgets what was divided by so far: the next claim begins.
   /// \param expressions  what it is about: it says nothing where one of them has no real value
   void begin_claim(const std::vector<GiNaC::ex>& expressions);
+  /// The claim is about this spectral parameter. Witnesses give its value, and not those of other
+  /// Lax pairs, which may have the same name.
+  void set_spectral(const std::optional<GiNaC::symbol>& spectral) { spectral_ = spectral; }
   /// The expressions of the claim, and those of the bracket and the flow.
   const std::vector<GiNaC::ex>& domain() const { return domain_; }
 
@@ -144,6 +147,7 @@ class Prover {
   std::unordered_map<GiNaC::ex, std::vector<Polynomial>> flows_;
   std::map<std::pair<GiNaC::ex, GiNaC::ex>, Polynomial, ExpressionPairLess> known_brackets_;
   PointSearch points_;
+  std::optional<GiNaC::symbol> spectral_;
   RealPoints real_points_;
   std::vector<GiNaC::ex> claim_, domain_, all_;
   std::optional<std::vector<Polynomial>> divisors_;

@@ -160,7 +160,7 @@ bool RealLevelPoints::at_rational_point(const Level& level, const std::vector<ex
     std::vector<ex> coordinates;
     for (std::size_t k = 0; k < ring_.symbols().size(); ++k)
       coordinates.emplace_back(GiNaC::numeric((*point)[k]));
-    RealPoint real(ring_, std::move(coordinates), kBits);
+    RealPoint real = real_.at(std::move(coordinates));
     if (real_.admits(real, expressions)) return true;
   }
   return false;
@@ -173,7 +173,7 @@ bool RealLevelPoints::at_simple_point(const Level& level, const std::vector<ex>&
   for (int trial = 0; trial < kTrials; ++trial) {
     std::vector<ex> coordinates = real_.draw_simple();
     if (trial == 0) coordinates.assign(coordinates.size(), 0);
-    RealPoint point(ring_, std::move(coordinates), kBits);
+    RealPoint point = real_.at(std::move(coordinates));
     try {
       const bool on_level =
           std::all_of(level.functions.begin(), level.functions.end(), [&](const ex& f) {

@@ -28,9 +28,11 @@ double size_of(const Ball& ball) {
 
 }  // namespace
 
-RealPoint::RealPoint(const FunctionRing& ring, std::vector<ex> coordinates, long bits)
+RealPoint::RealPoint(const FunctionRing& ring, std::vector<ex> coordinates, long bits,
+                     std::size_t shown)
     : ring_(&ring),
       coordinates_(std::move(coordinates)),
+      shown_(shown),
       evaluator_(ring.is_complex() ? BallEvaluator::Numbers::complex : BallEvaluator::Numbers::real,
                  bits),
       variables_(ring.ring().size()) {
@@ -132,9 +134,17 @@ std::size_t RealPoint::rank(const PolynomialRows& rows) {
 
 std::string RealPoint::text() const {
   std::ostringstream stream;
-  for (std::size_t i = 0; i < coordinates_.size(); ++i)
+  for (std::size_t i = 0; i < std::min(shown_, coordinates_.size()); ++i)
     stream << (i == 0 ? "" : ", ") << ring_->symbols()[i].get_name() << " = " << coordinates_[i];
   return stream.str();
+}
+
+std::size_t own_symbols(const Model& model) {
+  return model.variables.size() + model.parameters.size() + (model.time ? 1 : 0);
+}
+
+RealPoint RealPoints::at(std::vector<ex> coordinates, long bits) const {
+  return RealPoint(ring_, std::move(coordinates), bits, own_symbols(model_));
 }
 
 BallEvaluator::Numbers RealPoints::numbers() const {
@@ -193,7 +203,7 @@ std::vector<ex> RealPoints::draw_simple() {
 
 std::optional<RealPoint> RealPoints::random(const std::vector<ex>& expressions, int trials) {
   for (int trial = 0; trial < trials; ++trial) {
-    RealPoint point(ring_, draw(), kBits);
+    RealPoint point = at(draw());
     if (admits(point, expressions)) return point;
   }
   return std::nullopt;
@@ -209,7 +219,7 @@ std::optional<RealPoint> RealPoints::any(const std::vector<ex>& expressions) {
     std::copy(scene.parameters.begin(), scene.parameters.end(),
               coordinates.begin() + static_cast<std::ptrdiff_t>(scene.initial.size()));
     try {
-      RealPoint point(ring_, std::move(coordinates), kMoreBits);
+      RealPoint point = at(std::move(coordinates), kMoreBits);
       if (admits(point, expressions)) return point;
     } catch (const NotCertified&) {
       continue;

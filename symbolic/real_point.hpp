@@ -18,8 +18,10 @@ using PolynomialRows = std::vector<std::vector<Polynomial>>;
 /// generators.
 class RealPoint {
  public:
-  /// \param coordinates  exact constants, one for each symbol of the ring. \throws NotCertified
-  RealPoint(const FunctionRing& ring, std::vector<GiNaC::ex> coordinates, long bits);
+  /// \param coordinates  exact constants, one for each symbol of the ring
+  /// \param shown        how many of the symbols `text` speaks of. \throws NotCertified
+  RealPoint(const FunctionRing& ring, std::vector<GiNaC::ex> coordinates, long bits,
+            std::size_t shown);
 
   /// \throws NotCertified
   Ball value(const Polynomial& p);
@@ -43,6 +45,7 @@ class RealPoint {
 
   const FunctionRing* ring_;
   std::vector<GiNaC::ex> coordinates_;
+  std::size_t shown_;
   BallEvaluator evaluator_;
   std::vector<std::optional<Ball>> variables_;
   /// The coordinates, where the ring has only polynomials and they are rational.
@@ -51,6 +54,9 @@ class RealPoint {
 
 /// Points of a case at which all assumptions certainly hold. Deterministic: the numbers come from a
 /// fixed seed.
+/// The variables, the parameters and the time, which come first in the ring of a case.
+std::size_t own_symbols(const Model& model);
+
 class RealPoints {
  public:
   /// Of the balls at first.
@@ -58,6 +64,9 @@ class RealPoints {
 
   /// Borrows both.
   RealPoints(const Model& model, const FunctionRing& ring) : model_(model), ring_(ring) {}
+
+  /// A point of the ring. \throws NotCertified
+  RealPoint at(std::vector<GiNaC::ex> coordinates, long bits = kBits) const;
 
   /// A random point at which, too, every expression certainly has a value, a real one unless the
   /// ring has complex numbers; empty if none was found. \param trials  how many points are tried

@@ -9,12 +9,29 @@ namespace {
 
 constexpr double kSeconds = 10;
 
+bool declares(const Model& model, const std::string& name) {
+  try {
+    model.parse({name, {"--integral", 1, 1}, name});
+    return true;
+  } catch (const CaseError&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 Verdict verdict_on(const Model& model, const std::string& invariant) {
+  // Among the invariants H is the Hamiltonian, though the file may call a variable or a definition
+  // that: here it gets a name that the file does not use.
+  Model named = model;
+  std::string name = invariant;
+  if (invariant == "H" && model.hamiltonian) {
+    while (declares(named, name)) name += "_";
+    named.definitions.push_back({name, *model.hamiltonian, {}});
+  }
   Candidates candidates;
-  candidates.integrals.push_back({invariant, {"--integral", 1, 1}, invariant});
-  const std::vector<Proof> proofs = prove_within(kSeconds, model, candidates, {});
+  candidates.integrals.push_back({name, {"--integral", 1, 1}, name});
+  const std::vector<Proof> proofs = prove_within(kSeconds, named, candidates, {});
   return proofs.empty() ? Verdict::undecided : proofs.front().verdict;
 }
 

@@ -1,5 +1,7 @@
 #include "symbolic/claims/claim.hpp"
 
+#include <algorithm>
+
 namespace casimir {
 
 std::vector<GiNaC::ex> values_of(const std::vector<NamedExpression>& functions) {
@@ -13,6 +15,20 @@ std::vector<GiNaC::ex> values_of(const std::vector<NamedExpression>& functions,
   std::vector<GiNaC::ex> values = values_of(functions);
   values.push_back(more);
   return values;
+}
+
+std::string hamiltonian_name(const Model& model) {
+  const auto is_H = [](const auto& symbol) { return symbol.get_name() == "H"; };
+  const bool taken =
+      std::any_of(model.variables.begin(), model.variables.end(), is_H) ||
+      std::any_of(model.parameters.begin(), model.parameters.end(), is_H) ||
+      (model.time && is_H(*model.time)) ||
+      std::any_of(model.fixed.begin(), model.fixed.end(),
+                  [](const auto& parameter) { return parameter.first.value == "H"; }) ||
+      std::any_of(model.definitions.begin(), model.definitions.end(), [&](const auto& f) {
+        return f.name == "H" && !f.value.is_equal(*model.hamiltonian);
+      });
+  return taken ? "the Hamiltonian" : "H";
 }
 
 }  // namespace casimir

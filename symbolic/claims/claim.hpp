@@ -67,6 +67,9 @@ std::vector<GiNaC::ex> values_of(const std::vector<NamedExpression>& functions);
 std::vector<GiNaC::ex> values_of(const std::vector<NamedExpression>& functions,
                                  const GiNaC::ex& more);
 
+/// What the facts call the Hamiltonian: H, unless the file calls something else that.
+std::string hamiltonian_name(const Model& model);
+
 /// {x_i, f} for every coordinate, on a level if one is given.
 Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
 /// df/dt = 0, on an invariant level if one is given (kind "conditional" then).

@@ -13,7 +13,8 @@ namespace {
 
 std::vector<NamedExpression> with_hamiltonian(const Model& model,
                                               std::vector<NamedExpression> functions) {
-  if (model.hamiltonian && !model.time) functions.push_back({"H", *model.hamiltonian, {}});
+  if (model.hamiltonian && !model.time)
+    functions.push_back({hamiltonian_name(model), *model.hamiltonian, {}});
   functions.insert(functions.end(), model.integrals.begin(), model.integrals.end());
   return functions;
 }

@@ -25,7 +25,8 @@ Proof finding_of(Prover& prover, const Claim& claim, const std::string& kind) {
 
 Functions known_integrals(const Model& model) {
   Functions known = model.casimirs;
-  if (model.hamiltonian && !model.time) known.push_back({"H", *model.hamiltonian, {}});
+  if (model.hamiltonian && !model.time)
+    known.push_back({hamiltonian_name(model), *model.hamiltonian, {}});
   known.insert(known.end(), model.integrals.begin(), model.integrals.end());
   return known;
 }

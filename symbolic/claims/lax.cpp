@@ -115,6 +115,7 @@ void describe_integrals(Prover& prover, Proof& proof, const LaxPair& pair) {
 }
 
 void decide_lax(Prover& prover, Proof& proof, const LaxPair& pair) {
+  prover.set_spectral(pair.spectral);
   const unsigned n = pair.l.rows();
   const auto entry = [&](const GiNaC::matrix& m, unsigned i, unsigned j) {
     return prover.convert(m(i, j));

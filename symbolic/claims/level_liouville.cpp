@@ -15,7 +15,7 @@ using Functions = std::vector<NamedExpression>;
 
 /// The Hamiltonian, the integrals, and those on the same level.
 Functions integrals_on(const Model& model, const Functions& level) {
-  Functions functions{{"H", *model.hamiltonian, {}}};
+  Functions functions{{hamiltonian_name(model), *model.hamiltonian, {}}};
   functions.insert(functions.end(), model.integrals.begin(), model.integrals.end());
   for (const LevelClaim& claim : model.conditionals) {
     if (names_of(claim.on) == names_of(level)) functions.push_back(claim.expression);

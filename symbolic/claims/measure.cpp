@@ -1,6 +1,7 @@
 // Invariant measures: the density rho satisfies div(rho f) + d(rho)/dt = 0 for the flow f, or for
 // the flow of every Hamiltonian, which for rho = 1 is the unimodularity of a Lie algebra
-// (Borisov & Mamaev, Sec. 1.2).
+// (Borisov & Mamaev, Sec. 1.2). A density is a real function that is not zero everywhere: of the
+// zero function the equation would say nothing.
 #include <fmt/format.h>
 
 #include "symbolic/claims/claim.hpp"
@@ -42,6 +43,52 @@ std::vector<Residual> modular_field(Prover& prover, const NamedExpression& densi
   return residuals;
 }
 
+bool has_imaginary_number(const GiNaC::ex& e) {
+  for (auto part = e.preorder_begin(); part != e.preorder_end(); ++part) {
+    if (GiNaC::is_a<GiNaC::numeric>(*part) && !GiNaC::ex_to<GiNaC::numeric>(*part).is_real())
+      return true;
+  }
+  return false;
+}
+
+/// Why the function is not known to be a density; empty where it is one. `both_signs` becomes
+/// whether points are found at which it is positive and others at which it is negative.
+std::string doubt_about(Prover& prover, const GiNaC::ex& density, bool* both_signs) {
+  if (prover.ring().numerator(prover.convert(density)).is_zero())
+    return "the density is identically zero, which is no measure";
+  if (has_imaginary_number(density) && has_imaginary_number(density.expand()))
+    return "the density is not shown to be real";
+  bool positive = false;
+  bool negative = false;
+  constexpr int kPoints = 12;
+  for (int i = 0; i < kPoints && !(positive && negative); ++i) {
+    auto point = prover.real_points().random(prover.domain());
+    if (!point) break;
+    const auto sign = point->evaluator().sign(density);
+    positive = positive || sign == 1;
+    negative = negative || sign == -1;
+  }
+  if (!positive && !negative)
+    return "no point was found at which the density has a real value that is not zero";
+  *both_signs = positive && negative;
+  return {};
+}
+
+void decide_measure(Prover& prover, Proof& proof, const NamedExpression& density, bool every) {
+  prover.decide(
+      proof,
+      every ? modular_field(prover, density) : std::vector{divergence_of_flow(prover, density)},
+      {});
+  if (proof.verdict != Verdict::proved) return;
+  bool both_signs = false;
+  proof.reason = doubt_about(prover, density.value, &both_signs);
+  if (!proof.reason.empty()) {
+    proof.verdict = Verdict::undecided;
+  } else if (both_signs) {
+    proof.evidence = "the density has both signs: it is a measure only on parts of the domain";
+  }
+}
+
 }  // namespace
 
 std::vector<Claim> measure_claims(const Model& model) {
@@ -53,10 +100,7 @@ std::vector<Claim> measure_claims(const Model& model) {
                       density.name + (every ? ", every Hamiltonian" : ""),
                       false,
                       [density, every](Prover& prover, Proof& proof) {
-                        prover.decide(proof,
-                                      every ? modular_field(prover, density)
-                                            : std::vector{divergence_of_flow(prover, density)},
-                                      {});
+                        decide_measure(prover, proof, density, every);
                       },
                       {},
                       {density.value}});

@@ -73,18 +73,24 @@ void check_certificate_name(const std::string& path) {
   }
 }
 
-/// Only what is proved has a certificate.
-void write_certificate(const Model& model, const Options& options, Verdict verdict) {
-  if (verdict != Verdict::proved) {
+/// Only what is proved has a certificate. What is said of it in JSON: null where none was written.
+nlohmann::ordered_json write_certificate(const Model& model, const Options& options,
+                                         const std::vector<Proof>& proofs) {
+  if (overall(model, proofs) != Verdict::proved) {
     std::cerr << "casimir: no certificate was written: not every claim is proved\n";
-    return;
+    return nullptr;
   }
-  const Certificate certificate = coq_certificate(model, candidates_of(options));
+  const Certificate certificate = coq_certificate(model, candidates_of(options), proofs);
   OutputFile file(options.certificate);
   file.stream() << certificate.text;
   file.commit();
-  for (const std::string& claim : certificate.left_out)
-    std::cerr << "casimir: proved, but not in the certificate: " << printable(claim) << '\n';
+  nlohmann::ordered_json left_out = nlohmann::ordered_json::array();
+  for (const LeftOut& claim : certificate.left_out) {
+    std::cerr << fmt::format("casimir: proved, but not in the certificate: {} {} ({})\n",
+                             claim.kind, printable(claim.name), claim.reason);
+    left_out.push_back({{"kind", claim.kind}, {"name", printable(claim.name, 1000)}, {"reason", claim.reason}});
+  }
+  return {{"file", printable(options.certificate, 1000)}, {"left_out", left_out}};
 }
 
 /// Proves one case; its lines appear as they are decided, unless only a summary or JSON is wanted.
@@ -101,8 +107,9 @@ Verified verify_one(const CaseFile& file, const Options& options, double time_li
   const double seconds = seconds_since(start);
   if (report) report->end(proofs, seconds);
   const CaseOutcome outcome = outcome_of(model, proofs, seconds);
-  if (!options.certificate.empty()) write_certificate(model, options, outcome.verdict);
-  return {outcome, to_json(model, proofs, seconds)};
+  nlohmann::ordered_json json = to_json(model, proofs, seconds);
+  if (!options.certificate.empty()) json["certificate"] = write_certificate(model, options, proofs);
+  return {outcome, std::move(json)};
 }
 
 int exit_status(Verdict verdict) {
