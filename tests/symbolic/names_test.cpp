@@ -96,7 +96,7 @@ TEST(NamesOfFunctions, MayBeThatOfWhatTheyAre) {
 Model two_pairs() {
   return oscillator(
       "[[lax]]\nspectral = \"z\"\nL = [[\"p\",\"q*z\"],[\"q/z\",\"-p\"]]\n"
-      "A = [[\"0\",\"-z\"],[\"1/z\",\"0\"]]\n"
+      "A = [[\"0\",\"z\"],[\"-1/z\",\"0\"]]\n"
       "[[lax]]\nspectral = \"z\"\nL = [[\"p\",\"q*z\"],[\"q\",\"-p\"]]\n"
       "A = [[\"0\",\"-1\"],[\"1\",\"0\"]]\n");
 }

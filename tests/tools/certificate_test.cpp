@@ -178,8 +178,16 @@ struct Compared {
     }
     for (std::size_t i = 0; i < model.conditionals.size(); ++i)
       on_level("conditional_" + std::to_string(i + 1), model.conditionals[i], false);
-    for (std::size_t i = 0; i < model.invariant_relations.size(); ++i)
-      on_level("relation_" + std::to_string(i + 1), model.invariant_relations[i], true);
+    // What restricts the scenes is the first relation that the case claims.
+    std::vector<LevelClaim> relations;
+    if (!model.constraints.empty()) {
+      relations.push_back(
+          {model.constraints.back(), {model.constraints.begin(), model.constraints.end() - 1}});
+    }
+    relations.insert(relations.end(), model.invariant_relations.begin(),
+                     model.invariant_relations.end());
+    for (std::size_t i = 0; i < relations.size(); ++i)
+      on_level("relation_" + std::to_string(i + 1), relations[i], true);
   }
 };
 
