@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <unordered_map>
 
 #include "symbolic/search/level_points.hpp"
@@ -66,13 +67,13 @@ void check_memory(const Problem& problem, const Watch& watch) {
 }
 
 /// By how much the fields raise the degree.
-int growth_of(const Problem& problem) {
+int growth_of(const Problem& problem, const std::vector<int>& weights) {
   int growth = 0;
   for (const auto& rates : problem.fields.rates) {
     for (std::size_t i = 0; i < rates.size(); ++i) {
       if (rates[i].is_zero()) continue;
-      growth = std::max(growth, weighted_degree(rates[i], problem.fields.places, problem.weights) -
-                                    problem.weights[i]);
+      growth =
+          std::max(growth, weighted_degree(rates[i], problem.fields.places, weights) - weights[i]);
     }
   }
   return growth;
@@ -122,7 +123,7 @@ class Run {
   Monomials ansatz_;
   std::vector<Relation> relations_;
   std::size_t multipliers_ = 0;
-  bool coprime_ = true;
+  bool coprime_ = true, independent_ = true;
   Point constants_;
   std::vector<Block> blocks_;
   std::vector<Echelon> echelons_;
@@ -140,6 +141,7 @@ void Run::take_ansatz() {
   ansatz_ = std::move(ansatz.monomials);
   relations_ = std::move(ansatz.relations);
   coprime_ = ansatz.coprime;
+  independent_ = ansatz.independent;
   for (const Relation& relation : relations_) multipliers_ += relation.multipliers.size();
 }
 
@@ -354,7 +356,10 @@ Solution Run::run() {
     solution_.found.push_back(generators_.back());
     add_products(generators_.size() - 1);
   }
-  solution_.complete = all_found && coprime_ && span_.dimension() == nullity_;
+  // Cofactors of the relations are unknowns for one field only.
+  const bool cofactors = relations_.empty() || problem_.fields.rates.size() == 1;
+  solution_.complete =
+      all_found && coprime_ && independent_ && cofactors && span_.dimension() == nullity_;
   if (!all_found) {
     solution_.reason =
         "there seem to be further integrals, but their coefficients were not found as polynomials "
@@ -362,6 +367,12 @@ Solution Run::run() {
   } else if (!coprime_) {
     solution_.reason =
         "only cofactors of low degree were tried, and the functions of the level may need others";
+  } else if (!independent_) {
+    solution_.reason = "the declared functions are not independent of the others";
+  } else if (!cofactors) {
+    solution_.reason =
+        "the rates of Casimir functions are compared without the relations between roots, sines "
+        "and denominators";
   } else if (!solution_.complete) {
     solution_.reason =
         fmt::format("modulo a prime there are {} solutions, while {} were found: more may exist",
@@ -370,30 +381,124 @@ Solution Run::run() {
   return solution_;
 }
 
+/// Weights by which the relations are a Groebner basis if their leading monomials have no variable
+/// in common: a defined function is as heavy as its value, and leads it as it stands behind.
+std::vector<int> weights_of_relations(const System& system, const Problem& problem) {
+  std::vector<int> weights = problem.weights;
+  for (const System::Defined& d : system.defined()) {
+    const auto place =
+        std::find(problem.fields.places.begin(), problem.fields.places.end(), d.place);
+    if (place == problem.fields.places.end()) continue;
+    weights[static_cast<std::size_t>(place - problem.fields.places.begin())] =
+        std::max(1, weighted_degree(d.value, problem.fields.places, weights));
+  }
+  return weights;
+}
+
+/// Of the rates of the ansatz, by the weights of the relations.
+int highest_degree(const System& system, const Problem& problem, const Monomials& ansatz,
+                   const std::vector<int>& weights) {
+  int highest = problem.degree;
+  for (std::size_t c = 0; c < ansatz.size() && !system.defined().empty(); ++c) {
+    int own = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i) own += weights[i] * ansatz[c][i];
+    highest = std::max(highest, own);
+  }
+  highest += growth_of(problem, weights);
+  constexpr int kHighestPower = 250;
+  if (!system.defined().empty() && highest > kHighestPower)
+    throw ModelError("the degrees of the declared functions are too high to be searched");
+  return highest;
+}
+
+/// The monomials without silent atoms, and without those that are multiples of others as
+/// functions: (x^(2/3))^3 is x^2. Where a relation between them is left, they are not independent.
+void choose_independent(const System& system, const Problem& problem, Ansatz& ansatz) {
+  const auto& places = problem.fields.places;
+  Monomials visible(places.size());
+  std::vector<Polynomial> values;
+  for (std::size_t c = 0; c < ansatz.monomials.size(); ++c) {
+    const std::uint8_t* exponents = ansatz.monomials[c];
+    Polynomial value = system.ring().constant(1);
+    bool silent = false;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (exponents[i] == 0) continue;
+      silent = silent || system.is_silent()[places[i]];
+      const auto own = std::find_if(system.defined().begin(), system.defined().end(),
+                                    [&](const auto& d) { return d.place == places[i]; });
+      const Polynomial base =
+          own == system.defined().end() ? system.ring().variable(places[i]) : own->value;
+      if (!silent) value = system.functions().checked_product(value, base.pow(exponents[i]));
+    }
+    if (silent) continue;
+    visible.add({exponents, exponents + places.size()}, ansatz.monomials.degree(c));
+    values.push_back(std::move(value));
+  }
+  values = system.functions().common_numerators(std::move(values));
+  ansatz.monomials = Monomials(places.size());
+  const Modulus modulus = Modulus::nth(0);
+  std::mt19937_64 random(81);
+  const std::optional<Point> constants = system.random_point(modulus, random);
+  std::map<std::vector<unsigned long>, std::size_t> columns;
+  std::vector<std::map<std::size_t, Residue>> rows;
+  std::vector<Polynomial> kept;
+  for (std::size_t c = 0; c < visible.size(); ++c) {
+    const Polynomial primitive = values[c].scaled(1 / values[c].content());
+    if (std::find(kept.begin(), kept.end(), primitive) != kept.end()) continue;
+    kept.push_back(primitive);
+    ansatz.monomials.add({visible[c], visible[c] + places.size()}, visible.degree(c));
+    auto& row = rows.emplace_back();
+    for (auto [number, exponents] : primitive.term_list()) {
+      Residue value = modulus.reduce(number).value_or(0);
+      for (std::size_t i = 0; i < exponents.size(); ++i) {
+        if (!system.is_constant()[i]) continue;
+        if (constants)
+          value = modulus.multiply(value, modulus.power((*constants)[i], exponents[i]));
+        exponents[i] = 0;
+      }
+      Residue& sum = row[columns.try_emplace(exponents, columns.size()).first->second];
+      sum = modulus.add(sum, value);
+    }
+  }
+  Span span(modulus);
+  for (const auto& row : rows) {
+    std::vector<Residue> full(columns.size(), 0);
+    for (const auto& [column, value] : row) full[column] = value;
+    span.insert(std::move(full));
+  }
+  ansatz.independent = constants.has_value() && span.dimension() == rows.size();
+}
+
 }  // namespace
 
 Ansatz make_ansatz(const System& system, const Problem& problem, const Watch& watch) {
   check_memory(problem, watch);
   const auto& places = problem.fields.places;
-  const int growth = growth_of(problem);
-  Ansatz ansatz{Monomials(places.size()), {}, true};
-  std::vector<std::vector<std::uint8_t>> leading;
+  const std::vector<int> weights = weights_of_relations(system, problem);
   std::vector<Polynomial> level = problem.on;
   level.insert(level.end(), system.relations().begin(), system.relations().end());
-  for (const Polynomial& function : level) {
-    const int left = problem.degree + growth - weighted_degree(function, places, problem.weights);
+  std::vector<std::vector<std::uint8_t>> leading;
+  for (const Polynomial& f : level) leading.push_back(leading_monomial(f, places, weights));
+  // A defined function is an unknown itself, and not what it leads.
+  const auto replaced = leading.end() - static_cast<std::ptrdiff_t>(system.defined().size());
+  Ansatz ansatz{without_multiples(all_monomials(problem.weights, problem.degree),
+                                  {leading.begin(), replaced}),
+                {}};
+  if (!system.defined().empty()) choose_independent(system, problem, ansatz);
+  const int highest = highest_degree(system, problem, ansatz.monomials, weights);
+  for (std::size_t f = 0; f < level.size(); ++f) {
+    const int left = highest - weighted_degree(level[f], places, weights);
+    const auto own = leading.begin() + static_cast<std::ptrdiff_t>(f);
     // A multiple of an earlier relation need not be a cofactor: that one's takes it over.
     if (left >= 0) {
       ansatz.relations.push_back(
-          {function, without_multiples(all_monomials(problem.weights, left), leading)});
+          {level[f], without_multiples(all_monomials(weights, left), {leading.begin(), own})});
     }
-    leading.push_back(leading_monomial(function, places, problem.weights));
-    for (std::size_t i = 0; i + 1 < leading.size(); ++i) {
+    for (auto earlier = leading.begin(); earlier != own; ++earlier) {
       for (std::size_t k = 0; k < places.size(); ++k)
-        ansatz.coprime = ansatz.coprime && (leading[i][k] == 0 || leading.back()[k] == 0);
+        ansatz.coprime = ansatz.coprime && ((*earlier)[k] == 0 || (*own)[k] == 0);
     }
   }
-  ansatz.monomials = without_multiples(all_monomials(problem.weights, problem.degree), leading);
   return ansatz;
 }
 
