@@ -81,6 +81,7 @@ struct Place {
 //     factor with real roots that are not rational leaves the answer open (add_factor);
 //   - A has to be polynomial in a: if a is inside a function, then at special values this may be
 //     another function, of which no minor knows (inside_functions);
+//   - the level has to be the same for all a, or its leading monomials might change (run);
 //   - the generic search has to be complete, with functions that are independent (Finder::doubt);
 //   - denominators that are multiplied out change nothing where they do not vanish identically;
 //     where they do, the equations have no meaning (meaningless);
@@ -331,9 +332,9 @@ ConditionReport ConditionFinder::run(const std::vector<std::size_t>& free) {
     leave_open(fmt::format("'{}' is inside a function, of which only simple values were tried",
                            parameter(place).get_name()));
   }
-  for (const Relation& relation : ansatz.relations) {
+  for (const Polynomial& level : problem.on) {
     for (const std::size_t place : free) {
-      if (relation.function.uses(place))
+      if (level.uses(place))
         leave_open(fmt::format("the level depends on '{}'", parameter(place).get_name()));
     }
   }

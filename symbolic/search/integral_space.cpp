@@ -87,7 +87,7 @@ class Run {
       : system_(system),
         problem_(problem),
         watch_(watch),
-        modulus_(Modulus::nth(0)),
+        modulus_(usable_modulus(system)),
         random_(11),
         ansatz_(problem.weights.size()),
         span_(modulus_),
@@ -436,7 +436,7 @@ void choose_independent(const System& system, const Problem& problem, Ansatz& an
   }
   values = system.functions().common_numerators(std::move(values));
   ansatz.monomials = Monomials(places.size());
-  const Modulus modulus = Modulus::nth(0);
+  const Modulus modulus = usable_modulus(system);
   std::mt19937_64 random(81);
   const std::optional<Point> constants = system.random_point(modulus, random);
   std::map<std::vector<unsigned long>, std::size_t> columns;
@@ -515,7 +515,7 @@ int weighted_degree(const Polynomial& p, const std::vector<std::size_t>& places,
 }
 
 std::size_t rank_of_gradients(const System& system, const std::vector<Polynomial>& functions) {
-  const Modulus modulus = Modulus::nth(0);
+  const Modulus modulus = usable_modulus(system);
   std::mt19937_64 random(5);
   const std::optional<Point> point = system.random_point(modulus, random);
   if (!point) return 0;

@@ -102,7 +102,7 @@ std::vector<Generator> Finder::casimirs_as_needed() {
   // The rank of the bracket at a random point is a lower bound of the generic one.
   std::size_t rank = 0;
   {
-    const Modulus modulus = Modulus::nth(0);
+    const Modulus modulus = usable_modulus(system_);
     std::mt19937_64 random(3);
     const std::optional<Point> point = system_.random_point(modulus, random);
     if (!point) return {};

@@ -291,6 +291,16 @@ std::optional<Point> System::random_point(const Modulus& modulus, std::mt19937_6
   return std::nullopt;
 }
 
+Modulus usable_modulus(const System& system) {
+  constexpr std::size_t kPrimes = 64;
+  for (std::size_t i = 0; i < kPrimes; ++i) {
+    std::mt19937_64 random(5);
+    const Modulus modulus = Modulus::nth(i);
+    if (system.random_point(modulus, random)) return modulus;
+  }
+  return Modulus::nth(0);
+}
+
 std::optional<Residue> value_at(const Polynomial& p, const Point& point, const Modulus& modulus) {
   Residue sum = 0;
   for (const auto& [coefficient, exponents] : p.term_list()) {

@@ -114,6 +114,10 @@ class System {
   std::vector<std::vector<Polynomial>> coordinate_flows_;
 };
 
+/// The first prime modulo which all variables of the system's ring have values: a root of 2 is not
+/// in every field.
+Modulus usable_modulus(const System& system);
+
 /// The value of p, where every variable of its ring has one.
 /// \return  empty where the modulus divides a denominator.
 std::optional<Residue> value_at(const Polynomial& p, const Point& point, const Modulus& modulus);
