@@ -99,6 +99,7 @@ class ConditionFinder {
 
  private:
   void add_factor(const Polynomial& factor, const std::vector<std::size_t>& free);
+  void add_roots(const Polynomial& factor, std::size_t place);
   void add_points(const std::vector<ParametricBlock>& blocks, const std::vector<std::size_t>& free);
   void add_sets(const std::vector<ParametricBlock>& blocks, const std::vector<std::size_t>& free);
   void try_values(std::size_t place);
@@ -235,6 +236,7 @@ void ConditionFinder::add_factor(const Polynomial& factor, const std::vector<std
   }
   if (!main) {
     if (used == 1 && real_roots(factor, *only) == 0) return;
+    if (used == 1 && factor.degree(*only) == 2) return add_roots(factor, *only);
     leave_open(fmt::format("'{} = 0' has no rational solution to confirm", condition.relation));
     report_.conditions.push_back(condition);
     return;
@@ -246,6 +248,28 @@ void ConditionFinder::add_factor(const Polynomial& factor, const std::vector<std
   // Where the leading coefficient vanishes, the value is none: a set of two conditions.
   if (used == 1) condition.relation.clear();
   confirm(place, condition);
+}
+
+/// Both roots of a factor of degree two.
+void ConditionFinder::add_roots(const Polynomial& factor, std::size_t place) {
+  const std::vector<Polynomial> c = factor.coefficients(place);
+  const Polynomial discriminant = c[1] * c[1] - (c[0] * c[2]).scaled(4);
+  const FunctionRing& ring = finder_.system().functions();
+  const std::string bottom = text(c[2].scaled(2));
+  for (const int sign : {1, -1}) {
+    const ex root = GiNaC::sqrt(ring.expression(discriminant)) * sign;
+    const ex value = (root - ring.expression(c[1])) / ring.expression(c[2].scaled(2));
+    Condition condition;
+    condition.relation = text(factor);
+    const std::string size = fmt::format("sqrt({})", text(discriminant));
+    const std::string top =
+        c[1].is_zero() ? (sign > 0 ? size : "-" + size)
+                       : fmt::format("({} {} {})", text(-c[1]), sign > 0 ? "+" : "-", size);
+    const Place own{{{parameter(place), value}},
+                    {{parameter(place).get_name(), top + "/" + bottom}}};
+    if (confirm(own, condition) == Confirmed::open && sign > 0)
+      report_.conditions.push_back(condition);
+  }
 }
 
 bool ConditionFinder::on_a_found_surface(const GiNaC::exmap& point) const {

@@ -411,8 +411,93 @@ int highest_degree(const System& system, const Problem& problem, const Monomials
   return highest;
 }
 
-/// The monomials without silent atoms, and without those that are multiples of others as
-/// functions: (x^(2/3))^3 is x^2. Where a relation between them is left, they are not independent.
+/// Functions of which each is a combination of those before it with rational coefficients, or
+/// independent of them: the first is checked exactly, the second modulo a prime, where functions
+/// are independent only if they are.
+class Combinations {
+ public:
+  explicit Combinations(const System& system) : system_(system), modulus_(usable_modulus(system)) {
+    std::mt19937_64 random(81);
+    constants_ = system.random_point(modulus_, random);
+  }
+
+  enum class Added { independent, dependent, unknown };
+  Added add(const Polynomial& f);
+
+ private:
+  using Row = std::map<std::size_t, Residue>;
+  struct Reduced {
+    std::size_t pivot;
+    Row row, combination;  ///< row = the sum of combination[k] times the k-th function
+  };
+  Row row_of(const Polynomial& f);
+  void subtract(Row& row, const Row& other, Residue factor) const;
+
+  const System& system_;
+  Modulus modulus_;
+  std::optional<Point> constants_;
+  std::map<std::vector<unsigned long>, std::size_t> columns_;
+  std::vector<Polynomial> functions_;
+  std::vector<Reduced> rows_;
+};
+
+/// The coefficients of the monomials in what moves.
+Combinations::Row Combinations::row_of(const Polynomial& f) {
+  Row row;
+  for (auto [number, exponents] : f.term_list()) {
+    Residue value = modulus_.reduce(number).value_or(0);
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
+      if (!system_.is_constant()[i]) continue;
+      value = modulus_.multiply(value, modulus_.power((*constants_)[i], exponents[i]));
+      exponents[i] = 0;
+    }
+    Residue& sum = row[columns_.try_emplace(exponents, columns_.size()).first->second];
+    sum = modulus_.add(sum, value);
+  }
+  std::erase_if(row, [](const auto& entry) { return entry.second == 0; });
+  return row;
+}
+
+void Combinations::subtract(Row& row, const Row& other, Residue factor) const {
+  for (const auto& [place, value] : other) {
+    Residue& sum = row[place];
+    sum = modulus_.add(sum, modulus_.negative(modulus_.multiply(factor, value)));
+    if (sum == 0) row.erase(place);
+  }
+}
+
+Combinations::Added Combinations::add(const Polynomial& f) {
+  if (!constants_) return Added::unknown;
+  Row row = row_of(f), combination{{functions_.size(), 1}};
+  for (const Reduced& known : rows_) {
+    const auto entry = row.find(known.pivot);
+    if (entry == row.end()) continue;
+    const Residue factor =
+        modulus_.multiply(entry->second, modulus_.inverse(known.row.at(known.pivot)));
+    subtract(row, known.row, factor);
+    subtract(combination, known.combination, factor);
+  }
+  if (!row.empty()) {
+    functions_.push_back(f);
+    const std::size_t pivot = row.begin()->first;
+    rows_.push_back({pivot, std::move(row), std::move(combination)});
+    return Added::independent;
+  }
+  // f is minus the sum of the others.
+  Polynomial rest = f;
+  for (const auto& [k, residue] : combination) {
+    if (k == functions_.size()) continue;
+    const std::optional<cln::cl_RA> number =
+        rational_from(cln::cl_I(static_cast<unsigned long>(residue)),
+                      cln::cl_I(static_cast<unsigned long>(modulus_.prime())));
+    if (!number) return Added::unknown;
+    rest += functions_[k].scaled(*number);
+  }
+  return rest.is_zero() ? Added::dependent : Added::unknown;
+}
+
+/// The monomials without silent atoms, and without those that are combinations of others as
+/// functions: (x^(2/3))^3 is x^2, and (x^2 + y^2)/r is r.
 void choose_independent(const System& system, const Problem& problem, Ansatz& ansatz) {
   const auto& places = problem.fields.places;
   Monomials visible(places.size());
@@ -436,37 +521,13 @@ void choose_independent(const System& system, const Problem& problem, Ansatz& an
   }
   values = system.functions().common_numerators(std::move(values));
   ansatz.monomials = Monomials(places.size());
-  const Modulus modulus = usable_modulus(system);
-  std::mt19937_64 random(81);
-  const std::optional<Point> constants = system.random_point(modulus, random);
-  std::map<std::vector<unsigned long>, std::size_t> columns;
-  std::vector<std::map<std::size_t, Residue>> rows;
-  std::vector<Polynomial> kept;
+  Combinations kept(system);
   for (std::size_t c = 0; c < visible.size(); ++c) {
-    const Polynomial primitive = values[c].scaled(1 / values[c].content());
-    if (std::find(kept.begin(), kept.end(), primitive) != kept.end()) continue;
-    kept.push_back(primitive);
+    const Combinations::Added added = kept.add(values[c]);
+    if (added == Combinations::Added::dependent) continue;
+    ansatz.independent = ansatz.independent && added == Combinations::Added::independent;
     ansatz.monomials.add({visible[c], visible[c] + places.size()}, visible.degree(c));
-    auto& row = rows.emplace_back();
-    for (auto [number, exponents] : primitive.term_list()) {
-      Residue value = modulus.reduce(number).value_or(0);
-      for (std::size_t i = 0; i < exponents.size(); ++i) {
-        if (!system.is_constant()[i]) continue;
-        if (constants)
-          value = modulus.multiply(value, modulus.power((*constants)[i], exponents[i]));
-        exponents[i] = 0;
-      }
-      Residue& sum = row[columns.try_emplace(exponents, columns.size()).first->second];
-      sum = modulus.add(sum, value);
-    }
   }
-  Span span(modulus);
-  for (const auto& row : rows) {
-    std::vector<Residue> full(columns.size(), 0);
-    for (const auto& [column, value] : row) full[column] = value;
-    span.insert(std::move(full));
-  }
-  ansatz.independent = constants.has_value() && span.dimension() == rows.size();
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ TEST(Proved, SetsOfTwoConditionsAreFoundOrLeftOpen) {
   EXPECT_TRUE(places_of(top).contains("a1 = 1, r1 = 0, r2 = 0"));
 }
 
-TEST(Proved, AFactorWithoutRealRootsIsNoValueAndOneWithIrrationalRootsLeavesItOpen) {
+TEST(Proved, AFactorWithoutRealRootsIsNoValueAndAnIrrationalRootIsConfirmedOrLeftOpen) {
   const auto system = [](const std::string& factor) {
     return "[phase_space]\nvariables = [\"x\", \"y\"]\n[parameters]\nn = {}\n[equations]\nx = "
            "\"1\"\n"
@@ -150,7 +150,13 @@ TEST(Proved, AFactorWithoutRealRootsIsNoValueAndOneWithIrrationalRootsLeavesItOp
       "[phase_space]\nvariables = [\"x\", \"y\"]\n[parameters]\nn = {}\n[equations]\nx = \"1\"\n"
       "y = \"(n^2 - 2)*(y^2 + x)\"\n",
       2, {"n"});
-  EXPECT_FALSE(real.complete);
+  EXPECT_TRUE(real.complete) << real.reason;
+  EXPECT_EQ(places_of(real), (std::set<std::string>{"n = sqrt(8)/2", "n = -sqrt(8)/2"}));
+  const auto cubic = conditions(
+      "[phase_space]\nvariables = [\"x\", \"y\"]\n[parameters]\nn = {}\n[equations]\nx = \"1\"\n"
+      "y = \"(n^3 - 2)*(y^2 + x)\"\n",
+      2, {"n"});
+  EXPECT_FALSE(cubic.complete);
   const auto imaginary = conditions(
       "[phase_space]\nvariables = [\"x\", \"y\"]\n[parameters]\nn = {}\n[equations]\nx = \"1\"\n"
       "y = \"(n^2 + 2)*(y^2 + x)\"\n",
@@ -245,7 +251,9 @@ TEST(Proved, ADeclaredFunctionItselfIsTheUnknown) {
   const std::string kepler =
       "hamiltonian = \"(px^2 + py^2)/2 - 1/sqrt(x^2 + y^2)\"\n[phase_space]\n"
       "variables = [\"x\", \"y\", \"px\", \"py\"]\ncanonical = true\n";
-  EXPECT_GE(with_functions(kepler, 3, {"1/sqrt(x^2 + y^2)"}).found.size(), 3U);
+  const search::Report runge = with_functions(kepler, 3, {"1/sqrt(x^2 + y^2)"});
+  EXPECT_GE(runge.found.size(), 3U);
+  EXPECT_TRUE(runge.complete) << runge.reason;
 }
 
 // x and y have the weights 1 and 2, and y - c*x^2 has the cofactor of both parts.
