@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include "symbolic/error.hpp"
 #include "symbolic/expression.hpp"
 #include "symbolic/search/finder.hpp"
 #include "symbolic/search/rank_conditions.hpp"
@@ -144,6 +145,8 @@ bool meaningless(const Model& special) {
   try {
     Prover prover(special, {});
     prover.field();
+    return false;
+  } catch (const TooLarge&) {
     return false;
   } catch (const ModelError&) {
     return true;

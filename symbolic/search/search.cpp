@@ -90,30 +90,35 @@ std::vector<Generator> Finder::casimirs_as_needed() {
     for (auto& row : problem.fields.rates) row.erase(row.begin() + place);
     problem.weights.erase(problem.weights.begin() + place);
   }
-  std::vector<Polynomial> functions;
-  if (request_.casimirs) {
-    problem.degree = request_.degree;
-    watch_.begin("Casimir functions");
-    Solution solution = solve(system_, problem, watch_);
-    take(solution);
-    drop_constants(solution.found);
-    return solution.found;
-  }
   // The rank of the bracket at a random point is a lower bound of the generic one.
   std::size_t rank = 0;
   {
     const Modulus modulus = usable_modulus(system_);
     std::mt19937_64 random(3);
     const std::optional<Point> point = system_.random_point(modulus, random);
-    if (!point) return {};
     Span span(modulus);
     for (const auto& row : problem.fields.rates) {
+      if (!point) break;
       std::vector<Residue> values;
       for (std::size_t i = 0; i < model_.variables.size(); ++i)
         values.push_back(value_at(row[i], *point, modulus).value_or(0));
       span.insert(std::move(values));
     }
     rank = span.dimension();
+  }
+  std::vector<Polynomial> functions;
+  if (request_.casimirs) {
+    problem.degree = request_.degree;
+    watch_.begin("Casimir functions");
+    Solution solution = solve(system_, problem, watch_);
+    // Nothing but the constants is annihilated by all fields of the coordinates.
+    if (rank == model_.variables.size() && solution.found.empty()) {
+      solution.complete = true;
+      solution.reason.clear();
+    }
+    take(solution);
+    drop_constants(solution.found);
+    return solution.found;
   }
   const std::size_t room = model_.variables.size() - rank;
   for (int degree = 1; degree <= request_.degree; ++degree) {

@@ -186,7 +186,7 @@ Polynomial System::slope(const Polynomial& p, std::size_t i) const {
 }
 
 std::vector<Polynomial> System::of_atoms(const std::vector<Polynomial>& rates) const {
-  if (prover_.ring().is_polynomial()) return rates;
+  if (prover_.ring().is_polynomial() && defined_.empty()) return rates;
   std::vector<Polynomial> result;
   for (const std::size_t atom : atoms_) {
     SumOfProducts sum(ring());

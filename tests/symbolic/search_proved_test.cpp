@@ -247,6 +247,12 @@ TEST(Proved, ADeclaredFunctionItselfIsTheUnknown) {
   EXPECT_TRUE(has(with_functions(cube, 3, {"x^(1/3)"}), cube, "y*x^(2/3)"));
   // In a finer unit there would be no integral of this degree.
   EXPECT_TRUE(with_functions(cube, 2, {"x^(1/3)"}).found.empty());
+  // A polynomial moves as well.
+  const std::string plane =
+      "[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"x\"\ny = \"-2*y\"\n";
+  EXPECT_TRUE(with_functions(plane, 2, {"x + y^2"}).found.empty());
+  EXPECT_TRUE(has(with_functions(plane, 2, {"x^2"}), plane, "x^2*y"));
+  EXPECT_TRUE(has(with_functions(plane, 2, {"sqrt(y)"}), plane, "x*sqrt(y)"));
   // Runge's vector is of degree two in p and one in 1/r.
   const std::string kepler =
       "hamiltonian = \"(px^2 + py^2)/2 - 1/sqrt(x^2 + y^2)\"\n[phase_space]\n"
