@@ -140,6 +140,31 @@ class FunctionRing {
 
   const std::vector<GiNaC::symbol>& symbols() const { return symbols_; }
   const PolynomialRing& ring() const { return *ring_; }
+  /// What a generator of the ring is.
+  struct Origin {
+    enum class Kind {
+      sine,    ///< its cosine stands just behind it
+      cosine,  ///< of the argument of the sine before it
+      exponential,
+      root,      ///< of order `order`
+      inverse,   ///< 1/argument
+      absolute,  ///< the positive root of the argument, which is a square
+      imaginary,
+      constant,   ///< such as Pi
+      logarithm,  ///< of |argument|
+      arc_tangent,
+      arc_tangent_of_two,
+      arc_sine,  ///< or cosine
+    };
+    Kind kind;
+    Polynomial argument;      ///< of a function of two, the sum of their squares
+    unsigned long order = 1;  ///< of a root
+  };
+  /// \param place  of the generator among the ring's variables, behind the symbols
+  Origin origin(std::size_t place) const;
+  /// One more than the place of the last generator.
+  std::size_t end_of_generators() const { return symbols_.size() + generators_.size(); }
+
   /// True where everything that was converted is a polynomial in the symbols.
   bool is_polynomial() const { return generators_.empty(); }
   /// The imaginary unit occurs, so that roots and logarithms need not be real.
@@ -227,6 +252,7 @@ class FunctionRing {
   bool has_power_relation(const Generator& g) const;
   Polynomial without_inverse(const Polynomial& p, std::size_t g, unsigned long power) const;
   std::string name(const Generator& g) const;
+  std::string power_of(const Generator& g, unsigned long exponent) const;
   bool complete_argument(std::size_t g, std::vector<cln::cl_RA>& point, std::vector<bool>& chosen,
                          const std::function<cln::cl_RA()>& draw, const Freedom& freedom) const;
   std::optional<std::pair<std::size_t, cln::cl_RA>> plain_symbol(const Polynomial& p) const;

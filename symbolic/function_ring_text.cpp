@@ -4,12 +4,22 @@
 #include <cln/rational_io.h>
 #include <fmt/format.h>
 
+#include <numeric>
 #include <sstream>
 
 #include "symbolic/function_ring.hpp"
 #include "symbolic/limits.hpp"
 
 namespace casimir {
+namespace {
+
+std::string power_text(unsigned long exponent) {
+  return exponent == 1 ? "" : "^" + std::to_string(exponent);
+}
+
+std::string bracketed(const std::string& text) { return "(" + text + ")"; }
+
+}  // namespace
 
 using GiNaC::ex;
 
@@ -61,9 +71,8 @@ std::string FunctionRing::text(const Polynomial& p) const {
     for (std::size_t i = 0; i < exponents.size(); ++i) {
       if (exponents[i] == 0) continue;
       if (!factors.empty()) factors += "*";
-      factors +=
-          i < symbols_.size() ? symbols_[i].get_name() : name(generators_[i - symbols_.size()]);
-      if (exponents[i] > 1) factors += "^" + std::to_string(exponents[i]);
+      factors += i < symbols_.size() ? symbols_[i].get_name() + power_text(exponents[i])
+                                     : power_of(generators_[i - symbols_.size()], exponents[i]);
     }
     std::ostringstream number;
     number << cln::abs(coefficient);
@@ -75,6 +84,20 @@ std::string FunctionRing::text(const Polynomial& p) const {
   return result.empty() ? "0" : result;
 }
 
+/// A power associates to the right, and so does not take over a power that is written out: the
+/// square of x^(1/3) is x^(2/3), not x^(1/3)^2.
+std::string FunctionRing::power_of(const Generator& g, unsigned long exponent) const {
+  if (g.kind == Kind::root && g.order > 2) {
+    const unsigned long common = std::gcd(exponent, g.order);
+    const unsigned long bottom = g.order / common;
+    return bracketed(text(g.base)) + "^" +
+           (bottom == 1 ? std::to_string(exponent / common)
+                        : fmt::format("({}/{})", exponent / common, bottom));
+  }
+  return name(g) + power_text(exponent);
+}
+
+/// What stands in a product or under a power as it is; GiNaC's text of log(x^2)/2 does not.
 std::string FunctionRing::name(const Generator& g) const {
   switch (g.kind) {
     case Kind::sine:
@@ -87,8 +110,7 @@ std::string FunctionRing::name(const Generator& g) const {
     case Kind::exponential:
       return "exp(" + text(g.base) + ")";
     case Kind::root:
-      return g.order == 2 ? "sqrt(" + text(g.base) + ")"
-                          : "(" + text(g.base) + ")^(1/" + std::to_string(g.order) + ")";
+      return g.order == 2 ? "sqrt(" + text(g.base) + ")" : power_of(g, 1);
     case Kind::inverse:
       return "(1/(" + text(g.base) + "))";
     case Kind::absolute:
@@ -100,7 +122,51 @@ std::string FunctionRing::name(const Generator& g) const {
   }
   std::ostringstream stream;
   stream << g.value;
-  return stream.str();
+  return GiNaC::is_exactly_a<GiNaC::function>(g.value) ||
+                 GiNaC::is_exactly_a<GiNaC::constant>(g.value)
+             ? stream.str()
+             : bracketed(stream.str());
+}
+
+FunctionRing::Origin FunctionRing::origin(std::size_t place) const {
+  using Of = Origin::Kind;
+  const Generator& g = generators_.at(place - symbols_.size());
+  switch (g.kind) {
+    case Kind::sine:
+      return {Of::sine, g.base};
+    case Kind::cosine:
+      return {Of::cosine, generators_[place - symbols_.size() - 1].base};
+    case Kind::exponential:
+      return {Of::exponential, g.base};
+    case Kind::root:
+      return {Of::root, g.base, g.order};
+    case Kind::inverse:
+      return {Of::inverse, g.base};
+    case Kind::absolute:
+      return {Of::absolute, g.base, g.order};
+    case Kind::imaginary:
+      return {Of::imaginary, g.base};
+    case Kind::function:
+      break;
+  }
+  switch (g.order) {
+    case kLogarithm:
+    case kLogOfAbsolute:
+      return {Of::logarithm, g.base};
+    case kArcTangent:
+      return {Of::arc_tangent, g.base};
+    case kArcSine:
+    case kArcCosine:
+      return {Of::arc_sine, g.base};
+    case kArcTangentOfTwo: {
+      // The arguments were converted when it was made.
+      const Polynomial& y = known_.at(g.value.op(0));
+      const Polynomial& x = known_.at(g.value.op(1));
+      return {Of::arc_tangent_of_two, x * x + y * y};
+    }
+    default:
+      return {Of::constant, g.base};
+  }
 }
 
 bool FunctionRing::is_exponential(const Polynomial& p) const {

@@ -103,7 +103,8 @@ nlohmann::ordered_json to_json(const Model& model, int degree,
                               {"casimirs", texts(report.generic.casimirs)},
                               {"trivial", report.generic.trivial},
                               {"conditions", nlohmann::json::array()},
-                              {"verdict", report.complete ? "proved" : "undecided"}};
+                              {"verdict", report.complete ? "proved" : "undecided"},
+                              {"generic", report.generic.generic}};
   for (const search::Condition& condition : report.conditions) {
     nlohmann::ordered_json own{{"parameters", nlohmann::json::object()}};
     for (const auto& [name, value] : condition.parameters) own["parameters"][name] = value;
@@ -112,7 +113,10 @@ nlohmann::ordered_json to_json(const Model& model, int degree,
     own["verdict"] = to_string(condition.verdict);
     json["conditions"].push_back(own);
   }
-  if (report.points_open) json["points"] = to_string(Verdict::undecided);
+  if (report.sets_open) {
+    json["surfaces"] = to_string(Verdict::proved);
+    json["points"] = to_string(Verdict::undecided);
+  }
   if (!report.reason.empty()) json["reason"] = report.reason;
   json["seconds"] = seconds;
   return json;
@@ -136,17 +140,14 @@ void print(const Model& model, int degree, const search::ConditionReport& report
     print_list(condition.found, colour);
   }
   if (report.conditions.empty()) fmt::print("none found\n");
-  if (report.complete)
-    fmt::print("No other {}: {}\n", report.points_open ? "curve or surface" : "value",
+  if (report.sets_open)
+    fmt::print("No other curve or surface of one condition: {}\n",
                verdict_text(Verdict::proved, colour));
-  if (report.points_open)
-    fmt::print("Whether there are other single points is {}: {}\n",
-               verdict_text(Verdict::undecided, colour),
-               "they are sought among small fractions only");
-  if (!report.complete) {
+  if (report.complete)
+    fmt::print("No other value, curve or set: {}\n", verdict_text(Verdict::proved, colour));
+  else
     fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
                report.reason);
-  }
   fmt::print("{} conditions, {:.3f} s\n", report.conditions.size(), seconds);
 }
 

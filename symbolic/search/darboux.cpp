@@ -25,6 +25,11 @@ class DarbouxSearch {
   void find_grading();
   int weight(const Monomials& list, std::size_t i) const;
   void search_from(std::size_t leading);
+  void look_for_pencils();
+  void leave_open(const std::string& reason) {
+    report_.complete = false;
+    report_.reason = reason;
+  }
   void add(const Branch& branch, const Polynomial& f, const Polynomial& k);
   Polynomial in_own_ring(const Polynomial& p) const;
   Polynomial monomial(const Monomials& list, std::size_t i) const;
@@ -37,11 +42,12 @@ class DarbouxSearch {
   std::size_t dimension_;
   Monomials monomials_, cofactor_monomials_;
   std::size_t first_f_, first_k_;
-  /// Where the whole field is quasi-homogeneous: then the parts of one weight of a Darboux
-  /// polynomial are some themselves, and the cofactor has the weight of 1/t.
+  /// Where the whole field is quasi-homogeneous: then the cofactor has the weight of 1/t, and the
+  /// parts of one weight of a Darboux polynomial are some themselves, all with its cofactor.
   std::optional<Weights> weights_;
   PolynomialRing ring_;  ///< that of the system, the coefficients of F and those of the cofactor
   std::vector<Polynomial> field_;
+  std::vector<std::pair<Polynomial, Polynomial>> found_;  ///< with the cofactors
   DarbouxReport report_;
 };
 
@@ -182,6 +188,42 @@ void DarbouxSearch::add(const Branch& branch, const Polynomial& f, const Polynom
   for (const Proof& proof : prove(model_, candidates, [](const Proof&) { return false; }))
     result.verdict = proof.verdict;
   report_.found.push_back(std::move(result));
+  found_.emplace_back(*own, quotient);
+}
+
+/// A sum of quasi-homogeneous ones of different weights that have one cofactor was not looked for.
+/// It is irreducible only if two of its parts, without what they have in common, are products of
+/// those found with one cofactor; where one of them is 1, the sum is an integral.
+void DarbouxSearch::look_for_pencils() {
+  std::vector<int> degrees;
+  for (const auto& [function, cofactor] : found_)
+    degrees.push_back(static_cast<int>(function.total_degree()));
+  const int degree = monomials_.degree(monomials_.size() - 1);
+  const std::vector<std::vector<int>> products = products_up_to(degrees, degree, 0);
+  std::vector<Polynomial> cofactors;
+  for (const std::vector<int>& exponents : products) {
+    Polynomial sum(system_.ring());
+    for (std::size_t i = 0; i < exponents.size(); ++i) sum += found_[i].second.scaled(exponents[i]);
+    cofactors.push_back(std::move(sum));
+  }
+  const auto is_one = [](const std::vector<int>& exponents) {
+    return std::ranges::all_of(exponents, [](int e) { return e == 0; });
+  };
+  const auto coprime = [](const std::vector<int>& a, const std::vector<int>& b) {
+    for (std::size_t k = 0; k < a.size(); ++k)
+      if (a[k] > 0 && b[k] > 0) return false;
+    return true;
+  };
+  for (std::size_t i = 0; i < products.size(); ++i) {
+    for (std::size_t j = 0; j < i && !is_one(products[i]); ++j) {
+      if (is_one(products[j]) || !(cofactors[i] == cofactors[j])) continue;
+      if (!coprime(products[i], products[j])) continue;
+      leave_open(
+          "products of those found have the same cofactor, and their sums are further ones, which "
+          "are not shown");
+      return;
+    }
+  }
 }
 
 /// All with this leading monomial: its coefficient is 1, and those of later monomials are 0.
@@ -211,6 +253,12 @@ DarbouxReport DarbouxSearch::run() {
   for (std::size_t leading = 1; leading < monomials_.size(); ++leading) {
     watch_.tick(static_cast<double>(leading) / static_cast<double>(monomials_.size()));
     search_from(leading);
+  }
+  if (weights_) look_for_pencils();
+  // Roots and functions of parameters are taken as free of relations.
+  for (const std::size_t place : system_.parameters()) {
+    if (place >= system_.functions().symbols().size())
+      leave_open(fmt::format("'{}' is taken as a parameter of its own", system_.name(place)));
   }
   for (const DarbouxPolynomial& found : report_.found) {
     if (found.verdict == Verdict::proved) continue;

@@ -112,8 +112,11 @@ std::string Analysis::text(const Polynomial& p) const {
     std::string factors;
     for (std::size_t i = 0; i < exponents.size(); ++i) {
       if (exponents[i] == 0) continue;
-      factors += (factors.empty() ? "" : "*") + (i == rho_ ? "rho" : system_.name(i));
-      if (exponents[i] > 1) factors += fmt::format("^{}", exponents[i]);
+      if (!factors.empty()) factors += "*";
+      if (i != rho_)
+        factors += system_.functions().text(system_.ring().variable(i).pow(exponents[i]));
+      else
+        factors += exponents[i] > 1 ? fmt::format("rho^{}", exponents[i]) : "rho";
     }
     const std::string size = text_of(cln::abs(number));
     result += cln::minusp(number) ? (result.empty() ? "-" : " - ") : (result.empty() ? "" : " + ");

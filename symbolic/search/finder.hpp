@@ -25,6 +25,8 @@ class Finder {
   void prove_all(std::vector<Found>& list, const std::string& kind) const;
   void check_level();
   void take(const Solution& solution);
+  void doubt();
+  void drop_constants(std::vector<Generator>& found);
 
   const Model& model_;
   const Request& request_;
@@ -33,6 +35,7 @@ class Finder {
   System system_;
   std::vector<int> weights_;
   Report report_;
+  std::optional<std::string> level_reason_;  ///< why it is not known what vanishes on the level
 };
 
 }  // namespace casimir::search

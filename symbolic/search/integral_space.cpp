@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <unordered_map>
 
 #include "symbolic/search/level_points.hpp"
@@ -66,13 +67,13 @@ void check_memory(const Problem& problem, const Watch& watch) {
 }
 
 /// By how much the fields raise the degree.
-int growth_of(const Problem& problem) {
+int growth_of(const Problem& problem, const std::vector<int>& weights) {
   int growth = 0;
   for (const auto& rates : problem.fields.rates) {
     for (std::size_t i = 0; i < rates.size(); ++i) {
       if (rates[i].is_zero()) continue;
-      growth = std::max(growth, weighted_degree(rates[i], problem.fields.places, problem.weights) -
-                                    problem.weights[i]);
+      growth =
+          std::max(growth, weighted_degree(rates[i], problem.fields.places, weights) - weights[i]);
     }
   }
   return growth;
@@ -86,7 +87,7 @@ class Run {
       : system_(system),
         problem_(problem),
         watch_(watch),
-        modulus_(Modulus::nth(0)),
+        modulus_(usable_modulus(system)),
         random_(11),
         ansatz_(problem.weights.size()),
         span_(modulus_),
@@ -122,7 +123,7 @@ class Run {
   Monomials ansatz_;
   std::vector<Relation> relations_;
   std::size_t multipliers_ = 0;
-  bool coprime_ = true;
+  bool coprime_ = true, independent_ = true;
   Point constants_;
   std::vector<Block> blocks_;
   std::vector<Echelon> echelons_;
@@ -140,6 +141,7 @@ void Run::take_ansatz() {
   ansatz_ = std::move(ansatz.monomials);
   relations_ = std::move(ansatz.relations);
   coprime_ = ansatz.coprime;
+  independent_ = ansatz.independent;
   for (const Relation& relation : relations_) multipliers_ += relation.multipliers.size();
 }
 
@@ -354,7 +356,10 @@ Solution Run::run() {
     solution_.found.push_back(generators_.back());
     add_products(generators_.size() - 1);
   }
-  solution_.complete = all_found && coprime_ && span_.dimension() == nullity_;
+  // Cofactors of the relations are unknowns for one field only.
+  const bool cofactors = relations_.empty() || problem_.fields.rates.size() == 1;
+  solution_.complete =
+      all_found && coprime_ && independent_ && cofactors && span_.dimension() == nullity_;
   if (!all_found) {
     solution_.reason =
         "there seem to be further integrals, but their coefficients were not found as polynomials "
@@ -362,6 +367,12 @@ Solution Run::run() {
   } else if (!coprime_) {
     solution_.reason =
         "only cofactors of low degree were tried, and the functions of the level may need others";
+  } else if (!independent_) {
+    solution_.reason = "the declared functions are not independent of the others";
+  } else if (!cofactors) {
+    solution_.reason =
+        "the rates of Casimir functions are compared without the relations between roots, sines "
+        "and denominators";
   } else if (!solution_.complete) {
     solution_.reason =
         fmt::format("modulo a prime there are {} solutions, while {} were found: more may exist",
@@ -370,30 +381,185 @@ Solution Run::run() {
   return solution_;
 }
 
+/// Weights by which the relations are a Groebner basis if their leading monomials have no variable
+/// in common: a defined function is as heavy as its value, and leads it as it stands behind.
+std::vector<int> weights_of_relations(const System& system, const Problem& problem) {
+  std::vector<int> weights = problem.weights;
+  for (const System::Defined& d : system.defined()) {
+    const auto place =
+        std::find(problem.fields.places.begin(), problem.fields.places.end(), d.place);
+    if (place == problem.fields.places.end()) continue;
+    weights[static_cast<std::size_t>(place - problem.fields.places.begin())] =
+        std::max(1, weighted_degree(d.value, problem.fields.places, weights));
+  }
+  return weights;
+}
+
+/// Of the rates of the ansatz, by the weights of the relations.
+int highest_degree(const System& system, const Problem& problem, const Monomials& ansatz,
+                   const std::vector<int>& weights) {
+  int highest = problem.degree;
+  for (std::size_t c = 0; c < ansatz.size() && !system.defined().empty(); ++c) {
+    int own = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i) own += weights[i] * ansatz[c][i];
+    highest = std::max(highest, own);
+  }
+  highest += growth_of(problem, weights);
+  constexpr int kHighestPower = 250;
+  if (!system.defined().empty() && highest > kHighestPower)
+    throw ModelError("the degrees of the declared functions are too high to be searched");
+  return highest;
+}
+
+/// Functions of which each is a combination of those before it with rational coefficients, or
+/// independent of them: the first is checked exactly, the second modulo a prime, where functions
+/// are independent only if they are.
+class Combinations {
+ public:
+  explicit Combinations(const System& system) : system_(system), modulus_(usable_modulus(system)) {
+    std::mt19937_64 random(81);
+    constants_ = system.random_point(modulus_, random);
+  }
+
+  enum class Added { independent, dependent, unknown };
+  Added add(const Polynomial& f);
+
+ private:
+  using Row = std::map<std::size_t, Residue>;
+  struct Reduced {
+    std::size_t pivot;
+    Row row, combination;  ///< row = the sum of combination[k] times the k-th function
+  };
+  Row row_of(const Polynomial& f);
+  void subtract(Row& row, const Row& other, Residue factor) const;
+
+  const System& system_;
+  Modulus modulus_;
+  std::optional<Point> constants_;
+  std::map<std::vector<unsigned long>, std::size_t> columns_;
+  std::vector<Polynomial> functions_;
+  std::vector<Reduced> rows_;
+};
+
+/// The coefficients of the monomials in what moves.
+Combinations::Row Combinations::row_of(const Polynomial& f) {
+  Row row;
+  for (auto [number, exponents] : f.term_list()) {
+    Residue value = modulus_.reduce(number).value_or(0);
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
+      if (!system_.is_constant()[i]) continue;
+      value = modulus_.multiply(value, modulus_.power((*constants_)[i], exponents[i]));
+      exponents[i] = 0;
+    }
+    Residue& sum = row[columns_.try_emplace(exponents, columns_.size()).first->second];
+    sum = modulus_.add(sum, value);
+  }
+  std::erase_if(row, [](const auto& entry) { return entry.second == 0; });
+  return row;
+}
+
+void Combinations::subtract(Row& row, const Row& other, Residue factor) const {
+  for (const auto& [place, value] : other) {
+    Residue& sum = row[place];
+    sum = modulus_.add(sum, modulus_.negative(modulus_.multiply(factor, value)));
+    if (sum == 0) row.erase(place);
+  }
+}
+
+Combinations::Added Combinations::add(const Polynomial& f) {
+  if (!constants_) return Added::unknown;
+  Row row = row_of(f), combination{{functions_.size(), 1}};
+  for (const Reduced& known : rows_) {
+    const auto entry = row.find(known.pivot);
+    if (entry == row.end()) continue;
+    const Residue factor =
+        modulus_.multiply(entry->second, modulus_.inverse(known.row.at(known.pivot)));
+    subtract(row, known.row, factor);
+    subtract(combination, known.combination, factor);
+  }
+  if (!row.empty()) {
+    functions_.push_back(f);
+    const std::size_t pivot = row.begin()->first;
+    rows_.push_back({pivot, std::move(row), std::move(combination)});
+    return Added::independent;
+  }
+  // f is minus the sum of the others.
+  Polynomial rest = f;
+  for (const auto& [k, residue] : combination) {
+    if (k == functions_.size()) continue;
+    const std::optional<cln::cl_RA> number =
+        rational_from(cln::cl_I(static_cast<unsigned long>(residue)),
+                      cln::cl_I(static_cast<unsigned long>(modulus_.prime())));
+    if (!number) return Added::unknown;
+    rest += functions_[k].scaled(*number);
+  }
+  return rest.is_zero() ? Added::dependent : Added::unknown;
+}
+
+/// The monomials without silent atoms, and without those that are combinations of others as
+/// functions: (x^(2/3))^3 is x^2, and (x^2 + y^2)/r is r.
+void choose_independent(const System& system, const Problem& problem, Ansatz& ansatz) {
+  const auto& places = problem.fields.places;
+  Monomials visible(places.size());
+  std::vector<Polynomial> values;
+  for (std::size_t c = 0; c < ansatz.monomials.size(); ++c) {
+    const std::uint8_t* exponents = ansatz.monomials[c];
+    Polynomial value = system.ring().constant(1);
+    bool silent = false;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (exponents[i] == 0) continue;
+      silent = silent || system.is_silent()[places[i]];
+      const auto own = std::find_if(system.defined().begin(), system.defined().end(),
+                                    [&](const auto& d) { return d.place == places[i]; });
+      const Polynomial base =
+          own == system.defined().end() ? system.ring().variable(places[i]) : own->value;
+      if (!silent) value = system.functions().checked_product(value, base.pow(exponents[i]));
+    }
+    if (silent) continue;
+    visible.add({exponents, exponents + places.size()}, ansatz.monomials.degree(c));
+    values.push_back(std::move(value));
+  }
+  values = system.functions().common_numerators(std::move(values));
+  ansatz.monomials = Monomials(places.size());
+  Combinations kept(system);
+  for (std::size_t c = 0; c < visible.size(); ++c) {
+    const Combinations::Added added = kept.add(values[c]);
+    if (added == Combinations::Added::dependent) continue;
+    ansatz.independent = ansatz.independent && added == Combinations::Added::independent;
+    ansatz.monomials.add({visible[c], visible[c] + places.size()}, visible.degree(c));
+  }
+}
+
 }  // namespace
 
 Ansatz make_ansatz(const System& system, const Problem& problem, const Watch& watch) {
   check_memory(problem, watch);
   const auto& places = problem.fields.places;
-  const int growth = growth_of(problem);
-  Ansatz ansatz{Monomials(places.size()), {}, true};
-  std::vector<std::vector<std::uint8_t>> leading;
+  const std::vector<int> weights = weights_of_relations(system, problem);
   std::vector<Polynomial> level = problem.on;
   level.insert(level.end(), system.relations().begin(), system.relations().end());
-  for (const Polynomial& function : level) {
-    const int left = problem.degree + growth - weighted_degree(function, places, problem.weights);
+  std::vector<std::vector<std::uint8_t>> leading;
+  for (const Polynomial& f : level) leading.push_back(leading_monomial(f, places, weights));
+  // A defined function is an unknown itself, and not what it leads.
+  const auto replaced = leading.end() - static_cast<std::ptrdiff_t>(system.defined().size());
+  Ansatz ansatz{without_multiples(all_monomials(problem.weights, problem.degree),
+                                  {leading.begin(), replaced}),
+                {}};
+  if (!system.defined().empty()) choose_independent(system, problem, ansatz);
+  const int highest = highest_degree(system, problem, ansatz.monomials, weights);
+  for (std::size_t f = 0; f < level.size(); ++f) {
+    const int left = highest - weighted_degree(level[f], places, weights);
+    const auto own = leading.begin() + static_cast<std::ptrdiff_t>(f);
     // A multiple of an earlier relation need not be a cofactor: that one's takes it over.
     if (left >= 0) {
       ansatz.relations.push_back(
-          {function, without_multiples(all_monomials(problem.weights, left), leading)});
+          {level[f], without_multiples(all_monomials(weights, left), {leading.begin(), own})});
     }
-    leading.push_back(leading_monomial(function, places, problem.weights));
-    for (std::size_t i = 0; i + 1 < leading.size(); ++i) {
+    for (auto earlier = leading.begin(); earlier != own; ++earlier) {
       for (std::size_t k = 0; k < places.size(); ++k)
-        ansatz.coprime = ansatz.coprime && (leading[i][k] == 0 || leading.back()[k] == 0);
+        ansatz.coprime = ansatz.coprime && ((*earlier)[k] == 0 || (*own)[k] == 0);
     }
   }
-  ansatz.monomials = without_multiples(all_monomials(problem.weights, problem.degree), leading);
   return ansatz;
 }
 
@@ -410,7 +576,7 @@ int weighted_degree(const Polynomial& p, const std::vector<std::size_t>& places,
 }
 
 std::size_t rank_of_gradients(const System& system, const std::vector<Polynomial>& functions) {
-  const Modulus modulus = Modulus::nth(0);
+  const Modulus modulus = usable_modulus(system);
   std::mt19937_64 random(5);
   const std::optional<Point> point = system.random_point(modulus, random);
   if (!point) return 0;

@@ -33,6 +33,8 @@ struct Ansatz {
   /// Whether the leading monomials of the relations have no variable in common: then what is in
   /// their ideal has cofactors of the degrees that are searched.
   bool coprime = true;
+  /// Whether the monomials are linearly independent as functions.
+  bool independent = true;
 };
 
 /// \throws TooMuchMemory

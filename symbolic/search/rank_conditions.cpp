@@ -24,12 +24,18 @@ std::vector<std::size_t> parameters_of(const System& system, const ParametricBlo
 }
 
 std::size_t generic_rank(const System& system, const ParametricBlock& block) {
-  const Modulus modulus = Modulus::nth(0);
-  std::mt19937_64 random(21);
-  const std::optional<Point> point = system.random_point(modulus, random);
-  if (!point) return 0;
-  DenseRows matrix = block.at(*point, modulus);
-  return reduce_rows(matrix, modulus).size();
+  // Modulo a prime and at a point it may be lower, never higher.
+  constexpr std::size_t kPrimes = 3;
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < kPrimes; ++i) {
+    const Modulus modulus = Modulus::nth(i);
+    std::mt19937_64 random(21 + i);
+    const std::optional<Point> point = system.random_point(modulus, random);
+    if (!point) continue;
+    DenseRows matrix = block.at(*point, modulus);
+    best = std::max(best, reduce_rows(matrix, modulus).size());
+  }
+  return best;
 }
 
 /// Columns that occur, renumbered.
@@ -73,7 +79,7 @@ std::vector<std::vector<Polynomial>> compressed(const System& system, const Para
 }
 
 Polynomial common_minor_factor(const System& system, const ParametricBlock& block, std::size_t rank,
-                               const Watch& watch) {
+                               std::vector<Polynomial>& combinations, const Watch& watch) {
   std::mt19937_64 random(31);
   Polynomial common(system.ring());
   for (int i = 0; i < kCombinations; ++i) {
@@ -81,6 +87,7 @@ Polynomial common_minor_factor(const System& system, const ParametricBlock& bloc
         determinant_without_sign(compressed(system, block, rank, random), system.ring());
     watch.tick(0.5);
     common = i == 0 ? d : Polynomial::gcd(common, d);
+    combinations.push_back(d);
     if (common.is_constant()) break;
   }
   return common;
@@ -234,6 +241,23 @@ std::optional<Polynomial> common_minor_factor(const System& system, const Parame
   return std::nullopt;
 }
 
+/// Whether some combination of minors has no other factor with the free parameters: then minors
+/// have no common zeros beside those of the common factors.
+bool vanishes_only_there(const std::vector<Polynomial>& combinations,
+                         const std::vector<Polynomial>& common,
+                         const std::vector<std::size_t>& free) {
+  return std::any_of(combinations.begin(), combinations.end(), [&](const Polynomial& d) {
+    if (d.is_zero()) return false;
+    const auto factors = d.factors();
+    return std::all_of(factors.begin(), factors.end(), [&](const auto& entry) {
+      const Polynomial& factor = entry.first;
+      return std::none_of(free.begin(), free.end(),
+                          [&](std::size_t place) { return factor.uses(place); }) ||
+             std::find(common.begin(), common.end(), factor) != common.end();
+    });
+  });
+}
+
 }  // namespace
 
 RankConditions rank_conditions(const System& system, ParametricBlock block,
@@ -250,11 +274,12 @@ RankConditions rank_conditions(const System& system, ParametricBlock block,
   const std::size_t rank = generic_rank(system, block);
   if (rank == 0) return result;
   std::optional<Polynomial> common;
+  std::vector<Polynomial> combinations;
   std::vector<std::size_t> own;
   for (const std::size_t p : parameters)
     if (std::find(free.begin(), free.end(), p) != free.end()) own.push_back(p);
   if (parameters.size() > 1 && rank <= kLargestSymbolic) {
-    common = common_minor_factor(system, block, rank, watch);
+    common = common_minor_factor(system, block, rank, combinations, watch);
   } else if (own.size() == 1 && rank <= kLargestModular) {
     // Other parameters have two sets of values: what both have in common does not depend on them.
     std::mt19937_64 random(61);
@@ -265,7 +290,7 @@ RankConditions rank_conditions(const System& system, ParametricBlock block,
       const std::optional<Polynomial> factor =
           common_minor_factor(system, block, own[0], rank, others, watch);
       if (!factor) {
-        result.decided = false;
+        result.decided = result.covered = false;
         return result;
       }
       if (common && !(*common == *factor)) result.decided = false;
@@ -273,7 +298,7 @@ RankConditions rank_conditions(const System& system, ParametricBlock block,
     }
   }
   if (!common || common->is_zero()) {
-    result.decided = false;
+    result.decided = result.covered = false;
     return result;
   }
   for (const auto& [factor, exponent] : common->factors()) {
@@ -281,6 +306,7 @@ RankConditions rank_conditions(const System& system, ParametricBlock block,
                                       [&f = factor](std::size_t place) { return f.uses(place); });
     if (relevant) result.factors.push_back(factor);
   }
+  result.covered = own.size() == 1 || vanishes_only_there(combinations, result.factors, own);
   return result;
 }
 

@@ -10,10 +10,13 @@ namespace casimir::search {
 
 /// Where a block loses rank.
 struct RankConditions {
-  /// Irreducible polynomials in the parameters: on the zero set of each, and for one parameter
-  /// nowhere else, the rank is lower.
+  /// Irreducible polynomials in the parameters: where the rank is lower, there all minors of full
+  /// rank vanish, and so do their combinations. Their common factors are these; for one parameter
+  /// the rank is lower nowhere else.
   std::vector<Polynomial> factors;
   bool decided = true;  ///< false where the block was too large
+  /// The rank is lower on the zero sets of the factors and nowhere else.
+  bool covered = true;
 };
 
 /// The common factors of the minors of full rank: of several random combinations of them, each the

@@ -6,6 +6,9 @@
 #include <charconv>
 
 #include "symbolic/search/finder.hpp"
+#include "symbolic/search/independence.hpp"
+#include "symbolic/search/not_constant.hpp"
+#include "symbolic/search/real_ideal.hpp"
 #include "symbolic/search/short_text.hpp"
 
 namespace casimir::search {
@@ -49,6 +52,7 @@ std::vector<int> Finder::weights() const {
     // A declared function may be written in another way than the ring writes it.
     if (place == names.end() && name.value.find_first_of("()/^*") != std::string::npos)
       place = std::find(names.begin(), names.end(), system_.text_of(model_.parse(name)));
+    if (place == names.end()) place = std::find(names.begin(), names.end(), "(" + name.value + ")");
     if (place == names.end()) {
       throw name.error(fmt::format("'{}' is not a variable of the ansatz", printable(name.value)),
                        0, suggest(name.value, names));
@@ -72,7 +76,7 @@ std::vector<int> Finder::weights() const {
 /// The polynomial Casimir functions, degree by degree, until there are as many independent ones as
 /// the rank of the bracket leaves room for.
 std::vector<Generator> Finder::casimirs_as_needed() {
-  if (!model_.poisson) return {};
+  if (!model_.poisson || request_.casimirs_are_integrals) return {};
   Problem problem;
   problem.fields = {system_.atoms(), system_.coordinate_flows()};
   problem.weights = weights_;
@@ -86,29 +90,35 @@ std::vector<Generator> Finder::casimirs_as_needed() {
     for (auto& row : problem.fields.rates) row.erase(row.begin() + place);
     problem.weights.erase(problem.weights.begin() + place);
   }
-  std::vector<Polynomial> functions;
-  if (request_.casimirs) {
-    problem.degree = request_.degree;
-    watch_.begin("Casimir functions");
-    const Solution solution = solve(system_, problem, watch_);
-    take(solution);
-    return solution.found;
-  }
   // The rank of the bracket at a random point is a lower bound of the generic one.
   std::size_t rank = 0;
   {
-    const Modulus modulus = Modulus::nth(0);
+    const Modulus modulus = usable_modulus(system_);
     std::mt19937_64 random(3);
     const std::optional<Point> point = system_.random_point(modulus, random);
-    if (!point) return {};
     Span span(modulus);
     for (const auto& row : problem.fields.rates) {
+      if (!point) break;
       std::vector<Residue> values;
       for (std::size_t i = 0; i < model_.variables.size(); ++i)
         values.push_back(value_at(row[i], *point, modulus).value_or(0));
       span.insert(std::move(values));
     }
     rank = span.dimension();
+  }
+  std::vector<Polynomial> functions;
+  if (request_.casimirs) {
+    problem.degree = request_.degree;
+    watch_.begin("Casimir functions");
+    Solution solution = solve(system_, problem, watch_);
+    // Nothing but the constants is annihilated by all fields of the coordinates.
+    if (rank == model_.variables.size() && solution.found.empty()) {
+      solution.complete = true;
+      solution.reason.clear();
+    }
+    take(solution);
+    drop_constants(solution.found);
+    return solution.found;
   }
   const std::size_t room = model_.variables.size() - rank;
   for (int degree = 1; degree <= request_.degree; ++degree) {
@@ -141,13 +151,44 @@ Problem Finder::integral_problem(std::vector<Generator> known) {
   return problem;
 }
 
-/// On a level that the motion leaves there are no integrals to speak of.
+/// On a level that the motion leaves there are no integrals to speak of. And that the rate of a
+/// function vanishes on the level is the same as that it has cofactors only where the level's
+/// functions generate the ideal of all that vanish there.
 void Finder::check_level() {
   if (on_.empty()) return;
   Proof proof;
   system_.prover().decide_invariance(proof, on_);
   if (proof.verdict == Verdict::refuted)
     throw request_.on[0].error("the common zero level of --on is not invariant: " + proof.reason);
+  if (proof.verdict == Verdict::undecided) {
+    level_reason_ = "whether the level is invariant is undecided";
+  } else if (!system_.relations().empty() ||
+             !is_shown_real_and_prime(integral_problem({}).on, system_.atoms())) {
+    level_reason_ =
+        "it was not shown that what vanishes at all real points of the level is a combination of "
+        "its functions with polynomials";
+  }
+}
+
+/// What else has to hold, for "no other" to be about functions.
+void Finder::doubt() {
+  const auto undecided = [&](const std::optional<std::string>& reason) {
+    if (!report_.complete || !reason) return;
+    report_.complete = false;
+    report_.reason = *reason;
+  };
+  undecided(level_reason_);
+  undecided(unknown_relations(system_));
+}
+
+/// What is not zero in the ring may still be zero as a function: atan(-x) + atan(x).
+void Finder::drop_constants(std::vector<Generator>& found) {
+  if (!unknown_relations(system_)) return;  // independent functions
+  const FunctionRing& ring = system_.functions();
+  std::erase_if(found, [&](const Generator& g) {
+    const std::string text = short_text(ring, ring.reduced(g.function), system_.is_constant());
+    return !is_certainly_not_constant(model_, model_.parse({text, {"found", 1, 1}, {}}));
+  });
 }
 
 void Finder::take(const Solution& solution) {
@@ -158,6 +199,7 @@ void Finder::take(const Solution& solution) {
   report_.equations = solution.equations;
   report_.blocks = solution.blocks;
   report_.largest_block = solution.largest_block;
+  doubt();
 }
 
 std::vector<Found> Finder::described(const std::vector<Generator>& generators,
@@ -215,8 +257,9 @@ Report Finder::run() {
     std::erase_if(known, [](const Generator& g) { return g.degree == 0; });
     const Problem problem = integral_problem(known);
     watch_.begin(fmt::format("integrals of degree {}", request_.degree));
-    const Solution solution = solve(system_, problem, watch_);
+    Solution solution = solve(system_, problem, watch_);
     take(solution);
+    drop_constants(solution.found);
     report_.found = described(solution.found, known, report_.kind);
   }
   for (const Found& found : report_.found) {

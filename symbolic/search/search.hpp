@@ -18,6 +18,8 @@ struct Request {
   std::vector<Text> functions;                   ///< that the ansatz may use besides the variables
   std::vector<std::pair<Text, Text>> weights{};  ///< name and weight; 1 for the others
   std::vector<Text> known{};                     ///< integrals that are not to be found again
+  /// Casimir functions are integrals like others: none are looked for first and taken as known.
+  bool casimirs_are_integrals = false;
 };
 
 /// A function that was found.
@@ -60,19 +62,18 @@ struct Condition {
 struct ConditionReport {
   Report generic;  ///< for generic values of all parameters
   std::vector<Condition> conditions;
-  /// Every block of equations was decided, and so was every candidate: no other value of one
-  /// parameter, no other hypersurface for several.
-  bool complete = false;
-  /// For several parameters: points beside the hypersurfaces are sought among small fractions, for
-  /// two parameters, or not at all. There may be others.
-  bool points_open = false;
-  std::string reason;
+  bool complete = false;  ///< proved: there is no other value, curve or set
+  /// No other hypersurface: there may be sets of two and more conditions.
+  bool sets_open = false;
+  std::string reason;  ///< where it is not complete
 };
 
 /// The values of some parameters at which additional integrals appear: where a block of equations
-/// loses rank. Each is confirmed by an exact search there. For one parameter these are all values;
-/// for several, all hypersurfaces, and for two also those points that a search among small
-/// fractions finds. \param free  names of parameters \throws as find_integrals
+/// loses rank. Each is confirmed by an exact search there; Casimir functions that are new there
+/// count as well. For one parameter in which the equations are polynomials these are all values;
+/// for several, all hypersurfaces, and the sets of two and three conditions that a search among
+/// simple ones finds. Where a parameter is inside a function, simple values are tried.
+/// \param free  names of parameters \throws as find_integrals
 ConditionReport find_conditions(const Model& model, const Request& request,
                                 const std::vector<Text>& free, const Watch& watch = {});
 

@@ -95,13 +95,14 @@ std::string Writer::product(const Polynomial& p) const {
   std::string result;
   bool negative = false;
   for (const auto& [factor, exponent] : factors) {
-    std::string text = bracketed(factor);
+    // The ring knows how a root is written under a power.
+    std::string text = is_sum(factor) ? bracketed(factor) : ring_.text(factor.pow(exponent));
     if (factor.is_constant()) {
       negative = text.starts_with('-');
       if (negative) text = text.substr(1);
       if (text == "1") continue;
     }
-    if (exponent > 1) text += fmt::format("^{}", exponent);
+    if (exponent > 1 && is_sum(factor)) text += fmt::format("^{}", exponent);
     result += (result.empty() ? "" : "*") + text;
   }
   if (result.empty()) result = "1";

@@ -21,14 +21,54 @@ bool contains(const std::vector<std::size_t>& list, std::size_t i) {
   return std::find(list.begin(), list.end(), i) != list.end();
 }
 
+/// How a function is written as a factor.
+std::string factor_text(const std::string& text) {
+  std::size_t depth = 0;
+  const std::size_t open = text.find('(');
+  const std::size_t word =
+      text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_");
+  if (word == std::string::npos) return text;
+  bool call = open != std::string::npos && open > 0 && word == open && text.back() == ')';
+  for (std::size_t i = open; call && i < text.size(); ++i) {
+    if (text[i] == '(') ++depth;
+    if (text[i] == ')') --depth;
+    call = depth > 0 || i + 1 == text.size();
+  }
+  return call ? text : "(" + text + ")";
+}
+
+bool is_variable(const Polynomial& p) {
+  const auto terms = p.term_list();
+  return terms.size() == 1 && terms[0].first == 1 && p.total_degree() == 1;
+}
+
+/// The model with a symbol more for each function that is not a variable of its ring: F itself is
+/// the unknown, and not the finer function that the ring makes it of. Null where there is none.
+std::unique_ptr<Model> with_symbols_for(const Model& model,
+                                        const std::vector<NamedExpression>& functions,
+                                        const std::vector<GiNaC::ex>& others) {
+  if (functions.empty()) return nullptr;
+  Prover prover(model, values_of(functions, others));
+  std::unique_ptr<Model> result;
+  for (const NamedExpression& f : functions) {
+    const Polynomial value = prover.ring().reduced(prover.convert(f.value));
+    if (value.is_constant() || is_variable(value)) continue;
+    if (!result) result = std::make_unique<Model>(model);
+    result->parameters.emplace_back(factor_text(f.name));
+  }
+  return result;
+}
+
 }  // namespace
 
 System::System(const Model& model, const std::vector<NamedExpression>& functions,
                const std::vector<GiNaC::ex>& others) try
-    : meter_(std::in_place), prover_(model, values_of(functions, others)) {
+    : meter_(std::in_place),
+      extended_(with_symbols_for(model, functions, others)),
+      prover_(extended_ ? *extended_ : model, values_of(functions, others)) {
   const std::size_t dimension = model.variables.size();
   for (std::size_t i = 0; i < dimension; ++i) moving_.push_back(i);
-  if (model.time) moving_.push_back(dimension + model.parameters.size());
+  if (model.time) moving_.push_back(dimension + this->model().parameters.size());
   for (std::size_t i = prover_.ring().symbols().size(); i < ring().size(); ++i)
     bonds_.push_back(bond_of(i));
   constant_.assign(ring().size(), true);
@@ -38,6 +78,9 @@ System::System(const Model& model, const std::vector<NamedExpression>& functions
       return prover_.ring().derivative(ring().variable(g), i).is_zero();
     });
   }
+  for (std::size_t place = dimension + model.parameters.size();
+       place < dimension + this->model().parameters.size(); ++place)
+    constant_[place] = false;
   collect_atoms(functions);
   std::vector<Polynomial> rates = prover_.field();
   if (model.time) rates.push_back(ring().constant(1));
@@ -54,62 +97,103 @@ System::System(const Model& model, const std::vector<NamedExpression>& functions
   throw TooMuchWork(problem.what());
 }
 
-/// The ring says how its generators are bound by what it makes of them.
 System::Bond System::bond_of(std::size_t place) const {
-  const FunctionRing& functions = prover_.ring();
-  const Polynomial variable = ring().variable(place);
-  std::vector<bool> marks;
-  functions.mark_denominators(variable, marks);
-  const auto mark = std::find(marks.begin(), marks.end(), true);
-  if (mark != marks.end()) {
-    return {Bond::Kind::inverse,
-            functions.denominators()[static_cast<std::size_t>(mark - marks.begin())], 1};
+  using Kind = FunctionRing::Origin::Kind;
+  if (place >= functions().end_of_generators()) return {Bond::Kind::none, Polynomial(ring()), 1};
+  FunctionRing::Origin origin = functions().origin(place);
+  switch (origin.kind) {
+    case Kind::inverse:
+      return {Bond::Kind::inverse, std::move(origin.argument), 1};
+    case Kind::root:
+    case Kind::absolute:
+    case Kind::imaginary:
+      return {Bond::Kind::root, std::move(origin.argument), origin.order};
+    case Kind::cosine: {
+      const Polynomial sine = ring().variable(place - 1);
+      return {Bond::Kind::root, ring().constant(1) - sine * sine, 2};
+    }
+    default:
+      return {Bond::Kind::none, Polynomial(ring()), 1};
   }
-  constexpr unsigned long kHighestRoot = 12;
-  for (unsigned long order = 2; order <= kHighestRoot; ++order) {
-    const Polynomial power = variable.pow(order);
-    Polynomial reduced = functions.reduced(power);
-    if (!(reduced == power)) return {Bond::Kind::root, std::move(reduced), order};
-  }
-  return {Bond::Kind::none, Polynomial(ring()), 1};
 }
 
-/// The coordinates and all functions that their rates, or the declared functions, are polynomials
-/// in once denominators are multiplied out; and the relations between them.
-void System::collect_atoms(const std::vector<NamedExpression>& functions) {
+void System::need(const Polynomial& p) {
+  for (std::size_t g = prover_.ring().symbols().size(); g < ring().size(); ++g)
+    if (p.uses(g) && !constant_[g] && !contains(atoms_, g)) atoms_.push_back(g);
+}
+
+/// All functions that the rates of the atoms are polynomials in once denominators are multiplied
+/// out, and that these are bound to.
+void System::need_all(const std::vector<Polynomial>& rates) {
   const std::size_t symbols = prover_.ring().symbols().size();
-  atoms_ = moving_;
-  const auto need = [&](const Polynomial& p) {
-    for (std::size_t g = symbols; g < ring().size(); ++g)
-      if (p.uses(g) && !constant_[g] && !contains(atoms_, g)) atoms_.push_back(g);
-  };
-  for (const NamedExpression& f : functions) need(prover_.convert(f.value));
-  std::vector<Polynomial> rates = prover_.field();
-  if (prover_.model().time) rates.push_back(ring().constant(1));
   for (std::size_t known = 0; known != atoms_.size();) {
     known = atoms_.size();
     for (const Polynomial& rate : of_atoms(rates)) need(rate);
     for (std::size_t a = moving_.size(); a < atoms_.size(); ++a)
-      need(bonds_[atoms_[a] - symbols].base);
+      if (atoms_[a] >= symbols) need(bonds_[atoms_[a] - symbols].base);
   }
-  for (std::size_t a = moving_.size(); a < atoms_.size(); ++a) {
-    const Bond& bond = bonds_[atoms_[a] - symbols];
-    const Polynomial variable = ring().variable(atoms_[a]);
+}
+
+/// The coordinates and all functions that their rates, or the declared functions, are polynomials
+/// in once denominators are multiplied out; and the relations between them.
+void System::collect_atoms(const std::vector<NamedExpression>& declared) {
+  const std::size_t symbols = prover_.ring().symbols().size();
+  atoms_ = moving_;
+  std::size_t place = model().variables.size() + model().parameters.size();
+  for (const NamedExpression& f : declared) {
+    const Polynomial value = prover_.ring().reduced(prover_.convert(f.value));
+    if (value.is_constant()) continue;
+    if (is_variable(value))
+      need(value);
+    else
+      defined_.push_back({0, value});
+  }
+  for (std::size_t k = defined_.size(); k-- > 0;) defined_[k].place = --place;
+  std::vector<Polynomial> rates = prover_.field();
+  if (model().time) rates.push_back(ring().constant(1));
+  need_all(rates);
+  silent_.assign(ring().size(), false);
+  if (!defined_.empty()) {
+    const std::vector<std::size_t> own = atoms_;
+    for (const Defined& d : defined_) {
+      need(d.value);
+      for (std::size_t i = 0; i < moving_.size(); ++i) need(slope(d.value, i));
+    }
+    need_all(rates);
+    for (const std::size_t atom : atoms_) silent_[atom] = !contains(own, atom);
+  }
+  for (const std::size_t atom : atoms_) {
+    if (atom < symbols) continue;
+    const Bond& bond = bonds_[atom - symbols];
+    const Polynomial variable = ring().variable(atom);
     if (bond.kind == Bond::Kind::inverse)
       relations_.push_back(variable * bond.base - ring().constant(1));
     if (bond.kind == Bond::Kind::root) relations_.push_back(variable.pow(bond.order) - bond.base);
   }
+  for (const Defined& d : defined_) {
+    atoms_.push_back(d.place);
+    relations_.push_back(ring().variable(d.place) - d.value);
+  }
+}
+
+Polynomial System::slope(const Polynomial& p, std::size_t i) const {
+  Polynomial result = prover_.ring().derivative(p, moving_[i]);
+  for (const Defined& d : defined_) {
+    if (p.uses(d.place))
+      result += p.derivative(d.place) * prover_.ring().derivative(d.value, moving_[i]);
+  }
+  return result;
 }
 
 std::vector<Polynomial> System::of_atoms(const std::vector<Polynomial>& rates) const {
-  if (prover_.ring().is_polynomial()) return rates;
+  if (prover_.ring().is_polynomial() && defined_.empty()) return rates;
   std::vector<Polynomial> result;
   for (const std::size_t atom : atoms_) {
     SumOfProducts sum(ring());
     for (std::size_t i = 0; i < moving_.size(); ++i) {
       if (rates[i].is_zero()) continue;
-      const Polynomial slope = prover_.ring().derivative(ring().variable(atom), moving_[i]);
-      if (!slope.is_zero()) sum.add(slope, rates[i]);
+      const Polynomial own = slope(ring().variable(atom), i);
+      if (!own.is_zero()) sum.add(own, rates[i]);
     }
     result.push_back(sum.finish());
   }
@@ -144,7 +228,7 @@ std::string System::bound_parameter() const {
 
 std::vector<Polynomial> System::gradient(const Polynomial& p) const {
   std::vector<Polynomial> result;
-  for (const std::size_t i : moving_) result.push_back(prover_.ring().derivative(p, i));
+  for (std::size_t i = 0; i < moving_.size(); ++i) result.push_back(slope(p, i));
   return result;
 }
 
@@ -196,9 +280,25 @@ std::optional<Point> System::random_point(const Modulus& modulus, std::mt19937_6
         point[i] = value.value_or(0);
       }
     }
+    for (const Defined& d : defined_) {
+      if (!found) break;
+      const std::optional<Residue> value = value_at(d.value, point, modulus);
+      found = value.has_value();
+      point[d.place] = value.value_or(0);
+    }
     if (found) return point;
   }
   return std::nullopt;
+}
+
+Modulus usable_modulus(const System& system) {
+  constexpr std::size_t kPrimes = 64;
+  for (std::size_t i = 0; i < kPrimes; ++i) {
+    std::mt19937_64 random(5);
+    const Modulus modulus = Modulus::nth(i);
+    if (system.random_point(modulus, random)) return modulus;
+  }
+  return Modulus::nth(0);
 }
 
 std::optional<Residue> value_at(const Polynomial& p, const Point& point, const Modulus& modulus) {

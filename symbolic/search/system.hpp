@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <random>
 #include <string>
@@ -30,10 +31,21 @@ class System {
 
   const Model& model() const { return prover_.model(); }
   Prover& prover() { return prover_; }
+  const FunctionRing& functions() const { return prover_.ring(); }
   const PolynomialRing& ring() const { return prover_.ring().ring(); }
 
   /// The places of the atoms in the ring: coordinates first, then the time, then the others.
   const std::vector<std::size_t>& atoms() const { return atoms_; }
+  /// A declared function that is not a variable of the ring, such as exp(4*t) where that has
+  /// exp(t): an atom of its own, which is a symbol of the ring bound to a polynomial in the others.
+  struct Defined {
+    std::size_t place;
+    Polynomial value;
+  };
+  /// They are the last atoms.
+  const std::vector<Defined>& defined() const { return defined_; }
+  /// Atoms that only the rates and values of defined functions need: no unknowns of the ansatz.
+  const std::vector<bool>& is_silent() const { return silent_; }
   /// Functions that vanish identically, such as s^2 + c^2 - 1, which generate all of the kind.
   const std::vector<Polynomial>& relations() const { return relations_; }
   std::string name(std::size_t place) const { return prover_.ring().text(ring().variable(place)); }
@@ -77,14 +89,21 @@ class System {
   };
   Bond bond_of(std::size_t place) const;
   void collect_atoms(const std::vector<NamedExpression>& functions);
+  void need(const Polynomial& p);
+  void need_all(const std::vector<Polynomial>& rates);
+  /// The derivative along the i-th of the coordinates and the time.
+  Polynomial slope(const Polynomial& p, std::size_t i) const;
   /// The rates of the atoms where the coordinates and the time have these rates.
   std::vector<Polynomial> of_atoms(const std::vector<Polynomial>& rates) const;
   void collect_parameters();
   std::optional<Residue> bound_value(std::size_t place, const Point& point, const Modulus& modulus,
                                      std::mt19937_64& random) const;
 
-  std::optional<WorkMeter> meter_;  ///< while the constructor works
+  std::optional<WorkMeter> meter_;   ///< while the constructor works
+  std::unique_ptr<Model> extended_;  ///< with a symbol for each defined function
   Prover prover_;
+  std::vector<Defined> defined_;
+  std::vector<bool> silent_;
   std::vector<std::size_t> moving_;  ///< coordinates and time
   std::vector<std::size_t> atoms_;
   std::vector<Polynomial> relations_;
@@ -94,6 +113,10 @@ class System {
   std::vector<Polynomial> flow_;
   std::vector<std::vector<Polynomial>> coordinate_flows_;
 };
+
+/// The first prime modulo which all variables of the system's ring have values: a root of 2 is not
+/// in every field.
+Modulus usable_modulus(const System& system);
 
 /// The value of p, where every variable of its ring has one.
 /// \return  empty where the modulus divides a denominator.

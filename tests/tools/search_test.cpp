@@ -68,6 +68,40 @@ TEST(Search, KovalevskayasConditionIsFound) {
   EXPECT_EQ(values, (std::set<std::string>{"1", "2"}));
 }
 
+// The text and the JSON document say the same, and undecided is an exit status of its own.
+TEST(Search, WhatIsLeftOpenIsSaidInTextAndInJson) {
+  const Folder folder;
+  const std::string system =
+      "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[parameters]\nn = {}\nk = {}\n"
+      "[equations]\nx = \"1\"\ny = ";
+  const auto expect_open = [&](const std::string& rate, const std::string& free, const char* place,
+                               const char* value) {
+    const std::string file = folder.write("open.toml", system + '"' + rate + "\"\n");
+    const std::vector<std::string> command{"search", file, "--degree", "2", "--free", free};
+    const Json found = answered(folder, command, 3);
+    EXPECT_EQ(found.at("verdict"), "undecided");
+    const auto reason = found.at("reason").get<std::string>();
+    EXPECT_FALSE(reason.empty());
+    EXPECT_TRUE(std::ranges::any_of(found.at("conditions"), [&](const Json& condition) {
+      return condition.at("parameters").value(place, "") == value &&
+             condition.at("verdict") == "proved";
+    })) << found;
+    const Outcome text = run_in(folder, command);
+    EXPECT_EQ(text.status, 3);
+    EXPECT_NE(text.out.find("undecided"), std::string::npos);
+    EXPECT_NE(text.out.find(reason), std::string::npos);
+    EXPECT_EQ(text.out.find("No other value"), std::string::npos);
+  };
+  expect_open("exp(n*x) - exp(2*x) + k*y^2*(n - 2)", "n", "n", "2");
+  expect_open("(n - 1)*y^2 + (k - 2)*y^3", "n,k", "k", "2");
+  // The twin: polynomial in the parameter.
+  const std::string file = folder.write("closed.toml", system + "\"(n - 1)*y^2\"\n");
+  const std::vector<std::string> command{"search", file, "--degree", "2", "--free", "n"};
+  EXPECT_EQ(answered(folder, command).at("verdict"), "proved");
+  EXPECT_NE(run_in(folder, command).out.find("No other value, curve or set: proved"),
+            std::string::npos);
+}
+
 TEST(Search, HesssRelationIsADarbouxPolynomial) {
   const Folder folder;
   const Json found =
