@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace casimir::tools {
 namespace {
 
@@ -16,6 +18,7 @@ Json to_json(const Proof& proof) {
                {"seconds", proof.seconds}};
   if (!proof.on.empty()) json["on"] = proof.on;
   if (!proof.evidence.empty()) json["evidence"] = proof.evidence;
+  if (!proof.where.empty()) json["where"] = proof.where;
   if (!proof.nonzero.empty()) json["nonzero"] = proof.nonzero;
   if (!proof.positive.empty()) json["positive"] = proof.positive;
   if (!proof.residual.empty()) json["residual"] = proof.residual;
@@ -42,6 +45,7 @@ Proof proof_from_json(const Json& json) {
   proof.seconds = json.at("seconds");
   proof.on = json.value("on", std::vector<std::string>{});
   proof.evidence = json.value("evidence", "");
+  proof.where = json.value("where", std::vector<std::string>{});
   proof.nonzero = json.value("nonzero", std::vector<std::string>{});
   proof.positive = json.value("positive", std::vector<std::string>{});
   proof.residual = json.value("residual", "");
@@ -68,9 +72,24 @@ Json to_json(const Model& model, const std::vector<Proof>& proofs, double second
   Json notes = Json::array();
   for (const Proof& proof : proofs)
     (proof.note ? notes : proof.fact ? facts : claims).push_back(to_json(proof));
-  return {{"case", model.name}, {"verdict", to_string(overall(model, proofs))},
-          {"seconds", seconds}, {"claims", claims},
-          {"facts", facts},     {"notes", notes}};
+  Json json = {{"case", model.name}, {"verdict", to_string(overall(model, proofs))},
+               {"seconds", seconds}, {"claims", claims},
+               {"facts", facts},     {"notes", notes}};
+  const std::vector<std::string> where = conditions_of(model, proofs);
+  if (!where.empty()) json["where"] = where;
+  return json;
+}
+
+std::vector<std::string> conditions_of(const Model& model, const std::vector<Proof>& proofs) {
+  std::vector<std::string> result;
+  for (const Proof& proof : proofs) {
+    if (!counts(model, proof)) continue;
+    for (const std::string& condition : proof.where) {
+      if (std::find(result.begin(), result.end(), condition) == result.end())
+        result.push_back(condition);
+    }
+  }
+  return result;
 }
 
 std::vector<std::string> judgement_lines(const Proof& note) {

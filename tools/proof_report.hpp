@@ -15,6 +15,9 @@ Proof proof_from_json(const nlohmann::ordered_json& json);
 nlohmann::ordered_json to_json(const Model& model, const std::vector<Proof>& proofs,
                                double seconds);
 
+/// What the verdict of the case depends on beyond its assumptions, each once: "a != 0".
+std::vector<std::string> conditions_of(const Model& model, const std::vector<Proof>& proofs);
+
 /// The findings of a judgement in words: "it is no Casimir function: ..".
 std::vector<std::string> judgement_lines(const Proof& note);
 

@@ -18,8 +18,11 @@ constexpr std::size_t kLeastText = 30;
 const std::string kGap = "  ";
 
 std::string name_of(const Proof& proof) {
-  if (proof.on.empty()) return proof.name;
-  return fmt::format("{} on {} = 0", proof.name, fmt::join(proof.on, " = "));
+  std::string name = proof.name;
+  if (!proof.on.empty()) name += fmt::format(" on {} = 0", fmt::join(proof.on, " = "));
+  // A verdict with a condition says so in its line.
+  if (!proof.where.empty()) name += fmt::format(" where {}", fmt::join(proof.where, ", "));
+  return name;
 }
 
 std::string witness_text(const Witness& witness) {
@@ -132,9 +135,15 @@ std::string ProofTable::details(const Proof& proof, bool with_evidence) const {
     detail("value", proof.witness->value);
   }
   std::vector<std::string> where;
-  for (const std::string& d : proof.nonzero) where.push_back(d + " != 0");
-  for (const std::string& p : proof.positive) where.push_back(p + " > 0");
-  if (!where.empty()) detail("where", fmt::format("{}", fmt::join(where, ", ")));
+  const auto add = [&](const std::string& condition) {
+    const auto known = [&](const std::vector<std::string>& list) {
+      return std::find(list.begin(), list.end(), condition) != list.end();
+    };
+    if (!known(where) && !known(proof.where)) where.push_back(condition);
+  };
+  for (const std::string& d : proof.nonzero) add(d + " != 0");
+  for (const std::string& p : proof.positive) add(p + " >= 0");
+  if (!where.empty()) detail("defined", fmt::format("where {}", fmt::join(where, ", ")));
   return text;
 }
 

@@ -1,6 +1,7 @@
 #include "tools/verify_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -49,7 +50,9 @@ void CaseReport::end(const std::vector<Proof>& proofs, double seconds) const {
   const Tally claims = tally_of(model_, proofs);
   const auto beside = std::ranges::count_if(
       proofs, [&](const Proof& proof) { return proof.fact && !counts(model_, proof); });
-  fmt::print("\n{}  {}: {}", verdict_text(overall(model_, proofs), colour(), kVerdictWidth),
+  const std::vector<std::string> where = conditions_of(model_, proofs);
+  fmt::print("\n{}{}  {}: {}", verdict_text(overall(model_, proofs), colour(), kVerdictWidth),
+             where.empty() ? "" : fmt::format(" where {}", fmt::join(where, ", ")),
              plural(claims.all(), "claim"), claims.text());
   if (beside > 0) fmt::print(" (and {} beside)", plural(static_cast<std::size_t>(beside), "fact"));
   fmt::print("; {}\n", duration_text(seconds));
