@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "tests/adversary/case.hpp"
+#include "tests/adversary/evaluate.hpp"
+#include "tests/adversary/random.hpp"
+
+namespace casimir::adversary {
+
+/// Draws real points for a claim: inside of every assumption, and on the level where the claim is
+/// about one.
+class Sampler {
+ public:
+  /// \param generic  only points with no special values, for what is said of almost all points
+  Sampler(const Case& claim, const std::vector<Assumption>& more, bool generic, Random& random);
+
+  /// A point, or none where this try met none.
+  std::optional<Point> draw();
+
+ private:
+  Point free_values();
+  bool admits(const Point& point) const;
+
+  const Case& case_;
+  std::vector<Assumption> assumptions_;
+  Substitution names_;
+  bool generic_;
+  Random& random_;
+};
+
+/// Whether `left RELATION 0` certainly holds there.
+bool holds(const Assumption& assumption, const Point& point);
+/// The functions whose common zero level a claim is about; for an invariant relation it is among
+/// them.
+std::vector<Expr> level_of(const Case& claim);
+
+}  // namespace casimir::adversary
