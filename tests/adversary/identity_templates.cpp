@@ -150,7 +150,7 @@ Case lax(Random& random) {
   const Disguise d = put_on(claim, random, atoms);
   const Expr change = monomial(random, {q, p}) * d.difference();
   pair.l = {{p, q * factor}, {q / factor, -p}};
-  pair.a = {{0, -factor / 2}, {1 / (2 * factor), 0}};
+  pair.a = {{0, factor / 2}, {-1 / (2 * factor), 0}};
   Expr& entry = (random.one_in(2) ? pair.l : pair.a)[static_cast<std::size_t>(random(2))]
                                                     [static_cast<std::size_t>(random(2))];
   entry = entry + change;

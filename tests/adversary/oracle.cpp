@@ -12,7 +12,7 @@
 namespace casimir::adversary {
 namespace {
 
-constexpr int kPoints = 10, kTries = 160;
+constexpr int kPoints = 12, kSpecialPoints = 150, kTriesForPoint = 12;
 
 /// What one point says.
 enum class Sign { zero, nonzero, none };
@@ -21,7 +21,8 @@ enum class Sign { zero, nonzero, none };
 Finding over_points(Sampler& sampler, const std::function<Sign(const Point&)>& ask) {
   int real = 0, agreed = 0;
   bool doubtful = false;
-  for (int k = 0; k < kTries && agreed < kPoints; ++k) {
+  const int enough = sampler.is_intricate() ? kSpecialPoints : kPoints;
+  for (int k = 0; k < kTriesForPoint * enough && agreed < enough; ++k) {
     const auto point = sampler.draw();
     if (!point) continue;
     try {
@@ -83,8 +84,9 @@ Finding on_level(const Case& claim, Sampler& sampler) {
       // No derivative there, as of a root: the orbit decides.
       return along_orbit(claim, point);
     }
-    constexpr int kOrbits = 3;
-    return sign == Sign::zero && orbits++ < kOrbits ? along_orbit(claim, point) : sign;
+    constexpr int kOrbitsOfPiece = 3;
+    const int enough = kOrbitsOfPiece * static_cast<int>(claim.pieces.size());
+    return sign == Sign::zero && orbits++ < enough ? along_orbit(claim, point) : sign;
   });
 }
 

@@ -105,13 +105,17 @@ void follow(const Case& claim, Point start, double duration,
   constexpr long kStepsInOne = 8;
   const Stepper stepper(claim);
   const long steps = std::lround(duration * kStepsInOne);
-  try {
-    for (long k = 0; k < steps; ++k) {
+  for (long k = 0; k < steps; ++k) {
+    try {
       start = stepper.step(start, Ball::ratio(1, kStepsInOne));
-      if (!visit(start)) return;
+    } catch (const NotReal&) {
+      if (k == 0) throw;
+      return;
+    } catch (const Unknown&) {
+      if (k == 0) throw;
+      return;
     }
-  } catch (const NotReal&) {
-  } catch (const Unknown&) {
+    if (!visit(start)) return;
   }
 }
 

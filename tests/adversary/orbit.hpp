@@ -11,7 +11,7 @@ namespace casimir::adversary {
 /// Follows the motion from a point by extrapolated midpoint steps (Gragg, Bulirsch and Stoer) in
 /// balls of which only the middle is kept: order 16 at steps of 1/8.
 /// \param visit  called with the point after each step; false ends the orbit. It also ends where
-///               the field has no real value.
+///               the field has no real value. \throws NotReal, Unknown  if that is at once
 void follow(const Case& claim, Point start, double duration,
             const std::function<bool(const Point&)>& visit);
 

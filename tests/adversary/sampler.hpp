@@ -6,6 +6,7 @@
 #include "tests/adversary/case.hpp"
 #include "tests/adversary/evaluate.hpp"
 #include "tests/adversary/random.hpp"
+#include "tests/adversary/residuals.hpp"
 
 namespace casimir::adversary {
 
@@ -18,6 +19,9 @@ class Sampler {
 
   /// A point, or none where this try met none.
   std::optional<Point> draw();
+  /// Whether there are assumptions, which may admit special points that are seldom met, or complex
+  /// values, which differ by branches.
+  bool is_intricate() const { return !assumptions_.empty() || is_complex(case_); }
 
  private:
   Point free_values();
