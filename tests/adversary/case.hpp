@@ -93,7 +93,9 @@ enum class Kind {
   involution,
   independence,
   rank,
-  liouville
+  liouville,
+  search,
+  free_search
 };
 
 /// As the library calls it.

@@ -66,7 +66,7 @@ Expr only_positive(Random& random) {
   return random.of(std::vector<Expr>{log(y * w) - log(w), sqrt(y * w) - sqrt(w), sqrt(y), log(y),
                                      pow(y, Expr(1, 3)), sqrt(pow(y, 3)), sqrt(w) * sqrt(y / w),
                                      sqrt(w * y) * sqrt(1 / w), log(y / w) + log(w),
-                                     sqrt(y * pow(w, 2)) + w, log(pow(y, 3)), pow(y, Expr(3, 2)),
+                                     sqrt(y * exp(w)) + w, log(pow(y, 3)), pow(y, Expr(3, 2)),
                                      asin(sqrt(y) / 10), log(y * w) * sqrt(w - 5) * 0 + log(y)});
 }
 

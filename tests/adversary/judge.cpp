@@ -5,6 +5,8 @@
 
 #include "symbolic/error.hpp"
 #include "symbolic/prove.hpp"
+#include "symbolic/search/watch.hpp"
+#include "tests/adversary/judge_search.hpp"
 #include "tests/adversary/oracle.hpp"
 #include "tests/adversary/parser.hpp"
 #include "tests/adversary/templates.hpp"
@@ -98,33 +100,53 @@ Outcome confirm(Case& claim, Random& random, std::string& what) {
 }
 
 Outcome ask(Case& claim, Random& random, std::string& what) {
+  if (const Outcome truth = confirm(claim, random, what); truth != Outcome::proved) return truth;
+  const Model model = build_model(parse_case(claim.text(), "claim.toml"));
+  Candidates candidates;
+  candidates.only = to_string(claim.kind);
+  const std::vector<Proof> proofs = prove(model, candidates);
+  if (const Proof* proof = proof_of(claim, proofs)) return compare(claim, *proof, random, what);
+  what = "the claim is not in the answer";
+  return Outcome::tester;
+}
+
+/// What is asked, with the library's errors as outcomes.
+Outcome asked(AnyClaim& claim, Random& random, std::string& what) {
   try {
-    if (const Outcome truth = confirm(claim, random, what); truth != Outcome::proved) return truth;
-  } catch (const std::exception& e) {
-    what = std::string("the oracle: ") + e.what();
-    return Outcome::tester;
-  }
-  try {
-    const Model model = build_model(parse_case(claim.text(), "claim.toml"));
-    Candidates candidates;
-    candidates.only = to_string(claim.kind);
-    const std::vector<Proof> proofs = prove(model, candidates);
-    const Proof* proof = proof_of(claim, proofs);
-    if (proof == nullptr) {
-      what = "the claim is not in the answer";
-      return Outcome::tester;
-    }
-    return compare(claim, *proof, random, what);
+    if (auto* search = std::get_if<SearchCase>(&claim)) return judge_search(*search, random, what);
+    return ask(std::get<Case>(claim), random, what);
   } catch (const CaseError& e) {
     what = e.what();
     return Outcome::refused;
   } catch (const ModelError& e) {
     what = e.what();
     return Outcome::refused;
+  } catch (const search::NoAnswer& e) {
+    what = e.what();
+    return Outcome::undecided;
+  } catch (const std::logic_error& e) {
+    what = std::string("the oracle: ") + e.what();
+    return Outcome::tester;
   } catch (const std::exception& e) {
     what = std::string("exception: ") + e.what();
     return Outcome::broken;
   }
+}
+
+Judgement described(const AnyClaim& claim) {
+  Judgement result;
+  if (const auto* search = std::get_if<SearchCase>(&claim)) {
+    result.kind = search->is_free() ? Kind::free_search : Kind::search;
+    result.family = search->base.family;
+    result.file = search->text();
+    return result;
+  }
+  const Case& c = std::get<Case>(claim);
+  result.kind = c.kind;
+  result.family = c.family;
+  result.truth = c.truth;
+  result.file = c.text();
+  return result;
 }
 
 }  // namespace
@@ -138,15 +160,20 @@ std::string to_string(Outcome outcome) {
 
 bool is_failure(Outcome outcome) { return outcome >= Outcome::false_proof; }
 
+Judgement unjudged(std::uint64_t seed, std::uint64_t index) {
+  Random generator(seed, index);
+  return described(random_claim(generator));
+}
+
 Judgement judge(std::uint64_t seed, std::uint64_t index) {
   Random generator(seed, index), oracle(seed ^ kOracleSeed, index);
-  Case claim = random_case(generator);
-  Judgement result;
-  result.outcome = ask(claim, oracle, result.what);
-  result.kind = claim.kind;
-  result.family = claim.family;
-  result.truth = claim.truth;
-  if (is_failure(result.outcome)) result.file = claim.text();
+  AnyClaim claim = random_claim(generator);
+  std::string what;
+  const Outcome outcome = asked(claim, oracle, what);
+  Judgement result = described(claim);
+  result.outcome = outcome;
+  result.what = what;
+  if (!is_failure(outcome)) result.file.clear();
   return result;
 }
 

@@ -33,8 +33,11 @@ struct Judgement {
   std::string family;
   Truth truth = Truth::yes;
   std::string what;  ///< for a failure
-  std::string file;  ///< the case, for a failure
+  std::string file;  ///< the case; of what is judged only for a failure
 };
+
+/// What is known of the claim of that index before anyone is asked, with its file.
+Judgement unjudged(std::uint64_t seed, std::uint64_t index);
 
 /// Makes the claim of that index, finds what the prover says of it, and judges that.
 Judgement judge(std::uint64_t seed, std::uint64_t index);

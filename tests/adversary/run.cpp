@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <map>
 
-#include "tests/adversary/templates.hpp"
 #include "tests/adversary/worker.hpp"
 
 namespace casimir::adversary {
@@ -69,10 +68,8 @@ class Log {
 bool run(const Request& request) {
   if (request.print) {
     for (std::uint64_t i = request.first; i < request.first + request.count; ++i) {
-      Random generator(request.seed, i);
-      const Case claim = random_case(generator);
-      fmt::print("# {} {} {} {}\n{}\n", i, to_string(claim.kind), claim.family,
-                 to_string(claim.truth), claim.text());
+      const Judgement j = unjudged(request.seed, i);
+      fmt::print("# {} {} {} {}\n{}\n", i, to_string(j.kind), j.family, to_string(j.truth), j.file);
     }
     return true;
   }

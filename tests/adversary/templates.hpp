@@ -1,9 +1,11 @@
 #pragma once
 
+#include <variant>
 #include <vector>
 
 #include "tests/adversary/case.hpp"
 #include "tests/adversary/random.hpp"
+#include "tests/adversary/search_case.hpp"
 
 namespace casimir::adversary {
 
@@ -22,7 +24,10 @@ const std::vector<Template>& domain_templates();
 /// Names that mean something else elsewhere.
 const std::vector<Template>& name_templates();
 
-/// The claim of that index, from any of them.
-Case random_case(Random& random);
+/// A claim about a case, or a search.
+using AnyClaim = std::variant<Case, SearchCase>;
+
+/// A claim from any of them.
+AnyClaim random_claim(Random& random);
 
 }  // namespace casimir::adversary

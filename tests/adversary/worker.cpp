@@ -9,8 +9,6 @@
 #include <optional>
 #include <stdexcept>
 
-#include "tests/adversary/templates.hpp"
-
 namespace casimir::adversary {
 namespace {
 
@@ -111,9 +109,10 @@ class Worker {
 };
 
 Judgement broken(const Request& request, std::uint64_t index, const std::string& how) {
-  Random generator(request.seed, index);
-  const Case claim = random_case(generator);
-  return {Outcome::broken, claim.kind, claim.family, claim.truth, how, claim.text()};
+  Judgement j = unjudged(request.seed, index);
+  j.outcome = Outcome::broken;
+  j.what = how;
+  return j;
 }
 
 }  // namespace
