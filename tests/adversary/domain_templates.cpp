@@ -138,7 +138,7 @@ Case empty_domain(Random& random) {
   return claim;
 }
 
-/// The prover's own example: sqrt(s^2) = -s where s < 0 is real, and log(-x) = log(x) nowhere.
+/// Rules for roots and logarithms where no point makes them real.
 Case both_signs(Random& random) {
   Case claim;
   claim.kind = Kind::identity;
@@ -146,19 +146,25 @@ Case both_signs(Random& random) {
   claim.truth = Truth::nothing;
   claim.system.variables = {"x", "y", "z"};
   claim.system.equations = {1, 0, y};
-  switch (random(4)) {
-    case 0:
-      claim.identities = {{log(-x), log(x)}};
-      break;
-    case 1:
-      claim.identities = {{sqrt(-x) * sqrt(x - 1), sqrt(x - pow(x, 2))}};
-      break;
-    case 2:
-      claim.identities = {{(absolute(1 + pow(x, 2)) + 1 + pow(x, 2)) * sqrt(-1 - pow(x, 2)), 0}};
-      break;
-    default:
-      claim.identities = {{log(x - 2) + log(1 - x), log((x - 2) * (1 - x))}};
-  }
+  const Atoms atoms{{x, y, z}};
+  const Expr p = positive_expression(random, atoms), r = positive_expression(random, atoms);
+  const Expr v = random.of(atoms.reals);
+  const std::vector<IdentityClaim> choices{
+      {log(-x), log(x)},
+      {log(-p), log(p)},
+      {(absolute(p) + p) * sqrt(-p), 0},
+      {sqrt(-v) * sqrt(v - 1), sqrt(v - pow(v, 2))},
+      {log(v - 2) + log(1 - v), log((v - 2) * (1 - v))},
+      {sqrt(-p) * sqrt(-r), sqrt(p * r)},
+      {pow(sqrt(-p), 2), -p},
+      {log(-p) + log(-r), log(p * r)},
+      {asin(1 + p) + acos(1 + p), Expr::pi() / 2},
+      {exp(log(-p)), -p},
+      {sqrt(v) * sqrt(-p - v), sqrt(-v * (p + v))},
+      {sqrt(-pow(v, 2) - p), sqrt(-p - pow(v, 2)) * 1},
+      {log(v) * absolute(v) * log(-v - p), v * log(v) * log(-v - p)},
+      {cos(acos(2 + pow(v, 2))), 2 + pow(v, 2)}};
+  claim.identities = {random.of(choices)};
   return claim;
 }
 
@@ -224,10 +230,14 @@ Case thin_domain(Random& random) {
   };
   const std::vector<Choice> choices{{pow(x, 2) * y, ">=", false}, {pow(x, 2) * y, ">", true},
                                     {pow(x, 4) * y, ">=", false}, {(1 + pow(x, 2)) * y, ">=", true},
-                                    {exp(x) * y, ">=", true},     {pow(x, 3) * y, ">=", false}};
+                                    {exp(x) * y, ">=", true},     {pow(x, 3) * y, ">=", false},
+                                    {absolute(x) * y, ">=", false}, {(1 - cos(x)) * y, ">=", false},
+                                    {pow(sin(x), 2) * y, ">=", false},
+                                    {y / pow(x, 2), ">=", true}};
   const Choice& c = random.of(choices);
   claim.system.domain = {{c.left, c.relation}};
   claim.truth = c.implied ? Truth::yes : Truth::no;
+  claim.pieces = {{}, {{"x", 0}}};
   const Expr excess = (absolute(y) - y) * z;
   if (random.one_in(2)) {
     claim.identities = {{excess + z, z}};

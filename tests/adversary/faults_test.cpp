@@ -100,6 +100,7 @@ struct Sought {
   const char* file;
   int degree;
   const char *on, *functions;
+  const char* part;  ///< of the text of what is there
 };
 
 class SearchFault : public testing::TestWithParam<Sought> {};
@@ -111,16 +112,19 @@ TEST_P(SearchFault, IsFoundOrLeftOpen) {
   if (*sought.on != '\0') request.on = {text_of(sought.on)};
   if (*sought.functions != '\0') request.functions = {text_of(sought.functions)};
   const search::Report report = search::find_integrals(model_of(sought.file), request);
-  EXPECT_TRUE(!report.complete || !report.found.empty());
+  EXPECT_TRUE(!report.complete ||
+              std::any_of(report.found.begin(), report.found.end(), [&](const auto& f) {
+                return f.text.find(sought.part) != std::string::npos;
+              }));
   for (const search::Found& f : report.found) EXPECT_NE(f.verdict, Verdict::refuted) << f.text;
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Searches, SearchFault,
-    testing::Values(Sought{"search-half-angle", 2, "", ""},
-                    Sought{"search-on-real-level", 1, "q1^2+p1^2", ""},
-                    Sought{"functions-degree", 2, "", "exp(4*t)"},
-                    Sought{"power-of-root", 3, "", "x^(2/3)"}),
+    testing::Values(Sought{"search-half-angle", 2, "", "", "p2"},
+                    Sought{"search-on-real-level", 1, "q1^2+p1^2", "", "p2"},
+                    Sought{"functions-degree", 2, "", "exp(4*t)", "exp(4*t)"},
+                    Sought{"power-of-root", 3, "", "x^(2/3)", "x"}),
     [](const auto& sought) { return plain(sought.param.file); });
 
 /// Values of parameters that have to be found, or left open.

@@ -99,7 +99,8 @@ std::optional<Point> Sampler::draw() {
     Point point = free_values();
     if (!case_.pieces.empty()) {
       const Point free = point;
-      for (const auto& [name, solved] : random_.of(case_.pieces)) point[name] = value(solved, free);
+      for (const auto& [name, solved] : case_.pieces[next_piece_++ % case_.pieces.size()])
+        point[name] = value(solved, free);
     }
     if (!admits(point)) return std::nullopt;
     for (const Expr& f : level_of(case_)) {

@@ -32,6 +32,7 @@ class Sampler {
   Substitution names_;
   bool generic_;
   Random& random_;
+  std::size_t next_piece_ = 0;  ///< all are visited in turn
 };
 
 /// Whether `left RELATION 0` certainly holds there.
