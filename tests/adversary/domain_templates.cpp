@@ -147,8 +147,9 @@ Case both_signs(Random& random) {
   claim.system.variables = {"x", "y", "z"};
   claim.system.equations = {1, 0, y};
   const Atoms atoms{{x, y, z}};
-  const Expr p = positive_expression(random, atoms), r = positive_expression(random, atoms);
   const Expr v = random.of(atoms.reals);
+  const Expr p = positive_expression(random, atoms) + pow(v, 2);
+  const Expr r = positive_expression(random, atoms) + exp(v);
   const std::vector<IdentityClaim> choices{
       {log(-x), log(x)},
       {log(-p), log(p)},

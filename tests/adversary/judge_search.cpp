@@ -47,15 +47,9 @@ Case claim_of(const Case& base, const Expr& f) {
   return claim;
 }
 
-/// Whether the last function depends on the others at random points; of one alone, whether it is
+/// Whether the last function depends on the others at a random point; of one alone, whether it is
 /// constant.
-Finding depends(const Case& base, std::vector<Expr> functions, Random& random) {
-  // A level's own functions say nothing there.
-  for (const OnLevel& level : base.conditionals)
-    functions.insert(functions.begin(), level.on.begin(), level.on.end());
-  Case free = base;
-  free.kind = Kind::integral;
-  free.pieces.clear();
+Finding depends_at(const Case& free, const std::vector<Expr>& functions, Random& random) {
   Sampler sampler(free, {}, true, random);
   constexpr int kTries = 60;
   for (int k = 0; k < kTries; ++k) {
@@ -73,6 +67,22 @@ Finding depends(const Case& base, std::vector<Expr> functions, Random& random) {
     }
   }
   return Finding::unclear;
+}
+
+/// The same, on every part of the level if the search is about one: it holds on all or fails.
+Finding depends(const Case& base, const std::vector<Expr>& functions, Random& random) {
+  Case free = base;
+  free.kind = Kind::integral;
+  free.pieces.clear();
+  if (base.pieces.empty()) return depends_at(free, functions, random);
+  Finding worst = Finding::holds;
+  for (const Substitution& piece : base.pieces) {
+    std::vector<Expr> there;
+    for (const Expr& f : functions) there.push_back(substitute(f, piece));
+    const Finding finding = depends_at(free, there, random);
+    if (finding != Finding::holds) worst = finding;
+  }
+  return worst;
 }
 
 std::vector<Expr> functions_in(const search::Report& report, const Case& base) {

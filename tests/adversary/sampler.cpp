@@ -7,11 +7,13 @@
 namespace casimir::adversary {
 namespace {
 
-/// A number of 40 random bits between -3 and 3.
+/// A number of 40 random bits between -3 and 3, now and then between -12 and 12.
 Ball random_number(Random& random) {
   constexpr long kScale = 1L << 40;
+  constexpr int kFarInAll = 5;
   const long low = random(1 << 20), high = random(1 << 20);
-  return Ball::ratio(6 * ((high << 20) + low) - 3 * kScale, kScale);
+  const long range = random.one_in(kFarInAll) ? 12 : 3;
+  return Ball::ratio(range * (2 * ((high << 20) + low) - kScale), kScale);
 }
 
 Ball special_number(Random& random) {
@@ -36,7 +38,7 @@ Ball with_sign(const Ball& value, int sign) {
 bool holds(const Assumption& assumption, const Point& point) {
   const Ball left = value(assumption.left, point);
   const std::string& r = assumption.relation;
-  const bool zero = left.is_exact_zero();
+  const bool zero = left.is_tiny();
   if (r == "!=") return left.is_nonzero();
   if (r == "==") return zero;
   if (zero) return r == ">=" || r == "<=";

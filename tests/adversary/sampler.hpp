@@ -35,7 +35,7 @@ class Sampler {
   std::size_t next_piece_ = 0;  ///< all are visited in turn
 };
 
-/// Whether `left RELATION 0` certainly holds there.
+/// Whether `left RELATION 0` holds there, where what is zero to 40 digits is zero.
 bool holds(const Assumption& assumption, const Point& point);
 /// The functions whose common zero level a claim is about; for an invariant relation it is among
 /// them.

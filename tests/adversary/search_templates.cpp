@@ -62,7 +62,7 @@ SearchCase on_level(Random& random) {
       {pow(x, 2) + x * y + pow(y, 2), x + 2 * y, {{{"x", 0}, {"y", 0}}}}};
   const Choice& c = random.of(choices);
   const Expr k = random.between(1, 3);
-  SearchCase s = equations("search-level", {k * x, k * y, c.rate});
+  SearchCase s = equations("search-level", {k * x, k * y, c.rate * z});
   s.base.kind = Kind::conditional;
   s.base.conditionals = {{"G", z, {c.level}}};
   s.base.pieces = c.pieces;
