@@ -1,0 +1,180 @@
+#include "tests/adversary/judge.hpp"
+
+#include <array>
+#include <charconv>
+
+#include "symbolic/error.hpp"
+#include "symbolic/prove.hpp"
+#include "symbolic/search/watch.hpp"
+#include "tests/adversary/judge_search.hpp"
+#include "tests/adversary/oracle.hpp"
+#include "tests/adversary/parser.hpp"
+#include "tests/adversary/templates.hpp"
+
+namespace casimir::adversary {
+namespace {
+
+/// The random numbers of the oracle are not those of the generator.
+constexpr std::uint64_t kOracleSeed = 0x5EED;
+
+const Proof* proof_of(const Case& claim, const std::vector<Proof>& proofs) {
+  const Proof* last = nullptr;
+  for (const Proof& p : proofs) {
+    if (p.note || p.kind != to_string(claim.kind)) continue;
+    if (!claim.name.empty() && p.name != claim.name) continue;
+    last = &p;
+    // Of several Lax pairs or measures the claim is all of them: the worst counts.
+    if (p.verdict != Verdict::proved) break;
+  }
+  return last;
+}
+
+/// Conditions that a proof names, so that it says nothing elsewhere.
+template <typename AnyProof>
+std::vector<Assumption> conditions_of(const AnyProof& proof) {
+  std::vector<Assumption> conditions;
+  if constexpr (requires { proof.where; }) {
+    for (const auto& text : proof.where) conditions.push_back(parse_assumption(text));
+  }
+  return conditions;
+}
+
+std::size_t number_in(const std::string& name) {
+  const std::size_t place = name.find_last_of(' ') + 1;
+  std::size_t number = 0;
+  std::from_chars(name.data() + place, name.data() + name.size(), number);
+  return number;
+}
+
+Point point_of(const Witness& witness) {
+  Point point;
+  for (const auto& [name, text] : witness.point) point[name] = value(parse(text), {});
+  return point;
+}
+
+/// Whether what is said to be proved fails where it is said to hold.
+bool fails(const Case& claim, const Proof& proof, Random& random) {
+  if (claim.kind == Kind::rank)
+    return examine_rank(claim, number_in(proof.name), random) == Finding::fails;
+  if (claim.truth == Truth::yes) return false;
+  const std::vector<Assumption> conditions = conditions_of(proof);
+  if (conditions.empty()) return true;
+  const Finding left = examine(claim, random, conditions);
+  return left == Finding::fails || (claim.truth == Truth::nothing && left == Finding::nowhere);
+}
+
+Outcome compare(const Case& claim, const Proof& proof, Random& random, std::string& what) {
+  switch (proof.verdict) {
+    case Verdict::undecided:
+      return Outcome::undecided;
+    case Verdict::proved:
+      if (!fails(claim, proof, random)) return Outcome::proved;
+      what = "proved: " + proof.kind + " " + proof.name + " " + proof.evidence;
+      return Outcome::false_proof;
+    case Verdict::refuted:
+      break;
+  }
+  if (claim.truth == Truth::yes && claim.kind != Kind::rank) {
+    what = "refuted: " + proof.kind + " " + proof.name + " " + proof.residual;
+    return Outcome::false_refutation;
+  }
+  if (!proof.witness) return Outcome::refuted;
+  const std::string wrong = examine_witness(claim, point_of(*proof.witness));
+  if (wrong.empty()) return Outcome::refuted;
+  what = "its witness shows nothing: " + wrong;
+  return Outcome::bad_witness;
+}
+
+/// Whether construction and oracle agree; sets the truth where the oracle decides.
+Outcome confirm(Case& claim, Random& random, std::string& what) {
+  const Finding finding = examine(claim, random);
+  if (finding == Finding::unclear) return Outcome::unconfirmed;
+  const Truth found = finding == Finding::holds   ? Truth::yes
+                      : finding == Finding::fails ? Truth::no
+                                                  : Truth::nothing;
+  if (claim.by_oracle && found != Truth::nothing) claim.truth = found;
+  if (claim.truth == found) return Outcome::proved;
+  if (found == Truth::nothing) return Outcome::unconfirmed;
+  what = "made to be " + to_string(claim.truth) + ", found to be " + to_string(found);
+  return Outcome::tester;
+}
+
+Outcome ask(Case& claim, Random& random, std::string& what) {
+  if (const Outcome truth = confirm(claim, random, what); truth != Outcome::proved) return truth;
+  const Model model = build_model(parse_case(claim.text(), "claim.toml"));
+  Candidates candidates;
+  candidates.only = to_string(claim.kind);
+  const std::vector<Proof> proofs = prove(model, candidates);
+  if (const Proof* proof = proof_of(claim, proofs)) return compare(claim, *proof, random, what);
+  what = "the claim is not in the answer";
+  return Outcome::tester;
+}
+
+/// What is asked, with the library's errors as outcomes.
+Outcome asked(AnyClaim& claim, Random& random, std::string& what) {
+  try {
+    if (auto* search = std::get_if<SearchCase>(&claim)) return judge_search(*search, random, what);
+    return ask(std::get<Case>(claim), random, what);
+  } catch (const CaseError& e) {
+    what = e.what();
+    return Outcome::refused;
+  } catch (const ModelError& e) {
+    what = e.what();
+    return Outcome::refused;
+  } catch (const search::NoAnswer& e) {
+    what = e.what();
+    return Outcome::undecided;
+  } catch (const std::logic_error& e) {
+    what = std::string("the oracle: ") + e.what();
+    return Outcome::tester;
+  } catch (const std::exception& e) {
+    what = std::string("exception: ") + e.what();
+    return Outcome::broken;
+  }
+}
+
+Judgement described(const AnyClaim& claim) {
+  Judgement result;
+  if (const auto* search = std::get_if<SearchCase>(&claim)) {
+    result.kind = search->is_free() ? Kind::free_search : Kind::search;
+    result.family = search->base.family;
+    result.file = search->text();
+    return result;
+  }
+  const Case& c = std::get<Case>(claim);
+  result.kind = c.kind;
+  result.family = c.family;
+  result.truth = c.truth;
+  result.file = c.text();
+  return result;
+}
+
+}  // namespace
+
+std::string to_string(Outcome outcome) {
+  static const std::array<const char*, kOutcomes> names{
+      "proved",      "refuted",          "undecided",   "refused", "unconfirmed",
+      "false proof", "false refutation", "bad witness", "broken",  "tester"};
+  return names[static_cast<std::size_t>(outcome)];
+}
+
+bool is_failure(Outcome outcome) { return outcome >= Outcome::false_proof; }
+
+Judgement unjudged(std::uint64_t seed, std::uint64_t index) {
+  Random generator(seed, index);
+  return described(random_claim(generator));
+}
+
+Judgement judge(std::uint64_t seed, std::uint64_t index) {
+  Random generator(seed, index), oracle(seed ^ kOracleSeed, index);
+  AnyClaim claim = random_claim(generator);
+  std::string what;
+  const Outcome outcome = asked(claim, oracle, what);
+  Judgement result = described(claim);
+  result.outcome = outcome;
+  result.what = what;
+  if (!is_failure(outcome)) result.file.clear();
+  return result;
+}
+
+}  // namespace casimir::adversary

@@ -1,0 +1,81 @@
+#include "tests/adversary/run.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+#include <map>
+
+#include "tests/adversary/worker.hpp"
+
+namespace casimir::adversary {
+namespace {
+
+using Row = std::array<int, kOutcomes>;
+using Table = std::map<std::string, Row>;
+
+void print(const std::string& title, const Table& table) {
+  fmt::print("{:<36}", title);
+  for (std::size_t i = 0; i < kOutcomes; ++i)
+    fmt::print(" {:>11.11}", to_string(static_cast<Outcome>(i)));
+  fmt::print("\n");
+  for (const auto& [name, row] : table) {
+    fmt::print("{:<36}", name);
+    for (const int count : row) fmt::print(" {:>11}", count == 0 ? "." : std::to_string(count));
+    fmt::print("\n");
+  }
+  fmt::print("\n");
+}
+
+/// Failures are shown once for each sort; the rest is counted.
+class Log {
+ public:
+  explicit Log(const Request& request) : request_(request) {}
+
+  void operator()(std::uint64_t index, const Judgement& j) {
+    if (!request_.family.empty() && j.family != request_.family) return;
+    const std::size_t column = static_cast<std::size_t>(j.outcome);
+    const std::string truth = to_string(j.truth);
+    ++by_kind_[to_string(j.kind) + ", " + truth][column];
+    ++by_family_[j.family + ", " + truth][column];
+    ++all_["all"][column];
+    if (!is_failure(j.outcome)) return;
+    failed_ = true;
+    const std::string sort = to_string(j.outcome) + " " + to_string(j.kind) + " " + j.family;
+    if (++shown_[sort] > request_.show) return;
+    fmt::print("# {}: {}, {}, {}\n# --seed {} --first {} --count 1\n# {}\n{}\n",
+               to_string(j.outcome), to_string(j.kind), j.family, truth, request_.seed, index,
+               j.what, j.file);
+    std::fflush(stdout);
+  }
+
+  bool finish() const {
+    print("kind", by_kind_);
+    print("family", by_family_);
+    print("", all_);
+    return !failed_;
+  }
+
+ private:
+  const Request& request_;
+  Table by_kind_, by_family_, all_;
+  std::map<std::string, int> shown_;
+  bool failed_ = false;
+};
+
+}  // namespace
+
+bool run(const Request& request) {
+  if (request.print) {
+    for (std::uint64_t i = request.first; i < request.first + request.count; ++i) {
+      const Judgement j = unjudged(request.seed, i);
+      fmt::print("# {} {} {} {}\n{}\n", i, to_string(j.kind), j.family, to_string(j.truth), j.file);
+    }
+    return true;
+  }
+  Log log(request);
+  judge_all(request, [&](std::uint64_t index, const Judgement& j) { log(index, j); });
+  return log.finish();
+}
+
+}  // namespace casimir::adversary
