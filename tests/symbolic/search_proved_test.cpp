@@ -6,6 +6,7 @@
 #include <set>
 
 #include "symbolic/search/darboux.hpp"
+#include "symbolic/search/real_ideal.hpp"
 #include "symbolic/search/search.hpp"
 #include "tests/symbolic/cases.hpp"
 #include "tests/symbolic/search_cases.hpp"
@@ -184,10 +185,39 @@ TEST(Proved, OnALevelOnlyWhereItsFunctionsGenerateARealIdeal) {
   const search::Report sphere =
       on_level(euler_poisson("(M1^2 + M2^2 + 2*M3^2)/2 - g1"), 2, {"g1^2 + g2^2 + g3^2 - 1"});
   EXPECT_TRUE(sphere.complete) << sphere.reason;
-  // Both Casimir functions: a bundle of planes over the sphere.
-  const search::Report both = on_level(euler_poisson("(M1^2 + M2^2 + 2*M3^2)/2 - g1"), 1,
-                                       {"g1^2 + g2^2 + g3^2 - 1", "M1*g1 + M2*g2 + M3*g3"});
-  EXPECT_NE(both.reason.find("at all real points"), 0U);
+}
+
+TEST(Proved, AnIdealIsRealAndPrimeOnlyByARuleWhoseHypothesesHold) {
+  const PolynomialRing ring(5);
+  const std::vector<std::size_t> variables{0, 1, 2, 3};  // the last is a parameter
+  const Polynomial x = ring.variable(0), y = ring.variable(1), z = ring.variable(2),
+                   w = ring.variable(3), c = ring.variable(4), one = ring.constant(1);
+  const auto shown = [&](std::vector<Polynomial> list) {
+    return search::is_shown_real_and_prime(std::move(list), variables);
+  };
+  // Graphs, also one after the other, and with a parameter before the variable.
+  EXPECT_TRUE(shown({x, y - x * x}));
+  EXPECT_TRUE(shown({c * x - y * z}));
+  // Linear in a variable, and a cone; a sphere.
+  EXPECT_TRUE(shown({x * y - z * z}));
+  EXPECT_TRUE(shown({x * x - y * y * y}));
+  EXPECT_TRUE(shown({x * x + y * y + z * z - one}));
+  // A bundle of lines over the sphere.
+  EXPECT_TRUE(shown({x * x + y * y - one, x * z + y * w}));
+  // Without a smooth real point, or without a real point, or with unknown signs of a parameter.
+  EXPECT_FALSE(shown({x * x + y * y}));
+  EXPECT_FALSE(shown({x * x + y * y + z * z}));
+  EXPECT_FALSE(shown({x * x + one}));
+  EXPECT_FALSE(shown({x * x + y * y - c}));
+  EXPECT_FALSE(shown({one}));
+  // Reducible over Q, or over R: of x^3 = 2*y^3 only one factor has more than one real point.
+  EXPECT_FALSE(shown({x * y}));
+  EXPECT_FALSE(shown({x * x}));
+  EXPECT_FALSE(shown({x * x * x - (y * y * y).scaled(2)}));
+  // Over a cone the coefficients x, y vanish at the vertex: the line over it is a component.
+  EXPECT_FALSE(shown({x * y, x * z + y * w}));
+  // After the graph is put in, the second one is a sum of squares.
+  EXPECT_FALSE(shown({x - y, x * y + z * z}));
 }
 
 TEST(Proved, NotWhereTheFunctionsMayObeyRelations) {
