@@ -79,6 +79,8 @@ class Builder {
   }
 
   void declare_names() {
+    names_.allow_complex_numbers(file_.complex_numbers);
+    model_.complex_numbers = file_.complex_numbers;
     model_.variables = make_variables(file_.phase_space);
     for (std::size_t i = 0; i < model_.variables.size(); ++i) {
       check_symbol_name(file_.phase_space.variables[i]);

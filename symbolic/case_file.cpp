@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 
 #include "symbolic/limits.hpp"
@@ -264,6 +265,23 @@ std::string read_text(const std::filesystem::path& path) {
   return text;
 }
 
+/// Whether the text has I as a word of its own, outside of comments.
+bool speaks_of_imaginary_unit(const std::string& toml) {
+  const auto is_part = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  bool comment = false;
+  bool quoted = false;
+  for (std::size_t i = 0; i < toml.size(); ++i) {
+    if (toml[i] == '\n') comment = quoted = false;
+    if (toml[i] == '"') quoted = !quoted;
+    comment = comment || (toml[i] == '#' && !quoted);
+    if (comment || toml[i] != 'I') continue;
+    const bool starts = i == 0 || !is_part(toml[i - 1]);
+    const bool ends = i + 1 == toml.size() || !is_part(toml[i + 1]);
+    if (starts && ends) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 CaseError Text::error(const std::string& what, std::size_t offset, const std::string& hint) const {
@@ -287,7 +305,9 @@ CaseFile parse_case(const std::string& toml, const std::string& file) {
   if (const std::optional<int> number = line_of_deep_key(toml))
     throw CaseError({file, *number, 1}, "a key has too many parts", reader.line(*number).text());
   try {
-    return reader.read(toml::parse(toml, std::string_view(file)));
+    CaseFile result = reader.read(toml::parse(toml, std::string_view(file)));
+    result.complex_numbers = speaks_of_imaginary_unit(toml);
+    return result;
   } catch (const toml::parse_error& problem) {
     const auto begin = problem.source().begin;
     const int number = std::max(1, static_cast<int>(begin.line));

@@ -157,6 +157,7 @@ struct CaseFile {
   std::string book;  ///< section or appendix of the book, as "2.4"; may be empty
   std::vector<std::string> tags;
   bool integrable = false;
+  bool complex_numbers = false;  ///< some string has I as a word of its own
   std::optional<Text> hamiltonian;
   std::optional<Text> lagrangian;
   PhaseSpaceText phase_space;

@@ -34,7 +34,11 @@ class CaseNames : public Scope {
   void allow(const Dynamics* dynamics) { dynamics_ = dynamics; }
   const Dynamics* dynamics() override { return dynamics_; }
 
+  void allow_complex_numbers(bool allowed) { complex_ = allowed; }
+  bool complex_numbers() const override { return complex_; }
+
  private:
+  bool complex_ = false;
   std::map<std::string, Quantity> table_;
   std::map<std::string, const Entry*> pending_;
   std::set<std::string> open_;
@@ -48,6 +52,7 @@ class ExtendedNames : public Scope {
   const Quantity* find(const std::string& name) override;
   std::vector<std::string> known() const override;
   const Dynamics* dynamics() override { return base_.dynamics(); }
+  bool complex_numbers() const override { return base_.complex_numbers(); }
 
  private:
   Scope& base_;

@@ -180,8 +180,28 @@ class Parser {
       q.bits += exponent.bits;
       if (base.value.is_zero()) fail_at(offset, "zero to a power that is not a number");
     }
-    q.value = evaluated(offset, [&] { return ex(GiNaC::pow(base.value, exponent.value)); });
+    q.value = evaluated(offset, [&] { return principal_power(base.value, exponent.value); });
     return checked(q, offset);
+  }
+
+  /// GiNaC makes x^(-1/2) of (1/x)^(1/2), which is right for x > 0 only. For other real x it is
+  /// x^(1/2)/(x^2)^(1/2).
+  ex principal_power(const ex& base, const ex& exponent) const {
+    const bool fraction = GiNaC::is_a<GiNaC::numeric>(exponent) &&
+                          !GiNaC::ex_to<GiNaC::numeric>(exponent).is_integer();
+    if (!fraction || !names_.complex_numbers()) return GiNaC::pow(base, exponent);
+    ex inner = base;
+    ex factor = 1;  // positive numbers are taken out
+    if (GiNaC::is_a<GiNaC::mul>(base) && base.nops() == 2 &&
+        GiNaC::is_a<GiNaC::numeric>(base.op(1)) && base.op(1).info(GiNaC::info_flags::positive)) {
+      inner = base.op(0);
+      factor = GiNaC::pow(base.op(1), exponent);
+    }
+    const bool reciprocal =
+        GiNaC::is_a<GiNaC::power>(inner) && inner.op(1).is_equal(GiNaC::ex(-1));
+    if (!reciprocal) return GiNaC::pow(base, exponent);
+    return factor * GiNaC::pow(inner.op(0), exponent) /
+           GiNaC::pow(GiNaC::pow(inner.op(0), 2), exponent);
   }
 
   /// Runs one GiNaC operation that may meet a pole.
@@ -355,7 +375,10 @@ class Parser {
     }
     q.degree = std::max(1.0, q.degree);
     checked(q, start);
-    q.value = evaluated(start, [&] { return function.apply(first.value, last.value); });
+    q.value = evaluated(start, [&] {
+      return function.name == "sqrt" ? principal_power(first.value, GiNaC::numeric(1, 2))
+                                     : function.apply(first.value, last.value);
+    });
     return checked(q, start);
   }
 

@@ -47,6 +47,8 @@ class Scope {
   virtual std::vector<std::string> known() const = 0;
   /// What differentiates, where the equations of motion are known; null elsewhere.
   virtual const Dynamics* dynamics() { return nullptr; }
+  /// Whether values may be complex, so that (1/x)^(1/2) and 1/x^(1/2) have to be told apart.
+  virtual bool complex_numbers() const { return false; }
 };
 
 /// A fixed table of names.

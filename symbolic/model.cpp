@@ -74,8 +74,10 @@ namespace {
 /// The names of a finished model. What they stand for is measured when it is first used.
 class ModelNames : public NameTable {
  public:
-  explicit ModelNames(const Model& model) : dynamics_(model) {}
+  explicit ModelNames(const Model& model)
+      : dynamics_(model), complex_(model.complex_numbers) {}
   const Dynamics* dynamics() override { return &dynamics_; }
+  bool complex_numbers() const override { return complex_; }
 
   const Quantity* find(const std::string& name) override {
     if (const auto later = unmeasured_.find(name); later != unmeasured_.end()) {
@@ -97,6 +99,7 @@ class ModelNames : public NameTable {
 
  private:
   ModelDynamics dynamics_;
+  bool complex_;
   std::map<std::string, ex> unmeasured_;
 };
 

@@ -120,6 +120,7 @@ struct Model {
   std::string book;  ///< section or appendix of the book, as "2.4"; may be empty
   std::vector<std::string> tags;
   bool integrable = false;
+  bool complex_numbers = false;  ///< its expressions use I
 
   std::string phase_space;  ///< "e(3)", "canonical", "explicit brackets", "equations", ..
   std::vector<GiNaC::symbol> variables;
