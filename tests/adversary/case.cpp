@@ -110,8 +110,8 @@ std::string matrix_text(const Matrix& matrix) {
 
 std::string map_text(const Map& map) {
   const System& target = map.target;
-  std::string text = "[[map]]\nname = \"map\"\nsign = " + quoted(map.sign > 0 ? "+" : "-") +
-                     "\nexpressions = { ";
+  std::string text =
+      "[[map]]\nname = \"map\"\nsign = " + quoted(map.sign > 0 ? "+" : "-") + "\nexpressions = { ";
   for (std::size_t i = 0; i < map.expressions.size(); ++i)
     text += (i > 0 ? ", " : "") + target.variables[i] + " = " + quoted(map.expressions[i].text());
   text += " }\nto = { variables = " + of_names(target.variables);
@@ -165,9 +165,9 @@ std::vector<Assumption> System::assumptions() const {
 
 std::string to_string(Kind kind) {
   static const std::array<const char*, 15> names{
-      "integral", "casimir", "jacobi",     "identity",     "conditional", "invariant_relation", "lax",
-      "measure",  "map",     "involution", "independence", "rank",        "liouville",
-      "search",   "search --free"};
+      "integral",           "casimir", "jacobi",    "identity", "conditional",
+      "invariant_relation", "lax",     "measure",   "map",      "involution",
+      "independence",       "rank",    "liouville", "search",   "search --free"};
   return names[static_cast<std::size_t>(kind)];
 }
 

@@ -43,8 +43,8 @@ Case sign_of_parameter(Random& random) {
                                                                : 0;
     claim.system.parameters[owner].assume.push_back(assumption);
   }
-  const Expr excess = random.of(
-      std::vector<Expr>{absolute(b) - b, absolute(b) * b - pow(b, 2), pow(pow(b, 2), Expr(3, 2)) - pow(b, 3)});
+  const Expr excess = random.of(std::vector<Expr>{absolute(b) - b, absolute(b) * b - pow(b, 2),
+                                                  pow(pow(b, 2), Expr(3, 2)) - pow(b, 3)});
   Known known = free_particle(random);
   claim.system.variables = known.system.variables;
   claim.system.bracket = known.system.bracket;
@@ -102,17 +102,26 @@ Case implied_domain(Random& random) {
 Case empty_domain(Random& random) {
   const Template inner = random.of(identity_templates());
   Case claim = inner(random);
-  while (claim.kind != Kind::integral && claim.kind != Kind::identity && claim.kind != Kind::casimir)
+  while (claim.kind != Kind::integral && claim.kind != Kind::identity &&
+         claim.kind != Kind::casimir)
     claim = random.of(identity_templates())(random);
   claim.family = "empty-domain";
   claim.truth = Truth::nothing;
   claim.by_oracle = false;
   const Expr v{claim.system.variables.front()};
   const Expr u{claim.system.variables.back()};
-  const std::vector<Expr> unreal{sqrt(-1 - pow(v, 2)), log(-exp(v)), asin(2 + pow(v, 2)),
-                                 sqrt(-exp(u)), log(-pow(v, 2) - pow(u, 2)), sqrt(sin(v) - 2),
-                                 acos(-3 + cos(u)), sqrt(-2 - pow(v, 4)), log(-1 - absolute(u)),
-                                 sqrt(v) * sqrt(-1 - v), log(u) * log(-u), sqrt(-pow(v, 2) - 1 + v)};
+  const std::vector<Expr> unreal{sqrt(-1 - pow(v, 2)),
+                                 log(-exp(v)),
+                                 asin(2 + pow(v, 2)),
+                                 sqrt(-exp(u)),
+                                 log(-pow(v, 2) - pow(u, 2)),
+                                 sqrt(sin(v) - 2),
+                                 acos(-3 + cos(u)),
+                                 sqrt(-2 - pow(v, 4)),
+                                 log(-1 - absolute(u)),
+                                 sqrt(v) * sqrt(-1 - v),
+                                 log(u) * log(-u),
+                                 sqrt(-pow(v, 2) - 1 + v)};
   Expr& f = claim.kind == Kind::integral  ? claim.integrals.front().value
             : claim.kind == Kind::casimir ? claim.casimirs.front().value
                                           : claim.identities.front().left;
@@ -132,8 +141,9 @@ Case empty_domain(Random& random) {
       claim.system.domain.push_back({v, "<"});
       break;
     default:
-      claim.system.domain.push_back({random.of(std::vector<Expr>{-1 - pow(v, 2), -exp(u), cos(v) - 2}),
-                                     random.one_in(2) ? ">" : ">="});
+      claim.system.domain.push_back(
+          {random.of(std::vector<Expr>{-1 - pow(v, 2), -exp(u), cos(v) - 2}),
+           random.one_in(2) ? ">" : ">="});
   }
   return claim;
 }
@@ -229,12 +239,12 @@ Case thin_domain(Random& random) {
     std::string relation;
     bool implied;
   };
-  const std::vector<Choice> choices{{pow(x, 2) * y, ">=", false}, {pow(x, 2) * y, ">", true},
-                                    {pow(x, 4) * y, ">=", false}, {(1 + pow(x, 2)) * y, ">=", true},
-                                    {exp(x) * y, ">=", true},     {pow(x, 3) * y, ">=", false},
-                                    {absolute(x) * y, ">=", false}, {(1 - cos(x)) * y, ">=", false},
-                                    {pow(sin(x), 2) * y, ">=", false},
-                                    {y / pow(x, 2), ">=", true}};
+  const std::vector<Choice> choices{
+      {pow(x, 2) * y, ">=", false},      {pow(x, 2) * y, ">", true},
+      {pow(x, 4) * y, ">=", false},      {(1 + pow(x, 2)) * y, ">=", true},
+      {exp(x) * y, ">=", true},          {pow(x, 3) * y, ">=", false},
+      {absolute(x) * y, ">=", false},    {(1 - cos(x)) * y, ">=", false},
+      {pow(sin(x), 2) * y, ">=", false}, {y / pow(x, 2), ">=", true}};
   const Choice& c = random.of(choices);
   claim.system.domain = {{c.left, c.relation}};
   claim.truth = c.implied ? Truth::yes : Truth::no;

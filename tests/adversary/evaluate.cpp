@@ -102,8 +102,7 @@ class Evaluator {
       return chain(value, k * value / base.value, base);
     }
     check_positive(base.value);
-    const Dual logarithm =
-        chain(apply(acb_log, base.value), Ball(1) / base.value, base);
+    const Dual logarithm = chain(apply(acb_log, base.value), Ball(1) / base.value, base);
     const Dual product_of = product((*this)(n.arguments[1]), logarithm);
     const Ball value = apply(acb_exp, product_of.value);
     return chain(value, value, product_of);

@@ -21,7 +21,8 @@ Model model_of(const std::string& name) {
 Text text_of(const std::string& value) { return {value, {"fault", 1, 1}, value}; }
 
 std::string plain(std::string name) {
-  std::replace_if(name.begin(), name.end(), [](char c) { return std::isalnum(c) == 0; }, '_');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return std::isalnum(c) == 0; }, '_');
   return name;
 }
 
@@ -134,14 +135,14 @@ TEST_P(SearchFault, IsFoundOrLeftOpen) {
   for (const search::Found& f : report.found) EXPECT_NE(f.verdict, Verdict::refuted) << f.text;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Searches, SearchFault,
-    testing::Values(Sought{"search-half-angle", 2, "", "", "p2"},
-                    Sought{"search-on-real-level", 1, "q1^2+p1^2", "", "p2"},
-                    Sought{"search-real-level-linear", 1, "x^2 + y^2", "", "z"},
-                    Sought{"functions-degree", 2, "", "exp(4*t)", "exp(4*t)"},
-                    Sought{"power-of-root", 3, "", "x^(2/3)", "x"}),
-    [](const auto& sought) { return plain(sought.param.file); });
+INSTANTIATE_TEST_SUITE_P(Searches, SearchFault,
+                         testing::Values(Sought{"search-half-angle", 2, "", "", "p2"},
+                                         Sought{"search-on-real-level", 1, "q1^2+p1^2", "", "p2"},
+                                         Sought{"search-real-level-linear", 1, "x^2 + y^2", "",
+                                                "z"},
+                                         Sought{"functions-degree", 2, "", "exp(4*t)", "exp(4*t)"},
+                                         Sought{"power-of-root", 3, "", "x^(2/3)", "x"}),
+                         [](const auto& sought) { return plain(sought.param.file); });
 
 /// Values of parameters that have to be found, or left open.
 struct SoughtValue {
@@ -181,21 +182,19 @@ TEST_P(FreeFault, IsFoundOrLeftOpen) {
               (value.empty() ? has_two_values(report) : has_value(report, value)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Searches, FreeFault,
-                         testing::Values(SoughtValue{"free-central-force", 2, {"n"}, "1"},
-                                         SoughtValue{"free-exp", 1, {"n"}, "2"},
-                                         SoughtValue{"free-cos", 1, {"n"}, "2"},
-                                         SoughtValue{"free-atan", 1, {"n"}, "1"},
-                                         SoughtValue{"free-casimir-missed", 2, {"d"}, "-1"},
-                                         SoughtValue{"free-three-parameters", 3, {"A", "B", "d"}, ""},
-                                         SoughtValue{"free-exponent-even", 2, {"n"}, "1/2"},
-                                         SoughtValue{"free-isotropic", 2, {"A", "B", "d"}, ""},
-                                         SoughtValue{"rattleback-equations", 3, {"lam"}, "2"},
-                                         SoughtValue{"rattleback-bracket", 3, {"lam"}, "1"},
-                                         SoughtValue{"rattleback-bracket", 3, {"lam"}, "2"}),
-                         [](const auto& sought) {
-                           return plain(std::string(sought.param.file) + sought.param.value);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Searches, FreeFault,
+    testing::Values(SoughtValue{"free-central-force", 2, {"n"}, "1"},
+                    SoughtValue{"free-exp", 1, {"n"}, "2"}, SoughtValue{"free-cos", 1, {"n"}, "2"},
+                    SoughtValue{"free-atan", 1, {"n"}, "1"},
+                    SoughtValue{"free-casimir-missed", 2, {"d"}, "-1"},
+                    SoughtValue{"free-three-parameters", 3, {"A", "B", "d"}, ""},
+                    SoughtValue{"free-exponent-even", 2, {"n"}, "1/2"},
+                    SoughtValue{"free-isotropic", 2, {"A", "B", "d"}, ""},
+                    SoughtValue{"rattleback-equations", 3, {"lam"}, "2"},
+                    SoughtValue{"rattleback-bracket", 3, {"lam"}, "1"},
+                    SoughtValue{"rattleback-bracket", 3, {"lam"}, "2"}),
+    [](const auto& sought) { return plain(std::string(sought.param.file) + sought.param.value); });
 
 TEST(FreeFaults, NothingIsShownWhereTheAdditionalFunctionIsZero) {
   EXPECT_FALSE(has_value(conditions_of({"free-atan", 1, {"n"}, ""}), "-1"));
@@ -216,7 +215,8 @@ TEST(LaxFaults, WitnessHasTheParameterOfItsOwnPair) {
   claim.system.variables = {"q", "p"};
   claim.system.bracket = Bracket::canonical;
   claim.system.hamiltonian = (pow(p, 2) + pow(q, 2)) / 2;
-  claim.lax = {{"lambda", {{p, q * lambda}, {q / lambda, -p}}, {{0, -lambda / 2}, {Expr(1, 2), 0}}}};
+  claim.lax = {
+      {"lambda", {{p, q * lambda}, {q / lambda, -p}}, {{0, -lambda / 2}, {Expr(1, 2), 0}}}};
   Point point;
   for (const auto& [name, text] : pairs[1].witness->point) point[name] = value(parse(text), {});
   const Ball shown = value(parse(pairs[1].witness->value), {});

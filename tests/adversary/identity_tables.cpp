@@ -18,47 +18,85 @@ Expr hypot(const Expr& a, const Expr& b) { return sqrt(square(a) + square(b)); }
 std::vector<Rule> angles() {
   const std::string half = "half-angle", third = "third-angle", sum = "angle-sum";
   return {
-      {half, [](Made o) -> Sides { return {2 * square(cos(o.v / 2)), 1 + cos(o.v)}; }},
-      {half, [](Made o) -> Sides { return {2 * square(sin(o.v / 2)), 1 - cos(o.v)}; }},
-      {half, [](Made o) -> Sides { return {2 * sin(o.v / 2) * cos(o.v / 2), sin(o.v)}; }},
-      {half, [](Made o) -> Sides {
+      {half,
+       [](Made o) -> Sides {
+         return {2 * square(cos(o.v / 2)), 1 + cos(o.v)};
+       }},
+      {half,
+       [](Made o) -> Sides {
+         return {2 * square(sin(o.v / 2)), 1 - cos(o.v)};
+       }},
+      {half,
+       [](Made o) -> Sides {
+         return {2 * sin(o.v / 2) * cos(o.v / 2), sin(o.v)};
+       }},
+      {half,
+       [](Made o) -> Sides {
          return {2 * square(cos(atan2(o.v, o.w) / 2)), 1 + o.w / hypot(o.v, o.w)};
        }},
-      {half, [](Made o) -> Sides {
+      {half,
+       [](Made o) -> Sides {
          return {hypot(o.v, o.w) * 2 * sin(atan2(o.v, o.w) / 2) * cos(atan2(o.v, o.w) / 2), o.v};
        }},
-      {half, [](Made o) -> Sides {
+      {half,
+       [](Made o) -> Sides {
          return {tan(atan2(o.v, o.w) / 2), o.v / (o.w + hypot(o.v, o.w))};
        }},
-      {half, [](Made o) -> Sides { return {2 * square(cos(acos(o.u) / 2)), 1 + o.u}; }},
-      {half, [](Made o) -> Sides {
+      {half,
+       [](Made o) -> Sides {
+         return {2 * square(cos(acos(o.u) / 2)), 1 + o.u};
+       }},
+      {half,
+       [](Made o) -> Sides {
          return {8 * square(square(cos(o.v / 4))), 3 + 4 * cos(o.v / 2) + cos(o.v)};
        }},
-      {third, [](Made o) -> Sides {
+      {third,
+       [](Made o) -> Sides {
          return {4 * cube(cos(o.v / 3)) - 3 * cos(o.v / 3), cos(o.v)};
        }},
-      {third, [](Made o) -> Sides {
+      {third,
+       [](Made o) -> Sides {
          return {4 * cube(cos(acos(o.u) / 3)) - 3 * cos(acos(o.u) / 3), o.u};
        }},
-      {third, [](Made o) -> Sides {
+      {third,
+       [](Made o) -> Sides {
          return {3 * sin(asin(o.u) / 3) - 4 * cube(sin(asin(o.u) / 3)), o.u};
        }},
-      {third, [](Made o) -> Sides {
+      {third,
+       [](Made o) -> Sides {
          return {4 * cube(cos(atan2(o.v, o.w) / 3)) - 3 * cos(atan2(o.v, o.w) / 3),
                  o.w / hypot(o.v, o.w)};
        }},
-      {sum, [](Made o) -> Sides { return {square(sin(o.v)) + square(cos(o.v)), 1}; }},
-      {sum, [](Made o) -> Sides {
+      {sum,
+       [](Made o) -> Sides {
+         return {square(sin(o.v)) + square(cos(o.v)), 1};
+       }},
+      {sum,
+       [](Made o) -> Sides {
          return {sin(o.v + o.w), sin(o.v) * cos(o.w) + cos(o.v) * sin(o.w)};
        }},
-      {sum, [](Made o) -> Sides { return {cos(2 * o.v), 2 * square(cos(o.v)) - 1}; }},
-      {sum, [](Made o) -> Sides { return {sin(3 * o.v), 3 * sin(o.v) - 4 * cube(sin(o.v))}; }},
-      {sum, [](Made o) -> Sides { return {cos(o.v + Expr::pi() / 2), -sin(o.v)}; }},
-      {sum, [](Made o) -> Sides { return {(1 + square(tan(o.v))) * square(cos(o.v)), 1}; }},
-      {sum, [](Made o) -> Sides {
+      {sum,
+       [](Made o) -> Sides {
+         return {cos(2 * o.v), 2 * square(cos(o.v)) - 1};
+       }},
+      {sum,
+       [](Made o) -> Sides {
+         return {sin(3 * o.v), 3 * sin(o.v) - 4 * cube(sin(o.v))};
+       }},
+      {sum,
+       [](Made o) -> Sides {
+         return {cos(o.v + Expr::pi() / 2), -sin(o.v)};
+       }},
+      {sum,
+       [](Made o) -> Sides {
+         return {(1 + square(tan(o.v))) * square(cos(o.v)), 1};
+       }},
+      {sum,
+       [](Made o) -> Sides {
          return {2 * sin(o.v) * sin(o.w), cos(o.v - o.w) - cos(o.v + o.w)};
        }},
-      {sum, [](Made o) -> Sides {
+      {sum,
+       [](Made o) -> Sides {
          return {cos(o.v + Expr::pi() / 3) + cos(o.v - Expr::pi() / 3), cos(o.v)};
        }},
   };
@@ -67,29 +105,72 @@ std::vector<Rule> angles() {
 std::vector<Rule> inverse_functions() {
   const std::string inverse = "inverse";
   return {
-      {inverse, [](Made o) -> Sides { return {asin(o.u) + acos(o.u), Expr::pi() / 2}; }},
-      {inverse, [](Made o) -> Sides {
+      {inverse,
+       [](Made o) -> Sides {
+         return {asin(o.u) + acos(o.u), Expr::pi() / 2};
+       }},
+      {inverse,
+       [](Made o) -> Sides {
          return {2 * square(sin(asin(o.u) / 2 + acos(o.u) / 2)), 1};
        }},
-      {inverse, [](Made o) -> Sides { return {cos(asin(o.u)), sqrt(1 - square(o.u))}; }},
-      {inverse, [](Made o) -> Sides { return {sin(2 * asin(o.u)), 2 * o.u * sqrt(1 - square(o.u))}; }},
-      {inverse, [](Made o) -> Sides { return {acos(-o.u), Expr::pi() - acos(o.u)}; }},
-      {inverse, [](Made o) -> Sides { return {asin(-o.u), -asin(o.u)}; }},
-      {inverse, [](Made o) -> Sides { return {asin(o.v / sqrt(1 + square(o.v))), atan(o.v)}; }},
-      {inverse, [](Made o) -> Sides { return {cos(atan(o.v)), 1 / sqrt(1 + square(o.v))}; }},
-      {inverse, [](Made o) -> Sides { return {atan(o.p) + atan(1 / o.p), Expr::pi() / 2}; }},
-      {inverse, [](Made o) -> Sides { return {atan2(o.v, o.p), atan(o.v / o.p)}; }},
-      {inverse, [](Made o) -> Sides { return {atan2(o.p, o.v), Expr::pi() / 2 - atan(o.v / o.p)}; }},
-      {inverse, [](Made o) -> Sides { return {sin(atan2(o.v, o.w)), o.v / hypot(o.v, o.w)}; }},
-      {inverse, [](Made o) -> Sides { return {atan2(o.p * o.v, o.p * o.w), atan2(o.v, o.w)}; }},
-      {inverse, [](Made o) -> Sides {
+      {inverse,
+       [](Made o) -> Sides {
+         return {cos(asin(o.u)), sqrt(1 - square(o.u))};
+       }},
+      {inverse,
+       [](Made o) -> Sides {
+         return {sin(2 * asin(o.u)), 2 * o.u * sqrt(1 - square(o.u))};
+       }},
+      {inverse,
+       [](Made o) -> Sides {
+         return {acos(-o.u), Expr::pi() - acos(o.u)};
+       }},
+      {inverse,
+       [](Made o) -> Sides {
+         return {asin(-o.u), -asin(o.u)};
+       }},
+      {inverse,
+       [](Made o) -> Sides {
+         return {asin(o.v / sqrt(1 + square(o.v))), atan(o.v)};
+       }},
+      {inverse,
+       [](Made o) -> Sides {
+         return {cos(atan(o.v)), 1 / sqrt(1 + square(o.v))};
+       }},
+      {inverse,
+       [](Made o) -> Sides {
+         return {atan(o.p) + atan(1 / o.p), Expr::pi() / 2};
+       }},
+      {inverse,
+       [](Made o) -> Sides {
+         return {atan2(o.v, o.p), atan(o.v / o.p)};
+       }},
+      {inverse,
+       [](Made o) -> Sides {
+         return {atan2(o.p, o.v), Expr::pi() / 2 - atan(o.v / o.p)};
+       }},
+      {inverse,
+       [](Made o) -> Sides {
+         return {sin(atan2(o.v, o.w)), o.v / hypot(o.v, o.w)};
+       }},
+      {inverse,
+       [](Made o) -> Sides {
+         return {atan2(o.p * o.v, o.p * o.w), atan2(o.v, o.w)};
+       }},
+      {inverse,
+       [](Made o) -> Sides {
          return {acos((1 - square(o.v)) / (1 + square(o.v))), 2 * atan(absolute(o.v))};
        }},
-      {inverse, [](Made o) -> Sides { return {atan(-o.v) + atan(o.v), 0}; }},
-      {inverse, [](Made o) -> Sides {
+      {inverse,
+       [](Made o) -> Sides {
+         return {atan(-o.v) + atan(o.v), 0};
+       }},
+      {inverse,
+       [](Made o) -> Sides {
          return {2 * atan(o.v / (1 + sqrt(1 + square(o.v)))), atan(o.v)};
        }},
-      {inverse, [](Made o) -> Sides {
+      {inverse,
+       [](Made o) -> Sides {
          return {2 * asin(sqrt((1 - o.u) / 2)), acos(o.u)};
        }},
   };
@@ -98,41 +179,82 @@ std::vector<Rule> inverse_functions() {
 std::vector<Rule> roots() {
   const std::string nested = "nested-root", root = "root", abs = "absolute-value";
   return {
-      {nested, [](Made o) -> Sides {
+      {nested,
+       [](Made o) -> Sides {
          return {sqrt(o.p + o.r + 2 * sqrt(o.p * o.r)), sqrt(o.p) + sqrt(o.r)};
        }},
-      {nested, [](Made o) -> Sides {
+      {nested,
+       [](Made o) -> Sides {
          return {sqrt(o.p + o.r + 2 * sqrt(o.p) * sqrt(o.r)), sqrt(o.p) + sqrt(o.r)};
        }},
-      {nested, [](Made o) -> Sides {
+      {nested,
+       [](Made o) -> Sides {
          return {sqrt(o.p + 1 + sqrt(2 * o.p + 1)), (sqrt(2 * o.p + 1) + 1) / sqrt(kTwo)};
        }},
-      {nested, [](Made o) -> Sides {
+      {nested,
+       [](Made o) -> Sides {
          return {sqrt(sqrt(1 + square(o.v)) + o.v) * sqrt(sqrt(1 + square(o.v)) - o.v), 1};
        }},
-      {nested, [](Made o) -> Sides {
+      {nested,
+       [](Made o) -> Sides {
          return {sqrt(o.p + o.r - 2 * sqrt(o.p * o.r)), absolute(sqrt(o.p) - sqrt(o.r))};
        }},
-      {nested, [](Made o) -> Sides {
+      {nested,
+       [](Made o) -> Sides {
          return {sqrt(2 * hypot(o.v, o.w) + 2 * o.v) * sqrt(2 * hypot(o.v, o.w) - 2 * o.v),
                  2 * absolute(o.w)};
        }},
-      {nested, [](Made o) -> Sides { return {sqrt(4 + 2 * o.p + 2 * sqrt(square(o.p) + 4 * o.p + 3)),
-                                             sqrt(o.p + 1) + sqrt(o.p + 3)}; }},
-      {root, [](Made o) -> Sides { return {sqrt(o.p) * sqrt(o.r), sqrt(o.p * o.r)}; }},
-      {root, [](Made o) -> Sides { return {pow(pow(o.p, 3), Expr(1, 3)), o.p}; }},
-      {root, [](Made o) -> Sides { return {pow(o.p, Expr(2, 3)), square(pow(o.p, Expr(1, 3)))}; }},
-      {root, [](Made o) -> Sides { return {sqrt(sqrt(o.p)), pow(o.p, Expr(1, 4))}; }},
-      {root, [](Made o) -> Sides { return {sqrt(square(o.p)), o.p}; }},
-      {root, [](Made o) -> Sides { return {sqrt(o.p / o.r), sqrt(o.p * o.r) / o.r}; }},
-      {root, [](Made o) -> Sides {
+      {nested,
+       [](Made o) -> Sides {
+         return {sqrt(4 + 2 * o.p + 2 * sqrt(square(o.p) + 4 * o.p + 3)),
+                 sqrt(o.p + 1) + sqrt(o.p + 3)};
+       }},
+      {root,
+       [](Made o) -> Sides {
+         return {sqrt(o.p) * sqrt(o.r), sqrt(o.p * o.r)};
+       }},
+      {root,
+       [](Made o) -> Sides {
+         return {pow(pow(o.p, 3), Expr(1, 3)), o.p};
+       }},
+      {root,
+       [](Made o) -> Sides {
+         return {pow(o.p, Expr(2, 3)), square(pow(o.p, Expr(1, 3)))};
+       }},
+      {root,
+       [](Made o) -> Sides {
+         return {sqrt(sqrt(o.p)), pow(o.p, Expr(1, 4))};
+       }},
+      {root,
+       [](Made o) -> Sides {
+         return {sqrt(square(o.p)), o.p};
+       }},
+      {root,
+       [](Made o) -> Sides {
+         return {sqrt(o.p / o.r), sqrt(o.p * o.r) / o.r};
+       }},
+      {root,
+       [](Made o) -> Sides {
          return {1 / (sqrt(o.p + 1) - sqrt(o.p)), sqrt(o.p + 1) + sqrt(o.p)};
        }},
-      {abs, [](Made o) -> Sides { return {square(absolute(o.v)), square(o.v)}; }},
-      {abs, [](Made o) -> Sides { return {absolute(o.v) * absolute(o.w), absolute(o.v * o.w)}; }},
-      {abs, [](Made o) -> Sides { return {(absolute(o.v) + o.v) * (absolute(o.v) - o.v), 0}; }},
-      {abs, [](Made o) -> Sides { return {absolute(o.v * o.p), o.p * absolute(o.v)}; }},
-      {abs, [](Made o) -> Sides {
+      {abs,
+       [](Made o) -> Sides {
+         return {square(absolute(o.v)), square(o.v)};
+       }},
+      {abs,
+       [](Made o) -> Sides {
+         return {absolute(o.v) * absolute(o.w), absolute(o.v * o.w)};
+       }},
+      {abs,
+       [](Made o) -> Sides {
+         return {(absolute(o.v) + o.v) * (absolute(o.v) - o.v), 0};
+       }},
+      {abs,
+       [](Made o) -> Sides {
+         return {absolute(o.v * o.p), o.p * absolute(o.v)};
+       }},
+      {abs,
+       [](Made o) -> Sides {
          return {square(absolute(o.v + o.w) + absolute(o.v - o.w)),
                  2 * square(o.v) + 2 * square(o.w) + 2 * absolute(square(o.v) - square(o.w))};
        }},
@@ -142,21 +264,56 @@ std::vector<Rule> roots() {
 std::vector<Rule> exponentials() {
   const std::string power = "exp-log";
   return {
-      {power, [](Made o) -> Sides { return {exp(o.v) * exp(o.w), exp(o.v + o.w)}; }},
-      {power, [](Made o) -> Sides { return {log(o.p * o.r), log(o.p) + log(o.r)}; }},
-      {power, [](Made o) -> Sides { return {log(exp(o.v)), o.v}; }},
-      {power, [](Made o) -> Sides { return {exp(o.k * log(o.p)), pow(o.p, o.k)}; }},
-      {power, [](Made o) -> Sides { return {exp(log(o.p) / 2), sqrt(o.p)}; }},
-      {power, [](Made o) -> Sides { return {pow(o.p, o.v + 1), o.p * pow(o.p, o.v)}; }},
-      {power, [](Made o) -> Sides { return {exp(o.v * log(o.p)), pow(o.p, o.v)}; }},
-      {power, [](Made o) -> Sides { return {pow(o.p * o.r, o.v), pow(o.p, o.v) * pow(o.r, o.v)}; }},
-      {power, [](Made o) -> Sides { return {sqrt(exp(2 * o.v)), exp(o.v)}; }},
-      {power, [](Made o) -> Sides {
+      {power,
+       [](Made o) -> Sides {
+         return {exp(o.v) * exp(o.w), exp(o.v + o.w)};
+       }},
+      {power,
+       [](Made o) -> Sides {
+         return {log(o.p * o.r), log(o.p) + log(o.r)};
+       }},
+      {power,
+       [](Made o) -> Sides {
+         return {log(exp(o.v)), o.v};
+       }},
+      {power,
+       [](Made o) -> Sides {
+         return {exp(o.k * log(o.p)), pow(o.p, o.k)};
+       }},
+      {power,
+       [](Made o) -> Sides {
+         return {exp(log(o.p) / 2), sqrt(o.p)};
+       }},
+      {power,
+       [](Made o) -> Sides {
+         return {pow(o.p, o.v + 1), o.p * pow(o.p, o.v)};
+       }},
+      {power,
+       [](Made o) -> Sides {
+         return {exp(o.v * log(o.p)), pow(o.p, o.v)};
+       }},
+      {power,
+       [](Made o) -> Sides {
+         return {pow(o.p * o.r, o.v), pow(o.p, o.v) * pow(o.r, o.v)};
+       }},
+      {power,
+       [](Made o) -> Sides {
+         return {sqrt(exp(2 * o.v)), exp(o.v)};
+       }},
+      {power,
+       [](Made o) -> Sides {
          return {log(o.v + sqrt(1 + square(o.v))), -log(sqrt(1 + square(o.v)) - o.v)};
        }},
-      {power, [](Made o) -> Sides { return {log(square(o.v)), 2 * log(absolute(o.v))}; }},
-      {power, [](Made o) -> Sides { return {log(1 / o.p), -log(o.p)}; }},
-      {power, [](Made o) -> Sides {
+      {power,
+       [](Made o) -> Sides {
+         return {log(square(o.v)), 2 * log(absolute(o.v))};
+       }},
+      {power,
+       [](Made o) -> Sides {
+         return {log(1 / o.p), -log(o.p)};
+       }},
+      {power,
+       [](Made o) -> Sides {
          return {square(exp(o.v) + exp(-o.v)) - square(exp(o.v) - exp(-o.v)), 4};
        }},
   };
@@ -207,37 +364,82 @@ const std::vector<Rule>& true_rules() {
 
 const std::vector<Rule>& branch_rules() {
   static const std::vector<Rule> rules{
-      {"absolute-value", [](Made o) -> Sides { return {absolute(o.v), o.v}; }},
-      {"absolute-value", [](Made o) -> Sides { return {absolute(o.v), -o.v}; }},
-      {"absolute-value", [](Made o) -> Sides {
+      {"absolute-value",
+       [](Made o) -> Sides {
+         return {absolute(o.v), o.v};
+       }},
+      {"absolute-value",
+       [](Made o) -> Sides {
+         return {absolute(o.v), -o.v};
+       }},
+      {"absolute-value",
+       [](Made o) -> Sides {
          return {absolute(o.v + o.w), absolute(o.v) + absolute(o.w)};
        }},
-      {"absolute-value", [](Made o) -> Sides { return {pow(square(o.v), Expr(3, 2)), cube(o.v)}; }},
-      {"absolute-value", [](Made o) -> Sides { return {sqrt(square(1 - o.p)), o.p - 1}; }},
-      {"nested-root", [](Made o) -> Sides {
+      {"absolute-value",
+       [](Made o) -> Sides {
+         return {pow(square(o.v), Expr(3, 2)), cube(o.v)};
+       }},
+      {"absolute-value",
+       [](Made o) -> Sides {
+         return {sqrt(square(1 - o.p)), o.p - 1};
+       }},
+      {"nested-root",
+       [](Made o) -> Sides {
          return {sqrt(o.p + 4 - 4 * sqrt(o.p)), sqrt(o.p) - 2};
        }},
-      {"nested-root", [](Made o) -> Sides {
+      {"nested-root",
+       [](Made o) -> Sides {
          return {sqrt(hypot(o.v, o.w) + o.v) * sqrt(hypot(o.v, o.w) - o.v), o.w};
        }},
-      {"half-angle", [](Made o) -> Sides { return {sqrt((1 - cos(o.v)) / 2), sin(o.v / 2)}; }},
-      {"half-angle", [](Made o) -> Sides {
+      {"half-angle",
+       [](Made o) -> Sides {
+         return {sqrt((1 - cos(o.v)) / 2), sin(o.v / 2)};
+       }},
+      {"half-angle",
+       [](Made o) -> Sides {
          return {sqrt(kTwo) * sin(atan2(o.v, o.w) / 2), sqrt(1 - o.w / hypot(o.v, o.w))};
        }},
-      {"angle-sum", [](Made o) -> Sides { return {sqrt(1 - square(sin(o.v))), cos(o.v)}; }},
-      {"angle-sum", [](Made o) -> Sides { return {1 / sqrt(1 + square(tan(o.v))), cos(o.v)}; }},
-      {"inverse", [](Made o) -> Sides { return {atan2(o.v, o.w), atan(o.v / o.w)}; }},
-      {"inverse", [](Made o) -> Sides {
+      {"angle-sum",
+       [](Made o) -> Sides {
+         return {sqrt(1 - square(sin(o.v))), cos(o.v)};
+       }},
+      {"angle-sum",
+       [](Made o) -> Sides {
+         return {1 / sqrt(1 + square(tan(o.v))), cos(o.v)};
+       }},
+      {"inverse",
+       [](Made o) -> Sides {
+         return {atan2(o.v, o.w), atan(o.v / o.w)};
+       }},
+      {"inverse",
+       [](Made o) -> Sides {
          return {asin(2 * o.v / (1 + square(o.v))), 2 * atan(o.v)};
        }},
-      {"inverse", [](Made o) -> Sides { return {asin(sin(o.v)), o.v}; }},
-      {"inverse", [](Made o) -> Sides { return {acos(cos(o.v)), o.v}; }},
-      {"inverse", [](Made o) -> Sides { return {atan(o.v) + atan(1 / o.v), Expr::pi() / 2}; }},
-      {"inverse", [](Made o) -> Sides {
+      {"inverse",
+       [](Made o) -> Sides {
+         return {asin(sin(o.v)), o.v};
+       }},
+      {"inverse",
+       [](Made o) -> Sides {
+         return {acos(cos(o.v)), o.v};
+       }},
+      {"inverse",
+       [](Made o) -> Sides {
+         return {atan(o.v) + atan(1 / o.v), Expr::pi() / 2};
+       }},
+      {"inverse",
+       [](Made o) -> Sides {
          return {acos((1 - square(o.v)) / (1 + square(o.v))), 2 * atan(o.v)};
        }},
-      {"exp-log", [](Made o) -> Sides { return {exp(log(square(o.v)) / 2), o.v}; }},
-      {"exp-log", [](Made o) -> Sides { return {sqrt(square(log(o.p))), log(o.p)}; }},
+      {"exp-log",
+       [](Made o) -> Sides {
+         return {exp(log(square(o.v)) / 2), o.v};
+       }},
+      {"exp-log",
+       [](Made o) -> Sides {
+         return {sqrt(square(log(o.p))), log(o.p)};
+       }},
   };
   return rules;
 }

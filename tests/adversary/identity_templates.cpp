@@ -26,7 +26,8 @@ Case integral(Random& random) {
   const Disguise d = put_on(claim, random, known.atoms);
   const Expr base = combination(random, known.integrals);
   Expr f = base + monomial(random, known.moving) * d.difference();
-  if (random.one_in(4)) f = base + random.of(known.moving) * d.left - random.of(known.moving) * d.right;
+  if (random.one_in(4))
+    f = base + random.of(known.moving) * d.left - random.of(known.moving) * d.right;
   if (!f.is_number() && random.one_in(5) && known.system.bracket != Bracket::none) {
     // In the Hamiltonian instead.
     known.system.hamiltonian =
@@ -151,8 +152,10 @@ Case lax(Random& random) {
   const Expr change = monomial(random, {q, p}) * d.difference();
   pair.l = {{p, q * factor}, {q / factor, -p}};
   pair.a = {{0, factor / 2}, {-1 / (2 * factor), 0}};
-  Expr& entry = (random.one_in(2) ? pair.l : pair.a)[static_cast<std::size_t>(random(2))]
-                                                    [static_cast<std::size_t>(random(2))];
+  Expr& entry =
+      (random.one_in(2)
+           ? pair.l
+           : pair.a)[static_cast<std::size_t>(random(2))][static_cast<std::size_t>(random(2))];
   entry = entry + change;
   claim.lax = {pair};
   return claim;
@@ -241,8 +244,9 @@ Case invariant_relation(Random& random) {
 
 const std::vector<Template>& identity_templates() {
   static const std::vector<Template> all{
-      integral, integral, integral, casimir_function, jacobi, identity,      identity, nested_identity,
-      measure,  lax,      map,      two_lax_pairs,    involution, invariant_relation};
+      integral, integral,      integral,        casimir_function,  jacobi,
+      identity, identity,      nested_identity, measure,           lax,
+      map,      two_lax_pairs, involution,      invariant_relation};
   return all;
 }
 

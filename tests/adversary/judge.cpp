@@ -92,7 +92,10 @@ Outcome confirm(Case& claim, Random& random, std::string& what) {
   const Truth found = finding == Finding::holds   ? Truth::yes
                       : finding == Finding::fails ? Truth::no
                                                   : Truth::nothing;
-  if (claim.by_oracle && found != Truth::nothing) claim.truth = found;
+  // That a claim fails is certain; that a change left it true is not, for points may have been
+  // missed.
+  if (claim.by_oracle && found == Truth::no) claim.truth = found;
+  if (claim.by_oracle && found == Truth::yes && claim.truth != found) return Outcome::unconfirmed;
   if (claim.truth == found) return Outcome::proved;
   if (found == Truth::nothing) return Outcome::unconfirmed;
   what = "made to be " + to_string(claim.truth) + ", found to be " + to_string(found);

@@ -149,12 +149,10 @@ Substitution values_of(const search::Condition& condition) {
   return values;
 }
 
-Outcome judge_free(const SearchCase& claim, const Model& model, Random& random,
-                   std::string& what) {
+Outcome judge_free(const SearchCase& claim, const Model& model, Random& random, std::string& what) {
   std::vector<Text> free;
   for (const std::string& name : claim.free) free.push_back(text_of(name));
-  const search::ConditionReport report =
-      search::find_conditions(model, request_of(claim), free);
+  const search::ConditionReport report = search::find_conditions(model, request_of(claim), free);
   for (const search::Condition& c : report.conditions) {
     if (c.parameters.empty()) continue;
     what = wrong_finding(at_values(claim.base, values_of(c)), c.found, random);

@@ -43,14 +43,16 @@ Lead lead(Random& random) {
                                  {acos(x / 4), {}},
                                  {x * sin(x), {0, Expr::pi()}},
                                  {sin(x) - x, {0}}};
-  const std::vector<Lead> never{{pow(x, 2) + 1, {}}, {exp(x), {}},          {2 + sin(x), {}},
-                                {cos(x) - 2, {}},    {pow(x, 2) + x + 1, {}}, {sqrt(1 + pow(x, 2)), {}},
-                                {acos(x / 4), {}},   {1 + absolute(x), {}},  {sqrt(x) + 1, {}}};
+  const std::vector<Lead> never{{pow(x, 2) + 1, {}},     {exp(x), {}},
+                                {2 + sin(x), {}},        {cos(x) - 2, {}},
+                                {pow(x, 2) + x + 1, {}}, {sqrt(1 + pow(x, 2)), {}},
+                                {acos(x / 4), {}},       {1 + absolute(x), {}},
+                                {sqrt(x) + 1, {}}};
   return random.one_in(3) ? random.of(never) : random.of(vanish);
 }
 
-/// x and y rest, z moves with y: z is an integral on y = 0, and not where the lead A(x) of the level
-/// A(x)*y vanishes. In other coordinates Y = y - f(x), Z = z - g(x, y).
+/// x and y rest, z moves with y: z is an integral on y = 0, and not where the lead A(x) of the
+/// level A(x)*y vanishes. In other coordinates Y = y - f(x), Z = z - g(x, y).
 Case leading_function(Random& random) {
   const Lead a = lead(random);
   const bool bent = random.one_in(2);
@@ -86,24 +88,23 @@ Case leading_parameter(Random& random) {
     bool vanishes;
     Substitution where;
   };
-  const std::vector<Choice> choices{
-      {a, {}, true, {{"a", 0}}},
-      {a, {{a, ">="}}, true, {{"a", 0}}},
-      {a, {{a, "!="}}, false, {}},
-      {a, {{a, ">"}}, false, {}},
-      {a - b, {}, true, {{"a", b}}},
-      {a * b, {{a, "!="}}, true, {{"b", 0}}},
-      {a * b, {{a, ">"}, {b, "!="}}, false, {}},
-      {pow(a, 2) - 1, {}, true, {{"a", 1}}},
-      {pow(a, 2) + 1, {}, false, {}},
-      {pow(a, 2) + pow(b, 2), {}, true, {{"a", 0}, {"b", 0}}},
-      {pow(a, 2) + pow(b, 2), {{b, "!="}}, false, {}},
-      {sin(a), {{a, ">"}}, true, {{"a", Expr::pi()}}},
-      {a + absolute(a), {{a, ">"}}, false, {}},
-      {a + absolute(a), {{a, "!="}}, true, {{"a", -1}}},
-      {exp(a) - exp(b), {}, true, {{"a", b}}},
-      {sqrt(a), {}, true, {{"a", 0}}},
-      {log(a), {{a, ">"}}, true, {{"a", 1}}}};
+  const std::vector<Choice> choices{{a, {}, true, {{"a", 0}}},
+                                    {a, {{a, ">="}}, true, {{"a", 0}}},
+                                    {a, {{a, "!="}}, false, {}},
+                                    {a, {{a, ">"}}, false, {}},
+                                    {a - b, {}, true, {{"a", b}}},
+                                    {a * b, {{a, "!="}}, true, {{"b", 0}}},
+                                    {a * b, {{a, ">"}, {b, "!="}}, false, {}},
+                                    {pow(a, 2) - 1, {}, true, {{"a", 1}}},
+                                    {pow(a, 2) + 1, {}, false, {}},
+                                    {pow(a, 2) + pow(b, 2), {}, true, {{"a", 0}, {"b", 0}}},
+                                    {pow(a, 2) + pow(b, 2), {{b, "!="}}, false, {}},
+                                    {sin(a), {{a, ">"}}, true, {{"a", Expr::pi()}}},
+                                    {a + absolute(a), {{a, ">"}}, false, {}},
+                                    {a + absolute(a), {{a, "!="}}, true, {{"a", -1}}},
+                                    {exp(a) - exp(b), {}, true, {{"a", b}}},
+                                    {sqrt(a), {}, true, {{"a", 0}}},
+                                    {log(a), {{a, ">"}}, true, {{"a", 1}}}};
   const Choice& c = random.of(choices);
   const Kind kind = random.one_in(3) ? Kind::invariant_relation : Kind::conditional;
   Case claim = on_level(kind, "level-parameter", y, {c.lead * x});
@@ -121,8 +122,8 @@ Case leading_parameter(Random& random) {
   return claim;
 }
 
-/// dx/dt = x and y' = R(x) on x = 0: whether R(0) is 0, with roots and quotients in R and in what is
-/// added to y, of which the rate vanishes on the level although it has a denominator.
+/// dx/dt = x and y' = R(x) on x = 0: whether R(0) is 0, with roots and quotients in R and in what
+/// is added to y, of which the rate vanishes on the level although it has a denominator.
 Case root_on_level(Random& random) {
   struct Choice {
     Expr rate, more;
@@ -159,11 +160,12 @@ Case not_lipschitz(Random& random) {
   const Kind kind = random.one_in(2) ? Kind::invariant_relation : Kind::conditional;
   Case claim = on_level(kind, "level-unique", kind == Kind::conditional ? z : y,
                         kind == Kind::conditional ? std::vector<Expr>{y} : std::vector<Expr>{});
-  claim.system.equations = {1, r.is(2) ? pow(y, 2) : r.node().numerator == 1 && random.one_in(2) &&
-                                                             r.node().denominator == 2
-                                                         ? sqrt(y)
-                                                         : pow(y, r),
-                            0};
+  claim.system.equations = {
+      1,
+      r.is(2)                                                                    ? pow(y, 2)
+      : r.node().numerator == 1 && random.one_in(2) && r.node().denominator == 2 ? sqrt(y)
+                                                                                 : pow(y, r),
+      0};
   claim.truth = unique ? Truth::yes : Truth::no;
   claim.pieces = {{{"y", 0}}};
   if (!unique) {
@@ -171,8 +173,10 @@ Case not_lipschitz(Random& random) {
     const Node& n = r.node();
     const long numerator = n.denominator - n.numerator;
     const Expr s{"s"};
-    claim.orbit = Substitution{
-        {"x", s}, {"y", pow(Expr(numerator, n.denominator) * s, Expr(n.denominator, numerator))}, {"z", 0}};
+    claim.orbit =
+        Substitution{{"x", s},
+                     {"y", pow(Expr(numerator, n.denominator) * s, Expr(n.denominator, numerator))},
+                     {"z", 0}};
   }
   return claim;
 }
@@ -200,7 +204,8 @@ Case trivial_domain(Random& random) {
   const Choice& c = random.of(choices);
   Case claim = on_level(Kind::conditional, "level-sign", z, {x});
   claim.system.domain = {{c.left, c.relation}};
-  claim.system.equations = {0, 0, (absolute(y) - y) * random.of(std::vector<Expr>{1, 1 + pow(x, 2)})};
+  claim.system.equations = {0, 0,
+                            (absolute(y) - y) * random.of(std::vector<Expr>{1, 1 + pow(x, 2)})};
   claim.truth = c.truth;
   claim.pieces = {{{"x", 0}}};
   return claim;
@@ -208,8 +213,8 @@ Case trivial_domain(Random& random) {
 
 /// Levels whose real points are few: q^2 + p^2 = 0 is one point, and there the claim holds or not.
 Case real_level(Random& random) {
-  const std::vector<Expr> sums{pow(x, 2) + pow(y, 2), pow(x, 2) + 2 * pow(y, 2),
-                               pow(x, 4) + pow(y, 2), pow(x, 2) + x * y + pow(y, 2),
+  const std::vector<Expr> sums{pow(x, 2) + pow(y, 2),     pow(x, 2) + 2 * pow(y, 2),
+                               pow(x, 4) + pow(y, 2),     pow(x, 2) + x * y + pow(y, 2),
                                absolute(x) + absolute(y), pow(x, 2) + 1 - cos(y) + pow(y, 2)};
   const bool vanishes = random.one_in(2);
   const Expr rate = vanishes ? random.of(std::vector<Expr>{x, x * y, sin(y), pow(x, 2)})
@@ -243,11 +248,12 @@ Case half_space(Random& random) {
 Case squared_level(Random& random) {
   const bool stays = random.one_in(2);
   const Expr power = pow(x, random.between(2, 3));
-  const Expr f = random.of(std::vector<Expr>{power, power * (1 + pow(y, 2)), 1 - cos(x), power * y});
+  const Expr f =
+      random.of(std::vector<Expr>{power, power * (1 + pow(y, 2)), 1 - cos(x), power * y});
   const bool whole = contains(f, "y") && f.node().arguments.back().node().op == Op::symbol;
   Case claim = on_level(Kind::invariant_relation, "level-squared", f, {});
-  claim.system.equations = {(stays ? x : Expr(1)) * random.of(std::vector<Expr>{1, exp(z)}),
-                            y * z, 0};
+  claim.system.equations = {(stays ? x : Expr(1)) * random.of(std::vector<Expr>{1, exp(z)}), y * z,
+                            0};
   claim.truth = stays ? Truth::yes : Truth::no;
   claim.pieces = {{{"x", 0}}};
   if (whole) claim.pieces.push_back({{"y", 0}});
@@ -285,10 +291,10 @@ Case identity_on_level(Random& random) {
 }  // namespace
 
 const std::vector<Template>& level_templates() {
-  static const std::vector<Template> all{
-      leading_function, leading_function, leading_parameter, root_on_level, not_lipschitz,
-      trivial_domain,   real_level,       half_space,        squared_level, two_levels,
-      identity_on_level};
+  static const std::vector<Template> all{leading_function, leading_function, leading_parameter,
+                                         root_on_level,    not_lipschitz,    trivial_domain,
+                                         real_level,       half_space,       squared_level,
+                                         two_levels,       identity_on_level};
   return all;
 }
 

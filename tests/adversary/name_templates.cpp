@@ -6,8 +6,8 @@ namespace {
 
 /// Names that a library might keep for itself, or that mean something in mathematics.
 const std::vector<std::string>& tempting_names() {
-  static const std::vector<std::string> names{"H", "t", "E", "L", "s", "d", "rho", "lambda", "x0",
-                                              "time", "n", "F", "C", "u1", "y1", "_s1"};
+  static const std::vector<std::string> names{"H",  "t",    "E", "L", "s", "d",  "rho", "lambda",
+                                              "x0", "time", "n", "F", "C", "u1", "y1",  "_s1"};
   return names;
 }
 
@@ -23,7 +23,8 @@ Case definition(Random& random) {
   s.hamiltonian = pow(p, 2) + pow(q, 2) * small_number(random);
   const bool conserved = random.one_in(2);
   const std::string name = random.of(tempting_names());
-  s.definitions = {{name, conserved ? s.hamiltonian * 2 + 1 : random.of(std::vector<Expr>{p, q, q * p})}};
+  s.definitions = {
+      {name, conserved ? s.hamiltonian * 2 + 1 : random.of(std::vector<Expr>{p, q, q * p})}};
   claim.name = name == "F" ? "G" : "F";
   const Expr f{name};
   claim.integrals = {{claim.name, random.one_in(2) ? f : pow(f, 2) + f}};

@@ -36,8 +36,7 @@ class Stepper {
     Point before = start, now = moved(start, rate(start), part);
     for (long k = 1; k < n; ++k) {
       Point next = moved(before, rate(now), Ball(2) * part);
-      if (!case_.system.time.empty())
-        next[case_.system.time] = now[case_.system.time] + part;
+      if (!case_.system.time.empty()) next[case_.system.time] = now[case_.system.time] + part;
       before = std::move(now);
       now = std::move(next);
     }

@@ -72,8 +72,7 @@ class Reader {
     if (n.op != Op::mul || !n.arguments[0].is_number()) return e;
     const Node& a = n.arguments[0].node();
     const Node& b = n.arguments[1].node();
-    if (b.op == Op::number)
-      return {a.numerator * b.numerator, a.denominator * b.denominator};
+    if (b.op == Op::number) return {a.numerator * b.numerator, a.denominator * b.denominator};
     if (b.op == Op::power && b.arguments[1].is(-1) && b.arguments[0].is_number()) {
       const Node& d = b.arguments[0].node();
       return {a.numerator * d.denominator, a.denominator * d.numerator};
@@ -142,8 +141,7 @@ Assumption parse_assumption(const std::string& text) {
   for (const char* relation : {"!=", "==", "<=", ">=", "<", ">"}) {
     const std::size_t place = text.find(relation);
     if (place == std::string::npos) continue;
-    return {parse(text.substr(0, place)) -
-                parse(text.substr(place + std::string(relation).size())),
+    return {parse(text.substr(0, place)) - parse(text.substr(place + std::string(relation).size())),
             relation};
   }
   throw std::runtime_error("no relation in '" + text + "'");

@@ -24,8 +24,8 @@ Case independence(Random& random) {
   const Disguise d = difference_of(claim, random, known.atoms);
   const Expr h = pow(Expr("p1"), 2);
   const std::vector<Expr> functions{h, pow(h, 2) + h, cos(h), exp(h / 4), sqrt(1 + h)};
-  claim.integrals = {{"F", random.of(functions) +
-                               monomial(random, known.integrals) * d.difference()}};
+  claim.integrals = {
+      {"F", random.of(functions) + monomial(random, known.integrals) * d.difference()}};
   claim.system = known.system;
   return claim;
 }
@@ -118,8 +118,8 @@ Case one_sign(Random& random) {
 }  // namespace
 
 const std::vector<Template>& rank_templates() {
-  static const std::vector<Template> all{independence,       independence_of_casimirs, liouville,
-                                         liouville_by_sides, rank,                     one_sign};
+  static const std::vector<Template> all{
+      independence, independence_of_casimirs, liouville, liouville_by_sides, rank, one_sign};
   return all;
 }
 

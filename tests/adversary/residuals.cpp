@@ -117,7 +117,9 @@ std::vector<Ball> At::flow(const Expr& f) const {
   return result;
 }
 
-Ball At::bracket(const Expr& f, const Expr& g) const { return scalar_product(gradient(f), flow(g)); }
+Ball At::bracket(const Expr& f, const Expr& g) const {
+  return scalar_product(gradient(f), flow(g));
+}
 
 std::vector<Ball> At::field() const {
   if (case_.system.bracket != Bracket::none) return flow(case_.system.hamiltonian);

@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <stdexcept>
 
-
 namespace casimir::adversary {
 namespace {
 
-/// A number of 40 random bits between -3 and 3, now and then between -12 and 12.
-Ball random_number(Random& random) {
+/// A number of 40 random bits between -3 and 3, now and then, if not near, between -12 and 12.
+Ball random_number(Random& random, bool near) {
   constexpr long kScale = 1L << 40;
   constexpr int kFarInAll = 5;
   const long low = random(1 << 20), high = random(1 << 20);
-  const long range = random.one_in(kFarInAll) ? 12 : 3;
+  const long range = !near && random.one_in(kFarInAll) ? 12 : 3;
   return Ball::ratio(range * (2 * ((high << 20) + low) - kScale), kScale);
 }
 
@@ -70,8 +69,10 @@ Point Sampler::free_values() {
     if (!pair.spectral.empty()) symbols.push_back(pair.spectral);
   }
   Point point;
+  // Orbits that start far out may be too fast for the steps that follow them.
+  const bool near = !level_of(case_).empty();
   for (const std::string& symbol : symbols) {
-    point[symbol] = random_number(random_);
+    point[symbol] = random_number(random_, near);
     for (const Assumption& a : assumptions_) {
       if (const int sign = sign_of(a, symbol); sign != 0)
         point[symbol] = with_sign(point[symbol], sign);
@@ -82,8 +83,8 @@ Point Sampler::free_values() {
   for (int count = random_.between(1, 2); count > 0; --count) {
     const std::size_t first = random_.one_in(2) ? case_.system.variables.size() : 0;
     const std::size_t left = symbols.size() - std::min(first, symbols.size() - 1);
-    point[symbols[symbols.size() - left + static_cast<std::size_t>(
-                                              random_(static_cast<int>(left)))]] =
+    point[symbols[symbols.size() - left +
+                  static_cast<std::size_t>(random_(static_cast<int>(left)))]] =
         special_number(random_);
   }
   return point;

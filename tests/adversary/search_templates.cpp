@@ -40,7 +40,8 @@ SearchCase disguised_potential(Random& random) {
 /// A rate that is zero in disguise.
 SearchCase disguised_rate(Random& random) {
   const Disguise d = true_identity(random, {{x, z}});
-  SearchCase s = equations("search-identity", {1, monomial(random, {x, y}) * d.difference(), y * x});
+  SearchCase s =
+      equations("search-identity", {1, monomial(random, {x, y}) * d.difference(), y * x});
   s.degree = 1;
   s.specials = {{{}, y}};
   return s;
@@ -117,8 +118,7 @@ SearchCase parameter_in_exponent(Random& random) {
   const long shift = random.between(-1, 1);
   const bool twice = random.one_in(2);
   const Expr exponent = twice ? 2 * n + shift : n + shift;
-  SearchCase s =
-      canonical("free-exponent", (pow(p1, 2) + pow(p2, 2)) / 2 + pow(square, exponent));
+  SearchCase s = canonical("free-exponent", (pow(p1, 2) + pow(p2, 2)) / 2 + pow(square, exponent));
   s.base.system.parameters = {{"n"}};
   s.free = {"n"};
   s.degree = 2;
@@ -149,7 +149,8 @@ SearchCase new_casimir(Random& random) {
 /// Two conditions at once: oscillators that are isotropic, and the integrable Henon-Heiles system.
 SearchCase two_conditions(Random& random) {
   const Expr a{"A"}, b{"B"}, d{"d"};
-  const Expr kinetic = (pow(p1, 2) + pow(p2, 2)) / 2, quadratic = (a * pow(q1, 2) + b * pow(q2, 2)) / 2;
+  const Expr kinetic = (pow(p1, 2) + pow(p2, 2)) / 2,
+             quadratic = (a * pow(q1, 2) + b * pow(q2, 2)) / 2;
   const bool cubic = random.one_in(2);
   SearchCase s =
       cubic ? canonical("free-set", kinetic + quadratic + pow(q1, 2) * q2 + d * pow(q2, 3) / 3)
@@ -171,7 +172,8 @@ SearchCase lagrange(Random& random) {
   system.variables = {"M1", "M2", "M3", "g1", "g2", "g3"};
   system.bracket = Bracket::e3;
   const Expr m1{"M1"}, m2{"M2"}, m3{"M3"}, a{"a"}, r{"r"}, c{"c"};
-  system.hamiltonian = (pow(m1, 2) + a * pow(m2, 2) + c * pow(m3, 2)) / 2 + r * Expr("g1") + Expr("g3");
+  system.hamiltonian =
+      (pow(m1, 2) + a * pow(m2, 2) + c * pow(m3, 2)) / 2 + r * Expr("g1") + Expr("g3");
   system.parameters = {{"a"}, {"r"}, {"c"}};
   s.free = random.one_in(2) ? std::vector<std::string>{"a", "r"}
                             : std::vector<std::string>{"a", "r", "c"};

@@ -42,7 +42,8 @@ Case sheared(const Case& claim, Random& random) {
   if (old.bracket != Bracket::none || !old.time.empty() || old.variables.size() < 2) return claim;
   const std::size_t n = old.variables.size();
   const std::size_t i = static_cast<std::size_t>(random(static_cast<int>(n)));
-  const std::size_t j = (i + static_cast<std::size_t>(random.between(1, static_cast<int>(n) - 1))) % n;
+  const std::size_t j =
+      (i + static_cast<std::size_t>(random.between(1, static_cast<int>(n) - 1))) % n;
   const Shear shear{old.variables[i], old.variables[j], small_number(random)};
   Case result = claim;
   System& s = result.system;

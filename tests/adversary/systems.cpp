@@ -34,8 +34,8 @@ const Expr q1{"q1"}, q2{"q2"}, p1{"p1"}, p2{"p2"};
 Known central(Random& random) {
   Known known = canonical(2);
   const Expr square = pow(q1, 2) + pow(q2, 2);
-  const std::vector<Expr> potentials{square, pow(square, 2), sqrt(square), log(square),
-                                     exp(-square), 1 / sqrt(square)};
+  const std::vector<Expr> potentials{square,      pow(square, 2), sqrt(square),
+                                     log(square), exp(-square),   1 / sqrt(square)};
   known.system.hamiltonian =
       (pow(p1, 2) + pow(p2, 2)) / 2 + small_number(random) * random.of(potentials);
   known.integrals = {q1 * p2 - q2 * p1};
@@ -93,8 +93,8 @@ Known lagrange_top(Random& random) {
   known.atoms.reals = symbols(known.system.variables);
   add_parameter(known, "c", ">");
   const std::vector<Expr>& x = known.atoms.reals;
-  known.system.hamiltonian = (pow(x[0], 2) + pow(x[1], 2) + symbol("c") * pow(x[2], 2)) / 2 +
-                             small_number(random) * x[5];
+  known.system.hamiltonian =
+      (pow(x[0], 2) + pow(x[1], 2) + symbol("c") * pow(x[2], 2)) / 2 + small_number(random) * x[5];
   known.casimirs = {x[0] * x[3] + x[1] * x[4] + x[2] * x[5],
                     pow(x[3], 2) + pow(x[4], 2) + pow(x[5], 2)};
   known.integrals = {x[2], known.casimirs[0], known.casimirs[1]};
