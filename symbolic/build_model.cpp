@@ -157,7 +157,7 @@ class Builder {
     names_.allow(&dynamics_);
     for (const Entry& definition : file_.definitions) {
       model_.definitions.push_back(
-          named(definition.first, names_.find(definition.first.value)->value));
+          named(definition.first, *names_.find(definition.first.value)));
     }
   }
 
@@ -174,7 +174,7 @@ class Builder {
   void read_hamiltonian() {
     if (file_.lagrangian) read_lagrangian(*file_.lagrangian);
     if (file_.hamiltonian) {
-      model_.hamiltonian = parse_expression(*file_.hamiltonian, names_).value;
+      model_.hamiltonian = in_domain(parse_expression(*file_.hamiltonian, names_));
     } else if (file_.lagrangian) {
       model_.hamiltonian = legendre_transform(*model_.frame, *file_.lagrangian);
     } else {
@@ -224,7 +224,7 @@ class Builder {
         throw CaseError(file_.phase_space.where,
                         fmt::format("[equations] has no equation for '{}'", x.get_name()));
       }
-      model_.field.push_back(parse_expression(*it->second, names_).value);
+      model_.field.push_back(in_domain(parse_expression(*it->second, names_)));
     }
   }
 
@@ -232,12 +232,16 @@ class Builder {
     return symbol_position(name, name.value, 0, model_.variables, "a variable of this case");
   }
 
-  static NamedExpression named(const Text& name, const ex& value) {
-    return {name.value, value, name.where};
+  static NamedExpression named(const Text& name, const Quantity& quantity) {
+    return {name.value, quantity.value, name.where, lost_parts(quantity)};
   }
 
-  NamedExpression anonymous(const Text& text) {
-    return {text.value, parse_expression(text, names_).value, text.where};
+  NamedExpression anonymous(const Text& text) { return named(text, parse_expression(text, names_)); }
+
+  /// The value of what the motion is made of; it has one only where all parts have.
+  ex in_domain(const Quantity& quantity) {
+    for (const ex& part : lost_parts(quantity)) model_.domain.push_back(part);
+    return quantity.value;
   }
 
   std::vector<NamedExpression> read_named(const std::vector<Entry>& entries) {
@@ -245,7 +249,7 @@ class Builder {
     for (const auto& [name, text] : entries) {
       check_name(name, "a function");
       const Quantity quantity = parse_expression(text, names_);
-      result.push_back(named(name, quantity.value));
+      result.push_back(named(name, quantity));
       names_.name_function(name, quantity);
       check_name_H(name, quantity.value);
     }
@@ -260,7 +264,7 @@ class Builder {
   }
 
   LevelClaim read_level(const LevelText& text) {
-    LevelClaim claim{named(text.name, parse_expression(text.expression, names_).value), {}};
+    LevelClaim claim{named(text.name, parse_expression(text.expression, names_)), {}};
     for (const Text& relation : text.on) claim.on.push_back(anonymous(relation));
     return claim;
   }
@@ -290,11 +294,11 @@ class Builder {
       model_.measures.push_back({anonymous(text.density), text.every_hamiltonian});
     }
     for (const IdentityText& text : file_.identities) {
-      Identity identity{text.name.value,
-                        text.name.where,
-                        parse_expression(text.left, names_).value,
-                        text.right ? parse_expression(*text.right, names_).value : ex(0),
-                        {}};
+      const Quantity left = parse_expression(text.left, names_);
+      const Quantity right = text.right ? parse_expression(*text.right, names_) : Quantity{0};
+      Identity identity{text.name.value, text.name.where,  left.value,
+                        right.value,     {},               lost_parts(left)};
+      for (const ex& part : lost_parts(right)) identity.domain.push_back(part);
       for (const Text& relation : text.on) identity.on.push_back(anonymous(relation));
       model_.identities.push_back(std::move(identity));
     }
@@ -329,8 +333,12 @@ class Builder {
     ExtendedNames names(names_, {*pair.spectral});
     for (unsigned i = 0; i < n; ++i) {
       for (unsigned j = 0; j < n; ++j) {
-        pair.l(i, j) = parse_expression(text.l[i][j], names).value;
-        pair.a(i, j) = parse_expression(text.a[i][j], names).value;
+        const Quantity l = parse_expression(text.l[i][j], names);
+        const Quantity a = parse_expression(text.a[i][j], names);
+        pair.l(i, j) = l.value;
+        pair.a(i, j) = a.value;
+        for (const Quantity* entry : {&l, &a})
+          for (const ex& part : lost_parts(*entry)) pair.domain.push_back(part);
       }
     }
     if (!text.spectral) pair.spectral.reset();

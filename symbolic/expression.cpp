@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <unordered_set>
 #include <optional>
 #include <string_view>
 
@@ -35,6 +36,7 @@ class Parser {
   Quantity parse() {
     Quantity result = sum();
     if (peek() != '\0') fail("unexpected " + here() + ", expected an operator or the end");
+    if (!parts_.empty()) result.parts = std::make_shared<const std::vector<ex>>(std::move(parts_));
     return result;
   }
 
@@ -135,6 +137,7 @@ class Parser {
       factors.push_back(c == '*' ? next.value : evaluated(offset, [&] {
         return ex(GiNaC::pow(next.value, -1));
       }));
+      if (c == '/') add_part(factors.back());
       total.bits += next.bits;
       total.degree += next.degree;
       total.nodes += next.nodes;
@@ -181,6 +184,7 @@ class Parser {
       if (base.value.is_zero()) fail_at(offset, "zero to a power that is not a number");
     }
     q.value = evaluated(offset, [&] { return principal_power(base.value, exponent.value); });
+    if (!exponent.value.info(GiNaC::info_flags::nonnegint)) add_part(q.value);
     return checked(q, offset);
   }
 
@@ -294,7 +298,10 @@ class Parser {
     }
     if (word == "Pi") return {GiNaC::Pi, 1, 0, 1};
     if (word == "I") return {GiNaC::I, 1, 0, 1};
-    if (const Quantity* known = names_.find(word)) return *known;
+    if (const Quantity* known = names_.find(word)) {
+      for (const ex& part : known->parts ? *known->parts : std::vector<ex>{}) add_part(part);
+      return *known;
+    }
     fail_at(start, fmt::format("'{}' is not declared", printable(word)),
             suggest(word, names_.known()));
   }
@@ -379,7 +386,14 @@ class Parser {
       return function.name == "sqrt" ? principal_power(first.value, GiNaC::numeric(1, 2))
                                      : function.apply(first.value, last.value);
     });
+    if (function.name != "sin" && function.name != "cos" && function.name != "exp")
+      add_part(q.value);
     return checked(q, start);
+  }
+
+  /// Each once; numbers have values everywhere.
+  void add_part(const ex& part) {
+    if (!GiNaC::is_a<GiNaC::numeric>(part) && seen_.insert(part).second) parts_.push_back(part);
   }
 
   const Text& text_;
@@ -387,6 +401,8 @@ class Parser {
   std::size_t at_;
   std::size_t end_;
   int depth_ = 0;
+  std::vector<ex> parts_;
+  std::unordered_set<ex> seen_;
 };
 
 Quantity parse_range(const Text& text, Scope& names, std::size_t begin, std::size_t end) {
@@ -398,7 +414,38 @@ Quantity parse_range(const Text& text, Scope& names, std::size_t begin, std::siz
   return Parser(text, names, begin, end).parse();
 }
 
+/// The functions and the powers in an expression.
+std::unordered_set<ex> visible_parts(const ex& value) {
+  std::unordered_set<ex> parts;
+  for (auto part = value.preorder_begin(); part != value.preorder_end(); ++part) {
+    if (GiNaC::is_a<GiNaC::power>(*part) || GiNaC::is_a<GiNaC::function>(*part))
+      parts.insert(*part);
+  }
+  return parts;
+}
+
 }  // namespace
+
+std::vector<ex> lost_parts(const Quantity& quantity) {
+  std::vector<ex> lost;
+  if (!quantity.parts) return lost;
+  const std::unordered_set<ex> visible = visible_parts(quantity.value);
+  for (const ex& part : *quantity.parts) {
+    // A sum of what is visible has values where that has.
+    if (!visible.contains(part) && (GiNaC::is_a<GiNaC::power>(part) ||
+                                    GiNaC::is_a<GiNaC::function>(part) ||
+                                    GiNaC::is_a<GiNaC::mul>(part)))
+      lost.push_back(part);
+  }
+  return lost;
+}
+
+Quantity with_parts(Quantity quantity, const std::vector<ex>& lost) {
+  std::vector<ex> parts = lost;
+  for (const ex& part : visible_parts(quantity.value)) parts.push_back(part);
+  if (!parts.empty()) quantity.parts = std::make_shared<const std::vector<ex>>(std::move(parts));
+  return quantity;
+}
 
 Quantity parse_expression(const Text& text, Scope& names) {
   return parse_range(text, names, 0, text.value.size());
@@ -434,11 +481,10 @@ Relation parse_relation(const Text& text, Scope& names) {
           parse_range(text, names, at + (two ? 2 : 1), s.size()).value};
 }
 
-std::pair<GiNaC::ex, GiNaC::ex> parse_equation(const Text& text, Scope& names) {
+std::pair<Quantity, Quantity> parse_equation(const Text& text, Scope& names) {
   const std::size_t at = text.value.find('=');
-  if (at == std::string::npos) return {parse_expression(text, names).value, 0};
-  return {parse_range(text, names, 0, at).value,
-          parse_range(text, names, at + 1, text.value.size()).value};
+  if (at == std::string::npos) return {parse_expression(text, names), {0}};
+  return {parse_range(text, names, 0, at), parse_range(text, names, at + 1, text.value.size())};
 }
 
 }  // namespace casimir

@@ -3,6 +3,7 @@
 #include <ginac/ginac.h>
 
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,9 +20,18 @@ struct Quantity {
   double degree = 0;  ///< total degree, counting every function as a variable
   double nodes = 1;   ///< size of the tree, counting shared parts as often as they are used
   double depth = 1;   ///< levels of the tree
+  /// The functions, roots and quotients that were read on the way. GiNaC may have made something of
+  /// them that has values where they have none, as x of exp(log(x)).
+  std::shared_ptr<const std::vector<GiNaC::ex>> parts{};
 
   static Quantity symbol(const GiNaC::symbol& s) { return {s, 1, 1, 1}; }
 };
+
+/// The parts that no longer occur in the value: it is defined only where these have values.
+std::vector<GiNaC::ex> lost_parts(const Quantity& quantity);
+
+/// The quantity with these parts, and those that its value shows.
+Quantity with_parts(Quantity quantity, const std::vector<GiNaC::ex>& lost);
 
 inline constexpr std::size_t kMaxNameLength = 100;
 
@@ -83,7 +93,7 @@ struct Relation {
 Relation parse_relation(const Text& text, Scope& names);
 
 /// The two sides of "LEFT = RIGHT"; the right one is 0 where there is no sign of equality.
-std::pair<GiNaC::ex, GiNaC::ex> parse_equation(const Text& text, Scope& names);
+std::pair<Quantity, Quantity> parse_equation(const Text& text, Scope& names);
 
 /// The position of the symbol of that name.
 /// \param what    as in "'x' is not WHAT", for the error where there is none

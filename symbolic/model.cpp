@@ -81,7 +81,7 @@ class ModelNames : public NameTable {
 
   const Quantity* find(const std::string& name) override {
     if (const auto later = unmeasured_.find(name); later != unmeasured_.end()) {
-      add(name, measured(later->second));
+      add(name, with_parts(measured(later->second.value), later->second.domain));
       unmeasured_.erase(later);
     }
     return NameTable::find(name);
@@ -93,29 +93,29 @@ class ModelNames : public NameTable {
     return names;
   }
 
-  void add_unless_known(const std::string& name, const ex& value) {
-    if (NameTable::find(name) == nullptr) unmeasured_.try_emplace(name, value);
+  void add_unless_known(const NamedExpression& f) {
+    if (NameTable::find(f.name) == nullptr) unmeasured_.try_emplace(f.name, f);
   }
 
  private:
   ModelDynamics dynamics_;
   bool complex_;
-  std::map<std::string, ex> unmeasured_;
+  std::map<std::string, NamedExpression> unmeasured_;
 };
 
 ModelNames names_of(const Model& model) {
   ModelNames names(model);
   const auto add = [&](const std::vector<NamedExpression>& list) {
-    for (const NamedExpression& item : list) names.add_unless_known(item.name, item.value);
+    for (const NamedExpression& item : list) names.add_unless_known(item);
   };
   for (const GiNaC::symbol& s : model.variables) names.add(s.get_name(), Quantity::symbol(s));
   for (const GiNaC::symbol& s : model.parameters) names.add(s.get_name(), Quantity::symbol(s));
-  for (const auto& [parameter, value] : model.fixed) names.add_unless_known(parameter.value, value);
+  for (const auto& [parameter, value] : model.fixed) names.add_unless_known({parameter.value, value, {}});
   if (model.time) names.add(model.time->get_name(), Quantity::symbol(*model.time));
   add(model.definitions);
   add(model.casimirs);
   add(model.integrals);
-  if (model.hamiltonian) names.add_unless_known("H", *model.hamiltonian);
+  if (model.hamiltonian) names.add_unless_known({"H", *model.hamiltonian, {}, model.domain});
   return names;
 }
 
@@ -126,9 +126,18 @@ GiNaC::ex Model::parse(const Text& text) const {
   return parse_expression(text, names).value;
 }
 
-std::pair<GiNaC::ex, GiNaC::ex> Model::parse_equation(const Text& text) const {
+NamedExpression Model::parse_named(const Text& text) const {
   ModelNames names = names_of(*this);
-  return casimir::parse_equation(text, names);
+  const Quantity quantity = parse_expression(text, names);
+  return {text.value, quantity.value, text.where, lost_parts(quantity)};
+}
+
+Identity Model::parse_identity(const Text& text) const {
+  ModelNames names = names_of(*this);
+  const auto [left, right] = casimir::parse_equation(text, names);
+  Identity identity{text.value, text.where, left.value, right.value, {}, lost_parts(left)};
+  for (const ex& part : lost_parts(right)) identity.domain.push_back(part);
+  return identity;
 }
 
 ex Model::rate(const ex& f) const {

@@ -20,6 +20,8 @@ struct NamedExpression {
   std::string name;
   GiNaC::ex value;
   Location where;
+  /// Where one of these has no value, nor has the expression as it was written.
+  std::vector<GiNaC::ex> domain{};
 };
 
 /// Their names, in order.
@@ -52,6 +54,7 @@ struct Identity {
   Location where;
   GiNaC::ex left, right;
   std::vector<NamedExpression> on;
+  std::vector<GiNaC::ex> domain{};  ///< as of NamedExpression
 };
 
 /// `density * dx` is invariant: under the flow, or under that of every Hamiltonian.
@@ -64,6 +67,7 @@ struct Measure {
 struct LaxPair {
   std::optional<GiNaC::symbol> spectral;
   GiNaC::matrix l, a;
+  std::vector<GiNaC::ex> domain{};  ///< as of NamedExpression
 };
 
 /// The default Poincare section: `function` = 0 crossed in one direction, and the plotted pair.
@@ -134,6 +138,7 @@ struct Model {
   std::optional<GiNaC::ex> hamiltonian;     ///< none for a system given by [equations]
   std::optional<Frame> frame;               ///< set where the bracket is that of a frame
   std::vector<GiNaC::ex> field;             ///< dx_i/dt for each variable, not expanded
+  std::vector<GiNaC::ex> domain;  ///< of the Hamiltonian or the equations, as of NamedExpression
 
   std::vector<NamedExpression> definitions;
   std::vector<std::pair<Text, GiNaC::ex>> fixed;  ///< parameters replaced by ParameterValues
@@ -156,8 +161,10 @@ struct Model {
   /// Reads an expression over the variables, parameters, time, definitions, and the names of the
   /// Casimirs and integrals. \throws CaseError
   GiNaC::ex parse(const Text& text) const;
+  /// The same, with its text for a name.
+  NamedExpression parse_named(const Text& text) const;
   /// The same for "LEFT = RIGHT".
-  std::pair<GiNaC::ex, GiNaC::ex> parse_equation(const Text& text) const;
+  Identity parse_identity(const Text& text) const;
 
   /// df/dt along the flow, with the explicit dependence on time; not expanded.
   GiNaC::ex rate(const GiNaC::ex& f) const;

@@ -12,13 +12,9 @@ namespace {
 
 constexpr const char* kOutOfMemory = "out of memory: --memory-limit GB allows more";
 
-NamedExpression read(const Model& model, const Text& text) {
-  return {text.value, model.parse(text), text.where};
-}
-
 std::vector<NamedExpression> read(const Model& model, const std::vector<Text>& texts) {
   std::vector<NamedExpression> result;
-  for (const Text& text : texts) result.push_back(read(model, text));
+  for (const Text& text : texts) result.push_back(model.parse_named(text));
   return result;
 }
 
@@ -47,8 +43,9 @@ std::vector<Claim> claims_of(const Model& model, const Candidates& candidates) {
   add(candidates.integrals, integral_claim);
   add(candidates.invariant_relations, invariant_relation_claim);
   for (const Text& text : candidates.identities) {
-    const auto [left, right] = model.parse_equation(text);
-    claims.push_back(identity_claim({text.value, text.where, left, right, on}));
+    Identity identity = model.parse_identity(text);
+    identity.on = on;
+    claims.push_back(identity_claim(identity));
   }
   if (on.empty()) {
     for (const auto* texts :

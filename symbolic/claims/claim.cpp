@@ -6,15 +6,18 @@ namespace casimir {
 
 std::vector<GiNaC::ex> values_of(const std::vector<NamedExpression>& functions) {
   std::vector<GiNaC::ex> values;
-  for (const NamedExpression& f : functions) values.push_back(f.value);
+  for (const NamedExpression& f : functions) {
+    values.push_back(f.value);
+    values.insert(values.end(), f.domain.begin(), f.domain.end());
+  }
   return values;
 }
 
 std::vector<GiNaC::ex> values_of(const std::vector<NamedExpression>& functions,
-                                 const GiNaC::ex& more) {
-  std::vector<GiNaC::ex> values = values_of(functions);
-  values.push_back(more);
-  return values;
+                                 const NamedExpression& more) {
+  std::vector<NamedExpression> all = functions;
+  all.push_back(more);
+  return values_of(all);
 }
 
 std::string hamiltonian_name(const Model& model) {

@@ -62,10 +62,10 @@ inline constexpr ClaimKind kClaimKinds[] = {
     unimodularity_notes,
 };
 
-/// The expressions of the functions, and of one more.
+/// The expressions of the functions, and of one more, with those that they are defined by.
 std::vector<GiNaC::ex> values_of(const std::vector<NamedExpression>& functions);
 std::vector<GiNaC::ex> values_of(const std::vector<NamedExpression>& functions,
-                                 const GiNaC::ex& more);
+                                 const NamedExpression& more);
 
 /// What the facts call the Hamiltonian: H, unless the file calls something else that.
 std::string hamiltonian_name(const Model& model);

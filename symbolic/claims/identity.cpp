@@ -13,10 +13,11 @@ Claim identity_claim(const Identity& identity) {
                     prover.level(identity.on));
               }};
   claim.expressions = {identity.left - identity.right};
-  for (const NamedExpression& f : identity.on) {
-    claim.on.push_back(f.name);
-    claim.expressions.push_back(f.value);
-  }
+  // The sides themselves: their difference may be 0 where they have no values.
+  for (const GiNaC::ex& side : {identity.left, identity.right}) claim.expressions.push_back(side);
+  for (const GiNaC::ex& part : identity.domain) claim.expressions.push_back(part);
+  for (const GiNaC::ex& value : values_of(identity.on)) claim.expressions.push_back(value);
+  claim.on = names_of(identity.on);
   return claim;
 }
 

@@ -53,7 +53,7 @@ Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression
             decide_on_invariant_level(prover, proof, {rate_of(prover, f)}, f, on);
           },
           names_of(on),
-          values_of(on, f.value)};
+          values_of(on, f)};
 }
 
 Claim invariant_relation_claim(const NamedExpression& f, const std::vector<NamedExpression>& on) {
@@ -67,7 +67,7 @@ Claim invariant_relation_claim(const NamedExpression& f, const std::vector<Named
             prover.decide_invariance(proof, all);
           },
           names_of(on),
-          values_of(on, f.value)};
+          values_of(on, f)};
 }
 
 std::vector<Claim> integral_claims(const Model& model) {

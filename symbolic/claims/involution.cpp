@@ -26,7 +26,7 @@ std::vector<Claim> involution_claims(const Model& model) {
                  {});
            },
            {},
-           {f.value, g.value}});
+           values_of({f, g})});
     }
   }
   return claims;

@@ -120,9 +120,9 @@ Claim judgement_note(const Model& model, const NamedExpression& f) {
   Claim note{"judgement", f.name, false,
              [f](Prover& prover, Proof& proof) { judge(prover, proof, f); }};
   note.note = true;
-  note.expressions = values_of(known_integrals(model), f.value);
+  note.expressions = values_of(known_integrals(model), f);
   for (const Functions& level : known_levels(model)) {
-    for (const NamedExpression& g : level) note.expressions.push_back(g.value);
+    for (const GiNaC::ex& value : values_of(level)) note.expressions.push_back(value);
   }
   return note;
 }

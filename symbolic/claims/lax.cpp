@@ -162,6 +162,7 @@ std::vector<Claim> lax_claims(const Model& model) {
     for (const auto* list : {&model.casimirs, &model.integrals}) {
       for (const NamedExpression& f : *list) expressions.push_back(f.value);
     }
+    for (const GiNaC::ex& part : model.lax_pairs[i].domain) expressions.push_back(part);
     for (const GiNaC::matrix* m : {&model.lax_pairs[i].l, &model.lax_pairs[i].a}) {
       for (std::size_t k = 0; k < m->nops(); ++k) expressions.push_back(m->op(k));
     }

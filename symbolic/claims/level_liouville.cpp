@@ -123,7 +123,8 @@ std::vector<Claim> level_liouville_notes(const Model& model) {
     Claim note{"liouville",  "Liouville integrability",
                false,        [on](Prover& prover, Proof& proof) { decide(prover, proof, on); },
                names_of(on), values_of(on)};
-    for (const NamedExpression& f : integrals_on(model, on)) note.expressions.push_back(f.value);
+    for (const GiNaC::ex& value : values_of(integrals_on(model, on)))
+      note.expressions.push_back(value);
     note.note = true;
     notes.push_back(std::move(note));
   }

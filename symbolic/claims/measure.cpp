@@ -103,7 +103,7 @@ std::vector<Claim> measure_claims(const Model& model) {
                         decide_measure(prover, proof, density, every);
                       },
                       {},
-                      {density.value}});
+                      values_of({density})});
   }
   return claims;
 }

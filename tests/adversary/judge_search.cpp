@@ -160,8 +160,6 @@ Outcome judge_free(const SearchCase& claim, const Model& model, Random& random, 
   }
   if (!report.complete) return Outcome::undecided;
   for (const Special& s : claim.specials) {
-    // Single points are said to be open.
-    if (report.points_open && s.values.size() == claim.free.size()) continue;
     if (std::any_of(report.conditions.begin(), report.conditions.end(),
                     [&](const auto& c) { return covers(c, claim, s, random); }))
       continue;

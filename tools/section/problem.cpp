@@ -71,7 +71,8 @@ class Maker {
       const Text text = option_text("--plane", *request_.plane);
       problem_.plane_text = text.value;
       if (text.value.find('=') != std::string::npos) {
-        const auto [left, right] = model_.parse_equation(text);
+        const Identity level = model_.parse_identity(text);
+        const auto& [left, right] = std::tie(level.left, level.right);
         plane_ = left - right;
       } else {
         plane_ = model_.parse(text);
