@@ -156,8 +156,7 @@ class Builder {
     }
     names_.allow(&dynamics_);
     for (const Entry& definition : file_.definitions) {
-      model_.definitions.push_back(
-          named(definition.first, *names_.find(definition.first.value)));
+      model_.definitions.push_back(named(definition.first, *names_.find(definition.first.value)));
     }
   }
 
@@ -236,7 +235,9 @@ class Builder {
     return {name.value, quantity.value, name.where, lost_parts(quantity)};
   }
 
-  NamedExpression anonymous(const Text& text) { return named(text, parse_expression(text, names_)); }
+  NamedExpression anonymous(const Text& text) {
+    return named(text, parse_expression(text, names_));
+  }
 
   /// The value of what the motion is made of; it has one only where all parts have.
   ex in_domain(const Quantity& quantity) {
@@ -296,8 +297,8 @@ class Builder {
     for (const IdentityText& text : file_.identities) {
       const Quantity left = parse_expression(text.left, names_);
       const Quantity right = text.right ? parse_expression(*text.right, names_) : Quantity{0};
-      Identity identity{text.name.value, text.name.where,  left.value,
-                        right.value,     {},               lost_parts(left)};
+      Identity identity{text.name.value, text.name.where, left.value, right.value, {},
+                        lost_parts(left)};
       for (const ex& part : lost_parts(right)) identity.domain.push_back(part);
       for (const Text& relation : text.on) identity.on.push_back(anonymous(relation));
       model_.identities.push_back(std::move(identity));

@@ -267,7 +267,9 @@ std::string read_text(const std::filesystem::path& path) {
 
 /// Whether the text has I as a word of its own, outside of comments.
 bool speaks_of_imaginary_unit(const std::string& toml) {
-  const auto is_part = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  const auto is_part = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+  };
   bool comment = false;
   bool quoted = false;
   for (std::size_t i = 0; i < toml.size(); ++i) {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <unordered_set>
 #include <optional>
 #include <string_view>
+#include <unordered_set>
 
 #include "symbolic/decimal.hpp"
 #include "symbolic/elementary.hpp"
@@ -201,8 +201,7 @@ class Parser {
       inner = base.op(0);
       factor = GiNaC::pow(base.op(1), exponent);
     }
-    const bool reciprocal =
-        GiNaC::is_a<GiNaC::power>(inner) && inner.op(1).is_equal(GiNaC::ex(-1));
+    const bool reciprocal = GiNaC::is_a<GiNaC::power>(inner) && inner.op(1).is_equal(GiNaC::ex(-1));
     if (!reciprocal) return GiNaC::pow(base, exponent);
     return factor * GiNaC::pow(inner.op(0), exponent) /
            GiNaC::pow(GiNaC::pow(inner.op(0), 2), exponent);
@@ -432,9 +431,9 @@ std::vector<ex> lost_parts(const Quantity& quantity) {
   const std::unordered_set<ex> visible = visible_parts(quantity.value);
   for (const ex& part : *quantity.parts) {
     // A sum of what is visible has values where that has.
-    if (!visible.contains(part) && (GiNaC::is_a<GiNaC::power>(part) ||
-                                    GiNaC::is_a<GiNaC::function>(part) ||
-                                    GiNaC::is_a<GiNaC::mul>(part)))
+    if (!visible.contains(part) &&
+        (GiNaC::is_a<GiNaC::power>(part) || GiNaC::is_a<GiNaC::function>(part) ||
+         GiNaC::is_a<GiNaC::mul>(part)))
       lost.push_back(part);
   }
   return lost;

@@ -74,8 +74,7 @@ namespace {
 /// The names of a finished model. What they stand for is measured when it is first used.
 class ModelNames : public NameTable {
  public:
-  explicit ModelNames(const Model& model)
-      : dynamics_(model), complex_(model.complex_numbers) {}
+  explicit ModelNames(const Model& model) : dynamics_(model), complex_(model.complex_numbers) {}
   const Dynamics* dynamics() override { return &dynamics_; }
   bool complex_numbers() const override { return complex_; }
 
@@ -110,7 +109,8 @@ ModelNames names_of(const Model& model) {
   };
   for (const GiNaC::symbol& s : model.variables) names.add(s.get_name(), Quantity::symbol(s));
   for (const GiNaC::symbol& s : model.parameters) names.add(s.get_name(), Quantity::symbol(s));
-  for (const auto& [parameter, value] : model.fixed) names.add_unless_known({parameter.value, value, {}});
+  for (const auto& [parameter, value] : model.fixed)
+    names.add_unless_known({parameter.value, value, {}});
   if (model.time) names.add(model.time->get_name(), Quantity::symbol(*model.time));
   add(model.definitions);
   add(model.casimirs);

@@ -27,6 +27,26 @@ std::vector<Polynomial> square_relations(const FunctionRing& ring) {
   return relations;
 }
 
+/// Functions that vanish at the real zeros of f: f itself, or where it is a sum of powers x^2, y^4,
+/// .. with coefficients of one sign, each of these variables.
+std::vector<Polynomial> real_zeros(const Polynomial& f) {
+  std::vector<Polynomial> variables;
+  std::optional<bool> positive;
+  for (const auto& [coefficient, exponents] : f.term_list()) {
+    std::optional<std::size_t> only;
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
+      if (exponents[i] == 0) continue;
+      if (only || exponents[i] % 2 == 1) return {f};
+      only = i;
+    }
+    const bool sign = cln::plusp(coefficient);
+    if (!only || (positive && *positive != sign)) return {f};
+    positive = sign;
+    variables.push_back(f.ring().variable(*only));
+  }
+  return variables;
+}
+
 std::vector<NamedExpression> functions_of(const Level& level) {
   std::vector<NamedExpression> result;
   for (std::size_t i = 0; i < level.functions.size(); ++i)
@@ -74,16 +94,18 @@ std::vector<Residual> Prover::level_rates(const Level& level) {
   return result;
 }
 
-/// What the claim, the bracket and the flow divide by, or take the logarithm of: where one of these
-/// vanishes, nothing is claimed.
+/// What the claim, the bracket and the flow divide by, or take the logarithm of, and the squared
+/// distances from the origin of which they take the angle: where one of these vanishes, nothing is
+/// claimed.
 const std::vector<Polynomial>& Prover::explicit_divisors() {
   if (divisors_) return *divisors_;
   divisors_.emplace();
-  const auto add = [&](const ex& base) {
-    for (const auto& [f, exponent] : ring_.lowest_terms(ring_.convert(base)).first.factors()) {
+  const auto add_polynomial = [&](const Polynomial& p) {
+    for (const auto& [f, exponent] : ring_.lowest_terms(p).first.factors()) {
       if (!f.is_constant()) divisors_->push_back(f);
     }
   };
+  const auto add = [&](const ex& base) { add_polynomial(ring_.convert(base)); };
   for (const ex& expression : domain_) {
     for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
       if (GiNaC::is_a<GiNaC::power>(*part)) {
@@ -95,6 +117,11 @@ const std::vector<Polynomial>& Prover::explicit_divisors() {
         const std::string name = GiNaC::ex_to<GiNaC::function>(*part).get_name();
         if (name == "log") add(part->op(0));
         if (name == "tan") add(GiNaC::cos(part->op(0)));
+        if (name == "atan2") {
+          const Polynomial& y = ring_.convert(part->op(0));
+          const Polynomial& x = ring_.convert(part->op(1));
+          add_polynomial(x * x + y * y);
+        }
       }
     }
   }
@@ -124,9 +151,17 @@ bool Prover::vanishes_nowhere_on(const Polynomial& p, const Level& level) {
     std::vector<Polynomial> ideal = level.numerators;
     const std::vector<Polynomial> identities = square_relations(ring_);
     ideal.insert(ideal.end(), identities.begin(), identities.end());
-    ideal.push_back(f);
+    const std::vector<Polynomial> zeros =
+        ring_.is_complex() ? std::vector<Polynomial>{f} : real_zeros(f);
+    ideal.insert(ideal.end(), zeros.begin(), zeros.end());
     const std::vector<Polynomial> basis = groebner_basis(ideal, kSmallBasis);
-    if (std::none_of(basis.begin(), basis.end(), never)) return false;
+    // Or a divisor vanishes wherever f does, so that nothing is claimed there.
+    const auto& divisors = explicit_divisors();
+    const bool undefined = std::any_of(divisors.begin(), divisors.end(), [&](const Polynomial& d) {
+      std::vector<Polynomial> quotients;
+      return d.remainder(basis, &quotients).is_zero();
+    });
+    if (!undefined && std::none_of(basis.begin(), basis.end(), never)) return false;
   }
   return true;
 }

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "symbolic/exact_constant.hpp"
+#include "symbolic/measure.hpp"
+
 namespace casimir {
 namespace {
 
@@ -171,21 +174,29 @@ bool RealLevelPoints::at_rational_point(const Level& level, const std::vector<ex
 bool RealLevelPoints::at_simple_point(const Level& level, const std::vector<ex>& expressions) {
   constexpr int kTrials = 200;
   for (int trial = 0; trial < kTrials; ++trial) {
-    std::vector<ex> coordinates = real_.draw_simple();
+    std::vector<ex> coordinates = real_.draw_simple(trial % 2 == 1);
     if (trial == 0) coordinates.assign(coordinates.size(), 0);
     RealPoint point = real_.at(std::move(coordinates));
     try {
       const bool on_level =
           std::all_of(level.functions.begin(), level.functions.end(), [&](const ex& f) {
-            const auto exact = point.evaluator().exact(f);
-            return exact && cln::zerop(*exact);
+            if (!point.evaluator()(f).contains_zero()) return false;
+            const auto value = exact_constant(substituted(f, values_of(point)));
+            return value && value->zero;
           });
       if (on_level && real_.admits(point, expressions)) return true;
-    } catch (const NotCertified&) {
-      continue;
+    } catch (const std::exception&) {
+      continue;  // a pole, or no certain value
     }
   }
   return false;
+}
+
+GiNaC::exmap RealLevelPoints::values_of(const RealPoint& point) const {
+  GiNaC::exmap values;
+  for (std::size_t i = 0; i < ring_.symbols().size(); ++i)
+    values[ring_.symbols()[i]] = point.coordinates()[i];
+  return values;
 }
 
 bool RealLevelPoints::near(const Level& level, const std::vector<ex>& start,

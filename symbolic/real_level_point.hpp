@@ -22,6 +22,7 @@ class RealLevelPoints {
  private:
   bool at_simple_point(const Level& level, const std::vector<GiNaC::ex>& expressions);
   bool at_rational_point(const Level& level, const std::vector<GiNaC::ex>& expressions);
+  GiNaC::exmap values_of(const RealPoint& point) const;
   bool near(const Level& level, const std::vector<GiNaC::ex>& start,
             const std::vector<GiNaC::ex>& expressions);
 

@@ -189,7 +189,7 @@ std::vector<ex> RealPoints::draw() {
   return point;
 }
 
-std::vector<ex> RealPoints::draw_simple() {
+std::vector<ex> RealPoints::draw_simple(bool parts_of_pi) {
   std::vector<ex> point = draw();
   const bool zeros = std::uniform_int_distribution<int>(0, 1)(random_) == 1;
   for (ex& x : point) {
@@ -197,6 +197,7 @@ std::vector<ex> RealPoints::draw_simple() {
     if (choice < (zeros ? 4 : 1)) x = 0;
     if (choice == 4) x = 1;
     if (choice == 5) x = -1;
+    if (parts_of_pi && choice >= 4) x = GiNaC::Pi / (choice == 4 ? 1 : 2);
   }
   return point;
 }

@@ -81,8 +81,8 @@ class RealPoints {
 
   /// Coordinates for the ring's symbols, without a look at the assumptions.
   std::vector<GiNaC::ex> draw();
-  /// The same; many are 0, 1 or -1.
-  std::vector<GiNaC::ex> draw_simple();
+  /// The same; many are 0, 1 or -1, or parts of Pi if these are asked for.
+  std::vector<GiNaC::ex> draw_simple(bool parts_of_pi = false);
 
   /// How the ring's functions are to be evaluated.
   BallEvaluator::Numbers numbers() const;

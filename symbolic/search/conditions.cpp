@@ -34,6 +34,15 @@ Domain put_assumptions(Model& model, const std::function<ex(const ex&)>& put) {
   return Domain::inside;
 }
 
+/// Whether the difference is zero where the symbols have these values; it need have no value there.
+bool vanishes_at(const ex& difference, const GiNaC::exmap& values) {
+  try {
+    return difference.subs(values).normal().is_zero();
+  } catch (const GiNaC::pole_error&) {
+    return false;
+  }
+}
+
 /// The model where a parameter has a value, which may contain the others. Only what a search needs;
 /// empty where an assumption excludes the value.
 std::optional<Model> with_value(const Model& model, const GiNaC::symbol& parameter,
@@ -159,7 +168,7 @@ bool ConditionFinder::is_known(const Place& place) const {
   for (const auto& [symbol, value] : place.values) map.emplace(symbol, value);
   return std::any_of(confirmed_.begin(), confirmed_.end(), [&](const Place& known) {
     return std::all_of(known.values.begin(), known.values.end(), [&](const auto& entry) {
-      return (ex(entry.first) - entry.second).subs(map).normal().is_zero();
+      return vanishes_at(ex(entry.first) - entry.second, map);
     });
   });
 }
@@ -190,7 +199,7 @@ ConditionFinder::Confirmed ConditionFinder::confirm(const Place& place, Conditio
       GiNaC::exmap map;
       for (const auto& [symbol, value] : place.values) map.emplace(symbol, value);
       const bool around = std::all_of(known.values.begin(), known.values.end(), [&](const auto& e) {
-        return (ex(e.first) - e.second).subs(map).normal().is_zero();
+        return vanishes_at(ex(e.first) - e.second, map);
       });
       if (around) know(report_.conditions[i].found);
     }

@@ -40,13 +40,13 @@ Lead lead(Random& random) {
                                  {tan(x), {0, Expr::pi()}},
                                  {pow(x, Expr(1, 3)), {0}},
                                  {cos(x), {Expr::pi() / 2}},
-                                 {acos(x / 4), {}},
+                                 {acos(x / 4), {4}},
                                  {x * sin(x), {0, Expr::pi()}},
                                  {sin(x) - x, {0}}};
   const std::vector<Lead> never{{pow(x, 2) + 1, {}},     {exp(x), {}},
                                 {2 + sin(x), {}},        {cos(x) - 2, {}},
                                 {pow(x, 2) + x + 1, {}}, {sqrt(1 + pow(x, 2)), {}},
-                                {acos(x / 4), {}},       {1 + absolute(x), {}},
+                                {1 + acos(x / 4), {}},   {1 + absolute(x), {}},
                                 {sqrt(x) + 1, {}}};
   return random.one_in(3) ? random.of(never) : random.of(vanish);
 }

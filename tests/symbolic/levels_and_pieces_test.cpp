@@ -1,0 +1,187 @@
+// The hypotheses of the theorems behind claims on levels and behind facts: each test drops one.
+#include <gtest/gtest.h>
+
+#include "symbolic/generic_rank.hpp"
+#include "symbolic/real_level_point.hpp"
+#include "tests/symbolic/cases.hpp"
+
+namespace casimir::test {
+namespace {
+
+/// Verdict and conditions of the only claim of a kind.
+Proof proof_of(const std::string& kind, const std::string& text) {
+  const Model model = model_of(text);
+  for (Proof& proof : prove(model)) {
+    if (proof.kind == kind) return std::move(proof);
+  }
+  ADD_FAILURE() << "no claim of the kind " << kind;
+  return {};
+}
+
+std::string equations(const std::string& rest) {
+  return "[phase_space]\nvariables = [\"x\",\"y\",\"z\"]\n" + rest;
+}
+
+/// z on a level of x and y, which rest, where dz/dt is given.
+Proof on_level(const std::string& level, const std::string& rate, const std::string& more = "") {
+  return proof_of("conditional",
+                  equations(more + "[equations]\nx = \"0\"\ny = \"0\"\nz = \"" + rate +
+                            "\"\n[[conditional]]\nname = \"C\"\nexpression = \"z\"\non = [\"" +
+                            level + "\"]\n"));
+}
+
+TEST(Levels, ALeadingCoefficientThatVanishesOnAPartOfTheLevel) {
+  EXPECT_EQ(on_level("y", "y").verdict, Verdict::proved);
+  for (const char* level : {"x*y", "sin(x)*y", "log(x)*y", "(exp(x) - 1)*y", "y*atan2(x, 1)"})
+    EXPECT_EQ(on_level(level, "y").verdict, Verdict::refuted) << level;
+  for (const char* level : {"sqrt(x)*y", "y*sqrt(x^2)"})
+    EXPECT_NE(on_level(level, "y").verdict, Verdict::proved) << level;
+}
+
+TEST(Levels, AParameterThatMayVanishIsACondition) {
+  const std::string parameters = "[parameters]\na = {}\nb = { assume = \"b != 0\" }\n";
+  EXPECT_EQ(on_level("b*y", "y", parameters).verdict, Verdict::proved);
+  EXPECT_TRUE(on_level("b*y", "y", parameters).where.empty());
+  EXPECT_EQ(on_level("a*y", "y", parameters).verdict, Verdict::refuted);
+  // Where a = 0 the level is everything, and what is claimed holds there as well.
+  const Proof both = on_level("a*y", "a*y", parameters);
+  EXPECT_EQ(both.verdict, Verdict::proved);
+  EXPECT_TRUE(both.where.empty());
+}
+
+TEST(Levels, ALevelWithoutRealPointsIsNothing) {
+  EXPECT_EQ(on_level("x^2 + 1", "y").verdict, Verdict::undecided);
+  EXPECT_EQ(on_level("x^2 + y^2", "x^2 + y^2").verdict, Verdict::proved);
+  EXPECT_EQ(on_level("x^2 + y^2 - 1", "x^2 + y^2 - 1").verdict, Verdict::proved);
+  EXPECT_EQ(on_level("x", "x", "domain = [\"x > 0\"]\n").verdict, Verdict::undecided);
+}
+
+TEST(Levels, AnInequalityThatHoldsTriviallyThereSaysNothing) {
+  const std::string product = "domain = [\"x^2*y >= 0\"]\n";
+  EXPECT_EQ(on_level("x", "sqrt(y^2) - y", product).verdict, Verdict::refuted);
+  EXPECT_EQ(on_level("x", "sqrt(y^2) - y", "domain = [\"y >= 0\"]\n").verdict, Verdict::proved);
+  EXPECT_EQ(on_level("x - 1", "sqrt(y^2) - y", "domain = [\"x^2*y > 0\"]\n").verdict,
+            Verdict::proved);
+}
+
+/// R(t) = t^2/4 starts on y = 0 and leaves it, though dy/dt vanishes there.
+TEST(Levels, InvarianceNeedsARegularCofactor) {
+  const auto relation = [](const std::string& rate, const std::string& f) {
+    return proof_of("invariant_relation", equations("[equations]\nx = \"1\"\ny = \"" + rate +
+                                                    "\"\nz = \"0\"\n[[invariant_relation]]\n"
+                                                    "name = \"R\"\nexpression = \"" +
+                                                    f + "\"\n"))
+        .verdict;
+  };
+  EXPECT_EQ(relation("x*y", "y"), Verdict::proved);
+  EXPECT_EQ(relation("y^2", "y"), Verdict::proved);
+  EXPECT_NE(relation("sqrt(y)", "y"), Verdict::proved);
+  EXPECT_NE(relation("y^(2/3)", "y"), Verdict::proved);
+  EXPECT_NE(relation("0", "sqrt(x^2) - x"), Verdict::proved);
+}
+
+TEST(Signs, OfAProductNeedTheOthersNotToVanish) {
+  const auto claim = [](const std::string& assume_a, const std::string& assume_b) {
+    return proof_of("identity", equations("[parameters]\na = { assume = \"" + assume_a +
+                                          "\" }\nb = { assume = \"" + assume_b +
+                                          "\" }\n[equations]\nx = \"0\"\ny = \"0\"\nz = \"0\"\n"
+                                          "[[identity]]\nname = \"i\"\nleft = \"sqrt(b^2)\"\n"
+                                          "right = \"b\"\n"))
+        .verdict;
+  };
+  EXPECT_EQ(claim("a > 0", "a*b >= 0"), Verdict::proved);
+  EXPECT_EQ(claim("a != 0", "a^2*b >= 0"), Verdict::proved);
+  EXPECT_EQ(claim("a >= 0", "a*b > 0"), Verdict::proved);
+  EXPECT_EQ(claim("a >= 0", "a*b >= 0"), Verdict::refuted);
+  EXPECT_EQ(claim("a >= 0", "a^2*b >= 0"), Verdict::refuted);
+}
+
+TEST(Domain, AClaimAboutNothingIsNotProved) {
+  const auto identity = [](const std::string& left, const std::string& right) {
+    return proof_of("identity",
+                    equations("[equations]\nx = \"0\"\ny = \"0\"\nz = \"0\"\n[[identity]]\n"
+                              "name = \"i\"\nleft = \"" +
+                              left + "\"\nright = \"" + right + "\"\n"))
+        .verdict;
+  };
+  EXPECT_EQ(identity("log(x*y)", "log(x) + log(y)"), Verdict::proved);
+  EXPECT_EQ(identity("log(-x)", "log(x)"), Verdict::undecided);
+  EXPECT_EQ(identity("sqrt(-1 - x^2)", "sqrt(-1 - x^2)"), Verdict::undecided);
+  // GiNaC makes 2 + y^2 of the left side, and x of exp(log(x)).
+  EXPECT_EQ(identity("cos(acos(2 + y^2))", "2 + y^2"), Verdict::undecided);
+  EXPECT_EQ(identity("exp(log(x))", "sqrt(x^2)"), Verdict::proved);
+  EXPECT_EQ(identity("sqrt(x)^2", "sqrt(x^2)"), Verdict::proved);
+  EXPECT_EQ(identity("x", "sqrt(x^2)"), Verdict::refuted);
+}
+
+std::string canonical(const std::string& integral) {
+  return "integrable = true\nhamiltonian = \"p1^2\"\n[phase_space]\n"
+         "variables = [\"q1\",\"q2\",\"p1\",\"p2\"]\ncanonical = true\n[integrals]\nF = \"" +
+         integral + "\"\n";
+}
+
+TEST(Facts, HoldOnEachPiece) {
+  EXPECT_EQ(proof_of("liouville", canonical("p2")).verdict, Verdict::proved);
+  EXPECT_EQ(proof_of("liouville", canonical("p2*exp(p1)")).verdict, Verdict::proved);
+  // On each of the two pieces, and each has its own point.
+  const Proof both = proof_of("liouville", canonical("2*sqrt(p2^2) + p2"));
+  EXPECT_EQ(both.verdict, Verdict::proved);
+  EXPECT_TRUE(both.where.empty());
+  for (const char* one : {"sqrt(p2^2) + p2", "sqrt(p2^2)*p2 - p2^2"}) {
+    EXPECT_NE(proof_of("independence", canonical(one)).verdict, Verdict::proved) << one;
+    EXPECT_NE(proof_of("liouville", canonical(one)).verdict, Verdict::proved) << one;
+  }
+}
+
+TEST(Facts, DoNotTakeGeneratorsForIndependent) {
+  for (const char* zero :
+       {"p2*(2*sin(asin(p2/10)/2 + acos(p2/10)/2)^2 - 1)",
+        "p2*(2*cos(atan2(p2, p1)/2)^2 - 1 - p1/sqrt(p1^2 + p2^2))",
+        "p2*(4*cos(acos(p2/10)/3)^3 - 3*cos(acos(p2/10)/3) - p2/10)",
+        "p2*(8*cos(Pi/7)*cos(2*Pi/7)*cos(3*Pi/7) - 1)", "p2*(sqrt(3 + 2*sqrt(2)) - 1 - sqrt(2))"}) {
+    EXPECT_NE(proof_of("independence", canonical(zero)).verdict, Verdict::proved) << zero;
+    EXPECT_NE(proof_of("liouville", canonical(zero)).verdict, Verdict::proved) << zero;
+  }
+}
+
+/// What needs no independence is proved: constants, nested roots, irrational exponents.
+TEST(Facts, NeedNoRationalPoints) {
+  for (const char* function : {"Pi*p2 + p1", "p2*exp(sqrt(2)*p1)", "sqrt(2 + sqrt(3 + sqrt(5)))*p2",
+                               "p2*atan2(p1, 7)", "log(2 + p2^2)"}) {
+    const Proof proof = proof_of("liouville", canonical(function));
+    EXPECT_EQ(proof.verdict, Verdict::proved) << function << ": " << proof.reason;
+  }
+}
+
+TEST(Pieces, OfRingsOfFunctions) {
+  const Model model =
+      model_of("[phase_space]\nvariables = [\"x\",\"y\"]\n[equations]\nx = \"0\"\ny = \"0\"\n");
+  const auto pieces = [&](const std::string& text) {
+    const GiNaC::ex value = model.parse({text, {"test", 1, 1}, text});
+    FunctionRing ring(model.variables, {}, {value});
+    return ring.pieces({ring.convert(value)});
+  };
+  EXPECT_TRUE(pieces("x/y + sin(x*y) + exp(x)").rigid);
+  EXPECT_TRUE(pieces("sqrt(x^2 - 1)*sqrt(y)").rigid);
+  // Two roots with one radicand between them, and a square in disguise.
+  EXPECT_FALSE(pieces("sqrt(x*y + 1) + (x*y + 1)^(1/3)").rigid);
+  EXPECT_FALSE(pieces("sqrt(1 - sin(x))").rigid);
+  EXPECT_FALSE(pieces("atan(x) + atan(1/x)").rigid);
+  const auto absolute = pieces("sqrt(x^2) + sqrt((x - y)^2)");
+  EXPECT_TRUE(absolute.rigid);
+  EXPECT_EQ(absolute.switches.size(), 2U);
+}
+
+TEST(LowestTerms, CancelWhatNumeratorsKeep) {
+  const Model model =
+      model_of("[phase_space]\nvariables = [\"x\",\"y\"]\n[equations]\nx = \"0\"\ny = \"0\"\n");
+  const GiNaC::ex value = model.parse({"y*x^(3/2)", {"test", 1, 1}, {}});
+  FunctionRing ring(model.variables, {}, {value});
+  const Polynomial slope = ring.derivative(ring.convert(value), 0);  // 3/2*y*sqrt(x)
+  EXPECT_TRUE(ring.lowest_terms(slope).second.is_constant());
+  const Polynomial second = ring.derivative(slope, 0);  // 3/4*y/sqrt(x)
+  EXPECT_FALSE(ring.lowest_terms(second).second.is_constant());
+}
+
+}  // namespace
+}  // namespace casimir::test
