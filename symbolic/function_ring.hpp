@@ -183,12 +183,19 @@ class FunctionRing {
   /// vanishes: each of its factors has a strict sign, or is assumed not to be zero.
   bool is_nowhere_zero(const Polynomial& p) const;
 
+  /// Whether each factor has a strict sign that is assumed, not implied by roots and logarithms, and
+  /// their product is positive; also true of exponentials.
+  bool is_assumed_positive(const Polynomial& p) const;
+
   /// The irreducible factors of what stands under the roots and absolute values that `p` contains,
   /// also within other functions. Where none of them vanishes, `p` is differentiable.
-  std::vector<Polynomial> radicand_factors(const Polynomial& p) const;
+  /// \param cuts  with what has to vanish for atan2 to jump, which does not concern derivatives
+  std::vector<Polynomial> radicand_factors(const Polynomial& p, bool cuts = false) const;
 
   /// Whether `p` depends on one of the first `coordinates` symbols, through generators too.
   bool depends_on_first(const Polynomial& p, std::size_t coordinates) const;
+  /// The same for one symbol.
+  bool depends_on(const Polynomial& p, std::size_t symbol) const;
 
   /// How functions hang together beyond the part of the domain where a point lies.
   struct Pieces {

@@ -271,7 +271,8 @@ Polynomial FunctionRing::power(const Polynomial& p, unsigned long exponent) cons
 }
 
 Polynomial FunctionRing::convert_power(const ex& base, const ex& exponent) {
-  if (!GiNaC::is_a<GiNaC::numeric>(exponent))
+  if (!GiNaC::is_a<GiNaC::numeric>(exponent) ||
+      !GiNaC::ex_to<GiNaC::numeric>(exponent).is_rational())
     return convert(GiNaC::exp(exponent * GiNaC::log(base)));
   const cln::cl_RA e = rational(GiNaC::ex_to<GiNaC::numeric>(exponent));
   const Polynomial b = convert(base);

@@ -32,13 +32,16 @@ std::vector<std::size_t> FunctionRing::generators_in(
   return result;
 }
 
+bool FunctionRing::depends_on(const Polynomial& p, std::size_t symbol) const {
+  if (p.uses(symbol)) return true;
+  const auto used = generators_in({p});
+  return std::any_of(used.begin(), used.end(),
+                     [&](std::size_t g) { return depends_on(generators_[g], symbol); });
+}
+
 bool FunctionRing::depends_on_first(const Polynomial& p, std::size_t coordinates) const {
   for (std::size_t i = 0; i < coordinates; ++i)
-    if (p.uses(i)) return true;
-  for (const std::size_t g : generators_in({p})) {
-    for (std::size_t i = 0; i < coordinates; ++i)
-      if (depends_on(generators_[g], i)) return true;
-  }
+    if (depends_on(p, i)) return true;
   return false;
 }
 
@@ -86,9 +89,28 @@ bool FunctionRing::is_nowhere_zero(const Polynomial& p) const {
                      [&](const auto& factor) { return known_nonzero(factor.first); });
 }
 
-std::vector<Polynomial> FunctionRing::radicand_factors(const Polynomial& p) const {
+bool FunctionRing::is_assumed_positive(const Polynomial& p) const {
+  int sign = 1;
+  for (const auto& [f, exponent] : p.factors()) {
+    if (f.is_constant()) {
+      if (cln::minusp(f.term_list()[0].first)) sign = -sign;
+      continue;
+    }
+    if (is_exponential(f)) continue;
+    const auto found = std::find_if(signs_.begin(), signs_.end(), [&f = f](const Sign& s) {
+      return !s.implied && s.strict && (s.of == f || s.of == -f);
+    });
+    if (found == signs_.end() && !(known_sign(f) != 0 && is_sum_of_squares(f) && known_nonzero(f)))
+      return false;
+    if (known_sign(f) < 0 && exponent % 2 == 1) sign = -sign;
+  }
+  return sign > 0;
+}
+
+std::vector<Polynomial> FunctionRing::radicand_factors(const Polynomial& p, bool cuts) const {
   std::vector<Polynomial> result;
   const auto add = [&](const Polynomial& base) {
+    if (base.is_zero()) return;
     for (const auto& [f, exponent] : fraction(base).first.factors()) {
       if (!f.is_constant() && std::find(result.begin(), result.end(), f) == result.end())
         result.push_back(f);
@@ -101,6 +123,12 @@ std::vector<Polynomial> FunctionRing::radicand_factors(const Polynomial& p) cons
     const bool arc = generator.kind == Kind::function &&
                      (generator.order == kArcSine || generator.order == kArcCosine);
     if (arc) add(one - generator.base * generator.base);
+    // atan2 jumps on its cut, y = 0 and x < 0; where y is zero all over, at x = 0.
+    if (cuts && generator.kind == Kind::function && generator.order == kArcTangentOfTwo) {
+      const Polynomial& y = known_.at(generator.value.op(0));
+      const Polynomial& x = known_.at(generator.value.op(1));
+      if (known_sign(x) <= 0 || !known_nonzero(x)) add(numerator(y).is_zero() ? x : y);
+    }
   }
   return result;
 }

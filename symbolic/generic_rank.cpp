@@ -24,7 +24,7 @@ bool is_skew(const PolynomialRows& rows) {
 }
 
 /// Whether `count` of the candidates are in the kernel of all rows and independent at the point.
-bool kernel_has(const Prover& prover, const PolynomialRows& rows,
+bool kernel_has(Prover& prover, const PolynomialRows& rows,
                 const std::vector<KernelCandidate>& candidates, RealPoint& point,
                 std::size_t count) {
   const FunctionRing& ring = prover.ring();
@@ -32,7 +32,7 @@ bool kernel_has(const Prover& prover, const PolynomialRows& rows,
     if (candidate.orthogonal) return candidate.orthogonal(i);
     SumOfProducts sum(ring.ring());
     for (std::size_t j = 0; j < rows[i].size(); ++j) sum.add(rows[i][j], candidate.vector[j]);
-    return ring.numerator(sum.finish()).is_zero();
+    return prover.is_zero(sum.finish());
   };
   PolynomialRows independent;
   for (const KernelCandidate& candidate : candidates) {
@@ -151,8 +151,9 @@ class BorderedMinors {
   double work_ = 0;
 };
 
-bool bordered_minors_vanish(const Prover& prover, const PolynomialRows& rows, RealPoint& point,
+bool bordered_minors_vanish(Prover& prover, const PolynomialRows& rows, RealPoint& point,
                             std::size_t size) {
+  if (!prover.has_no_zero_divisors(rows)) return false;
   auto [r, c] = regular_minor(point, rows, size);
   if (r.size() != size || c.size() != size) return false;
   // The sets of columns are gone through once for each further column: let these be the fewer.
@@ -201,6 +202,37 @@ std::size_t rank_of_constants(const PolynomialRows& rows, std::size_t variables)
     for (const Polynomial& p : row) values.back().push_back(p.evaluate(anywhere));
   }
   return rank(std::move(values));
+}
+
+/// Parameters whose value 0 lowers the rank at all points that are tried.
+std::vector<std::string> needed_parameters(Prover& prover, const PolynomialRows& rows,
+                                           std::size_t rank) {
+  std::vector<std::string> result;
+  const auto& symbols = prover.ring().symbols();
+  constexpr int kTrials = 3;
+  for (std::size_t i = 0; i < prover.model().parameters.size(); ++i) {
+    const std::size_t place = prover.dimension() + i;
+    const bool used = std::any_of(rows.begin(), rows.end(), [&](const auto& row) {
+      return std::any_of(row.begin(), row.end(), [&](const Polynomial& p) {
+        return prover.ring().depends_on(p, place);
+      });
+    });
+    int admitted = 0;
+    bool lower = used;
+    for (int k = 0; k < 2 * kTrials && lower && admitted < kTrials; ++k) {
+      std::vector<GiNaC::ex> coordinates = prover.real_points().draw();
+      coordinates[place] = 0;
+      RealPoint point = prover.real_points().at(std::move(coordinates));
+      static const std::vector<GiNaC::ex> kNothing;
+      if (!prover.real_points().admits(
+              point, prover.ring().is_polynomial() ? kNothing : prover.domain()))
+        continue;
+      ++admitted;
+      lower = point.rank(rows) < rank;
+    }
+    if (lower && admitted > 0) result.push_back(symbols[place].get_name() + " != 0");
+  }
+  return result;
 }
 
 constexpr std::size_t kPoints = 4;       // of a piece
@@ -264,9 +296,8 @@ void PiecePoints::sort_by_signs(const FunctionRing::Pieces& what) {
   }
   if (pieces_.empty()) return;
   if (!what.rigid) {
-    where_ = "on the connected part of the domain around " + pieces_[0].points[0].text();
-    if (pieces_[0].points.size() + pieces_.size() > 2)
-      where_ += ", and around the other points tried";
+    where_ = "on the connected part, around " + pieces_[0].points[0].text() +
+             ", of where all its functions are analytic";
   } else if (found.size() < std::size_t{1} << std::min<std::size_t>(what.switches.size(), 20)) {
     where_ = fmt::format("{}", fmt::join(parts, ", or "));
   }
@@ -330,6 +361,7 @@ std::optional<GenericRank> generic_rank(
       });
     }
     if (!result.uneven.empty()) result.exact = false;
+    result.nonzero = needed_parameters(prover, rows, result.rank);
   } catch (const NotCertified&) {
     return std::nullopt;
   }

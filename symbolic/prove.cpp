@@ -110,7 +110,7 @@ std::vector<Proof> pending(const Model& model, const Candidates& candidates) {
 namespace {
 
 /// What decides the claims: one prover for all of them; but where a root or a logarithm makes some
-/// function positive, a prover for each, so that no proof rests on the domain of another claim.
+/// function positive, or one of them has complex numbers, a prover for each, so that no proof rests on the domain of another claim.
 class Provers {
  public:
   Provers(const Model& model, const std::vector<Claim>& claims) : model_(model) {
@@ -120,7 +120,7 @@ class Provers {
     try {
       const WorkMeter meter;
       shared_.emplace(model, all);
-      if (shared_->ring().implied_positive().empty()) return;
+      if (shared_->ring().implied_positive().empty() && !shared_->ring().is_complex()) return;
       shared_.reset();
     } catch (const TooLarge&) {
       shared_.reset();  // a single claim may be small enough
@@ -132,9 +132,9 @@ class Provers {
   void decide(const Claim& claim, Proof& proof) {
     try {
       const WorkMeter meter;
-      if (!shared_) own_.emplace(model_, claim.expressions);
+      if (!shared_) own_.emplace(model_, claim.expressions, claim.subject);
       Prover& prover = shared_ ? *shared_ : *own_;
-      prover.begin_claim(claim.expressions);
+      prover.begin_claim(claim.expressions, claim.subject);
       casimir::decide(prover, claim, proof);
     } catch (const TooLarge& limit) {
       proof.reason = limit.what();

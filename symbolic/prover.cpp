@@ -30,12 +30,15 @@ std::vector<GiNaC::symbol> Prover::symbols_of(const Model& model) {
   return symbols;
 }
 
-std::vector<ex> Prover::with_dynamics(const Model& model, std::vector<ex> expressions) {
-  if (!model.poisson) {
-    expressions.insert(expressions.end(), model.field.begin(), model.field.end());
-    return expressions;
+std::vector<ex> Prover::with_dynamics(const Model& model, std::vector<ex> expressions,
+                                      Subject subject) {
+  if (subject == Subject::motion) {
+    expressions.insert(expressions.end(), model.domain.begin(), model.domain.end());
+    expressions.insert(expressions.end(), model.field.begin(),
+                       model.poisson ? model.field.begin() : model.field.end());
+    if (model.poisson) expressions.push_back(*model.hamiltonian);
   }
-  expressions.push_back(*model.hamiltonian);
+  if (subject == Subject::functions || !model.poisson) return expressions;
   for (std::size_t i = 0; i < model.variables.size(); ++i) {
     for (std::size_t j = i + 1; j < model.variables.size(); ++j)
       expressions.push_back((*model.poisson)(i, j));
@@ -43,18 +46,21 @@ std::vector<ex> Prover::with_dynamics(const Model& model, std::vector<ex> expres
   return expressions;
 }
 
-Prover::Prover(const Model& model, const std::vector<ex>& expressions)
+Prover::Prover(const Model& model, const std::vector<ex>& expressions, Subject subject)
     : model_(model),
-      ring_(symbols_of(model), model.assumptions, with_dynamics(model, expressions)),
+      ring_(symbols_of(model), model.assumptions, with_dynamics(model, expressions, subject)),
       points_(model, ring_),
       real_points_(model, ring_),
-      domain_(with_dynamics(model, expressions)),
-      all_(domain_) {
+      domain_(with_dynamics(model, expressions, subject)),
+      all_(domain_),
+      subject_(subject) {
   const std::size_t n = dimension();
   if (!model.poisson) {
+    if (subject != Subject::motion) return;
     for (const ex& rate : model.field) field_.push_back(ring_.convert(rate));
     return;
   }
+  if (subject == Subject::functions) return;
   brackets_.assign(n * n, Polynomial(ring_.ring()));
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < n; ++j) {
@@ -64,15 +70,18 @@ Prover::Prover(const Model& model, const std::vector<ex>& expressions)
       brackets_[j * n + i] = -brackets_[i * n + j];
     }
   }
-  field_ = flow_of(gradient(ring_.convert(*model.hamiltonian)));
+  if (subject == Subject::motion)
+    field_ = flow_of(gradient(ring_.convert(*model.hamiltonian)));
 }
 
-void Prover::begin_claim(const std::vector<ex>& expressions) {
+void Prover::begin_claim(const std::vector<ex>& expressions, Subject subject) {
   divided_by_.clear();
   spectral_.reset();
   claim_ = expressions;
-  domain_ = with_dynamics(model_, expressions);
+  domain_ = with_dynamics(model_, expressions, subject);
+  subject_ = subject;
   divisors_.reset();
+  motion_divisors_.reset();
   claim_inhabited_.reset();
 }
 
@@ -136,7 +145,7 @@ Polynomial Prover::bracket(const ex& f, const ex& g) {
   if (f.compare(g) > 0) return -bracket(g, f);
   const auto known = known_brackets_.find({f, g});
   if (known != known_brackets_.end()) return known->second;
-  Polynomial result = ring_.numerator(along(convert(f), flow(g)));
+  Polynomial result = ring_.reduced(along(convert(f), flow(g)));
   return known_brackets_.emplace(std::pair(f, g), std::move(result)).first->second;
 }
 

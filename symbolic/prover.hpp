@@ -36,12 +36,17 @@ struct ExpressionPairLess {
   }
 };
 
+/// What of the system a claim speaks of: it holds, or not, also where the rest has no real value.
+enum class Subject { functions, bracket, motion };
+
 /// What the claims of one case are decided with: its functions as polynomials, its flow, and the
 /// search for witnesses. Deterministic: random points come from a fixed seed.
 class Prover {
  public:
   /// \param expressions  what will be asked about, beside the bracket and the flow.
-  Prover(const Model& model, const std::vector<GiNaC::ex>& expressions);
+  /// \param subject      what of these; the others have no signs to give, and may not be asked for
+  Prover(const Model& model, const std::vector<GiNaC::ex>& expressions,
+         Subject subject = Subject::motion);
 
   const Model& model() const { return model_; }
   FunctionRing& ring() { return ring_; }
@@ -52,7 +57,7 @@ class Prover {
   const Polynomial& convert(const GiNaC::ex& expression);
   /// Forgets what was divided by so far: the next claim begins.
   /// \param expressions  what it is about: it says nothing where one of them has no real value
-  void begin_claim(const std::vector<GiNaC::ex>& expressions);
+  void begin_claim(const std::vector<GiNaC::ex>& expressions, Subject subject);
   /// The claim is about this spectral parameter. Witnesses give its value, and not those of other
   /// Lax pairs, which may have the same name.
   void set_spectral(const std::optional<GiNaC::symbol>& spectral) { spectral_ = spectral; }
@@ -65,7 +70,7 @@ class Prover {
   /// dx_i/dt for every coordinate.
   const std::vector<Polynomial>& field() const;
   Polynomial bracket(const Polynomial& f, const Polynomial& g) const;
-  /// The numerator of {f, g} for functions of the case, kept since several claims ask for the same.
+  /// {f, g} for functions of the case, kept since several claims ask for the same.
   Polynomial bracket(const GiNaC::ex& f, const GiNaC::ex& g);
   /// J grad f for a function of the case, kept: entry i is {x_i, f}.
   const std::vector<Polynomial>& flow(const GiNaC::ex& f);
@@ -95,11 +100,27 @@ class Prover {
 
   /// Whether `f` is differentiable at every point of the level, as far as this can be told; if not,
   /// `proof` is left undecided for this reason.
-  bool is_smooth_on(Proof& proof, const Level& level, const std::vector<NamedExpression>& list);
+  /// \param continuous  no angle may jump either, by a whole turn that a derivative does not see
+  bool is_smooth_on(Proof& proof, const Level& level, const std::vector<NamedExpression>& list,
+                    bool continuous = false);
 
   /// Fills in verdict, evidence, residual, reason and witness: are all residuals zero on the level,
   /// wherever the functions of the claim have real values? A claim about nothing is not proved.
   void decide(Proof& proof, const std::vector<Residual>& residuals, const Level& level);
+
+  /// Whether `p` is zero wherever it has a value. That its numerator is says so only where no
+  /// denominator is a divisor of zero, as |x| - x is: (|x| - x)*(|x| + x) = 0.
+  bool is_zero(const Polynomial& p);
+  /// Whether no denominator in them is one: then they may be multiplied by their denominators.
+  bool has_no_zero_divisors(const std::vector<std::vector<Polynomial>>& rows);
+
+  /// A claim about nothing is not proved: for all points of the empty set everything is true.
+  void check_inhabited(Proof& proof, const Level& level);
+
+  /// Solutions need not be unique where a root in the equations vanishes: x = 0 and x = t^2 solve
+  /// dx/dt = 2*sqrt(x), and along the first one sqrt(x) - t is no constant. Where a function has the
+  /// same root it is proved to be an integral only beside its zeros.
+  void say_where_motion_is_unique(Proof& proof, const NamedExpression& f);
 
   /// Points for ranks and the like.
   RealPoints& real_points() { return real_points_; }
@@ -129,16 +150,18 @@ class Prover {
   void decide_branches(
       Proof& proof, const std::vector<NamedExpression>& functions, int depth,
       const std::function<void(Proof&, const std::vector<NamedExpression>&, int)>& decide_part);
+  enum class Divisors { of_motion, all };
   /// Whether `p` vanishes at no point of the level at which the claim says something.
-  bool vanishes_nowhere_on(const Polynomial& p, const Level& level);
-  const std::vector<Polynomial>& explicit_divisors();
-  void check_inhabited(Proof& proof, const Level& level);
+  bool vanishes_nowhere_on(const Polynomial& p, const Level& level,
+                           Divisors which = Divisors::all);
+  const std::vector<Polynomial>& explicit_divisors(Divisors which);
   std::optional<Witness> witness(const Polynomial& rest, const Residual& residual,
                                  const Level& level);
   void say_conditions(Proof& proof);
   static std::vector<GiNaC::symbol> symbols_of(const Model& model);
   static std::vector<GiNaC::ex> with_dynamics(const Model& model,
-                                              std::vector<GiNaC::ex> expressions);
+                                              std::vector<GiNaC::ex> expressions,
+                                              Subject subject);
 
   const Model& model_;
   FunctionRing ring_;
@@ -150,7 +173,8 @@ class Prover {
   std::optional<GiNaC::symbol> spectral_;
   RealPoints real_points_;
   std::vector<GiNaC::ex> claim_, domain_, all_;
-  std::optional<std::vector<Polynomial>> divisors_;
+  std::optional<std::vector<Polynomial>> divisors_, motion_divisors_;
+  Subject subject_;
   std::optional<bool> all_inhabited_, claim_inhabited_;
   std::vector<Polynomial> leads_;  ///< that the last decision took for not zero
   bool in_branch_ = false;         ///< where less work is spent: the answer may become a condition

@@ -71,8 +71,10 @@ Level Prover::level(const std::vector<NamedExpression>& on) {
     result.functions.push_back(f.value);
     result.numerators.push_back(std::move(numerator));
   }
+  // The time moves as well, and t = 0 is no part of a level.
+  const std::size_t time = dimension() + model_.parameters.size();
   result.solved = triangular_set(result.numerators, dimension(), [&](const Polynomial& p) {
-    return ring_.depends_on_first(p, dimension());
+    return ring_.depends_on_first(p, dimension()) || (model_.time && ring_.depends_on(p, time));
   });
   if (result.solved.empty() && !result.empty()) {
     std::vector<Polynomial> ideal = result.numerators;
@@ -97,16 +99,19 @@ std::vector<Residual> Prover::level_rates(const Level& level) {
 /// What the claim, the bracket and the flow divide by, or take the logarithm of, and the squared
 /// distances from the origin of which they take the angle: where one of these vanishes, nothing is
 /// claimed.
-const std::vector<Polynomial>& Prover::explicit_divisors() {
-  if (divisors_) return *divisors_;
-  divisors_.emplace();
+const std::vector<Polynomial>& Prover::explicit_divisors(Divisors which) {
+  std::optional<std::vector<Polynomial>>& known =
+      which == Divisors::all ? divisors_ : motion_divisors_;
+  if (known) return *known;
+  known.emplace();
   const auto add_polynomial = [&](const Polynomial& p) {
     for (const auto& [f, exponent] : ring_.lowest_terms(p).first.factors()) {
-      if (!f.is_constant()) divisors_->push_back(f);
+      if (!f.is_constant()) known->push_back(f);
     }
   };
   const auto add = [&](const ex& base) { add_polynomial(ring_.convert(base)); };
-  for (const ex& expression : domain_) {
+  const std::vector<ex> motion = with_dynamics(model_, {}, subject_);
+  for (const ex& expression : which == Divisors::all ? domain_ : motion) {
     for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
       if (GiNaC::is_a<GiNaC::power>(*part)) {
         const ex exponent = part->op(1);
@@ -125,16 +130,16 @@ const std::vector<Polynomial>& Prover::explicit_divisors() {
       }
     }
   }
-  return *divisors_;
+  return *known;
 }
 
 /// A factor vanishes nowhere there that the assumptions keep from zero, that is divided by, or that
 /// has no zero in common with the level: then the ideal of both contains 1, or something else that
 /// vanishes nowhere (the easy half of Hilbert's Nullstellensatz).
-bool Prover::vanishes_nowhere_on(const Polynomial& p, const Level& level) {
+bool Prover::vanishes_nowhere_on(const Polynomial& p, const Level& level, Divisors which) {
   const auto kept_from_zero = [&](const Polynomial& f) {
     if (ring_.is_nowhere_zero(f)) return true;
-    const auto& divisors = explicit_divisors();
+    const auto& divisors = explicit_divisors(which);
     return std::any_of(divisors.begin(), divisors.end(),
                        [&](const Polynomial& d) { return d == f || d == -f; });
   };
@@ -156,12 +161,38 @@ bool Prover::vanishes_nowhere_on(const Polynomial& p, const Level& level) {
     ideal.insert(ideal.end(), zeros.begin(), zeros.end());
     const std::vector<Polynomial> basis = groebner_basis(ideal, kSmallBasis);
     // Or a divisor vanishes wherever f does, so that nothing is claimed there.
-    const auto& divisors = explicit_divisors();
+    const auto& divisors = explicit_divisors(which);
     const bool undefined = std::any_of(divisors.begin(), divisors.end(), [&](const Polynomial& d) {
       std::vector<Polynomial> quotients;
       return d.remainder(basis, &quotients).is_zero();
     });
     if (!undefined && std::none_of(basis.begin(), basis.end(), never)) return false;
+  }
+  return true;
+}
+
+bool Prover::is_zero(const Polynomial& p) {
+  if (ring_.is_polynomial() || ring_.reduced(p).is_zero()) return ring_.reduced(p).is_zero();
+  return ring_.numerator(p).is_zero() && has_no_zero_divisors({{p}});
+}
+
+/// Nonzero elements of a field of meromorphic functions divide nothing but zero to zero.
+bool Prover::has_no_zero_divisors(const std::vector<std::vector<Polynomial>>& rows) {
+  if (ring_.is_polynomial()) return true;
+  const std::vector<Polynomial> bases = ring_.denominators();
+  std::vector<bool> used;
+  for (const auto& row : rows) {
+    for (const Polynomial& p : row) ring_.mark_denominators(p, used);
+  }
+  for (std::size_t k = 0; k < used.size(); ++k) {
+    if (!used[k]) continue;
+    const FunctionRing::Pieces pieces = ring_.pieces({bases[k]});
+    if (pieces.rigid && pieces.switches.empty()) continue;
+    const auto& divisors = explicit_divisors(Divisors::all);
+    const bool divided_by = std::any_of(divisors.begin(), divisors.end(), [&](const auto& d) {
+      return d == bases[k] || d == -bases[k];
+    });
+    if (!divided_by && !ring_.is_nowhere_zero(bases[k])) return false;
   }
   return true;
 }
@@ -198,17 +229,18 @@ bool Prover::in_ideal(const Residual& residual, const Level& level) {
   // r(x) = r(x) - r(x') with x' on the level is a combination with continuous coefficients (the
   // mean values of the derivatives) only where r has continuous derivatives: sqrt(x) on x = 0 has
   // not.
-  const std::vector<Polynomial> radicands = ring_.radicand_factors(residual.value);
+  const std::vector<Polynomial> radicands = ring_.radicand_factors(residual.value, true);
   return std::all_of(radicands.begin(), radicands.end(),
-                     [&](const Polynomial& f) { return vanishes_nowhere_on(f, level); });
+                     [&](const Polynomial& f) { return vanishes_nowhere_on(f, level, Divisors::of_motion); });
 }
 
 bool Prover::is_smooth_on(Proof& proof, const Level& level,
-                          const std::vector<NamedExpression>& list) {
+                          const std::vector<NamedExpression>& list, bool continuous) {
   if (ring_.is_polynomial()) return true;
   for (const NamedExpression& f : list) {
-    for (const Polynomial& radicand : ring_.radicand_factors(convert(f.value))) {
-      if (vanishes_nowhere_on(radicand, level)) continue;
+    for (const Polynomial& radicand : ring_.radicand_factors(convert(f.value), continuous)) {
+      // What only the claim divides by, the motion passes: x/|x| is 1 until it is -1.
+      if (vanishes_nowhere_on(radicand, level, Divisors::of_motion)) continue;
       proof.verdict = Verdict::undecided;
       proof.evidence.clear();
       proof.reason = fmt::format(
@@ -228,7 +260,7 @@ void Prover::decide_invariance_once(Proof& proof, std::vector<NamedExpression> f
     const std::vector<Residual> rates = level_rates(own);
     proof = blank;
     decide_on(proof, rates, own);
-    if (proof.verdict != Verdict::proved || !is_smooth_on(proof, own, functions)) return;
+    if (proof.verdict != Verdict::proved || !is_smooth_on(proof, own, functions, true)) return;
     const std::size_t before = functions.size();
     for (const Residual& rate : rates) {
       if (!in_ideal(rate, own)) functions.push_back({rate.label, rate.by_ginac(), {}});
@@ -342,14 +374,19 @@ void Prover::decide_on(Proof& proof, const std::vector<Residual>& residuals, con
   int searches = 0;
   for (const Residual& residual : residuals) {
     std::string singular;
+    if (is_zero(residual.value)) continue;
     Polynomial rest = ring_.numerator(residual.value);
-    if (!rest.is_zero() && !level.empty()) {
+    if (rest.is_zero() && level.empty()) {
+      rest = ring_.reduced(residual.value);
+      singular = fmt::format(
+          "{} is shown to vanish only after multiplication by what may be a divisor of zero",
+          residual.label);
+    } else if (!level.empty()) {
       const std::string before = std::exchange(proof.reason, {});
       const bool vanishes = vanishes_on(residual, rest, level, proof);
       singular = std::exchange(proof.reason, before);
       if (vanishes) continue;
     }
-    if (rest.is_zero()) continue;
     const bool first = proof.verdict == Verdict::proved;
     // A level on which no exact point is found the first time is not searched again and again.
     constexpr int kSearches = 2;
@@ -383,6 +420,19 @@ void Prover::decide(Proof& proof, const std::vector<Residual>& residuals, const 
   say_conditions(proof);
 }
 
+void Prover::say_where_motion_is_unique(Proof& proof, const NamedExpression& f) {
+  if (proof.verdict != Verdict::proved || ring_.is_polynomial()) return;
+  std::vector<Polynomial> of_motion;
+  for (const Polynomial& rate : field()) {
+    for (Polynomial& p : ring_.radicand_factors(rate)) of_motion.push_back(std::move(p));
+  }
+  for (const Polynomial& p : ring_.radicand_factors(convert(f.value))) {
+    const bool shared = std::find(of_motion.begin(), of_motion.end(), p) != of_motion.end();
+    if (shared && !vanishes_nowhere_on(p, {}))
+      proof.where.push_back(ring_.text(p) + " != 0");
+  }
+}
+
 /// A claim about nothing says so: for all points of the empty set everything is true.
 void Prover::check_inhabited(Proof& proof, const Level& own) {
   if (proof.verdict != Verdict::proved) return;
@@ -409,6 +459,18 @@ void Prover::check_inhabited(Proof& proof, const Level& own) {
 }
 
 void Prover::say_conditions(Proof& proof) {
+  // x^n is read as exp(n*log(x)), though for whole n it has values for x < 0 too.
+  for (const ex& expression : proof.verdict == Verdict::proved ? domain_ : std::vector<ex>{}) {
+    for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
+      if (!GiNaC::is_a<GiNaC::power>(*part) || GiNaC::is_a<GiNaC::numeric>(part->op(1))) continue;
+      const Polynomial base = ring_.convert(part->op(0));
+      const bool assumed = base.is_constant() || ring_.is_assumed_positive(base);
+      const std::string condition = ring_.text(base) + " > 0";
+      const bool said = std::find(proof.where.begin(), proof.where.end(), condition) !=
+                        proof.where.end();
+      if (!assumed && !said) proof.where.push_back(condition);
+    }
+  }
   proof.nonzero.clear();
   proof.positive.clear();
   const std::vector<Polynomial> denominators = ring_.denominators();

@@ -26,7 +26,9 @@ Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>
               prover.is_smooth_on(proof, level, {f});
           },
           names_of(on),
-          values_of(on, f)};
+          values_of(on, f),
+          false,
+          Subject::bracket};
 }
 
 std::vector<Claim> casimir_claims(const Model& model) {

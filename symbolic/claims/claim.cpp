@@ -20,6 +20,22 @@ std::vector<GiNaC::ex> values_of(const std::vector<NamedExpression>& functions,
   return values_of(all);
 }
 
+std::vector<NamedExpression> real_everywhere(const std::vector<NamedExpression>& functions) {
+  std::vector<NamedExpression> result;
+  for (const NamedExpression& f : functions) {
+    bool polynomial = f.domain.empty();
+    for (auto part = f.value.preorder_begin(); part != f.value.preorder_end(); ++part) {
+      const bool whole = GiNaC::is_a<GiNaC::power>(*part) &&
+                         part->op(1).info(GiNaC::info_flags::nonnegint);
+      polynomial = polynomial && (GiNaC::is_a<GiNaC::power>(*part)
+                                      ? whole
+                                      : !GiNaC::is_a<GiNaC::function>(*part));
+    }
+    if (polynomial) result.push_back(f);
+  }
+  return result;
+}
+
 std::string hamiltonian_name(const Model& model) {
   const auto is_H = [](const auto& symbol) { return symbol.get_name() == "H"; };
   const bool taken =

@@ -17,6 +17,7 @@ struct Claim {
   std::vector<std::string> on{};         ///< the level, as written
   std::vector<GiNaC::ex> expressions{};  ///< what it is about, beside the bracket and the flow
   bool note = false;                     ///< said beside the claims; never counts
+  Subject subject = Subject::motion;     ///< what of the system it speaks of
 };
 
 /// Reads the claims of one kind off a case. A new kind is one new file with such a function, and
@@ -61,6 +62,10 @@ inline constexpr ClaimKind kClaimKinds[] = {
     level_liouville_notes,
     unimodularity_notes,
 };
+
+/// Those of the functions that have real values everywhere: they may help with a claim that does not
+/// speak of them, without narrowing its domain.
+std::vector<NamedExpression> real_everywhere(const std::vector<NamedExpression>& functions);
 
 /// The expressions of the functions, and of one more, with those that they are defined by.
 std::vector<GiNaC::ex> values_of(const std::vector<NamedExpression>& functions);

@@ -28,6 +28,7 @@ Claim vanishing(const std::string& name, const std::vector<Defect>& defects) {
         prover.decide(proof, residuals, {});
       }};
   for (const Defect& defect : defects) claim.expressions.push_back(defect.value);
+  claim.subject = Subject::functions;
   return claim;
 }
 

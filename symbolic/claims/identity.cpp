@@ -18,6 +18,7 @@ Claim identity_claim(const Identity& identity) {
   for (const GiNaC::ex& part : identity.domain) claim.expressions.push_back(part);
   for (const GiNaC::ex& value : values_of(identity.on)) claim.expressions.push_back(value);
   claim.on = names_of(identity.on);
+  claim.subject = Subject::functions;
   return claim;
 }
 

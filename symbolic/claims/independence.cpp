@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "symbolic/claims/claim.hpp"
@@ -41,8 +42,13 @@ PolynomialRows structure_matrix(Prover& prover) {
 }
 
 /// A fact about some pieces of the domain only.
-void say_where(Proof& proof, const std::string& where) {
+void say_where(Proof& proof, const std::string& where,
+               const std::vector<std::string>& nonzero = {}) {
   if (!where.empty()) proof.where.push_back(where);
+  for (const std::string& condition : nonzero) {
+    if (std::find(proof.where.begin(), proof.where.end(), condition) == proof.where.end())
+      proof.where.push_back(condition);
+  }
 }
 
 void decide_independence(Prover& prover, Proof& proof,
@@ -57,7 +63,7 @@ void decide_independence(Prover& prover, Proof& proof,
     }
     for (const NamedExpression& f : functions) {
       candidates.push_back({prover.flow(f.value), [&](std::size_t i) {
-                              return prover.bracket(functions[i].value, f.value).is_zero();
+                              return prover.is_zero(prover.bracket(functions[i].value, f.value));
                             }});
     }
     return candidates;
@@ -72,7 +78,8 @@ void decide_independence(Prover& prover, Proof& proof,
     proof.evidence = found->points.empty()
                          ? "the gradients are constant and independent"
                          : "the gradients are independent at " + text_of(found->points);
-    say_where(proof, found->where);
+    say_where(proof, found->where, found->nonzero);
+    prover.check_inhabited(proof, {});
   } else if (found->exact) {
     proof.verdict = Verdict::refuted;
     proof.reason = fmt::format(
@@ -88,7 +95,7 @@ void decide_independence(Prover& prover, Proof& proof,
 std::optional<GenericRank> bracket_rank(Prover& prover) {
   return generic_rank(prover, structure_matrix(prover), [&] {
     std::vector<KernelCandidate> candidates;
-    for (auto& slope : gradients(prover, prover.model().casimirs))
+    for (auto& slope : gradients(prover, real_everywhere(prover.model().casimirs)))
       candidates.push_back({std::move(slope)});
     return candidates;
   });
@@ -111,7 +118,7 @@ void decide_rank(Prover& prover, Proof& proof) {
     proof.reason = found->uneven;
     return;
   }
-  const PolynomialRows casimirs = gradients(prover, prover.model().casimirs);
+  const PolynomialRows casimirs = gradients(prover, real_everywhere(prover.model().casimirs));
   const std::size_t independent = independent_rows(prover, casimirs);
   proof.name = fmt::format("rank {}", found->rank);
   if (!found->exact) {
@@ -126,7 +133,8 @@ void decide_rank(Prover& prover, Proof& proof) {
                   found->rank, prover.dimension(), independent, independent == 1 ? "" : "s",
                   found->points.empty() ? "the bracket is constant"
                                         : "rank taken at " + text_of(found->points));
-  say_where(proof, found->where);
+  say_where(proof, found->where, found->nonzero);
+  prover.check_inhabited(proof, {});
 }
 
 /// For each function the set of those that it commutes with, itself included.
@@ -135,7 +143,7 @@ std::vector<unsigned> commuting(Prover& prover, const std::vector<NamedExpressio
   for (std::size_t i = 0; i < functions.size(); ++i) {
     sets[i] |= 1U << i;
     for (std::size_t j = 0; j < i; ++j) {
-      if (!prover.bracket(functions[i].value, functions[j].value).is_zero()) continue;
+      if (!prover.is_zero(prover.bracket(functions[i].value, functions[j].value))) continue;
       sets[i] |= 1U << j;
       sets[j] |= 1U << i;
     }
@@ -263,8 +271,9 @@ void decide_liouville(Prover& prover, Proof& proof) {
                         listed(chosen), leaf->rank, text_of(found.at))
           : fmt::format("{} are in involution and independent on leaves of dimension {} (at {})",
                         listed(chosen), leaf->rank, text_of(found.at));
-  say_where(proof, leaf->where);
+  say_where(proof, leaf->where, leaf->nonzero);
   if (found.where != leaf->where) say_where(proof, found.where);
+  prover.check_inhabited(proof, {});
 }
 
 }  // namespace
@@ -278,12 +287,21 @@ std::vector<Claim> independence_claims(const Model& model) {
        true,
        [functions](Prover& prover, Proof& proof) { decide_independence(prover, proof, functions); },
        {},
-       values_of(functions)}};
+       values_of(functions),
+       false,
+       model.poisson ? Subject::bracket : Subject::motion}};
 }
 
 std::vector<Claim> rank_claims(const Model& model) {
   if (!model.poisson) return {};
-  return {{"rank", "rank", true, decide_rank, {}, values_of(model.casimirs)}};
+  return {{"rank",
+           "rank",
+           true,
+           decide_rank,
+           {},
+           values_of(real_everywhere(model.casimirs)),
+           false,
+           Subject::bracket}};
 }
 
 std::vector<Claim> liouville_claims(const Model& model) {
@@ -293,7 +311,9 @@ std::vector<Claim> liouville_claims(const Model& model) {
            true,
            decide_liouville,
            {},
-           values_of(with_hamiltonian(model, model.casimirs))}};
+           values_of(with_hamiltonian(model, real_everywhere(model.casimirs))),
+           false,
+           Subject::bracket}};
 }
 
 }  // namespace casimir

@@ -20,6 +20,7 @@ void decide_on_invariant_level(Prover& prover, Proof& proof, const std::vector<R
                                const NamedExpression& f, const std::vector<NamedExpression>& on) {
   if (on.empty()) {
     prover.decide(proof, residuals, {});
+    prover.say_where_motion_is_unique(proof, f);
     return;
   }
   Proof invariance;

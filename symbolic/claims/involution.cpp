@@ -26,7 +26,9 @@ std::vector<Claim> involution_claims(const Model& model) {
                  {});
            },
            {},
-           values_of({f, g})});
+           values_of({f, g}),
+           false,
+           Subject::bracket});
     }
   }
   return claims;

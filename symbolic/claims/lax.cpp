@@ -74,11 +74,11 @@ std::vector<Polynomial> integrals_of(Prover& prover, const LaxPair& pair) {
     for (Polynomial& f : parts) {
       const std::vector<Polynomial> slopes = prover.gradient(f);
       const bool constant = std::all_of(slopes.begin(), slopes.end(), [&](const Polynomial& slope) {
-        return ring.numerator(slope).is_zero();
+        return prover.is_zero(slope);
       });
       const bool known = std::any_of(result.begin(), result.end(),
                                      [&](const Polynomial& g) { return proportional(f, g); });
-      if (!constant && !known && ring.numerator(prover.rate(f)).is_zero())
+      if (!constant && !known && prover.is_zero(prover.rate(f)))
         result.push_back(std::move(f));
     }
   }
@@ -96,9 +96,11 @@ void describe_integrals(Prover& prover, Proof& proof, const LaxPair& pair) {
   }
   std::vector<Polynomial> known;
   const Model& model = prover.model();
-  for (const NamedExpression& f : model.casimirs) known.push_back(prover.convert(f.value));
+  for (const NamedExpression& f : real_everywhere(model.casimirs))
+    known.push_back(prover.convert(f.value));
   if (model.hamiltonian && !model.time) known.push_back(prover.convert(*model.hamiltonian));
-  for (const NamedExpression& f : model.integrals) known.push_back(prover.convert(f.value));
+  for (const NamedExpression& f : real_everywhere(model.integrals))
+    known.push_back(prover.convert(f.value));
   std::vector<Polynomial> all = known;
   all.insert(all.end(), found.begin(), found.end());
   proof.evidence = fmt::format("the characteristic polynomial gives {} integral{}", found.size(),
@@ -160,7 +162,7 @@ std::vector<Claim> lax_claims(const Model& model) {
     // The known integrals too: are those of the spectrum among them?
     std::vector<GiNaC::ex>& expressions = claims.back().expressions;
     for (const auto* list : {&model.casimirs, &model.integrals}) {
-      for (const NamedExpression& f : *list) expressions.push_back(f.value);
+      for (const NamedExpression& f : real_everywhere(*list)) expressions.push_back(f.value);
     }
     for (const GiNaC::ex& part : model.lax_pairs[i].domain) expressions.push_back(part);
     for (const GiNaC::matrix* m : {&model.lax_pairs[i].l, &model.lax_pairs[i].a}) {

@@ -43,7 +43,7 @@ bool in_involution(Prover& prover, const Functions& functions, const Level& leve
 bool is_casimir(Prover& prover, const NamedExpression& f) {
   const std::vector<Polynomial>& flow = prover.flow(f.value);
   return std::all_of(flow.begin(), flow.end(), [&](const Polynomial& rate) {
-    return prover.ring().numerator(rate).is_zero();
+    return prover.is_zero(rate);
   });
 }
 
@@ -95,6 +95,8 @@ void decide(Prover& prover, Proof& proof, const Functions& on) {
   proof.evidence =
       fmt::format("{} are in involution there and independent on leaves of dimension {} (at {})",
                   fmt::join(names_of(functions), ", "), leaf, point->text());
+  // One point shows nothing of other components of the level, or of other pieces.
+  proof.where.push_back("around " + point->text());
 }
 
 /// Whether f is in involution with every variable, as far as expanding shows it.

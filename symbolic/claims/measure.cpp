@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "symbolic/claims/claim.hpp"
+#include "symbolic/generic_rank.hpp"
 
 namespace casimir {
 namespace {
@@ -53,7 +54,8 @@ bool has_imaginary_number(const GiNaC::ex& e) {
 
 /// Why the function is not known to be a density; empty where it is one. `both_signs` becomes
 /// whether points are found at which it is positive and others at which it is negative.
-std::string doubt_about(Prover& prover, const GiNaC::ex& density, bool* both_signs) {
+std::string doubt_about(Prover& prover, const GiNaC::ex& density, bool* both_signs,
+                        std::vector<std::string>* where) {
   if (prover.ring().numerator(prover.convert(density)).is_zero())
     return "the density is identically zero, which is no measure";
   if (has_imaginary_number(density) && has_imaginary_number(density.expand()))
@@ -71,6 +73,11 @@ std::string doubt_about(Prover& prover, const GiNaC::ex& density, bool* both_sig
   if (!positive && !negative)
     return "no point was found at which the density has a real value that is not zero";
   *both_signs = positive && negative;
+  const auto found = generic_rank(prover, {{prover.convert(density)}});
+  if (!found || !found->uneven.empty() || found->rank == 0)
+    return "the density is not shown to differ from zero on every piece of the domain";
+  *where = found->nonzero;
+  if (!found->where.empty()) where->push_back(found->where);
   return {};
 }
 
@@ -81,7 +88,7 @@ void decide_measure(Prover& prover, Proof& proof, const NamedExpression& density
       {});
   if (proof.verdict != Verdict::proved) return;
   bool both_signs = false;
-  proof.reason = doubt_about(prover, density.value, &both_signs);
+  proof.reason = doubt_about(prover, density.value, &both_signs, &proof.where);
   if (!proof.reason.empty()) {
     proof.verdict = Verdict::undecided;
   } else if (both_signs) {
@@ -103,7 +110,9 @@ std::vector<Claim> measure_claims(const Model& model) {
                         decide_measure(prover, proof, density, every);
                       },
                       {},
-                      values_of({density})});
+                      values_of({density}),
+                      false,
+                      every ? Subject::bracket : Subject::motion});
   }
   return claims;
 }
@@ -116,6 +125,7 @@ std::vector<Claim> unimodularity_notes(const Model& model) {
                  proof.evidence = "the flow of every Hamiltonian keeps the volume";
              }};
   note.note = true;
+  note.subject = Subject::bracket;
   return {note};
 }
 

@@ -25,7 +25,11 @@ std::vector<Claim> skew_claims(const Model& model) {
                }
              }
              prover.decide(proof, residuals, {});
-           }}};
+           },
+           {},
+           {},
+           false,
+           Subject::bracket}};
 }
 
 namespace {
@@ -161,7 +165,7 @@ void decide_jacobi(Prover& prover, Proof& proof) {
 
 std::vector<Claim> jacobi_claims(const Model& model) {
   if (!model.poisson) return {};
-  return {{"jacobi", "Jacobi identity", false, decide_jacobi}};
+  return {{"jacobi", "Jacobi identity", false, decide_jacobi, {}, {}, false, Subject::bracket}};
 }
 
 }  // namespace casimir
