@@ -130,7 +130,25 @@ Polynomial FunctionRing::numerator(const Polynomial& p) const {
   if (generators_.empty()) return p;
   std::vector<Polynomial> row;
   row.push_back(p);
-  return std::move(common_numerators(std::move(row))[0]);
+  Polynomial result = std::move(common_numerators(std::move(row))[0]);
+  if (!result.is_zero() && vanishes_by_partners(result, generators_.size()))
+    return Polynomial(*ring_);
+  return result;
+}
+
+/// p = 0 where u p = 0 and w p = 0, if u and w have no common zero: then p need not be divided by
+/// either.
+bool FunctionRing::vanishes_by_partners(const Polynomial& p, std::size_t below) const {
+  for (std::size_t g = below; g-- > 0;) {
+    if (!generators_[g].partner || !p.uses(symbols_.size() + g)) continue;
+    const auto vanishes = [&](std::size_t place) {
+      std::vector<Polynomial> row{checked_product(p, ring_->variable(place))};
+      row = common_numerators(std::move(row));
+      return row[0].is_zero() || vanishes_by_partners(row[0], g);
+    };
+    if (vanishes(symbols_.size() + g) && vanishes(generators_[g].partner->first)) return true;
+  }
+  return false;
 }
 
 std::vector<Polynomial> FunctionRing::common_numerators(std::vector<Polynomial> row) const {
@@ -144,6 +162,14 @@ std::vector<Polynomial> FunctionRing::common_numerators(std::vector<Polynomial> 
         p = without_inverse(p, g, static_cast<unsigned long>(highest));
       else if (has_power_relation(generators_[g]))
         p = reduced_power(p, g);
+      if (generators_[g].partner) p = by_partner(p, g);
+    }
+    const auto& quotient = generators_[g].quotient;
+    if (!quotient) continue;
+    for (Polynomial& p : row) {  // linear by now
+      const std::vector<Polynomial> parts = p.coefficients(symbols_.size() + g);
+      p = parts.empty() ? p : checked_product(parts[0], quotient->first);
+      if (parts.size() > 1) p += checked_product(parts[1], quotient->second);
     }
   }
   return row;
@@ -152,13 +178,50 @@ std::vector<Polynomial> FunctionRing::common_numerators(std::vector<Polynomial> 
 Polynomial FunctionRing::reduced(Polynomial p) const {
   for (std::size_t g = generators_.size(); g-- > 0;) {
     if (has_power_relation(generators_[g])) p = reduced_power(p, g);
+    if (generators_[g].partner) p = by_partner(p, g);
   }
   return p;
 }
 
 bool FunctionRing::has_power_relation(const Generator& g) const {
   return g.kind == Kind::cosine || g.kind == Kind::root || g.kind == Kind::absolute ||
-         g.kind == Kind::imaginary;
+         g.kind == Kind::imaginary || !g.relation.empty();
+}
+
+/// p by u^n = the sum of relation[k] u^k.
+Polynomial FunctionRing::by_relation(const Polynomial& p, std::size_t g) const {
+  const std::vector<Polynomial>& relation = generators_[g].relation;
+  std::vector<Polynomial> parts = p.coefficients(symbols_.size() + g);
+  const std::size_t n = relation.size();
+  if (parts.size() <= n) return p;
+  for (std::size_t k = parts.size(); k-- > n;) {
+    if (parts[k].is_zero()) continue;
+    for (std::size_t i = 0; i < n; ++i)
+      if (!relation[i].is_zero()) parts[k - n + i] += checked_product(parts[k], relation[i]);
+  }
+  Polynomial result(*ring_);
+  const Polynomial u = ring_->variable(symbols_.size() + g);
+  for (std::size_t i = n; i-- > 0;) result = result * u + parts[i];
+  return result;
+}
+
+/// p, linear in u, by u w = second.
+Polynomial FunctionRing::by_partner(const Polynomial& p, std::size_t g) const {
+  const std::vector<Polynomial> parts = p.coefficients(symbols_.size() + g);
+  if (parts.size() < 2) return p;
+  const auto& [w, product] = *generators_[g].partner;
+  Polynomial result = parts[0];
+  const std::vector<Polynomial> inner = parts[1].coefficients(w);
+  Polynomial power = ring_->constant(1);
+  for (std::size_t k = 0; k < inner.size(); ++k) {
+    if (k == 0) {
+      result += inner[0] * ring_->variable(symbols_.size() + g);
+    } else {
+      result += checked_product(checked_product(inner[k], product), power);
+      power *= ring_->variable(w);
+    }
+  }
+  return result;
 }
 
 /// p times that power of the denominator, by which no 1/d is left.
@@ -175,6 +238,7 @@ Polynomial FunctionRing::without_inverse(const Polynomial& p, std::size_t g,
 
 /// p by u^q = base, so that only powers of u below q are left.
 Polynomial FunctionRing::reduced_power(const Polynomial& p, std::size_t g) const {
+  if (!generators_[g].relation.empty()) return by_relation(p, g);
   const unsigned long q = generators_[g].order;
   if (p.degree(symbols_.size() + g) < static_cast<long>(q)) return p;
   constexpr unsigned long kDense = 64;

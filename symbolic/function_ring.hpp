@@ -26,6 +26,8 @@ namespace casimir {
 ///   y = 1/d                 Dy = -y^2 Dd                   y d = 1
 ///   a = |b|                 Da = b Db / a                  a^2 = b^2
 ///   inverse functions by their derivatives                 I^2 = -1
+///   C = cos(v/n), S = sin(v/n) of an inverse function v    T_n(C) = cos v, S U_(n-1)(C) = sin v
+///   cos(Pi/n) by its minimal polynomial
 ///
 /// Angles and exponents are split into independent ones first (sums, multiples), denominators into
 /// irreducible factors, and roots lose their square factors, under the declared signs and those
@@ -154,7 +156,8 @@ class FunctionRing {
       logarithm,  ///< of |argument|
       arc_tangent,
       arc_tangent_of_two,
-      arc_sine,  ///< or cosine
+      arc_sine,       ///< or cosine
+      part_of_angle,  ///< a sine or cosine of a part of an inverse function, or of Pi
     };
     Kind kind;
     Polynomial argument;      ///< of a function of two, the sum of their squares
@@ -217,6 +220,13 @@ class FunctionRing {
     unsigned long order = 1;              ///< q of a root
     std::vector<Polynomial> derivatives;  ///< with respect to each symbol
     double size = 1;                      ///< of `value` as a tree
+    /// Of a function u that is algebraic: u^n = the sum of relation[k] u^k, where n is their
+    /// number.
+    std::vector<Polynomial> relation{};
+    /// u * first = second, where `first` vanishes nowhere where u has a value.
+    std::optional<std::pair<Polynomial, Polynomial>> quotient{};
+    /// u * w = second, where w is an earlier generator and w and u have no common zero.
+    std::optional<std::pair<std::size_t, Polynomial>> partner{};
   };
   /// What a generator of the kind `function` is, as its `order`.
   enum FunctionTag : unsigned long {
@@ -227,6 +237,10 @@ class FunctionRing {
     kArcCosine,
     kArcTangentOfTwo,
     kLogOfAbsolute,  ///< log|base|, where the sign of the base is not known
+    kPartCosine,     ///< cos(base), of a part of an inverse function
+    kPartSine,       ///< sin(base)
+    kSignedHalf,  ///< sqrt(2 r) sin(base), where the base is half of atan2(y, x) and r = |(x, y)|
+    kCosineOfPi,  ///< cos(Pi/base)
   };
   struct Monomial {
     cln::cl_RA coefficient;
@@ -257,6 +271,9 @@ class FunctionRing {
                         std::size_t* index) const;
   [[noreturn]] void grow();
   bool has_power_relation(const Generator& g) const;
+  Polynomial by_relation(const Polynomial& p, std::size_t g) const;
+  Polynomial by_partner(const Polynomial& p, std::size_t g) const;
+  bool vanishes_by_partners(const Polynomial& p, std::size_t below) const;
   Polynomial without_inverse(const Polynomial& p, std::size_t g, unsigned long power) const;
   std::string name(const Generator& g) const;
   std::string power_of(const Generator& g, unsigned long exponent) const;
@@ -273,6 +290,7 @@ class FunctionRing {
   Polynomial complex_root(const Polynomial& p, unsigned long q);
   Polynomial number_root(const cln::cl_RA& r, unsigned long q);
   Polynomial plain_root(const Polynomial& primitive, unsigned long q);
+  Polynomial root_generator(const Polynomial& radicand, unsigned long q);
   Polynomial absolute(const Polynomial& p);
   int known_sign(const Polynomial& p) const;
   bool known_nonzero(const Polynomial& p) const;
@@ -284,15 +302,43 @@ class FunctionRing {
   void imply_sign(const Polynomial& f, int sign, bool strict);
   void imply_radicand(const std::vector<std::pair<Polynomial, unsigned long>>& factors,
                       bool strict);
-  static bool is_sum_of_squares(const Polynomial& p);
+  void imply_between(const Polynomial& v);
+  bool is_sum_of_squares(const Polynomial& p) const;
+  bool is_never_negative(std::size_t place) const;
+  bool is_never_zero(std::size_t place) const;
+  std::optional<int> sign_of_number(const Polynomial& p) const;
+  int sign_of(const Polynomial& p) const;
+  std::optional<Polynomial> square_root(const Polynomial& p) const;
+  std::optional<Polynomial> denested(const Polynomial& radicand);
+  std::optional<Polynomial> denested_number(const Polynomial& radicand, unsigned long q);
   bool is_real_everywhere(const Polynomial& p) const;
   std::vector<std::size_t> generators_in(const std::vector<Polynomial>& functions) const;
   std::vector<std::pair<Polynomial, unsigned long>> factors_of(const Polynomial& p) const;
   std::pair<Polynomial, Polynomial> sine_cosine(const Polynomial& angle);
   std::pair<Polynomial, Polynomial> plain_sine_cosine(const Polynomial& unit);
-  std::optional<std::pair<Polynomial, Polynomial>> algebraic_sine_cosine(
-      const cln::cl_RA& coefficient, const std::vector<unsigned long>& monomial);
+  /// Sine and cosine of a part of an angle, and how often the angle contains that part.
+  struct PartOfAngle {
+    Polynomial sine, cosine;
+    cln::cl_I times;
+  };
+  std::optional<PartOfAngle> algebraic_sine_cosine(const cln::cl_RA& coefficient,
+                                                   const std::vector<unsigned long>& monomial);
+  std::pair<Polynomial, Polynomial> inverse_sine_cosine(const Generator& g);
+  std::optional<PartOfAngle> part_of_inverse(std::size_t index, const cln::cl_I& parts);
+  std::optional<PartOfAngle> first_part(std::size_t index, bool half);
+  Polynomial half_sine(std::size_t index, const Polynomial& r, const Polynomial& x,
+                       const Polynomial& y, const Polynomial& root);
+  Polynomial part_cosine(const Polynomial& unit, const Polynomial& whole, unsigned long n);
+  Polynomial part_sine(const Polynomial& unit, const Polynomial& cosine, const Polynomial& times,
+                       const Polynomial& whole);
+  std::optional<std::pair<Polynomial, Polynomial>> sine_cosine_of_pi(const cln::cl_RA& part);
+  Polynomial cosine_of_pi(const cln::cl_I& times);
+  std::optional<Polynomial> root_by_pi(unsigned long prime);
+  std::optional<Polynomial> square_root_by_pi(const Polynomial& top, const Polynomial& bottom);
+  std::pair<Polynomial, Polynomial> without_roots(Polynomial p) const;
+  std::optional<Polynomial> known_inverse(const GiNaC::function& f);
   Polynomial logarithm(const GiNaC::ex& whole, const Polynomial& p);
+  std::optional<Polynomial> logarithm_of_generator(const Polynomial& f);
   Polynomial exponential(const Polynomial& exponent);
   std::optional<Polynomial> special_exponential(const cln::cl_RA& coefficient,
                                                 const std::vector<unsigned long>& monomial);
@@ -326,6 +372,10 @@ class FunctionRing {
   std::vector<Implied> implied_;
   /// For a monomial in an angle or exponent: the least common denominator of its coefficients.
   std::vector<std::pair<GiNaC::ex, cln::cl_I>> units_;
+  /// For a radicand: the least common multiple of the orders of its roots.
+  std::vector<std::pair<GiNaC::ex, unsigned long>> root_orders_;
+  /// All parts of Pi are multiples of Pi over this even number; 0 where none needs a generator.
+  unsigned long pi_parts_ = 0;
 };
 
 }  // namespace casimir

@@ -309,13 +309,17 @@ Polynomial FunctionRing::convert_function(const GiNaC::function& f) {
     std::size_t index = 0;
     if (find(Kind::function, key, tag, &index) != nullptr)
       return ring_->variable(symbols_.size() + index);
+    if (const auto known = known_inverse(f)) return *known;
     return generator(Kind::function, f, key, tag,
                      [&](const Polynomial& slope) { return slope * factor; });
   };
   if (name == "log") return logarithm(f, v);
   if (name == "atan") return opaque(inverse(one + v * v), v, kArcTangent);
-  if (name == "asin") return opaque(inverse(root(one - v * v, 2)), v, kArcSine);
-  if (name == "acos") return opaque(-inverse(root(one - v * v, 2)), v, kArcCosine);
+  if (name == "asin" || name == "acos") {
+    imply_between(v);
+    const Polynomial slope = inverse(root(one - v * v, 2));
+    return name == "asin" ? opaque(slope, v, kArcSine) : opaque(-slope, v, kArcCosine);
+  }
   if (name == "atan2") {
     // D atan2(y, x) = (x Dy - y Dx)/(x^2 + y^2); the key is kept by its value.
     const Polynomial x = convert(f.op(1));
@@ -323,6 +327,7 @@ Polynomial FunctionRing::convert_function(const GiNaC::function& f) {
     for (std::size_t i = 0; i < generators_.size(); ++i) {
       if (generators_[i].value.is_equal(f)) return ring_->variable(symbols_.size() + i);
     }
+    if (const auto known = known_inverse(f)) return *known;
     std::vector<Polynomial> derivatives;
     for (std::size_t i = 0; i < symbols_.size(); ++i) {
       derivatives.push_back((x * derivative(v, i) - v * derivative(x, i)) * scale);

@@ -40,49 +40,6 @@ std::pair<Polynomial, cln::cl_I> FunctionRing::unit_of(const std::vector<unsigne
   return {m.scaled(1 / cln::cl_RA(finer)), cln::numerator(times)};
 }
 
-/// Sine and cosine of a generator that is an inverse function, or of a part of Pi, by algebra.
-std::optional<std::pair<Polynomial, Polynomial>> FunctionRing::algebraic_sine_cosine(
-    const cln::cl_RA& coefficient, const std::vector<unsigned long>& monomial) {
-  std::optional<std::size_t> only;
-  for (std::size_t i = 0; i < monomial.size(); ++i) {
-    if (monomial[i] == 0) continue;
-    if (only || monomial[i] > 1 || i < symbols_.size()) return std::nullopt;
-    only = i - symbols_.size();
-  }
-  if (!only || generators_[*only].kind != Kind::function) return std::nullopt;
-  const unsigned long tag = generators_[*only].order;
-  const ex value = generators_[*only].value;
-  if (tag == kConstant) {
-    const cln::cl_I parts = 12;  // of Pi: GiNaC knows their sines
-    if (!value.is_equal(GiNaC::Pi) || cln::mod(parts, cln::denominator(coefficient)) != 0)
-      return std::nullopt;
-    const ex angle = GiNaC::numeric(coefficient) * GiNaC::Pi;
-    return std::pair(convert(GiNaC::sin(angle)), convert(GiNaC::cos(angle)));
-  }
-  if (cln::denominator(coefficient) != 1) return std::nullopt;
-  // On the cuts of complex inverse functions the sign of the root is a convention.
-  if (complex_ && (tag == kArcSine || tag == kArcCosine)) return std::nullopt;
-  const Polynomial one = ring_->constant(1);
-  const Polynomial v = convert(value.op(0));
-  switch (tag) {
-    case kArcTangent: {
-      const Polynomial c = inverse(root(one + v * v, 2));
-      return std::pair(checked_product(v, c), c);
-    }
-    case kArcSine:
-      return std::pair(v, root(one - v * v, 2));
-    case kArcCosine:
-      return std::pair(root(one - v * v, 2), v);
-    case kArcTangentOfTwo: {
-      const Polynomial x = convert(value.op(1));
-      const Polynomial over = inverse(root(x * x + v * v, 2));
-      return std::pair(checked_product(v, over), checked_product(x, over));
-    }
-    default:
-      return std::nullopt;
-  }
-}
-
 /// The generators sin(unit) and cos(unit), which stand side by side.
 std::pair<Polynomial, Polynomial> FunctionRing::plain_sine_cosine(const Polynomial& unit) {
   std::size_t index = 0;
@@ -112,15 +69,13 @@ std::pair<Polynomial, Polynomial> FunctionRing::sine_cosine(const Polynomial& an
   Polynomial c = ring_->constant(1);
   for (const auto& [coefficient, monomial] : angle.term_list()) {
     auto part = algebraic_sine_cosine(coefficient, monomial);
-    const bool of_pi = part && cln::denominator(coefficient) != 1;
-    cln::cl_I times = of_pi ? cln::cl_I(1) : cln::numerator(coefficient);
     if (!part) {
       const auto [unit, count] = unit_of(monomial, coefficient);
-      part = plain_sine_cosine(unit);
-      times = count;
+      auto [sine, cosine] = plain_sine_cosine(unit);
+      part = PartOfAngle{std::move(sine), std::move(cosine), count};
     }
+    auto& [s1, c1, times] = *part;
     if (cln::abs(times) > kMaxMultiple) throw TooLarge("a multiple of an angle is too large");
-    auto [s1, c1] = std::move(*part);
     if (cln::minusp(times)) s1 = -s1;
     for (unsigned long k = machine_word(times); k > 0; --k) {
       Polynomial next = checked_product(s, c1) + checked_product(c, s1);
@@ -129,6 +84,23 @@ std::pair<Polynomial, Polynomial> FunctionRing::sine_cosine(const Polynomial& an
     }
   }
   return {std::move(s), std::move(c)};
+}
+
+/// log f where f is one generator: log exp v = v, log|b| = log(b^2)/2, and log(b^(1/q)) = log(b)/q
+/// for even q, since f is real and not zero where its logarithm, or that of its square, is, so that
+/// b > 0. An odd root of b < 0 has no logarithm on one convention, and log|b|/q on the other.
+std::optional<Polynomial> FunctionRing::logarithm_of_generator(const Polynomial& f) {
+  for (std::size_t g = 0; g < generators_.size(); ++g) {
+    if (!(f == ring_->variable(symbols_.size() + g))) continue;
+    // By value: more generators are made.
+    const Generator own = generators_[g];
+    if (own.kind == Kind::exponential) return own.base;
+    const bool root = own.kind == Kind::root && (own.order % 2 == 0 || sign_of(own.base) > 0);
+    if (!root && own.kind != Kind::absolute) return std::nullopt;
+    return logarithm(GiNaC::log(expression(own.base)), own.base)
+        .scaled(1 / cln::cl_RA(cln::cl_I(own.order)));
+  }
+  return std::nullopt;
 }
 
 /// log(p) as a sum of logarithms of primes and of irreducible factors, each positive where that is
@@ -145,7 +117,9 @@ Polynomial FunctionRing::logarithm(const ex& whole, const Polynomial& p) {
   };
   if (complex_) return generator_of(p, whole, kLogarithm);
   const auto [unreduced, bottom] = fraction(p);
-  auto factors = factors_of(numerator(unreduced));
+  const Polynomial top = numerator(unreduced);
+  if (top.is_zero()) throw ModelError("the logarithm of an expression that is identically zero");
+  auto factors = factors_of(top);
   const std::size_t above = factors.size();
   for (auto& factor : factors_of(bottom)) factors.push_back(std::move(factor));
   const bool negative_number =
@@ -156,6 +130,10 @@ Polynomial FunctionRing::logarithm(const ex& whole, const Polynomial& p) {
   for (std::size_t k = 0; k < factors.size(); ++k) {
     const auto& [f, exponent] = factors[k];
     const cln::cl_RA times = k < above ? cln::cl_RA(exponent) : -cln::cl_RA(exponent);
+    if (const auto inner = logarithm_of_generator(f)) {
+      sum += inner->scaled(times);
+      continue;
+    }
     if (f.is_constant()) {
       const cln::cl_RA number = cln::abs(f.term_list()[0].first);
       for (const auto& [integer, sign] :

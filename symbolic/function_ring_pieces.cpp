@@ -20,6 +20,10 @@ std::vector<std::size_t> FunctionRing::generators_in(
     if (!used[g]) continue;
     mark(generators_[g].base);
     if (generators_[g].kind == Kind::cosine) used[g - 1] = true;
+    // cos(v/3) is no smoother than the cos(v) of its relation.
+    for (const Polynomial& coefficient : generators_[g].relation) mark(coefficient);
+    if (generators_[g].quotient) mark(generators_[g].quotient->second);
+    if (generators_[g].partner) used[generators_[g].partner->first - symbols_.size()] = true;
     for (const Polynomial& slope : generators_[g].derivatives) {
       // The arguments of atan2 are seen in its derivatives alone.
       if (generators_[g].kind == Kind::function && generators_[g].order == kArcTangentOfTwo)
@@ -64,7 +68,7 @@ bool FunctionRing::is_real_everywhere(const Polynomial& p) const {
         return false;
       case Kind::function:
         return generator.order == kConstant || generator.order == kArcTangent ||
-               generator.order == kArcTangentOfTwo;
+               generator.order == kArcTangentOfTwo || generator.order == kCosineOfPi;
     }
     return false;
   });
@@ -117,6 +121,8 @@ std::vector<Polynomial> FunctionRing::radicand_factors(const Polynomial& p, bool
     }
   };
   const Polynomial one = ring_->constant(1);
+  // Parts of inverse functions are analytic where these are, and sin(atan2(y, x)/2) but for the
+  // cut, where the root of r + x in its relation vanishes.
   for (const std::size_t g : generators_in({p})) {
     const Generator& generator = generators_[g];
     if (generator.kind == Kind::root || generator.kind == Kind::absolute) add(generator.base);

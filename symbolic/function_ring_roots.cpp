@@ -3,16 +3,55 @@
 #include <cln/rational.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "symbolic/function_ring.hpp"
 #include "symbolic/integer_factors.hpp"
+#include "symbolic/machine_word.hpp"
 
 namespace casimir {
 
+using GiNaC::ex;
+
+/// A power of a root as a factor that its relation hides: a + b u is u (a' u^(q-1) + b) where a is
+/// a' u^q. Without it x^2 + y^2 + x r would not be r (r + x).
+std::pair<Polynomial, Polynomial> FunctionRing::without_roots(Polynomial p) const {
+  Polynomial roots = ring_->constant(1);
+  for (std::size_t g = 0; g < generators_.size(); ++g) {
+    if (generators_[g].kind != Kind::root || generators_[g].base.is_constant() ||
+        !p.uses(symbols_.size() + g))
+      continue;
+    const std::vector<Polynomial> parts = p.coefficients(symbols_.size() + g);
+    const unsigned long order = generators_[g].order;
+    Polynomial first(*ring_);
+    if (parts.size() > order || parts[0].is_zero() || !parts[0].divide(generators_[g].base, &first))
+      continue;
+    std::size_t least = 1;
+    while (parts[least].is_zero()) ++least;
+    const Polynomial u = ring_->variable(symbols_.size() + g);
+    p = first * u.pow(order - least);
+    for (std::size_t k = least; k < parts.size(); ++k) p += parts[k] * u.pow(k - least);
+    roots *= u.pow(least);
+  }
+  return {std::move(p), std::move(roots)};
+}
+
 /// The factors of `p`, with (1 - sin)(1 + sin) as cos^2.
 std::vector<std::pair<Polynomial, unsigned long>> FunctionRing::factors_of(
-    const Polynomial& p) const {
+    const Polynomial& whole) const {
+  const auto [p, roots] = without_roots(whole);
   auto factors = p.factors();
+  if (!roots.is_constant()) {
+    for (const auto& [u, exponent] : roots.factors()) {
+      if (u.is_constant()) continue;
+      const auto same = std::find_if(factors.begin(), factors.end(),
+                                     [&u = u](const auto& factor) { return factor.first == u; });
+      if (same == factors.end())
+        factors.emplace_back(u, exponent);
+      else
+        same->second += exponent;
+    }
+  }
   for (std::size_t g = 0; g < generators_.size(); ++g) {
     if (generators_[g].kind != Kind::sine) continue;
     const Polynomial s = ring_->variable(symbols_.size() + g);
@@ -56,6 +95,9 @@ Polynomial FunctionRing::root(const Polynomial& p, unsigned long q) {
   const Polynomial top = numerator(unreduced);  // a sin^2 + a cos^2 is a
   if (top.is_zero()) return Polynomial(*ring_);
   if (complex_) return complex_root(p, q);
+  if (q == 2) {
+    if (const auto of_pi = square_root_by_pi(top, bottom)) return *of_pi;
+  }
   const bool even = q % 2 == 0;
   // For an odd root the branch on negative numbers is a convention that nothing may rest on.
   const auto outside = [&](const Polynomial& f, unsigned long k) {
@@ -153,14 +195,52 @@ Polynomial FunctionRing::number_root(const cln::cl_RA& r, unsigned long q) {
     for (const auto& [prime, multiplicity] : *factors) {
       const unsigned long times = multiplicity * copies;
       result = result.scaled(cln::expt(prime, cln::cl_I(times / q)));
-      if (times % q != 0)
-        result = checked_product(result, power(plain_root(ring_->constant(prime), q), times % q));
+      if (times % q == 0) continue;
+      const auto by_pi = q == 2 && prime <= 240 ? root_by_pi(machine_word(prime)) : std::nullopt;
+      const Polynomial one = by_pi ? *by_pi : plain_root(ring_->constant(prime), q);
+      result = checked_product(result, power(one, times % q));
     }
   }
   return result;
 }
 
+/// Roots of one radicand are powers of one generator: b^(1/2) = (b^(1/4))^2, and b^(1/3) =
+/// (b^(1/6))^2 where b is not negative, as it is where an even root of it is real. Principal values
+/// are exp(log(b)/q), for which that is true of any b. And the root of a root is one:
+/// (b^(1/m))^(1/q) = b^(1/(m q)), for principal values since |arg b^(1/m)| <= Pi/m.
 Polynomial FunctionRing::plain_root(const Polynomial& radicand, unsigned long q) {
+  constexpr unsigned long kMostOrder = 720;
+  if (!complex_) {
+    if (const auto simpler = q == 2 ? denested(radicand) : denested_number(radicand, q))
+      return *simpler;
+  }
+  for (std::size_t g = 0; g < generators_.size(); ++g) {
+    if (generators_[g].kind != Kind::root || generators_[g].order * q > kMostOrder ||
+        !radicand.uses(symbols_.size() + g))
+      continue;
+    const unsigned long order = generators_[g].order;
+    if (!complex_ && order % 2 == 1 && sign_of(generators_[g].base) <= 0) continue;
+    if (radicand == ring_->variable(symbols_.size() + g))
+      return plain_root(Polynomial(generators_[g].base), order * q);
+  }
+  if (!complex_ && q % 2 == 1 && sign_of(radicand) <= 0) return root_generator(radicand, q);
+  const ex key = expression(radicand);
+  auto it = std::find_if(root_orders_.begin(), root_orders_.end(),
+                         [&](const auto& entry) { return entry.first.is_equal(key); });
+  if (it == root_orders_.end()) {
+    root_orders_.emplace_back(key, q);
+    it = root_orders_.end() - 1;
+  }
+  const unsigned long finer = std::lcm(it->second, q);
+  if (finer > kMostOrder) return root_generator(radicand, q);
+  if (finer != it->second) {
+    it->second = finer;
+    throw Full{};
+  }
+  return power(root_generator(radicand, finer), finer / q);
+}
+
+Polynomial FunctionRing::root_generator(const Polynomial& radicand, unsigned long q) {
   std::size_t index = 0;
   if (find(Kind::root, radicand, q, &index) != nullptr)
     return ring_->variable(symbols_.size() + index);

@@ -6,6 +6,7 @@
 // a*b >= 0 say anything of b where a = 0.
 #include <algorithm>
 
+#include "symbolic/ball_evaluator.hpp"
 #include "symbolic/function_ring.hpp"
 
 namespace casimir {
@@ -88,6 +89,7 @@ int FunctionRing::known_sign(const Polynomial& p) const {
     if (s.of == -p) return -s.sign;
   }
   if (!is_real_everywhere(p)) return 0;
+  if (const auto sign = sign_of_number(p)) return *sign;
   return is_sum_of_squares(p) ? 1 : is_sum_of_squares(-p) ? -1 : 0;
 }
 
@@ -100,19 +102,91 @@ bool FunctionRing::known_nonzero(const Polynomial& p) const {
                   [&](const Sign& s) { return s.strict && listed(s.of); }))
     return true;
   if (is_exponential(p)) return true;
-  const bool squares = is_real_everywhere(p) && (is_sum_of_squares(p) || is_sum_of_squares(-p));
-  const std::vector<cln::cl_RA> origin(ring_->size(), 0);
-  return squares && !cln::zerop(p.evaluate(origin));
+  if (!is_real_everywhere(p)) return false;
+  if (const auto sign = sign_of_number(p)) return *sign != 0;
+  if (!is_sum_of_squares(p) && !is_sum_of_squares(-p)) return false;
+  // All summands have one sign: one that vanishes nowhere is enough.
+  const auto terms = p.term_list();
+  return std::any_of(terms.begin(), terms.end(), [&](const auto& term) {
+    for (std::size_t i = 0; i < term.second.size(); ++i)
+      if (term.second[i] > 0 && !is_never_zero(i)) return false;
+    return true;
+  });
 }
 
-/// A sum of even monomials with positive coefficients.
-bool FunctionRing::is_sum_of_squares(const Polynomial& p) {
+/// A sum of monomials with positive coefficients, in squares and in what is not negative.
+bool FunctionRing::is_sum_of_squares(const Polynomial& p) const {
   const auto terms = p.term_list();
-  return std::all_of(terms.begin(), terms.end(), [](const auto& term) {
-    return cln::plusp(term.first) &&
-           std::all_of(term.second.begin(), term.second.end(),
-                       [](unsigned long exponent) { return exponent % 2 == 0; });
+  return std::all_of(terms.begin(), terms.end(), [&](const auto& term) {
+    if (!cln::plusp(term.first)) return false;
+    for (std::size_t i = 0; i < term.second.size(); ++i)
+      if (term.second[i] % 2 == 1 && !is_never_negative(i)) return false;
+    return true;
   });
+}
+
+/// Whether a variable of the ring is not negative at any point at which it is real: a root of even
+/// order, or of what is not negative; an absolute value; an exponential.
+bool FunctionRing::is_never_negative(std::size_t place) const {
+  if (place < symbols_.size()) return false;
+  const Generator& g = generators_[place - symbols_.size()];
+  if (g.kind == Kind::root) return g.order % 2 == 0 || sign_of(g.base) > 0;
+  return g.kind == Kind::absolute || g.kind == Kind::exponential;
+}
+
+/// Whether a variable of the ring vanishes nowhere.
+bool FunctionRing::is_never_zero(std::size_t place) const {
+  const Polynomial variable = ring_->variable(place);
+  const auto listed = [&](const Polynomial& f) { return f == variable || f == -variable; };
+  if (std::any_of(nonzero_.begin(), nonzero_.end(), listed)) return true;
+  if (std::any_of(signs_.begin(), signs_.end(),
+                  [&](const Sign& s) { return s.strict && listed(s.of); }))
+    return true;
+  if (place < symbols_.size()) return false;
+  const Generator& g = generators_[place - symbols_.size()];
+  if (g.kind == Kind::exponential) return true;
+  return (g.kind == Kind::root || g.kind == Kind::absolute) && is_nowhere_zero(g.base);
+}
+
+/// The sign of a number other than zero, certified by balls; empty for what is not a number.
+std::optional<int> FunctionRing::sign_of_number(const Polynomial& p) const {
+  if (p.is_constant()) return std::nullopt;
+  for (std::size_t i = 0; i < symbols_.size(); ++i)
+    if (p.uses(i)) return std::nullopt;
+  for (const std::size_t g : generators_in({p})) {
+    const Generator& generator = generators_[g];
+    const bool number = generator.kind == Kind::root || generator.kind == Kind::inverse ||
+                        (generator.kind == Kind::function &&
+                         (generator.order == kConstant || generator.order == kCosineOfPi));
+    if (!number) return std::nullopt;
+    for (std::size_t i = 0; i < symbols_.size(); ++i)
+      if (generator.base.uses(i)) return std::nullopt;
+  }
+  constexpr long kBits = 256;
+  try {
+    BallEvaluator evaluator(BallEvaluator::Numbers::real, kBits);
+    const auto sign = evaluator.sign(expression(p));
+    return sign && *sign != 0 ? sign : std::nullopt;
+  } catch (const NotCertified&) {
+    return std::nullopt;
+  }
+}
+
+/// 1 where `p` is not negative anywhere, -1 where it is not positive, 0 where neither is known:
+/// by the signs of its factors.
+int FunctionRing::sign_of(const Polynomial& p) const {
+  const auto [top, bottom] = fraction(p);
+  if (top.is_zero()) return 1;
+  int sign = 1;
+  for (const auto& [f, exponent] : checked_product(top, bottom).factors()) {
+    if (exponent % 2 == 0 && is_real_everywhere(f)) continue;
+    if (f.is_constant()) {
+      if (cln::minusp(f.term_list()[0].first)) sign = -sign;
+      continue;
+    }
+    sign *= known_sign(f);
+  }
+  return sign;
 }
 
 /// Takes it that f has this sign, since a root or a logarithm is real only there.
@@ -133,6 +207,17 @@ void FunctionRing::imply_sign(const Polynomial& f, int sign, bool strict) {
                             (g.kind == Kind::function && g.order == kLogOfAbsolute);
     Polynomial quotient(*ring_);
     if (may_change && !g.base.is_constant() && g.base.divide(f, &quotient)) throw Full{};
+  }
+}
+
+/// asin(v) and acos(v) are real for -1 <= v <= 1 only. A denominator does not vanish.
+void FunctionRing::imply_between(const Polynomial& v) {
+  if (complex_) return;
+  const Polynomial one = ring_->constant(1);
+  for (const Polynomial& side : {one - v, one + v}) {
+    const auto [unreduced, bottom] = fraction(side);
+    const Polynomial top = numerator(unreduced);
+    if (!top.is_zero()) imply_radicand(factors_of(checked_product(top, bottom)), false);
   }
 }
 

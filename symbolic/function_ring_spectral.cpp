@@ -34,6 +34,8 @@ std::vector<Polynomial> FunctionRing::spectral_coefficients(const Polynomial& p,
   for (std::size_t g = generators_.size(); g-- > 0;) {
     const Generator& generator = generators_[g];
     if (!depends_on(generator, spectral) || !free_of_coordinates(generator)) continue;
+    if (!generator.relation.empty())
+      throw TooLarge("parts of angles that contain the spectral parameter are not told apart here");
     if (generator.kind != Kind::inverse) spectral_variables.push_back(symbols_.size() + g);
     if (generator.kind == Kind::root || generator.kind == Kind::cosine)
       cleared = reduced_power(cleared, g);

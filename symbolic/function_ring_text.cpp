@@ -120,6 +120,14 @@ std::string FunctionRing::name(const Generator& g) const {
     case Kind::function:
       break;
   }
+  // GiNaC's order of terms differs from run to run.
+  if (g.order == kPartCosine) return "cos(" + text(g.base) + ")";
+  if (g.order == kPartSine) return "sin(" + text(g.base) + ")";
+  if (g.order == kCosineOfPi) return "cos(Pi/" + text(g.base) + ")";
+  if (g.order == kSignedHalf) {  // 2 r = (r - x) + (r + x)
+    const Polynomial& other = generators_[g.partner->first - symbols_.size()].base;
+    return "(sqrt(" + text(g.relation[0] + other) + ")*sin(" + text(g.base) + "))";
+  }
   std::ostringstream stream;
   stream << g.value;
   return GiNaC::is_exactly_a<GiNaC::function>(g.value) ||
@@ -164,6 +172,11 @@ FunctionRing::Origin FunctionRing::origin(std::size_t place) const {
       const Polynomial& x = known_.at(g.value.op(1));
       return {Of::arc_tangent_of_two, x * x + y * y};
     }
+    case kPartCosine:
+    case kPartSine:
+    case kSignedHalf:
+    case kCosineOfPi:
+      return {Of::part_of_angle, g.base};
     default:
       return {Of::constant, g.base};
   }

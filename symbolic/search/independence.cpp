@@ -291,6 +291,9 @@ std::optional<std::string> Independence::reason() {
       return fmt::format("'{}' {}", system_.name(g), why);
     };
     if (kind == Kind::absolute) return named("is an absolute value, which is not analytic");
+    if (kind == Kind::part_of_angle)
+      return named(
+          "is of a part of an angle, whose relations to other functions are not all known");
     if (kind == Kind::imaginary && generators_.size() > 1)
       return std::string("complex numbers occur beside other functions");
     if (kind == Kind::inverse &&

@@ -67,7 +67,10 @@ long double plain_value(const ex& e, const Point& point) {
   if (name == "asin") return std::asin(part(0));
   if (name == "acos") return std::acos(part(0));
   if (name == "atan") return std::atan(part(0));
-  if (name == "atan2") return std::atan2(part(0), part(1));
+  if (name == "atan2") {  // no angle belongs to the origin
+    const long double y = part(0), x = part(1);
+    return y == 0 && x == 0 ? std::numeric_limits<long double>::quiet_NaN() : std::atan2(y, x);
+  }
   ADD_FAILURE() << "no value of " << name;
   return 0;
 }
@@ -77,7 +80,8 @@ long double plain_value(const ex& e, const Point& point) {
 long double value_of(const ex& e, const Point& point) {
   const long double value = plain_value(e, point);
   const bool fit = value == 0 || (std::fabs(value) < 1e4L && std::fabs(value) > 1e-4L);
-  return fit ? value : std::numeric_limits<long double>::quiet_NaN();
+  // No real number is -0, of which atan2 makes another side of its cut.
+  return fit ? value + 0.0L : std::numeric_limits<long double>::quiet_NaN();
 }
 
 class Identities {
@@ -87,7 +91,15 @@ class Identities {
   ex expression(int depth) {
     if (depth == 0 || random_(8) == 0) return leaf();
     const ex a = expression(depth - 1);
-    switch (random_(14)) {
+    switch (random_(18)) {
+      case 14:
+        return random_(2) == 0 ? GiNaC::asin(a) : GiNaC::acos(a);
+      case 15:
+        return GiNaC::atan2(a, nonzero(leaf()));
+      case 16:
+        return GiNaC::sin(inverse(a) / (2 + random_(3)));
+      case 17:
+        return GiNaC::cos(inverse(a) / (2 + random_(3)));
       case 0:
         return a + leaf();
       case 1:
@@ -127,12 +139,16 @@ class Identities {
       if (GiNaC::is_a<GiNaC::add>(e)) return GiNaC::add(GiNaC::exvector(parts)).eval();
       if (GiNaC::is_a<GiNaC::mul>(e)) return GiNaC::mul(GiNaC::exvector(parts)).eval();
       if (GiNaC::is_a<GiNaC::power>(e)) return rewritten_power(parts[0], parts[1]);
-      return rewritten_function(GiNaC::ex_to<GiNaC::function>(e).get_name(), parts[0]);
+      return rewritten_function(GiNaC::ex_to<GiNaC::function>(e).get_name(), parts[0],
+                                parts.back());
     }
     if (GiNaC::is_a<GiNaC::power>(e)) return rewritten_power(e.op(0), e.op(1));
     if (GiNaC::is_a<GiNaC::mul>(e)) return rewritten_product(e);
     if (GiNaC::is_a<GiNaC::function>(e))
-      return rewritten_function(GiNaC::ex_to<GiNaC::function>(e).get_name(), e.op(0));
+      return rewritten_function(GiNaC::ex_to<GiNaC::function>(e).get_name(), e.op(0),
+                                e.op(e.nops() - 1));
+    if (GiNaC::is_a<GiNaC::add>(e) && random_(3) == 0)
+      return GiNaC::sqrt(nonzero(GiNaC::pow(e, 2).expand()));
     return e.expand();
   }
 
@@ -158,9 +174,14 @@ class Identities {
     return random_(3) == 0 ? GiNaC::log(nonzero(a)) : GiNaC::sqrt(nonzero(a));
   }
 
+  /// Every other one of small numbers, at which cuts are met and the ends of ranges.
   Point point() {
     Point result;
-    for (const ex& x : symbols_) result[x] = GiNaC::numeric(static_cast<double>(random_.real()));
+    const bool small = random_(2) == 0;
+    for (const ex& x : symbols_) {
+      const double value = small ? random_(5) - 2 : static_cast<double>(random_.real());
+      result[x] = GiNaC::numeric(value);
+    }
     return result;
   }
 
@@ -211,13 +232,74 @@ class Identities {
     for (std::size_t i = 0; i < e.nops(); ++i) under_root *= GiNaC::pow(e.op(i), 2);
     return random_(2) == 0 ? GiNaC::sqrt(under_root) : e.expand();
   }
-  ex rewritten_function(const std::string& name, const ex& a) {
+  ex inverse(const ex& a) {
+    switch (random_(4)) {
+      case 0:
+        return GiNaC::asin(a);
+      case 1:
+        return GiNaC::acos(a);
+      case 2:
+        return GiNaC::atan(a);
+      default:
+        return GiNaC::atan2(a, nonzero(leaf()));
+    }
+  }
+  ex rewritten_arc(const std::string& name, const ex& a, const ex& b) {
+    const ex l = nonzero(leaf());
+    const ex r = GiNaC::sqrt(nonzero(a * a + b * b));
+    if (name == "asin")
+      return random_(3) == 0   ? GiNaC::Pi / 2 - GiNaC::acos(a)
+             : random_(2) == 0 ? -GiNaC::asin(-a)
+                               : GiNaC::atan(a / GiNaC::sqrt(nonzero(1 - a * a)));
+    if (name == "acos")
+      return random_(3) == 0   ? GiNaC::Pi / 2 - GiNaC::asin(a)
+             : random_(2) == 0 ? GiNaC::Pi - GiNaC::acos(-a)
+                               : GiNaC::atan(GiNaC::sqrt(nonzero(1 - a * a)) / nonzero(a));
+    if (name == "atan2") {
+      switch (random_(6)) {
+        case 0:
+          return GiNaC::atan(a / nonzero(b));
+        case 1:
+          return -GiNaC::atan2(-a, b);
+        case 2:
+          return GiNaC::atan2(a * l, b * l);
+        case 3:
+          return GiNaC::Pi / 2 - GiNaC::atan2(b, nonzero(a));
+        case 4:
+          return GiNaC::acos(b / r);
+        default:
+          return GiNaC::asin(a / r);
+      }
+    }
+    switch (random_(6)) {
+      case 0:
+        return 2 * GiNaC::atan(a / (1 + GiNaC::sqrt(1 + a * a)));
+      case 1:
+        return -GiNaC::atan(-a);
+      case 2:
+        return GiNaC::Pi / 2 - GiNaC::atan(1 / nonzero(a));
+      case 3:
+        return GiNaC::asin(a / GiNaC::sqrt(1 + a * a));
+      case 4:
+        return GiNaC::acos(1 / GiNaC::sqrt(1 + a * a));
+      default:
+        return GiNaC::atan2(a * l, l);
+    }
+  }
+  ex rewritten_function(const std::string& name, const ex& a, const ex& b) {
+    if (name == "sin" && random_(3) == 0)
+      return 3 * GiNaC::sin(a / 3) - 4 * GiNaC::pow(GiNaC::sin(a / 3), 3);
+    if (name == "cos" && random_(3) == 0)
+      return 4 * GiNaC::pow(GiNaC::cos(a / 3), 3) - 3 * GiNaC::cos(a / 3);
     if (name == "sin")
-      return random_(2) == 0 ? 2 * GiNaC::sin(a / 2) * GiNaC::cos(a / 2)
-                             : GiNaC::sqrt(1 - GiNaC::pow(GiNaC::cos(a), 2));
+      return random_(3) == 0   ? 2 * GiNaC::sin(a / 2) * GiNaC::cos(a / 2)
+             : random_(2) == 0 ? GiNaC::sqrt((1 - GiNaC::cos(2 * a)) / 2)
+                               : GiNaC::sqrt(1 - GiNaC::pow(GiNaC::cos(a), 2));
     if (name == "cos")
       return random_(2) == 0 ? 1 - 2 * GiNaC::pow(GiNaC::sin(a / 2), 2)
                              : GiNaC::sqrt((1 + GiNaC::cos(2 * a)) / 2);
+    if (name == "asin" || name == "acos" || name == "atan" || name == "atan2")
+      return rewritten_arc(name, a, b);
     if (name == "exp") return GiNaC::pow(GiNaC::exp(a / 2), 2);
     if (name == "log" && GiNaC::is_a<GiNaC::power>(a)) return a.op(1) * GiNaC::log(a.op(0));
     if (name == "log" && GiNaC::is_a<GiNaC::mul>(a)) {
@@ -226,7 +308,6 @@ class Identities {
       return sum;
     }
     if (name == "log") return GiNaC::log(nonzero(a * a)) / 2;
-    if (name == "atan") return 2 * GiNaC::atan(a / (1 + GiNaC::sqrt(1 + a * a)));
     return 0;
   }
 
@@ -236,6 +317,7 @@ class Identities {
 
 bool holds(const Assumption& assumption, const Point& point) {
   const long double value = value_of(assumption.difference, point);
+  if (assumption.relation.size() == 2 && value == 0) return true;
   return assumption.relation[0] == '>' ? value > 0 : value < 0;
 }
 
