@@ -186,8 +186,8 @@ class FunctionRing {
   /// vanishes: each of its factors has a strict sign, or is assumed not to be zero.
   bool is_nowhere_zero(const Polynomial& p) const;
 
-  /// Whether each factor has a strict sign that is assumed, not implied by roots and logarithms, and
-  /// their product is positive; also true of exponentials.
+  /// Whether each factor has a strict sign that is assumed, not implied by roots and logarithms,
+  /// and their product is positive; also true of exponentials.
   bool is_assumed_positive(const Polynomial& p) const;
 
   /// The irreducible factors of what stands under the roots and absolute values that `p` contains,

@@ -213,9 +213,8 @@ std::vector<std::string> needed_parameters(Prover& prover, const PolynomialRows&
   for (std::size_t i = 0; i < prover.model().parameters.size(); ++i) {
     const std::size_t place = prover.dimension() + i;
     const bool used = std::any_of(rows.begin(), rows.end(), [&](const auto& row) {
-      return std::any_of(row.begin(), row.end(), [&](const Polynomial& p) {
-        return prover.ring().depends_on(p, place);
-      });
+      return std::any_of(row.begin(), row.end(),
+                         [&](const Polynomial& p) { return prover.ring().depends_on(p, place); });
     });
     int admitted = 0;
     bool lower = used;
@@ -224,8 +223,8 @@ std::vector<std::string> needed_parameters(Prover& prover, const PolynomialRows&
       coordinates[place] = 0;
       RealPoint point = prover.real_points().at(std::move(coordinates));
       static const std::vector<GiNaC::ex> kNothing;
-      if (!prover.real_points().admits(
-              point, prover.ring().is_polynomial() ? kNothing : prover.domain()))
+      if (!prover.real_points().admits(point,
+                                       prover.ring().is_polynomial() ? kNothing : prover.domain()))
         continue;
       ++admitted;
       lower = point.rank(rows) < rank;

@@ -110,7 +110,8 @@ std::vector<Proof> pending(const Model& model, const Candidates& candidates) {
 namespace {
 
 /// What decides the claims: one prover for all of them; but where a root or a logarithm makes some
-/// function positive, or one of them has complex numbers, a prover for each, so that no proof rests on the domain of another claim.
+/// function positive, or one of them has complex numbers, a prover for each, so that no proof rests
+/// on the domain of another claim.
 class Provers {
  public:
   Provers(const Model& model, const std::vector<Claim>& claims) : model_(model) {

@@ -70,8 +70,7 @@ Prover::Prover(const Model& model, const std::vector<ex>& expressions, Subject s
       brackets_[j * n + i] = -brackets_[i * n + j];
     }
   }
-  if (subject == Subject::motion)
-    field_ = flow_of(gradient(ring_.convert(*model.hamiltonian)));
+  if (subject == Subject::motion) field_ = flow_of(gradient(ring_.convert(*model.hamiltonian)));
 }
 
 void Prover::begin_claim(const std::vector<ex>& expressions, Subject subject) {

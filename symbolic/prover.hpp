@@ -118,8 +118,8 @@ class Prover {
   void check_inhabited(Proof& proof, const Level& level);
 
   /// Solutions need not be unique where a root in the equations vanishes: x = 0 and x = t^2 solve
-  /// dx/dt = 2*sqrt(x), and along the first one sqrt(x) - t is no constant. Where a function has the
-  /// same root it is proved to be an integral only beside its zeros.
+  /// dx/dt = 2*sqrt(x), and along the first one sqrt(x) - t is no constant. Where a function has
+  /// the same root it is proved to be an integral only beside its zeros.
   void say_where_motion_is_unique(Proof& proof, const NamedExpression& f);
 
   /// Points for ranks and the like.
@@ -152,16 +152,14 @@ class Prover {
       const std::function<void(Proof&, const std::vector<NamedExpression>&, int)>& decide_part);
   enum class Divisors { of_motion, all };
   /// Whether `p` vanishes at no point of the level at which the claim says something.
-  bool vanishes_nowhere_on(const Polynomial& p, const Level& level,
-                           Divisors which = Divisors::all);
+  bool vanishes_nowhere_on(const Polynomial& p, const Level& level, Divisors which = Divisors::all);
   const std::vector<Polynomial>& explicit_divisors(Divisors which);
   std::optional<Witness> witness(const Polynomial& rest, const Residual& residual,
                                  const Level& level);
   void say_conditions(Proof& proof);
   static std::vector<GiNaC::symbol> symbols_of(const Model& model);
   static std::vector<GiNaC::ex> with_dynamics(const Model& model,
-                                              std::vector<GiNaC::ex> expressions,
-                                              Subject subject);
+                                              std::vector<GiNaC::ex> expressions, Subject subject);
 
   const Model& model_;
   FunctionRing ring_;

@@ -230,8 +230,9 @@ bool Prover::in_ideal(const Residual& residual, const Level& level) {
   // mean values of the derivatives) only where r has continuous derivatives: sqrt(x) on x = 0 has
   // not.
   const std::vector<Polynomial> radicands = ring_.radicand_factors(residual.value, true);
-  return std::all_of(radicands.begin(), radicands.end(),
-                     [&](const Polynomial& f) { return vanishes_nowhere_on(f, level, Divisors::of_motion); });
+  return std::all_of(radicands.begin(), radicands.end(), [&](const Polynomial& f) {
+    return vanishes_nowhere_on(f, level, Divisors::of_motion);
+  });
 }
 
 bool Prover::is_smooth_on(Proof& proof, const Level& level,
@@ -240,7 +241,8 @@ bool Prover::is_smooth_on(Proof& proof, const Level& level,
   for (const NamedExpression& f : list) {
     for (const Polynomial& radicand : ring_.radicand_factors(convert(f.value), continuous)) {
       // What only the claim divides by, the motion passes: x/|x| is 1 until it is -1.
-      if (vanishes_nowhere_on(radicand, level, Divisors::of_motion)) continue;
+      const Divisors which = continuous ? Divisors::of_motion : Divisors::all;
+      if (vanishes_nowhere_on(radicand, level, which)) continue;
       proof.verdict = Verdict::undecided;
       proof.evidence.clear();
       proof.reason = fmt::format(
@@ -428,8 +430,7 @@ void Prover::say_where_motion_is_unique(Proof& proof, const NamedExpression& f) 
   }
   for (const Polynomial& p : ring_.radicand_factors(convert(f.value))) {
     const bool shared = std::find(of_motion.begin(), of_motion.end(), p) != of_motion.end();
-    if (shared && !vanishes_nowhere_on(p, {}))
-      proof.where.push_back(ring_.text(p) + " != 0");
+    if (shared && !vanishes_nowhere_on(p, {})) proof.where.push_back(ring_.text(p) + " != 0");
   }
 }
 
@@ -466,8 +467,8 @@ void Prover::say_conditions(Proof& proof) {
       const Polynomial base = ring_.convert(part->op(0));
       const bool assumed = base.is_constant() || ring_.is_assumed_positive(base);
       const std::string condition = ring_.text(base) + " > 0";
-      const bool said = std::find(proof.where.begin(), proof.where.end(), condition) !=
-                        proof.where.end();
+      const bool said =
+          std::find(proof.where.begin(), proof.where.end(), condition) != proof.where.end();
       if (!assumed && !said) proof.where.push_back(condition);
     }
   }

@@ -25,11 +25,11 @@ std::vector<NamedExpression> real_everywhere(const std::vector<NamedExpression>&
   for (const NamedExpression& f : functions) {
     bool polynomial = f.domain.empty();
     for (auto part = f.value.preorder_begin(); part != f.value.preorder_end(); ++part) {
-      const bool whole = GiNaC::is_a<GiNaC::power>(*part) &&
-                         part->op(1).info(GiNaC::info_flags::nonnegint);
-      polynomial = polynomial && (GiNaC::is_a<GiNaC::power>(*part)
-                                      ? whole
-                                      : !GiNaC::is_a<GiNaC::function>(*part));
+      const bool whole =
+          GiNaC::is_a<GiNaC::power>(*part) && part->op(1).info(GiNaC::info_flags::nonnegint);
+      polynomial =
+          polynomial &&
+          (GiNaC::is_a<GiNaC::power>(*part) ? whole : !GiNaC::is_a<GiNaC::function>(*part));
     }
     if (polynomial) result.push_back(f);
   }

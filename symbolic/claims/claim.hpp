@@ -63,8 +63,8 @@ inline constexpr ClaimKind kClaimKinds[] = {
     unimodularity_notes,
 };
 
-/// Those of the functions that have real values everywhere: they may help with a claim that does not
-/// speak of them, without narrowing its domain.
+/// Those of the functions that have real values everywhere: they may help with a claim that does
+/// not speak of them, without narrowing its domain.
 std::vector<NamedExpression> real_everywhere(const std::vector<NamedExpression>& functions);
 
 /// The expressions of the functions, and of one more, with those that they are defined by.

@@ -78,8 +78,7 @@ std::vector<Polynomial> integrals_of(Prover& prover, const LaxPair& pair) {
       });
       const bool known = std::any_of(result.begin(), result.end(),
                                      [&](const Polynomial& g) { return proportional(f, g); });
-      if (!constant && !known && prover.is_zero(prover.rate(f)))
-        result.push_back(std::move(f));
+      if (!constant && !known && prover.is_zero(prover.rate(f))) result.push_back(std::move(f));
     }
   }
   return result;

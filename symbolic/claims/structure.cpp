@@ -13,7 +13,10 @@ namespace casimir {
 
 std::vector<Claim> skew_claims(const Model& model) {
   if (!model.poisson) return {};
-  return {{"skew", "bracket", false, [](Prover& prover, Proof& proof) {
+  return {{"skew",
+           "bracket",
+           false,
+           [](Prover& prover, Proof& proof) {
              std::vector<Residual> residuals;
              const PoissonStructure& structure = *prover.model().poisson;
              for (std::size_t i = 0; i < prover.dimension(); ++i) {
