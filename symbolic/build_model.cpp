@@ -134,7 +134,8 @@ class Builder {
   void read_equations() {
     model_.frame = make_frame(file_.phase_space, model_.variables, model_.parameters, names_);
     model_.linear_bracket = file_.phase_space.algebra || file_.phase_space.structure_constants;
-    model_.poisson = make_bracket(file_.phase_space, model_.variables, names_, model_.frame);
+    model_.poisson = make_bracket(file_.phase_space, model_.variables, names_, model_.frame,
+                                  &model_.bracket_domain);
     if (file_.equations) {
       if (model_.poisson || file_.hamiltonian) {
         throw CaseError(file_.phase_space.where,

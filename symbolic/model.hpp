@@ -139,6 +139,7 @@ struct Model {
   std::optional<Frame> frame;               ///< set where the bracket is that of a frame
   std::vector<GiNaC::ex> field;             ///< dx_i/dt for each variable, not expanded
   std::vector<GiNaC::ex> domain;  ///< of the Hamiltonian or the equations, as of NamedExpression
+  std::vector<GiNaC::ex> bracket_domain;  ///< the same of the bracket
 
   std::vector<NamedExpression> definitions;
   std::vector<std::pair<Text, GiNaC::ex>> fixed;  ///< parameters replaced by ParameterValues

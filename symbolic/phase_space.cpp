@@ -96,12 +96,14 @@ void check_linear(const Text& text, const ex& value, const Symbols& x) {
 }
 
 std::vector<ex> explicit_brackets(const std::vector<Entry>& entries, bool linear, int sign,
-                                  const Symbols& x, Scope& names) {
+                                  const Symbols& x, Scope& names, std::vector<ex>* domain) {
   UpperTriangle upper(x.size());
   std::map<std::pair<std::size_t, std::size_t>, ex> given;
   for (const auto& [key, text] : entries) {
     const auto [i, j] = pair_of(key, x);
-    const ex value = sign * parse_expression(text, names).value;
+    const Quantity quantity = parse_expression(text, names);
+    const ex value = sign * quantity.value;
+    for (const ex& part : lost_parts(quantity)) domain->push_back(part);
     if (linear) check_linear(text, value, x);
     if (i == j && !value.expand().is_zero()) {
       throw key.error(
@@ -149,7 +151,10 @@ std::optional<Frame> make_frame(const PhaseSpaceText& text, const Symbols& varia
 }
 
 std::optional<PoissonStructure> make_bracket(const PhaseSpaceText& text, const Symbols& variables,
-                                             Scope& names, const std::optional<Frame>& frame) {
+                                             Scope& names, const std::optional<Frame>& frame,
+                                             std::vector<ex>* domain) {
+  std::vector<ex> parts;
+  if (domain == nullptr) domain = &parts;
   const int forms = int(text.algebra.has_value()) + int(text.canonical) +
                     int(text.brackets.has_value()) + int(text.structure_constants.has_value()) +
                     int(text.vector_fields.has_value());
@@ -162,12 +167,12 @@ std::optional<PoissonStructure> make_bracket(const PhaseSpaceText& text, const S
   if (text.algebra) return PoissonStructure(variables, algebra_brackets(text, variables));
   if (text.canonical) return PoissonStructure(variables, canonical_brackets(text, variables));
   if (text.brackets) {
-    return PoissonStructure(
-        variables, explicit_brackets(*text.brackets, false, sign_of(text), variables, names));
+    return PoissonStructure(variables, explicit_brackets(*text.brackets, false, sign_of(text),
+                                                         variables, names, domain));
   }
   if (text.structure_constants) {
     return PoissonStructure(variables, explicit_brackets(*text.structure_constants, true,
-                                                         sign_of(text), variables, names));
+                                                         sign_of(text), variables, names, domain));
   }
   return std::nullopt;
 }

@@ -39,6 +39,7 @@ std::vector<ex> Prover::with_dynamics(const Model& model, std::vector<ex> expres
     if (model.poisson) expressions.push_back(*model.hamiltonian);
   }
   if (subject == Subject::functions || !model.poisson) return expressions;
+  expressions.insert(expressions.end(), model.bracket_domain.begin(), model.bracket_domain.end());
   for (std::size_t i = 0; i < model.variables.size(); ++i) {
     for (std::size_t j = i + 1; j < model.variables.size(); ++j)
       expressions.push_back((*model.poisson)(i, j));

@@ -168,9 +168,9 @@ bool RealPoints::admits(RealPoint& point, const std::vector<ex>& expressions) co
   return admits(point.evaluator(), expressions);
 }
 
-/// Small fractions, and by turns positive ones, ones below 1, and ones of another size.
+/// Small fractions, and by turns positive ones, ones below 1, both, and ones of another size.
 std::vector<ex> RealPoints::draw() {
-  const int way = draws_++ % 4;
+  const int way = draws_++ % 5;
   const auto between = [&](int low, int high) {
     return static_cast<long>(std::uniform_int_distribution<int>(low, high)(random_));
   };
@@ -180,9 +180,10 @@ std::vector<ex> RealPoints::draw() {
                                                    : GiNaC::numeric(1, sizes[between(0, 2)]);
   std::vector<ex> point;
   for (std::size_t i = 0; i < ring_.symbols().size(); ++i) {
-    const GiNaC::numeric value = way == 1 ? GiNaC::numeric(between(1, 19), between(1, 4))
-                                 : way == 2
-                                     ? GiNaC::numeric(between(-29, 29), 30)
+    const GiNaC::numeric value = way == 1   ? GiNaC::numeric(between(1, 19), between(1, 4))
+                                 : way == 2 ? GiNaC::numeric(between(-29, 29), 30)
+                                 : way == 4
+                                     ? GiNaC::numeric(between(1, 29), 30)
                                      : GiNaC::numeric(between(-19, 19), between(1, 4)) * size;
     point.emplace_back(value);
   }

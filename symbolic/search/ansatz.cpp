@@ -51,6 +51,9 @@ Monomials without_multiples(const Monomials& monomials,
   return result;
 }
 
+/// Of one relation: more take minutes to be written down alone.
+constexpr double kMostCofactors = 2e6;
+
 /// No problem of this size is begun.
 void check_memory(const Problem& problem, const Watch& watch) {
   const double bytes = bytes_of_equations(problem.fields, problem.weights, problem.degree);
@@ -244,6 +247,11 @@ Ansatz make_ansatz(const System& system, const Problem& problem, const Watch& wa
   for (std::size_t f = 0; f < level.size(); ++f) {
     const int left = highest - weighted_degree(level[f], places, weights);
     const auto own = leading.begin() + static_cast<std::ptrdiff_t>(f);
+    if (left >= 0 && count_monomials(weights, left) > kMostCofactors)
+      throw TooMuchWork(fmt::format(
+          "the cofactors of a relation between the functions would have {:.3g} unknowns, more than "
+          "{:.3g}",
+          count_monomials(weights, left), kMostCofactors));
     // A multiple of an earlier relation need not be a cofactor: that one's takes it over.
     if (left >= 0) {
       ansatz.relations.push_back(

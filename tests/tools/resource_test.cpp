@@ -191,7 +191,8 @@ TEST(ResourceBombs, ThatGrowInAProofAreUndecided) {
       {"--limit", system_with("d8", chain(8, "sqrt(@ + z) + 1/(@ + t)"))}};
   for (const auto& [limit, text] : cases) {
     folder.write("bomb.toml", text);
-    const Outcome outcome = run_in(folder, {"verify", "./bomb.toml", "--limit", "work=1e7"});
+    const Outcome outcome =
+        run_in(folder, {"verify", "./bomb.toml", "--integral", "x", "--limit", "work=1e7"});
     EXPECT_EQ(outcome.status, 3) << limit << outcome.out << outcome.err;
     EXPECT_NE(outcome.out.find(limit), std::string::npos) << outcome.out;
   }
