@@ -146,7 +146,7 @@ class Newton {
 }  // namespace
 
 bool RealLevelPoints::exists(const Level& level, const std::vector<ex>& expressions) {
-  if (at_rational_point(level, expressions) || at_simple_point(level, expressions)) return true;
+  if (at_simple_point(level, expressions) || at_rational_point(level, expressions)) return true;
   constexpr int kStarts = 60;
   if (real_.numbers() == BallEvaluator::Numbers::complex) return false;
   for (int i = 0; i < kStarts; ++i) {
@@ -169,27 +169,35 @@ bool RealLevelPoints::at_rational_point(const Level& level, const std::vector<ex
   return false;
 }
 
-/// Zeros, ones and other small numbers: singular levels, such as q^2 + p^2 = 0, have no other
-/// points.
+/// The states of scenes; zeros, ones and other small numbers: singular levels, such as q^2 + p^2 =
+/// 0, have no other points.
 bool RealLevelPoints::at_simple_point(const Level& level, const std::vector<ex>& expressions) {
+  for (std::vector<ex>& scene : real_.scenes()) {
+    if (is_on(std::move(scene), level, expressions)) return true;
+  }
   constexpr int kTrials = 200;
   for (int trial = 0; trial < kTrials; ++trial) {
     std::vector<ex> coordinates = real_.draw_simple(trial % 2 == 1);
     if (trial == 0) coordinates.assign(coordinates.size(), 0);
-    RealPoint point = real_.at(std::move(coordinates));
-    try {
-      const bool on_level =
-          std::all_of(level.functions.begin(), level.functions.end(), [&](const ex& f) {
-            if (!point.evaluator()(f).contains_zero()) return false;
-            const auto value = exact_constant(substituted(f, values_of(point)));
-            return value && value->zero;
-          });
-      if (on_level && real_.admits(point, expressions)) return true;
-    } catch (const std::exception&) {
-      continue;  // a pole, or no certain value
-    }
+    if (is_on(std::move(coordinates), level, expressions)) return true;
   }
   return false;
+}
+
+bool RealLevelPoints::is_on(std::vector<ex> coordinates, const Level& level,
+                            const std::vector<ex>& expressions) {
+  try {
+    RealPoint point = real_.at(std::move(coordinates));
+    const bool on_level =
+        std::all_of(level.functions.begin(), level.functions.end(), [&](const ex& f) {
+          if (!point.evaluator()(f).contains_zero()) return false;
+          const auto value = exact_constant(substituted(f, values_of(point)));
+          return value && value->zero;
+        });
+    return on_level && real_.admits(point, expressions);
+  } catch (const std::exception&) {
+    return false;  // a pole, or no certain value
+  }
 }
 
 GiNaC::exmap RealLevelPoints::values_of(const RealPoint& point) const {

@@ -21,6 +21,8 @@ class RealLevelPoints {
 
  private:
   bool at_simple_point(const Level& level, const std::vector<GiNaC::ex>& expressions);
+  bool is_on(std::vector<GiNaC::ex> coordinates, const Level& level,
+             const std::vector<GiNaC::ex>& expressions);
   bool at_rational_point(const Level& level, const std::vector<GiNaC::ex>& expressions);
   GiNaC::exmap values_of(const RealPoint& point) const;
   bool near(const Level& level, const std::vector<GiNaC::ex>& start,

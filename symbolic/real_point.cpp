@@ -211,7 +211,8 @@ std::optional<RealPoint> RealPoints::random(const std::vector<ex>& expressions, 
   return std::nullopt;
 }
 
-std::optional<RealPoint> RealPoints::any(const std::vector<ex>& expressions) {
+std::vector<std::vector<ex>> RealPoints::scenes() {
+  std::vector<std::vector<ex>> result;
   for (const Scene& scene : model_.scenes) {
     if (!scene.unusable.empty() || scene.parameters.size() != model_.parameters.size() ||
         scene.initial.size() != model_.variables.size())
@@ -220,6 +221,13 @@ std::optional<RealPoint> RealPoints::any(const std::vector<ex>& expressions) {
     std::copy(scene.initial.begin(), scene.initial.end(), coordinates.begin());
     std::copy(scene.parameters.begin(), scene.parameters.end(),
               coordinates.begin() + static_cast<std::ptrdiff_t>(scene.initial.size()));
+    result.push_back(std::move(coordinates));
+  }
+  return result;
+}
+
+std::optional<RealPoint> RealPoints::any(const std::vector<ex>& expressions) {
+  for (std::vector<ex>& coordinates : scenes()) {
     try {
       RealPoint point = at(std::move(coordinates), kMoreBits);
       if (admits(point, expressions)) return point;

@@ -79,6 +79,9 @@ class RealPoints {
   bool admits(RealPoint& point, const std::vector<GiNaC::ex>& expressions) const;
   bool admits(BallEvaluator& at, const std::vector<GiNaC::ex>& expressions) const;
 
+  /// The initial states of the case's scenes, with their parameters.
+  std::vector<std::vector<GiNaC::ex>> scenes();
+
   /// Coordinates for the ring's symbols, without a look at the assumptions.
   std::vector<GiNaC::ex> draw();
   /// The same; many are 0, 1 or -1, or parts of Pi if these are asked for.
