@@ -271,7 +271,8 @@ bool PiecePoints::add_point() {
 void PiecePoints::sort_by_signs(const FunctionRing::Pieces& what) {
   std::map<std::vector<int>, Piece> found;
   for (std::size_t k = 0; k < kManyPoints; ++k) {
-    auto point = draw();
+    // Where all of the points have to do, none may be special by accident.
+    auto point = what.rigid ? draw() : prover_.real_points().generic(prover_.domain(), k);
     if (!point) break;
     std::vector<int> signs;
     try {

@@ -203,12 +203,37 @@ std::vector<ex> RealPoints::draw_simple(bool parts_of_pi) {
   return point;
 }
 
+/// The nearest multiple, not 0, of 1 over a prime that no other coordinate has.
+std::vector<ex> RealPoints::draw_generic() {
+  std::vector<ex> point = draw();
+  GiNaC::numeric prime(101);
+  for (ex& x : point) {
+    const GiNaC::numeric multiple = GiNaC::ex_to<GiNaC::numeric>(x) * prime;
+    GiNaC::numeric whole = GiNaC::iquo(multiple.numer(), multiple.denom());
+    if (GiNaC::irem(whole, prime).is_zero()) whole = whole + (whole.is_negative() ? -1 : 1);
+    x = whole / prime;
+    prime = prime + 2;
+    while (!prime.is_prime()) prime = prime + 2;
+  }
+  return point;
+}
+
 std::optional<RealPoint> RealPoints::random(const std::vector<ex>& expressions, int trials) {
   for (int trial = 0; trial < trials; ++trial) {
     RealPoint point = at(draw());
     if (admits(point, expressions)) return point;
   }
   return std::nullopt;
+}
+
+std::optional<RealPoint> RealPoints::generic(const std::vector<ex>& expressions, std::size_t k) {
+  constexpr int kTrials = 400;
+  for (int trial = 0; trial < kTrials && generic_.size() <= k; ++trial) {
+    RealPoint point = at(draw_generic());
+    if (admits(point, expressions)) generic_.push_back(std::move(point));
+  }
+  if (generic_.size() <= k) return std::nullopt;
+  return generic_[k];
 }
 
 std::vector<std::vector<ex>> RealPoints::scenes() {

@@ -72,6 +72,11 @@ class RealPoints {
   /// ring has complex numbers; empty if none was found. \param trials  how many points are tried
   std::optional<RealPoint> random(const std::vector<GiNaC::ex>& expressions, int trials = 400);
 
+  /// The same, the k-th of a sequence of points whose coordinates have a denominator of their own
+  /// each: small fractions are zero or equal to each other more often than chance points of a
+  /// continuum are. The expressions are those of the first call.
+  std::optional<RealPoint> generic(const std::vector<GiNaC::ex>& expressions, std::size_t k);
+
   /// The same; the initial states of the case's scenes are tried first.
   std::optional<RealPoint> any(const std::vector<GiNaC::ex>& expressions);
 
@@ -91,10 +96,13 @@ class RealPoints {
   BallEvaluator::Numbers numbers() const;
 
  private:
+  std::vector<GiNaC::ex> draw_generic();
+
   const Model& model_;
   const FunctionRing& ring_;
   std::mt19937 random_{20190103};
   int draws_ = 0;
+  std::vector<RealPoint> generic_;
 };
 
 }  // namespace casimir

@@ -220,10 +220,9 @@ ConditionFinder::Confirmed ConditionFinder::confirm(const Place& place, Conditio
     leave_open(fmt::format("the search at {} has no answer: {}", where, problem.what()));
     return Confirmed::open;
   }
+  const auto after_the_confirmed = static_cast<std::ptrdiff_t>(confirmed_.size());
   confirmed_.push_back(place);
-  report_.conditions.insert(
-      report_.conditions.begin() + static_cast<std::ptrdiff_t>(confirmed_.size()) - 1,
-      std::move(condition));
+  report_.conditions.insert(report_.conditions.begin() + after_the_confirmed, std::move(condition));
   return Confirmed::found;
 }
 
