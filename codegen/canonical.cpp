@@ -135,6 +135,25 @@ Scaled Dag::convert(const GiNaC::ex& expression) {
   return result;
 }
 
+namespace {
+
+/// Of a square root the radicand as the square that it is, if it is one that is multiplied out.
+GiNaC::ex radicand(const GiNaC::ex& base, const cln::cl_RA& exponent) {
+  constexpr std::size_t kMostTerms = 30;
+  if (cln::denominator(exponent) != 2 || !GiNaC::is_a<GiNaC::add>(base) ||
+      base.nops() > kMostTerms || !base.info(GiNaC::info_flags::rational_polynomial))
+    return base;
+  const GiNaC::ex split = GiNaC::sqrfree(base);
+  const auto is_square = [](const GiNaC::ex& factor) {
+    return GiNaC::is_a<GiNaC::power>(factor) ? factor.op(1).info(GiNaC::info_flags::even)
+                                             : factor.info(GiNaC::info_flags::positive);
+  };
+  if (!GiNaC::is_a<GiNaC::mul>(split)) return is_square(split) ? split : base;
+  return std::all_of(split.begin(), split.end(), is_square) ? split : base;
+}
+
+}  // namespace
+
 Scaled Dag::convert_new(const GiNaC::ex& e) {
   if (GiNaC::is_a<GiNaC::numeric>(e)) return {exact_value(e), kOne};
   if (GiNaC::is_a<GiNaC::symbol>(e)) {
@@ -149,7 +168,8 @@ Scaled Dag::convert_new(const GiNaC::ex& e) {
     return GiNaC::is_a<GiNaC::add>(e) ? sum(parts) : product(parts);
   }
   if (GiNaC::is_a<GiNaC::power>(e)) {
-    if (GiNaC::is_a<GiNaC::numeric>(e.op(1))) return power(convert(e.op(0)), exact_value(e.op(1)));
+    if (GiNaC::is_a<GiNaC::numeric>(e.op(1)))
+      return power(convert(radicand(e.op(0), exact_value(e.op(1)))), exact_value(e.op(1)));
     return call(Op::exp, {product({convert(e.op(1)), call(Op::log, {convert(e.op(0))})})});
   }
   if (GiNaC::is_a<GiNaC::function>(e)) return convert_function(e);

@@ -33,6 +33,10 @@ const char* function_name(Op op) {
       return "\\arcsin";
     case Op::acos:
       return "\\arccos";
+    case Op::abs:
+      return "\\operatorname{abs}";
+    case Op::sign:
+      return "\\operatorname{sign}";
     default:
       return "\\operatorname{atan2}";
   }

@@ -44,6 +44,10 @@ const char* function_name(Op op) {
       return "asin";
     case Op::acos:
       return "acos";
+    case Op::abs:
+      return "abs";
+    case Op::sign:
+      return "sign";
     default:
       return "atan2";
   }

@@ -98,6 +98,10 @@ cln::cl_R approximate(const Program& program, int i, const cln::float_format_t& 
       return real(cln::asin(cln::cl_N(a)), program, i);
     case Op::acos:
       return real(cln::acos(cln::cl_N(a)), program, i);
+    case Op::abs:
+      return cln::abs(a);
+    case Op::sign:
+      return cln::signum(a);
     default:
       return cln::atan(b, a);
   }
@@ -175,6 +179,10 @@ std::string constant_text(const Program& program, int i) {
       return "-" + constant_text(program, code.a);
     case Op::atan2:
       return "atan2" + binary(program, code, ", ");
+    case Op::abs:
+      return "|" + constant_text(program, code.a) + "|";
+    case Op::sign:
+      return "sign(" + constant_text(program, code.a) + ")";
     default:
       break;
   }

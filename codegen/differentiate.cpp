@@ -71,6 +71,10 @@ class Derivation {
         return {inverse(cathetus(a)), -1};
       case Op::acos:
         return {writer_.negation(inverse(cathetus(a))), -1};
+      case Op::abs:
+        return {writer_.emit(Op::sign, a), -1};
+      case Op::sign:
+        return {writer_.number(0), -1};
       default: {  // atan2(a, b), the angle of the point (b, a)
         const int unit = inverse(writer_.sum(square(a), square(b)));
         return {writer_.product(b, unit), writer_.negation(writer_.product(a, unit))};

@@ -78,9 +78,10 @@ std::string sundials(const HeaderContext& c) {
 
 std::string using_declarations(const Program& program) {
   static constexpr std::pair<Op, const char*> kFunctions[] = {
-      {Op::pow, "pow"},   {Op::sqrt, "sqrt"}, {Op::sin, "sin"},    {Op::cos, "cos"},
-      {Op::tan, "tan"},   {Op::exp, "exp"},   {Op::log, "log"},    {Op::asin, "asin"},
-      {Op::acos, "acos"}, {Op::pi, "acos"},   {Op::atan2, "atan2"}};
+      {Op::pow, "pow"},      {Op::sqrt, "sqrt"}, {Op::sin, "sin"},     {Op::cos, "cos"},
+      {Op::tan, "tan"},      {Op::exp, "exp"},   {Op::log, "log"},     {Op::asin, "asin"},
+      {Op::acos, "acos"},    {Op::pi, "acos"},   {Op::atan2, "atan2"}, {Op::abs, "fabs"},
+      {Op::sign, "copysign"}};
   std::string text;
   for (const auto& [op, name] : kFunctions) {
     const bool called =

@@ -1,6 +1,7 @@
 // The recurrences of a straight-line program's Taylor coefficients, for the compiled kernel.
 #include "codegen/emit_series.hpp"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
@@ -188,8 +189,9 @@ class SeriesWriter {
   void write_function(std::size_t i) {
     const Instruction& c = code(i);
     const std::string &a = at(c.a), &y = value_[i];
-    static constexpr const char* kNames[] = {"pow", "sqrt", "sin",  "cos",  "tan",
-                                             "exp", "log",  "asin", "acos", "atan2"};
+    static constexpr const char* kNames[] = {"pow", "sqrt", "sin",  "cos",   "tan", "exp",
+                                             "log", "asin", "acos", "atan2", "fabs"};
+    if (c.op == Op::sign) return write_sign(i);
     const char* const name = kNames[static_cast<int>(c.op) - static_cast<int>(Op::pow)];
     assign_value(y, called(name, c.b < 0 ? a : a + ", " + at(c.b)));
     if (!varies_[i]) return;
@@ -210,9 +212,40 @@ class SeriesWriter {
       case Op::asin:
       case Op::acos:
         return write_arc(c.op, y, a);
+      case Op::abs:
+        return write_modulus(y, a);
       default:
         return write_angle(y, c);
     }
+  }
+
+  /// 1, -1 or 0 by the sign of a; where that is zero, what is there already.
+  std::string side(const std::string& a, const std::string& otherwise) const {
+    if (!lanes_) return a + " > 0 ? 1. : " + a + " < 0 ? -1. : " + otherwise;
+    return "casimir_kernel::lanes::each<V>([](double x, double y) { return x > 0 ? 1. : x < 0 ? "
+           "-1. : y; }, " +
+           a + ", " + otherwise + ")";
+  }
+
+  void write_sign(std::size_t i) {
+    const std::string& a = at(code(i).a);
+    assign_value(value_[i], side(a, lanes_ ? "V{}" : "0."));
+    if (varies_[i]) assign_next(value_[i], lanes_ ? "V{}" : "0.");
+  }
+
+  /// y = side a; where it begins at zero, the first term that is not says on which side.
+  void write_modulus(const std::string& y, const std::string& a) {
+    const std::string u = member(y + "_side");
+    assign_value(u, side(a, lanes_ ? "V{}" : "0."));
+    if (lanes_)
+      next_ += wrapped("        " + u +
+                       " = casimir_kernel::lanes::each<V>([](double s, double x) { return s != 0 ? "
+                       "s : x > 0 ? 1. : x < 0 ? -1. : 0.; }, " +
+                       u + ", " + a + "_k);") +
+               "\n";
+    else
+      next_ += "        if (" + u + " == 0) " + u + " = " + side(a + "_k", "0.") + ";\n";
+    assign_next(y, u + " * " + a + "_k");
   }
 
   /// y f = integral of the numerator's derivative: f y' = a'.
@@ -343,12 +376,22 @@ class SeriesWriter {
     return text + packed("c[k + 1]", next_states, "        ") + "      }\n    }\n";
   }
 
-  /// Whether nothing but a constant is divided by, and no function is called with what varies.
-  bool is_polynomial() const {
+  /// Whether the rates are polynomials of the states of a degree so low that the series of a
+  /// solution shows all of their terms: no other operation, and no time.
+  bool is_smooth() const {
+    constexpr int kHighest = 3;
+    if (uses_time_) return false;
+    std::vector<int> degree(program_.code.size(), 0);
     for (std::size_t i = 0; i < program_.code.size(); ++i) {
       const Instruction& c = code(i);
-      if (constant_[i] || !varies_[i] || c.op < Op::div || c.op == Op::neg) continue;
-      if (c.op != Op::div || varies(c.b)) return false;
+      if (constant_[i] || !varies_[i]) continue;
+      const int a = c.op == Op::input ? 1 : degree[index(c.a)];
+      const int b = c.b < 0 || c.op == Op::input ? 0 : degree[index(c.b)];
+      const bool linear = c.op == Op::input || c.op == Op::add || c.op == Op::sub ||
+                          c.op == Op::neg || (c.op == Op::div && !varies(c.b));
+      if (!linear && c.op != Op::mul) return false;
+      degree[i] = c.op == Op::mul ? a + b : std::max(a, b);
+      if (degree[i] > kHighest) return false;
     }
     return true;
   }
@@ -364,7 +407,7 @@ class SeriesWriter {
     return "  // Taylor coefficients of solutions: values at the state, and coefficient k of "
            "each.\n"
            "  struct Series : " +
-           base + " {\n    static constexpr bool smooth = " + (is_polynomial() ? "true" : "false") +
+           base + " {\n    static constexpr bool smooth = " + (is_smooth() ? "true" : "false") +
            ";\n" + wrapped(all + ";") + "\n\n" + begin_function() + "\n" + expand_function() +
            "  };\n";
   }

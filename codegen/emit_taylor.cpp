@@ -257,6 +257,15 @@ class TaylorWriter {
       case Op::asin:
       case Op::acos:
         return write_arc(c, a, y);
+      case Op::abs: {  // where it begins at zero, the first term that is not says on which side
+        const std::string side = unique_.unique(y + "_side");
+        arrays_ += "  " + real() + " " + side + " = 0;\n";
+        loop_ += "    if (" + side + " == 0) " + side + " = " + a + "[degree] > 0 ? 1 : " + a +
+                 "[degree] < 0 ? -1 : 0;\n";
+        return assign(y, side + " * " + a + "[degree]");
+      }
+      case Op::sign:
+        return assign(y, "degree > 0 || " + a + "[0] == 0 ? 0 : " + a + "[0] > 0 ? 1 : -1");
       default: {
         const std::string b = series(c.b);
         const std::string squares = new_array(y + "_squares");

@@ -32,6 +32,8 @@ Scaled line(Dag& dag, const Program& program, const Instruction& code,
       return dag.power(at(code.a), cln::cl_RA(1) / 2);
     case Op::pow:
       return dag.power(at(code.a), constant(program.code[static_cast<std::size_t>(code.b)].a));
+    case Op::abs:
+      return dag.power(dag.power(at(code.a), 2), cln::cl_RA(1) / 2);
     case Op::atan2:
       return dag.call(code.op, {at(code.a), at(code.b)});
     default:

@@ -32,10 +32,10 @@ constexpr std::array kReserved{
     "x", "dx", "dxdt", "t", "p", "n", "J", "y", "ydot", "fy", "dfdt", "state", "values", "real",
     "Real", "State", "Derivative", "Matrix", "Vector", "System", "system", "parameters", "rhs",
     "invariants", "jacobian", "dimension", "duration", "std", "main", "i", "j", "user", "sin",
-    "cos", "tan", "exp", "log", "asin", "acos", "atan2", "sqrt", "pow", "j0", "j1", "jn", "y0",
-    "y1", "yn", "gamma", "signgam", "tmp1", "tmp2", "tmp3", "buffer", "delta_x", "ddelta_x",
-    "variational", "taylor", "start", "coefficients", "degree", "Order", "time_series", "gradients",
-    "dvalues", "entries", "jacobian_entries", "jacobian_nonzeros", "jacobian_rows",
+    "cos", "tan", "exp", "log", "asin", "acos", "atan2", "sqrt", "pow", "fabs", "copysign", "j0",
+    "j1", "jn", "y0", "y1", "yn", "gamma", "signgam", "tmp1", "tmp2", "tmp3", "buffer", "delta_x",
+    "ddelta_x", "variational", "taylor", "start", "coefficients", "degree", "Order", "time_series",
+    "gradients", "dvalues", "entries", "jacobian_entries", "jacobian_nonzeros", "jacobian_rows",
     "jacobian_columns"};
 
 bool is_plain(char c) {

@@ -139,6 +139,7 @@ class StatementWriter {
 
   void append_call(const Instruction& c, std::string& out) {
     out += style_.call_prefix + function_name(c.op) + style_.call_suffix + "(";
+    if (c.op == Op::sign) out += converted("1") + ", ";
     append_argument(c.a, out);
     if (c.b >= 0) {
       out += ", ";

@@ -117,8 +117,9 @@ class Builder {
   }
 
   Monomial literals_of(const Factor& f) {
-    const int base = variable_of(f.node);
     const bool half = cln::denominator(f.exponent) == 2;
+    if (half && is_square(f.node)) return root_of_square(f);
+    const int base = variable_of(f.node);
     if (is_integer(f.exponent) && cln::plusp(f.exponent)) return {{base, small(f.exponent)}};
     if (cln::minusp(f.exponent) && inverse_roots_.contains(f.node) &&
         (half || is_integer(f.exponent))) {
@@ -130,6 +131,29 @@ class Builder {
     const cln::cl_RA whole = f.exponent - least;
     const Monomial root{{half ? function(Op::sqrt, {base}) : function(Op::pow, {base}, least), 1}};
     return whole == 0 ? root : multiply(root, {{base, small(whole)}});
+  }
+
+  /// Whether it is a product of even powers of what varies.
+  bool is_square(NodeId id) const {
+    const Node& node = dag_[id];
+    return node.kind == NodeKind::product && !node.constant &&
+           std::ranges::all_of(node.factors,
+                               [](const Factor& f) { return is_integer(f.exponent / 2); });
+  }
+
+  /// The root of a square is |.|, whose derivative exists wherever that is not zero and whose
+  /// series is that of the other factor.
+  Monomial root_of_square(const Factor& f) {
+    Monomial result;
+    for (const Factor& inner : dag_[f.node].factors) {
+      const cln::cl_RA exponent = inner.exponent * f.exponent;
+      const bool odd = cln::oddp(cln::numerator(exponent));
+      int base = variable_of(inner.node);
+      if (odd) base = function(Op::abs, {base});
+      if (cln::minusp(exponent)) base = function(Op::div, {base});
+      result = multiply(result, {{base, small(cln::abs(exponent))}});
+    }
+    return result;
   }
 
   int variable_of(NodeId id) {

@@ -54,6 +54,7 @@ struct Arithmetic<Moving> {
     const double length = std::hypot(x.value, y.value), s = y.value / length, c = x.value / length;
     return {std::atan2(y.value, x.value), (c * y.rate - s * x.rate) / length};
   }
+  static int sign(N a) { return Real::sign(a.value); }
 };
 
 namespace {

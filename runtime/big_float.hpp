@@ -120,6 +120,7 @@ struct Arithmetic<BigFloat> {
   static N asin(const N& a);
   static N acos(const N& a);
   static N atan2(const N& y, const N& x);
+  static int sign(const N& a) { return a.sign(); }
 
   /// What TaylorJet takes in the place of its own loops, where an arithmetic has them:
   /// sum over j = from..to of u_j v_{k-j} ..

@@ -39,6 +39,7 @@ class Solver {
     CVodeSetUserData(memory_, &problem);
     CVodeSetMaxNumSteps(memory_, -1);
     CVodeSetStopTime(memory_, settings.duration);
+    if (settings.longest_step > 0) CVodeSetMaxStep(memory_, settings.longest_step);
     if (stiff)
       use_newton(module, static_cast<sunindextype>(initial.size()));
     else

@@ -4,11 +4,13 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "runtime/arkode.hpp"
 #include "runtime/cvode.hpp"
 #include "runtime/observer.hpp"
+#include "runtime/step_watch.hpp"
 #include "runtime/stiffness.hpp"
 
 namespace casimir {
@@ -68,7 +70,8 @@ void run_kernel(const Module& module, const Settings& s, const double* parameter
                 Observer& observer, Trajectory& trajectory) {
   DenseSolver solver;
   casimir_run run = {};
-  run.t_end = s.duration;
+  run.t_begin = s.begin;
+  run.t_end = s.begin + s.duration;
   run.parameters = parameters;
   run.rtol = s.rtol;
   run.atol = s.atol;
@@ -83,9 +86,24 @@ void run_kernel(const Module& module, const Settings& s, const double* parameter
     run.project = project;
     run.projector = const_cast<Settings*>(&s);
   }
+  std::optional<StepLook> look;
+  if (module.watch()) {
+    look.emplace(*module.watch(), trajectory.state.size(), parameters);
+    run.look = [](void* looker, const casimir_step* trial) {
+      return (*static_cast<StepLook*>(looker))(*trial);
+    };
+    run.looker = &*look;
+  }
   casimir_outcome outcome = {};
   const auto start = Clock::now();
-  module.functions().integrate(&run, trajectory.state.data(), &outcome);
+  if (s.begin_anew > 0 && s.begin_anew < std::abs(s.duration)) {
+    run.t_end = s.begin + std::copysign(s.begin_anew, s.duration);
+    module.functions().integrate(&run, trajectory.state.data(), &outcome);
+    run.t_begin = run.t_end;
+    run.t_end = s.begin + s.duration;
+  }
+  if (outcome.status == CASIMIR_OK)
+    module.functions().integrate(&run, trajectory.state.data(), &outcome);
   trajectory.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   trajectory.status = status_of(outcome.status);
   trajectory.time = outcome.t;

@@ -32,10 +32,15 @@ using InvariantTerms =
 
 /// What a run shall be like, and what it is watched by.
 struct Settings {
-  double duration = 0;  ///< may be negative: backwards in time
+  double begin = 0;     ///< the time at the start; 0 for other libraries' methods
+  double duration = 0;  ///< from there; may be negative: backwards in time
   double rtol = 1e-10;  ///< local error per component: atol + rtol |x_i|
   double atol = 1e-12;
-  double fixed_step = 0;             ///< > 0: constant step, no error control
+  double fixed_step = 0;  ///< > 0: constant step, no error control
+  /// > 0: a method of our own begins anew after this time, so that its steps are others than those
+  /// of a run without.
+  double begin_anew = 0;
+  double longest_step = 0;  ///< > 0: of a method of CVODE
   unsigned long long max_steps = 0;  ///< 0: no limit
   double sample_every = 0;           ///< > 0: states at these times, from the dense output
   bool monitor = true;               ///< follow the invariants at every step
@@ -82,7 +87,7 @@ struct Trajectory {
   double seconds = 0;  ///< of the integration alone
 };
 
-/// Integrates from time 0.
+/// Integrates.
 /// \param module      with the method's kernel, or with only the right-hand side for a method of
 ///                    another library.
 /// \param initial     one number for each state.

@@ -4,8 +4,10 @@
 
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 #include "runtime/quadratic_targets.hpp"
+#include "runtime/step_watch.hpp"
 
 namespace casimir {
 namespace {
@@ -62,6 +64,11 @@ Module Module::from_functions(const ModuleFunctions& functions) {
   Module module;
   module.functions_ = functions;
   return module;
+}
+
+void Module::watch_steps_of(const Program& rhs) {
+  auto watch = std::make_shared<const StepWatch>(rhs);
+  watch_ = watch->empty() ? nullptr : std::move(watch);
 }
 
 Module Module::load(const std::string& path) {

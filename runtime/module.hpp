@@ -8,6 +8,9 @@
 
 namespace casimir {
 
+class StepWatch;
+struct Program;
+
 /// The entry points of a module, as module_abi.h describes them: functions of a shared object or,
 /// where nothing was compiled, objects that carry a program.
 struct ModuleFunctions {
@@ -49,6 +52,11 @@ class Module {
   int invariant_count() const { return functions_.invariant_count; }
   /// Whether there is a Jacobian.
   bool has_jacobian() const { return functions_.jacobian != nullptr; }
+  /// What its steps are watched for, or null: nothing in polynomials of low degree.
+  const StepWatch* watch() const { return watch_.get(); }
+  /// Has the steps of runs watched for what may be stepped over.
+  /// \param rhs  the program of the right-hand side.
+  void watch_steps_of(const Program& rhs);
   /// Whether it can do a whole run by itself.
   bool has_integrate() const { return functions_.integrate != nullptr; }
 
@@ -59,6 +67,7 @@ class Module {
   Module() = default;
   std::unique_ptr<void, Close> handle_;
   ModuleFunctions functions_;
+  std::shared_ptr<const StepWatch> watch_;
 };
 
 }  // namespace casimir

@@ -3,7 +3,7 @@
 #ifndef CASIMIR_MODULE_ABI_H
 #define CASIMIR_MODULE_ABI_H
 
-#define CASIMIR_ABI_VERSION 3
+#define CASIMIR_ABI_VERSION 4
 
 /* How many matrices a kernel may have factorised at a time. */
 #define CASIMIR_MATRICES 7
@@ -27,6 +27,8 @@ struct casimir_step {
   /* Dense output: the state at a time between t0 and t1, n entries. */
   void (*dense)(const struct casimir_step* step, double t, double* x);
   const void* data; /* the kernel's own */
+  /* dx/dt at both ends, n entries each, or null. */
+  const double *f0, *f1;
 };
 
 /* How many terms of a Taylor series `casimir_leading` works out. */
@@ -65,6 +67,11 @@ struct casimir_run {
    * before it is accepted. n entries each. */
   void (*project)(void* projector, double t, double* x, double* carry);
   void* projector;
+  /* Null, or what looks at a step before it is accepted, where a step alone may not see what lies
+   * within it. Returns 1 where it may be taken, or how much of it may be tried instead, in (0, 1).
+   * With a constant step it is not asked. */
+  double (*look)(void* looker, const struct casimir_step* trial);
+  void* looker;
 };
 
 /* What came of it. The state array given to `integrate` then holds the state at `t`. */

@@ -10,8 +10,8 @@
 
 namespace casimir {
 
-/// What generic code needs of a number type: exact constants and the elementary functions, with a
-/// refusal (std::domain_error) where the result would not be a number of that type.
+/// What generic code needs of a number type: exact constants, the elementary functions and the
+/// sign, with a refusal (std::domain_error) where the result would not be a number of that type.
 template <class Number>
 struct Arithmetic;
 
@@ -38,6 +38,7 @@ struct IeeeArithmetic {
   static Real asin(Real a) { return std::asin(a); }
   static Real acos(Real a) { return std::acos(a); }
   static Real atan2(Real y, Real x) { return std::atan2(y, x); }
+  static int sign(Real a) { return a < 0 ? -1 : a > 0 ? 1 : 0; }
 };
 
 template <>
@@ -69,6 +70,7 @@ struct Arithmetic<cln::cl_RA> {
   static N asin(const N&) { return none(); }
   static N acos(const N&) { return none(); }
   static N atan2(const N&, const N&) { return none(); }
+  static int sign(const N& a) { return cln::minusp(a) ? -1 : cln::plusp(a) ? 1 : 0; }
 
  private:
   static N none() { throw std::domain_error("the value is not a rational number"); }
@@ -110,6 +112,7 @@ struct Arithmetic<cln::cl_F> {
     if (cln::zerop(y) && cln::zerop(x)) throw std::domain_error("the angle of the origin");
     return cln::cl_float(cln::atan(x, y), format);
   }
+  static int sign(const N& a) { return cln::minusp(a) ? -1 : cln::plusp(a) ? 1 : 0; }
 
   cln::float_format_t format;
 };

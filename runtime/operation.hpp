@@ -44,6 +44,10 @@ Number applied(Op op, const Number& a, const Number& b, const Arithmetic<Number>
       return arithmetic.acos(a);
     case Op::atan2:
       return arithmetic.atan2(a, b);
+    case Op::abs:
+      return arithmetic.sign(a) < 0 ? -a : a;
+    case Op::sign:
+      return arithmetic.from(cln::cl_RA(arithmetic.sign(a)));
     default:
       assert(false);
       return a;

@@ -28,6 +28,8 @@ enum class Op {
   asin,
   acos,
   atan2,  ///< atan2(a, b)
+  abs,    ///< |a|
+  sign,   ///< -1, 0 or 1: the derivative of |a|
 };
 
 /// One line of a straight-line program: the value `op(a, b)`. For all but `input` and `constant`,

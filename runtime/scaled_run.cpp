@@ -31,7 +31,8 @@ int ScaledRun::observe(void* self, const casimir_step* seen) {
     run.x1_[i] = seen->x1[i] * run.scale_;
   }
   run.seen_ = seen;
-  const casimir_step shown = {seen->t0, seen->t1, run.x0_.data(), run.x1_.data(), &dense, &run};
+  const casimir_step shown = {seen->t0, seen->t1, run.x0_.data(), run.x1_.data(),
+                              &dense,   &run,     nullptr,        nullptr};
   return run.run_.observe(run.run_.observer, &shown);
 }
 

@@ -114,7 +114,7 @@ class TaylorJet {
   /// Whether the recurrence of the operation needs series of its own beside the result.
   static bool has_helpers(Op op) {
     return op == Op::sin || op == Op::cos || op == Op::tan || op == Op::asin || op == Op::acos ||
-           op == Op::atan2;
+           op == Op::atan2 || op == Op::abs;
   }
   Series& helper(std::size_t line, int which) {
     return helper_series_[index(helpers_[line] + which)];
@@ -183,6 +183,10 @@ class TaylorJet {
     return sum;
   }
 
+  Number side_of(const Number& a) const {
+    return arithmetic_.from(cln::cl_RA(arithmetic_.sign(a)));
+  }
+
   /// The value of instruction i, and where its recurrence begins.
   void begin(std::size_t i, const Number& t) {
     const Instruction& line = program_.code[i];
@@ -205,6 +209,9 @@ class TaylorJet {
         break;
       case Op::tan:
         u = one + series_[i][0] * series_[i][0];
+        break;
+      case Op::abs:
+        u = side_of(a);
         break;
       case Op::atan2:
         u = of(line.b)[0] * of(line.b)[0] + a * a;
@@ -265,6 +272,8 @@ class TaylorJet {
                                   at_k * a[0]);
       case Op::exp:
         return weighted(a, s, k, 1, k) / at_k;
+      case Op::sign:
+        return integer(0);
       case Op::log:
         return arithmetic_.divide(at_k * a[n] - weighted(s, a, k, 1, k - 1), at_k * a[0]);
       default:
@@ -295,6 +304,9 @@ class TaylorJet {
         u[n] = convolution(s, s, k, 1, k - 1) + two * s[0] * next;
         return next;
       }
+      case Op::abs:  // where it begins at zero, the first term that is not says on which side
+        if (arithmetic_.sign(u[0]) == 0) u[0] = side_of(a[n]);
+        return u[0] * a[n];
       case Op::atan2:
         // r s' = x y' - y x', r = x^2 + y^2
         u[n] = convolution(b, b, k, 0, k) + convolution(a, a, k, 0, k);

@@ -45,6 +45,7 @@ struct Arithmetic<SizedNumber> {
   static N asin(N a) { return plain(std::asin(a.value)); }
   static N acos(N a) { return plain(std::acos(a.value)); }
   static N atan2(N y, N x) { return plain(std::atan2(y.value, x.value)); }
+  static int sign(N a) { return Arithmetic<long double>::sign(a.value); }
 };
 
 }  // namespace casimir

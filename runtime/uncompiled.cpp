@@ -71,7 +71,9 @@ Module uncompiled_module(const Program& rhs, const Program& invariants,
   functions.invariants = evaluation(invariants, states, parameters.size());
   functions.integrate =
       form ? table_driven(*form, parameters) : interpreted(rhs, parameters.size());
-  return Module::from_functions(functions);
+  Module module = Module::from_functions(functions);
+  if (!form) module.watch_steps_of(rhs);
+  return module;
 }
 
 }  // namespace casimir

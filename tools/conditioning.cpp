@@ -116,9 +116,10 @@ class Follower {
     const std::size_t n = sizes_.size();
     Deviation deviation(sizes_);
     Settings settings = settings_;
+    settings.begin = from.time;
     settings.duration -= from.time;
     settings.watch = [&](double t, const double* x) {
-      deviation.see(t, x);
+      deviation.see(t - from.time, x);
       if (keep) path_.push_back({t, {x, x + n}});
     };
     std::vector<double> start = from.state;
@@ -133,10 +134,8 @@ class Follower {
   }
 
   /// Changes made on the way may grow more than those at the start, as at the passage of a saddle.
-  /// The points are evenly spread over the steps, which are shortest where much happens. Equations
-  /// that the time enters have no other start.
+  /// The points are evenly spread over the steps, which are shortest where much happens.
   void follow_from_later() {
-    if (run_.specialisation.uses_time) return;
     const std::vector<Point> path = path_;
     for (std::size_t k = 1; k <= kStarts; ++k) {
       const std::size_t at = k * path.size() / (kStarts + 1);

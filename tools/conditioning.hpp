@@ -18,7 +18,8 @@ struct Conditioning {
   /// What a change made at any time has grown to at most, up to each of these times; where it has
   /// doubled.
   std::vector<Growth> growth;
-  double at_end = 1;            ///< growth up to the end, of whatever change grows most
+  double at_end = 1;  ///< growth up to the end, of whatever change grows most
+  double on_the_way() const { return growth.back().factor; }  ///< the same, up to any time
   std::vector<double> columns;  ///< growth up to the end of a change of each initial value
   double followed = 0;          ///< up to this time; what follows is extrapolated
 

@@ -101,8 +101,10 @@ CompiledModule compiled_module(const SceneRun& run, const Method& method) {
   const std::string text = emit_module(s, kernel, method.series, splitting ? &*splitting : nullptr);
   try {
     const CompiledObject object = compile(text, options);
-    return {.module = loaded([&] { return Module::load(object.path); }),
-            .from_cache = object.from_cache};
+    CompiledModule result{.module = loaded([&] { return Module::load(object.path); }),
+                          .from_cache = object.from_cache};
+    result.module.watch_steps_of(run.specialisation.rhs);
+    return result;
   } catch (const CompilerMissing& problem) {
     throw CompilerMissing(std::string(problem.what()) +
                           ", or use --method taylor, which needs none");

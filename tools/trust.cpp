@@ -27,6 +27,8 @@ constexpr double kSixDigits = 1e-6;
 constexpr double kDoubtful = 1e-4;
 constexpr double kCrossCheckTolerance = 1e-10;
 constexpr unsigned long long kCrossCheckSteps = 20000;
+/// What is narrower than a thousandth of the run CVODE may step over.
+constexpr double kLeastCrossCheckSteps = 1000;
 
 double distance(const std::vector<double>& a, const std::vector<double>& b,
                 const std::vector<double>& sizes) {
@@ -49,6 +51,9 @@ class Neighbours {
     tight_.rtol = std::max(settings.rtol / 100, 2 * kLeastTolerance);
     tight_.atol = settings.atol / 100;
     tight_.fixed_step = settings.fixed_step / 2;
+    // At the least tolerance the steps would be the same ones.
+    constexpr double kOdd = 0.0618;
+    tight_.begin_anew = settings.fixed_step > 0 ? 0 : kOdd * std::abs(settings.duration);
   }
 
   /// With a hundredth of the tolerance. \return  whether it reached the end.
@@ -115,24 +120,25 @@ std::optional<Conditioning> conditioning_at_end(const Neighbours& neighbours, st
 
 /// Where a second run would take too long: rounding errors that are made at every step and grow
 /// from there on, the drift of invariants, which grows likewise, and the local errors allowed.
-double estimate_without_repeat(const Conditioning& flow, const Settings& settings,
+double estimate_without_repeat(double growth, const Settings& settings,
                                const Trajectory& trajectory) {
   const auto steps = static_cast<double>(trajectory.steps);
   double drift = 0.03 * kUnitRoundoff * std::sqrt(steps);
   for (const InvariantRecord& record : trajectory.invariants) drift = std::max(drift, record.drift);
-  return flow.at_end * drift + steps * settings.rtol;
+  return growth * drift + steps * settings.rtol;
 }
 
 /// The same motion by a method of another kind: steps that jump over a narrow passage do so at
-/// every tolerance. Taylor series without a compiler, where they get through in a few thousand
-/// steps.
+/// every tolerance. Taylor series without a compiler, and for a run by these the Adams methods of
+/// CVODE, where they get through in a few thousand steps.
 struct CrossCheck {
   bool contradicts = false;  ///< they meet a singularity on the way
   double distance = 0;       ///< of the end states, as far as their own errors do not explain it
 };
 
-CrossCheck cross_check(const SceneRun& run, const Settings& settings, const Trajectory& trajectory,
-                       const std::vector<double>& sizes, double growth) {
+CrossCheck cross_check(const SceneRun& run, const Method& method, const Settings& settings,
+                       const Trajectory& trajectory, const std::vector<double>& sizes,
+                       double growth) {
   auto form = quadratic_form(run.specialisation.rhs, run.parameters);
   if (form && !has_quadratic_kernel(*form)) form.reset();
   const Module module = uncompiled_module(run.specialisation.rhs, {}, form, run.parameters);
@@ -141,12 +147,14 @@ CrossCheck cross_check(const SceneRun& run, const Settings& settings, const Traj
   own.rtol = kCrossCheckTolerance;
   own.atol = settings.atol * (own.rtol / std::max(settings.rtol, kLeastTolerance));
   own.max_steps = kCrossCheckSteps;
+  own.longest_step = std::abs(trajectory.time) / kLeastCrossCheckSteps;
   own.give_up = settings.give_up;
-  const Trajectory other =
-      integrate(module, *find_method("taylor"), own, run.initial, run.parameters);
+  const Method& check = *find_method(method.series ? "cvode-adams" : "taylor");
+  const Trajectory other = integrate(module, check, own, run.initial, run.parameters);
   CrossCheck result;
-  result.contradicts = other.status == Status::singularity || other.status == Status::non_finite ||
-                       other.status == Status::step_underflow;
+  result.contradicts = !method.series &&
+                       (other.status == Status::singularity || other.status == Status::non_finite ||
+                        other.status == Status::step_underflow);
   if (other.status != Status::ok) return result;
   const double apart = distance(other.state, trajectory.state, sizes);
   if (apart > std::min(0.1, 100 * growth * (own.rtol + settings.rtol))) result.distance = apart;
@@ -181,28 +189,31 @@ Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& 
   const double neighbours_take = static_cast<double>(n) * 3 * trajectory.seconds;
   if (repeated && short_of_end && method.implicit && neighbours_take < budget)
     flow = conditioning_at_end(neighbours, n);
-  if (!flow) return trust;
-  trust.known = true;
-  trust.conditioning = flow->at_end;
-  for (std::size_t j = 0; j < n; ++j)
+  trust.known = flow.has_value();
+  const double growth = flow ? flow->at_end : 1;
+  trust.conditioning = growth;
+  trust.on_the_way = flow ? flow->on_the_way() : 1;
+  for (std::size_t j = 0; flow && j < n; ++j)
     trust.input_rounding += flow->columns[j] * std::abs(run.rounding[j]) / sizes[j];
   for (std::size_t j = 0; repeated && j < run.parameters.size(); ++j) {
     if (run.parameter_rounding[j] == 0) continue;
-    const double growth = neighbours.growth_of_parameter(j).value_or(flow->at_end);
-    trust.input_rounding += growth * std::abs(run.parameter_rounding[j] / run.parameters[j]);
+    const double own = neighbours.growth_of_parameter(j).value_or(growth);
+    trust.input_rounding += own * std::abs(run.parameter_rounding[j] / run.parameters[j]);
   }
   trust.error_estimate =
       trust.input_rounding +
       (repeated ? distance(neighbours.better(), trajectory.state, end_sizes(run, trajectory)) +
-                      flow->at_end * kUnitRoundoff
-                : estimate_without_repeat(*flow, settings, trajectory));
-  if (!method.series) {
+                      growth * kUnitRoundoff
+                : estimate_without_repeat(growth, settings, trajectory));
+  // Polynomials of low degree hide nothing from a step.
+  if (!method.series || compiled.module.watch() || run.specialisation.uses_time) {
     const CrossCheck check =
-        cross_check(run, settings, trajectory, end_sizes(run, trajectory), flow->at_end);
+        cross_check(run, method, settings, trajectory, end_sizes(run, trajectory), growth);
     trust.unconfirmed = trust.unconfirmed || check.contradicts;
     trust.error_estimate = std::max(trust.error_estimate, check.distance);
   }
-  trust.beyond_double = !(flow->at_end * kUnitRoundoff < kSpoiled);
+  trust.beyond_double = !(trust.on_the_way * kUnitRoundoff < kSpoiled);
+  if (!flow) return trust;
   if (trust.beyond_double) trust.six_digits_until = flow->time_of(kSixDigits / kUnitRoundoff);
   if (flow->followed > 0 && flow->followed < 0.99 * std::abs(trajectory.time))
     trust.followed = flow->followed;
@@ -210,16 +221,16 @@ Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& 
 }
 
 nlohmann::ordered_json to_json(const Trust& trust) {
-  if (!trust.known) {
-    return {{"conditioning", nullptr},
-            {"input_rounding", nullptr},
-            {"error_estimate", nullptr},
-            {"beyond_double", nullptr}};
-  }
-  nlohmann::ordered_json json = {{"conditioning", exact_text(trust.conditioning)},
-                                 {"input_rounding", exact_text(trust.input_rounding)},
+  nlohmann::ordered_json json = {{"conditioning", nullptr},
+                                 {"input_rounding", nullptr},
                                  {"error_estimate", nullptr},
-                                 {"beyond_double", trust.beyond_double}};
+                                 {"beyond_double", nullptr}};
+  if (!trust.known) return json;
+  json["conditioning"] = exact_text(trust.conditioning);
+  json["input_rounding"] = exact_text(trust.input_rounding);
+  json["beyond_double"] = trust.beyond_double;
+  if (trust.on_the_way > 2 * trust.conditioning)
+    json["conditioning_on_the_way"] = exact_text(trust.on_the_way);
   if (!trust.unconfirmed) json["error_estimate"] = exact_text(trust.error_estimate);
   if (trust.six_digits_until) json["six_digits_until"] = exact_text(*trust.six_digits_until);
   if (trust.followed) json["extrapolated_from"] = exact_text(*trust.followed);
@@ -232,8 +243,19 @@ std::vector<std::string> warnings_of(const Trust& trust) {
     warnings.push_back(
         "a run with a hundredth of the tolerance, or one by Taylor series, does not reach the end: "
         "nothing confirms this one");
-  if (!trust.known) return warnings;
-  if (trust.beyond_double) {
+  if (!trust.known) {
+    warnings.push_back(
+        "how much small changes grow could not be found: the variational equations have no "
+        "solution along this run");
+  } else if (trust.beyond_double && trust.conditioning * kUnitRoundoff < kSpoiled) {
+    warnings.push_back(fmt::format(
+        "on the way small changes grow {:.0e} times, beyond what double precision can hold, though "
+        "they have died out at the end{}: which way the motion took is decided by rounding",
+        trust.on_the_way,
+        trust.six_digits_until
+            ? fmt::format("; six digits hold until t = {:.6g}", *trust.six_digits_until)
+            : ""));
+  } else if (trust.beyond_double) {
     warnings.push_back(fmt::format(
         "the end state is beyond what double precision can hold: small changes of the initial "
         "state grow {:.0e} times{}; --digits {} can hold it",
@@ -242,7 +264,8 @@ std::vector<std::string> warnings_of(const Trust& trust) {
             ? fmt::format(", and six digits hold until t = {:.6g}", *trust.six_digits_until)
             : "",
         static_cast<int>(20 + std::log10(trust.conditioning))));
-  } else if (!trust.unconfirmed && !(trust.error_estimate < kDoubtful)) {
+  }
+  if (!trust.beyond_double && !trust.unconfirmed && !(trust.error_estimate < kDoubtful)) {
     warnings.push_back(
         fmt::format("the end state may be off by {:.0e} of its size: tighten --tolerance",
                     trust.error_estimate));

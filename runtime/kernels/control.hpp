@@ -101,6 +101,7 @@ __attribute__((cold, noinline)) double first_step(const casimir_run* run, const 
   for (int i = 0; i < n; ++i)
     bend = larger(bend, magnitude(g[i] - f[i]) / allowed_error(run, x[i]));
   size = larger(size, speed * h);
+  if (!(size > 0)) size = 1;  // at rest, at zero: what is allowed as an error
   const double rate = larger(speed / size, __builtin_sqrt(bend / size) / __builtin_sqrt(h));
   double best = rough_root(larger(size, 1) * 100, order) * rate;
   best = best * longest > 1 ? 1 / best : longest;
@@ -136,6 +137,20 @@ class Pace {
   static constexpr unsigned long long kTrials = 1ULL << 20;
   double t_;
 };
+
+/// The derivatives at the ends of a step, where interpolation by them is as good as the method:
+/// where nothing is stiff.
+template <class Step>
+const double* rate_at_end(const Step& step) {
+  if constexpr (requires { step.k13; })
+    return step.k13;
+  else
+    return nullptr;
+}
+template <class Step>
+const double* rate_at_start(const Step& step) {
+  return rate_at_end(step) ? step.f : nullptr;
+}
 
 /// What became of one trial step.
 enum class Trial { done, not_finite, not_solved };
@@ -238,6 +253,7 @@ void march(const casimir_run* run, double* x, casimir_outcome* out) {
     }
     if (there) t1 = run->t_end;
 
+    double part = 1;
     Trial result = step.attempt(t, x, carry, trial, adaptive);
     bool good = result == Trial::done && step.error <= 1;
     if (good) {
@@ -255,6 +271,11 @@ void march(const casimir_run* run, double* x, casimir_outcome* out) {
       if (!all_finite<n>(next) || !step.arrive(t1, next)) {
         good = false;
         result = Trial::not_finite;
+      } else if (run->look && adaptive) {
+        const casimir_step seen = {
+            t, t1, x, next, &Step::dense, &step, rate_at_start(step), rate_at_end(step)};
+        part = run->look(run->looker, &seen);
+        good = part >= 1;
       }
     }
     if (result == Trial::done && !(step.error <= 1e300)) result = Trial::not_finite;
@@ -269,10 +290,11 @@ void march(const casimir_run* run, double* x, casimir_outcome* out) {
         break;
       }
       const double factor = kSafety / rough_root(step.error, Step::power);
-      h = trial * (result == Trial::not_solved ? 0.5
-                   : result != Trial::done     ? 0.25
-                   : factor < kShrink          ? kShrink
-                                               : factor);
+      h = trial * (part < 1                      ? part
+                   : result == Trial::not_solved ? 0.5
+                   : result != Trial::done       ? 0.25
+                   : factor < kShrink            ? kShrink
+                                                 : factor);
       most = 1;
       if (result == Trial::not_solved) ceiling = magnitude(trial) / 2;
       continue;
@@ -280,7 +302,8 @@ void march(const casimir_run* run, double* x, casimir_outcome* out) {
     ++steps;
     int stop = 0;
     if (run->observe) {
-      const casimir_step seen = {t, t1, x, next, &Step::dense, &step};
+      const casimir_step seen = {
+          t, t1, x, next, &Step::dense, &step, rate_at_start(step), rate_at_end(step)};
       stop = run->observe(run->observer, &seen);
     }
     step.accept();

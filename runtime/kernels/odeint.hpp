@@ -72,7 +72,8 @@ struct Peer {
       }
       ++out->steps;
       if (last) t = run->t_end;
-      const casimir_step seen = {t0, t, before.data(), x.data(), &dense, &equations};
+      const casimir_step seen = {t0,     t,          before.data(), x.data(),
+                                 &dense, &equations, nullptr,       nullptr};
       if (run->observe && run->observe(run->observer, &seen) && t != run->t_end)
         out->status = CASIMIR_STOPPED;
     }

@@ -6,7 +6,7 @@ enum { CASIMIR_SERIES_ORDER = 24, CASIMIR_SERIES_STATES = 4096 };
 
 struct casimir_series {
   int states;
-  int smooth; /* the right-hand side is a polynomial */
+  int smooth; /* the right-hand side is a polynomial of low degree, without the time */
   void* object;
   /* Aligned like registers. Rows of as many registers as the states fill, the rest zero: first
    * dx/dt, then the coefficients of s^0 .. s^order in x(t + s unit). */

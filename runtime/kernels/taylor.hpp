@@ -14,7 +14,7 @@ namespace casimir_kernel {
 ///     static constexpr int room;        most registers that may hold a state
 ///     int blocks;                       registers that do, filled up with zeros
 ///     int states;
-///     bool smooth;                      the right-hand side is a polynomial: analytic everywhere
+///     bool smooth;                      the right-hand side is a polynomial of low degree
 ///     int order;                        a multiple of 4
 ///     V c[..][blocks];                  x(t + s unit) = sum of c[k] s^k, k = 0 .. order
 ///     V rate[blocks];                   dx/dt, from `begin`
@@ -315,12 +315,30 @@ class March {
       return false;
     }
     if (__builtin_expect(run_->project != nullptr, 0)) project(t1, next, next_carry);
+    const bool was_cut = cut_;
+    if (__builtin_expect(run_->look != nullptr, 0) && pieces_ == 0) {
+      if (!looks_right(t1, next)) return false;
+    }
     if (!series_.smooth || __builtin_expect(fresh_ || s > 3, 0)) {
       if (!follows(s, t1, next)) return false;
     }
     accept(t1, t1_carry, next, next_carry);
-    if (!(magnitude(s - 1.2) < 0.8) && pieces_ == 0) set_unit(magnitude(h));
+    cut_ = false;
+    // A step that was cut short says nothing about the next one.
+    if (!(magnitude(s - 1.2) < 0.8) && pieces_ == 0 && !was_cut) set_unit(magnitude(h));
     return true;
+  }
+
+  /// Whether the step may be taken; if not, what part of it is to be tried next.
+  __attribute__((noinline)) bool looks_right(double t1, const V* next) {
+    double x0[room], x1[room];
+    const casimir_step trial = seen(t1, next, x0, x1);
+    const double part = run_->look(run_->looker, &trial);
+    if (part >= 1) return true;
+    part_ = part;
+    cut_ = true;
+    failure_ = CASIMIR_STEP_UNDERFLOW;
+    return false;
   }
 
   /// Where the state is far from zero a step changes it by as much as itself, and a carry alone
@@ -350,14 +368,35 @@ class March {
     }
   }
 
-  /// Whether the series still has the derivative that the equations ask for at the end of the step.
-  /// The last coefficients alone do not show a kink of the right-hand side, nor terms that are
-  /// missing only from them.
+  /// Whether the series has the derivative that the equations ask for, within the step and at its
+  /// end. The last coefficients alone do not show a kink of the right-hand side, nor terms that are
+  /// missing only from them, and a pulse may have passed before the end.
+  ///
+  /// The places within the step follow the golden section, so that no motion of whatever period has
+  /// the same ones in each step.
   __attribute__((noinline)) bool follows(double s, double t1, const V* next) {
+    const int places = fresh_ || s > 3 ? 4 : 1;
+    for (int i = 0; i < places; ++i) {
+      constexpr double kGoldenSection = 0.6180339887498949;
+      place_ += kGoldenSection;
+      if (place_ >= 1) place_ -= 1;
+      const double within = s * ((static_cast<double>(i) + 0.1 + 0.8 * place_) / places);
+      V x[most_blocks];
+      increment(series_, within, x);
+      CASIMIR_UNROLL
+      for (int b = 0; b < series_.blocks; ++b) x[b] = state_[b] + x[b];
+      if (!follows_at(within, t_ + within * unit_, x)) return false;
+    }
+    // Last, since what begins at the end is the next step.
+    if (!follows_at(s, t1, next)) return false;
     fresh_ = false;
+    return true;
+  }
+
+  CASIMIR_INLINE bool follows_at(double s, double t, const V* next) {
     V told[most_blocks], defect = V{};
     slope(series_, s, told);
-    series_.begin(t1, next);
+    series_.begin(t, next);
     ++evaluations_;
     CASIMIR_UNROLL
     for (int b = 0; b < series_.blocks; ++b) {
@@ -386,12 +425,17 @@ class March {
 
   __attribute__((cold, noinline)) void show(double t1, const V* next) {
     double x0[room], x1[room];
+    const casimir_step step = seen(t1, next, x0, x1);
+    if (run_->observe(run_->observer, &step) && !there_) status_ = CASIMIR_STOPPED;
+  }
+
+  /// The step as others see it, in their arrays.
+  CASIMIR_INLINE casimir_step seen(double t1, const V* next, double* x0, double* x1) const {
     for (int i = 0; i < series_.states; ++i) {
       x0[i] = state_[i / width][i % width];
       x1[i] = next[i / width][i % width];
     }
-    const casimir_step seen = {t_, t1, x0, x1, &dense, this};
-    if (run_->observe(run_->observer, &seen) && !there_) status_ = CASIMIR_STOPPED;
+    return {t_, t1, x0, x1, &dense, this, nullptr, nullptr};
   }
 
   __attribute__((cold)) static void dense(const casimir_step* step, double t, double* at) {
@@ -401,7 +445,7 @@ class March {
     for (int i = 0; i < self->series_.states; ++i) at[i] = step->x0[i] + sum[i / width][i % width];
   }
 
-  /// After a trial that did not hold: half the step, or the end. Whether to try again.
+  /// After a trial that did not hold: a part of the step, or the end. Whether to try again.
   __attribute__((cold, noinline)) bool reject(double& s) {
     ++rejected_;
     there_ = false;
@@ -414,7 +458,8 @@ class March {
       return false;
     }
     const double rest = magnitude((run_->t_end - t_) - t_carry_) / magnitude(unit_);
-    s = (s < rest ? s : rest) / 2;
+    s = (s < rest ? s : rest) * part_;
+    part_ = 0.5;
     return true;
   }
 
@@ -463,7 +508,9 @@ class March {
   double unit_ = 1, pieces_ = 0, scale_ = 0;
   unsigned long long steps_ = 0, rejected_ = 0, expansions_ = 0, evaluations_ = 0;
   int status_ = CASIMIR_OK, failure_ = CASIMIR_OK;
-  bool there_ = false, fresh_ = false;
+  bool there_ = false, fresh_ = false, cut_ = false;
+  double part_ = 0.5;   // of a step that did not hold, what is tried next
+  double place_ = 0.5;  // within a step, where it was looked at last
 };
 
 /// The order at which a tolerance costs least, as measured.

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "runtime/interpreter.hpp"
+#include "runtime/module_abi.h"
+#include "runtime/program.hpp"
+
+namespace casimir {
+
+/// What there is in equations of motion that a step of a numerical method may not see, because the
+/// step knows them at the points alone at which it evaluates them: functions that are anything but
+/// negligible only where their argument is in a narrow range, and those that go on by another
+/// formula where it passes zero.
+///
+/// A method is exact where the solution is a smooth function that its step resolves. The arguments
+/// of the functions are such functions long before their values are: that of exp(-(x/w)^2) changes
+/// by thousands on the way to a pulse that no value announces. So it is the arguments that are
+/// watched.
+class StepWatch {
+ public:
+  /// How an argument u is looked at.
+  enum class Kind {
+    side,      ///< |u|: another branch where u passes zero
+    turn,      ///< atan2(u, v): another branch where u passes zero with v < 0
+    positive,  ///< sqrt(u), log(u), a broken power: no value where u < 0
+    unit,      ///< asin(u), acos(u): no value where |u| > 1
+    exponent,  ///< exp(u): to be resolved where it is not negligible
+    power      ///< u^n with n of ten and more: the same for n log|u|
+  };
+  struct Watched {
+    Kind kind;
+    std::size_t place;  ///< of u among the outputs of `arguments`; v, if there is one, is the next
+    int exponent;       ///< of a power
+  };
+
+  /// \param rhs  a right-hand side, with the inputs of one.
+  explicit StepWatch(const Program& rhs);
+
+  bool empty() const { return watched_.empty(); }
+  const std::vector<Watched>& watched() const { return watched_; }
+  /// The arguments, as functions of the inputs of the right-hand side.
+  const Program& arguments() const { return arguments_; }
+
+ private:
+  void watch(Kind kind, const std::vector<int>& lines, int exponent = 1);
+
+  std::vector<Watched> watched_;
+  Program arguments_;
+};
+
+/// Looks at the steps of one run: see casimir_run::look.
+class StepLook {
+ public:
+  /// Borrows the watch. \param parameters  null if there are none.
+  StepLook(const StepWatch& watch, std::size_t states, const double* parameters);
+
+  /// 1 for a step that may be taken; or how much of it may be tried instead. A step that passes a
+  /// branch is to end just behind it, at a distance that is 1e-12 of what the argument is in the
+  /// step: what the wrong branch does on that way is its square.
+  double operator()(const casimir_step& trial);
+
+ private:
+  /// At the ends and between them.
+  static constexpr std::size_t kPlaces = 6;
+
+  const double* arguments_at(const casimir_step& trial, double part, bool exactly);
+  double value(const casimir_step& trial, const StepWatch::Watched& watched, double part);
+  void sample(const casimir_step& trial);
+  double resolved(const StepWatch::Watched& watched, std::size_t index);
+  double up_to_branch(const casimir_step& trial, const StepWatch::Watched& watched);
+  double defined(const casimir_step& trial, const StepWatch::Watched& watched);
+  double landing(const casimir_step& trial, const StepWatch::Watched& watched, double before,
+                 double behind, double size);
+
+  const StepWatch& watch_;
+  const std::size_t states_;
+  Interpreter evaluate_;
+  std::vector<double> inputs_, outputs_, state_;
+  std::vector<double> sampled_[kPlaces];
+  std::vector<double> highest_;  ///< of the exponents of powers, so far
+  double places_[kPlaces] = {};
+  double shift_ = 0.5;
+};
+
+}  // namespace casimir
