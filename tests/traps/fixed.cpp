@@ -45,7 +45,7 @@ std::string remark(const std::filesystem::path& file, const std::string& name) {
 
 Scene scene_in(const std::filesystem::path& file) {
   const toml::table parsed = toml::parse_file(file.string());
-  const toml::node_view<const toml::node> all(parsed);
+  const toml::node_view<const toml::node> all(static_cast<const toml::node*>(&parsed));
   const auto scene = all["scene"][0];
   Scene s;
   s.kind = text_at(all["tags"][0]);

@@ -60,7 +60,8 @@ Scene pitchfork(Random& random) {
           .equations = {"k*(s - 1)*x - x^3", "1"},
           .initial = {"1", "0"},
           .duration = between(random, 1.5L, 2.5L).text,
-          .limit = "1/(3*k)"};
+          .limit = "1/(3*k)",
+          .small_matters = true};
 }
 
 Scene pitchfork_of_time(Random& random) {

@@ -88,7 +88,8 @@ class Extrapolation {
     gain = row.back();
     Real error = 0;
     for (std::size_t i = 0; i < n_; ++i) {
-      const Real size = std::max(std::abs(x[i]), std::abs(x[i] + gain[i])) + std::abs(h * rate_[i]);
+      const Real size = std::max(std::abs(x[i]), std::abs(x[i] + gain[i])) + std::abs(h * rate_[i]) +
+                        pains_.least_size;
       error = std::max(error, std::abs(gain[i] - corner[i]) / (size * pains_.tolerance + kNothing));
     }
     return error;
@@ -164,8 +165,9 @@ std::optional<Truth> integrate(const Scene& scene, const Pains& pains) {
 }
 
 std::optional<Truth> reference(const Scene& scene, Real certain) {
-  const Pains once;
-  Pains twice;
+  Pains once;
+  if (scene.small_matters) once.least_size = 0;
+  Pains twice = once;
   twice.step = once.step / 2;
   twice.tolerance = once.tolerance / 10;
   twice.columns = once.columns + 1;

@@ -30,6 +30,7 @@ struct Scene {
   /// The longest step of the reference integrator, over variables, parameters and the time: never
   /// longer than a fraction of the distance to what is narrow, and of its width.
   std::string limit{};
+  bool small_matters = false;  ///< what dies out comes back: the reference follows it down
   std::optional<std::vector<Real>> exact{};  ///< by a closed form
   std::optional<Real> singular_at{};         ///< there is no real solution beyond this time
 
