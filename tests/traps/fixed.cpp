@@ -1,9 +1,9 @@
 #include "tests/traps/fixed.hpp"
 
+#include <toml++/toml.h>
 #include <algorithm>
 #include <fstream>
 #include <stdexcept>
-#include <toml++/toml.h>
 
 namespace casimir::traps {
 namespace {
@@ -26,8 +26,8 @@ Named entries(const toml::node_view<const toml::node>& node) {
   std::vector<std::pair<toml::source_position, std::pair<std::string, std::string>>> found;
   if (const toml::table* table = node.as_table())
     for (const auto& [key, value] : *table)
-      found.push_back({key.source().begin,
-                       {std::string(key.str()), value.value<std::string>().value_or("")}});
+      found.push_back(
+          {key.source().begin, {std::string(key.str()), value.value<std::string>().value_or("")}});
   std::ranges::sort(found, [](const auto& a, const auto& b) { return a.first < b.first; });
   Named result;
   for (const auto& entry : found) result.push_back(entry.second);

@@ -114,8 +114,8 @@ class Reader {
     if (word == "Pi") return put(Op::constant, 0, 0, std::acos(Real(-1)));
     if (const auto known = names_.find(word); known != names_.end()) return known->second;
     static const std::map<std::string, Op> functions = {
-        {"sqrt", Op::sqrt}, {"sin", Op::sin},   {"cos", Op::cos},   {"tan", Op::tan},
-        {"exp", Op::exp},   {"log", Op::log},   {"asin", Op::asin}, {"acos", Op::acos},
+        {"sqrt", Op::sqrt}, {"sin", Op::sin},    {"cos", Op::cos},   {"tan", Op::tan},
+        {"exp", Op::exp},   {"log", Op::log},    {"asin", Op::asin}, {"acos", Op::acos},
         {"atan", Op::atan}, {"atan2", Op::atan2}};
     const auto function = functions.find(word);
     if (function == functions.end()) fail();
@@ -168,25 +168,44 @@ Real Formulas::value_of(const Line& line, const Real* symbols) const {
   const Real a = values_[static_cast<std::size_t>(line.a)];
   const auto b = [&] { return values_[static_cast<std::size_t>(line.b)]; };
   switch (line.op) {
-    case Op::constant: return line.value;
-    case Op::symbol: return symbols[line.a];
-    case Op::add: return a + b();
-    case Op::subtract: return a - b();
-    case Op::multiply: return a * b();
-    case Op::divide: return a / b();
-    case Op::negate: return -a;
-    case Op::whole_power: return whole_power(a, line.b);
-    case Op::power: return std::pow(a, b());
-    case Op::sqrt: return std::sqrt(a);
-    case Op::sin: return std::sin(a);
-    case Op::cos: return std::cos(a);
-    case Op::tan: return std::tan(a);
-    case Op::exp: return std::exp(a);
-    case Op::log: return std::log(a);
-    case Op::asin: return std::asin(a);
-    case Op::acos: return std::acos(a);
-    case Op::atan: return std::atan(a);
-    case Op::atan2: return std::atan2(a, b());
+    case Op::constant:
+      return line.value;
+    case Op::symbol:
+      return symbols[line.a];
+    case Op::add:
+      return a + b();
+    case Op::subtract:
+      return a - b();
+    case Op::multiply:
+      return a * b();
+    case Op::divide:
+      return a / b();
+    case Op::negate:
+      return -a;
+    case Op::whole_power:
+      return whole_power(a, line.b);
+    case Op::power:
+      return std::pow(a, b());
+    case Op::sqrt:
+      return std::sqrt(a);
+    case Op::sin:
+      return std::sin(a);
+    case Op::cos:
+      return std::cos(a);
+    case Op::tan:
+      return std::tan(a);
+    case Op::exp:
+      return std::exp(a);
+    case Op::log:
+      return std::log(a);
+    case Op::asin:
+      return std::asin(a);
+    case Op::acos:
+      return std::acos(a);
+    case Op::atan:
+      return std::atan(a);
+    case Op::atan2:
+      return std::atan2(a, b());
   }
   return 0;
 }

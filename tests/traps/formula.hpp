@@ -26,8 +26,25 @@ class Formulas {
  private:
   friend class Reader;
   enum class Op {
-    constant, symbol, add, subtract, multiply, divide, negate, whole_power, power,
-    sqrt, sin, cos, tan, exp, log, asin, acos, atan, atan2
+    constant,
+    symbol,
+    add,
+    subtract,
+    multiply,
+    divide,
+    negate,
+    whole_power,
+    power,
+    sqrt,
+    sin,
+    cos,
+    tan,
+    exp,
+    log,
+    asin,
+    acos,
+    atan,
+    atan2
   };
   struct Line {
     Op op;

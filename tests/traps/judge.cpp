@@ -15,8 +15,6 @@ using Json = nlohmann::json;
 /// An error is not silent up to so many times the estimate, and below what nobody minds, and what
 /// a tolerance as loose as this asks for.
 constexpr double kMargin = 10, kUnminded = 1e-9, kOfTolerance = 100;
-/// Of processors; more is slow.
-constexpr double kLongest = 20;
 /// How near to the end of the solution a run has to get.
 constexpr Real kNear = 1e-3L;
 /// A state that has become small is measured against this part of the largest.
@@ -80,8 +78,8 @@ Verdict of_answer(const Scene& scene, const std::optional<Truth>& truth, const J
   }
   if (!truth) return v;
   v.error = error_of(scene, *truth, json.at("state"));
-  const double allowed =
-      std::max({kMargin * v.estimate, kUnminded, kOfTolerance * json.at("tolerance").get<double>()});
+  const double allowed = std::max(
+      {kMargin * v.estimate, kUnminded, kOfTolerance * json.at("tolerance").get<double>()});
   if (v.error <= allowed)
     v.outcome = warning.empty() ? Outcome::right : Outcome::cautious;
   else
@@ -104,14 +102,13 @@ Verdict of_words(const Scene& scene, const std::optional<Truth>& truth, const Sa
 }  // namespace
 
 std::string to_string(Outcome outcome) {
-  constexpr std::array<const char*, kOutcomes> names = {
-      "right", "cautious", "warned", "refused", "silent", "slow", "hang", "broken", "dropped"};
+  constexpr std::array<const char*, kOutcomes> names = {"right",  "cautious", "warned", "refused",
+                                                        "silent", "hang",     "broken", "dropped"};
   return names[static_cast<std::size_t>(outcome)];
 }
 
 bool is_failure(Outcome outcome) {
-  return outcome == Outcome::silent || outcome == Outcome::slow || outcome == Outcome::hang ||
-         outcome == Outcome::broken;
+  return outcome == Outcome::silent || outcome == Outcome::hang || outcome == Outcome::broken;
 }
 
 Verdict judge(const Scene& scene, const std::optional<Truth>& truth, const Said& said) {
@@ -121,12 +118,7 @@ Verdict judge(const Scene& scene, const std::optional<Truth>& truth, const Said&
     v.what = "no answer in time";
     return v;
   }
-  Verdict v = of_words(scene, truth, said);
-  if (said.seconds > kLongest && !is_failure(v.outcome)) {
-    v.outcome = Outcome::slow;
-    v.what = fmt::format("{:.0f} s; {}", said.seconds, v.what);
-  }
-  return v;
+  return of_words(scene, truth, said);
 }
 
 }  // namespace casimir::traps

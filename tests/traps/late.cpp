@@ -156,9 +156,18 @@ Scene seed(Random& random) {
 }  // namespace
 
 std::vector<Maker> late_shapes() {
-  return {delayed_loss, delayed_loss_of_clock, delayed_loss_beside<3>, delayed_loss_beside<300>,
-          pitchfork,    pitchfork_of_time,     transcritical,          breathing,
-          down_and_up,  spark,                 saddle,                 seed};
+  return {delayed_loss,
+          delayed_loss_of_clock,
+          delayed_loss_beside<3>,
+          delayed_loss_beside<300>,
+          pitchfork,
+          pitchfork_of_time,
+          transcritical,
+          breathing,
+          down_and_up,
+          spark,
+          saddle,
+          seed};
 }
 
 }  // namespace casimir::traps

@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
   app.add_option("--fixed", request.fixed, "the scenes of this folder instead of generated ones");
   app.add_option("--program", request.program, "casimir");
   app.add_option("--option", request.options, "one more word for the program");
-  app.add_option("--seconds", request.seconds, "after which a run hangs");
+  app.add_option("--seconds", request.seconds, "of a processor, after which a run hangs");
   app.add_option("--jobs", request.jobs, "runs at a time");
   app.add_option("--cache", cache, "folder for compiled modules; without it a new one");
   app.add_flag("--folded", request.folded, "parameters are compiled in: a module for each scene");

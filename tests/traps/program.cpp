@@ -40,7 +40,8 @@ pid_t start(const std::vector<std::string>& words, const std::string& out, const
   posix_spawnattr_setflags(&how, POSIX_SPAWN_SETPGROUP);
   posix_spawnattr_setpgroup(&how, 0);
   pid_t child = 0;
-  const int failed = posix_spawn(&child, copies[0].c_str(), &files, &how, arguments.data(), environ);
+  const int failed =
+      posix_spawn(&child, copies[0].c_str(), &files, &how, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&files);
   posix_spawnattr_destroy(&how);
   if (failed != 0) throw std::runtime_error("cannot run " + copies[0]);
@@ -66,12 +67,15 @@ Said run_program(const std::vector<std::string>& words, const std::string& folde
   const std::string out = folder + "/stdout", err = folder + "/stderr";
   Said said;
   const pid_t child = start(words, out, err);
-  said.in_time = ends_within(child, seconds);
+  const rlimit most{static_cast<rlim_t>(seconds), static_cast<rlim_t>(seconds) + 1};
+  prlimit(child, RLIMIT_CPU, &most, nullptr);
+  said.in_time = ends_within(child, 10 * seconds);
   if (!said.in_time) kill(-child, SIGKILL);
   int status = 0;
   rusage used{};
   wait4(child, &status, 0, &used);
   said.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  said.in_time = said.in_time && said.status != 128 + SIGXCPU;
   said.seconds = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
   said.out = text_of(out);
   said.err = text_of(err);

@@ -13,8 +13,9 @@ struct Said {
   std::string out, err;  ///< what it wrote
 };
 
-/// Runs the program with these words, no shell between, and ends it and all that it started after
-/// so many seconds. \param folder  for what it writes; one for each thread
+/// Runs the program with these words, no shell between. It is ended after so many seconds of its
+/// own on a processor, which a busy machine does not change; and after ten times as many on the
+/// clock. \param folder  for what it writes; one for each thread
 Said run_program(const std::vector<std::string>& words, const std::string& folder, double seconds);
 
 }  // namespace casimir::traps

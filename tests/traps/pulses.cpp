@@ -76,8 +76,7 @@ Scene sech(Random& random) {
 Scene lorentz(Random& random) {
   const Peak p = peak(random, 1e-3L);
   Scene s = of_time("lorentz-of-time", p, "1/(1 + ((t - c)/w)^2)/w");
-  s.exact = {
-      {std::atan((p.end.value - p.c.value) / p.w.value) + std::atan(p.c.value / p.w.value)}};
+  s.exact = {{std::atan((p.end.value - p.c.value) / p.w.value) + std::atan(p.c.value / p.w.value)}};
   return s;
 }
 
@@ -102,10 +101,10 @@ Scene gauss_of_clock(Random& random) {
   s.initial.push_back("0");
   s.time.clear();
   s.limit = "sqrt(w^2 + (s - c)^2)/4";
-  s.exact = {{std::sqrt(kPi) / 2 *
-                  (std::erf((p.end.value - p.c.value) / p.w.value) +
-                   std::erf(p.c.value / p.w.value)),
-              p.end.value}};
+  s.exact = {
+      {std::sqrt(kPi) / 2 *
+           (std::erf((p.end.value - p.c.value) / p.w.value) + std::erf(p.c.value / p.w.value)),
+       p.end.value}};
   return s;
 }
 
@@ -127,8 +126,7 @@ Scene gauss_on_oscillator(Random& random) {
 /// A wide pulse, which is seen, with a narrow one on it.
 Scene two_widths(Random& random) {
   const Peak p = peak(random, 1e-3L);
-  Scene s = of_time("two-widths", p,
-                    "exp(-((t - b)/d)^2) + exp(-((t - c)/w)^2)/w");
+  Scene s = of_time("two-widths", p, "exp(-((t - b)/d)^2) + exp(-((t - c)/w)^2)/w");
   const Number b = between(random, 1, 8), d = between(random, 0.5L, 2);
   s.parameters.emplace_back("b", b.text);
   s.parameters.emplace_back("d", d.text);
@@ -167,15 +165,16 @@ Scene kicked_rotor(Random& random) {
 
 /// A particle and a repulsive bump that it cannot, or can, pass.
 Scene bump(Random& random) {
-  return {.kind = "pulse",
-          .shape = "bump",
-          .variables = {"q", "p"},
-          .parameters = {{"k", scaled(random, 1, 100000).text}, {"a", between(random, 0.25L, 4).text}},
-          .equations = {"p", "2*a*k*q*exp(-k*q^2)"},
-          .hamiltonian = "p^2/2 + a*exp(-k*q^2)",
-          .initial = {between(random, -5, -2).text, between(random, 0.8L, 1.2L).text},
-          .duration = between(random, 4, 9).text,
-          .limit = "sqrt(1/k + q^2)/8"};
+  return {
+      .kind = "pulse",
+      .shape = "bump",
+      .variables = {"q", "p"},
+      .parameters = {{"k", scaled(random, 1, 100000).text}, {"a", between(random, 0.25L, 4).text}},
+      .equations = {"p", "2*a*k*q*exp(-k*q^2)"},
+      .hamiltonian = "p^2/2 + a*exp(-k*q^2)",
+      .initial = {between(random, -5, -2).text, between(random, 0.8L, 1.2L).text},
+      .duration = between(random, 4, 9).text,
+      .limit = "sqrt(1/k + q^2)/8"};
 }
 
 /// The same as equations without an integral, and with one more bump that nothing reaches.
@@ -207,10 +206,23 @@ Scene quadratic_gauss(Random& random) {
 }  // namespace
 
 std::vector<Maker> pulse_shapes() {
-  return {in_a_state,      sech_in_a_state,     gauss,          sech,           lorentz,
-          front,           gauss_of_clock,      gauss_and_decay, gauss_on_oscillator,
-          two_widths,      sine_power<20>,      sine_power<60>, sine_power<200>, kicked_rotor,
-          bump,            bump_unwatched,      quadratic_gauss};
+  return {in_a_state,
+          sech_in_a_state,
+          gauss,
+          sech,
+          lorentz,
+          front,
+          gauss_of_clock,
+          gauss_and_decay,
+          gauss_on_oscillator,
+          two_widths,
+          sine_power<20>,
+          sine_power<60>,
+          sine_power<200>,
+          kicked_rotor,
+          bump,
+          bump_unwatched,
+          quadratic_gauss};
 }
 
 }  // namespace casimir::traps

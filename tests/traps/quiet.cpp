@@ -31,20 +31,21 @@ Scene power_of_state(Random& random) {
   const Number c = random.one_in(3) ? Number{"0", 0} : between(random, 0.25L, 2);
   const Number end = between(random, c.value + 0.5L, c.value + 2);
   const Real far = end.value - c.value;
-  return {.kind = "quiet",
-          .shape = fmt::format("power-of-state-{}", n),
-          .variables = {"x", "s"},
-          .equations = {fmt::format("s^{}", n), "1"},
-          .initial = {"0", "-(" + c.text + ")"},
-          .duration = end.text,
-          .exact = {{(std::pow(far, Real(n + 1)) + std::pow(c.value, Real(n + 1))) / (n + 1), far}}};
+  return {
+      .kind = "quiet",
+      .shape = fmt::format("power-of-state-{}", n),
+      .variables = {"x", "s"},
+      .equations = {fmt::format("s^{}", n), "1"},
+      .initial = {"0", "-(" + c.text + ")"},
+      .duration = end.text,
+      .exact = {{(std::pow(far, Real(n + 1)) + std::pow(c.value, Real(n + 1))) / (n + 1), far}}};
 }
 
 template <int n>
 Scene one_minus_cosine(Random& random) {
   const Number end = between(random, 1, 40);
-  Scene s = of_time(fmt::format("one-minus-cosine-{}", n),
-                    fmt::format("((1 - cos(a*t))/2)^{}", n), end);
+  Scene s =
+      of_time(fmt::format("one-minus-cosine-{}", n), fmt::format("((1 - cos(a*t))/2)^{}", n), end);
   s.parameters = {{"a", between(random, 0.5L, 2).text}};
   s.limit = fmt::format("sqrt(1/{} + 1 + cos(a*t))/6/a", n);
   return s;
@@ -119,9 +120,12 @@ Scene gap(Random& random) {
 }  // namespace
 
 std::vector<Maker> quiet_shapes() {
-  return {power_of_time<12>,    power_of_time<40>,    power_of_state<30>, power_of_state<60>,
-          one_minus_cosine<15>, one_minus_cosine<60>, window<12>,         window<40>,
-          forced_later<20>,     forced_later<50>,     quadratic_quartic,  quadratic_quintic,
+  return {power_of_time<12>,    power_of_time<40>,
+          power_of_state<30>,   power_of_state<60>,
+          one_minus_cosine<15>, one_minus_cosine<60>,
+          window<12>,           window<40>,
+          forced_later<20>,     forced_later<50>,
+          quadratic_quartic,    quadratic_quintic,
           quadratic_cubic,      gap};
 }
 

@@ -88,8 +88,8 @@ class Extrapolation {
     gain = row.back();
     Real error = 0;
     for (std::size_t i = 0; i < n_; ++i) {
-      const Real size = std::max(std::abs(x[i]), std::abs(x[i] + gain[i])) + std::abs(h * rate_[i]) +
-                        pains_.least_size;
+      const Real size = std::max(std::abs(x[i]), std::abs(x[i] + gain[i])) +
+                        std::abs(h * rate_[i]) + pains_.least_size;
       error = std::max(error, std::abs(gain[i] - corner[i]) / (size * pains_.tolerance + kNothing));
     }
     return error;
@@ -98,8 +98,8 @@ class Extrapolation {
   State gain;  ///< what a good step adds to the state
 
  private:
-  /// What the smoothed midpoint rule adds to the state. The last line is Gragg's: without it the rule
-  /// asks for nothing in the last part of a step, and a kink there is passed unseen.
+  /// What the smoothed midpoint rule adds to the state. The last line is Gragg's: without it the
+  /// rule asks for nothing in the last part of a step, and a kink there is passed unseen.
   State midpoint(Real t, const State& x, Real h, int pieces) {
     const Real step = h / static_cast<Real>(pieces);
     State before(n_), now(n_), at(n_);
@@ -155,8 +155,7 @@ std::optional<Truth> integrate(const Scene& scene, const Pains& pains) {
       if (!(error < 1e29L) || h > kUnseen * end) continue;
       wanted = 3 * h;
     }
-    for (std::size_t i = 0; i < carries.size(); ++i)
-      add(truth.state[i], carries[i], step.gain[i]);
+    for (std::size_t i = 0; i < carries.size(); ++i) add(truth.state[i], carries[i], step.gain[i]);
     note();
     add(t, carry, h);
     if (last) t = end;

@@ -11,7 +11,7 @@ struct Pains {
   Real step = 1;            ///< times the limit of the scene
   Real tolerance = 1e-15L;  ///< of a step, relative to state and change
   Real least_size = 1e-3L;  ///< errors in what is smaller are measured against this
-  int columns = 7;                  ///< of the extrapolation: its order is twice that
+  int columns = 7;          ///< of the extrapolation: its order is twice that
   unsigned long long most_evaluations = 8'000'000;
 };
 

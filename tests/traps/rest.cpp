@@ -21,7 +21,8 @@ Scene of_time(const char* shape, const std::string& rate, const Number& end, Rea
 Scene forced(Random& random) {
   const Number w = between(random, 1.25L, 6), end = between(random, 1, 25);
   const Real t = end.value, d = w.value * w.value - 1;
-  Scene s = of_time("forced-from-rest", "v", end, (std::sin(t) - std::sin(w.value * t) / w.value) / d);
+  Scene s =
+      of_time("forced-from-rest", "v", end, (std::sin(t) - std::sin(w.value * t) / w.value) / d);
   s.variables.push_back("v");
   s.equations.push_back("-w^2*x + sin(t)");
   s.initial.push_back("0");
@@ -106,8 +107,7 @@ Scene thrown(Random& random) {
   const Real up = std::atan(v.value), s = end.value - up;
   const Real top = std::log(std::sqrt(1 + v.value * v.value));
   const Real speed = s < 0 ? std::tan(-s) : -std::tanh(s);
-  const Real height =
-      s < 0 ? top + std::log(std::cos(-s)) : top - std::log(std::cosh(s));
+  const Real height = s < 0 ? top + std::log(std::cos(-s)) : top - std::log(std::cosh(s));
   return {.kind = "rest",
           .shape = "thrown-up",
           .variables = {"x", "v"},

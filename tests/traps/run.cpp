@@ -61,7 +61,7 @@ Row judged(const Request& request, const Scene& scene, const std::string& folder
   const std::string file = folder + "/scene.toml";
   std::ofstream(file) << scene.text();
   for (const std::string& method : request.methods) {
-    std::vector<std::string> words = {request.program, "integrate", file,   "--json",
+    std::vector<std::string> words = {request.program, "integrate", file,  "--json",
                                       "--quiet",       "--method",  method};
     if (!request.folded && !scene.parameters.empty()) words.push_back("--keep-params");
     words.insert(words.end(), request.options.begin(), request.options.end());
@@ -154,7 +154,8 @@ bool report(const Request& request, const std::vector<Numbered>& scenes,
 bool run(const Request& request) {
   const std::vector<Numbered> scenes = scenes_of(request);
   if (request.print) {
-    for (const Numbered& s : scenes) fmt::print("# {} {}\n{}\n", s.scene.kind, s.name, s.scene.text());
+    for (const Numbered& s : scenes)
+      fmt::print("# {} {}\n{}\n", s.scene.kind, s.name, s.scene.text());
     return true;
   }
   return report(request, scenes, judge_all(request, scenes));

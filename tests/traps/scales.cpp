@@ -10,14 +10,15 @@ namespace {
 Scene two_frequencies(Random& random) {
   const Number w = scaled(random, 10, 3000), end = between(random, 1, 12);
   const Real angle = w.value * end.value;
-  return {.kind = "scales",
-          .shape = "two-frequencies",
-          .variables = {"a", "b", "x", "v"},
-          .parameters = {{"w", w.text}},
-          .equations = {"w*b", "-w*a", "v", "-x"},
-          .initial = {"1", "0", "1", "0"},
-          .duration = end.text,
-          .exact = {{std::cos(angle), -std::sin(angle), std::cos(end.value), -std::sin(end.value)}}};
+  return {
+      .kind = "scales",
+      .shape = "two-frequencies",
+      .variables = {"a", "b", "x", "v"},
+      .parameters = {{"w", w.text}},
+      .equations = {"w*b", "-w*a", "v", "-x"},
+      .initial = {"1", "0", "1", "0"},
+      .duration = end.text,
+      .exact = {{std::cos(angle), -std::sin(angle), std::cos(end.value), -std::sin(end.value)}}};
 }
 
 /// The slow state sums what the fast one does.

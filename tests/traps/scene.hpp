@@ -24,7 +24,8 @@ struct Scene {
   Named parameters{};   ///< with exact values; kept at run time
   Named definitions{};  ///< each over what stands before it
   Texts equations{};
-  std::string hamiltonian{};  ///< instead of the equations in the file, where the variables are q, p
+  std::string
+      hamiltonian{};  ///< instead of the equations in the file, where the variables are q, p
   Texts initial{};
   std::string duration{};
   /// The longest step of the reference integrator, over variables, parameters and the time: never

@@ -57,8 +57,7 @@ Scene collision(Random& random) {
 Scene root_of_state(Random& random) {
   const Number x = between(random, 0.25L, 4);
   const Real z = std::sqrt(x.value);
-  return ends(random, "root-of-state", {"x"}, {"-1 - sqrt(x)"}, {x.text},
-              2 * (z - std::log1p(z)));
+  return ends(random, "root-of-state", {"x"}, {"-1 - sqrt(x)"}, {x.text}, 2 * (z - std::log1p(z)));
 }
 
 Scene in_time(Random& random, const char* shape, const std::string& rate, const Number& c) {
@@ -93,8 +92,7 @@ Scene secant(Random& random) {
 /// sin(t) + 1 - e is below zero for a moment in each turn only.
 Scene dip(Random& random, const char* shape, const std::string& rate) {
   const Number e = scaled(random, 1e-4L, 0.25L);
-  Scene s = ends(random, shape, {"x"}, {rate}, {"0"},
-                 3 * kPi / 2 - std::acos(1 - e.value));
+  Scene s = ends(random, shape, {"x"}, {rate}, {"0"}, 3 * kPi / 2 - std::acos(1 - e.value));
   s.time = "t";
   s.parameters = {{"e", e.text}};
   s.duration = between(random, 6, 25).text;
@@ -157,9 +155,12 @@ Scene before_the_pole(Random& random) {
 }  // namespace
 
 std::vector<Maker> singular_shapes() {
-  return {square,        tangent,      reciprocal,   weierstrass,  simple_pole,  collision,
-          root_of_state, pole_of_time, double_pole_of_time, root_of_time, log_of_time, asin_of_time,
-          secant,        root_dip,     log_dip,      acos_dip,     pole_dip,     root_of_oscillator,
+  return {square,        tangent,      reciprocal,
+          weierstrass,   simple_pole,  collision,
+          root_of_state, pole_of_time, double_pole_of_time,
+          root_of_time,  log_of_time,  asin_of_time,
+          secant,        root_dip,     log_dip,
+          acos_dip,      pole_dip,     root_of_oscillator,
           near_pole,     near_root,    before_the_pole};
 }
 

@@ -13,14 +13,15 @@ std::string positive(const std::string& a) { return "((" + absolute(a) + " + " +
 /// An oscillator that a wall touches at the end of its swing.
 template <int n>
 Scene contact(Random& random) {
-  return {.kind = "wall",
-          .shape = fmt::format("contact-c{}", n - 1),
-          .variables = {"x", "v"},
-          .parameters = {{"k", scaled(random, 10, 1e6L).text}, {"b", between(random, 0.9L, 1).text}},
-          .equations = {"v", fmt::format("-x - k*{}^{}", positive("(x - b)"), n)},
-          .initial = {"0", between(random, 1, 1.25L).text},
-          .duration = between(random, 3, 16).text,
-          .limit = "1/(50 + 4*k^(1/2))"};
+  return {
+      .kind = "wall",
+      .shape = fmt::format("contact-c{}", n - 1),
+      .variables = {"x", "v"},
+      .parameters = {{"k", scaled(random, 10, 1e6L).text}, {"b", between(random, 0.9L, 1).text}},
+      .equations = {"v", fmt::format("-x - k*{}^{}", positive("(x - b)"), n)},
+      .initial = {"0", between(random, 1, 1.25L).text},
+      .duration = between(random, 3, 16).text,
+      .limit = "1/(50 + 4*k^(1/2))"};
 }
 
 /// The same where the wall is as a Hamiltonian knows it, so that the drift of the energy is seen.
@@ -70,10 +71,24 @@ Scene of_time(const std::string& shape, const std::string& rate, const Number& e
           .duration = end.text};
 }
 
+const Real kPi = std::acos(Real(-1));
+
+/// The sum over all arcs |t - first - 2 pi k| < half up to `end` of what a primitive gains there.
+template <class Primitive>
+Real over_arcs(Real first, Real half, Real end, const Primitive& primitive) {
+  Real sum = 0;
+  for (Real at = first; at - half < end; at += 2 * kPi)
+    sum += primitive(std::min(at + half, end)) - primitive(at - half);
+  return sum;
+}
+
 /// |sin(t) + a| dips, a little below 1 in a.
 Scene absolute_dip(Random& random) {
-  const Number e = scaled(random, 1e-5L, 0.5L);
-  Scene s = of_time("absolute-dip", absolute("sin(t) + 1 - e"), between(random, 5, 25));
+  const Number e = scaled(random, 1e-5L, 0.5L), end = between(random, 5, 25);
+  Scene s = of_time("absolute-dip", absolute("sin(t) + 1 - e"), end);
+  const auto primitive = [&](Real t) { return 1 - std::cos(t) + (1 - e.value) * t; };
+  s.exact = {{primitive(end.value) -
+              2 * over_arcs(3 * kPi / 2, std::acos(1 - e.value), end.value, primitive)}};
   s.parameters = {{"e", e.text}};
   s.limit = "sqrt(e + 1 + sin(t))/8";
   return s;
@@ -89,8 +104,7 @@ Scene parabola_dip(Random& random) {
     const Real u = t - c.value;
     return u * u * u / 3 - e.value * e.value * u;
   };
-  s.exact = {{primitive(end.value) - primitive(0) +
-              8 * e.value * e.value * e.value / 3}};
+  s.exact = {{primitive(end.value) - primitive(0) + 8 * e.value * e.value * e.value / 3}};
   return s;
 }
 
@@ -98,7 +112,8 @@ Scene parabola_dip(Random& random) {
 template <int n>
 Scene dead_zone(Random& random) {
   const Number c = between(random, 1, 9), end = between(random, c.value + 0.25L, c.value + 5);
-  Scene s = of_time(fmt::format("dead-zone-{}", n), positive("(t - c)") + fmt::format("^{}", n), end);
+  Scene s =
+      of_time(fmt::format("dead-zone-{}", n), positive("(t - c)") + fmt::format("^{}", n), end);
   s.parameters = {{"c", c.text}};
   s.exact = {{std::pow(end.value - c.value, Real(n + 1)) / (n + 1)}};
   return s;
@@ -106,17 +121,22 @@ Scene dead_zone(Random& random) {
 
 /// A narrow arc is cut off by a threshold.
 Scene threshold(Random& random) {
-  Scene s = of_time("threshold", "k*" + positive("(sin(t) - 1 + e)"), between(random, 5, 25));
-  s.parameters = {{"e", scaled(random, 1e-4L, 0.5L).text}, {"k", scaled(random, 1, 1000).text}};
+  const Number e = scaled(random, 1e-4L, 0.5L), k = scaled(random, 1, 1000);
+  const Number end = between(random, 5, 25);
+  Scene s = of_time("threshold", "k*" + positive("(sin(t) - 1 + e)"), end);
+  s.parameters = {{"e", e.text}, {"k", k.text}};
+  s.exact = {{k.value * over_arcs(kPi / 2, std::acos(1 - e.value), end.value,
+                                  [&](Real t) { return -std::cos(t) - (1 - e.value) * t; })}};
   s.limit = "sqrt(e + 1 - sin(t))/8";
   return s;
 }
 
 /// Switched on for a short time in each turn.
 Scene switched(Random& random) {
-  Scene s = of_time("switched", "1 + (sin(t) - 1 + e)/" + absolute("sin(t) - 1 + e"),
-                    between(random, 5, 25));
-  s.parameters = {{"e", scaled(random, 1e-4L, 0.5L).text}};
+  const Number e = scaled(random, 1e-4L, 0.5L), end = between(random, 5, 25);
+  Scene s = of_time("switched", "1 + (sin(t) - 1 + e)/" + absolute("sin(t) - 1 + e"), end);
+  s.parameters = {{"e", e.text}};
+  s.exact = {{2 * over_arcs(kPi / 2, std::acos(1 - e.value), end.value, [](Real t) { return t; })}};
   s.limit = "sqrt(e + 1 - sin(t))/8";
   return s;
 }
@@ -165,9 +185,10 @@ Scene wall_never_reached(Random& random) {
 }  // namespace
 
 std::vector<Maker> wall_shapes() {
-  return {contact<1>,   contact<2>, contact<3>, contact_with_energy, bouncing,
-          sign_of_state, absolute_dip, parabola_dip, dead_zone<1>, dead_zone<2>,
-          dead_zone<3>, threshold, switched, ramp, kink_of_slow, wall_never_reached};
+  return {contact<1>,   contact<2>,    contact<3>,   contact_with_energy,
+          bouncing,     sign_of_state, absolute_dip, parabola_dip,
+          dead_zone<1>, dead_zone<2>,  dead_zone<3>, threshold,
+          switched,     ramp,          kink_of_slow, wall_never_reached};
 }
 
 }  // namespace casimir::traps

@@ -55,19 +55,20 @@ Scene bernoulli(Random& random) {
           .equations = {fmt::format("x - x^{}", n)},
           .initial = {start.text},
           .duration = end.text,
-          .exact = {{std::pow(1 + (std::pow(start.value, -m) - 1) * std::exp(-m * end.value),
-                              -1 / m)}}};
+          .exact = {
+              {std::pow(1 + (std::pow(start.value, -m) - 1) * std::exp(-m * end.value), -1 / m)}}};
 }
 
 /// Two wells beside each other, of different powers.
 Scene coupled(Random& random) {
-  return {.kind = "well",
-          .shape = "coupled-wells",
-          .variables = {"x", "y", "u", "v"},
-          .equations = {"u", "v", "-x^21 - (x - y)/10", "-y^7 + (x - y)/10"},
-          .initial = {"0", "0", between(random, 0.5L, 1.25L).text, between(random, 0.5L, 1.25L).text},
-          .duration = between(random, 2, 8).text,
-          .limit = "1/40"};
+  return {
+      .kind = "well",
+      .shape = "coupled-wells",
+      .variables = {"x", "y", "u", "v"},
+      .equations = {"u", "v", "-x^21 - (x - y)/10", "-y^7 + (x - y)/10"},
+      .initial = {"0", "0", between(random, 0.5L, 1.25L).text, between(random, 0.5L, 1.25L).text},
+      .duration = between(random, 2, 8).text,
+      .limit = "1/40"};
 }
 
 /// A well in a quadratic disguise: x^8 through three squares.
@@ -84,8 +85,18 @@ Scene squared_squares(Random& random) {
 }  // namespace
 
 std::vector<Maker> well_shapes() {
-  return {well<5>,  well<9>, well<15>, well<21>, well<29>, well_with_energy<5>, well_with_energy<9>,
-          well_with_energy<29>, exponential_wall, bernoulli<5>, bernoulli<31>, coupled,
+  return {well<5>,
+          well<9>,
+          well<15>,
+          well<21>,
+          well<29>,
+          well_with_energy<5>,
+          well_with_energy<9>,
+          well_with_energy<29>,
+          exponential_wall,
+          bernoulli<5>,
+          bernoulli<31>,
+          coupled,
           squared_squares};
 }
 
