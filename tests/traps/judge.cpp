@@ -15,6 +15,8 @@ using Json = nlohmann::json;
 /// An error is not silent up to so many times the estimate, and below what nobody minds, and what
 /// a tolerance as loose as this asks for.
 constexpr double kMargin = 10, kUnminded = 1e-9, kOfTolerance = 100;
+/// An estimate from here on claims no digit. Below, a warning does not excuse so many times of it.
+constexpr double kNoDigits = 0.1, kUnderstated = 1000;
 /// How near to the end of the solution a run has to get.
 constexpr Real kNear = 1e-3L;
 /// A state that has become small is measured against this part of the largest.
@@ -82,8 +84,12 @@ Verdict of_answer(const Scene& scene, const std::optional<Truth>& truth, const J
       {kMargin * v.estimate, kUnminded, kOfTolerance * json.at("tolerance").get<double>()});
   if (v.error <= allowed)
     v.outcome = warning.empty() ? Outcome::right : Outcome::cautious;
+  else if (warning.empty())
+    v.outcome = Outcome::silent;
   else
-    v.outcome = warning.empty() ? Outcome::silent : Outcome::warned;
+    v.outcome = v.estimate > 0 && v.estimate < kNoDigits && v.error > kUnderstated * v.estimate
+                    ? Outcome::understated
+                    : Outcome::warned;
   return v;
 }
 
@@ -102,8 +108,9 @@ Verdict of_words(const Scene& scene, const std::optional<Truth>& truth, const Sa
 }  // namespace
 
 std::string to_string(Outcome outcome) {
-  constexpr std::array<const char*, kOutcomes> names = {"right",  "cautious", "warned", "refused",
-                                                        "silent", "hang",     "broken", "dropped"};
+  constexpr std::array<const char*, kOutcomes> names = {"right",       "cautious", "warned",
+                                                        "understated", "refused",  "silent",
+                                                        "hang",        "broken",   "dropped"};
   return names[static_cast<std::size_t>(outcome)];
 }
 

@@ -11,16 +11,17 @@ namespace casimir::traps {
 
 /// What an answer is worth.
 enum class Outcome {
-  right,     ///< as near to the truth as the program says it is
-  cautious,  ///< right, with a warning
-  warned,    ///< wrong, with a warning
-  refused,   ///< none, where there is one to be had
-  silent,    ///< wrong, and nothing is said: the defect
-  hang,      ///< none in time
-  broken,    ///< the program died, or takes the file for bad input
-  dropped    ///< the truth is not certain
+  right,        ///< as near to the truth as the program says it is
+  cautious,     ///< right, with a warning
+  warned,       ///< wrong, with a warning
+  understated,  ///< wrong, with a warning, and an estimate that claims digits which it has not
+  refused,      ///< none, where there is one to be had
+  silent,       ///< wrong, and nothing is said: the defect
+  hang,         ///< none in time
+  broken,       ///< the program died, or takes the file for bad input
+  dropped       ///< the truth is not certain
 };
-inline constexpr std::size_t kOutcomes = 8;
+inline constexpr std::size_t kOutcomes = 9;
 
 std::string to_string(Outcome outcome);
 /// Whether the tester fails with it.

@@ -91,11 +91,11 @@ using Table = std::map<std::string, Counts>;
 void print(const std::string& title, const Table& table) {
   fmt::print("{:<36}", title);
   for (std::size_t i = 0; i < kOutcomes; ++i)
-    fmt::print(" {:>9}", to_string(static_cast<Outcome>(i)));
+    fmt::print(" {:>11}", to_string(static_cast<Outcome>(i)));
   fmt::print("\n");
   for (const auto& [name, counts] : table) {
     fmt::print("{:<36}", name);
-    for (const int count : counts) fmt::print(" {:>9}", count == 0 ? "." : std::to_string(count));
+    for (const int count : counts) fmt::print(" {:>11}", count == 0 ? "." : std::to_string(count));
     fmt::print("\n");
   }
   fmt::print("\n");

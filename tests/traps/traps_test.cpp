@@ -242,6 +242,9 @@ TEST_F(TrapsJudge, AcceptsAnErrorThatIsAdmitted) {
   EXPECT_EQ(outcome(answer(good + 1e-5, "\"1e-5\"")), Outcome::right);
   EXPECT_EQ(outcome(answer(good + 1e-3, "\"1e-5\"")), Outcome::silent);
   EXPECT_EQ(outcome(answer(good + 1e-3, "\"1e-5\"", "\"in doubt\"")), Outcome::warned);
+  EXPECT_EQ(outcome(answer(good + 1, "\"1e-5\"", "\"in doubt\"")), Outcome::understated);
+  EXPECT_EQ(outcome(answer(good + 1e9, "\"0.5\"", "\"in doubt\"")), Outcome::warned);
+  EXPECT_EQ(outcome(answer(good + 1, "null", "\"in doubt\"")), Outcome::warned);
 }
 
 TEST_F(TrapsJudge, KnowsWhereASolutionEnds) {
