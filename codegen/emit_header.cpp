@@ -81,12 +81,12 @@ class HeaderWriter {
     for (const std::string& name : prepared_.prepare.output_names)
       prepared_names_.push_back(names.unique(name));
     const std::string head = is_template_ ? "template <class Real>\n" : "";
-    std::string text = codegen::comment_lines(
-                           "The parameters, and what depends on nothing else, computed once: "
-                           "for many calls with the same parameters.") +
-                       head + prepared_struct() + head + "inline " + prepared_type() +
-                       " prepare(const " + context_.parameter_type() + "& p) { return " +
-                       prepared_type() + "(p); }\n\n";
+    std::string text =
+        codegen::comment_lines("The parameters, with what depends on nothing else computed once.") +
+        head + prepared_struct() + head + "inline " + prepared_type() + " prepare(const " +
+        context_.parameter_type() + "& p) { return " + prepared_type() + "(p); }\n\n";
+    if (prepared_names_.empty())
+      return text + forwarded("rhs", "dx") + (spec_.has_jacobian ? forwarded("jacobian", "J") : "");
     text += function({.name = "rhs",
                       .target = "dx",
                       .comment = "The time derivatives of the state.",
@@ -102,6 +102,16 @@ class HeaderWriter {
                             .columns = spec_.states.size(),
                             .size = "dimension * dimension",
                             .prepared = true});
+  }
+
+  /// A function that gains nothing from what is prepared.
+  std::string forwarded(const std::string& name, const std::string& target) const {
+    const std::string real = style_.real;
+    return (is_template_ ? "template <class Real>\n" : "") +
+           codegen::wrapped("inline void " + name + "(" + (spec_.uses_time ? real + " t, " : "") +
+                            "const " + real + "* x, const " + prepared_type() + "& p, " + real +
+                            "* " + target + ") {") +
+           "\n  " + name + "(" + (spec_.uses_time ? "t, " : "") + "x, p.p, " + target + ");\n}\n\n";
   }
 
   std::string prepared_struct() const {

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 #include "codegen/program_writer.hpp"
 
@@ -168,6 +169,7 @@ class Parting {
     if (line.op == Op::constant) return writer_.number(preparation_.constant(line.a));
     if (line.op == Op::pi) return writer_.emit(Op::pi);
     if (line.op == Op::input) return writer_.emit(Op::input, line.a + first_);
+    if (line.op == Op::neg) return writer_.negation(read(line.a));  // a sign costs nothing
     return writer_.emit(Op::input, kReady + static_cast<int>(preparation_.output(ready)));
   }
 
@@ -178,6 +180,33 @@ class Parting {
   ProgramWriter writer_;
   std::vector<Factored> values_;
 };
+
+/// Leaves out the lines that no output needs: parts of products that became longer ones.
+void prune(Program& program) {
+  std::vector<bool> needed(program.code.size());
+  for (const int output : program.outputs) needed[static_cast<std::size_t>(output)] = true;
+  const auto has_operands = [](const Instruction& line) {
+    return line.op != Op::input && line.op != Op::constant && line.op != Op::pi;
+  };
+  for (std::size_t i = program.code.size(); i-- > 0;) {
+    const Instruction& line = program.code[i];
+    if (!needed[i] || !has_operands(line)) continue;
+    for (const int operand : {line.a, line.b})
+      if (operand >= 0) needed[static_cast<std::size_t>(operand)] = true;
+  }
+  std::vector<int> place(program.code.size(), -1);
+  std::vector<Instruction> code;
+  const auto moved = [&](int i) { return i < 0 ? i : place[static_cast<std::size_t>(i)]; };
+  for (std::size_t i = 0; i < program.code.size(); ++i) {
+    if (!needed[i]) continue;
+    Instruction line = program.code[i];
+    if (has_operands(line)) line = {line.op, moved(line.a), moved(line.b)};
+    place[i] = static_cast<int>(code.size());
+    code.push_back(line);
+  }
+  program.code = std::move(code);
+  for (int& output : program.outputs) output = moved(output);
+}
 
 /// Puts the prepared values between the parameters and the time.
 void number_inputs(Program& rest, const Program& whole, const Program& prepare) {
@@ -200,8 +229,11 @@ Prepared prepared(const std::vector<Program>& programs, std::size_t first, std::
   for (const Program& program : programs)
     result.rest.push_back(Parting(program, preparation, first, count).run());
   result.prepare = preparation.program();
-  for (std::size_t i = 0; i < programs.size(); ++i)
+  prune(result.prepare);
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    prune(result.rest[i]);
     number_inputs(result.rest[i], programs[i], result.prepare);
+  }
   return result;
 }
 

