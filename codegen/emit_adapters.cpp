@@ -29,6 +29,18 @@ std::string odeint_system(const HeaderContext& c) {
   return text;
 }
 
+/// The same with what depends on parameters only computed once.
+std::string prepared_system(const HeaderContext& c) {
+  if (!c.has_parameters()) return "";
+  const std::string time = c.spec.uses_time ? " t" : " /*t*/";
+  return std::string("// The same for one set of parameters: prepared_system{prepare(p)}.\n") +
+         (c.is_template ? "template <class Real>\nstruct prepared_system {\n  prepared<Real> p;\n\n"
+                        : "struct prepared_system {\n  prepared p;\n\n") +
+         "  template <class State, class Derivative, class Time>\n"
+         "  void operator()(const State& x, Derivative& dxdt, Time" +
+         time + ") const {\n    rhs(" + c.arguments("&x[0]") + "&dxdt[0]);\n  }\n};\n\n";
+}
+
 std::string stiff_system(const HeaderContext& c) {
   return "// For the implicit steppers of Boost.Odeint: std::pair(system{}, stiff_system{}).\n"
          "struct stiff_system {\n" +
@@ -93,7 +105,7 @@ std::string using_declarations(const Program& program) {
 }
 
 std::string adapters(const HeaderContext& c) {
-  std::string text = odeint_system(c);
+  std::string text = odeint_system(c) + prepared_system(c);
   if (c.spec.has_jacobian && !c.spec.uses_time && !c.is_template) text += stiff_system(c);
   if (c.style.scalar == Scalar::real64) text += sundials(c);
   return text;

@@ -17,16 +17,13 @@ class CWriter {
  public:
   CWriter(const Specialisation& spec, const HeaderOptions& options)
       : context_(spec, options),
-        prefix_(prefix_of(spec.case_name)),
+        prefix_(options.name ? *options.name + "_" : prefix_of(spec.case_name)),
+        guard_(guard_of(prefix_.substr(0, prefix_.size() - 1), options.name.has_value(), "H")),
         sparse_jacobian_(options.sparse_jacobian) {}
 
   std::string run() const {
-    std::string guard = "CASIMIR_GENERATED_";
-    for (const char c : prefix_)
-      guard += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-    guard += "H";
-    std::string text = head_comment(spec_, true) + ownership_comment() + "#ifndef " + guard +
-                       "\n#define " + guard + "\n\n" + includes() + constants();
+    std::string text = head_comment(spec_, true) + ownership_comment() + "#ifndef " + guard_ +
+                       "\n#define " + guard_ + "\n\n" + includes() + constants();
     text += function("rhs", "The time derivatives of the state.", spec_.rhs, {"dx"},
                      context_.entries("dx", spec_.rhs, nullptr));
     if (!spec_.invariant_names.empty()) {
@@ -41,7 +38,7 @@ class CWriter {
                        "The rhs, and the derivative of a small deviation delta_x carried along.",
                        spec_.variational, {"dx", "ddelta_x"}, context_.variational());
     }
-    return text + "#endif  // " + guard + "\n";
+    return text + "#endif  // " + guard_ + "\n";
   }
 
  private:
@@ -71,9 +68,11 @@ class CWriter {
     text += table("char* const", "state_names", quoted_list(spec_.states));
     text += table("char* const", "invariant_names", quoted_list(spec_.invariant_names));
     text += table(style_.real, "initial_state", context_.initial_values(style_.scalar));
-    text += "static const " + style_.real + " " + prefix_ +
-            "duration = " + context_.start_value(last, style_.scalar) + ";\n\n";
-    return text + parameter_struct();
+    if (spec_.has_duration) {
+      text += "static const " + style_.real + " " + prefix_ +
+              "duration = " + context_.start_value(last, style_.scalar) + ";\n";
+    }
+    return text + "\n" + parameter_struct();
   }
 
   std::string parameter_struct() const {
@@ -167,7 +166,7 @@ class CWriter {
   const HeaderContext context_;
   const Specialisation& spec_ = context_.spec;
   const StatementStyle& style_ = context_.style;
-  const std::string prefix_;
+  const std::string prefix_, guard_;
   const bool sparse_jacobian_;
 };
 

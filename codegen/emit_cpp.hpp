@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "codegen/literal.hpp"
@@ -16,6 +17,9 @@ struct HeaderOptions {
   Scalar scalar = Scalar::real64;
   bool sparse_jacobian = false;  ///< `jacobian_entries` as well
   Language language = Language::cpp;
+  /// Of the namespace, the include guard, and in C the prefix, so that several headers of one case
+  /// go into one program; none: the name of the case.
+  std::optional<std::string> name = {};
 };
 
 /// A C++20 header that needs nothing of casimir: a namespace named after the case with
@@ -34,8 +38,9 @@ struct HeaderOptions {
 ///
 /// Compiles alone and without warnings; includes `<cmath>` only where a function is called, and
 /// `<quadmath.h>` for float128. The same bytes in every process.
-/// \throws ModelError  for a number outside the range of the number type, and for what C has no
-///                     form of: templates, float128 and Taylor coefficients.
+/// \throws ModelError  for a number outside the range of the number type, for a name that is no
+///                     identifier, and for what C has no form of: templates, float128 and Taylor
+///                     coefficients.
 std::string emit_header(const Specialisation& specialisation, const HeaderOptions& options = {});
 
 /// The text of a module as in runtime/module_abi.h, in double. It includes nothing.

@@ -6,6 +6,7 @@
 #include "codegen/emit_cpp.hpp"
 #include "codegen/header_context.hpp"
 #include "codegen/names.hpp"
+#include "codegen/prepare.hpp"
 #include "codegen/statements.hpp"
 
 namespace casimir {
@@ -26,17 +27,18 @@ struct Function {
   const SparseProgram* matrix = nullptr;
   std::size_t columns = 0;
   std::string size = {};  ///< the number of its entries, as C++ has it
+  bool prepared = false;  ///< takes `prepared` in place of `parameters`
 };
 
 class HeaderWriter {
  public:
   HeaderWriter(const Specialisation& spec, const HeaderOptions& options)
-      : context_(spec, options), sparse_jacobian_(options.sparse_jacobian) {}
+      : context_(spec, options), sparse_jacobian_(options.sparse_jacobian), name_(options.name) {}
 
   std::string run() {
     Names namespaces({"state_names", "invariant_names", "initial_state"});
-    const std::string scope = namespaces.unique(spec_.case_name);
-    const std::string guard = guard_of(scope);
+    const std::string scope = name_ ? *name_ : namespaces.unique(spec_.case_name);
+    const std::string guard = codegen::guard_of(scope, name_.has_value(), "HPP");
     std::string text = codegen::head_comment(spec_, true) + codegen::ownership_comment() +
                        "#ifndef " + guard + "\n#define " + guard + "\n\n" + includes();
     text += "namespace " + scope + " {\n\n" + constants();
@@ -49,6 +51,7 @@ class HeaderWriter {
     }
     if (spec_.has_gradients && !spec_.invariant_names.empty()) text += gradients();
     if (spec_.has_jacobian) text += jacobian();
+    if (context_.has_parameters()) text += preparation();
     if (is_template_) text += start_function();
     if (spec_.has_variational) text += variational();
     if (spec_.taylor) text += codegen::taylor(context_);
@@ -63,6 +66,85 @@ class HeaderWriter {
                      "invariant.",
                      spec_.gradients.program, &spec_.gradients, spec_.invariant_names.size(),
                      "dimension * " + std::to_string(spec_.invariant_names.size())});
+  }
+
+  std::string prepared_type() const { return is_template_ ? "prepared<Real>" : "prepared"; }
+
+  /// The parameters with what depends on nothing else, and the functions that take it. They have
+  /// the names of those that take `parameters`; its constructor is explicit, so that {} still means
+  /// these.
+  std::string preparation() {
+    std::vector<Program> programs{spec_.rhs};
+    if (spec_.has_jacobian) programs.push_back(spec_.jacobian.program);
+    prepared_ = codegen::prepared(programs, spec_.states.size(), spec_.parameters.size());
+    Names names(names_);
+    for (const std::string& name : prepared_.prepare.output_names)
+      prepared_names_.push_back(names.unique(name));
+    const std::string head = is_template_ ? "template <class Real>\n" : "";
+    std::string text =
+        codegen::comment_lines("The parameters, with what depends on nothing else computed once.") +
+        head + prepared_struct() + head + "inline " + prepared_type() + " prepare(const " +
+        context_.parameter_type() + "& p) { return " + prepared_type() + "(p); }\n\n";
+    if (prepared_names_.empty())
+      return text + forwarded("rhs", "dx") + (spec_.has_jacobian ? forwarded("jacobian", "J") : "");
+    text += function({.name = "rhs",
+                      .target = "dx",
+                      .comment = "The time derivatives of the state.",
+                      .program = prepared_.rest[0],
+                      .prepared = true});
+    if (!spec_.has_jacobian) return text;
+    const SparseProgram matrix{spec_.jacobian.entries, prepared_.rest[1]};
+    return text + function({.name = "jacobian",
+                            .target = "J",
+                            .comment = "J[i + dimension*j] = d(dx[i])/d(x[j]), all entries.",
+                            .program = matrix.program,
+                            .matrix = &matrix,
+                            .columns = spec_.states.size(),
+                            .size = "dimension * dimension",
+                            .prepared = true});
+  }
+
+  /// A function that gains nothing from what is prepared.
+  std::string forwarded(const std::string& name, const std::string& target) const {
+    const std::string real = style_.real;
+    return (is_template_ ? "template <class Real>\n" : "") +
+           codegen::wrapped("inline void " + name + "(" + (spec_.uses_time ? real + " t, " : "") +
+                            "const " + real + "* x, const " + prepared_type() + "& p, " + real +
+                            "* " + target + ") {") +
+           "\n  " + name + "(" + (spec_.uses_time ? "t, " : "") + "x, p.p, " + target + ");\n}\n\n";
+  }
+
+  std::string prepared_struct() const {
+    const Program& program = prepared_.prepare;
+    const auto of_parameters = [&](const std::vector<std::string>& all) {
+      const auto begin = all.begin() + static_cast<std::ptrdiff_t>(spec_.states.size());
+      return std::vector<std::string>(begin,
+                                      begin + static_cast<std::ptrdiff_t>(spec_.parameters.size()));
+    };
+    std::string fields;
+    std::vector<std::string> targets;
+    for (const std::string& name : prepared_names_) {
+      fields += "  " + style_.real + " " + name + " = 0;\n";
+      targets.push_back("this->" + name);
+    }
+    StatementStyle inner = style_;
+    inner.indent = "    ";
+    const std::string statements = codegen::statements(program, of_parameters(context_.sources),
+                                                       of_parameters(names_), targets, inner);
+    return "struct prepared {\n  " + context_.parameter_type() + " p;\n" + fields +
+           "  explicit prepared(const " + context_.parameter_type() + "& values) : p(values) {" +
+           (targets.empty() ? "}\n" : "\n" + using_declarations(program) + statements + "  }\n") +
+           "};\n\n";
+  }
+
+  /// Parameters are members of the parameters in `prepared`.
+  void read_prepared(codegen::Slots& slots) const {
+    const std::size_t first = spec_.states.size(), count = spec_.parameters.size();
+    for (std::size_t i = first; i < first + count; ++i) slots.sources[i] = "p." + slots.sources[i];
+    std::vector<std::string> members;
+    for (const std::string& name : prepared_names_) members.push_back("p." + name);
+    slots.sources.insert(slots.sources.end() - 1, members.begin(), members.end());
+    slots.names.insert(slots.names.end() - 1, prepared_names_.begin(), prepared_names_.end());
   }
 
   std::string jacobian() const {
@@ -93,14 +175,6 @@ class HeaderWriter {
            "inline constexpr int jacobian_nonzeros = " +
            std::to_string(entries.size()) + ";\n" + array("jacobian_columns", pattern.columns) +
            array("jacobian_rows", pattern.rows) + "\n";
-  }
-
-  /// `#pragma once` would be a warning where the header is compiled alone.
-  static std::string guard_of(const std::string& scope) {
-    std::string result = "CASIMIR_GENERATED_";
-    for (const char c : scope)
-      result += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-    return result + (result.ends_with('_') ? "HPP" : "_HPP");
   }
 
   std::string includes() const {
@@ -141,9 +215,11 @@ class HeaderWriter {
     text += codegen::wrapped("inline constexpr " + real + " initial_state[] = {" +
                              context_.initial_values(scalar) + "};") +
             "\n";
-    text += "inline constexpr " + real +
-            " duration = " + context_.start_value(spec_.start.outputs.size() - 1, scalar) + ";\n\n";
-    return text + parameter_struct();
+    if (spec_.has_duration) {
+      text += "inline constexpr " + real +
+              " duration = " + context_.start_value(spec_.start.outputs.size() - 1, scalar) + ";\n";
+    }
+    return text + "\n" + parameter_struct();
   }
 
   std::string parameter_struct() const {
@@ -172,7 +248,10 @@ class HeaderWriter {
     if (spec_.uses_time) text += named(used.back(), style_.real, "t") + ", ";
     text += named(reads_state, "const " + style_.real + "*", "x") + ", ";
     if (context_.has_parameters())
-      text += named(reads_parameters, "const " + context_.parameter_type() + "&", "p") + ", ";
+      text +=
+          named(reads_parameters,
+                "const " + (f.prepared ? prepared_type() : context_.parameter_type()) + "&", "p") +
+          ", ";
     return text + named(writes(f), style_.real + "*", f.target) + ") {\n";
   }
 
@@ -208,7 +287,8 @@ class HeaderWriter {
   static bool writes(const Function& f) { return !f.program.outputs.empty() || f.matrix; }
 
   std::string function(const Function& f) const {
-    const codegen::Slots slots = context_.entries(f.target, f.program, f.matrix);
+    codegen::Slots slots = context_.entries(f.target, f.program, f.matrix);
+    if (f.prepared) read_prepared(slots);
     std::string text =
         codegen::comment_lines(f.comment) + (is_template_ ? "template <class Real>\n" : "");
     text += signature(f) + using_declarations(f.program);
@@ -225,7 +305,10 @@ class HeaderWriter {
   }
 
   const HeaderContext context_;
+  codegen::Prepared prepared_;
+  std::vector<std::string> prepared_names_;
   const bool sparse_jacobian_;
+  const std::optional<std::string> name_;
   const Specialisation& spec_ = context_.spec;
   const StatementStyle& style_ = context_.style;
   const std::vector<std::string>& names_ = context_.names;
@@ -235,6 +318,7 @@ class HeaderWriter {
 }  // namespace
 
 std::string emit_header(const Specialisation& spec, const HeaderOptions& options) {
+  if (options.name) codegen::check_header_name(*options.name);
   if (options.language == Language::c) return codegen::emit_c_header(spec, options);
   return HeaderWriter(spec, options).run();
 }

@@ -6,6 +6,7 @@
 #include "codegen/emit_cpp.hpp"
 #include "codegen/emit_series.hpp"
 #include "codegen/names.hpp"
+#include "codegen/prepare.hpp"
 #include "codegen/statements.hpp"
 #include "runtime/module_abi.h"
 
@@ -64,10 +65,14 @@ class ModuleWriter {
     if (!kernel.empty()) text += kernel + (kernel.ends_with('\n') ? "\n" : "\n\n");
     text += "namespace {\n\nstruct System {\n  static constexpr int n = " +
             std::to_string(spec_.states.size()) + ";\n\n";
-    text += function("rhs", "dx", spec_.rhs, "");
+    // A kernel that is compiled with the system calls it with one set of parameters many times.
+    if (!kernel.empty() && !with_series && !spec_.parameters.empty()) prepare();
+    if (prepares()) text += preparation();
+    text += function("rhs", "dx", prepares() ? prepared_.rest[0] : spec_.rhs, "");
     if (spec_.has_jacobian) {
       text += "\n  // By columns: J[i + n*j] = d(dx[i]/dt)/dx[j].\n" +
-              function("jacobian", "J", spec_.jacobian.program, jacobian_zeros());
+              function("jacobian", "J", prepares() ? prepared_.rest[1] : spec_.jacobian.program,
+                       jacobian_zeros());
     }
     text += "\n" + function("invariants", "values", spec_.invariants, "");
     if (splitting) text += flows(*splitting);
@@ -82,6 +87,55 @@ class ModuleWriter {
   }
 
  private:
+  bool prepares() const { return !prepared_.prepare.outputs.empty(); }
+
+  /// Takes what depends on parameters only out of the functions that kernels call.
+  void prepare() {
+    std::vector<Program> programs{spec_.rhs};
+    if (spec_.has_jacobian) programs.push_back(spec_.jacobian.program);
+    prepared_ = codegen::prepared(programs, spec_.states.size(), spec_.parameters.size());
+    if (!prepares()) return;
+    Names names(names_);
+    const std::size_t count = spec_.parameters.size();
+    for (std::size_t k = 0; k < prepared_.prepare.outputs.size(); ++k) {
+      prepared_sources_.push_back("p[" + std::to_string(count + k) + "]");
+      prepared_names_.push_back(names.unique(prepared_.prepare.output_names[k]));
+    }
+  }
+
+  /// The function `prepare`: the parameters, and behind them what is computed from them once.
+  std::string preparation() const {
+    const auto n = static_cast<std::ptrdiff_t>(spec_.states.size());
+    const std::size_t count = spec_.parameters.size();
+    std::string copies;
+    for (std::size_t i = 0; i < count; ++i)
+      copies += "    q[" + std::to_string(i) + "] = p[" + std::to_string(i) + "];\n";
+    std::vector<std::string> targets;
+    for (std::size_t k = 0; k < prepared_names_.size(); ++k)
+      targets.push_back("q[" + std::to_string(count + k) + "]");
+    const auto of_parameters = [&](const std::vector<std::string>& all) {
+      return std::vector<std::string>(all.begin() + n,
+                                      all.begin() + n + static_cast<std::ptrdiff_t>(count));
+    };
+    return "  // The parameters, and what depends on nothing else. `p` of rhs and jacobian is "
+           "this.\n"
+           "  static constexpr int prepared = " +
+           std::to_string(count + prepared_names_.size()) +
+           ";\n  static inline void prepare(const double* p, double* q) {\n" + copies +
+           codegen::statements(prepared_.prepare, of_parameters(sources_), of_parameters(names_),
+                               targets, style_) +
+           "  }\n\n";
+  }
+
+  /// What stands for the inputs of a program: those that are prepared are in front of the time.
+  static std::vector<std::string> with_prepared(std::vector<std::string> inputs,
+                                                const std::vector<std::string>& prepared,
+                                                const Program& program) {
+    if (program.inputs.size() > inputs.size())
+      inputs.insert(inputs.end() - 1, prepared.begin(), prepared.end());
+    return inputs;
+  }
+
   std::string jacobian_zeros() const {
     const std::size_t n = spec_.states.size();
     if (spec_.jacobian.entries.size() == n * n) return "";
@@ -104,7 +158,10 @@ class ModuleWriter {
            "([[maybe_unused]] double t, [[maybe_unused]] const double* x,\n" +
            std::string(23 + name.size(), ' ') +
            "[[maybe_unused]] const double* p, [[maybe_unused]] double* " + target + ") {\n" +
-           before + codegen::statements(program, sources_, names_, targets, style_) + "  }\n";
+           before +
+           codegen::statements(program, with_prepared(sources_, prepared_sources_, program),
+                               with_prepared(names_, prepared_names_, program), targets, style_) +
+           "  }\n";
   }
 
   /// The flows of the parts, one function each, and what chooses among them.
@@ -138,9 +195,11 @@ class ModuleWriter {
     const auto constant = [](const std::string& name, std::size_t value) {
       return "int " + name + "(void) { return " + std::to_string(value) + "; }\n";
     };
-    const auto forwarded = [](const std::string& name, const std::string& target) {
+    const auto forwarded = [&](const std::string& name, const std::string& target) {
       return "void casimir_" + name + "(double t, const double* x, const double* p, double* " +
-             target + ") {\n  System::" + name + "(t, x, p, " + target + ");\n}\n";
+             target + ") {\n" +
+             (prepares() ? "  double q[System::prepared];\n  System::prepare(p, q);\n" : "") +
+             "  System::" + name + "(t, x, " + (prepares() ? "q" : "p") + ", " + target + ");\n}\n";
     };
     std::string text = "extern \"C\" {\n\n";
     text += constant("casimir_abi_version", CASIMIR_ABI_VERSION);
@@ -153,10 +212,17 @@ class ModuleWriter {
     return text;
   }
 
-  static std::string integrate_export() {
-    return "void casimir_integrate(const struct casimir_run* run, double* x,\n"
-           "                       struct casimir_outcome* outcome) {\n"
-           "  casimir_kernel::integrate<System>(run, x, outcome);\n}\n";
+  std::string integrate_export() const {
+    const std::string head =
+        "void casimir_integrate(const struct casimir_run* run, double* x,\n"
+        "                       struct casimir_outcome* outcome) {\n";
+    if (!prepares()) return head + "  casimir_kernel::integrate<System>(run, x, outcome);\n}\n";
+    return head +
+           "  double q[System::prepared];\n"
+           "  System::prepare(run->parameters, q);\n"
+           "  casimir_run prepared = *run;\n"
+           "  prepared.parameters = q;\n"
+           "  casimir_kernel::integrate<System>(&prepared, x, outcome);\n}\n";
   }
 
   /// What the precompiled integrator calls.
@@ -177,6 +243,8 @@ class ModuleWriter {
   const Specialisation& spec_;
   std::vector<std::string> sources_;
   std::vector<std::string> names_;
+  codegen::Prepared prepared_;
+  std::vector<std::string> prepared_sources_, prepared_names_;
   StatementStyle style_;
 };
 

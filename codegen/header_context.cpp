@@ -1,5 +1,7 @@
 #include "codegen/header_context.hpp"
 
+#include <algorithm>
+
 #include "codegen/names.hpp"
 
 namespace casimir::codegen {
@@ -122,6 +124,14 @@ Pattern pattern_of(const SparseProgram& matrix, std::size_t columns) {
     result.columns += ", " + std::to_string(k);
   }
   return result;
+}
+
+std::string guard_of(const std::string& scope, bool given, const std::string& end) {
+  std::string upper = scope;
+  for (char& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  const bool has_capitals = std::ranges::any_of(scope, [](char c) { return c >= 'A' && c <= 'Z'; });
+  const std::string text = given && has_capitals ? scope + "_as_written" : upper;
+  return "CASIMIR_GENERATED_" + text + (text.ends_with('_') ? "" : "_") + end;
 }
 
 std::string quoted_list(const std::vector<std::string>& values) {

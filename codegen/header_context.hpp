@@ -47,6 +47,13 @@ struct Pattern {
 
 Pattern pattern_of(const SparseProgram& matrix, std::size_t columns);
 
+/// The name of an include guard. (`#pragma once` would be a warning where the header is compiled
+/// alone.)
+/// \param scope  what the header is called
+/// \param given  whether a person called it so: then `top` and `Top` are two headers
+/// \param end    "HPP" or "H"
+std::string guard_of(const std::string& scope, bool given, const std::string& end);
+
 /// The texts as string literals with commas between them.
 std::string quoted_list(const std::vector<std::string>& values);
 

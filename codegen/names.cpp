@@ -1,42 +1,73 @@
 #include "codegen/names.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cctype>
+#include <string_view>
+
+#include "symbolic/error.hpp"
 
 namespace casimir::codegen {
 
 namespace {
 
-constexpr std::array kReserved{
-    // keywords
-    "alignas", "alignof", "and", "and_eq", "asm", "auto", "bitand", "bitor", "bool", "break",
-    "case", "catch", "char", "char16_t", "char32_t", "char8_t", "class", "co_await", "co_return",
-    "co_yield", "compl", "concept", "const", "const_cast", "consteval", "constexpr", "constinit",
-    "continue", "decltype", "default", "delete", "do", "double", "dynamic_cast", "else", "enum",
-    "explicit", "export", "extern", "false", "float", "for", "friend", "goto", "if", "inline",
-    "int", "long", "mutable", "namespace", "new", "noexcept", "not", "not_eq", "nullptr",
-    "operator", "or", "or_eq", "private", "protected", "public", "register", "reinterpret_cast",
-    "requires", "return", "short", "signed", "sizeof", "static", "static_assert", "static_cast",
-    "struct", "switch", "template", "this", "thread_local", "throw", "true", "try", "typedef",
-    "typeid", "typename", "union", "unsigned", "using", "virtual", "void", "volatile", "wchar_t",
-    "while", "xor", "xor_eq", "typeof", "restrict",
-    // macros of common headers and compilers
-    "NULL", "I", "EOF", "NAN", "INFINITY", "HUGE_VAL", "HUGE_VALF", "HUGE_VALL", "errno", "assert",
-    "complex", "imaginary", "M_E", "M_LOG2E", "M_LOG10E", "M_LN2", "M_LN10", "M_PI", "M_PI_2",
-    "M_PI_4", "M_1_PI", "M_2_PI", "M_2_SQRTPI", "M_SQRT2", "M_SQRT1_2", "FP_NAN", "FP_INFINITE",
-    "FP_ZERO", "FP_NORMAL", "FP_SUBNORMAL", "DOMAIN", "SING", "OVERFLOW", "UNDERFLOW", "PLOSS",
-    "TLOSS", "major", "minor", "makedev", "unix", "linux", "i386", "stdin", "stdout", "stderr",
-    "min", "max", "near", "far", "small", "signals", "slots", "emit", "foreach", "B0", "TRUE",
-    "FALSE", "SUNTRUE", "SUNFALSE", "RCONST", "SUN_RCONST",
-    // names of this code and of what it calls
-    "x", "dx", "dxdt", "t", "p", "n", "J", "y", "ydot", "fy", "dfdt", "state", "values", "real",
-    "Real", "State", "Derivative", "Matrix", "Vector", "System", "system", "parameters", "rhs",
-    "invariants", "jacobian", "dimension", "duration", "std", "main", "i", "j", "user", "sin",
-    "cos", "tan", "exp", "log", "asin", "acos", "atan2", "sqrt", "pow", "fabs", "copysign", "j0",
-    "j1", "jn", "y0", "y1", "yn", "gamma", "signgam", "tmp1", "tmp2", "tmp3", "buffer", "delta_x",
-    "ddelta_x", "variational", "taylor", "start", "coefficients", "degree", "Order", "time_series",
-    "gradients", "dvalues", "entries", "jacobian_entries", "jacobian_nonzeros", "jacobian_rows",
-    "jacobian_columns"};
+constexpr std::size_t kMaxNameLength = 100;
+
+/// Of C++, and of C where it has more.
+constexpr auto kKeywords =
+    std::to_array<std::string_view>({"alignas",       "alignof",     "and",
+                                     "and_eq",        "asm",         "auto",
+                                     "bitand",        "bitor",       "bool",
+                                     "break",         "case",        "catch",
+                                     "char",          "char16_t",    "char32_t",
+                                     "char8_t",       "class",       "co_await",
+                                     "co_return",     "co_yield",    "compl",
+                                     "concept",       "const",       "const_cast",
+                                     "consteval",     "constexpr",   "constinit",
+                                     "continue",      "decltype",    "default",
+                                     "delete",        "do",          "double",
+                                     "dynamic_cast",  "else",        "enum",
+                                     "explicit",      "export",      "extern",
+                                     "false",         "float",       "for",
+                                     "friend",        "goto",        "if",
+                                     "inline",        "int",         "long",
+                                     "mutable",       "namespace",   "new",
+                                     "noexcept",      "not",         "not_eq",
+                                     "nullptr",       "operator",    "or",
+                                     "or_eq",         "private",     "protected",
+                                     "public",        "register",    "reinterpret_cast",
+                                     "requires",      "return",      "short",
+                                     "signed",        "sizeof",      "static",
+                                     "static_assert", "static_cast", "struct",
+                                     "switch",        "template",    "this",
+                                     "thread_local",  "throw",       "true",
+                                     "try",           "typedef",     "typeid",
+                                     "typename",      "union",       "unsigned",
+                                     "using",         "virtual",     "void",
+                                     "volatile",      "wchar_t",     "while",
+                                     "xor",           "xor_eq",      "typeof",
+                                     "restrict"});
+
+constexpr auto kReserved = std::to_array<std::string_view>(
+    {// macros of common headers and compilers
+     "NULL", "I", "EOF", "NAN", "INFINITY", "HUGE_VAL", "HUGE_VALF", "HUGE_VALL", "errno", "assert",
+     "complex", "imaginary", "M_E", "M_LOG2E", "M_LOG10E", "M_LN2", "M_LN10", "M_PI", "M_PI_2",
+     "M_PI_4", "M_1_PI", "M_2_PI", "M_2_SQRTPI", "M_SQRT2", "M_SQRT1_2", "FP_NAN", "FP_INFINITE",
+     "FP_ZERO", "FP_NORMAL", "FP_SUBNORMAL", "DOMAIN", "SING", "OVERFLOW", "UNDERFLOW", "PLOSS",
+     "TLOSS", "major", "minor", "makedev", "unix", "linux", "i386", "stdin", "stdout", "stderr",
+     "min", "max", "near", "far", "small", "signals", "slots", "emit", "foreach", "B0", "TRUE",
+     "FALSE", "SUNTRUE", "SUNFALSE", "RCONST", "SUN_RCONST",
+     // names of this code and of what it calls
+     "x", "dx", "dxdt", "t", "p", "n", "J", "y", "ydot", "fy", "dfdt", "state", "values", "real",
+     "Real", "State", "Derivative", "Matrix", "Vector", "System", "system", "parameters", "rhs",
+     "invariants", "jacobian", "dimension", "duration", "std", "main", "i", "j", "user", "sin",
+     "cos", "tan", "exp", "log", "asin", "acos", "atan2", "sqrt", "pow", "fabs", "copysign", "j0",
+     "j1", "jn", "y0", "y1", "yn", "gamma", "signgam", "tmp1", "tmp2", "tmp3", "buffer", "delta_x",
+     "ddelta_x", "variational", "taylor", "start", "coefficients", "degree", "Order", "time_series",
+     "gradients", "dvalues", "entries", "jacobian_entries", "jacobian_nonzeros", "jacobian_rows",
+     "jacobian_columns", "prepare", "prepared", "prepared_system"});
 
 bool is_plain(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
@@ -63,6 +94,7 @@ bool is_numbered(const std::string& name) {
 }  // namespace
 
 Names::Names(std::vector<std::string> taken) : taken_(taken.begin(), taken.end()) {
+  taken_.insert(kKeywords.begin(), kKeywords.end());
   taken_.insert(kReserved.begin(), kReserved.end());
 }
 
@@ -74,6 +106,22 @@ std::string Names::unique(const std::string& wanted) {
   for (int i = 2;; ++i) {
     if (taken_.insert(stem + std::to_string(i)).second) return stem + std::to_string(i);
   }
+}
+
+void check_header_name(const std::string& name) {
+  const auto refuse = [&](const std::string& why) {
+    throw ModelError(fmt::format("'{}' cannot name generated code: {}", printable(name), why));
+  };
+  if (name.empty() || !std::ranges::all_of(name, is_plain) || (name[0] >= '0' && name[0] <= '9'))
+    refuse("an ASCII letter, then letters, digits and '_' were expected");
+  if (name[0] == '_' || name.find("__") != std::string::npos)
+    refuse("names with '_' at the start or with two in a row are reserved in C++");
+  if (name.ends_with('_')) refuse("what is made of it has another '_' behind it");
+  if (name.size() > kMaxNameLength)
+    refuse(fmt::format("it is longer than {} characters", kMaxNameLength));
+  if (std::ranges::count(kKeywords, name) != 0) refuse("it is a keyword");
+  if (std::ranges::count(kReserved, name) != 0)
+    refuse("it is a macro of common headers, or a name that the code itself uses");
 }
 
 std::string comment_text(const std::string& text) {

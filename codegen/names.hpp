@@ -21,6 +21,10 @@ class Names {
   std::set<std::string> taken_;
 };
 
+/// Throws ModelError unless the code of a header may have this name: an identifier that C++ does
+/// not reserve, no keyword, and nothing that Names keeps clear of.
+void check_header_name(const std::string& name);
+
 /// Text of a stranger made fit for a `//` comment: printable ASCII on one line, without anything
 /// that ends or continues a comment.
 std::string comment_text(const std::string& text);

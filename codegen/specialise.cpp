@@ -78,7 +78,7 @@ class Specialiser {
 
   static ModelError unknown(const std::string& verb, const std::string& name,
                             const std::string& kind, const std::vector<std::string>& known) {
-    const std::string hint = suggest(name, known);
+    const std::string hint = suggest_or_list(name, known);
     return ModelError("cannot " + verb + " '" + printable(name) + "': no " + kind +
                       " has that name" + (hint.empty() ? "" : "; " + hint));
   }
@@ -361,7 +361,8 @@ class Specialiser {
     for (const std::size_t i : parameter_indices_) {
       add(model_.parameters[i].get_name(), scene_.parameters.at(i));
     }
-    add("duration", scene_.duration);
+    result_.has_duration = scene_.duration.has_value();
+    add("duration", scene_.duration.value_or(0));
     result_.start = codegen::lowered(codegen::system_of(dag, 0, values), {}, names);
   }
 

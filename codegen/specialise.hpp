@@ -68,8 +68,9 @@ struct Specialisation {
   bool taylor = false;
 
   /// No inputs; outputs: initial values of the kept states, values of the run-time parameters, and
-  /// the duration.
+  /// the duration, 0 where the scene has none.
   Program start;
+  bool has_duration = true;
 
   OperationCount general;      ///< one right-hand side of the case as it is in the file
   OperationCount specialised;  ///< `rhs`

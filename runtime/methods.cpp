@@ -85,6 +85,14 @@ constexpr Method kMethods[] = {
      .description = "explicit Runge-Kutta method of Dormand and Prince",
      .literature = "Hairer, Norsett, Wanner: Solving Ordinary Differential Equations I (1993), "
                    "II.5, II.10"},
+    {.name = "dopri5",
+     .order = 5,
+     .fixed_step_ok = true,
+     .header = "runtime/kernels/dopri5.hpp",
+     .entry = "dopri5::integrate<System>",
+     .description = "explicit Runge-Kutta pair of Dormand and Prince of order 5(4), for few digits",
+     .literature = "Hairer, Norsett, Wanner: Solving Ordinary Differential Equations I (1993), "
+                   "II.5, II.6"},
     taylor("taylor"),
     taylor("taylor-compiled"),
     gauss("gauss4", 4, "gauss::integrate<System, 2>"),
@@ -92,6 +100,7 @@ constexpr Method kMethods[] = {
     gauss("gauss8", 8, "gauss::integrate<System, 4>"),
     gauss("gauss12", 12, "gauss::integrate<System, 6>"),
     gauss("gauss16", 16, "gauss::integrate<System, 8>"),
+    gauss("midpoint", 2, "gauss::integrate<System, 1>"),
     radau("radau5", 5, "radau::integrate<System, 3>"),
     radau("radau9", 9, "radau::integrate<System, 5>"),
     splitting("splitting6", 6, "splitting::integrate<System, 6>"),

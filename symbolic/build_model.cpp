@@ -16,6 +16,7 @@
 #include "symbolic/model.hpp"
 #include "symbolic/model_dynamics.hpp"
 #include "symbolic/phase_space.hpp"
+#include "symbolic/toml_keys.hpp"
 
 namespace casimir {
 namespace {
@@ -107,8 +108,9 @@ class Builder {
     }
     for (const auto& [name, value] : fixed_) {
       if (std::find(known.begin(), known.end(), name.value) == known.end()) {
-        throw name.error(fmt::format("'{}' is not a parameter of this case", printable(name.value)),
-                         0, suggest(name.value, known));
+        throw name.error(
+            fmt::format("'{}' is not a parameter of this case", printable(name.value)), 0,
+            known.empty() ? "it has none" : suggest_or_list(name.value, known, "parameters"));
       }
     }
     for (const Entry& definition : file_.definitions) names_.define(definition);
@@ -178,8 +180,19 @@ class Builder {
     } else if (file_.lagrangian) {
       model_.hamiltonian = legendre_transform(*model_.frame, *file_.lagrangian);
     } else {
-      throw CaseError({file_.file, 1, 1}, "the case file needs a key 'hamiltonian'");
+      no_hamiltonian();
     }
+  }
+
+  /// A key below the head of a table belongs to that table, which TOML does not say.
+  [[noreturn]] void no_hamiltonian() const {
+    const std::string what = "the case file needs a key 'hamiltonian'";
+    for (const auto* table : {&file_.definitions, &file_.casimirs, &file_.integrals}) {
+      for (const auto& [name, value] : *table) {
+        if (name.value == "hamiltonian") throw name.error(what, 0, root_key_hint(name.value));
+      }
+    }
+    throw CaseError({file_.file, 1, 1}, what);
   }
 
   /// In the quasi-velocities, by default w1, w2, ..

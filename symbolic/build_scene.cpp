@@ -2,7 +2,6 @@
 #include "symbolic/build_scene.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -55,9 +54,15 @@ class SceneReader {
     };
     scene.parameters = complete(text.parameters, model_.parameters, "parameter");
     scene.initial = complete(text.initial, model_.variables, "variable");
-    scene.duration = parse_real_constant(*text.duration);
-    if (real_decimal(scene.duration)->is_negative())
-      throw text.duration->error("the duration must not be negative");
+    if (text.duration) {
+      scene.duration = parse_real_constant(*text.duration);
+      if (real_decimal(*scene.duration)->is_negative())
+        throw text.duration->error("the duration must not be negative");
+    } else if (!text.reference.empty()) {
+      throw text.name.error(
+          fmt::format("the scene '{}' has a reference state but no duration, at whose end it is",
+                      printable(scene.name)));
+    }
     for (const Text& name : text.observe) {
       symbol_position(name, name.value, 0, model_.variables, "a variable of this case");
       scene.observe.push_back(name.value);
@@ -75,10 +80,8 @@ class SceneReader {
     const std::vector<std::string> kinds = {"separatrix", "stiff", "scale",
                                             "gimbal",     "long",  "blowup"};
     if (std::find(kinds.begin(), kinds.end(), text.value) != kinds.end()) return text.value;
-    std::string hint = suggest(text.value, kinds);
-    if (hint.empty()) hint = fmt::format("known: {}", fmt::join(kinds, ", "));
     throw text.error(fmt::format("unknown kind of extreme scene '{}'", printable(text.value)), 0,
-                     hint);
+                     suggest_or_list(text.value, kinds));
   }
 
   /// Whether the parameters fixed from outside have the values that the scene gives them: only then
@@ -114,7 +117,7 @@ class SceneReader {
       what += constant ? fmt::format(": the value there is {}", printable(constant->text))
                        : ": whether the value there is zero is not decided";
       if (!text.altered && keeps_its_parameters(text)) throw where->error(what);
-      scene.unusable = what + ", with the parameters given";
+      scene.unusable = what + ", with the values given";
       return;
     }
   }

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "symbolic/limits.hpp"
+#include "symbolic/spelling.hpp"
 #include "symbolic/toml_keys.hpp"
 #include "symbolic/toml_reader.hpp"
 
@@ -146,7 +147,7 @@ SceneText Reader::scene(const toml::table& table, const std::string& what) const
   result.name = name(table, what);
   result.parameters = optional_entries(table, "parameters");
   result.initial = entries(required(table, "initial", what), "'initial'");
-  result.duration = text(required(table, "duration", what), "'duration'");
+  result.duration = optional_text(table, "duration");
   result.on = texts(table, "on");
   result.observe = texts(table, "observe");
   result.extreme = optional_text(table, "extreme");
@@ -160,7 +161,16 @@ std::vector<ParameterText> Reader::parameters(const toml::table& root) const {
   if (node == nullptr) return result;
   for (const auto& [key, value] : as_table(*node, "[parameters]")) {
     const std::string what = fmt::format("parameter '{}'", printable(std::string(key.str())));
-    const toml::table& table = as_table(value, what);
+    if (!value.is_table()) {
+      std::string hint = root_key_hint(key.str());
+      if (hint.empty())
+        hint = fmt::format(
+            "write {0} = {{}} or {0} = {{ assume = \"{0} != 0\" }}; its value stands "
+            "in a scene",
+            printable(std::string(key.str())));
+      fail(value.source(), what + " must be a table", hint);
+    }
+    const toml::table& table = *value.as_table();
     allow(table, what, {"assume"});
     ParameterText parameter{key_text(key), {}};
     const toml::node* assume = table.get("assume");
@@ -179,12 +189,7 @@ std::vector<ParameterText> Reader::parameters(const toml::table& root) const {
 }
 
 CaseFile Reader::read(const toml::table& root) {
-  allow(root, "the case file",
-        {"title",       "source",     "book",        "tags",        "integrable",
-         "hamiltonian", "lagrangian", "phase_space", "parameters",  "definitions",
-         "casimirs",    "integrals",  "equations",   "conditional", "invariant_relation",
-         "lax",         "map",        "measure",     "identity",    "section",
-         "scene"});
+  allow(root, "the case file", root_keys());
   CaseFile result;
   result.file = file_;
   result.name = printable(std::filesystem::path(file_).stem().string(), 200);
@@ -284,6 +289,13 @@ bool speaks_of_imaginary_unit(const std::string& toml) {
   return false;
 }
 
+/// What people write who think of their formulas and not of TOML.
+std::string hint_for(const toml::parse_error& problem, const std::string& line) {
+  const auto column = static_cast<std::size_t>(problem.source().begin.column);
+  const std::string quotes = unquoted_hint(line, column);
+  return quotes.empty() ? spelling_of_latex(line) : quotes;
+}
+
 }  // namespace
 
 CaseError Text::error(const std::string& what, std::size_t offset, const std::string& hint) const {
@@ -315,7 +327,7 @@ CaseFile parse_case(const std::string& toml, const std::string& file) {
     const int number = std::max(1, static_cast<int>(begin.line));
     throw CaseError({file, number, std::max(1, static_cast<int>(begin.column))},
                     "this is not TOML: " + printable(std::string(problem.description()), 200),
-                    reader.line(number).text());
+                    reader.line(number).text(), hint_for(problem, reader.line(number).text()));
   }
 }
 

@@ -135,7 +135,7 @@ struct SceneText {
   std::vector<Entry> initial;
   std::optional<Text> duration;
   std::vector<Text> on;
-  bool altered = false;  ///< parameters were given from outside: it may be off its levels
+  bool altered = false;  ///< values were given from outside: it may be off its levels
   std::vector<Text> observe;
   std::optional<Text> extreme;
   std::vector<Entry> reference;

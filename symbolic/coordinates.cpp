@@ -324,9 +324,8 @@ std::size_t Atlas::named(const std::string& name) const {
     if (sets[i].name == name) return i;
     known.push_back(sets[i].name);
   }
-  std::string hint = suggest(name, known);
-  if (hint.empty()) hint = fmt::format("known: {}", fmt::join(known, ", "));
-  throw ModelError(fmt::format("there are no variables '{}'; {}", printable(name), hint));
+  throw ModelError(fmt::format("there are no variables '{}'; {}", printable(name),
+                               suggest_or_list(name, known)));
 }
 
 std::size_t Atlas::of(const Model& model) const {

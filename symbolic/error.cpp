@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <cstring>
 #include <string_view>
@@ -84,6 +85,20 @@ char32_t decoded(std::string_view sequence) {
   return c;
 }
 
+/// In lower case, without what joins words.
+std::string folded(const std::string& name) {
+  std::string result;
+  for (const char c : name) {
+    if (c != '_' && c != '-')
+      result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return result;
+}
+
+std::string did_you_mean(const std::string& name) {
+  return fmt::format("did you mean '{}'?", printable(name));
+}
+
 }  // namespace
 
 CaseError::CaseError(Location where, std::string text, std::string excerpt, std::string hint)
@@ -91,8 +106,17 @@ CaseError::CaseError(Location where, std::string text, std::string excerpt, std:
       where_(std::move(where)),
       text_(std::move(text)) {}
 
+std::string same_but_for_case(const std::string& name, const std::vector<std::string>& known) {
+  const std::string wanted = folded(name);
+  const auto same = std::find_if(known.begin(), known.end(), [&](const std::string& candidate) {
+    return !wanted.empty() && folded(candidate) == wanted;
+  });
+  return same == known.end() ? std::string{} : did_you_mean(*same);
+}
+
 std::string suggest(const std::string& name, const std::vector<std::string>& known) {
   if (name.size() > 100) return {};
+  if (std::string same = same_but_for_case(name, known); !same.empty()) return same;
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;
   for (const std::string& candidate : known) {
@@ -105,7 +129,18 @@ std::string suggest(const std::string& name, const std::vector<std::string>& kno
       best = candidate;
     }
   }
-  return best.empty() ? std::string{} : fmt::format("did you mean '{}'?", best);
+  return best.empty() ? std::string{} : did_you_mean(best);
+}
+
+std::string suggest_or_list(const std::string& name, const std::vector<std::string>& known,
+                            const std::string& what) {
+  if (std::string near = suggest(name, known); !near.empty() || known.empty()) return near;
+  constexpr std::size_t kMost = 24;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(known.size(), kMost); ++i)
+    list += (i == 0 ? "" : ", ") + printable(known[i]);
+  if (known.size() > kMost) list += fmt::format(" and {} more", known.size() - kMost);
+  return fmt::format("{}: {}", what, list);
 }
 
 std::string printable(const std::string& text, std::size_t limit) {

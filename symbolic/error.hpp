@@ -51,6 +51,13 @@ class SingularPoint : public std::runtime_error {
 /// The name in `known` that is nearest to `name`, as "did you mean 'X'?", or empty if none is near.
 std::string suggest(const std::string& name, const std::vector<std::string>& known);
 
+/// The same, only for a name in `known` that differs in upper and lower case and in '_' and '-'.
+std::string same_but_for_case(const std::string& name, const std::vector<std::string>& known);
+
+/// `suggest`, and where no name is near, the first of those that there are: "known: a, b, c".
+std::string suggest_or_list(const std::string& name, const std::vector<std::string>& known,
+                            const std::string& what = "known");
+
 /// `text` with control characters, invisible ones, those that change the direction of writing, and
 /// invalid UTF-8 escaped, cut to `limit` characters: what a message may show of text that a
 /// stranger wrote.

@@ -12,6 +12,7 @@
 #include "symbolic/decimal.hpp"
 #include "symbolic/elementary.hpp"
 #include "symbolic/limits.hpp"
+#include "symbolic/spelling.hpp"
 
 namespace casimir {
 namespace {
@@ -35,7 +36,7 @@ class Parser {
 
   Quantity parse() {
     Quantity result = sum();
-    if (peek() != '\0') fail("unexpected " + here() + ", expected an operator or the end");
+    if (peek() != '\0') unexpected("an operator or the end");
     if (!parts_.empty()) result.parts = std::make_shared<const std::vector<ex>>(std::move(parts_));
     return result;
   }
@@ -58,11 +59,33 @@ class Parser {
   };
 
   [[noreturn]] void fail(const std::string& what, const std::string& hint = {}) const {
-    throw text_.error(what, at_, hint);
+    fail_at(at_, what, hint);
   }
   [[noreturn]] void fail_at(std::size_t offset, const std::string& what,
                             const std::string& hint = {}) const {
-    throw text_.error(what, offset, hint);
+    // TOML has read \f of \frac already, so the line of the file is what shows it.
+    const std::string latex = spelling_of_latex(text_.excerpt.text());
+    throw text_.error(what, offset, latex.empty() ? hint : latex);
+  }
+
+  /// What stands here cannot: `expected` could.
+  [[noreturn]] void unexpected(const std::string& expected) {
+    fail("unexpected " + here() + ", expected " + expected, hint_for(peek()));
+  }
+
+  /// What people mean who write this character where no expression has it.
+  std::string hint_for(char c) const {
+    if (c == '=')
+      return "an expression stands here and no equation: A = B is the zero level of A - (B)";
+    if (c == '<' || c == '>' || c == '!')
+      return "an expression stands here and no condition: conditions stand in 'assume' and "
+             "'domain'";
+    if (c == '(' || is_name_part(c)) return "write products with '*'";
+    if (c == '[' || c == ']') return "only round parentheses group, as in 2*(x + y)";
+    if (c == '|') return "|x| is written sqrt(x^2)";
+    if (static_cast<unsigned char>(c) < 0x80) return {};
+    const std::string spelling = spelling_of_character(character());
+    return spelling.empty() ? "names consist of the ASCII letters, digits and '_'" : spelling;
   }
 
   char peek() {
@@ -78,12 +101,16 @@ class Parser {
 
   std::string here() {
     if (peek() == '\0' && at_ >= end_) return "end of the expression";
+    return "'" + printable(character()) + "'";
+  }
+
+  /// The character that stands here, a UTF-8 sequence.
+  std::string character() const {
     std::size_t length = 1;
     while (at_ + length < end_ &&
-           (static_cast<unsigned char>(text_.value[at_ + length]) & 0xC0) == 0x80) {
-      ++length;  // the rest of a UTF-8 sequence
-    }
-    return "'" + printable(text_.value.substr(at_, length)) + "'";
+           (static_cast<unsigned char>(text_.value[at_ + length]) & 0xC0) == 0x80)
+      ++length;
+    return text_.value.substr(at_, length);
   }
 
   void check(double value, double Limits::*limit, std::size_t offset, const char* what) const {
@@ -226,15 +253,13 @@ class Parser {
     if (c == '(') {
       ++at_;
       Quantity q = sum();
-      if (!accept(')')) fail("unexpected " + here() + ", expected ')'");
+      if (!accept(')')) unexpected("')'");
       return q;
     }
     if (c == '{') return bracket();
     if (is_digit(c) || c == '.') return number();
     if (is_name_start(c)) return name();
-    const bool ascii = static_cast<unsigned char>(c) < 0x80;
-    fail("unexpected " + here() + ", expected a number, a name or '('",
-         ascii ? "" : "names consist of the ASCII letters, digits and '_'");
+    unexpected("a number, a name or '('");
   }
 
   std::string digits() {
@@ -290,10 +315,7 @@ class Parser {
       if (word == "rate") return rate(start);
     }
     if (peek() == '(' && names_.find(word) == nullptr) {
-      std::vector<std::string> functions = elementary_function_names();
-      functions.insert(functions.end(), {"diff", "rate"});
-      fail_at(start, fmt::format("unknown function '{}'", printable(word)),
-              suggest(word, functions));
+      unknown_function(word, start);
     }
     if (word == "Pi") return {GiNaC::Pi, 1, 0, 1};
     if (word == "I") return {GiNaC::I, 1, 0, 1};
@@ -301,8 +323,29 @@ class Parser {
       for (const ex& part : known->parts ? *known->parts : std::vector<ex>{}) add_part(part);
       return *known;
     }
-    fail_at(start, fmt::format("'{}' is not declared", printable(word)),
-            suggest(word, names_.known()));
+    undeclared(word, start);
+  }
+
+  /// A name with '(' behind it.
+  [[noreturn]] void unknown_function(const std::string& word, std::size_t start) {
+    std::vector<std::string> functions = elementary_function_names();
+    functions.insert(functions.end(), {"diff", "rate"});
+    std::string hint = spelling_of_name(word);
+    if (hint.empty()) hint = suggest_or_list(word, functions, "functions");
+    fail_at(start, fmt::format("unknown function '{}'", printable(word)), hint);
+  }
+
+  [[noreturn]] void undeclared(const std::string& word, std::size_t start) {
+    std::vector<std::string> known = names_.known();
+    const bool constant = known.empty();
+    known.emplace_back("Pi");
+    std::string hint = same_but_for_case(word, known);
+    if (hint.empty()) hint = spelling_of_name(word);
+    if (hint.empty()) hint = product_of_names(word, known);
+    if (hint.empty())
+      hint = constant ? "a constant stands here: numbers, Pi and functions of them"
+                      : suggest_or_list(word, known, "declared");
+    fail_at(start, fmt::format("'{}' is not declared", printable(word)), hint);
   }
 
   std::vector<Quantity> arguments(std::string_view function, std::size_t arity, std::size_t start) {
@@ -313,7 +356,7 @@ class Parser {
         given.push_back(sum());
       } while (accept(','));
     }
-    if (!accept(')')) fail("unexpected " + here() + ", expected ',' or ')'");
+    if (!accept(')')) unexpected("',' or ')'");
     if (given.size() != arity) {
       fail_at(start, fmt::format("'{}' takes {} argument{}, {} given", function, arity,
                                  arity == 1 ? "" : "s", given.size()));
@@ -328,9 +371,9 @@ class Parser {
   Quantity bracket() {
     const std::size_t start = at_++;
     const Quantity f = sum();
-    if (!accept(',')) fail("unexpected " + here() + ", expected ',' of a bracket {F, G}");
+    if (!accept(',')) unexpected("',' of a bracket {F, G}");
     const Quantity g = sum();
-    if (!accept('}')) fail("unexpected " + here() + ", expected '}'");
+    if (!accept('}')) unexpected("'}'");
     const Dynamics* dynamics = names_.dynamics();
     if (dynamics == nullptr || !dynamics->has_bracket())
       fail_at(start, "there is no Poisson bracket here");

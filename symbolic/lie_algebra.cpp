@@ -1,13 +1,14 @@
 #include "symbolic/lie_algebra.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <map>
 #include <regex>
+#include <string_view>
+#include <utility>
 
 #include "symbolic/error.hpp"
 
@@ -111,6 +112,13 @@ std::string bare(const std::string& name) {
   return result;
 }
 
+/// What other books call these algebras, bare.
+constexpr std::pair<std::string_view, std::string_view> kOtherNames[] = {
+    {"se3", "e(3)"},   {"iso3", "e(3)"},       {"euclid3", "e(3)"},  {"sen", "e(n)"},
+    {"se4", "e(4)"},   {"su2", "so(3)"},       {"so31r", "so(3,1)"}, {"so13", "so(3,1)"},
+    {"sl2r", "sl(2)"}, {"heisenberg", "h(3)"}, {"heis", "h(3)"},     {"so3xr3", "so(3)+R3"},
+};
+
 int positive(const std::string& text) { return text.size() > 3 ? 1000 : std::stoi(text); }
 
 }  // namespace
@@ -149,11 +157,15 @@ std::vector<std::string> lie_algebra_names() {
 
 std::string lie_algebra_hint(const std::string& name) {
   const std::vector<std::string> names = lie_algebra_names();
+  if (bare(name) == "canonical")
+    return "canonical brackets are no algebra: canonical = true takes the place of 'algebra'";
+  for (const auto& [elsewhere, here] : kOtherNames) {
+    if (bare(name) == elsewhere) return fmt::format("did you mean '{}'?", here);
+  }
   // The same but for case and punctuation, as "E3".
   const auto same =
       std::ranges::find_if(names, [&](const auto& known) { return bare(known) == bare(name); });
-  const std::string near = suggest(same == names.end() ? name : *same, names);
-  return near.empty() ? fmt::format("known: {}", fmt::join(names, ", ")) : near;
+  return suggest_or_list(same == names.end() ? name : *same, names);
 }
 
 }  // namespace casimir

@@ -1,7 +1,6 @@
 #include "symbolic/model.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "symbolic/exact_constant.hpp"
 #include "symbolic/expression.hpp"
@@ -64,9 +63,8 @@ const Scene& Model::scene(const std::string& scene_name) const {
   if (scenes.empty())
     throw CaseError({file}, "the case has no [[scene]], which this command needs");
   if (scene_name == "default") return usable(scenes.front());
-  std::string hint = suggest(scene_name, known);
-  if (hint.empty()) hint = fmt::format("scenes of this case: {}", fmt::join(known, "; "));
-  throw CaseError({file}, fmt::format("there is no scene '{}'", printable(scene_name)), {}, hint);
+  throw CaseError({file}, fmt::format("there is no scene '{}'", printable(scene_name)), {},
+                  suggest_or_list(scene_name, known, "scenes of this case"));
 }
 
 namespace {

@@ -106,9 +106,9 @@ struct Scene {
   Location where;
   std::vector<GiNaC::ex> parameters;  ///< one for each of Model::parameters
   std::vector<GiNaC::ex> initial;     ///< one for each of Model::variables
-  GiNaC::ex duration;
-  std::vector<std::string> observe;                 ///< empty: everything
-  std::string extreme;                              ///< empty, "separatrix", "stiff", "scale", ..
+  std::optional<GiNaC::ex> duration;  ///< none: only what needs no end of a run can use it
+  std::vector<std::string> observe;   ///< empty: everything
+  std::string extreme;                ///< empty, "separatrix", "stiff", "scale", ..
   std::vector<std::optional<GiNaC::ex>> reference;  ///< empty, or one for each variable
   std::string unusable;   ///< why it cannot be run although it was read; or empty
   bool singular = false;  ///< for that reason: its state has no image in the variables chosen

@@ -72,7 +72,7 @@ std::size_t symbol_position(const Text& text, const std::string& name, std::size
     known.push_back(symbols[i].get_name());
   }
   throw text.error(fmt::format("'{}' is not {}", printable(name), what), offset,
-                   suggest(name, known));
+                   suggest_or_list(name, known));
 }
 
 void check_name(const Text& name, const std::string& what) {

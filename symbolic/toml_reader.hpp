@@ -2,7 +2,6 @@
 
 // For case_file.cpp alone: no other file needs to know the TOML library.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -14,6 +13,7 @@
 #include <toml++/toml.h>
 
 #include "symbolic/case_file.hpp"
+#include "symbolic/toml_keys.hpp"
 
 namespace casimir {
 
@@ -49,7 +49,7 @@ class TomlReader {
   }
 
   /// A string value. Integers are accepted too, since they are exact.
-  Text text(const toml::node& node, const std::string& what) const {
+  Text text(const toml::node& node, const std::string& what, const std::string& hint = {}) const {
     const Location where = place(node.source());
     if (const auto integer = node.value_exact<int64_t>()) {
       return {std::to_string(*integer), where, line(where.line)};
@@ -59,7 +59,7 @@ class TomlReader {
            "write it in quotes: \"0.5\" is read as 1/2");
     }
     const auto value = node.value_exact<std::string>();
-    if (!value) fail(node.source(), what + " must be a string");
+    if (!value) fail(node.source(), what + " must be a string", hint);
     Text text = inside_quotes({*value, where, line(where.line)});
     text.value = flat(*value);
     return text;
@@ -89,8 +89,8 @@ class TomlReader {
     for (const auto& [key, node] : table) {
       const std::string name(key.str());
       if (std::find(keys.begin(), keys.end(), name) == keys.end()) {
-        std::string hint = suggest(name, keys);
-        if (hint.empty()) hint = fmt::format("known keys: {}", fmt::join(keys, ", "));
+        std::string hint = root_key_hint(name);
+        if (hint.empty()) hint = suggest_or_list(name, keys, "known keys");
         fail(key.source(), fmt::format("unknown key '{}' in {}", printable(name), where), hint);
       }
     }
@@ -104,7 +104,11 @@ class TomlReader {
   }
 
   const toml::table& as_table(const toml::node& node, const std::string& what) const {
-    if (!node.is_table()) fail(node.source(), what + " must be a table");
+    if (!node.is_table())
+      fail(node.source(), what + " must be a table",
+           node.is_array_of_tables() && what.starts_with('[')
+               ? fmt::format("there is only one: write {} with single brackets", what)
+               : "");
     return *node.as_table();
   }
 
@@ -163,7 +167,8 @@ class TomlReader {
     std::vector<Entry> result;
     for (const auto& [key, value] : as_table(node, what)) {
       result.emplace_back(key_text(key),
-                          text(value, fmt::format("'{}'", printable(std::string(key.str())))));
+                          text(value, fmt::format("'{}'", printable(std::string(key.str()))),
+                               root_key_hint(key.str())));
     }
     std::sort(result.begin(), result.end(), [](const Entry& a, const Entry& b) {
       return std::pair(a.first.where.line, a.first.where.column) <
@@ -183,7 +188,10 @@ class TomlReader {
     const toml::node* node = root.get(key);
     if (node == nullptr) return;
     const std::string what = fmt::format("[[{}]]", key);
-    for (const toml::node& item : as_array(*node, what)) read(as_table(item, what), what);
+    if (!node->is_array())
+      fail(node->source(), what + " must be an array of tables",
+           fmt::format("there may be several: write {} with double brackets", what));
+    for (const toml::node& item : *node->as_array()) read(as_table(item, what), what);
   }
 
   std::string file_;

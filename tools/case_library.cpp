@@ -1,7 +1,6 @@
 #include "tools/case_library.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -55,10 +54,8 @@ std::vector<fs::path> bundled_cases(const std::string& tag) {
     if (std::ranges::find(tags, tag) != tags.end()) result.push_back(path);
   }
   if (!result.empty()) return result;
-  std::string hint = suggest(tag, {known.begin(), known.end()});
-  if (hint.empty()) hint = fmt::format("known: {}", fmt::join(known, ", "));
   throw CaseError({"--tag"}, fmt::format("no bundled case has the tag '{}'", printable(tag)), {},
-                  hint);
+                  suggest_or_list(tag, {known.begin(), known.end()}));
 }
 
 std::vector<CaseFile> tagged_cases(const std::string& tag) {
@@ -67,14 +64,36 @@ std::vector<CaseFile> tagged_cases(const std::string& tag) {
   return result;
 }
 
+/// A path that leads nowhere: perhaps a bundled case was meant, or a file beside it.
+[[noreturn]] static void no_such_file(const fs::path& path) {
+  std::string hint;
+  for (const fs::path& bundled : bundled_cases()) {
+    if (path == bundled.filename())
+      hint = fmt::format("the bundled case is called '{}', without the ending",
+                         printable(bundled.stem().string()));
+  }
+  std::vector<std::string> beside;
+  std::error_code problem;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, problem)) {
+    if (entry.path().extension() == ".toml") beside.push_back(entry.path().filename().string());
+  }
+  std::sort(beside.begin(), beside.end());
+  if (hint.empty()) hint = suggest(path.filename().string(), beside);
+  throw CaseError({path.string()}, "the case file does not exist or cannot be read", {}, hint);
+}
+
 CaseFile load_case(const std::string& argument) {
   if (argument == "-") {
     const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
     return parse_case(text, "<standard input>");
   }
-  if (argument.find('/') != std::string::npos || argument.ends_with(".toml"))
-    return read_case(argument);
   std::vector<std::string> names;
+  if (argument.find('/') != std::string::npos || argument.ends_with(".toml")) {
+    std::error_code ignored;
+    if (!fs::exists(argument, ignored)) no_such_file(argument);
+    return read_case(argument);
+  }
   for (const fs::path& path : bundled_cases()) {
     if (path.stem() == argument) return read_case(path);
     names.push_back(path.stem().string());

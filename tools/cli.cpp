@@ -1,31 +1,12 @@
 #include "tools/cli.hpp"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 
-#include "tools/errors.hpp"
+#include "tools/scene_values.hpp"
 
 namespace casimir::tools {
 
-ParameterValues Common::parameter_values() const {
-  ParameterValues result;
-  for (const std::string& text : params) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos) {
-      throw UsageError(
-          fmt::format("--param '{}': expected NAME=VALUE, such as --param r=1/2", printable(text)));
-    }
-    const Text name{text.substr(0, equals), {"--param", 1, 1}, text};
-    const Text value{text.substr(equals + 1), {"--param", 1, static_cast<int>(equals) + 2}, text};
-    for (const auto& [other, ignored] : result) {
-      if (other.value == name.value)
-        throw UsageError(fmt::format("--param {} is given twice", printable(name.value)));
-    }
-    result.emplace_back(name, value);
-  }
-  return result;
-}
+ParameterValues Common::parameter_values() const { return named_values("--param", params); }
 
 void add_common(CLI::App& command, Common& common) {
   command.add_flag("--json", common.json, "One JSON document on standard output and nothing else");

@@ -43,6 +43,13 @@ Row conserve_scene(const Model& model, const Scene& scene, const Method& method,
   const SceneRun run = prepare(model, scene, code);
   Settings settings = settings_for(options.run, run, kTolerance);
   settings.give_up = options.give_up;
+  if (options.progress) {
+    settings.progress = [&options, duration = std::abs(settings.duration),
+                         calls = 0U](double t) mutable {
+      constexpr unsigned kBetween = 256;  // a step of a small system is faster than a clock
+      if (++calls % kBetween == 0 && duration > 0) options.progress(std::abs(t) / duration);
+    };
+  }
   if (scene.extreme == "stiff" && settings.max_steps == 0) settings.max_steps = kMostStiffSteps;
   DriftRecord drift(std::string(method.name), run.specialisation.invariant_names,
                     settings.duration);

@@ -15,6 +15,8 @@ struct ConserveOptions {
   RunOptions run = {};
   SceneOptions code = {};
   double bound = 1e-9;  ///< largest drift allowed
+  /// Told now and then which share of the run is done, from 0 to 1.
+  std::function<void(double share)> progress = {};
   std::function<bool()> give_up = {};
 };
 

@@ -118,15 +118,18 @@ int say_if_it_stopped(const DigitsReport& report) {
 int integrate_with_digits(const DigitsRequest& request) {
   check(request);
   const auto start = Clock::now();
-  const Model model = in_variables(
-      request.kept.model_of(load_case(request.case_name), request.common.parameter_values()),
-      request.in);
+  const Model model =
+      in_variables(request.kept.model_of(request.start.in(load_case(request.case_name)),
+                                         request.common.parameter_values()),
+                   request.in);
   SpecialiseOptions what;
   what.fold_parameters = request.how.fold_parameters;
   what.keep_parameters = request.how.keep_parameters;
   what.observe = request.how.observe;
   what.jacobian = false;
-  const Specialisation s = specialise(model, model.scene(request.common.scene), what);
+  const Scene& scene = model.scene(request.common.scene);
+  const Specialisation s = specialise(model, scene, what);
+  if (!request.run.duration) require_duration(scene);
   const double generated = seconds_since(start);
   const auto begin = Clock::now();
   const AgreedRun agreed = run(request, s);

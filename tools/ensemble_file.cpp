@@ -183,7 +183,7 @@ std::vector<std::string> header(Fields& fields, const std::vector<std::string>& 
       throw name.error(fmt::format("there is no variable or parameter '{}'; the first line names "
                                    "the columns",
                                    printable(name.value)),
-                       0, suggest(name.value, known));
+                       0, suggest_or_list(name.value, known));
     }
     if (std::find(columns.begin(), columns.end(), name.value) != columns.end())
       throw name.error(fmt::format("there are two columns '{}'", name.value));

@@ -224,8 +224,8 @@ EnsembleFile file_of(const Model& model, const std::string& path) {
 }  // namespace
 
 int integrate_ensemble(const EnsembleRequest& request) {
-  const Model model =
-      request.kept.model_of(load_case(request.case_name), request.common.parameter_values());
+  const Model model = request.kept.model_of(request.start.in(load_case(request.case_name)),
+                                            request.common.parameter_values());
   const Scene& scene = model.scene(request.common.scene);
   const Method& method = method_named(request.method);
   const EnsembleFile file = file_of(model, request.file);

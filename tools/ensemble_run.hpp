@@ -5,6 +5,7 @@
 #include "tools/cli.hpp"
 #include "tools/kept_parameters.hpp"
 #include "tools/run_options.hpp"
+#include "tools/scene_values.hpp"
 
 namespace casimir::tools {
 
@@ -13,6 +14,7 @@ struct EnsembleRequest {
   const Common& common;
   const RunOptions& run;
   const KeptParameters& kept;
+  const OtherStart& start;
   std::string case_name, method, file, output;
   SceneOptions how;
   int jobs = 0;

@@ -30,8 +30,10 @@ void send(int descriptor, const std::string& line) {
 }
 
 /// The worker: one line of JSON for each proof. It dies with its parent and on Ctrl-C.
-[[noreturn]] void work(int descriptor, const Model& model, const Candidates& candidates) {
+[[noreturn]] void work(int descriptor, const Model& model, const Candidates& candidates,
+                       pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(kEnvironment);  // it had ended before
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
   try {
@@ -83,11 +85,12 @@ std::vector<Proof> prove_within(double seconds, const Model& model, const Candid
   int ends[2];
   if (pipe(ends) != 0)
     throw SystemError(fmt::format("cannot start a worker: {}", std::strerror(errno)));
+  const pid_t parent = getpid();
   const pid_t worker = fork();
   if (worker < 0) throw SystemError(fmt::format("cannot start a worker: {}", std::strerror(errno)));
   if (worker == 0) {
     close(ends[0]);
-    work(ends[1], model, candidates);
+    work(ends[1], model, candidates, parent);
   }
   close(ends[1]);
   std::size_t done = 0;

@@ -21,6 +21,9 @@ class Progress {
   /// A new piece of work, "kovalevskaya: measuring".
   void begin(const std::string& what);
 
+  /// What of it is being done; the estimate stays that of the whole.
+  void name(const std::string& what) { what_ = what; }
+
   /// Which share of it is done, from 0 to 1. Draws ten times a second at most.
   void show(double share);
 

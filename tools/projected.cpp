@@ -28,7 +28,7 @@ std::vector<std::string> set_projection(const RunOptions& options, const Model& 
   const std::vector<std::string>& known = s.invariant_names;
   for (const std::string& name : options.project_onto) {
     if (std::ranges::count(known, name)) continue;
-    const std::string hint = suggest(name, known);
+    const std::string hint = suggest_or_list(name, known);
     throw UsageError(fmt::format("--project-onto: no invariant of this run is called '{}'{}",
                                  printable(name), hint.empty() ? "" : "; " + hint));
   }

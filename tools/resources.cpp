@@ -1,7 +1,6 @@
 #include "tools/resources.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
@@ -51,10 +50,8 @@ void set_limit(Limits& limits, const std::string& text) {
     limits.*limit.value = value;
     return;
   }
-  std::string hint = suggest(name, names);
-  if (hint.empty()) hint = fmt::format("known: {}", fmt::join(names, ", "));
-  throw UsageError(
-      fmt::format("--limit '{}': there is no such limit\n  hint: {}", printable(text), hint));
+  throw UsageError(fmt::format("--limit '{}': there is no such limit\n  hint: {}", printable(text),
+                               suggest_or_list(name, names)));
 }
 
 }  // namespace

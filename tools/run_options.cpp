@@ -44,8 +44,9 @@ void add_projection(CLI::App& command, RunOptions& options) {
 
 Settings settings_for(const RunOptions& options, const SceneRun& run, double default_tolerance) {
   Settings settings;
-  settings.duration = run.duration;
-  if (options.duration) {
+  if (!options.duration) {
+    settings.duration = duration_of(run);
+  } else {
     const std::optional<GiNaC::numeric> value =
         real_decimal(parse_constant({*options.duration, {"--duration", 1, 1}, *options.duration}));
     if (!value) {
@@ -77,9 +78,8 @@ const Method& method_named(const std::string& name) {
   if (const Method* method = find_method(name)) return *method;
   std::vector<std::string> known = method_names();
   known.emplace_back("auto");
-  const std::string hint = suggest(name, known);
-  throw UsageError(fmt::format("there is no method '{}'; {}", printable(name),
-                               hint.empty() ? "known: " + method_list() : hint));
+  throw UsageError(
+      fmt::format("there is no method '{}'; {}", printable(name), suggest_or_list(name, known)));
 }
 
 std::string method_list() { return fmt::format("{}", fmt::join(method_names(), ", ")); }

@@ -27,6 +27,12 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+CaseError without_duration(const Location& where, const std::string& scene) {
+  return CaseError(where, fmt::format("the scene '{}' has no duration", printable(scene)), {},
+                   "add a line such as duration = \"100\" to it, or give --duration T to a command "
+                   "that has it");
+}
+
 }  // namespace
 
 std::vector<cln::cl_F> start_values(const Specialisation& specialisation, int digits) {
@@ -59,9 +65,19 @@ SceneRun prepare(const Model& model, const Scene& scene, const SceneOptions& opt
     run.parameter_rounding.push_back(remainder(values[next], run.parameters.back()));
   }
   run.duration = rounded(values[next]);
+  run.where = scene.where;
   run.split_source = split_source(model, scene, s.states, s.parameters, run.no_split);
   run.generate_seconds = seconds_since(start);
   return run;
+}
+
+double duration_of(const SceneRun& run) {
+  if (!run.specialisation.has_duration) throw without_duration(run.where, run.specialisation.scene);
+  return run.duration;
+}
+
+void require_duration(const Scene& scene) {
+  if (!scene.duration) throw without_duration(scene.where, scene.name);
 }
 
 InvariantTerms SceneRun::invariant_terms() const {

@@ -23,7 +23,8 @@ struct SceneRun {
   std::vector<double> rounding;    ///< what rounding them to double left out
   std::vector<double> parameters;  ///< at run time; empty when folded
   std::vector<double> parameter_rounding;
-  double duration = 0;
+  double duration = 0;                      ///< see `duration_of`
+  Location where;                           ///< of the scene in its file
   std::optional<SplitSource> split_source;  ///< of a method that splits the Hamiltonian
   std::string no_split;                     ///< why there is none
 
@@ -40,6 +41,11 @@ struct SceneOptions {
 
 /// Specialises a scene and rounds its data. \throws ModelError  for data outside double's range.
 SceneRun prepare(const Model& model, const Scene& scene, const SceneOptions& options = {});
+
+/// The duration of a scene. \throws CaseError  where the scene gives none.
+double duration_of(const SceneRun& run);
+/// \throws CaseError  where the scene gives no duration.
+void require_duration(const Scene& scene);
 
 /// The module of a scene for one method: from the cache, or compiled. Modules of methods that need
 /// no kernel of ours are one and the same.

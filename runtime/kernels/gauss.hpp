@@ -10,7 +10,7 @@ namespace gauss {
 /// The local error is about this constant times (defect / size)^(2s / (s + 1)); measured on tops,
 /// so that the error after a hundred turns is 1 to 30 times the tolerance.
 template <int s>
-constexpr double kCalibration = s == 2   ? 1
+constexpr double kCalibration = s <= 2   ? 1
                                 : s == 3 ? 0.25
                                 : s == 4 ? 0.1
                                 : s == 6 ? 0.04
@@ -18,12 +18,13 @@ constexpr double kCalibration = s == 2   ? 1
 
 /// One step of the Gauss collocation method with s stages.
 ///
-/// Order 2s, A-stable, symmetric, symplectic; keeps every quadratic invariant, in floating point
-/// to rounding that does not accumulate one way: the products L_j = h b_j f_j are the unknowns,
-/// Y_i = x + sum mu_ij L_j with mu_ij + mu_ji = 1 exactly, the stage equations are iterated until
-/// rounding stops them (Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231), and the state is
-/// summed with a carry. Fixed-point iteration from the extrapolated last step; where that does not
-/// contract, simplified Newton iteration with the caller's linear solver, if there is one.
+/// With one stage it is the implicit midpoint rule. Order 2s, A-stable, symmetric, symplectic;
+/// keeps every quadratic invariant, in floating point to rounding that does not accumulate one way:
+/// the products L_j = h b_j f_j are the unknowns, Y_i = x + sum mu_ij L_j with mu_ij + mu_ji = 1
+/// exactly, the stage equations are iterated until rounding stops them (Hairer, McLachlan,
+/// Razakarivony, BIT 48 (2008) 231), and the state is summed with a carry. Fixed-point iteration
+/// from the extrapolated last step; where that does not contract, simplified Newton iteration with
+/// the caller's linear solver, if there is one.
 ///
 /// The error is estimated by the defect e = h |p'(1) - f(x1)| of the collocation polynomial, of
 /// order s + 1; its power 2s / (s + 1) has the order of the error a unit of time. Pessimistic on
@@ -81,7 +82,7 @@ struct Step {
   static void scaled_weights(double step, double* hb) {
     double rest = step;
     for (int j = 1; j + 1 < s; ++j) rest -= hb[j] = step * Table::b[j];
-    hb[0] = hb[s - 1] = rest / 2;
+    hb[0] = hb[s - 1] = s == 1 ? rest : rest / 2;
   }
 
   /// Y_i, the argument of stage i.
@@ -119,8 +120,10 @@ struct Step {
       level = 0;
       CASIMIR_UNROLL
       for (int i = 0; i < n; ++i) {
-        const bool smaller = delta[i] < best[i];
-        progress |= smaller && delta[i] != 0;
+        // A correction of zero says nothing: with one stage, those of a position and of its
+        // momentum vanish in turn.
+        const bool smaller = delta[i] < best[i] && delta[i] != 0;
+        progress |= smaller;
         grows |= delta[i] > 1e3 * best[i] && delta[i] > noise[i];
         best[i] = smaller ? delta[i] : best[i];
         level = larger(level, delta[i] * scale[i]);

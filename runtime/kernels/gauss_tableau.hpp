@@ -12,6 +12,14 @@ namespace casimir_kernel::gauss {
 template <int s>
 struct Tableau;
 
+/// The implicit midpoint rule.
+template <>
+struct Tableau<1> {
+  static constexpr double c[1] = {0.5};
+  static constexpr double b[1] = {1};
+  static constexpr double mu[1] = {};  // none is below the diagonal
+};
+
 template <>
 struct Tableau<2> {
   static constexpr double c[2] = {0.2113248654051871177, 0.7886751345948128823};

@@ -55,7 +55,7 @@ std::vector<int> Finder::weights() const {
     if (place == names.end()) place = std::find(names.begin(), names.end(), "(" + name.value + ")");
     if (place == names.end()) {
       throw name.error(fmt::format("'{}' is not a variable of the ansatz", printable(name.value)),
-                       0, suggest(name.value, names));
+                       0, suggest_or_list(name.value, names));
     }
     int value = 0;
     const char* end = weight.value.data() + weight.value.size();

@@ -168,6 +168,60 @@ TEST(Tableau, EstimatorsHaveOrderFiveAndThree) {
   EXPECT_GT(defects(e3)[4], 1e-3);
 }
 
+Rows dopri5_rows() {
+  using namespace casimir_kernel::dopri5;
+  return {{2, {{1, a21}}},
+          {3, {{1, a31}, {2, a32}}},
+          {4, {{1, a41}, {2, a42}, {3, a43}}},
+          {5, {{1, a51}, {2, a52}, {3, a53}, {4, a54}}},
+          {6, {{1, a61}, {2, a62}, {3, a63}, {4, a64}, {5, a65}}},
+          {7, {{1, b1}, {3, b3}, {4, b4}, {5, b5}, {6, b6}}}};
+}
+
+TEST(Tableau, Dopri5IsAPairOfOrderFiveAndFour) {
+  using namespace casimir_kernel::dopri5;
+  std::map<int, double> weights = {{1, b1}, {3, b3}, {4, b4}, {5, b5}, {6, b6}};
+  const std::vector<double> fifth = order_defects(dopri5_rows(), weights, 7, 6);
+  for (std::size_t order = 1; order <= 5; ++order) EXPECT_LT(fifth[order], 1e-14) << order;
+  EXPECT_GT(fifth[6], 1e-5);
+  for (const auto& [j, e] :
+       std::map<int, double>{{1, e1}, {3, e3}, {4, e4}, {5, e5}, {6, e6}, {7, e7}})
+    weights[j] -= e;
+  const std::vector<double> fourth = order_defects(dopri5_rows(), weights, 7, 5);
+  for (std::size_t order = 1; order <= 4; ++order) EXPECT_LT(fourth[order], 1e-14) << order;
+  EXPECT_GT(fourth[5], 1e-5);
+  for (const auto& [i, node] : std::map<int, double>{{2, c2}, {3, c3}, {4, c4}, {5, c5}}) {
+    double sum = 0;
+    for (const auto& [j, a] : dopri5_rows().at(i)) sum += a;
+    EXPECT_NEAR(sum, node, 1e-14) << i;
+  }
+}
+
+// The weights of the extension at any place between the ends are a method of order 4 over a step of
+// that length: at s the sum over a tree of q nodes is s^q / density.
+TEST(Tableau, TheExtensionOfDopri5HasOrderFour) {
+  using namespace casimir_kernel::dopri5;
+  const std::map<int, double> end = {{1, b1}, {3, b3}, {4, b4}, {5, b5}, {6, b6}};
+  const std::map<int, double> inner = {{1, d1}, {3, d3}, {4, d4}, {5, d5}, {6, d6}, {7, d7}};
+  for (const double s : {0.25, 0.5, 0.9}) {
+    const double r = 1 - s;
+    // chord + r (bend + s (twist + r inner)), bend = k1 - chord, twist = chord - k7 - bend
+    std::map<int, double> weights;
+    const double of_chord = s * (1 - r + r * s * 2);
+    for (const auto& [j, b] : end) weights[j] += of_chord * b;
+    weights[1] += s * r * (1 - s);
+    weights[7] -= s * s * r;
+    for (const auto& [j, d] : inner) weights[j] += s * s * r * r * d;
+    Rows shorter = dopri5_rows();  // in units of the part of the step
+    for (auto& [i, row] : shorter)
+      for (auto& [j, a] : row) a /= s;
+    for (auto& [j, weight] : weights) weight /= s;
+    const std::vector<double> defects = order_defects(shorter, weights, 7, 5);
+    for (std::size_t order = 1; order <= 4; ++order) EXPECT_LT(defects[order], 1e-12) << s;
+    EXPECT_GT(defects[5], 1e-6) << s;
+  }
+}
+
 template <int s>
 void check_gauss() {
   using Table = casimir_kernel::gauss::Tableau<s>;
@@ -192,6 +246,7 @@ void check_gauss() {
     }
 }
 TEST(Tableau, GaussIsSymplecticCollocationOfOrderTwoS) {
+  check_gauss<1>();
   check_gauss<2>();
   check_gauss<3>();
   check_gauss<4>();

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <boost/math/special_functions/jacobi_elliptic.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -43,7 +45,12 @@ double fixed_step_error(const std::string& method, double step, double duration,
 
 /// Steps whose errors lie well between rounding and the size of the solution.
 double coarse_step(int order) {
-  return order == 4 ? 0.1 : order == 5 ? 0.2 : order == 6 ? 0.3 : order < 10 ? 0.5 : 2;
+  return order == 2   ? 0.02
+         : order == 4 ? 0.1
+         : order == 5 ? 0.2
+         : order == 6 ? 0.3
+         : order < 10 ? 0.5
+                      : 2;
 }
 
 class Order : public testing::TestWithParam<std::string> {
@@ -86,6 +93,7 @@ TEST_P(Order, BackwardInTime) {
 
 TEST_P(Order, ToleranceIsProportionalToError) {
   for (const double tolerance : {1e-5, 1e-8, 1e-11}) {
+    if (method_.order == 2 && tolerance < 1e-8) continue;  // a hundred million evaluations
     Settings settings;
     settings.duration = 20;
     settings.rtol = settings.atol = tolerance;
@@ -96,9 +104,10 @@ TEST_P(Order, ToleranceIsProportionalToError) {
   }
 }
 
-// The dense output of dop853 has order 7; implicit methods take a shorter step of their own order.
+// The dense output of dop853 has order 7 and that of dopri5 order 4; implicit methods take a
+// shorter step of their own order.
 TEST_P(Order, DenseOutput) {
-  const int order = GetParam() == "dop853" ? 7 : method_.order;
+  const int order = GetParam() == "dop853" ? 7 : GetParam() == "dopri5" ? 4 : method_.order;
   const auto worst = [&](double h) {
     Settings settings;
     settings.duration = 4;
@@ -119,6 +128,42 @@ TEST_P(Order, DenseOutput) {
 
 INSTANTIATE_TEST_SUITE_P(Runtime, Order, testing::ValuesIn(own_methods()),
                          [](const auto& one) { return test_name(one.param); });
+
+// Two programs of one tableau take the same steps to rounding.
+TEST(Dopri5, IsThatOfBoost) {
+  constexpr double kStep = 0.1;
+  constexpr int kSteps = 200;
+  using State = std::array<double, 3>;
+  const std::vector<double> start = euler_solution(0);
+  State x{start[0], start[1], start[2]};
+  boost::numeric::odeint::runge_kutta_dopri5<State> stepper;
+  const auto rhs = [](const State& y, State& dy, double t) {
+    Euler::rhs(t, y.data(), nullptr, dy.data());
+  };
+  for (int i = 0; i < kSteps; ++i) stepper.do_step(rhs, x, i * kStep, kStep);
+  const auto at_end = [&](const char* method) {
+    Settings settings;
+    settings.duration = kSteps * kStep;
+    settings.fixed_step = kStep;
+    return distance(run<Euler>(method, settings, start).state, {x[0], x[1], x[2]});
+  };
+  EXPECT_LT(at_end("dopri5"), 1e-13);
+  EXPECT_GT(at_end("dop853"), 1e-10);  // the twin: another method
+}
+
+// x1 = x0 + h f((x0 + x1)/2) on the oscillator is a rotation by 2 atan(h/2), whatever the step.
+TEST(Midpoint, TurnsTheOscillatorByAKnownAngle) {
+  for (const double h : {0.01, 0.1, 0.5}) {
+    Settings settings;
+    settings.duration = 100 * h;
+    settings.fixed_step = h;
+    const Trajectory orbit = run<Oscillator>("midpoint", settings, {1, 0});
+    ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
+    const double angle = 100 * 2 * std::atan(h / 2);
+    EXPECT_NEAR(orbit.state[0], std::cos(angle), 1e-13) << h;
+    EXPECT_NEAR(orbit.state[1], -std::sin(angle), 1e-13) << h;
+  }
+}
 
 // An outside library, by its own step control, must come to the same state.
 class Outside : public testing::TestWithParam<const char*> {};

@@ -5,6 +5,7 @@
 
 #include "runtime/integrate.hpp"
 #include "runtime/kernels/dop853.hpp"
+#include "runtime/kernels/dopri5.hpp"
 #include "runtime/kernels/gauss.hpp"
 #include "runtime/kernels/radau.hpp"
 #include "runtime/program.hpp"
@@ -125,6 +126,8 @@ Module module_of(void (*integrate)(const casimir_run*, double*, casimir_outcome*
 
 template <class System>
 auto* const dop853 = &casimir_kernel::dop853::integrate<System>;
+template <class System>
+auto* const dopri5 = &casimir_kernel::dopri5::integrate<System>;
 template <class System, int stages>
 auto* const gauss = &casimir_kernel::gauss::integrate<System, stages>;
 template <class System, int stages>
@@ -133,14 +136,16 @@ auto* const radau = &casimir_kernel::radau::integrate<System, stages>;
 /// The kernel of this name for a system.
 template <class System>
 auto kernel(const std::string& name) {
-  return name == "dop853"    ? dop853<System>
-         : name == "gauss4"  ? gauss<System, 2>
-         : name == "gauss6"  ? gauss<System, 3>
-         : name == "gauss8"  ? gauss<System, 4>
-         : name == "gauss12" ? gauss<System, 6>
-         : name == "radau5"  ? radau<System, 3>
-         : name == "radau9"  ? radau<System, 5>
-                             : gauss<System, 8>;
+  return name == "dop853"     ? dop853<System>
+         : name == "dopri5"   ? dopri5<System>
+         : name == "midpoint" ? gauss<System, 1>
+         : name == "gauss4"   ? gauss<System, 2>
+         : name == "gauss6"   ? gauss<System, 3>
+         : name == "gauss8"   ? gauss<System, 4>
+         : name == "gauss12"  ? gauss<System, 6>
+         : name == "radau5"   ? radau<System, 3>
+         : name == "radau9"   ? radau<System, 5>
+                              : gauss<System, 8>;
 }
 
 /// Integrates a hand-written system by a method of that name, own or outside.

@@ -130,7 +130,7 @@ TEST(Integrate, CtrlCLeavesTheStatesSoFarInTheFile) {
   std::this_thread::sleep_for(std::chrono::milliseconds(1000));
   kill(child, SIGINT);
   const Outcome outcome = finish(child, folder);
-  EXPECT_EQ(outcome.status, 5) << outcome.err;
+  EXPECT_EQ(outcome.status, 130) << outcome.err;
   EXPECT_EQ(outcome.json().at("status"), "stopped");
   const std::string text = file_text(folder.path() / "states.csv");
   EXPECT_GT(std::count(text.begin(), text.end(), '\n'), 10);

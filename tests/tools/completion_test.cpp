@@ -82,7 +82,7 @@ TEST(Completion, ValuesFollowFromTheOptionAndTheCase) {
 TEST(Completion, ListsGoOnBehindTheComma) {
   EXPECT_EQ(offered({"generate", "euler", "--with", "rhs,j"}), Words{"rhs,jacobian"});
   EXPECT_EQ(offered({"generate", "euler", "--with", "rhs,r"}), Words{});
-  EXPECT_EQ(offered({"bench", "--method", "taylor,dop"}), Words{"taylor,dop853"});
+  EXPECT_EQ(offered({"bench", "--method", "taylor,dop8"}), Words{"taylor,dop853"});
 }
 
 TEST(Completion, ACaseThatCannotBeReadOffersNothing) {
@@ -158,7 +158,7 @@ void expect_completed_commands(Shell& shell) {
   EXPECT_TRUE(shell.shows("(steklov-euler-poisson, "));
   shell.type("casimir integr\teuler-ang\t--sce\tfrom\t--durat\t1\n");
   EXPECT_TRUE(shell.shows(", scene 'from-quaternions'"));
-  shell.type("casimir integrate euler-angles --scene=from\t--method=dop\t--duration 1\n");
+  shell.type("casimir integrate euler-angles --scene=from\t--method=dop8\t--duration 1\n");
   EXPECT_TRUE(shell.shows(", scene 'from-quaternions', dop853"));
   shell.type("casimir verify kovalevskaya --para\tr\t1/2 --integral H --quiet; echo status-$?\n");
   EXPECT_TRUE(shell.shows("status-0"));

@@ -9,12 +9,14 @@
 #include "tools/bench/contest.hpp"
 #include "tools/bench/report.hpp"
 #include "tools/case_library.hpp"
+#include "tools/choices.hpp"
 #include "tools/cli.hpp"
 #include "tools/errors.hpp"
 #include "tools/kept_parameters.hpp"
 #include "tools/output.hpp"
 #include "tools/progress.hpp"
 #include "tools/scene_run.hpp"
+#include "tools/scene_values.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -22,6 +24,7 @@ namespace {
 struct Options {
   Common common;
   KeptParameters kept;
+  OtherStart start;
   std::vector<std::string> case_names, outputs;
   std::string in, tag;
   std::string plot, format = "text";
@@ -43,8 +46,8 @@ Contest not_held(const std::string& name, const std::string& scene, const std::s
 }
 
 Contest hold(const CaseFile& file, const Options& options, Progress& progress) {
-  const Model model =
-      in_variables(options.kept.model_of(file, options.common.parameter_values()), options.in);
+  const Model model = in_variables(
+      options.kept.model_of(options.start.in(file), options.common.parameter_values()), options.in);
   const Scene& scene = model.scene(options.common.scene);
   ContestOptions what = options.contest;
   what.code = options.kept.in<SceneOptions>();
@@ -205,6 +208,7 @@ void register_bench(CLI::App& program, Action& action) {
       "changes * tolerance. The latter, by a method of our own, makes the exit status 1.");
   add_common(*command, options->common);
   add_in(*command, options->in);
+  options->start.add_to(*command);
   options->kept.add_to(*command);
   command->add_option("CASE", options->case_names,
                       "Bundled cases, case files, or - for standard input");
@@ -219,7 +223,7 @@ void register_bench(CLI::App& program, Action& action) {
       ->add_option("--plot", options->plot, "Draw error against run time to this .svg or .png file")
       ->type_name("FILE");
   command->add_option("--format", options->format, "text (default), markdown or json")
-      ->check(CLI::IsMember({"text", "markdown", "json"}))
+      ->check(one_of({"text", "markdown", "json"}))
       ->type_name("FORMAT");
   command->callback([options, &action] { action = [options] { return bench(*options); }; });
 }

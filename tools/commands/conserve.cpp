@@ -13,6 +13,8 @@
 #include "tools/errors.hpp"
 #include "tools/kept_parameters.hpp"
 #include "tools/output.hpp"
+#include "tools/progress.hpp"
+#include "tools/scene_values.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -21,6 +23,7 @@ struct Options {
   Common common;
   RunOptions run;
   KeptParameters kept;
+  OtherStart start;
   std::string case_name, output, plot;
   std::string in, tag;
   std::vector<std::string> methods = conserving_methods();
@@ -34,10 +37,17 @@ struct Picture {
   std::vector<DriftRecord> drifts;
 };
 
+/// The bar over all that is run: `part` of it is one case, which begins at `before`.
+struct Share {
+  Progress& bar;
+  double before = 0, part = 1;
+};
+
 void conserve_case(const CaseFile& file, const Options& options,
-                   const std::function<bool()>& give_up, std::vector<Row>& rows, Picture* picture) {
-  const Model model =
-      in_variables(options.kept.model_of(file, options.common.parameter_values()), options.in);
+                   const std::function<bool()>& give_up, const Share& share, std::vector<Row>& rows,
+                   Picture* picture) {
+  const Model model = in_variables(
+      options.kept.model_of(options.start.in(file), options.common.parameter_values()), options.in);
   std::vector<const Scene*> scenes;
   if (options.common.scene_given)
     scenes.push_back(&model.scene(options.common.scene));
@@ -46,15 +56,45 @@ void conserve_case(const CaseFile& file, const Options& options,
   if (scenes.empty() && !options.all) model.scene("default");  // throws: there is none
   const Scene* drawn = picture ? &model.scene(options.common.scene) : nullptr;
   if (picture) picture->title = fmt::format("{}, scene {}", model.name, drawn->name);
-  const ConserveOptions what{.run = options.run,
-                             .code = options.kept.in<SceneOptions>(),
-                             .bound = options.bound,
-                             .give_up = give_up};
+  ConserveOptions what{.run = options.run,
+                       .code = options.kept.in<SceneOptions>(),
+                       .bound = options.bound,
+                       .give_up = give_up};
+  const double runs = static_cast<double>(scenes.size() * options.methods.size());
+  double done = 0;
+  if (share.bar.visible())
+    what.progress = [&](double of_run) {
+      share.bar.show(share.before + share.part * (done + std::min(of_run, 1.)) / runs);
+    };
   for (const Scene* scene : scenes) {
-    for (const std::string& method : options.methods)
+    for (const std::string& method : options.methods) {
+      share.bar.name(fmt::format("{}, {}, {}", model.name, printable(scene->name), method));
+      share.bar.show(share.before + share.part * done / runs);
       rows.push_back(conserve_scene(model, *scene, method_named(method), what,
                                     scene == drawn ? &picture->drifts : nullptr));
+      ++done;
+    }
   }
+}
+
+std::vector<Row> conserve_cases(const Options& options, Picture& picture) {
+  const std::function<bool()> give_up = time_limit(options.common.time_limit);
+  std::vector<Row> rows;
+  Progress bar(!options.common.quiet);
+  bar.begin("conserve");
+  if (!options.all) {
+    conserve_case(load_case(options.case_name), options, give_up, {bar}, rows,
+                  options.plot.empty() ? nullptr : &picture);
+    return rows;
+  }
+  const auto paths = bundled_cases(options.tag);
+  const double part = 1 / static_cast<double>(paths.size());
+  double before = 0;
+  for (const auto& path : paths) {
+    conserve_case(read_case(path), options, give_up, {bar, before, part}, rows, nullptr);
+    before += part;
+  }
+  return rows;
 }
 
 int conserve(const Options& options) {
@@ -63,16 +103,8 @@ int conserve(const Options& options) {
   if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
   if (options.all && !options.plot.empty()) throw UsageError("--plot needs a CASE");
   if (!options.plot.empty()) check_plot_name(options.plot);
-  const std::function<bool()> give_up = time_limit(options.common.time_limit);
-  std::vector<Row> rows;
   Picture picture;
-  if (options.all) {
-    for (const auto& path : bundled_cases(options.tag))
-      conserve_case(read_case(path), options, give_up, rows, nullptr);
-  } else {
-    conserve_case(load_case(options.case_name), options, give_up, rows,
-                  options.plot.empty() ? nullptr : &picture);
-  }
+  const std::vector<Row> rows = conserve_cases(options, picture);
   if (!options.output.empty()) {
     OutputFile file(options.output);
     write_csv(file.stream(), rows);
@@ -109,6 +141,7 @@ void register_conserve(CLI::App& program, Action& action) {
       "conserve", "Check the drift of the Hamiltonian, Casimirs and integrals along every scene");
   add_common(*command, options->common);
   add_in(*command, options->in);
+  options->start.add_to(*command);
   command->add_option("CASE", options->case_name, kCaseText);
   add_all(*command, options->all, options->tag, "Every bundled case");
   command->add_option("--bound", options->bound, "Largest drift allowed (default 1e-9)")

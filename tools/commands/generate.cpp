@@ -9,11 +9,13 @@
 #include "codegen/emit_cpp.hpp"
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
+#include "tools/choices.hpp"
 #include "tools/cli.hpp"
 #include "tools/errors.hpp"
 #include "tools/generated_report.hpp"
 #include "tools/kept_parameters.hpp"
 #include "tools/output.hpp"
+#include "tools/scene_values.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -29,7 +31,9 @@ const std::map<std::string, Language> kLanguages = {{"c++", Language::cpp}, {"c"
 struct Options {
   Common common;
   KeptParameters kept;
+  OtherStart start;
   std::string case_name, output;
+  std::optional<std::string> name;
   std::string in;
   std::vector<std::string> with{"rhs", "invariants", "jacobian"};
   std::vector<std::string> observe;
@@ -43,13 +47,12 @@ const std::vector<std::string> kParts = {
 /// One of these names; the help has them in its text already, and shells that complete find them
 /// in the name of the check.
 template <class Value>
-CLI::Validator one_of(const std::map<std::string, Value>& values) {
+CLI::Validator key_of(const std::map<std::string, Value>& values) {
   std::vector<std::string> names;
   for (const auto& [name, ignored] : values) names.push_back(name);
   const auto check = [values, names](std::string& text) -> std::string {
     const auto found = values.find(CLI::detail::to_lower(text));
-    if (found == values.end())
-      return fmt::format("'{}' is none of {}", printable(text), fmt::join(names, ", "));
+    if (found == values.end()) return none_of_them(text, names);
     text = std::to_string(static_cast<int>(found->second));
     return "";
   };
@@ -59,9 +62,10 @@ CLI::Validator one_of(const std::map<std::string, Value>& values) {
 int generate(const Options& options) {
   if (options.output.empty() && options.common.json)
     throw UsageError("generate --json needs --output FILE for the header");
-  const Model model = in_variables(
-      options.kept.model_of(load_case(options.case_name), options.common.parameter_values()),
-      options.in);
+  const Model model =
+      in_variables(options.kept.model_of(options.start.in(load_case(options.case_name)),
+                                         options.common.parameter_values()),
+                   options.in);
   const auto wanted = [&](const char* name) {
     return std::find(options.with.begin(), options.with.end(), name) != options.with.end();
   };
@@ -76,7 +80,8 @@ int generate(const Options& options) {
   const std::string header =
       emit_header(specialisation, {.scalar = options.scalar,
                                    .sparse_jacobian = wanted("sparse-jacobian"),
-                                   .language = options.language});
+                                   .language = options.language,
+                                   .name = options.name});
   if (options.output.empty()) {
     std::cout << header;
     return kDone;
@@ -109,6 +114,7 @@ void register_generate(CLI::App& program, Action& action) {
       "generate", "Write a self-contained C++20 or C99 header specialised to a scene");
   add_common(*command, options->common);
   add_in(*command, options->in);
+  options->start.add_to(*command);
   add_case(*command, options->case_name);
   command
       ->add_option("-o,--output", options->output, "The header to write (default: standard output)")
@@ -120,7 +126,7 @@ void register_generate(CLI::App& program, Action& action) {
                    "variational, taylor (default: rhs,invariants,jacobian; rhs always)")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember(kParts).description("").name(CLI::IsMember(kParts).get_description()))
+      ->check(one_of(kParts).description("").name(one_of(kParts).get_description()))
       ->type_name("A,B");
   command
       ->add_option("--observe", options->observe,
@@ -131,7 +137,7 @@ void register_generate(CLI::App& program, Action& action) {
   command
       ->add_option("--scalar", options->scalar,
                    "Number type: double, float, long-double, float128 or template")
-      ->transform(one_of(kScalars))
+      ->transform(key_of(kScalars))
       ->type_name("TYPE");
   command
       ->add_option(
@@ -139,8 +145,13 @@ void register_generate(CLI::App& program, Action& action) {
           "c++ (default): C++20, with adapters for Boost.Odeint and SUNDIALS; c: C99, with "
           "the name of the case in front of every name, in double, float or long-double "
           "and without taylor")
-      ->transform(one_of(kLanguages))
+      ->transform(key_of(kLanguages))
       ->type_name("LANGUAGE");
+  command
+      ->add_option("--name", options->name,
+                   "Name of the namespace, the include guard and the prefix of C, so that several "
+                   "headers go into one program (default: that of the case)")
+      ->type_name("IDENT");
   options->kept.add_to(*command);
   command->callback([options, &action] { action = [options] { return generate(*options); }; });
 }

@@ -22,6 +22,7 @@
 #include "tools/run_options.hpp"
 #include "tools/run_report.hpp"
 #include "tools/scene_run.hpp"
+#include "tools/scene_values.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -32,6 +33,7 @@ struct Options {
   Common common;
   RunOptions run;
   KeptParameters kept;
+  OtherStart start;
   MotionOptions picture;
   std::string case_name, method = "auto", output, ensemble, in, as;
   std::vector<std::string> observe;
@@ -179,7 +181,8 @@ int report_stop(const SceneRun& run, const JudgedRun& judged) {
                            ended ? "cannot be trusted to" : "stopped at",
                            exact_text(trajectory.time), trajectory.reason,
                            ended ? "state" : "last good state", state, judged.advice);
-  return trajectory.status == Status::stopped && !judged.interrupted ? kEnvironment : kNotContinued;
+  if (judged.interrupted) return kInterrupted;
+  return trajectory.status == Status::stopped ? kEnvironment : kNotContinued;
 }
 
 SceneOptions scene_options(const Options& options) {
@@ -198,8 +201,8 @@ int integrate_members_of(const Options& options) {
   if (options.run.projects()) throw UsageError("--project does not go with --ensemble");
   if (options.every > 0)
     throw UsageError("--every does not go with --ensemble: the end of each member is written");
-  return integrate_ensemble({options.common, options.run, options.kept, options.case_name,
-                             options.method, options.ensemble, options.output,
+  return integrate_ensemble({options.common, options.run, options.kept, options.start,
+                             options.case_name, options.method, options.ensemble, options.output,
                              scene_options(options), options.jobs});
 }
 
@@ -229,15 +232,17 @@ int integrate_case(const Options& options) {
   if (options.digits) {
     if (!options.ensemble.empty()) throw UsageError("--digits does not go with --ensemble");
     if (options.run.projects()) throw UsageError("--project does not go with --digits");
-    return integrate_with_digits({options.common, options.run, options.kept, options.case_name,
-                                  options.in, options.as, options.method, options.output,
-                                  options.every, *options.digits, scene_options(options)});
+    return integrate_with_digits({options.common, options.run, options.kept, options.start,
+                                  options.case_name, options.in, options.as, options.method,
+                                  options.output, options.every, *options.digits,
+                                  scene_options(options)});
   }
   if (!options.ensemble.empty()) return integrate_members_of(options);
   if (options.jobs > 0) throw UsageError("--jobs needs --ensemble FILE.csv");
-  const Model model = in_variables(
-      options.kept.model_of(load_case(options.case_name), options.common.parameter_values()),
-      options.in);
+  const Model model =
+      in_variables(options.kept.model_of(options.start.in(load_case(options.case_name)),
+                                         options.common.parameter_values()),
+                   options.in);
   const Scene& scene = model.scene(options.common.scene);
   method_named(options.method);  // throws where there is none
   const SceneRun run = prepare(model, scene, scene_options(options));
@@ -277,6 +282,7 @@ void register_integrate(CLI::App& program, Action& action) {
       "integrate", "Compile the specialised module of a scene and integrate it");
   add_common(*command, options->common);
   add_in(*command, options->in);
+  options->start.add_to(*command);
   add_case(*command, options->case_name);
   command->add_option("--method", options->method, "A method, or auto: " + method_list())
       ->type_name("NAME");

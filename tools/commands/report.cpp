@@ -19,6 +19,7 @@
 #include "tools/proof_table.hpp"
 #include "tools/report/index.hpp"
 #include "tools/report/page.hpp"
+#include "tools/scene_values.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -28,6 +29,7 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   Common common;
+  OtherStart start;
   std::string case_name, output, in, tag;
   bool all = false;
   double budget = -1;  ///< negative: not given
@@ -54,6 +56,10 @@ std::vector<std::string> repeated_options(const Options& options) {
   std::vector<std::string> result;
   for (const std::string& value : options.common.params) {
     result.emplace_back("--param");
+    result.push_back(value);
+  }
+  for (const std::string& value : options.start.words()) {
+    result.emplace_back("--initial");
     result.push_back(value);
   }
   if (options.common.scene_given) result.insert(result.end(), {"--scene", options.common.scene});
@@ -104,9 +110,10 @@ Json to_json(const Model& model, const Findings& findings, const Pictures& pictu
 }
 
 /// Investigates a case and writes its page.
-Written write_report(const CaseFile& file, const Options& options, const std::string& path,
+Written write_report(const CaseFile& bare, const Options& options, const std::string& path,
                      PageSource source, double time_limit, Progress& progress) {
   const auto start = Clock::now();
+  const CaseFile file = options.start.in(bare);
   const Model model = in_variables(model_of(file, options.common.parameter_values()), options.in);
   ReportOptions what{.scene = options.common.scene, .time_limit = time_limit};
   what.budget = options.budget >= 0 ? options.budget : options.all ? kBudgetOfMany : kBudget;
@@ -306,6 +313,7 @@ void register_report(CLI::App& program, Action& action) {
       "is refuted or an invariant drifts, 3 if a claim is undecided, 4 if something is missing.");
   add_common(*command, options->common);
   add_in(*command, options->in);
+  options->start.add_to(*command);
   command->add_option("CASE", options->case_name, kCaseText);
   add_all(*command, options->all, options->tag, "Every bundled case, and an index over them");
   command

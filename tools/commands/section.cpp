@@ -7,11 +7,13 @@
 #include <memory>
 
 #include "tools/case_library.hpp"
+#include "tools/choices.hpp"
 #include "tools/cli.hpp"
 #include "tools/errors.hpp"
 #include "tools/gnuplot.hpp"
 #include "tools/progress.hpp"
 #include "tools/run_report.hpp"
+#include "tools/scene_values.hpp"
 #include "tools/section/picture.hpp"
 #include "tools/section/report.hpp"
 #include "tools/section/seeds.hpp"
@@ -21,6 +23,7 @@ namespace {
 
 struct Options {
   Common common;
+  OtherStart start;
   std::string case_name, seeds;
   SectionRequest request;
   std::vector<std::string> outputs;
@@ -66,7 +69,7 @@ class Section {
  public:
   explicit Section(const Options& options)
       : options_(options),
-        file_(load_case(options.case_name)),
+        file_(options.start.in(load_case(options.case_name))),
         model_(model_of(file_, options.common.parameter_values())),
         problem_(
             section_problem(file_, model_, model_.scene(options.common.scene), options.request)),
@@ -328,7 +331,7 @@ void add_plane_options(CLI::App& command, SectionRequest& request) {
       ->type_name("EXPR");
   command
       .add_option("--direction", request.direction, "In which it is crossed: up (default) or down")
-      ->check(CLI::IsMember({"up", "down"}))
+      ->check(one_of({"up", "down"}))
       ->type_name("DIRECTION");
   command
       .add_option("--pair", request.pair,
@@ -352,6 +355,7 @@ void register_section(CLI::App& program, Action& action) {
       "that\n"
       "is an angle counts at every multiple of its period.");
   add_common(*command, options->common);
+  options->start.add_to(*command);
   add_case(*command, options->case_name);
   add_plane_options(*command, options->request);
   command

@@ -8,6 +8,7 @@
 
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
+#include "tools/choices.hpp"
 #include "tools/cli.hpp"
 #include "tools/errors.hpp"
 #include "tools/run_report.hpp"
@@ -81,7 +82,7 @@ void register_show(CLI::App& program, Action& action) {
   add_as(*command, options->as);
   add_case(*command, options->case_name);
   command->add_option("--format", options->format, "text, latex or json")
-      ->check(CLI::IsMember({"text", "latex", "json"}));
+      ->check(one_of({"text", "latex", "json"}));
   command->callback([options, &action] { action = [options] { return show(*options); }; });
 }
 

@@ -163,6 +163,7 @@ class Stress {
   static bool is_extreme(const Scene& scene) { return !scene.extreme.empty(); }
 
   void add(std::size_t source, const Scene& scene) {
+    require_duration(scene);
     entries_.push_back({&sources_[source], &models_[source], &models_[source].scene(scene.name)});
     StressMatrix::Line line{models_[source].name, scene.name, scene.extreme, {}};
     for (const StressMatrix::Column& column : matrix_.columns) {

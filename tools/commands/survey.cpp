@@ -9,6 +9,7 @@
 
 #include "codegen/specialise.hpp"
 #include "tools/case_library.hpp"
+#include "tools/choices.hpp"
 #include "tools/cli.hpp"
 #include "tools/errors.hpp"
 #include "tools/limited_prove.hpp"
@@ -147,7 +148,7 @@ void register_survey(CLI::App& program, Action& action) {
   command
       ->add_option("--format", options->format,
                    "text, markdown or csv (default: by the name of --output, else text)")
-      ->check(CLI::IsMember({"text", "markdown", "csv"}))
+      ->check(one_of({"text", "markdown", "csv"}))
       ->type_name("FORMAT");
   command
       ->add_option("--output", options->output,

@@ -11,11 +11,13 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/case_library.hpp"
+#include "tools/choices.hpp"
 #include "tools/cli.hpp"
 #include "tools/errors.hpp"
 #include "tools/output.hpp"
 #include "tools/progress.hpp"
 #include "tools/run_report.hpp"
+#include "tools/scene_values.hpp"
 #include "tools/sweep/exponents.hpp"
 #include "tools/sweep/integrations.hpp"
 #include "tools/sweep/sections.hpp"
@@ -29,6 +31,7 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   Common common;
+  OtherStart start;
   RunOptions run;
   std::string case_name, task = "integrate", method = "auto", output;
   std::vector<std::string> over, lets, observe;
@@ -62,7 +65,10 @@ struct Prepared {
         how.keep_parameters.push_back(p.get_name());
     if (!options.observe.empty()) how.observe = options.observe;
     run = prepare(model, *scene, how);
-    settings = settings_for(options.run, run);
+    RunOptions how_far = options.run;
+    // A section goes on until it has its points.
+    if (options.task == kSection && !scene->duration) how_far.duration = "0";
+    settings = settings_for(how_far, run);
     settings.invariant_terms = nullptr;
     if (options.task == kSection) {
       if (method->name != "taylor") throw UsageError("--do section: orbits follow Taylor series");
@@ -155,12 +161,14 @@ int verdict(const Report& report, bool interrupted) {
   const SweepOutcome& outcome = report.outcome;
   std::cout.flush();
   if (!outcome.complete) {
-    std::cerr << fmt::format(
-        "casimir: error: {}: {} of {} points are done and kept in {}\n  hint: the same command "
-        "goes "
-        "on from there\n",
-        interrupted ? "interrupted" : "stopped by the time limit",
-        outcome.resumed + outcome.computed, outcome.points, outcome.journal);
+    const char* const why = interrupted ? "interrupted" : "stopped by the time limit";
+    const std::size_t done = outcome.resumed + outcome.computed;
+    std::cerr << (done == 0
+                      ? fmt::format("casimir: error: {} before any of {} points was done\n", why,
+                                    outcome.points)
+                      : fmt::format("casimir: error: {}: {} of {} points are done and kept in {}\n"
+                                    "  hint: the same command goes on from there\n",
+                                    why, done, outcome.points, outcome.journal));
     return interrupted ? kInterrupted : kEnvironment;
   }
   std::size_t failed = 0, first = 0;
@@ -191,7 +199,7 @@ int sweep_in(const Ranks& ranks, const Options& options) {
     throw UsageError("sweep needs a grid: --over NAME=FROM:TO:N, such as --over r=1:2:11");
   if (ranks.size() > 1 && options.case_name == "-")
     throw UsageError("under mpirun only one process has standard input: give a case file");
-  const CaseFile file = load_case(options.case_name);
+  const CaseFile file = options.start.in(load_case(options.case_name));
   const std::string output = options.output.empty() ? file.name + "-sweep.csv" : options.output;
   check_sweep_output(output);
   const Prepared p(options, file);
@@ -255,6 +263,7 @@ void register_sweep(CLI::App& program, Action& action) {
       "on\n"
       "after a kill. Under mpirun the ranks share the points; the result is the same to the bit.");
   add_common(*command, options->common);
+  options->start.add_to(*command);
   add_case(*command, options->case_name);
   command
       ->add_option("--over", options->over,
@@ -272,7 +281,7 @@ void register_sweep(CLI::App& program, Action& action) {
       ->add_option("--do", options->task,
                    "What is done at each point: integrate (default); section: orbits on the level "
                    "of the point, how many are chaotic; exponents: the largest Lyapunov exponent")
-      ->check(CLI::IsMember({kIntegrate, kSection, kExponents}))
+      ->check(one_of({kIntegrate, kSection, kExponents}))
       ->type_name("WHAT");
   command->add_option("--orbits", options->orbits, "Orbits of a section (default 16)")
       ->type_name("N")

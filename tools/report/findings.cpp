@@ -114,7 +114,7 @@ class Investigation {
   void conserve() {
     result_.drift_bound = ConserveOptions{}.bound;
     for (const Scene& scene : model_.scenes) {
-      if (!scene.unusable.empty()) continue;
+      if (!scene.unusable.empty() || !scene.duration) continue;
       for (const std::string& method : conserving_methods()) {
         if (left() <= 0) {
           result_.stopped = true;

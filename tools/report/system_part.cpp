@@ -90,7 +90,7 @@ std::string scene_values(const Model& model, const Scene& scene) {
     add(model.parameters[i], scene.parameters[i]);
   for (std::size_t i = 0; i < model.variables.size(); ++i)
     add(model.variables[i], scene.initial[i]);
-  return list + "; duration " + value(scene.duration);
+  return scene.duration ? list + "; duration " + value(*scene.duration) : list;
 }
 
 std::string scenes(const Model& model) {

@@ -229,12 +229,9 @@ class Maker {
     const std::vector<std::string> known = names_of(model_.casimirs);
     const auto found = std::ranges::find(known, name.value);
     if (found == known.end()) {
-      const std::string hint = suggest(name.value, known);
       throw name.error(
           fmt::format("the case names no Casimir function '{}'", printable(name.value)), 0,
-          !hint.empty()   ? hint
-          : known.empty() ? "it names none at all"
-                          : fmt::format("known: {}", fmt::join(known, ", ")));
+          known.empty() ? "it names none at all" : suggest_or_list(name.value, known));
     }
     problem_.levels[1 + static_cast<std::size_t>(found - known.begin())] = value;
   }

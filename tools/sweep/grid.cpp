@@ -125,7 +125,7 @@ Axis::Kind kind_of(const Text& name, const std::vector<std::string>& lets, const
   throw name.error(fmt::format("there is no parameter or variable '{}'; a new name needs a --let "
                                "that uses it",
                                printable(name.value)),
-                   0, suggest(name.value, known));
+                   0, suggest_or_list(name.value, known));
 }
 
 }  // namespace

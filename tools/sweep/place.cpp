@@ -160,7 +160,7 @@ void Places::read_lets(const Model& model, const std::vector<std::string>& lets)
       for (const auto* list : {&model.variables, &model.parameters})
         for (const GiNaC::symbol& s : *list) names.push_back(s.get_name());
       throw option.error(fmt::format("there is no variable or parameter '{}'", printable(name)), 0,
-                         suggest(name, names));
+                         suggest_or_list(name, names));
     }
     for (const Target& other : axes_)
       if (other.name == name) throw option.error(fmt::format("'{}' is given by --over", name));

@@ -89,7 +89,8 @@ const std::vector<std::pair<const char*, const char*>> kStatuses = {
     {"3", "undecided: neither proved nor refuted, also when a time limit was reached"},
     {"4", "the environment: no C++ compiler, cannot write, out of memory or time"},
     {"5", "the numerical solution could not be continued; the message says when and why"},
-    {"130", "interrupted by Ctrl-C"}};
+    {"130", "interrupted by Ctrl-C"},
+    {"143", "ended by SIGTERM"}};
 
 const std::vector<std::pair<const char*, const char*>> kVariables = {
     {"CASIMIR_CASES",
