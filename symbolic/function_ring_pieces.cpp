@@ -128,7 +128,8 @@ std::vector<Polynomial> FunctionRing::radicand_factors(const Polynomial& p, bool
     if (generator.kind == Kind::root || generator.kind == Kind::absolute) add(generator.base);
     const bool arc = generator.kind == Kind::function &&
                      (generator.order == kArcSine || generator.order == kArcCosine);
-    if (arc) add(one - generator.base * generator.base);
+    // By the relations: with v = sqrt(1 - y) it is y, of which the motion may have a root as well.
+    if (arc) add(numerator(one - generator.base * generator.base));
     // atan2 jumps on its cut, y = 0 and x < 0; where y is zero all over, at x = 0.
     if (cuts && generator.kind == Kind::function && generator.order == kArcTangentOfTwo) {
       const Polynomial& y = known_.at(generator.value.op(0));

@@ -66,6 +66,7 @@ bool fails(const Case& claim, const Proof& proof, Random& random) {
 Outcome compare(const Case& claim, const Proof& proof, Random& random, std::string& what) {
   switch (proof.verdict) {
     case Verdict::undecided:
+      what = proof.reason;
       return Outcome::undecided;
     case Verdict::proved:
       if (!fails(claim, proof, random)) return Outcome::proved;
@@ -176,7 +177,7 @@ Judgement judge(std::uint64_t seed, std::uint64_t index) {
   Judgement result = described(claim);
   result.outcome = outcome;
   result.what = what;
-  if (!is_failure(outcome)) result.file.clear();
+  if (!is_failure(outcome) && outcome != Outcome::undecided) result.file.clear();
   return result;
 }
 

@@ -30,13 +30,15 @@ Finding over_points(Sampler& sampler, const std::function<Sign(const Point&)>& a
       ++real;
       if (sign == Sign::nonzero) return Finding::fails;
       if (sign == Sign::zero) ++agreed;
+      sampler.note(sign == Sign::zero);
     } catch (const NotReal&) {
     } catch (const Unknown&) {
       doubtful = true;
+      sampler.note(false);
     }
   }
   constexpr int kEnough = 4;
-  if (agreed >= kEnough) return Finding::holds;
+  if (agreed >= kEnough) return sampler.is_settled() ? Finding::holds : Finding::unclear;
   return real == 0 && !doubtful ? Finding::nowhere : Finding::unclear;
 }
 
@@ -70,11 +72,13 @@ Sign along_orbit(const Case& claim, const Point& start) {
   return Sign::zero;
 }
 
+bool fails_along_orbit(const Case& claim, Sampler& sampler, const std::vector<Assumption>& more) {
+  if (!claim.orbit) return false;
+  const auto point = sampler.draw();
+  return point && explicit_orbit_leaves(claim, *point, more);
+}
+
 Finding on_level(const Case& claim, Sampler& sampler) {
-  if (claim.orbit) {
-    if (const auto point = sampler.draw(); point && explicit_orbit_leaves(claim, *point))
-      return Finding::fails;
-  }
   int orbits = 0;
   return over_points(sampler, [&](const Point& point) {
     Sign sign = Sign::zero;
@@ -147,6 +151,7 @@ std::string to_string(Finding finding) {
 Finding examine(const Case& claim, Random& random, const std::vector<Assumption>& more) {
   Sampler sampler(claim, more, is_about_ranks(claim.kind), random);
   if (is_about_ranks(claim.kind)) return of_ranks(claim, sampler);
+  if (fails_along_orbit(claim, sampler, more)) return Finding::fails;
   if (claim.kind == Kind::measure) return of_measure(claim, sampler);
   if (claim.kind == Kind::conditional || claim.kind == Kind::invariant_relation)
     return on_level(claim, sampler);

@@ -59,7 +59,9 @@ Sampler::Sampler(const Case& claim, const std::vector<Assumption>& more, bool ge
       assumptions_(claim.system.assumptions()),
       names_(names_of(claim)),
       generic_(generic),
-      random_(random) {
+      random_(random),
+      agreed_(std::max<std::size_t>(claim.pieces.size(), 1)),
+      doubtful_(agreed_.size()) {
   assumptions_.insert(assumptions_.end(), more.begin(), more.end());
 }
 
@@ -97,12 +99,20 @@ bool Sampler::admits(const Point& point) const {
   return true;
 }
 
+bool Sampler::is_settled() const {
+  for (std::size_t i = 0; i < agreed_.size(); ++i) {
+    if (doubtful_[i] && !agreed_[i]) return false;
+  }
+  return true;
+}
+
 std::optional<Point> Sampler::draw() {
+  piece_ = (piece_ + 1) % agreed_.size();
   try {
     Point point = free_values();
     if (!case_.pieces.empty()) {
       const Point free = point;
-      for (const auto& [name, solved] : case_.pieces[next_piece_++ % case_.pieces.size()])
+      for (const auto& [name, solved] : case_.pieces[piece_])
         point[name] = value(solved, free);
     }
     if (!admits(point)) return std::nullopt;
@@ -113,6 +123,7 @@ std::optional<Point> Sampler::draw() {
     return point;
   } catch (const NotReal&) {
   } catch (const Unknown&) {
+    note(false);
   }
   return std::nullopt;
 }

@@ -1,6 +1,8 @@
 // The hypotheses of the theorems behind claims on levels and behind facts: each test drops one.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "symbolic/generic_rank.hpp"
 #include "symbolic/real_level_point.hpp"
 #include "tests/symbolic/cases.hpp"
@@ -78,6 +80,23 @@ TEST(Levels, InvarianceNeedsARegularCofactor) {
   EXPECT_NE(relation("sqrt(y)", "y"), Verdict::proved);
   EXPECT_NE(relation("y^(2/3)", "y"), Verdict::proved);
   EXPECT_NE(relation("0", "sqrt(x^2) - x"), Verdict::proved);
+}
+
+/// y = 0 and y = 1 solve the equations, and the functions change with x there.
+TEST(Integrals, AreNoneWhereARootInTheMotionVanishes) {
+  const auto where = [](const std::string& rate, const std::string& f) {
+    const Proof proof =
+        proof_of("integral", equations("[equations]\nx = \"1\"\ny = \"" + rate +
+                                       "\"\nz = \"0\"\n[integrals]\nF = \"" + f + "\"\n"));
+    EXPECT_EQ(proof.verdict, Verdict::proved) << f;
+    return std::set<std::string>(proof.where.begin(), proof.where.end());
+  };
+  const std::set<std::string> inside{"y != 0", "y - 1 != 0"};
+  EXPECT_EQ(where("2*sqrt(y)", "sqrt(y) - x"), std::set<std::string>{"y != 0"});
+  for (const char* f : {"asin(sqrt(1 - y))", "acos(sqrt(y))", "acos(2*y - 1)/2",
+                        "atan2(sqrt(1 - y), sqrt(y))"})
+    EXPECT_EQ(where("-2*sqrt(y*(1 - y))", f + std::string(" - x")), inside) << f;
+  EXPECT_TRUE(where("0", "asin(y) + z").empty()) << "there is no root in the motion";
 }
 
 TEST(Signs, OfAProductNeedTheOthersNotToVanish) {
