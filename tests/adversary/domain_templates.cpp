@@ -63,7 +63,7 @@ Case sign_of_parameter(Random& random) {
 
 /// A function that is real only where y > 0, or y >= 0, and conserved where y and w are.
 Expr only_positive(Random& random) {
-  return random.of(std::vector<Expr>{log(y * w) - log(w), sqrt(y * w) - sqrt(w), sqrt(y), log(y),
+  return random.of(std::vector<Expr>{log(y * w) - log(w), sqrt(y * w) / sqrt(w), sqrt(y), log(y),
                                      pow(y, Expr(1, 3)), sqrt(pow(y, 3)), sqrt(w) * sqrt(y / w),
                                      sqrt(w * y) * sqrt(1 / w), log(y / w) + log(w),
                                      sqrt(y * exp(w)) + w, log(pow(y, 3)), pow(y, Expr(3, 2)),

@@ -71,8 +71,9 @@ Point Sampler::free_values() {
     if (!pair.spectral.empty()) symbols.push_back(pair.spectral);
   }
   Point point;
-  // Orbits that start far out may be too fast for the steps that follow them.
-  const bool near = !level_of(case_).empty();
+  // Orbits that start far out may be too fast for the steps that follow them, and what is small
+  // there may be too small for ranks.
+  const bool near = generic_ || !level_of(case_).empty();
   for (const std::string& symbol : symbols) {
     point[symbol] = random_number(random_, near);
     for (const Assumption& a : assumptions_) {
