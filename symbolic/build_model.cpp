@@ -385,14 +385,17 @@ class Builder {
   }
 
   /// One expression for each symbol, over `names`.
+  /// \param domain  gets what they are defined by beside their values, as of NamedExpression
   static std::vector<ex> all_components(const Text& map, const std::vector<Entry>& entries,
                                         const std::vector<GiNaC::symbol>& symbols, Scope& names,
-                                        const std::string& what) {
+                                        const std::string& what, std::vector<ex>& domain) {
     std::vector<ex> result(symbols.size());
     std::vector<bool> seen(symbols.size());
     for (const auto& [name, value] : entries) {
       const std::size_t i = symbol_position(name, name.value, 0, symbols, what);
-      result[i] = parse_expression(value, names).value;
+      const Quantity quantity = parse_expression(value, names);
+      for (const ex& part : lost_parts(quantity)) domain.push_back(part);
+      result[i] = quantity.value;
       seen[i] = true;
     }
     for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -418,26 +421,32 @@ class Builder {
       names.add(name, Quantity::symbol(coordinates[i]));
     }
     const std::optional<Frame> frame = make_frame(target, coordinates, model_.parameters, names);
-    const std::optional<PoissonStructure> bracket = make_bracket(target, coordinates, names, frame);
+    std::vector<ex> target_domain, domain;
+    const std::optional<PoissonStructure> bracket =
+        make_bracket(target, coordinates, names, frame, &target_domain);
     if (!bracket) throw CaseError(target.where, "the phase space of 'to' needs a bracket");
     PoissonMap map{text.name.value,
                    text.name.where,
                    *bracket,
                    all_components(text.name, text.expressions, coordinates, names_,
-                                  "a variable of the phase space of 'to'"),
+                                  "a variable of the phase space of 'to'", domain),
                    {},
                    1,
                    text.to ? text.to->value : std::string{},
                    {},
                    {}};
+    GiNaC::exmap image;
+    for (std::size_t i = 0; i < coordinates.size(); ++i) image[coordinates[i]] = map.expressions[i];
+    for (const ex& part : target_domain) domain.push_back(substituted(part, image));
+    map.domain = std::move(domain);
     for (const Text& function : text.image.empty() ? target.constraints : text.image)
       map.image.push_back({function.value, parse_expression(function, names).value, {}});
     for (const MapInverseText& inverse : text.inverses) {
-      map.inverses.push_back({all_components(text.name, inverse.expressions, model_.variables,
-                                             names, "a variable of this case"),
-                              {}});
+      MapInverse& branch = map.inverses.emplace_back();
+      branch.expressions = all_components(text.name, inverse.expressions, model_.variables, names,
+                                          "a variable of this case", branch.defined_by);
       for (const Text& condition : inverse.domain)
-        map.inverses.back().domain.push_back(assumption_of(condition, names));
+        branch.domain.push_back(assumption_of(condition, names));
     }
     for (const Text& relation : text.on) map.on.push_back(anonymous(relation));
     if (text.sign && text.sign->value == "-")

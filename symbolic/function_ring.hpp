@@ -186,6 +186,10 @@ class FunctionRing {
   /// vanishes: each of its factors has a strict sign, or is assumed not to be zero.
   bool is_nowhere_zero(const Polynomial& p) const;
 
+  /// Functions whose common real zeros are those of `p`: where that is a sum of squares, or of what
+  /// is not negative, all of its parts; else `p` itself.
+  std::vector<Polynomial> real_zeros(const Polynomial& p) const;
+
   /// Whether each factor has a strict sign that is assumed, not implied by roots and logarithms,
   /// and their product is positive; also true of exponentials.
   bool is_assumed_positive(const Polynomial& p) const;
@@ -194,6 +198,10 @@ class FunctionRing {
   /// also within other functions. Where none of them vanishes, `p` is differentiable.
   /// \param cuts  with what has to vanish for atan2 to jump, which does not concern derivatives
   std::vector<Polynomial> radicand_factors(const Polynomial& p, bool cuts = false) const;
+
+  /// Whether `p` is differentiable all the same where one of its radicands has the factor `f` that
+  /// vanishes, as y*|y| and x^(3/2) are.
+  bool is_smooth_across(const Polynomial& p, const Polynomial& f) const;
 
   /// Whether `p` depends on one of the first `coordinates` symbols, through generators too.
   bool depends_on_first(const Polynomial& p, std::size_t coordinates) const;
@@ -296,16 +304,26 @@ class FunctionRing {
   bool known_nonzero(const Polynomial& p) const;
   enum class Reading { first, second };
   void read_signs();
+  void read_all(Reading reading);
   void read_assumption(const Assumption& assumption, Reading reading);
   void read_sign(const Polynomial& p, int sign, Reading reading, bool implied, bool strict);
   void add_sign(const Polynomial& f, int sign, bool implied, bool strict);
   void imply_sign(const Polynomial& f, int sign, bool strict);
   void imply_radicand(const std::vector<std::pair<Polynomial, unsigned long>>& factors,
                       bool strict);
+  void keep_product(const std::vector<std::pair<Polynomial, unsigned long>>& factors, bool strict);
   void imply_between(const Polynomial& v);
   bool is_sum_of_squares(const Polynomial& p) const;
   bool is_never_negative(std::size_t place) const;
   bool is_never_zero(std::size_t place) const;
+  int sign_of_variable(std::size_t place) const;
+  int sign_of_term(const cln::cl_RA& coefficient, const std::vector<unsigned long>& exponents) const;
+  std::optional<bool> not_negative_by_terms(
+      const Polynomial& p, std::pair<cln::cl_RA, std::vector<unsigned long>>* bad) const;
+  std::optional<std::vector<Polynomial>> squares_of_quadratic(Polynomial p) const;
+  static constexpr int kSignsInSum = 3;  ///< known signs that are added up to find another
+  std::optional<bool> is_not_negative(const Polynomial& p, int depth = kSignsInSum) const;
+  Polynomial zeros_of_variable(std::size_t place) const;
   std::optional<int> sign_of_number(const Polynomial& p) const;
   int sign_of(const Polynomial& p) const;
   std::optional<Polynomial> square_root(const Polynomial& p) const;
@@ -370,6 +388,7 @@ class FunctionRing {
     bool strict;      ///< nor zero
   };
   std::vector<Implied> implied_;
+  std::vector<Implied> products_;  ///< the same, where no single sign followed when it was met
   /// For a monomial in an angle or exponent: the least common denominator of its coefficients.
   std::vector<std::pair<GiNaC::ex, cln::cl_I>> units_;
   /// For a radicand: the least common multiple of the orders of its roots.

@@ -288,6 +288,11 @@ Polynomial FunctionRing::convert_power(const ex& base, const ex& exponent) {
   const unsigned long size = machine_word(whole);
   Polynomial result = power(whole >= 0 ? b : inverse(b), size);
   if (!cln::zerop(part)) {
+    // 1/sqrt(x) has a value for x > 0 alone.
+    if (cln::minusp(e) && cln::evenp(cln::denominator(part)) && !complex_) {
+      const auto [top, bottom] = fraction(b);
+      imply_radicand(factors_of(checked_product(numerator(top), bottom)), true);
+    }
     const Polynomial one = root(b, machine_word(cln::denominator(part)));
     result = checked_product(result, power(one, machine_word(cln::numerator(part))));
   }

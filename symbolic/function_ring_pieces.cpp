@@ -128,7 +128,8 @@ std::vector<Polynomial> FunctionRing::radicand_factors(const Polynomial& p, bool
     if (generator.kind == Kind::root || generator.kind == Kind::absolute) add(generator.base);
     const bool arc = generator.kind == Kind::function &&
                      (generator.order == kArcSine || generator.order == kArcCosine);
-    if (arc) add(one - generator.base * generator.base);
+    // By the relations: with v = sqrt(1 - y) it is y, of which the motion may have a root as well.
+    if (arc) add(numerator(one - generator.base * generator.base));
     // atan2 jumps on its cut, y = 0 and x < 0; where y is zero all over, at x = 0.
     if (cuts && generator.kind == Kind::function && generator.order == kArcTangentOfTwo) {
       const Polynomial& y = known_.at(generator.value.op(0));
@@ -137,6 +138,44 @@ std::vector<Polynomial> FunctionRing::radicand_factors(const Polynomial& p, bool
     }
   }
   return result;
+}
+
+/// max(b, 0)^(1 + k/q) and b*|b| are continuously differentiable functions of b. So is p where it
+/// depends on a root of b by terms with such powers alone, b being a polynomial in the symbols; on
+/// the edge of the root's domain this is so from inside.
+bool FunctionRing::is_smooth_across(const Polynomial& p, const Polynomial& f) const {
+  const auto [top, bottom] = lowest_terms(p);
+  const std::vector<std::size_t> used = generators_in({top, bottom});
+  std::optional<std::size_t> rough;
+  for (const std::size_t g : used) {
+    const Generator& own = generators_[g];
+    if (own.kind == Kind::function) return false;
+    if (own.kind != Kind::root && own.kind != Kind::absolute) continue;
+    Polynomial quotient(*ring_);
+    if (!fraction(own.base).first.divide(f, &quotient)) continue;
+    if (rough) return false;
+    rough = g;
+  }
+  if (!rough) return false;
+  const std::size_t place = symbols_.size() + *rough;
+  const Generator& root = generators_[*rough];
+  for (std::size_t i = symbols_.size(); i < ring_->size(); ++i)
+    if (root.base.uses(i)) return false;
+  if (bottom.uses(place) || std::any_of(used.begin(), used.end(), [&](std::size_t g) {
+        return generators_[g].base.uses(place);
+      }))
+    return false;
+  Polynomial needed = root.base;
+  if (root.kind == Kind::absolute) {
+    needed = ring_->constant(1);
+    for (const auto& [factor, exponent] : root.base.factors())
+      if (!factor.is_constant()) needed *= factor.pow(exponent / 2);
+  }
+  const std::vector<Polynomial> parts = top.coefficients(place);
+  return std::all_of(parts.begin() + 1, parts.end(), [&](const Polynomial& part) {
+    Polynomial quotient(*ring_);
+    return part.is_zero() || part.divide(needed, &quotient);
+  });
 }
 
 /// Sums, products, quotients, sines, cosines and exponentials of entire functions are meromorphic

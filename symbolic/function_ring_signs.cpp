@@ -12,11 +12,22 @@
 namespace casimir {
 
 void FunctionRing::read_signs() {
-  for (const Reading reading : {Reading::first, Reading::second}) {
-    for (const Assumption& assumption : assumptions_) read_assumption(assumption, reading);
-    // By place, and a copy: what is converted may imply more.
-    for (std::size_t i = 0; i < implied_.size(); ++i) {
-      const Implied implied = implied_[i];
+  for (const Reading reading : {Reading::first, Reading::second}) read_all(reading);
+  // What was learnt may tell more of the others: a*b > 0, a*c > 0 and c > 0.
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::size_t before = signs_.size() + nonzero_.size();
+    read_all(Reading::second);
+    if (signs_.size() + nonzero_.size() == before) return;
+  }
+}
+
+void FunctionRing::read_all(Reading reading) {
+  for (const Assumption& assumption : assumptions_) read_assumption(assumption, reading);
+  // By place, and a copy: what is converted may imply more.
+  for (const auto* list : {&implied_, &products_}) {
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const Implied implied = (*list)[i];
       read_sign(convert(implied.value), 1, reading, true, implied.strict);
     }
   }
@@ -90,7 +101,7 @@ int FunctionRing::known_sign(const Polynomial& p) const {
   }
   if (!is_real_everywhere(p)) return 0;
   if (const auto sign = sign_of_number(p)) return *sign;
-  return is_sum_of_squares(p) ? 1 : is_sum_of_squares(-p) ? -1 : 0;
+  return is_not_negative(p) ? 1 : is_not_negative(-p) ? -1 : 0;
 }
 
 /// Whether an irreducible polynomial is known not to vanish.
@@ -104,48 +115,7 @@ bool FunctionRing::known_nonzero(const Polynomial& p) const {
   if (is_exponential(p)) return true;
   if (!is_real_everywhere(p)) return false;
   if (const auto sign = sign_of_number(p)) return *sign != 0;
-  if (!is_sum_of_squares(p) && !is_sum_of_squares(-p)) return false;
-  // All summands have one sign: one that vanishes nowhere is enough.
-  const auto terms = p.term_list();
-  return std::any_of(terms.begin(), terms.end(), [&](const auto& term) {
-    for (std::size_t i = 0; i < term.second.size(); ++i)
-      if (term.second[i] > 0 && !is_never_zero(i)) return false;
-    return true;
-  });
-}
-
-/// A sum of monomials with positive coefficients, in squares and in what is not negative.
-bool FunctionRing::is_sum_of_squares(const Polynomial& p) const {
-  const auto terms = p.term_list();
-  return std::all_of(terms.begin(), terms.end(), [&](const auto& term) {
-    if (!cln::plusp(term.first)) return false;
-    for (std::size_t i = 0; i < term.second.size(); ++i)
-      if (term.second[i] % 2 == 1 && !is_never_negative(i)) return false;
-    return true;
-  });
-}
-
-/// Whether a variable of the ring is not negative at any point at which it is real: a root of even
-/// order, or of what is not negative; an absolute value; an exponential.
-bool FunctionRing::is_never_negative(std::size_t place) const {
-  if (place < symbols_.size()) return false;
-  const Generator& g = generators_[place - symbols_.size()];
-  if (g.kind == Kind::root) return g.order % 2 == 0 || sign_of(g.base) > 0;
-  return g.kind == Kind::absolute || g.kind == Kind::exponential;
-}
-
-/// Whether a variable of the ring vanishes nowhere.
-bool FunctionRing::is_never_zero(std::size_t place) const {
-  const Polynomial variable = ring_->variable(place);
-  const auto listed = [&](const Polynomial& f) { return f == variable || f == -variable; };
-  if (std::any_of(nonzero_.begin(), nonzero_.end(), listed)) return true;
-  if (std::any_of(signs_.begin(), signs_.end(),
-                  [&](const Sign& s) { return s.strict && listed(s.of); }))
-    return true;
-  if (place < symbols_.size()) return false;
-  const Generator& g = generators_[place - symbols_.size()];
-  if (g.kind == Kind::exponential) return true;
-  return (g.kind == Kind::root || g.kind == Kind::absolute) && is_nowhere_zero(g.base);
+  return is_not_negative(p).value_or(false) || is_not_negative(-p).value_or(false);
 }
 
 /// The sign of a number other than zero, certified by balls; empty for what is not a number.
@@ -200,13 +170,18 @@ void FunctionRing::imply_sign(const Polynomial& f, int sign, bool strict) {
     return;
   }
   add_sign(f, sign, true, strict);
-  implied_.push_back({sign * expression(f), strict});
+  const GiNaC::ex value = sign * expression(f);
+  const bool listed = std::any_of(implied_.begin(), implied_.end(), [&](const Implied& known) {
+    return known.strict == strict && known.value.is_equal(value);
+  });
+  if (listed) return;
+  implied_.push_back({value, strict});
   // What was made without knowing it may have another form now.
   for (const Generator& g : generators_) {
     const bool may_change = g.kind == Kind::absolute || g.kind == Kind::root ||
                             (g.kind == Kind::function && g.order == kLogOfAbsolute);
-    Polynomial quotient(*ring_);
-    if (may_change && !g.base.is_constant() && g.base.divide(f, &quotient)) throw Full{};
+    for (std::size_t i = 0; i < ring_->size() && may_change; ++i)
+      if (f.uses(i) && g.base.uses(i)) throw Full{};
   }
 }
 
@@ -219,6 +194,22 @@ void FunctionRing::imply_between(const Polynomial& v) {
     const Polynomial top = numerator(unreduced);
     if (!top.is_zero()) imply_radicand(factors_of(checked_product(top, bottom)), false);
   }
+}
+
+/// Of a product of which several signs are not known yet: it is read again when more is.
+void FunctionRing::keep_product(const std::vector<std::pair<Polynomial, unsigned long>>& factors,
+                                bool strict) {
+  constexpr std::size_t kMostTerms = 50;
+  Polynomial product = ring_->constant(1);
+  for (const auto& [f, exponent] : factors) {
+    if (f.terms() > kMostTerms || product.terms() > kMostTerms) return;
+    product = checked_product(product, exponent % 2 == 1 ? f : f * f);
+  }
+  const GiNaC::ex value = expression(product);
+  const bool listed = std::any_of(products_.begin(), products_.end(), [&](const Implied& known) {
+    return known.strict == strict && known.value.is_equal(value);
+  });
+  if (!listed) products_.push_back({value, strict});
 }
 
 /// The radicand of an even root is not negative where the root is real, and that gives the sign of
@@ -236,7 +227,7 @@ void FunctionRing::imply_radicand(const std::vector<std::pair<Polynomial, unsign
           f.is_constant() ? (cln::minusp(f.term_list()[0].first) ? -1 : 1) : known_sign(f);
       if (known < 0) sign = -sign;
       if (!f.is_constant()) ++odd;
-      if (known == 0 && unknown != nullptr) return;
+      if (known == 0 && unknown != nullptr) return keep_product(factors, strict);
       if (known == 0) {
         unknown = &f;
         continue;

@@ -81,6 +81,7 @@ struct Section {
 struct MapInverse {
   std::vector<GiNaC::ex> expressions;  ///< one for each variable, over the target's coordinates
   std::vector<Assumption> domain;      ///< where on the target it may be used
+  std::vector<GiNaC::ex> defined_by{};  ///< as the domain of NamedExpression
 };
 
 /// A map from the phase space onto another one, claimed to be Poisson (`sign` 1) or anti-Poisson
@@ -95,6 +96,7 @@ struct PoissonMap {
   std::string to;                      ///< the algebra or case that it leads to, or empty
   std::vector<NamedExpression> image;  ///< over the target's coordinates; vanish on the image
   std::vector<MapInverse> inverses;    ///< the first whose domain holds is used
+  std::vector<GiNaC::ex> domain{};     ///< of the expressions and brackets, as of NamedExpression
 
   /// The target's brackets {y_i, y_j}, i < j, with the expressions put in for its coordinates.
   std::vector<GiNaC::ex> composed_brackets() const;

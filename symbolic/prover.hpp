@@ -138,6 +138,7 @@ class Prover {
     if (!ring_.is_polynomial()) ring_.mark_denominators(p, divided_by_);
     return p;
   }
+  std::vector<NamedExpression> simplified(const NamedExpression& f, int depth);
   bool vanishes_by_substitution(const Residual& residual, const Level& level) const;
   Polynomial along(const Polynomial& f, const std::vector<Polynomial>& field) const;
   /// Whether the residual is a combination of the level's functions with continuous coefficients

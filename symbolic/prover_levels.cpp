@@ -27,26 +27,6 @@ std::vector<Polynomial> square_relations(const FunctionRing& ring) {
   return relations;
 }
 
-/// Functions that vanish at the real zeros of f: f itself, or where it is a sum of powers x^2, y^4,
-/// .. with coefficients of one sign, each of these variables.
-std::vector<Polynomial> real_zeros(const Polynomial& f) {
-  std::vector<Polynomial> variables;
-  std::optional<bool> positive;
-  for (const auto& [coefficient, exponents] : f.term_list()) {
-    std::optional<std::size_t> only;
-    for (std::size_t i = 0; i < exponents.size(); ++i) {
-      if (exponents[i] == 0) continue;
-      if (only || exponents[i] % 2 == 1) return {f};
-      only = i;
-    }
-    const bool sign = cln::plusp(coefficient);
-    if (!only || (positive && *positive != sign)) return {f};
-    positive = sign;
-    variables.push_back(f.ring().variable(*only));
-  }
-  return variables;
-}
-
 std::vector<NamedExpression> functions_of(const Level& level) {
   std::vector<NamedExpression> result;
   for (std::size_t i = 0; i < level.functions.size(); ++i)
@@ -62,14 +42,44 @@ std::string shortened(std::string text, std::size_t terms) {
   return text.substr(0, cut) + fmt::format(" ... ({} terms)", terms);
 }
 
+/// Simpler functions with the common real zeros of one, which may be what the level of a square or
+/// of a sum of squares is invariant by: without factors that vanish nowhere, with each other factor
+/// once, and the parts of what is never negative.
+std::vector<NamedExpression> Prover::simplified(const NamedExpression& f, int depth) {
+  const Polynomial numerator = ring_.lowest_terms(convert(f.value)).first;
+  if (ring_.is_complex() || numerator.is_zero() || depth == 0) return {f};
+  Polynomial product = ring_.ring().constant(1), rest = product;
+  std::size_t count = 0;
+  for (const auto& [factor, exponent] : numerator.factors()) {
+    if (factor.is_constant()) continue;
+    rest = ring_.is_nowhere_zero(factor) ? rest * factor : rest * factor.pow(exponent - 1);
+    if (ring_.is_nowhere_zero(factor)) continue;
+    product *= factor;
+    ++count;
+  }
+  if (count == 0) return {f};
+  const std::vector<Polynomial> zeros =
+      count == 1 ? ring_.real_zeros(product) : std::vector<Polynomial>{product};
+  if (rest.is_constant() && zeros.size() == 1 && zeros[0] == product) return {f};
+  std::vector<NamedExpression> result;
+  for (const Polynomial& zero : zeros) {
+    const auto parts = simplified({ring_.text(zero), ring_.expression(zero), {}}, depth - 1);
+    result.insert(result.end(), parts.begin(), parts.end());
+  }
+  return result;
+}
+
 Level Prover::level(const std::vector<NamedExpression>& on) {
+  constexpr int kDepth = 3;
   Level result;
-  for (const NamedExpression& f : on) {
-    Polynomial numerator = ring_.lowest_terms(convert(f.value)).first;
-    if (numerator.is_zero()) continue;  // no condition, and no divisor
-    result.texts.push_back(f.name);
-    result.functions.push_back(f.value);
-    result.numerators.push_back(std::move(numerator));
+  for (const NamedExpression& whole : on) {
+    for (const NamedExpression& f : simplified(whole, kDepth)) {
+      Polynomial numerator = ring_.lowest_terms(convert(f.value)).first;
+      if (numerator.is_zero()) continue;  // no condition, and no divisor
+      result.texts.push_back(f.name);
+      result.functions.push_back(f.value);
+      result.numerators.push_back(std::move(numerator));
+    }
   }
   // The time moves as well, and t = 0 is no part of a level.
   const std::size_t time = dimension() + model_.parameters.size();
@@ -156,8 +166,7 @@ bool Prover::vanishes_nowhere_on(const Polynomial& p, const Level& level, Diviso
     std::vector<Polynomial> ideal = level.numerators;
     const std::vector<Polynomial> identities = square_relations(ring_);
     ideal.insert(ideal.end(), identities.begin(), identities.end());
-    const std::vector<Polynomial> zeros =
-        ring_.is_complex() ? std::vector<Polynomial>{f} : real_zeros(f);
+    const std::vector<Polynomial> zeros = ring_.real_zeros(f);
     ideal.insert(ideal.end(), zeros.begin(), zeros.end());
     const std::vector<Polynomial> basis = groebner_basis(ideal, kSmallBasis);
     // Or a divisor vanishes wherever f does, so that nothing is claimed there.
@@ -172,11 +181,11 @@ bool Prover::vanishes_nowhere_on(const Polynomial& p, const Level& level, Diviso
 }
 
 /// The same where relations x = value are put in first: on the level the functions may be simpler
-/// than the ring knows, as sqrt(G^2 - H^2) where H = 0 and G > 0.
+/// than the ring knows, as sqrt(G^2 - H^2) where H = 0 and G > 0; and so may the assumptions be. The
+/// residual is taken as it was written, or by its numerator, where it has a denominator that cancels.
 bool Prover::vanishes_by_substitution(const Residual& residual, const Level& level) const {
   if (ring_.is_polynomial() || level.solved.empty()) return false;
-  try {
-    ex value = residual.by_ginac();
+  const auto on_level = [&](ex value) {
     for (const SolvedRelation& solved : level.solved) {
       if (!solved.leading.is_constant() || solved.relation.degree(solved.variable) != 1) continue;
       const Polynomial rest = solved.relation.coefficients(solved.variable)[0];
@@ -184,11 +193,21 @@ bool Prover::vanishes_by_substitution(const Residual& residual, const Level& lev
       value = substituted(
           value, {{ring_.symbols()[solved.variable], ring_.expression(rest.scaled(factor))}});
     }
-    FunctionRing fresh(ring_.symbols(), model_.assumptions, {value});
-    return fresh.numerator(fresh.convert(value)).is_zero();
-  } catch (const std::exception&) {
-    return false;  // a pole on the level, or too large
-  }
+    return value;
+  };
+  const auto vanishes = [&](const std::function<ex()>& function) {
+    try {
+      const ex value = on_level(function());
+      std::vector<Assumption> assumptions = model_.assumptions;
+      for (Assumption& a : assumptions) a.difference = on_level(a.difference);
+      FunctionRing fresh(ring_.symbols(), assumptions, {value});
+      return fresh.numerator(fresh.convert(value)).is_zero();
+    } catch (const std::exception&) {
+      return false;  // a pole on the level, or too large
+    }
+  };
+  return vanishes(residual.by_ginac) ||
+         vanishes([&] { return ring_.expression(ring_.lowest_terms(residual.value).first); });
 }
 
 bool Prover::in_ideal(const Residual& residual, const Level& level) {
@@ -213,7 +232,9 @@ bool Prover::is_smooth_on(Proof& proof, const Level& level,
                           const std::vector<NamedExpression>& list, bool continuous) {
   if (ring_.is_polynomial()) return true;
   for (const NamedExpression& f : list) {
-    for (const Polynomial& radicand : ring_.radicand_factors(convert(f.value), continuous)) {
+    const Polynomial& value = convert(f.value);
+    for (const Polynomial& radicand : ring_.radicand_factors(value, continuous)) {
+      if (ring_.is_smooth_across(value, radicand)) continue;
       // What only the claim divides by, the motion passes: x/|x| is 1 until it is -1.
       const Divisors which = continuous ? Divisors::of_motion : Divisors::all;
       if (vanishes_nowhere_on(radicand, level, which)) continue;
@@ -236,7 +257,7 @@ void Prover::decide_invariance_once(Proof& proof, std::vector<NamedExpression> f
     const std::vector<Residual> rates = level_rates(own);
     proof = blank;
     decide_on(proof, rates, own);
-    if (proof.verdict != Verdict::proved || !is_smooth_on(proof, own, functions, true)) return;
+    if (proof.verdict != Verdict::proved || !is_smooth_on(proof, own, functions_of(own), true)) return;
     const std::size_t before = functions.size();
     for (const Residual& rate : rates) {
       if (!in_ideal(rate, own)) functions.push_back({rate.label, rate.by_ginac(), {}});

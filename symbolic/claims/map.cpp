@@ -79,6 +79,9 @@ Claim inverse_claim(const Model& model, std::size_t index, std::size_t branch) {
   if (map.inverses.size() > 1) claim.name += fmt::format(" {}", branch + 1);
   for (const auto& [label, defect] : inverse_defects(model, map, map.inverses[branch]))
     claim.expressions.push_back(defect);
+  for (const GiNaC::ex& part : composed(map.inverses[branch].defined_by, image_point(map)))
+    claim.expressions.push_back(part);
+  claim.expressions.insert(claim.expressions.end(), map.domain.begin(), map.domain.end());
   claim.on = names_of(model.constraints);
   claim.decide = [index, branch](Prover& prover, Proof& proof) {
     const Model& owner = prover.model();
@@ -95,6 +98,8 @@ std::vector<GiNaC::ex> expressions_of(const PoissonMap& map) {
   std::vector<GiNaC::ex> expressions = values_of(map.on);
   expressions.insert(expressions.end(), map.expressions.begin(), map.expressions.end());
   for (const GiNaC::ex& bracket : map.composed_brackets()) expressions.push_back(bracket);
+  // What GiNaC simplified away: sqrt(q)^2 is q only where q >= 0.
+  expressions.insert(expressions.end(), map.domain.begin(), map.domain.end());
   return expressions;
 }
 

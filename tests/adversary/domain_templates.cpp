@@ -63,7 +63,7 @@ Case sign_of_parameter(Random& random) {
 
 /// A function that is real only where y > 0, or y >= 0, and conserved where y and w are.
 Expr only_positive(Random& random) {
-  return random.of(std::vector<Expr>{log(y * w) - log(w), sqrt(y * w) - sqrt(w), sqrt(y), log(y),
+  return random.of(std::vector<Expr>{log(y * w) - log(w), sqrt(y * w) / sqrt(w), sqrt(y), log(y),
                                      pow(y, Expr(1, 3)), sqrt(pow(y, 3)), sqrt(w) * sqrt(y / w),
                                      sqrt(w * y) * sqrt(1 / w), log(y / w) + log(w),
                                      sqrt(y * exp(w)) + w, log(pow(y, 3)), pow(y, Expr(3, 2)),
@@ -260,12 +260,53 @@ Case thin_domain(Random& random) {
   return claim;
 }
 
+/// dy/dt = R(y) with a root in R, and F(y) with dF/dt = 1: along F - t a solution that rests where R
+/// vanishes is no constant. So the claim is false, but true where y is elsewhere.
+Case rest_point(Random& random) {
+  struct Choice {
+    Expr rate;
+    std::vector<Expr> clocks;
+    std::vector<long> rests;
+  };
+  const Expr y1 = 1 + y;
+  const std::vector<Choice> choices{
+      {2 * sqrt(y), {sqrt(y)}, {0}},
+      {3 * pow(y, Expr(2, 3)), {pow(y, Expr(1, 3))}, {0}},
+      {4 * pow(y, Expr(3, 4)), {pow(y, Expr(1, 4)), sqrt(sqrt(y))}, {0}},
+      {-2 * sqrt(y * (1 - y)),
+       {asin(sqrt(1 - y)), acos(sqrt(y)), atan2(sqrt(1 - y), sqrt(y)), acos(2 * y - 1) / 2},
+       {0, 1}},
+      {sqrt(1 - pow(y, 2)),
+       {asin(y), -acos(y), atan2(y, sqrt(1 - pow(y, 2))), 2 * asin(sqrt((1 + y) / 2))},
+       {1, -1}},
+      {y * sqrt(log(y)), {2 * sqrt(log(y))}, {1}},
+      {sqrt(exp(y) - 1), {2 * atan(sqrt(exp(y) - 1))}, {0}},
+      {2 * y * sqrt(y - 1), {acos(1 / sqrt(y)), atan(sqrt(y - 1))}, {1}},
+      {2 * sqrt(y) * y1,
+       {atan(sqrt(y)), atan2(sqrt(y), 1), asin(sqrt(y / y1)), acos(1 / sqrt(y1))},
+       {0}},
+      {2 * sqrt(y) * (1 + sqrt(y)), {2 * log(1 + sqrt(y))}, {0}}};
+  const Choice& c = random.of(choices);
+  const Expr change = random.of(c.clocks) - x;
+  Case claim;
+  claim.family = "rest-point";
+  claim.kind = Kind::integral;
+  claim.name = "F";
+  claim.system.variables = {"x", "y"};
+  claim.system.equations = {1, c.rate};
+  claim.integrals = {
+      {"F", random.of(std::vector<Expr>{change, pow(change, 2), exp(change), sin(change)})}};
+  claim.truth = Truth::no;
+  claim.orbit = Substitution{{"x", Expr("s")}, {"y", random.of(c.rests)}};
+  return claim;
+}
+
 }  // namespace
 
 const std::vector<Template>& domain_templates() {
   static const std::vector<Template> all{sign_of_parameter, sign_of_parameter, implied_domain,
                                          empty_domain,      both_signs,        complex_claim,
-                                         complex_claim,     thin_domain};
+                                         complex_claim,     thin_domain,       rest_point};
   return all;
 }
 

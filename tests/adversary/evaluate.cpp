@@ -95,11 +95,13 @@ class Evaluator {
     if (exponent.op == Op::number && exponent.denominator == 1)
       return integer_power(base, exponent.numerator);
     if (exponent.op == Op::number) {
-      check_root(base.value);
+      const Ball radicand = checked_root(base.value);
       const Ball k = Ball::ratio(exponent.numerator, exponent.denominator);
-      Ball value;
-      acb_pow(value.get(), base.value.get(), k.get(), Ball::kBits);
-      return chain(value, k * value / base.value, base);
+      const Ball less = k - Ball(1);
+      Ball value, slope;
+      acb_pow(value.get(), radicand.get(), k.get(), Ball::kBits);
+      acb_pow(slope.get(), radicand.get(), less.get(), Ball::kBits);
+      return chain(value, k * slope, base);
     }
     check_positive(base.value);
     const Dual logarithm = chain(apply(acb_log, base.value), Ball(1) / base.value, base);
@@ -108,8 +110,8 @@ class Evaluator {
     return chain(value, value, product_of);
   }
 
-  static Dual integer_power(const Dual& base, long k) {
-    if (k < 0 && !base.value.is_nonzero()) throw Unknown();
+  Dual integer_power(const Dual& base, long k) const {
+    if (k < 0 && !base.value.is_nonzero()) no_value(base.value);
     Ball value, derivative;
     acb_pow_si(value.get(), base.value.get(), k, Ball::kBits);
     if (k != 0) {
@@ -119,30 +121,40 @@ class Evaluator {
     return chain(value, derivative, base);
   }
 
-  void check_root(const Ball& a) const {
-    if (!real_ || a.is_positive() || a.is_exact_zero()) return;
+  /// A radicand that is zero as far as 60 digits can tell is zero: x - y/3 at x = y/3 is a ball, of
+  /// which one half has no real root.
+  Ball checked_root(const Ball& a) const {
+    if (!real_ || a.is_positive()) return a;
     if (a.is_negative()) throw NotReal();
+    if (!a.is_tiny()) throw Unknown();
+    return Ball();
+  }
+
+  /// Of 1/a or log(a), where `a` may be zero: a claim says nothing where it certainly is.
+  [[noreturn]] void no_value(const Ball& a) const {
+    if (real_ && a.is_tiny()) throw NotReal();
     throw Unknown();
   }
 
   void check_positive(const Ball& a) const {
-    check_root(a);
-    if (!a.is_nonzero()) throw Unknown();
+    if (checked_root(a).is_nonzero()) return;
+    no_value(a);
   }
 
-  /// Between -1 and 1, strictly, so that the inverse function has a derivative.
-  void check_sine(const Ball& a) const {
-    if (!real_) return;
+  /// Between -1 and 1; at the ends, as far as 60 digits can tell, exactly these.
+  Ball checked_sine(const Ball& a) const {
+    if (!real_) return a;
     const Ball room = Ball(1) - a * a;
+    if (room.is_positive()) return a;
     if (room.is_negative()) throw NotReal();
-    if (!room.is_positive()) throw Unknown();
+    if (!room.is_tiny()) throw Unknown();
+    return Ball(a.is_positive() ? 1 : -1);
   }
 
   Dual function(const std::string& name, const Dual& a) const {
     const Ball& x = a.value;
     if (name == "sqrt") {
-      check_root(x);
-      const Ball root = apply(acb_sqrt, x);
+      const Ball root = apply(acb_sqrt, checked_root(x));
       return chain(root, Ball(1) / (Ball(2) * root), a);
     }
     if (name == "sin") return chain(apply(acb_sin, x), apply(acb_cos, x), a);
@@ -160,10 +172,10 @@ class Evaluator {
       return chain(apply(acb_log, x), Ball(1) / x, a);
     }
     if (name == "atan") return chain(apply(acb_atan, x), Ball(1) / (Ball(1) + x * x), a);
-    check_sine(x);
-    const Ball slope = Ball(1) / apply(acb_sqrt, Ball(1) - x * x);
-    if (name == "asin") return chain(apply(acb_asin, x), slope, a);
-    if (name == "acos") return chain(apply(acb_acos, x), Ball(-1) * slope, a);
+    const Ball sine = checked_sine(x);
+    const Ball slope = Ball(1) / apply(acb_sqrt, Ball(1) - sine * sine);
+    if (name == "asin") return chain(apply(acb_asin, sine), slope, a);
+    if (name == "acos") return chain(apply(acb_acos, sine), Ball(-1) * slope, a);
     throw std::logic_error("no function " + name);
   }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 
 #include "symbolic/error.hpp"
 #include "symbolic/prove.hpp"
@@ -63,9 +64,20 @@ bool fails(const Case& claim, const Proof& proof, Random& random) {
   return left == Finding::fails || (claim.truth == Truth::nothing && left == Finding::nowhere);
 }
 
+/// Whether what a witness shows is too small for the 40 digits of the oracle, as exp(-9^3) is.
+bool is_beyond_digits(const Witness& witness) {
+  constexpr double kSmallest = 1e-35;
+  try {
+    return std::fabs(value(parse(witness.value), {}, false).as_double()) < kSmallest;
+  } catch (const Unknown&) {
+    return true;
+  }
+}
+
 Outcome compare(const Case& claim, const Proof& proof, Random& random, std::string& what) {
   switch (proof.verdict) {
     case Verdict::undecided:
+      what = proof.reason;
       return Outcome::undecided;
     case Verdict::proved:
       if (!fails(claim, proof, random)) return Outcome::proved;
@@ -80,7 +92,7 @@ Outcome compare(const Case& claim, const Proof& proof, Random& random, std::stri
   }
   if (!proof.witness) return Outcome::refuted;
   const std::string wrong = examine_witness(claim, point_of(*proof.witness));
-  if (wrong.empty()) return Outcome::refuted;
+  if (wrong.empty() || is_beyond_digits(*proof.witness)) return Outcome::refuted;
   what = "its witness shows nothing: " + wrong;
   return Outcome::bad_witness;
 }
@@ -176,7 +188,7 @@ Judgement judge(std::uint64_t seed, std::uint64_t index) {
   Judgement result = described(claim);
   result.outcome = outcome;
   result.what = what;
-  if (!is_failure(outcome)) result.file.clear();
+  if (!is_failure(outcome) && outcome != Outcome::undecided) result.file.clear();
   return result;
 }
 

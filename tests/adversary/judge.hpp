@@ -32,8 +32,8 @@ struct Judgement {
   Kind kind = Kind::integral;
   std::string family;
   Truth truth = Truth::yes;
-  std::string what;  ///< for a failure
-  std::string file;  ///< the case; of what is judged only for a failure
+  std::string what;  ///< for a failure, or why it is undecided
+  std::string file;  ///< the case; of what is judged only for a failure, or if it is undecided
 };
 
 /// What is known of the claim of that index before anyone is asked, with its file.

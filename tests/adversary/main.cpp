@@ -16,6 +16,8 @@ int main(int argc, char** argv) {
   app.add_option("--show", request.show, "how many failures of one sort are shown");
   app.add_option("--family", request.family, "only claims of this family are counted");
   app.add_flag("--print", request.print, "prints the claims instead of judging them");
+  app.add_option("--undecided", request.undecided,
+                 "a file for the true claims that stay undecided");
   CLI11_PARSE(app, argc, argv);
   casimir::Limits limits = casimir::limits();
   limits.work = 1e7;  // a claim that takes longer is undecided, which is no failure

@@ -1,5 +1,6 @@
 #include "tests/adversary/orbit.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/adversary/residuals.hpp"
@@ -83,6 +84,16 @@ bool solves(const Case& claim, const Point& at_s) {
   return true;
 }
 
+/// Whether the point of the explicit orbit at that time is inside of all conditions.
+bool admits(const Case& claim, const Point& at_s, const std::vector<Assumption>& conditions) {
+  Point point = at_s;
+  for (const std::string& name : claim.system.variables)
+    point[name] = value(claim.orbit->at(name), at_s);
+  return std::all_of(conditions.begin(), conditions.end(), [&](const Assumption& a) {
+    return holds({substitute(a.left, names_of(claim)), a.relation}, point);
+  });
+}
+
 /// The values of what should stay, at time s of the explicit orbit.
 State kept(const Case& claim, Point point, const Ball& s) {
   point["s"] = s;
@@ -94,6 +105,8 @@ State kept(const Case& claim, Point point, const Ball& s) {
   for (const Expr& f : level_of(claim)) values.push_back(At(claim, there).value(f));
   if (claim.kind == Kind::conditional)
     values.push_back(At(claim, there).value(claim.conditionals.front().expression));
+  if (claim.kind == Kind::integral)
+    values.push_back(At(claim, there).value(claim.integrals.front().value));
   return values;
 }
 
@@ -118,13 +131,16 @@ void follow(const Case& claim, Point start, double duration,
   }
 }
 
-bool explicit_orbit_leaves(const Case& claim, const Point& parameters) {
+bool explicit_orbit_leaves(const Case& claim, const Point& parameters,
+                           const std::vector<Assumption>& more) {
   if (!claim.orbit) return false;
+  std::vector<Assumption> conditions = claim.system.assumptions();
+  conditions.insert(conditions.end(), more.begin(), more.end());
   try {
     for (long k = 1; k < 8; ++k) {
       Point at_s = parameters;
       at_s["s"] = Ball::ratio(k, 8);
-      if (!solves(claim, at_s)) return false;
+      if (!solves(claim, at_s) || !admits(claim, at_s, conditions)) return false;
     }
     const State first = kept(claim, parameters, 0), last = kept(claim, parameters, 1);
     for (std::size_t i = 0; i < first.size(); ++i) {

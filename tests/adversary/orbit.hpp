@@ -1,7 +1,7 @@
 #pragma once
 
 #include <functional>
-#include <optional>
+#include <vector>
 
 #include "tests/adversary/case.hpp"
 #include "tests/adversary/evaluate.hpp"
@@ -17,6 +17,8 @@ void follow(const Case& claim, Point start, double duration,
 
 /// Whether the explicit orbit of the case is a solution of its equations that starts on the level
 /// and leaves it, or changes the claim's function; over the time `s` in (0, 1).
-bool explicit_orbit_leaves(const Case& claim, const Point& parameters);
+/// \param more  further conditions that it has to obey, as those that a proof names
+bool explicit_orbit_leaves(const Case& claim, const Point& parameters,
+                           const std::vector<Assumption>& more = {});
 
 }  // namespace casimir::adversary

@@ -221,8 +221,17 @@ std::vector<Ball> At::measure() const {
 }
 
 std::vector<Ball> At::rates_of(const OnLevel& claim) const {
-  std::vector<Ball> result{rate(claim.expression)};
-  for (const Expr& f : claim.on) result.push_back(rate(f));
+  std::vector<Ball> result;
+  // One that is certainly not zero says that the claim fails, whatever the others are.
+  const auto add = [&](const Expr& f) {
+    try {
+      result.push_back(rate(f));
+    } catch (const Unknown&) {
+      acb_indeterminate(result.emplace_back().get());
+    }
+  };
+  add(claim.expression);
+  for (const Expr& f : claim.on) add(f);
   return result;
 }
 

@@ -4,7 +4,10 @@
 
 #include <array>
 #include <cstdio>
+#include <fstream>
 #include <map>
+#include <stdexcept>
+#include <vector>
 
 #include "tests/adversary/worker.hpp"
 
@@ -39,6 +42,10 @@ class Log {
     ++by_kind_[to_string(j.kind) + ", " + truth][column];
     ++by_family_[j.family + ", " + truth][column];
     ++all_["all"][column];
+    if (j.outcome == Outcome::undecided && j.truth == Truth::yes && !request_.undecided.empty())
+      undecided_[j.family + ", " + to_string(j.kind)].push_back(
+          fmt::format("# --seed {} --first {} --count 1\n# {}\n{}\n", request_.seed, index, j.what,
+                      j.file));
     if (!is_failure(j.outcome)) return;
     failed_ = true;
     const std::string sort = to_string(j.outcome) + " " + to_string(j.kind) + " " + j.family;
@@ -53,11 +60,26 @@ class Log {
     print("kind", by_kind_);
     print("family", by_family_);
     print("", all_);
+    if (!request_.undecided.empty()) list_undecided();
     return !failed_;
   }
 
  private:
+  /// The largest sort first.
+  void list_undecided() const {
+    std::ofstream file(request_.undecided);
+    std::multimap<std::size_t, std::string, std::greater<>> by_size;
+    for (const auto& [sort, claims] : undecided_) by_size.emplace(claims.size(), sort);
+    for (const auto& [size, sort] : by_size) file << fmt::format("# {:>6} {}\n", size, sort);
+    for (const auto& [size, sort] : by_size) {
+      file << fmt::format("\n## {}\n", sort);
+      for (const std::string& claim : undecided_.at(sort)) file << claim;
+    }
+    if (!file.flush()) throw std::runtime_error("cannot write " + request_.undecided);
+  }
+
   const Request& request_;
+  std::map<std::string, std::vector<std::string>> undecided_;
   Table by_kind_, by_family_, all_;
   std::map<std::string, int> shown_;
   bool failed_ = false;

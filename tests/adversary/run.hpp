@@ -12,6 +12,7 @@ struct Request {
   int show = 1;
   std::string family{};
   bool print = false;
+  std::string undecided{};  ///< a file for the true claims that stay undecided, sorted by family
 };
 
 /// Judges claims one after the other, each in a child process that may crash or hang, and prints

@@ -59,7 +59,9 @@ Sampler::Sampler(const Case& claim, const std::vector<Assumption>& more, bool ge
       assumptions_(claim.system.assumptions()),
       names_(names_of(claim)),
       generic_(generic),
-      random_(random) {
+      random_(random),
+      agreed_(std::max<std::size_t>(claim.pieces.size(), 1)),
+      doubtful_(agreed_.size()) {
   assumptions_.insert(assumptions_.end(), more.begin(), more.end());
 }
 
@@ -69,8 +71,9 @@ Point Sampler::free_values() {
     if (!pair.spectral.empty()) symbols.push_back(pair.spectral);
   }
   Point point;
-  // Orbits that start far out may be too fast for the steps that follow them.
-  const bool near = !level_of(case_).empty();
+  // Orbits that start far out may be too fast for the steps that follow them, and what is small
+  // there may be too small for ranks.
+  const bool near = generic_ || !level_of(case_).empty();
   for (const std::string& symbol : symbols) {
     point[symbol] = random_number(random_, near);
     for (const Assumption& a : assumptions_) {
@@ -97,12 +100,20 @@ bool Sampler::admits(const Point& point) const {
   return true;
 }
 
+bool Sampler::is_settled() const {
+  for (std::size_t i = 0; i < agreed_.size(); ++i) {
+    if (doubtful_[i] && !agreed_[i]) return false;
+  }
+  return true;
+}
+
 std::optional<Point> Sampler::draw() {
+  piece_ = (piece_ + 1) % agreed_.size();
   try {
     Point point = free_values();
     if (!case_.pieces.empty()) {
       const Point free = point;
-      for (const auto& [name, solved] : case_.pieces[next_piece_++ % case_.pieces.size()])
+      for (const auto& [name, solved] : case_.pieces[piece_])
         point[name] = value(solved, free);
     }
     if (!admits(point)) return std::nullopt;
@@ -113,6 +124,7 @@ std::optional<Point> Sampler::draw() {
     return point;
   } catch (const NotReal&) {
   } catch (const Unknown&) {
+    note(false);
   }
   return std::nullopt;
 }

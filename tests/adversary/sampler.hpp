@@ -19,6 +19,12 @@ class Sampler {
 
   /// A point, or none where this try met none.
   std::optional<Point> draw();
+  /// What came of the last point, or of the last try: whether the claim holds there, or nobody knows.
+  void note(bool holds) { (holds ? agreed_ : doubtful_)[piece_] = true; }
+  /// Whether no part of the level has only points of which nobody knows: what holds on the others
+  /// need not hold there.
+  bool is_settled() const;
+
   /// Whether there are assumptions, which may admit special points that are seldom met, or complex
   /// values, which differ by branches.
   bool is_intricate() const { return !assumptions_.empty() || is_complex(case_); }
@@ -32,7 +38,8 @@ class Sampler {
   Substitution names_;
   bool generic_;
   Random& random_;
-  std::size_t next_piece_ = 0;  ///< all are visited in turn
+  std::size_t piece_ = 0;                 ///< of the last point; all are visited in turn
+  std::vector<bool> agreed_, doubtful_;  ///< by piece
 };
 
 /// Whether `left RELATION 0` holds there, where what is zero to 40 digits is zero.

@@ -1,6 +1,8 @@
 // The hypotheses of the theorems behind claims on levels and behind facts: each test drops one.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "symbolic/generic_rank.hpp"
 #include "symbolic/real_level_point.hpp"
 #include "tests/symbolic/cases.hpp"
@@ -80,6 +82,71 @@ TEST(Levels, InvarianceNeedsARegularCofactor) {
   EXPECT_NE(relation("0", "sqrt(x^2) - x"), Verdict::proved);
 }
 
+/// x and y rest; each level is that of what it is compared with, since what is left out of it
+/// vanishes nowhere, or since it is a sum of squares.
+TEST(Levels, AreThoseOfSimplerFunctionsWithTheSameRealZeros) {
+  for (const char* level : {"(x^2 + 1)*y", "y^2", "y^3*exp(x)", "(x^2 + x + 1)*y",
+                            "y*(2 + sin(x))", "y*(1 + acos(x/4))", "sqrt(1 + x^2)*y"})
+    EXPECT_EQ(on_level(level, "y").verdict, Verdict::proved) << level;
+  for (const char* level : {"(x^2 - 1)*y", "(x^2 + 2*x + 1)*y", "y*(1 + sin(x))", "y*acos(x/4)",
+                            "y*(x^2 + x - 1)", "sqrt(x^2 - 1)*y"})
+    EXPECT_NE(on_level(level, "y").verdict, Verdict::proved) << level;
+  for (const char* level : {"x^2 + y^2", "x^4 + 3*y^2", "x^2 + x*y + y^2", "sqrt(x^2) + sqrt(y^2)"})
+    EXPECT_EQ(on_level(level, "x + sin(y)").verdict, Verdict::proved) << level;
+  for (const char* level : {"x^2 - y^2", "x^4 + 3*y^3", "x^2 + 2*x*y + y^2", "x^2 + x*y"})
+    EXPECT_EQ(on_level(level, "x").verdict, Verdict::refuted) << level;
+}
+
+/// The rate of x^2 vanishes on x = 0, whatever that of x is.
+TEST(Levels, OfSquaresAreLeftWhereTheirRootsAre) {
+  const auto relation = [](const std::string& rate, const std::string& f) {
+    return proof_of("invariant_relation",
+                    equations("[equations]\nx = \"" + rate +
+                              "\"\ny = \"0\"\nz = \"0\"\n[[invariant_relation]]\n"
+                              "name = \"R\"\nexpression = \"" +
+                              f + "\"\n"))
+        .verdict;
+  };
+  for (const char* f : {"x^2", "x^3*(1 + y^2)", "x^2*exp(z)"}) {
+    EXPECT_EQ(relation("x*exp(z)", f), Verdict::proved) << f;
+    EXPECT_EQ(relation("1", f), Verdict::refuted) << f;
+    EXPECT_NE(relation("x^(2/3)", f), Verdict::proved) << f;
+  }
+}
+
+/// What a root of higher power leaves differentiable, and what it does not.
+TEST(Levels, MeetRootsThatAreDifferentiable) {
+  const auto conditional = [](const std::string& rate, const std::string& f) {
+    return proof_of("conditional", equations("[equations]\nx = \"x\"\ny = \"" + rate +
+                                             "\"\nz = \"0\"\n[[conditional]]\nname = \"C\"\n"
+                                             "expression = \"" +
+                                             f + "\"\non = [\"x\"]\n"))
+        .verdict;
+  };
+  EXPECT_EQ(conditional("sqrt(x)", "y + x^(3/2)"), Verdict::proved);
+  EXPECT_EQ(conditional("sin(x)", "y + x*sqrt(x^2)"), Verdict::proved);
+  EXPECT_NE(conditional("sqrt(x)", "y + sqrt(x)"), Verdict::proved);
+  EXPECT_NE(conditional("1 + sqrt(x)", "y + x^(3/2)"), Verdict::proved);
+  EXPECT_NE(conditional("x", "y + sqrt(x^2)"), Verdict::proved);
+}
+
+/// y = 0 and y = 1 solve the equations, and the functions change with x there.
+TEST(Integrals, AreNoneWhereARootInTheMotionVanishes) {
+  const auto where = [](const std::string& rate, const std::string& f) {
+    const Proof proof =
+        proof_of("integral", equations("[equations]\nx = \"1\"\ny = \"" + rate +
+                                       "\"\nz = \"0\"\n[integrals]\nF = \"" + f + "\"\n"));
+    EXPECT_EQ(proof.verdict, Verdict::proved) << f;
+    return std::set<std::string>(proof.where.begin(), proof.where.end());
+  };
+  const std::set<std::string> inside{"y != 0", "y - 1 != 0"};
+  EXPECT_EQ(where("2*sqrt(y)", "sqrt(y) - x"), std::set<std::string>{"y != 0"});
+  for (const char* f : {"asin(sqrt(1 - y))", "acos(sqrt(y))", "acos(2*y - 1)/2",
+                        "atan2(sqrt(1 - y), sqrt(y))"})
+    EXPECT_EQ(where("-2*sqrt(y*(1 - y))", f + std::string(" - x")), inside) << f;
+  EXPECT_TRUE(where("0", "asin(y) + z").empty()) << "there is no root in the motion";
+}
+
 TEST(Signs, OfAProductNeedTheOthersNotToVanish) {
   const auto claim = [](const std::string& assume_a, const std::string& assume_b) {
     return proof_of("identity", equations("[parameters]\na = { assume = \"" + assume_a +
@@ -94,6 +161,46 @@ TEST(Signs, OfAProductNeedTheOthersNotToVanish) {
   EXPECT_EQ(claim("a >= 0", "a*b > 0"), Verdict::proved);
   EXPECT_EQ(claim("a >= 0", "a*b >= 0"), Verdict::refuted);
   EXPECT_EQ(claim("a >= 0", "a^2*b >= 0"), Verdict::refuted);
+}
+
+/// |b| = b follows from what is assumed of b, or not.
+TEST(Signs, OfSumsFollowFromThoseOfTheirParts) {
+  const auto follows = [](const std::string& a, const std::string& b, const std::string& c,
+                          const std::string& function) {
+    return proof_of("identity",
+                    "hamiltonian = \"p^2\"\n[phase_space]\nvariables = [\"q\",\"p\"]\n"
+                    "canonical = true\n[parameters]\na = { assume = [" +
+                        a + "] }\nb = { assume = [" + b + "] }\nc = { assume = [" + c +
+                        "] }\n[[identity]]\nname = \"I\"\nleft = \"sqrt((" + function +
+                        ")^2)*q\"\nright = \"(" + function + ")*q\"\n")
+        .verdict;
+  };
+  EXPECT_EQ(follows("'a > b'", "'b > c'", "'c > 0'", "a - c"), Verdict::proved);
+  EXPECT_EQ(follows("'a > b'", "'b > c'", "'c > 0'", "a + c"), Verdict::proved);
+  EXPECT_EQ(follows("'a > b'", "'b > c'", "'c > 0'", "a*b - c^2"), Verdict::undecided);
+  EXPECT_EQ(follows("'a >= 0'", "'b - a^2 >= 0'", "", "b"), Verdict::proved);
+  EXPECT_EQ(follows("", "'a*b > 0'", "'a*c > 0', 'c > 0'", "b"), Verdict::proved);
+  EXPECT_EQ(follows("'a > 1'", "", "", "a^2 - a*b + b^2"), Verdict::proved);
+  EXPECT_EQ(follows("'a > b'", "'b > c'", "'c < 0'", "a + c"), Verdict::refuted);
+  EXPECT_EQ(follows("'a > b'", "'c > b'", "", "a - c"), Verdict::refuted);
+  EXPECT_EQ(follows("'a >= 0'", "'b + a^2 >= 0'", "", "b"), Verdict::refuted);
+  EXPECT_EQ(follows("", "'a*b >= 0'", "'a*c >= 0', 'c > 0'", "b"), Verdict::refuted);
+  EXPECT_EQ(follows("'a > 1'", "", "", "a^2 - 3*a*b + b^2"), Verdict::refuted);
+}
+
+/// {u, v} is |q|/q: 1 where sqrt(q) has a value.
+TEST(Domain, OfAMapIsWhereItsExpressionsHaveValuesAsWritten) {
+  const auto map = [](const std::string& v) {
+    return proof_of("map", "hamiltonian = \"p^2\"\n[phase_space]\nvariables = [\"q\",\"p\"]\n"
+                           "canonical = true\n[[map]]\nname = \"M\"\nexpressions = { u = \"q\", "
+                           "v = \"" +
+                               v +
+                               "\" }\n[map.to]\nvariables = [\"u\", \"v\"]\n[map.to.brackets]\n"
+                               "\"u,v\" = \"1\"\n")
+        .verdict;
+  };
+  EXPECT_EQ(map("p*sqrt(q^2)/sqrt(q)^2"), Verdict::proved);
+  EXPECT_EQ(map("p*sqrt(q^2)/q"), Verdict::refuted);
 }
 
 TEST(Domain, AClaimAboutNothingIsNotProved) {
