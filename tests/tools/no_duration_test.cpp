@@ -9,7 +9,8 @@ namespace {
 const std::string kText =
     "hamiltonian = \"(M1^2 + M2^2 + 2*M3^2)/2 - g1\"\n[phase_space]\n"
     "variables = [\"M1\", \"M2\", \"M3\", \"g1\", \"g2\", \"g3\"]\nalgebra = \"e(3)\"\n[casimirs]\n"
-    "F1 = \"g1^2 + g2^2 + g3^2\"\n[section]\nfunction = \"g2\"\nplot = [\"M1\", \"M3\"]\n"
+    "F1 = \"g1^2 + g2^2 + g3^2\"\nF2 = \"M1*g1 + M2*g2 + M3*g3\"\n[section]\nfunction = "
+    "\"g2\"\nplot = [\"M1\", \"M3\"]\n"
     "[[scene]]\nname = \"endless\"\ninitial = { M1 = \"1\", M2 = \"1/2\", M3 = \"1/3\", g1 = "
     "\"3/5\", "
     "g2 = \"0\", g3 = \"4/5\" }\n";
@@ -41,7 +42,7 @@ TEST(NoDuration, IntegrationSaysWhereItIsMissing) {
            {"sweep", file, "--over", "M1=1:2:2", "--output", folder / "x.csv"}}) {
     const Outcome outcome = run(command);
     EXPECT_EQ(outcome.status, 2) << command[0] << outcome.err;
-    EXPECT_NE(outcome.err.find("top.toml:11:9: error: the scene 'endless' has no duration\n"),
+    EXPECT_NE(outcome.err.find("top.toml:12:9: error: the scene 'endless' has no duration\n"),
               std::string::npos)
         << command[0] << outcome.err;
     EXPECT_NE(outcome.err.find("duration = \"100\""), std::string::npos) << outcome.err;
