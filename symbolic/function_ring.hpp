@@ -317,7 +317,8 @@ class FunctionRing {
   bool is_never_negative(std::size_t place) const;
   bool is_never_zero(std::size_t place) const;
   int sign_of_variable(std::size_t place) const;
-  int sign_of_term(const cln::cl_RA& coefficient, const std::vector<unsigned long>& exponents) const;
+  int sign_of_term(const cln::cl_RA& coefficient,
+                   const std::vector<unsigned long>& exponents) const;
   std::optional<bool> not_negative_by_terms(
       const Polynomial& p, std::pair<cln::cl_RA, std::vector<unsigned long>>* bad) const;
   std::optional<std::vector<Polynomial>> squares_of_quadratic(Polynomial p) const;

@@ -72,9 +72,9 @@ std::optional<bool> FunctionRing::not_negative_by_terms(
       if (exponents[i] == 0) continue;
       constant = false;
       nonzero = nonzero && is_never_zero(i);
-      const bool sine = i >= symbols_.size() &&
-                        (generators_[i - symbols_.size()].kind == Kind::sine ||
-                         generators_[i - symbols_.size()].kind == Kind::cosine);
+      const bool sine =
+          i >= symbols_.size() && (generators_[i - symbols_.size()].kind == Kind::sine ||
+                                   generators_[i - symbols_.size()].kind == Kind::cosine);
       bounded = bounded && sine;
     }
     if (constant) {

@@ -79,8 +79,8 @@ struct Section {
 
 /// A right inverse of a map on a part of its image.
 struct MapInverse {
-  std::vector<GiNaC::ex> expressions;  ///< one for each variable, over the target's coordinates
-  std::vector<Assumption> domain;      ///< where on the target it may be used
+  std::vector<GiNaC::ex> expressions;   ///< one for each variable, over the target's coordinates
+  std::vector<Assumption> domain;       ///< where on the target it may be used
   std::vector<GiNaC::ex> defined_by{};  ///< as the domain of NamedExpression
 };
 

@@ -181,8 +181,9 @@ bool Prover::vanishes_nowhere_on(const Polynomial& p, const Level& level, Diviso
 }
 
 /// The same where relations x = value are put in first: on the level the functions may be simpler
-/// than the ring knows, as sqrt(G^2 - H^2) where H = 0 and G > 0; and so may the assumptions be. The
-/// residual is taken as it was written, or by its numerator, where it has a denominator that cancels.
+/// than the ring knows, as sqrt(G^2 - H^2) where H = 0 and G > 0; and so may the assumptions be.
+/// The residual is taken as it was written, or by its numerator, where it has a denominator that
+/// cancels.
 bool Prover::vanishes_by_substitution(const Residual& residual, const Level& level) const {
   if (ring_.is_polynomial() || level.solved.empty()) return false;
   const auto on_level = [&](ex value) {
@@ -257,7 +258,8 @@ void Prover::decide_invariance_once(Proof& proof, std::vector<NamedExpression> f
     const std::vector<Residual> rates = level_rates(own);
     proof = blank;
     decide_on(proof, rates, own);
-    if (proof.verdict != Verdict::proved || !is_smooth_on(proof, own, functions_of(own), true)) return;
+    if (proof.verdict != Verdict::proved || !is_smooth_on(proof, own, functions_of(own), true))
+      return;
     const std::size_t before = functions.size();
     for (const Residual& rate : rates) {
       if (!in_ideal(rate, own)) functions.push_back({rate.label, rate.by_ginac(), {}});

@@ -25,6 +25,8 @@ constexpr double kSpoiled = 1e-3;
 constexpr double kSixDigits = 1e-6;
 /// Estimated errors that the user is warned of.
 constexpr double kDoubtful = 1e-4;
+/// Seconds of a run that is repeated though it takes long, since it may have passed something over.
+constexpr double kLongestToRepeat = 10;
 constexpr double kCrossCheckTolerance = 1e-10;
 constexpr unsigned long long kCrossCheckSteps = 20000;
 /// What is narrower than a thousandth of the run CVODE may step over.
@@ -181,7 +183,10 @@ Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& 
   const std::vector<double> sizes = sizes_of(trajectory);
   const std::size_t n = run.initial.size();
   Neighbours neighbours(run, compiled, method, settings, sizes);
-  const bool has_time = 3 * trajectory.seconds < budget;
+  // Polynomials of low degree hide nothing from a step.
+  const bool may_hide = compiled.module.watch() || run.specialisation.uses_time;
+  const bool has_time =
+      3 * trajectory.seconds < budget || (may_hide && trajectory.seconds < kLongestToRepeat);
   const bool repeated = has_time && neighbours.begin();
   trust.unconfirmed = has_time && !repeated;
   std::optional<Conditioning> flow = conditioning(run, settings, trajectory.time, sizes);
@@ -205,14 +210,16 @@ Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& 
       (repeated ? distance(neighbours.better(), trajectory.state, end_sizes(run, trajectory)) +
                       growth * kUnitRoundoff
                 : estimate_without_repeat(growth, settings, trajectory));
-  // Polynomials of low degree hide nothing from a step.
-  if (!method.series || compiled.module.watch() || run.specialisation.uses_time) {
+  if (!method.series || may_hide) {
     const CrossCheck check =
         cross_check(run, method, settings, trajectory, end_sizes(run, trajectory), growth);
     trust.unconfirmed = trust.unconfirmed || check.contradicts;
     trust.error_estimate = std::max(trust.error_estimate, check.distance);
   }
+  trust.unconfirmed = trust.unconfirmed || (may_hide && !has_time && short_of_end);
   trust.beyond_double = !(trust.on_the_way * kUnitRoundoff < kSpoiled);
+  // Which way the motion took was decided by rounding: all of the state is in doubt.
+  if (trust.beyond_double) trust.error_estimate = std::max(trust.error_estimate, 1.);
   if (!flow) return trust;
   if (trust.beyond_double) trust.six_digits_until = flow->time_of(kSixDigits / kUnitRoundoff);
   if (flow->followed > 0 && flow->followed < 0.99 * std::abs(trajectory.time))
@@ -241,8 +248,9 @@ std::vector<std::string> warnings_of(const Trust& trust) {
   std::vector<std::string> warnings;
   if (trust.unconfirmed)
     warnings.push_back(
-        "a run with a hundredth of the tolerance, or one by Taylor series, does not reach the end: "
-        "nothing confirms this one");
+        "a run with a hundredth of the tolerance, or one by Taylor series, does not reach the end, "
+        "or "
+        "would take too long: nothing confirms this one");
   if (!trust.known) {
     warnings.push_back(
         "how much small changes grow could not be found: the variational equations have no "

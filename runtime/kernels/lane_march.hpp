@@ -399,10 +399,10 @@ class March {
     seen_enough_ |= finished & held;
   }
 
-  /// Where the series has the derivative that the equations ask for, within the step and at its end:
-  /// the last coefficients alone show no kink of the right-hand side, and a pulse may have passed
-  /// before the end. The places within are those of a member's own count of steps, so that no motion
-  /// has the same ones in each and no neighbour matters.
+  /// Where the series has the derivative that the equations ask for, within the step and at its
+  /// end: the last coefficients alone show no kink of the right-hand side, and a pulse may have
+  /// passed before the end. The places within are those of a member's own count of steps, so that
+  /// no motion has the same ones in each and no neighbour matters.
   __attribute__((noinline)) M follows(M which, const Trial& trial) {
     constexpr double kGoldenSection = 0.6180339887498949;
     const int places = Series::smooth ? 4 : 1;

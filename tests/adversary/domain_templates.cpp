@@ -260,8 +260,8 @@ Case thin_domain(Random& random) {
   return claim;
 }
 
-/// dy/dt = R(y) with a root in R, and F(y) with dF/dt = 1: along F - t a solution that rests where R
-/// vanishes is no constant. So the claim is false, but true where y is elsewhere.
+/// dy/dt = R(y) with a root in R, and F(y) with dF/dt = 1: along F - t a solution that rests where
+/// R vanishes is no constant. So the claim is false, but true where y is elsewhere.
 Case rest_point(Random& random) {
   struct Choice {
     Expr rate;

@@ -43,9 +43,8 @@ class Log {
     ++by_family_[j.family + ", " + truth][column];
     ++all_["all"][column];
     if (j.outcome == Outcome::undecided && j.truth == Truth::yes && !request_.undecided.empty())
-      undecided_[j.family + ", " + to_string(j.kind)].push_back(
-          fmt::format("# --seed {} --first {} --count 1\n# {}\n{}\n", request_.seed, index, j.what,
-                      j.file));
+      undecided_[j.family + ", " + to_string(j.kind)].push_back(fmt::format(
+          "# --seed {} --first {} --count 1\n# {}\n{}\n", request_.seed, index, j.what, j.file));
     if (!is_failure(j.outcome)) return;
     failed_ = true;
     const std::string sort = to_string(j.outcome) + " " + to_string(j.kind) + " " + j.family;

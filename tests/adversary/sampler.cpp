@@ -113,8 +113,7 @@ std::optional<Point> Sampler::draw() {
     Point point = free_values();
     if (!case_.pieces.empty()) {
       const Point free = point;
-      for (const auto& [name, solved] : case_.pieces[piece_])
-        point[name] = value(solved, free);
+      for (const auto& [name, solved] : case_.pieces[piece_]) point[name] = value(solved, free);
     }
     if (!admits(point)) return std::nullopt;
     for (const Expr& f : level_of(case_)) {

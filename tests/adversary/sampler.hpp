@@ -19,7 +19,8 @@ class Sampler {
 
   /// A point, or none where this try met none.
   std::optional<Point> draw();
-  /// What came of the last point, or of the last try: whether the claim holds there, or nobody knows.
+  /// What came of the last point, or of the last try: whether the claim holds there, or nobody
+  /// knows.
   void note(bool holds) { (holds ? agreed_ : doubtful_)[piece_] = true; }
   /// Whether no part of the level has only points of which nobody knows: what holds on the others
   /// need not hold there.
@@ -38,7 +39,7 @@ class Sampler {
   Substitution names_;
   bool generic_;
   Random& random_;
-  std::size_t piece_ = 0;                 ///< of the last point; all are visited in turn
+  std::size_t piece_ = 0;                ///< of the last point; all are visited in turn
   std::vector<bool> agreed_, doubtful_;  ///< by piece
 };
 

@@ -1,5 +1,7 @@
 #include "runtime/step_watch.hpp"
 
+#include <cln/dfloat.h>
+#include <cln/rational.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -85,8 +85,8 @@ TEST(Levels, InvarianceNeedsARegularCofactor) {
 /// x and y rest; each level is that of what it is compared with, since what is left out of it
 /// vanishes nowhere, or since it is a sum of squares.
 TEST(Levels, AreThoseOfSimplerFunctionsWithTheSameRealZeros) {
-  for (const char* level : {"(x^2 + 1)*y", "y^2", "y^3*exp(x)", "(x^2 + x + 1)*y",
-                            "y*(2 + sin(x))", "y*(1 + acos(x/4))", "sqrt(1 + x^2)*y"})
+  for (const char* level : {"(x^2 + 1)*y", "y^2", "y^3*exp(x)", "(x^2 + x + 1)*y", "y*(2 + sin(x))",
+                            "y*(1 + acos(x/4))", "sqrt(1 + x^2)*y"})
     EXPECT_EQ(on_level(level, "y").verdict, Verdict::proved) << level;
   for (const char* level : {"(x^2 - 1)*y", "(x^2 + 2*x + 1)*y", "y*(1 + sin(x))", "y*acos(x/4)",
                             "y*(x^2 + x - 1)", "sqrt(x^2 - 1)*y"})
@@ -141,8 +141,8 @@ TEST(Integrals, AreNoneWhereARootInTheMotionVanishes) {
   };
   const std::set<std::string> inside{"y != 0", "y - 1 != 0"};
   EXPECT_EQ(where("2*sqrt(y)", "sqrt(y) - x"), std::set<std::string>{"y != 0"});
-  for (const char* f : {"asin(sqrt(1 - y))", "acos(sqrt(y))", "acos(2*y - 1)/2",
-                        "atan2(sqrt(1 - y), sqrt(y))"})
+  for (const char* f :
+       {"asin(sqrt(1 - y))", "acos(sqrt(y))", "acos(2*y - 1)/2", "atan2(sqrt(1 - y), sqrt(y))"})
     EXPECT_EQ(where("-2*sqrt(y*(1 - y))", f + std::string(" - x")), inside) << f;
   EXPECT_TRUE(where("0", "asin(y) + z").empty()) << "there is no root in the motion";
 }
@@ -191,12 +191,13 @@ TEST(Signs, OfSumsFollowFromThoseOfTheirParts) {
 /// {u, v} is |q|/q: 1 where sqrt(q) has a value.
 TEST(Domain, OfAMapIsWhereItsExpressionsHaveValuesAsWritten) {
   const auto map = [](const std::string& v) {
-    return proof_of("map", "hamiltonian = \"p^2\"\n[phase_space]\nvariables = [\"q\",\"p\"]\n"
-                           "canonical = true\n[[map]]\nname = \"M\"\nexpressions = { u = \"q\", "
-                           "v = \"" +
-                               v +
-                               "\" }\n[map.to]\nvariables = [\"u\", \"v\"]\n[map.to.brackets]\n"
-                               "\"u,v\" = \"1\"\n")
+    return proof_of("map",
+                    "hamiltonian = \"p^2\"\n[phase_space]\nvariables = [\"q\",\"p\"]\n"
+                    "canonical = true\n[[map]]\nname = \"M\"\nexpressions = { u = \"q\", "
+                    "v = \"" +
+                        v +
+                        "\" }\n[map.to]\nvariables = [\"u\", \"v\"]\n[map.to.brackets]\n"
+                        "\"u,v\" = \"1\"\n")
         .verdict;
   };
   EXPECT_EQ(map("p*sqrt(q^2)/sqrt(q)^2"), Verdict::proved);
