@@ -387,6 +387,7 @@ class FunctionRing {
     GiNaC::ex value;  ///< not negative where the roots and logarithms are real
     bool strict;      ///< nor zero
   };
+  static bool keep(std::vector<Implied>& list, const GiNaC::ex& value, bool strict);
   std::vector<Implied> implied_;
   std::vector<Implied> products_;  ///< the same, where no single sign followed when it was met
   /// For a monomial in an angle or exponent: the least common denominator of its coefficients.

@@ -181,8 +181,9 @@ bool Prover::vanishes_nowhere_on(const Polynomial& p, const Level& level, Diviso
 }
 
 /// The same where relations x = value are put in first: on the level the functions may be simpler
-/// than the ring knows, as sqrt(G^2 - H^2) where H = 0 and G > 0; and so may the assumptions be. The
-/// residual is taken as it was written, or by its numerator, where it has a denominator that cancels.
+/// than the ring knows, as sqrt(G^2 - H^2) where H = 0 and G > 0; and so may the assumptions be. It
+/// is the numerator that is put in: roots that were differentiated have denominators, from which
+/// the new ring would conclude that they are not zero.
 bool Prover::vanishes_by_substitution(const Residual& residual, const Level& level) const {
   if (ring_.is_polynomial() || level.solved.empty()) return false;
   const auto on_level = [&](ex value) {
@@ -195,19 +196,15 @@ bool Prover::vanishes_by_substitution(const Residual& residual, const Level& lev
     }
     return value;
   };
-  const auto vanishes = [&](const std::function<ex()>& function) {
-    try {
-      const ex value = on_level(function());
-      std::vector<Assumption> assumptions = model_.assumptions;
-      for (Assumption& a : assumptions) a.difference = on_level(a.difference);
-      FunctionRing fresh(ring_.symbols(), assumptions, {value});
-      return fresh.numerator(fresh.convert(value)).is_zero();
-    } catch (const std::exception&) {
-      return false;  // a pole on the level, or too large
-    }
-  };
-  return vanishes(residual.by_ginac) ||
-         vanishes([&] { return ring_.expression(ring_.lowest_terms(residual.value).first); });
+  try {
+    const ex value = on_level(ring_.expression(ring_.lowest_terms(residual.value).first));
+    std::vector<Assumption> assumptions = model_.assumptions;
+    for (Assumption& a : assumptions) a.difference = on_level(a.difference);
+    FunctionRing fresh(ring_.symbols(), assumptions, {value});
+    return fresh.numerator(fresh.convert(value)).is_zero();
+  } catch (const std::exception&) {
+    return false;  // a pole on the level, or too large
+  }
 }
 
 bool Prover::in_ideal(const Residual& residual, const Level& level) {
