@@ -50,7 +50,10 @@ void FunctionRing::build(const std::vector<ex>& expressions) {
       for (const ex& e : expressions) convert(e);
       // What roots and logarithms imply may give a meaning to what is assumed, or to each other.
       const bool more = implied_.size() + products_.size() > before;
-      if (!more || implied_.size() + products_.size() + assumptions_.size() < 2) return;
+      if (!more || implied_.size() + products_.size() + assumptions_.size() < 2) {
+        built_ = true;
+        return;
+      }
     } catch (const Full&) {
       if (!first) continue;
       first = false;  // only now is it seen that there is more than polynomials

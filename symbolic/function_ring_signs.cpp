@@ -170,7 +170,7 @@ bool FunctionRing::keep(std::vector<Implied>& list, const GiNaC::ex& value, bool
 
 /// Takes it that f has this sign, since a root or a logarithm is real only there.
 void FunctionRing::imply_sign(const Polynomial& f, int sign, bool strict) {
-  if (complex_) return;
+  if (complex_ || built_) return;
   if (known_sign(f) != 0) {
     if (strict && !known_nonzero(f)) {
       nonzero_.push_back(f);

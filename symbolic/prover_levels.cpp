@@ -61,12 +61,16 @@ std::vector<NamedExpression> Prover::simplified(const NamedExpression& f, int de
   const std::vector<Polynomial> zeros =
       count == 1 ? ring_.real_zeros(product) : std::vector<Polynomial>{product};
   if (rest.is_constant() && zeros.size() == 1 && zeros[0] == product) return {f};
-  std::vector<NamedExpression> result;
-  for (const Polynomial& zero : zeros) {
-    const auto parts = simplified({ring_.text(zero), ring_.expression(zero), {}}, depth - 1);
-    result.insert(result.end(), parts.begin(), parts.end());
+  try {
+    std::vector<NamedExpression> result;
+    for (const Polynomial& zero : zeros) {
+      const auto parts = simplified({ring_.text(zero), ring_.expression(zero), {}}, depth - 1);
+      result.insert(result.end(), parts.begin(), parts.end());
+    }
+    return result;
+  } catch (const TooLarge&) {
+    return {f};  // simpler by its zeros alone
   }
-  return result;
 }
 
 Level Prover::level(const std::vector<NamedExpression>& on) {
