@@ -46,8 +46,14 @@ void FunctionRing::build(const std::vector<ex>& expressions) {
     ring_ = std::make_unique<PolynomialRing>(symbols_.size() + capacity_);
     try {
       read_signs();
+      const std::size_t before = implied_.size() + products_.size();
       for (const ex& e : expressions) convert(e);
-      return;
+      // What roots and logarithms imply may give a meaning to what is assumed, or to each other.
+      const bool more = implied_.size() + products_.size() > before;
+      if (!more || implied_.size() + products_.size() + assumptions_.size() < 2) {
+        built_ = true;
+        return;
+      }
     } catch (const Full&) {
       if (!first) continue;
       first = false;  // only now is it seen that there is more than polynomials

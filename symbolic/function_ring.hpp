@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "symbolic/error.hpp"
 #include "symbolic/model.hpp"
 #include "symbolic/polynomial.hpp"
 
@@ -254,7 +255,11 @@ class FunctionRing {
     cln::cl_RA coefficient;
     std::vector<unsigned long> exponents;
   };
-  struct Full {};  ///< more generators are needed than the ring has room for
+  /// More generators are needed than the ring has room for, or they have another form than it was
+  /// thought. While a ring is built it is built again; later it is a limit like others.
+  struct Full : TooLarge {
+    Full() : TooLarge("functions are needed that the expressions of the claim do not show") {}
+  };
 
   void build(const std::vector<GiNaC::ex>& expressions);
   Polynomial convert_new(const GiNaC::ex& e);
@@ -376,6 +381,7 @@ class FunctionRing {
   /// I occurs: roots and logarithms need not be real then. Nothing is made of these before that is
   /// looked for.
   bool complex_ = true;
+  bool built_ = false;  ///< what is converted from then on says no more of signs
   struct Sign {
     Polynomial of;
     int sign;
@@ -388,6 +394,7 @@ class FunctionRing {
     GiNaC::ex value;  ///< not negative where the roots and logarithms are real
     bool strict;      ///< nor zero
   };
+  static bool keep(std::vector<Implied>& list, const GiNaC::ex& value, bool strict);
   std::vector<Implied> implied_;
   std::vector<Implied> products_;  ///< the same, where no single sign followed when it was met
   /// For a monomial in an angle or exponent: the least common denominator of its coefficients.

@@ -159,23 +159,27 @@ int FunctionRing::sign_of(const Polynomial& p) const {
   return sign;
 }
 
+/// Adds what is not listed. \return whether it was not
+bool FunctionRing::keep(std::vector<Implied>& list, const GiNaC::ex& value, bool strict) {
+  const bool listed = std::any_of(list.begin(), list.end(), [&](const Implied& known) {
+    return known.strict == strict && known.value.is_equal(value);
+  });
+  if (!listed) list.push_back({value, strict});
+  return !listed;
+}
+
 /// Takes it that f has this sign, since a root or a logarithm is real only there.
 void FunctionRing::imply_sign(const Polynomial& f, int sign, bool strict) {
-  if (complex_) return;
+  if (complex_ || built_) return;
   if (known_sign(f) != 0) {
     if (strict && !known_nonzero(f)) {
       nonzero_.push_back(f);
-      implied_.push_back({sign * expression(f), true});
+      keep(implied_, sign * expression(f), true);
     }
     return;
   }
   add_sign(f, sign, true, strict);
-  const GiNaC::ex value = sign * expression(f);
-  const bool listed = std::any_of(implied_.begin(), implied_.end(), [&](const Implied& known) {
-    return known.strict == strict && known.value.is_equal(value);
-  });
-  if (listed) return;
-  implied_.push_back({value, strict});
+  if (!keep(implied_, sign * expression(f), strict)) return;
   // What was made without knowing it may have another form now.
   for (const Generator& g : generators_) {
     const bool may_change = g.kind == Kind::absolute || g.kind == Kind::root ||
@@ -205,11 +209,7 @@ void FunctionRing::keep_product(const std::vector<std::pair<Polynomial, unsigned
     if (f.terms() > kMostTerms || product.terms() > kMostTerms) return;
     product = checked_product(product, exponent % 2 == 1 ? f : f * f);
   }
-  const GiNaC::ex value = expression(product);
-  const bool listed = std::any_of(products_.begin(), products_.end(), [&](const Implied& known) {
-    return known.strict == strict && known.value.is_equal(value);
-  });
-  if (!listed) products_.push_back({value, strict});
+  keep(products_, expression(product), strict);
 }
 
 /// The radicand of an even root is not negative where the root is real, and that gives the sign of

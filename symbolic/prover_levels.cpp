@@ -61,12 +61,16 @@ std::vector<NamedExpression> Prover::simplified(const NamedExpression& f, int de
   const std::vector<Polynomial> zeros =
       count == 1 ? ring_.real_zeros(product) : std::vector<Polynomial>{product};
   if (rest.is_constant() && zeros.size() == 1 && zeros[0] == product) return {f};
-  std::vector<NamedExpression> result;
-  for (const Polynomial& zero : zeros) {
-    const auto parts = simplified({ring_.text(zero), ring_.expression(zero), {}}, depth - 1);
-    result.insert(result.end(), parts.begin(), parts.end());
+  try {
+    std::vector<NamedExpression> result;
+    for (const Polynomial& zero : zeros) {
+      const auto parts = simplified({ring_.text(zero), ring_.expression(zero), {}}, depth - 1);
+      result.insert(result.end(), parts.begin(), parts.end());
+    }
+    return result;
+  } catch (const TooLarge&) {
+    return {f};  // simpler by its zeros alone
   }
-  return result;
 }
 
 Level Prover::level(const std::vector<NamedExpression>& on) {
@@ -181,9 +185,9 @@ bool Prover::vanishes_nowhere_on(const Polynomial& p, const Level& level, Diviso
 }
 
 /// The same where relations x = value are put in first: on the level the functions may be simpler
-/// than the ring knows, as sqrt(G^2 - H^2) where H = 0 and G > 0; and so may the assumptions be.
-/// The residual is taken as it was written, or by its numerator, where it has a denominator that
-/// cancels.
+/// than the ring knows, as sqrt(G^2 - H^2) where H = 0 and G > 0; and so may the assumptions be. It
+/// is the numerator that is put in: roots that were differentiated have denominators, from which
+/// the new ring would conclude that they are not zero.
 bool Prover::vanishes_by_substitution(const Residual& residual, const Level& level) const {
   if (ring_.is_polynomial() || level.solved.empty()) return false;
   const auto on_level = [&](ex value) {
@@ -196,19 +200,15 @@ bool Prover::vanishes_by_substitution(const Residual& residual, const Level& lev
     }
     return value;
   };
-  const auto vanishes = [&](const std::function<ex()>& function) {
-    try {
-      const ex value = on_level(function());
-      std::vector<Assumption> assumptions = model_.assumptions;
-      for (Assumption& a : assumptions) a.difference = on_level(a.difference);
-      FunctionRing fresh(ring_.symbols(), assumptions, {value});
-      return fresh.numerator(fresh.convert(value)).is_zero();
-    } catch (const std::exception&) {
-      return false;  // a pole on the level, or too large
-    }
-  };
-  return vanishes(residual.by_ginac) ||
-         vanishes([&] { return ring_.expression(ring_.lowest_terms(residual.value).first); });
+  try {
+    const ex value = on_level(ring_.expression(ring_.lowest_terms(residual.value).first));
+    std::vector<Assumption> assumptions = model_.assumptions;
+    for (Assumption& a : assumptions) a.difference = on_level(a.difference);
+    FunctionRing fresh(ring_.symbols(), assumptions, {value});
+    return fresh.numerator(fresh.convert(value)).is_zero();
+  } catch (const std::exception&) {
+    return false;  // a pole on the level, or too large
+  }
 }
 
 bool Prover::in_ideal(const Residual& residual, const Level& level) {
@@ -258,8 +258,7 @@ void Prover::decide_invariance_once(Proof& proof, std::vector<NamedExpression> f
     const std::vector<Residual> rates = level_rates(own);
     proof = blank;
     decide_on(proof, rates, own);
-    if (proof.verdict != Verdict::proved || !is_smooth_on(proof, own, functions_of(own), true))
-      return;
+    if (proof.verdict != Verdict::proved || !is_smooth_on(proof, own, functions_of(own), true)) return;
     const std::size_t before = functions.size();
     for (const Residual& rate : rates) {
       if (!in_ideal(rate, own)) functions.push_back({rate.label, rate.by_ginac(), {}});

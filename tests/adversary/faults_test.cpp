@@ -60,6 +60,7 @@ TEST_P(Fault, IsJudgedRightly) {
 constexpr Known kFaults[] = {
     {"complex-inverse-root", "identity", "root of 1/x", Truth::no},
     {"complex-inverse-root", "identity", "root of L^2 y", Truth::no},
+    {"crash-on-simpler-level", "invariant_relation", "R", Truth::yes},
     {"crash-on-zero", "conditional", "C", Truth::no},
     {"definition-named-H", "integral", "F", Truth::no},
     {"facts-abs", "liouville", "", Truth::no},

@@ -130,6 +130,21 @@ TEST(Levels, MeetRootsThatAreDifferentiable) {
   EXPECT_NE(conditional("x", "y + sqrt(x^2)"), Verdict::proved);
 }
 
+/// On y = 0 and x < 0 dF/dt is |x| - x, though the derivative of the root has 1/sqrt(y) in it.
+TEST(Levels, MeetRootsWhoseDerivativesSayNoMore) {
+  const auto conditional = [](const std::string& domain) {
+    return proof_of("conditional",
+                    "[phase_space]\nvariables = [\"x\",\"y\",\"z\",\"q\",\"w\"]\ndomain = [\"" +
+                        domain +
+                        "\"]\n[equations]\nx = \"0\"\ny = \"sqrt(x^2) - x\"\n"
+                        "z = \"sqrt(x^2) - x\"\nq = \"0\"\nw = \"0\"\n[[conditional]]\n"
+                        "name = \"C\"\nexpression = \"z + sqrt(y)*(y + y*w)\"\non = [\"q\"]\n")
+        .verdict;
+  };
+  EXPECT_NE(conditional("x*y >= 0"), Verdict::proved);
+  EXPECT_EQ(conditional("x*(y + 1) >= q"), Verdict::proved);
+}
+
 /// y = 0 and y = 1 solve the equations, and the functions change with x there.
 TEST(Integrals, AreNoneWhereARootInTheMotionVanishes) {
   const auto where = [](const std::string& rate, const std::string& f) {
