@@ -258,7 +258,8 @@ void Prover::decide_invariance_once(Proof& proof, std::vector<NamedExpression> f
     const std::vector<Residual> rates = level_rates(own);
     proof = blank;
     decide_on(proof, rates, own);
-    if (proof.verdict != Verdict::proved || !is_smooth_on(proof, own, functions_of(own), true)) return;
+    if (proof.verdict != Verdict::proved || !is_smooth_on(proof, own, functions_of(own), true))
+      return;
     const std::size_t before = functions.size();
     for (const Residual& rate : rates) {
       if (!in_ideal(rate, own)) functions.push_back({rate.label, rate.by_ginac(), {}});

@@ -213,6 +213,7 @@ void march(const casimir_run* run, double* x, casimir_outcome* out) {
     h = run->first_step;
     if (!(h > 0)) {
       h = magnitude(first_step<System>(run, x, step.f, span, Step::power));
+      h = larger(h, 0x1p-40 * magnitude(t));
       ++step.evaluations;
     }
     if (span < 0) h = -h;

@@ -142,6 +142,8 @@ class March {
   /// How far the derivative at the end of a step may be from the series, in allowed errors: far
   /// more than a step of the right size ever gives, far less than a wrong one.
   static constexpr double kDefect = 100, kRounding = 0x1p-40;
+  /// Of the time at the start, the least first guess of a step.
+  static constexpr double kLeastGuess = 0x1p-40;
   /// No step is longer than this many units: what a step may grow by.
   static constexpr double kLongest = 16;
 
@@ -212,6 +214,8 @@ class March {
     // The solution's own time scale; a guess, which the coefficients correct.
     double guess = magnitude(span_);
     if (speed > 0 && size / speed < guess) guess = size / speed;
+    // A start at zero says nothing of the scale, but the time has its own rounding.
+    guess = larger(guess, kLeastGuess * magnitude(run_->t_begin));
     if (run_->first_step > 0) guess = run_->first_step;
     set_unit(guess);
     fresh_ = true;

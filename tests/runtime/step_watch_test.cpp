@@ -120,6 +120,7 @@ TEST(Steps, EndWhereARootLosesItsRealValue) {
 
 TEST(Settings, ARunBeginsAtAnyTime) {
   const Trajectory orbit = run(modulus(0), {0}, 2, true, 3);
+  ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
   EXPECT_NEAR(orbit.state[0], 8, 1e-13);
   EXPECT_EQ(orbit.time, 5);
 }
