@@ -190,9 +190,10 @@ TEST(Tableau, Dopri5IsAPairOfOrderFiveAndFour) {
   const std::vector<double> fourth = order_defects(dopri5_rows(), weights, 7, 5);
   for (std::size_t order = 1; order <= 4; ++order) EXPECT_LT(fourth[order], 1e-14) << order;
   EXPECT_GT(fourth[5], 1e-5);
+  const auto rows = dopri5_rows();
   for (const auto& [i, node] : std::map<int, double>{{2, c2}, {3, c3}, {4, c4}, {5, c5}}) {
     double sum = 0;
-    for (const auto& [j, a] : dopri5_rows().at(i)) sum += a;
+    for (const auto& [j, a] : rows.at(i)) sum += a;
     EXPECT_NEAR(sum, node, 1e-14) << i;
   }
 }
