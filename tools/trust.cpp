@@ -163,6 +163,16 @@ CrossCheck cross_check(const SceneRun& run, const Method& method, const Settings
   return result;
 }
 
+/// Whether changes that no double holds are made on the way and do not show at the end.
+bool died_out(const Trust& trust) {
+  return trust.beyond_double && trust.conditioning * kUnitRoundoff < kSpoiled;
+}
+
+std::string six_digits(const Trust& trust) {
+  if (!trust.six_digits_until) return "";
+  return fmt::format(", and six digits hold until t = {:.6g}", *trust.six_digits_until);
+}
+
 /// The sizes of the states at both ends, where they are smaller than on the way.
 std::vector<double> end_sizes(const SceneRun& run, const Trajectory& trajectory) {
   Trajectory ends = trajectory;
@@ -218,8 +228,9 @@ Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& 
   }
   trust.unconfirmed = trust.unconfirmed || (may_hide && !has_time && short_of_end);
   trust.beyond_double = !(trust.on_the_way * kUnitRoundoff < kSpoiled);
-  // Which way the motion took was decided by rounding: all of the state is in doubt.
-  if (trust.beyond_double) trust.error_estimate = std::max(trust.error_estimate, 1.);
+  // Which way the motion took was decided by rounding: all of the state is in doubt, which the
+  // growth up to the end does not show.
+  if (died_out(trust)) trust.error_estimate = std::max(trust.error_estimate, 1.);
   if (!flow) return trust;
   if (trust.beyond_double) trust.six_digits_until = flow->time_of(kSixDigits / kUnitRoundoff);
   if (flow->followed > 0 && flow->followed < 0.99 * std::abs(trajectory.time))
@@ -248,29 +259,22 @@ std::vector<std::string> warnings_of(const Trust& trust) {
   std::vector<std::string> warnings;
   if (trust.unconfirmed)
     warnings.push_back(
-        "a run with a hundredth of the tolerance, or one by Taylor series, does not reach the end, "
-        "or "
-        "would take too long: nothing confirms this one");
+        "a run with a hundredth of the tolerance, or one by Taylor series, does not reach the end "
+        "or would take too long: nothing confirms this one");
   if (!trust.known) {
     warnings.push_back(
-        "how much small changes grow could not be found: the variational equations have no "
-        "solution along this run");
-  } else if (trust.beyond_double && trust.conditioning * kUnitRoundoff < kSpoiled) {
+        "how much small changes grow is not known: the variational equations could not be "
+        "integrated along this run");
+  } else if (died_out(trust)) {
     warnings.push_back(fmt::format(
         "on the way small changes grow {:.0e} times, beyond what double precision can hold, though "
         "they have died out at the end{}: which way the motion took is decided by rounding",
-        trust.on_the_way,
-        trust.six_digits_until
-            ? fmt::format("; six digits hold until t = {:.6g}", *trust.six_digits_until)
-            : ""));
+        trust.on_the_way, six_digits(trust)));
   } else if (trust.beyond_double) {
     warnings.push_back(fmt::format(
         "the end state is beyond what double precision can hold: small changes of the initial "
         "state grow {:.0e} times{}; --digits {} can hold it",
-        trust.conditioning,
-        trust.six_digits_until
-            ? fmt::format(", and six digits hold until t = {:.6g}", *trust.six_digits_until)
-            : "",
+        trust.conditioning, six_digits(trust),
         static_cast<int>(20 + std::log10(trust.conditioning))));
   }
   if (!trust.beyond_double && !trust.unconfirmed && !(trust.error_estimate < kDoubtful)) {
