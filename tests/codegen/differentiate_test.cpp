@@ -82,6 +82,10 @@ ex line(const Program& program, const Instruction& c, const std::vector<ex>& val
       return -at(c.a);
     case Op::pow:
       return pow(at(c.a), at(c.b));
+    case Op::abs:
+      return abs(at(c.a));
+    case Op::sign:
+      return csgn(at(c.a));
     case Op::sqrt:
       return sqrt(at(c.a));
     case Op::sin:
