@@ -101,6 +101,7 @@ class Builder {
     } else if (e.node != Dag::kOne) {
       all = {{variable_of(e.node), 1}};
     }
+    all = joined_moduli(all);
     Monomial fixed;
     Monomial varying;
     for (const Literal& l : all) {
@@ -154,6 +155,35 @@ class Builder {
       result = multiply(result, {{base, small(cln::abs(exponent))}});
     }
     return result;
+  }
+
+  /// x / |x| is sign(x), which has a value where x is zero, and so has x^3 / |x| = x |x|.
+  Monomial joined_moduli(const Monomial& all) {
+    Monomial result = all;
+    for (const Literal& l : all) {
+      const Variable& variable = system_.variables[static_cast<std::size_t>(l.variable)];
+      if (variable.kind != Variable::Kind::function || variable.function != Op::div) continue;
+      const int modulus = variable.arguments[0];
+      const Variable& inner = system_.variables[static_cast<std::size_t>(modulus)];
+      if (inner.kind != Variable::Kind::function || inner.function != Op::abs) continue;
+      const int base = inner.arguments[0];
+      const int power = exponent_of(result, base);
+      if (power == 0) continue;
+      const int rest = power - l.exponent;
+      std::erase_if(result, [&](const Literal& other) {
+        return other.variable == l.variable || other.variable == base;
+      });
+      const bool odd = std::min(power, l.exponent) % 2 == 1;
+      if (rest < 0) result = multiply(result, {{l.variable, -rest}});
+      if (rest > (odd ? 1 : 0)) result = multiply(result, {{base, odd ? rest - 1 : rest}});
+      if (odd) result = multiply(result, {{rest > 0 ? modulus : function(Op::sign, {base}), 1}});
+    }
+    return result;
+  }
+
+  static int exponent_of(const Monomial& monomial, int variable) {
+    const auto found = std::ranges::find(monomial, variable, &Literal::variable);
+    return found == monomial.end() ? 0 : found->exponent;
   }
 
   int variable_of(NodeId id) {

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <stdexcept>
 
 #include "runtime/ensemble_work.hpp"
+#include "runtime/lane_look.hpp"
 
 namespace casimir {
 namespace {
@@ -20,7 +22,9 @@ class Feed {
         numbers_of_(kernel.numbers),
         count_(kernel.numbers.outputs.size()),
         numbers_(count_),
-        check_(work.ensemble(), invariants) {}
+        check_(work.ensemble(), invariants) {
+    if (kernel.watch) look_.emplace(*kernel.watch, work.ensemble().states, kernel.lanes);
+  }
 
   static long long next(void* self, double* x, const double** numbers) {
     return static_cast<Feed*>(self)->next_member(x, numbers);
@@ -32,6 +36,12 @@ class Feed {
     Feed& feed = *static_cast<Feed*>(self);
     return feed.work_.give_up(feed.calls_) ? 1 : 0;
   }
+  static double look(void* self, const casimir_lane_step* trial, int lane) {
+    Feed& feed = *static_cast<Feed*>(self);
+    const auto member = static_cast<std::size_t>(trial->member[lane]);
+    return (*feed.look_)(*trial, lane, feed.work_.ensemble().values_of(member));
+  }
+  bool looks() const { return look_.has_value(); }
 
  private:
   long long next_member(double* x, const double** numbers) {
@@ -63,6 +73,7 @@ class Feed {
   std::size_t count_;
   std::vector<double> numbers_;
   EndCheck check_;
+  std::optional<LaneLook> look_;
   unsigned calls_ = 0;
 };
 
@@ -87,6 +98,7 @@ EnsembleResult integrate_in_lanes(const Ensemble& ensemble, const LaneKernel& ke
     run.next = Feed::next;
     run.done = Feed::done;
     run.give_up = Feed::give_up;
+    run.look = feed.looks() ? Feed::look : nullptr;
     run.source = &feed;
     kernel.run(&run);
     lock.lock();  // until the feed is gone

@@ -126,27 +126,29 @@ JetLayout jet_layout(const Program& program, std::size_t states) {
   const auto count = static_cast<std::size_t>(program.outputs.at(0)) + 1;
   std::vector<int> place;  // of each line of the program
   const auto at = [&](int i) { return i < 0 ? i : place[static_cast<std::size_t>(i)]; };
+  const auto add = [&](int op, int a, int b, double value) {
+    layout.lines.push_back({op, a, b, layout.rows, value});
+    layout.rows += rows_of(op);
+    return static_cast<int>(layout.lines.size()) - 1;
+  };
   for (std::size_t i = 0; i < count; ++i) {
     const Instruction& line = program.code[i];
     const bool has_operands = line.op != Op::input && !is_literal(line);
-    casimir_jet_line made = {CASIMIR_JET_CONSTANT, has_operands ? at(line.a) : line.a, at(line.b),
-                             layout.rows, 0};
-    if (line.op == Op::abs) {  // the root of the square
-      layout.lines.push_back({CASIMIR_JET_MUL, made.a, made.a, layout.rows, 0});
-      layout.rows += rows_of(CASIMIR_JET_MUL);
-      made = {CASIMIR_JET_SQRT, static_cast<int>(layout.lines.size()) - 1, -1, layout.rows, 0};
+    const int a = has_operands ? at(line.a) : line.a, b = at(line.b);
+    int made = -1;
+    if (line.op == Op::abs || line.op == Op::sign) {
+      made = add(CASIMIR_JET_SQRT, add(CASIMIR_JET_MUL, a, a, 0), -1, 0);
+      if (line.op == Op::sign) made = add(CASIMIR_JET_DIV, a, made, 0);
     } else if (is_literal(line)) {
-      made.a = made.b = -1;
-      made.value = literal_value(program, line, arithmetic);
+      made = add(CASIMIR_JET_CONSTANT, -1, -1, literal_value(program, line, arithmetic));
     } else if (line.op == Op::input && static_cast<std::size_t>(line.a) < states) {
-      made.op = CASIMIR_JET_STATE;
+      made = add(CASIMIR_JET_STATE, a, b, 0);
     } else {
-      made.op = operation(line.op);
-      if (line.op == Op::pow) made.value = layout.lines[static_cast<std::size_t>(made.b)].value;
+      const bool power = line.op == Op::pow;
+      made = add(operation(line.op), a, b,
+                 power ? layout.lines[static_cast<std::size_t>(b)].value : 0);
     }
-    place.push_back(static_cast<int>(layout.lines.size()));
-    layout.rows += rows_of(made.op);
-    layout.lines.push_back(made);
+    place.push_back(made);
   }
   return layout;
 }

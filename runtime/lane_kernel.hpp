@@ -10,6 +10,8 @@
 
 namespace casimir {
 
+class StepWatch;
+
 /// What advances the members of an ensemble, several in a register.
 struct LaneKernel {
   std::string instruction_set;  ///< "avx512", "avx2" or "baseline"
@@ -19,6 +21,11 @@ struct LaneKernel {
   /// What the kernel wants of a member beside its state, from the parameters. Without outputs:
   /// the parameters themselves.
   Program numbers;
+  /// What its steps are watched for, or null: nothing in polynomials of degree two.
+  std::shared_ptr<const StepWatch> watch = nullptr;
+
+  /// Has its steps watched for what may be stepped over. \param rhs  the right-hand side.
+  void watch_steps_of(const Program& rhs);
 };
 
 /// The instruction sets that have a table-driven kernel of their own here, the widest that this

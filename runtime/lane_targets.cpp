@@ -7,6 +7,7 @@
 
 #include "runtime/lane_kernel.hpp"
 #include "runtime/quadratic_targets.hpp"
+#include "runtime/step_watch.hpp"
 
 using Kernel = void(const casimir_lane_tables*, const casimir_ensemble*);
 using Width = int(void);
@@ -57,6 +58,11 @@ LaneKernel table_driven_lanes(LaneForm form, const std::string& target) {
     kernel(&tables, run);
   };
   return result;
+}
+
+void LaneKernel::watch_steps_of(const Program& rhs) {
+  auto made = std::make_shared<const StepWatch>(rhs);
+  watch = made->empty() ? nullptr : std::move(made);
 }
 
 LaneKernel loaded_lanes(const std::string& path) {

@@ -3,7 +3,7 @@
 #ifndef CASIMIR_MODULE_ABI_H
 #define CASIMIR_MODULE_ABI_H
 
-#define CASIMIR_ABI_VERSION 4
+#define CASIMIR_ABI_VERSION 5
 
 /* How many matrices a kernel may have factorised at a time. */
 #define CASIMIR_MATRICES 7
@@ -68,7 +68,8 @@ struct casimir_run {
   void (*project)(void* projector, double t, double* x, double* carry);
   void* projector;
   /* Null, or what looks at a step before it is accepted, where a step alone may not see what lies
-   * within it. Returns 1 where it may be taken, or how much of it may be tried instead, in (0, 1).
+   * within it. Returns 1 where it may be taken, 2 where it may and the right-hand side jumps at its
+   * end, or how much of it may be tried instead, in (0, 1).
    * With a constant step it is not asked. */
   double (*look)(void* looker, const struct casimir_step* trial);
   void* looker;
@@ -81,16 +82,16 @@ struct casimir_outcome {
   unsigned long long steps, rejected, evaluations, jacobians;
 };
 
-/* An accepted step of members that stand in the lanes of registers, before their states are
- * replaced. The state i of the member in lane l is the sum of rows[i][k * lanes + l] s^k at the
+/* A step of members that stand in the lanes of registers, before their states are replaced. The state i of the member in lane l is the sum of rows[i][k * lanes + l] s^k at the
  * time t[l] + s unit[l], from s = 0 up to taken[l]. All pointers are valid during the call only. */
 struct casimir_lane_step {
   int lanes, states, order;
   const double* const* rows; /* for each state, order + 1 registers */
   const double *t, *unit, *taken;
   const long long* member; /* in each lane; negative: none */
-  const long long* held;   /* non-zero in the lanes whose members took the step */
-  long long* finished;     /* zero; what is set ends the member in that lane as stopped */
+  const long long* held;   /* non-zero in the lanes whose members take the step */
+  long long* finished;     /* zero; what is set ends the member in that lane as stopped. Null where
+                            * the step is not accepted yet */
 };
 
 /* What one thread asks of a kernel that advances many trajectories, one in each lane of a register.
@@ -111,6 +112,8 @@ struct casimir_ensemble {
   void* source;
   /* Shown every accepted step, of any lane. May be null. */
   void (*observe)(void* source, const struct casimir_lane_step* step);
+  /* Null, or what looks at the step of one lane before it is accepted: see casimir_run::look. */
+  double (*look)(void* source, const struct casimir_lane_step* trial, int lane);
 };
 
 /* A module exports, with C linkage:

@@ -8,6 +8,7 @@
 #include "runtime/angle_branches.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/interpreter.hpp"
+#include "runtime/precise_branch.hpp"
 #include "runtime/precise_step.hpp"
 #include "runtime/taylor_jet.hpp"
 
@@ -60,6 +61,7 @@ class Runner {
     const auto middle = start.begin() + static_cast<std::ptrdiff_t>(states);
     state_.assign(start.begin(), middle);
     parameters_.assign(middle, start.end() - 1);
+    look_.emplace(*problem.rhs, parameters_);
     end_ = problem.end ? BigFloat(*problem.end) : start.back();
     if (problem.mark) mark_ = BigFloat(*problem.mark);
     run_.digits = digits;
@@ -146,7 +148,7 @@ class Runner {
 
   void advance(const std::vector<LongSeries>& series, double log2_size) {
     const BigFloat left = end_ - time_;
-    const bool last = log2_size >= left.log2();
+    bool last = log2_size >= left.log2();
     BigFloat h = left;
     if (!last) {
       // A short number: the times of steps stay short as well, and exact.
@@ -154,6 +156,16 @@ class Runner {
       const double digits = std::floor(std::exp2(log2_size - whole) * 0x1p16) * 0x1p-16;
       arf_set_d(h.mid(), end_.sign() < 0 ? -digits : digits);
       arf_mul_2exp_si(h.mid(), h.mid(), static_cast<slong>(whole));
+    }
+    for (bool taken = false; !taken;) {
+      const BigFloat tried = h;
+      h = look_->size({time_, tried, [&](const BigFloat& after) {
+                         std::vector<BigFloat> state;
+                         for (const LongSeries& s : series) state.push_back(value_at(s, after));
+                         return state;
+                       }});
+      taken = h == tried;
+      last = last && h == tried;
     }
     const BigFloat next = last ? end_ : time_ + h;
     record_samples(series, next);
@@ -268,6 +280,7 @@ class Runner {
   int order_;
   cln::float_format_t format_;
   std::vector<BigFloat> state_, parameters_, initial_, final_, changes_;
+  std::optional<PreciseLook> look_;
   std::optional<AngleFollower> angles_;  ///< of the invariants, if they have any
   BigFloat time_, end_;
   std::optional<BigFloat> mark_, predicted_;

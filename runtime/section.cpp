@@ -8,11 +8,13 @@
 #include <cmath>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
 #include "runtime/ensemble_work.hpp"
 #include "runtime/jet_layout.hpp"
+#include "runtime/lane_look.hpp"
 #include "runtime/part_of_step.hpp"
 #include "runtime/section_orbit.hpp"
 
@@ -62,7 +64,11 @@ class Cutter {
         tables_(shared.layout.tables()),
         kernel_(jet_kernel(shared.kernel.lanes)),
         memory_(new (std::align_val_t(64)) double[static_cast<std::size_t>(
-            tables_.rows * (CASIMIR_MOST_JET_ORDER + 1) * shared.kernel.lanes)]) {}
+            tables_.rows * (CASIMIR_MOST_JET_ORDER + 1) * shared.kernel.lanes)]) {
+    if (!shared.kernel.watch) return;
+    const std::lock_guard lock(exact_constants_guard());
+    look_.emplace(*shared.kernel.watch, shared.work.ensemble().states, shared.kernel.lanes);
+  }
 
   void run() {
     casimir_ensemble request = {};
@@ -80,6 +86,10 @@ class Cutter {
     request.observe = [](void* self, const casimir_lane_step* step) {
       static_cast<Cutter*>(self)->observe(*step);
     };
+    if (look_)
+      request.look = [](void* self, const casimir_lane_step* trial, int lane) {
+        return (*static_cast<Cutter*>(self)->look_)(*trial, lane, nullptr);
+      };
     request.source = this;
     // Once there is no new orbit a kernel asks for none: those that are to go on then wait.
     do shared_.kernel.run(&request);
@@ -173,6 +183,7 @@ class Cutter {
   const std::unique_ptr<double[], AlignedDelete> memory_;
   casimir_jet_range range_ = {};
   PartOfStep part_;
+  std::optional<LaneLook> look_;
   std::vector<long long> again_;
   unsigned calls_ = 0;
 };

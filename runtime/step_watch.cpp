@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "runtime/evaluate.hpp"
 #include "runtime/operation.hpp"
 
 namespace casimir {
@@ -22,6 +23,8 @@ constexpr int kHighPower = 10;
 /// Of the largest argument in a step: what counts as zero, and where a step behind a branch ends.
 constexpr double kZero = 1e-11, kBehind = 1e-12;
 constexpr double kShorter = 0.4;
+/// A change of an exponent between three places that needs no closer look.
+constexpr double kCalm = 2;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -38,6 +41,61 @@ std::vector<bool> varying(const Program& rhs) {
     else
       result.push_back(has_operands(line) &&
                        (result[index(line.a)] || (line.b >= 0 && result[index(line.b)])));
+  }
+  return result;
+}
+
+/// For each line the line and the exponent that it is a power of; itself and 1 if of none.
+std::vector<std::pair<int, int>> powers_of(const Program& program) {
+  constexpr int kMost = (1 << 20) - 1;  // odd: no square by mistake
+  std::vector<std::pair<int, int>> result;
+  for (std::size_t i = 0; i < program.code.size(); ++i) {
+    const Instruction& line = program.code[i];
+    result.emplace_back(static_cast<int>(i), 1);
+    if (line.op != Op::mul) continue;
+    const auto &a = result[index(line.a)], &b = result[index(line.b)];
+    if (a.first == b.first) result.back() = {a.first, std::min(a.second + b.second, kMost)};
+  }
+  return result;
+}
+
+/// Which lines are nowhere negative, whatever the inputs: sums of squares and what is made of them.
+std::vector<bool> nowhere_negative(const Program& rhs) {
+  const Arithmetic<double> arithmetic;
+  const auto powers = powers_of(rhs);
+  std::vector<bool> result;
+  for (std::size_t i = 0; i < rhs.code.size(); ++i) {
+    const Instruction& line = rhs.code[i];
+    const auto operands = [&] {
+      return result[index(line.a)] && (line.b < 0 || result[index(line.b)]);
+    };
+    bool is = false;
+    switch (line.op) {
+      case Op::input:
+      case Op::neg:
+      case Op::sub:
+      case Op::sign:
+        break;
+      case Op::abs:
+      case Op::exp:
+      case Op::sqrt:
+      case Op::acos:
+        is = true;
+        break;
+      case Op::mul:
+        is = operands() || powers[i].second % 2 == 0;
+        break;
+      case Op::add:
+      case Op::div:
+        is = operands();
+        break;
+      case Op::pow:
+        is = result[index(line.a)];
+        break;
+      default:
+        is = is_literal(line) && literal_value(rhs, line, arithmetic) >= 0;
+    }
+    result.push_back(is);
   }
   return result;
 }
@@ -69,26 +127,12 @@ Program pruned(const Program& program) {
   return result;
 }
 
-/// For each line the line and the exponent that it is a power of; itself and 1 if of none.
-std::vector<std::pair<int, int>> powers_of(const Program& program) {
-  constexpr int kMost = 1 << 20;
-  std::vector<std::pair<int, int>> result;
-  for (std::size_t i = 0; i < program.code.size(); ++i) {
-    const Instruction& line = program.code[i];
-    result.emplace_back(static_cast<int>(i), 1);
-    if (line.op != Op::mul) continue;
-    const auto &a = result[index(line.a)], &b = result[index(line.b)];
-    if (a.first == b.first) result.back() = {a.first, std::min(a.second + b.second, kMost)};
-  }
-  return result;
-}
-
 }  // namespace
 
 StepWatch::StepWatch(const Program& rhs) : arguments_(rhs) {
   arguments_.outputs.clear();
   arguments_.output_names.clear();
-  const std::vector<bool> varies = varying(rhs);
+  const std::vector<bool> varies = varying(rhs), positive = nowhere_negative(rhs);
   for (std::size_t i = 0; i < rhs.code.size(); ++i) {
     const Instruction& line = rhs.code[i];
     if (!varies[i] || !has_operands(line)) continue;
@@ -96,13 +140,16 @@ StepWatch::StepWatch(const Program& rhs) : arguments_(rhs) {
       case Op::abs:
         watch(Kind::side, {line.a});
         break;
+      case Op::sign:
+        watch(Kind::jump, {line.a});
+        break;
       case Op::atan2:
         watch(Kind::turn, {line.a, line.b});
         break;
       case Op::sqrt:
       case Op::log:
       case Op::pow:
-        watch(Kind::positive, {line.a});
+        if (!positive[index(line.a)]) watch(Kind::positive, {line.a});
         break;
       case Op::asin:
       case Op::acos:
@@ -142,25 +189,35 @@ StepLook::StepLook(const StepWatch& watch, std::size_t states, const double* par
       states_(states),
       evaluate_(watch.arguments()),
       inputs_(watch.arguments().inputs.size()),
-      outputs_(watch.arguments().outputs.size()),
-      state_(states),
-      highest_(watch.watched().size(), -std::numeric_limits<double>::infinity()) {
+      outputs_(watch.arguments().outputs.size()) {
+  begin(parameters);
+}
+
+void StepLook::begin(const double* parameters) {
   if (parameters)
-    std::copy_n(parameters, inputs_.size() - states - 1,
-                inputs_.begin() + static_cast<std::ptrdiff_t>(states));
+    std::copy_n(parameters, inputs_.size() - states_ - 1,
+                inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
+  highest_.assign(watch_.watched().size(), -std::numeric_limits<double>::infinity());
+  first_ = last_ = {};
+  jump_.reset();
+  shift_ = 0.5;
+}
+
+const double* StepLook::arguments(double t, const double* x) {
+  if (x != inputs_.data()) std::copy_n(x, states_, inputs_.begin());
+  inputs_.back() = t;
+  evaluate_(inputs_.data(), outputs_.data());
+  return outputs_.data();
 }
 
 /// \param exactly  by the dense output, though cubic interpolation may be to be had, which costs a
 ///                 Runge-Kutta method less.
-const double* StepLook::arguments_at(const casimir_step& trial, double part, bool exactly) {
-  const double h = trial.t1 - trial.t0;
-  const double t = part >= 1 ? trial.t1 : trial.t0 + part * h;
+const double* StepLook::arguments_within(const casimir_step& trial, double part, bool exactly) {
+  if (part <= 0) return arguments(trial.t0, trial.x0);
+  if (part >= 1) return arguments(trial.t1, trial.x1);
+  const double h = trial.t1 - trial.t0, t = trial.t0 + part * h;
   double* const x = inputs_.data();
-  if (part <= 0) {
-    std::copy_n(trial.x0, states_, x);
-  } else if (part >= 1) {
-    std::copy_n(trial.x1, states_, x);
-  } else if (trial.f0 && trial.f1 && !exactly) {
+  if (trial.f0 && trial.f1 && !exactly) {
     const double rest = 1 - part;
     const double a0 = rest * rest * (1 + 2 * part), a1 = part * part * (1 + 2 * rest);
     const double b0 = h * part * rest * rest, b1 = -h * part * part * rest;
@@ -169,25 +226,69 @@ const double* StepLook::arguments_at(const casimir_step& trial, double part, boo
   } else {
     trial.dense(&trial, t, x);
   }
-  inputs_.back() = t;
-  evaluate_(inputs_.data(), outputs_.data());
-  return outputs_.data();
+  return arguments(t, x);
 }
 
 double StepLook::value(const casimir_step& trial, const StepWatch::Watched& watched, double part) {
-  return arguments_at(trial, part, true)[watched.place];
+  return arguments_within(trial, part, true)[watched.place];
+}
+
+void StepLook::take(End& end, double t, const double* x) {
+  if (!end.x.empty() && end.t == t && std::equal(end.x.begin(), end.x.end(), x, x + states_))
+    return;
+  const double* const values = arguments(t, x);
+  end = {t, {x, x + states_}, {values, values + outputs_.size()}};
+}
+
+void StepLook::take_ends(const casimir_step& trial) {
+  if (last_.t == trial.t0) std::swap(first_, last_);
+  take(first_, trial.t0, trial.x0);
+  take(last_, trial.t1, trial.x1);
 }
 
 /// The places between the ends follow the golden section, as no motion does.
 void StepLook::sample(const casimir_step& trial) {
-  constexpr double kGoldenSection = 0.6180339887498949;
-  shift_ += kGoldenSection;
-  if (shift_ >= 1) shift_ -= 1;
   for (std::size_t i = 0; i < kPlaces; ++i) {
     const double between = (static_cast<double>(i) - 0.75 + 0.5 * shift_) / (kPlaces - 2);
     places_[i] = i == 0 ? 0 : i + 1 == kPlaces ? 1 : between;
-    const double* const values = arguments_at(trial, places_[i], false);
-    sampled_[i].assign(values, values + outputs_.size());
+    if (i == 0 || i + 1 == kPlaces) {
+      sampled_[i] = i == 0 ? first_.values : last_.values;
+    } else {
+      const double* const values = arguments_within(trial, places_[i], false);
+      sampled_[i].assign(values, values + outputs_.size());
+    }
+  }
+}
+
+/// Whether the ends and one place between them show that nothing is near.
+bool StepLook::is_calm(const casimir_step& trial) {
+  const double* const middle = arguments_within(trial, 0.3 + 0.4 * shift_, false);
+  bool all = true;
+  for (std::size_t i = 0; i < watch_.watched().size(); ++i)
+    all = is_calm(watch_.watched()[i], i, middle) && all;
+  return all;
+}
+
+bool StepLook::is_calm(const StepWatch::Watched& watched, std::size_t which, const double* middle) {
+  std::array<double, 3> u = {first_.values[watched.place], middle[watched.place],
+                             last_.values[watched.place]};
+  if (watched.kind == StepWatch::Kind::power) {
+    double& highest = highest_[which];
+    for (double& value : u) value = watched.exponent * std::log(std::abs(value));
+    highest = std::max(highest, *std::ranges::max_element(u));
+    for (double& value : u) value = std::max(value, highest + kLeastPower);
+  }
+  if (std::ranges::any_of(u, [](double value) { return std::isnan(value); })) return false;
+  const auto [least, most] = std::ranges::minmax(u);
+  const double change = most - least;
+  switch (watched.kind) {
+    case StepWatch::Kind::unit:
+      return std::max(std::abs(least), std::abs(most)) + change < 1;
+    case StepWatch::Kind::exponent:
+    case StepWatch::Kind::power:
+      return change < kCalm;
+    default:
+      return change < std::min(std::abs(least), std::abs(most));
   }
 }
 
@@ -195,6 +296,12 @@ double StepLook::operator()(const casimir_step& trial) {
   const double h = std::abs(trial.t1 - trial.t0);
   const double least = 64 * std::numeric_limits<double>::epsilon() * std::abs(trial.t0);
   if (h <= least) return 1;
+  constexpr double kGoldenSection = 0.6180339887498949;
+  shift_ += kGoldenSection;
+  if (shift_ >= 1) shift_ -= 1;
+  met_ = nullptr;
+  take_ends(trial);
+  if (is_calm(trial)) return ends_behind_jump(trial) ? 2 : 1;
   sample(trial);
   double part = 1;
   for (std::size_t i = 0; i < watch_.watched().size(); ++i) {
@@ -202,6 +309,7 @@ double StepLook::operator()(const casimir_step& trial) {
     double own = 1;
     switch (watched.kind) {
       case StepWatch::Kind::side:
+      case StepWatch::Kind::jump:
       case StepWatch::Kind::turn:
         own = up_to_branch(trial, watched);
         break;
@@ -214,9 +322,25 @@ double StepLook::operator()(const casimir_step& trial) {
         own = resolved(watched, i);
         break;
     }
-    part = std::min(part, own);
+    if (!(own < part)) continue;
+    part = own;
+    const bool branches = watched.kind == StepWatch::Kind::side ||
+                          watched.kind == StepWatch::Kind::jump ||
+                          watched.kind == StepWatch::Kind::turn;
+    met_ = branches ? &watched : nullptr;
   }
-  return part < 1 ? std::max(part, std::min(0.9, least / h)) : 1;
+  if (part == 1) return ends_behind_jump(trial) ? 2 : 1;
+  part = std::max(part, std::min(0.9, least / h));
+  jump_ = met_ && met_->kind != StepWatch::Kind::side
+              ? std::optional(trial.t0 + part * (trial.t1 - trial.t0))
+              : std::nullopt;
+  return part;
+}
+
+/// As it was cut to do when it was longer.
+bool StepLook::ends_behind_jump(const casimir_step& trial) const {
+  constexpr double kSame = 8 * std::numeric_limits<double>::epsilon();
+  return jump_ && std::abs(trial.t1 - *jump_) <= kSame * (std::abs(*jump_) + std::abs(trial.t0));
 }
 
 /// Between two places the exponent is not above the larger of its values there by more than it
@@ -261,6 +385,8 @@ double StepLook::defined(const casimir_step& trial, const StepWatch::Watched& wa
 
 double StepLook::up_to_branch(const casimir_step& trial, const StepWatch::Watched& watched) {
   const bool turns = watched.kind == StepWatch::Kind::turn;
+  // A jump on whose wrong side rounding has put the start comes at once.
+  const double relative = watched.kind == StepWatch::Kind::side ? kZero : 0;
   const auto at = [&](std::size_t i) { return sampled_[i][watched.place]; };
   double size = 0;
   for (std::size_t i = 0; i + 1 < kPlaces; ++i) {
@@ -268,7 +394,7 @@ double StepLook::up_to_branch(const casimir_step& trial, const StepWatch::Watche
     // The cut of an angle is where the other argument is negative.
     if (turns && !(sampled_[i][watched.place + 1] < 0 || sampled_[i + 1][watched.place + 1] < 0))
       continue;
-    const double zero = kZero * size;
+    const double zero = relative * size;
     if (at(i) * at(i + 1) < 0 && std::abs(at(i)) > zero && std::abs(at(i + 1)) > zero)
       return landing(trial, watched, places_[i], places_[i + 1], size);
     // One that is zero to rounding at the start, and passes zero behind it, is seen at the next
@@ -327,7 +453,7 @@ double StepLook::landing(const casimir_step& trial, const StepWatch::Watched& wa
     }
   }
   // A jump is left at once; where there is none, far enough for rounding not to undo it.
-  const double enough = watched.kind == StepWatch::Kind::turn ? 0 : kBehind * size;
+  const double enough = watched.kind == StepWatch::Kind::side ? kBehind * size : 0;
   double beyond = 4 * std::numeric_limits<double>::epsilon() * behind;
   for (; behind + beyond < far; beyond *= 4) {
     if (value(trial, watched, behind + beyond) * sign > enough) return behind + beyond;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "runtime/interpreter.hpp"
@@ -23,6 +24,7 @@ class StepWatch {
   /// How an argument u is looked at.
   enum class Kind {
     side,      ///< |u|: another branch where u passes zero
+    jump,      ///< sign(u): another value where u passes zero
     turn,      ///< atan2(u, v): another branch where u passes zero with v < 0
     positive,  ///< sqrt(u), log(u), a broken power: no value where u < 0
     unit,      ///< asin(u), acos(u): no value where |u| > 1
@@ -56,17 +58,36 @@ class StepLook {
   /// Borrows the watch. \param parameters  null if there are none.
   StepLook(const StepWatch& watch, std::size_t states, const double* parameters);
 
+  /// Another run begins. \param parameters  null if there are none.
+  void begin(const double* parameters);
+
   /// 1 for a step that may be taken; or how much of it may be tried instead. A step that passes a
   /// branch is to end just behind it, at a distance that is 1e-12 of what the argument is in the
-  /// step: what the wrong branch does on that way is its square.
+  /// step: what the wrong branch does on that way is its square. Behind a jump it ends at once; 2
+  /// for a step that does.
   double operator()(const casimir_step& trial);
+
+  /// Whose branch the last step was to end behind; null if that was not why it was cut.
+  const StepWatch::Watched* met() const { return met_; }
 
  private:
   /// At the ends and between them.
   static constexpr std::size_t kPlaces = 6;
 
-  const double* arguments_at(const casimir_step& trial, double part, bool exactly);
+  /// The arguments at an end of a step, which is the beginning of the next.
+  struct End {
+    double t = 0;
+    std::vector<double> x, values;
+  };
+
+  const double* arguments(double t, const double* x);
+  const double* arguments_within(const casimir_step& trial, double part, bool exactly);
   double value(const casimir_step& trial, const StepWatch::Watched& watched, double part);
+  void take_ends(const casimir_step& trial);
+  void take(End& end, double t, const double* x);
+  bool is_calm(const casimir_step& trial);
+  bool ends_behind_jump(const casimir_step& trial) const;
+  bool is_calm(const StepWatch::Watched& watched, std::size_t index, const double* middle);
   void sample(const casimir_step& trial);
   double resolved(const StepWatch::Watched& watched, std::size_t index);
   double up_to_branch(const casimir_step& trial, const StepWatch::Watched& watched);
@@ -77,11 +98,14 @@ class StepLook {
   const StepWatch& watch_;
   const std::size_t states_;
   Interpreter evaluate_;
-  std::vector<double> inputs_, outputs_, state_;
+  std::vector<double> inputs_, outputs_;
+  End first_, last_;
   std::vector<double> sampled_[kPlaces];
   std::vector<double> highest_;  ///< of the exponents of powers, so far
   double places_[kPlaces] = {};
   double shift_ = 0.5;
+  const StepWatch::Watched* met_ = nullptr;
+  std::optional<double> jump_;  ///< when a step that was cut is to end behind a jump
 };
 
 }  // namespace casimir

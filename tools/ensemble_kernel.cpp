@@ -93,6 +93,7 @@ EnsembleKernel ensemble_kernel(const SceneRun& run, const Method& method, std::s
     } else {
       try {
         load(emit_series_lanes(s, kernel_text(kGeneral)), result);
+        result.lanes->watch_steps_of(s.rhs);
       } catch (const CompilerMissing&) {
       }
     }

@@ -82,7 +82,7 @@ class March {
   using M = Mask<V>;
   static constexpr int width = width_of<V>, room = Series::room;
   // As for one trajectory.
-  static constexpr double kDefect = 1000, kRounding = 0x1p-40, kLongest = 16;
+  static constexpr double kDefect = 1000, kRounding = 0x1p-40, kLongest = 16, kHalf = 0.5;
 
  public:
   March(const casimir_ensemble* run, Series& series)
@@ -164,6 +164,8 @@ class March {
     }
     time_[lane] = run_->t_begin;
     time_carry_[lane] = steps_[lane] = rejected_[lane] = 0;
+    part_[lane] = kHalf;
+    cut_[lane] = jumps_[lane] = 0;
     status_[lane] = failure_[lane] = CASIMIR_OK;
     return true;
   }
@@ -320,6 +322,8 @@ class March {
     }
     failure_ = trying & ~trial.good ? all_lanes<V>(CASIMIR_NON_FINITE) : failure_;
     M held = trying & trial.good;
+    if constexpr (!Series::smooth)
+      if (run_->look) look(held, trial);
     M unsure = held;
     if constexpr (Series::smooth) unsure &= ~checked_ | (trial.s > 3);
     if (any(unsure)) {
@@ -331,6 +335,36 @@ class March {
     end(held & trial.there, CASIMIR_OK);
     ready_ = ready_ && !any(active_ & ~held);
     trying &= ~held;
+  }
+
+  /// Leaves those in a mask whose step may be taken; of the others, what part is to be tried next.
+  __attribute__((noinline)) void look(M& held, const Trial& trial) {
+    const M asked = held;
+    const casimir_lane_step step = shown(asked, trial, nullptr);
+    for (int lane = 0; lane < width; ++lane) {
+      if (!asked[lane]) continue;
+      const double part = run_->look(run_->source, &step, lane);
+      jumps_[lane] = part > 1 ? -1 : 0;
+      if (part >= 1) continue;
+      held[lane] = 0;
+      part_[lane] = part;
+      cut_[lane] = -1;
+      failure_[lane] = CASIMIR_STEP_UNDERFLOW;
+    }
+  }
+
+  /// The step as others see it.
+  CASIMIR_INLINE casimir_lane_step shown(const M& held, const Trial& trial, M* finished) const {
+    return {width,
+            series_.states,
+            series_.order,
+            rows_,
+            reinterpret_cast<const double*>(&time_),
+            reinterpret_cast<const double*>(&unit_),
+            reinterpret_cast<const double*>(&trial.s),
+            member_,
+            reinterpret_cast<const long long*>(&held),
+            reinterpret_cast<long long*>(finished)};
   }
 
   /// total + carry becomes total + carry + increment, in all lanes.
@@ -372,7 +406,11 @@ class March {
     time_ = held ? trial.t1 : time_;
     time_carry_ = held ? trial.t1_carry : time_carry_;
     steps_ += held ? all_lanes<V>(1) : V{};
-    const M resize = held & ~(absolute(trial.s - 1.2) < 0.8);
+    M resize = held & ~(absolute(trial.s - 1.2) < 0.8);
+    if constexpr (!Series::smooth) {
+      resize &= ~cut_;  // a step that was cut short says nothing about the next one
+      cut_ &= ~held;
+    }
     unit_ = resize ? towards_end(power_of_two_near(absolute(trial.h))) : unit_;
     each_state([&](int i) CASIMIR_INLINE_LAMBDA {
       V& x = series_.row(i)[0];
@@ -385,16 +423,7 @@ class March {
   /// next state, unless the step ends it anyway.
   __attribute__((noinline)) void observe(M held, const Trial& trial) {
     M finished = {};
-    const casimir_lane_step step = {width,
-                                    series_.states,
-                                    series_.order,
-                                    rows_,
-                                    reinterpret_cast<const double*>(&time_),
-                                    reinterpret_cast<const double*>(&unit_),
-                                    reinterpret_cast<const double*>(&trial.s),
-                                    member_,
-                                    reinterpret_cast<const long long*>(&held),
-                                    reinterpret_cast<long long*>(&finished)};
+    const casimir_lane_step step = shown(held, trial, &finished);
     run_->observe(run_->source, &step);
     seen_enough_ |= finished & held;
   }
@@ -424,7 +453,7 @@ class March {
       good &= follows_at(which, within, time_ + within * unit_, x);
     }
     // Last, since what begins at the end is the next step.
-    return good & follows_at(which, trial.s, trial.t1, next_);
+    return good & (follows_at(which, trial.s, trial.t1, next_) | jumps_);
   }
 
   CASIMIR_INLINE M follows_at(M which, V s, V t, const V* x) {
@@ -446,7 +475,7 @@ class March {
 
   // What seldom happens.
 
-  /// After trials that did not hold: half the step, or the end.
+  /// After trials that did not hold: a part of the step, or the end.
   __attribute__((cold, noinline)) void reject(V& s, M& trying) {
     rejected_ += trying ? all_lanes<V>(1) : V{};
     if (run_->max_steps) {
@@ -454,7 +483,8 @@ class March {
       trying &= active_;
     }
     const V rest = absolute((run_->t_end - time_) - time_carry_) / absolute(unit_);
-    s = trying ? (s < rest ? s : rest) / 2 : s;
+    s = trying ? (s < rest ? s : rest) * part_ : s;
+    part_ = trying ? all_lanes<V>(kHalf) : part_;
   }
 
   /// The coefficients left the range of numbers: a smaller unit, or the end.
@@ -492,8 +522,8 @@ class March {
   const double span_;
   V carry_[room], next_[room], next_carry_[room], rate_[room], here_[room];
   V time_ = {}, time_carry_ = {}, unit_ = {}, steps_ = {}, rejected_ = {}, status_ = {},
-    failure_ = {};
-  M active_ = {}, ended_ = {}, checked_ = {}, seen_enough_ = {};
+    failure_ = {}, part_ = all_lanes<V>(kHalf);
+  M active_ = {}, ended_ = {}, checked_ = {}, seen_enough_ = {}, cut_ = {}, jumps_ = {};
   long long member_[width];
   const double* rows_[room];
   int occupied_ = 0;

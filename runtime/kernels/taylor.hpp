@@ -338,6 +338,7 @@ class March {
     double x0[room], x1[room];
     const casimir_step trial = seen(t1, next, x0, x1);
     const double part = run_->look(run_->looker, &trial);
+    jumps_ = part > 1;
     if (part >= 1) return true;
     part_ = part;
     cut_ = true;
@@ -392,7 +393,7 @@ class March {
       if (!follows_at(within, t_ + within * unit_, x)) return false;
     }
     // Last, since what begins at the end is the next step.
-    if (!follows_at(s, t1, next)) return false;
+    if (!follows_at(s, t1, next) && !jumps_) return false;
     fresh_ = false;
     return true;
   }
@@ -512,7 +513,7 @@ class March {
   double unit_ = 1, pieces_ = 0, scale_ = 0;
   unsigned long long steps_ = 0, rejected_ = 0, expansions_ = 0, evaluations_ = 0;
   int status_ = CASIMIR_OK, failure_ = CASIMIR_OK;
-  bool there_ = false, fresh_ = false, cut_ = false;
+  bool there_ = false, fresh_ = false, cut_ = false, jumps_ = false;
   double part_ = 0.5;   // of a step that did not hold, what is tried next
   double place_ = 0.5;  // within a step, where it was looked at last
 };

@@ -10,8 +10,10 @@ using Kernels = std::vector<std::pair<std::string, LaneKernel>>;
 
 /// The recurrences of every operation, compiled.
 inline LaneKernel lanes_of_recurrences(const Specialisation& s) {
-  return loaded_lanes(
+  LaneKernel result = loaded_lanes(
       compile(emit_series_lanes(s, kernel_text("runtime/kernels/lane_convolved.hpp"))).path);
+  result.watch_steps_of(s.rhs);
+  return result;
 }
 
 /// The kernel for quadratic systems with its tables as constants, compiled.

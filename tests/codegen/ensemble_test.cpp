@@ -311,5 +311,48 @@ TEST(Ensemble, SystemsOfAnotherKindHaveNoTables) {
   }
 }
 
+/// A ball between two inclined planes, q'' = -sign(q): parabolas from turn to turn.
+std::vector<double> bounced(double height, double t) {
+  const double quarter = std::sqrt(2 * height);
+  const double turns = std::floor((t + quarter) / (2 * quarter));
+  const double since = t - 2 * turns * quarter;
+  const double side = std::fmod(turns, 2) == 0 ? 1 : -1;
+  return {side * (height - since * since / 2), -side * since};
+}
+
+TEST(Ensemble, StepsEndWhereTheEquationsJump) {
+  const Specialisation s = specialised(equations({{"q", "p"}, {"p", "-q/sqrt(q^2)"}}));
+  LaneKernel kernel = testing::lanes_of_recurrences(s);
+  States from;
+  for (int i = 0; i < 19; ++i) from.push_back({0.5 + 0.1 * i, 0});
+  const auto largest_error = [&] {
+    const EnsembleResult result = run_lanes(kernel, ensemble_of(from), settings_for(20, 1e-14));
+    double error = 0;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      EXPECT_EQ(result.members[i].status, Status::ok) << i;
+      error = std::max(error, distance(result.members[i].state, bounced(from[i][0], 20)));
+    }
+    return error;
+  };
+  EXPECT_LT(largest_error(), 1e-11);
+  // The twin: steps that nobody looks at.
+  kernel.watch = nullptr;
+  EXPECT_GT(largest_error(), 1e-9);
+}
+
+TEST(Ensemble, NoMemberStepsOverAPulse) {
+  const Specialisation s =
+      specialised(equations({{"x", "10000*exp(-(10000*(s - 3))^2)"}, {"s", "1"}}));
+  LaneKernel kernel = testing::lanes_of_recurrences(s);
+  States from;
+  for (int i = 0; i < 9; ++i) from.push_back({0.25 * i, -0.3 * i});
+  EnsembleResult result = run_lanes(kernel, ensemble_of(from), settings_for(8, 1e-12));
+  for (std::size_t i = 0; i < from.size(); ++i)
+    EXPECT_NEAR(result.members[i].state[0] - from[i][0], std::sqrt(std::acos(-1.)), 1e-10) << i;
+  kernel.watch = nullptr;
+  result = run_lanes(kernel, ensemble_of(from), settings_for(8, 1e-12));
+  EXPECT_LT(result.members[0].state[0], 1);
+}
+
 }  // namespace
 }  // namespace casimir

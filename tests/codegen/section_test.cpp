@@ -174,5 +174,32 @@ TEST(Section, OrbitsDoNotDependOnEachOther) {
   }
 }
 
+/// q'' = -sign(q): from the height h it comes back to q = 0, upwards, at 3, 7, 11, .. sqrt(2 h).
+TEST(Section, OrbitsTurnWhereTheEquationsJump) {
+  const Specialisation s = with_function({{"q", "p"}, {"p", "-q/sqrt(q^2)"}}, "q");
+  const LaneKernel kernel = testing::lanes_of_recurrences(s);
+  std::vector<double> seeds;
+  for (int i = 0; i < 10; ++i) seeds.insert(seeds.end(), {0.5 + 0.25 * i, 0});
+  const SectionResult result = cut(kernel, plane_of(s, true), seeds, 2, settings_for(2, 20));
+  for (std::size_t i = 0; i < 10; ++i) {
+    const SectionOrbit& orbit = result.orbits[i];
+    const double speed = std::sqrt(2 * seeds[2 * i]);
+    ASSERT_EQ(orbit.size(), 20U) << i;
+    for (std::size_t n = 0; n < 20; ++n) {
+      EXPECT_NEAR(orbit.times[n], (3 + 4 * static_cast<double>(n)) * speed, 1e-10) << i;
+      EXPECT_NEAR(orbit.states[2 * n + 1], speed, 1e-11) << i;
+    }
+  }
+}
+
+/// The function of a section may have the sign of a state in it.
+TEST(Section, AFunctionWithASign) {
+  const Specialisation s = with_function({{"x", "1"}}, "x + x/sqrt(x^2)/2 - 1");
+  const SectionResult result =
+      cut(lane_kernels(s).front().second, plane_of(s, true), {0.1}, 1, settings_for(1, 1));
+  ASSERT_EQ(result.orbits[0].size(), 1U);
+  EXPECT_NEAR(result.orbits[0].times[0], 0.4, 1e-12);
+}
+
 }  // namespace
 }  // namespace casimir

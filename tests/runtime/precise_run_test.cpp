@@ -227,5 +227,46 @@ TEST(PreciseRun, LimitsAreKept) {
   EXPECT_EQ(precise_run(asked, 3000).status, Status::stopped);
 }
 
+/// x' = |t - 7/3|, from 1/2 to the time 5.
+TEST(PreciseRun, CornersAreFoundToAllDigits) {
+  Builder b({"x"});
+  b.output(b.op(Op::abs, b.op(Op::sub, b.time(), b.number(cln::cl_RA("7/3")))));
+  const Program program = b.program();
+  const AgreedRun agreed = agreed_run(problem(program, {cln::cl_RA("1/2"), 5}), 60);
+  ASSERT_EQ(agreed.run.status, Status::ok) << agreed.run.reason;
+  // (49/9 + 64/9)/2 + 1/2
+  const cln::cl_F truth = cln::cl_float(cln::cl_RA("61/9"), cln::float_format(80));
+  EXPECT_EQ(agreed_digits(agreed.run.state[0], truth, 60), 60);
+  EXPECT_LT(agreed.run.steps, 20U);
+}
+
+/// q'' = -sign(q) from height 1: after 20 quarters of sqrt(2) it stands where it began, and 1/2
+/// later at 1 - 1/8.
+TEST(PreciseRun, JumpsAreFoundToAllDigits) {
+  Builder b({"q", "p"});
+  b.output(1);
+  b.output(b.op(Op::neg, b.op(Op::sign, 0)));
+  const Program program = b.program();
+  const cln::float_format_t format = cln::float_format(90);
+  const cln::cl_R end =
+      20 * cln::sqrt(cln::cl_float(2, format)) + cln::cl_float(cln::cl_RA("1/2"), format);
+  const AgreedRun agreed = agreed_run(problem(program, {1, 0, end}), 50);
+  ASSERT_EQ(agreed.run.status, Status::ok) << agreed.run.reason;
+  EXPECT_EQ(agreed_digits(agreed.run.state[0], cln::cl_float(cln::cl_RA("7/8"), format), 50), 50);
+  EXPECT_EQ(agreed_digits(agreed.run.state[1], cln::cl_float(cln::cl_RA("-1/2"), format), 50), 50);
+}
+
+/// x' = exp(-(1000 (t - 3))^2), of which the integral is sqrt(Pi)/1000.
+TEST(PreciseRun, PulsesAreNotPassedOver) {
+  Builder b({"x"});
+  const int z = b.op(Op::mul, b.op(Op::sub, b.time(), b.number(3)), b.number(1000));
+  b.output(b.op(Op::exp, b.op(Op::neg, b.op(Op::mul, z, z))));
+  const Program program = b.program();
+  const AgreedRun agreed = agreed_run(problem(program, {1, 20}), 40);
+  ASSERT_EQ(agreed.run.status, Status::ok) << agreed.run.reason;
+  const cln::float_format_t format = cln::float_format(60);
+  EXPECT_EQ(agreed_digits(agreed.run.state[0], 1 + cln::sqrt(cln::pi(format)) / 1000, 40), 40);
+}
+
 }  // namespace
 }  // namespace casimir::test
