@@ -23,7 +23,11 @@ class Feed {
         count_(kernel.numbers.outputs.size()),
         numbers_(count_),
         check_(work.ensemble(), invariants) {
-    if (kernel.watch) look_.emplace(*kernel.watch, work.ensemble().states, kernel.lanes);
+    const Ensemble& ensemble = work.ensemble();
+    if (kernel.watch)
+      look_.emplace(*kernel.watch, ensemble.states, kernel.lanes, [&ensemble](long long member) {
+        return ensemble.values_of(static_cast<std::size_t>(member));
+      });
   }
 
   static long long next(void* self, double* x, const double** numbers) {
@@ -36,10 +40,8 @@ class Feed {
     Feed& feed = *static_cast<Feed*>(self);
     return feed.work_.give_up(feed.calls_) ? 1 : 0;
   }
-  static double look(void* self, const casimir_lane_step* trial, int lane) {
-    Feed& feed = *static_cast<Feed*>(self);
-    const auto member = static_cast<std::size_t>(trial->member[lane]);
-    return (*feed.look_)(*trial, lane, feed.work_.ensemble().values_of(member));
+  static void look(void* self, const casimir_lane_step* trial, double* parts) {
+    (*static_cast<Feed*>(self)->look_)(*trial, parts);
   }
   bool looks() const { return look_.has_value(); }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "runtime/step_watch.hpp"
@@ -10,12 +11,14 @@ namespace casimir {
 /// casimir_ensemble::look.
 class LaneLook {
  public:
-  /// Borrows the watch.
-  LaneLook(const StepWatch& watch, std::size_t states, int lanes);
+  /// The parameters of a member; null if there are none.
+  using Parameters = std::function<const double*(long long member)>;
 
-  /// 1 for a step that may be taken; or how much of it may be tried instead.
-  /// \param parameters  those of the member in that lane; null if there are none.
-  double operator()(const casimir_lane_step& trial, int lane, const double* parameters);
+  /// Borrows the watch.
+  LaneLook(const StepWatch& watch, std::size_t states, int lanes, Parameters parameters);
+
+  /// \param parts  for each lane that is to take the step, what StepLook says.
+  void operator()(const casimir_lane_step& trial, double* parts);
 
  private:
   struct Lane {
@@ -24,8 +27,11 @@ class LaneLook {
   };
 
   const std::size_t states_;
+  const Parameters parameters_;
   std::vector<Lane> lanes_;
-  std::vector<double> begin_, end_;  ///< states
+  std::vector<double> places_;        ///< in units of time, one for each lane
+  std::vector<double> middle_, end_;  ///< states, each in all lanes
+  std::vector<double> x0_, xm_, x1_;  ///< of one lane
 };
 
 }  // namespace casimir

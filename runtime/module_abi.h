@@ -112,8 +112,9 @@ struct casimir_ensemble {
   void* source;
   /* Shown every accepted step, of any lane. May be null. */
   void (*observe)(void* source, const struct casimir_lane_step* step);
-  /* Null, or what looks at the step of one lane before it is accepted: see casimir_run::look. */
-  double (*look)(void* source, const struct casimir_lane_step* trial, int lane);
+  /* Null, or what looks at a step before it is accepted: writes what casimir_run::look returns for
+   * each lane that is to take it, and leaves the others. */
+  void (*look)(void* source, const struct casimir_lane_step* trial, double* parts);
 };
 
 /* A module exports, with C linkage:

@@ -67,7 +67,8 @@ class Cutter {
             tables_.rows * (CASIMIR_MOST_JET_ORDER + 1) * shared.kernel.lanes)]) {
     if (!shared.kernel.watch) return;
     const std::lock_guard lock(exact_constants_guard());
-    look_.emplace(*shared.kernel.watch, shared.work.ensemble().states, shared.kernel.lanes);
+    look_.emplace(*shared.kernel.watch, shared.work.ensemble().states, shared.kernel.lanes,
+                  [](long long) { return nullptr; });
   }
 
   void run() {
@@ -87,8 +88,8 @@ class Cutter {
       static_cast<Cutter*>(self)->observe(*step);
     };
     if (look_)
-      request.look = [](void* self, const casimir_lane_step* trial, int lane) {
-        return (*static_cast<Cutter*>(self)->look_)(*trial, lane, nullptr);
+      request.look = [](void* self, const casimir_lane_step* trial, double* parts) {
+        (*static_cast<Cutter*>(self)->look_)(*trial, parts);
       };
     request.source = this;
     // Once there is no new orbit a kernel asks for none: those that are to go on then wait.

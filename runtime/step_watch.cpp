@@ -21,10 +21,16 @@ constexpr double kNegligiblePower = -40, kLeastPower = -60;
 /// Lower powers are seen by any method.
 constexpr int kHighPower = 10;
 /// Of the largest argument in a step: what counts as zero, and where a step behind a branch ends.
-constexpr double kZero = 1e-11, kBehind = 1e-12;
+constexpr double kZero = 1e-11, kBehind = 1e-12, kRounding = 2e-15;
 constexpr double kShorter = 0.4;
-/// A change of an exponent between three places that needs no closer look.
-constexpr double kCalm = 2;
+
+/// The next of numbers between 0 and 1 that no motion follows.
+double next(double shift) {
+  constexpr double kGoldenSection = 0.6180339887498949;
+  return shift + kGoldenSection - (shift + kGoldenSection >= 1 ? 1 : 0);
+}
+
+double in_the_middle(double shift) { return 0.3 + 0.4 * shift; }
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -198,7 +204,8 @@ void StepLook::begin(const double* parameters) {
     std::copy_n(parameters, inputs_.size() - states_ - 1,
                 inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
   highest_.assign(watch_.watched().size(), -std::numeric_limits<double>::infinity());
-  first_ = last_ = {};
+  first_.x.clear();
+  last_.x.clear();
   jump_.reset();
   shift_ = 0.5;
 }
@@ -237,7 +244,9 @@ void StepLook::take(End& end, double t, const double* x) {
   if (!end.x.empty() && end.t == t && std::equal(end.x.begin(), end.x.end(), x, x + states_))
     return;
   const double* const values = arguments(t, x);
-  end = {t, {x, x + states_}, {values, values + outputs_.size()}};
+  end.t = t;
+  end.x.assign(x, x + states_);
+  end.values.assign(values, values + outputs_.size());
 }
 
 void StepLook::take_ends(const casimir_step& trial) {
@@ -246,7 +255,8 @@ void StepLook::take_ends(const casimir_step& trial) {
   take(last_, trial.t1, trial.x1);
 }
 
-/// The places between the ends follow the golden section, as no motion does.
+double StepLook::place_within() const { return in_the_middle(next(shift_)); }
+
 void StepLook::sample(const casimir_step& trial) {
   for (std::size_t i = 0; i < kPlaces; ++i) {
     const double between = (static_cast<double>(i) - 0.75 + 0.5 * shift_) / (kPlaces - 2);
@@ -261,11 +271,12 @@ void StepLook::sample(const casimir_step& trial) {
 }
 
 /// Whether the ends and one place between them show that nothing is near.
-bool StepLook::is_calm(const casimir_step& trial) {
-  const double* const middle = arguments_within(trial, 0.3 + 0.4 * shift_, false);
+bool StepLook::is_calm(const casimir_step& trial, double part, const double* middle) {
+  const double* const values = middle ? arguments(trial.t0 + part * (trial.t1 - trial.t0), middle)
+                                      : arguments_within(trial, part, false);
   bool all = true;
   for (std::size_t i = 0; i < watch_.watched().size(); ++i)
-    all = is_calm(watch_.watched()[i], i, middle) && all;
+    all = is_calm(watch_.watched()[i], i, values) && all;
   return all;
 }
 
@@ -285,23 +296,23 @@ bool StepLook::is_calm(const StepWatch::Watched& watched, std::size_t which, con
     case StepWatch::Kind::unit:
       return std::max(std::abs(least), std::abs(most)) + change < 1;
     case StepWatch::Kind::exponent:
+      return change < kResolved || most + change < kNegligible;
     case StepWatch::Kind::power:
-      return change < kCalm;
+      return change < kResolved;
     default:
       return change < std::min(std::abs(least), std::abs(most));
   }
 }
 
-double StepLook::operator()(const casimir_step& trial) {
+double StepLook::operator()(const casimir_step& trial, const double* middle) {
   const double h = std::abs(trial.t1 - trial.t0);
   const double least = 64 * std::numeric_limits<double>::epsilon() * std::abs(trial.t0);
   if (h <= least) return 1;
-  constexpr double kGoldenSection = 0.6180339887498949;
-  shift_ += kGoldenSection;
-  if (shift_ >= 1) shift_ -= 1;
+  shift_ = next(shift_);
+  const double within = in_the_middle(shift_);
   met_ = nullptr;
   take_ends(trial);
-  if (is_calm(trial)) return ends_behind_jump(trial) ? 2 : 1;
+  if (is_calm(trial, within, middle)) return ends_behind_jump(trial) ? 2 : 1;
   sample(trial);
   double part = 1;
   for (std::size_t i = 0; i < watch_.watched().size(); ++i) {
@@ -432,6 +443,11 @@ double StepLook::landing(const casimir_step& trial, const StepWatch::Watched& wa
   double first = value(trial, watched, before), last = value(trial, watched, behind);
   if (!(first * last < 0)) return 1;  // cubic interpolation said so, and was wrong
   const double sign = last > 0 ? 1 : -1;
+  // What rounding makes of it: in its own terms, and in the time.
+  const double slope = std::abs((last - first) / ((behind - before) * (trial.t1 - trial.t0)));
+  double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(trial.t0) * slope;
+  for (std::size_t i = 0; i < kPlaces && places_[i] <= before; ++i)
+    rounding = std::max(rounding, kRounding * std::abs(sampled_[i][watched.place]));
   const double far = behind;
   constexpr int kMostRounds = 60;
   int side = 0;
@@ -452,8 +468,8 @@ double StepLook::landing(const casimir_step& trial, const StepWatch::Watched& wa
       side = -1;
     }
   }
-  // A jump is left at once; where there is none, far enough for rounding not to undo it.
-  const double enough = watched.kind == StepWatch::Kind::side ? kBehind * size : 0;
+  // Far enough for rounding not to undo it; where there is no jump, that may be farther.
+  const double enough = watched.kind == StepWatch::Kind::side ? kBehind * size : rounding;
   double beyond = 4 * std::numeric_limits<double>::epsilon() * behind;
   for (; behind + beyond < far; beyond *= 4) {
     if (value(trial, watched, behind + beyond) * sign > enough) return behind + beyond;

@@ -65,7 +65,12 @@ class StepLook {
   /// branch is to end just behind it, at a distance that is 1e-12 of what the argument is in the
   /// step: what the wrong branch does on that way is its square. Behind a jump it ends at once; 2
   /// for a step that does.
-  double operator()(const casimir_step& trial);
+  /// \param middle  the state at `place_within`, if that is known.
+  double operator()(const casimir_step& trial, const double* middle = nullptr);
+
+  /// The part of the next step at which it is looked at first. It follows the golden section, as no
+  /// motion does.
+  double place_within() const;
 
   /// Whose branch the last step was to end behind; null if that was not why it was cut.
   const StepWatch::Watched* met() const { return met_; }
@@ -85,7 +90,7 @@ class StepLook {
   double value(const casimir_step& trial, const StepWatch::Watched& watched, double part);
   void take_ends(const casimir_step& trial);
   void take(End& end, double t, const double* x);
-  bool is_calm(const casimir_step& trial);
+  bool is_calm(const casimir_step& trial, double part, const double* middle);
   bool ends_behind_jump(const casimir_step& trial) const;
   bool is_calm(const StepWatch::Watched& watched, std::size_t index, const double* middle);
   void sample(const casimir_step& trial);

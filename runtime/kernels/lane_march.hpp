@@ -341,9 +341,11 @@ class March {
   __attribute__((noinline)) void look(M& held, const Trial& trial) {
     const M asked = held;
     const casimir_lane_step step = shown(asked, trial, nullptr);
+    double parts[width];
+    run_->look(run_->source, &step, parts);
     for (int lane = 0; lane < width; ++lane) {
       if (!asked[lane]) continue;
-      const double part = run_->look(run_->source, &step, lane);
+      const double part = parts[lane];
       jumps_[lane] = part > 1 ? -1 : 0;
       if (part >= 1) continue;
       held[lane] = 0;
