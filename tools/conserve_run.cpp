@@ -6,8 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "tools/analysis/truth.hpp"
 #include "tools/errors.hpp"
-#include "tools/truth.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -11,7 +11,7 @@
 #include "runtime/agreed_run.hpp"
 #include "symbolic/decimal.hpp"
 #include "symbolic/expression.hpp"
-#include "tools/atlas.hpp"
+#include "tools/analysis/conversion.hpp"
 #include "tools/case_library.hpp"
 #include "tools/digits_report.hpp"
 #include "tools/errors.hpp"

@@ -9,9 +9,9 @@
 #include <iostream>
 #include <optional>
 
+#include "tools/analysis/ensemble_kernel.hpp"
 #include "tools/case_library.hpp"
 #include "tools/ensemble_file.hpp"
-#include "tools/ensemble_kernel.hpp"
 #include "tools/errors.hpp"
 #include "tools/output.hpp"
 #include "tools/run_report.hpp"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "runtime/methods.hpp"
+#include "tools/analysis/scene_run.hpp"
 #include "tools/cli_names.hpp"
-#include "tools/scene_run.hpp"
 
 namespace casimir::tools {
 

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <iostream>
 
-#include "tools/atlas.hpp"
-#include "tools/bench/contest.hpp"
+#include "tools/analysis/benchmark/contest.hpp"
+#include "tools/analysis/conversion.hpp"
+#include "tools/analysis/scene_run.hpp"
 #include "tools/bench/report.hpp"
 #include "tools/case_library.hpp"
 #include "tools/choices.hpp"
@@ -15,7 +16,6 @@
 #include "tools/kept_parameters.hpp"
 #include "tools/output.hpp"
 #include "tools/progress.hpp"
-#include "tools/scene_run.hpp"
 #include "tools/scene_values.hpp"
 
 namespace casimir::tools {

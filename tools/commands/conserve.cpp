@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "tools/atlas.hpp"
+#include "tools/analysis/conversion.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
 #include "tools/conserve_run.hpp"

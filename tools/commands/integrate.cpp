@@ -8,20 +8,20 @@
 #include <iostream>
 #include <optional>
 
-#include "tools/atlas.hpp"
+#include "tools/analysis/conversion.hpp"
+#include "tools/analysis/judged_run.hpp"
+#include "tools/analysis/scene_run.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
 #include "tools/digits_run.hpp"
 #include "tools/ensemble_run.hpp"
 #include "tools/errors.hpp"
 #include "tools/generated_report.hpp"
-#include "tools/judged_run.hpp"
 #include "tools/kept_parameters.hpp"
 #include "tools/motion_options.hpp"
 #include "tools/output.hpp"
 #include "tools/run_options.hpp"
 #include "tools/run_report.hpp"
-#include "tools/scene_run.hpp"
 #include "tools/scene_values.hpp"
 
 namespace casimir::tools {

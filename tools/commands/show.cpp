@@ -6,7 +6,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "tools/atlas.hpp"
+#include "tools/analysis/conversion.hpp"
 #include "tools/case_library.hpp"
 #include "tools/choices.hpp"
 #include "tools/cli.hpp"

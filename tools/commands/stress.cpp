@@ -10,7 +10,8 @@
 #include <thread>
 
 #include "symbolic/error.hpp"
-#include "tools/atlas.hpp"
+#include "tools/analysis/conversion.hpp"
+#include "tools/analysis/scene_run.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
 #include "tools/errors.hpp"
@@ -18,7 +19,6 @@
 #include "tools/output.hpp"
 #include "tools/progress.hpp"
 #include "tools/run_options.hpp"
-#include "tools/scene_run.hpp"
 #include "tools/stress/children.hpp"
 #include "tools/stress/matrix.hpp"
 #include "tools/stress/picture.hpp"

@@ -10,6 +10,10 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "tools/analysis/sweep/exponents.hpp"
+#include "tools/analysis/sweep/integrations.hpp"
+#include "tools/analysis/sweep/sections.hpp"
+#include "tools/analysis/sweep/sweep.hpp"
 #include "tools/case_library.hpp"
 #include "tools/choices.hpp"
 #include "tools/cli.hpp"
@@ -18,10 +22,6 @@
 #include "tools/progress.hpp"
 #include "tools/run_report.hpp"
 #include "tools/scene_values.hpp"
-#include "tools/sweep/exponents.hpp"
-#include "tools/sweep/integrations.hpp"
-#include "tools/sweep/sections.hpp"
-#include "tools/sweep/sweep.hpp"
 #include "tools/sweep/table.hpp"
 
 namespace casimir::tools {

@@ -7,10 +7,10 @@
 
 #include "codegen/compile.hpp"
 #include "symbolic/error.hpp"
+#include "tools/analysis/judged_run.hpp"
+#include "tools/analysis/limited_prove.hpp"
 #include "tools/conserve_run.hpp"
 #include "tools/errors.hpp"
-#include "tools/judged_run.hpp"
-#include "tools/limited_prove.hpp"
 
 namespace casimir::tools {
 namespace {

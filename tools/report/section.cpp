@@ -1,8 +1,8 @@
 // The Poincare section of a report: some orbits all over the domain of possible motion, on the
 // level of the scene.
+#include "tools/analysis/section/domain_orbits.hpp"
 #include "tools/plot.hpp"
 #include "tools/report/pictures.hpp"
-#include "tools/section/domain_orbits.hpp"
 #include "tools/section/picture.hpp"
 
 namespace casimir::tools {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/stress/cell.hpp"
+#include "tools/analysis/stress/cell.hpp"
 
 namespace casimir::tools {
 

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/program.hpp"
+#include "symbolic/model.hpp"
+#include "tools/analysis/scene_run.hpp"
+#include "tools/analysis/sweep/grid.hpp"
+
+namespace casimir::tools {
+
+/// Initial state and parameters at the points of a grid: the scene's, with the values of the axes
+/// and of `--let NAME=EXPR` in their place.
+class Places {
+ public:
+  /// \param run   with the parameters of the axes and lets at run time
+  /// \param lets  NAME=EXPR, over the names of the axes and the parameters
+  /// \throws CaseError   with the place in an option
+  /// \throws UsageError  for a point that violates an assumption or leaves a constraint; the
+  ///                     message names it
+  Places(const Model& model, const Scene& scene, const SceneRun& run, const Grid& grid,
+         const std::vector<std::string>& lets);
+
+  /// Names that a grid and its lets set: parameters among them must be known at run time only.
+  static std::vector<std::string> names(const Grid& grid, const std::vector<std::string>& lets);
+
+  /// State and parameters of the run at a point.
+  std::pair<std::vector<double>, std::vector<double>> at(std::size_t point) const;
+
+  /// The scene with the values of a point, as the exact numbers that these doubles are.
+  Scene scene_at(std::size_t point, const Model& model, const Scene& scene) const;
+
+ private:
+  struct Target {
+    bool state;
+    std::size_t place;  ///< among the states or the parameters of the run; or beyond: left out
+    std::string name;
+  };
+  Target target(const std::string& name) const;
+  void read_lets(const Model& model, const std::vector<std::string>& lets);
+  void check(const Model& model, const Scene& scene) const;
+
+  const SceneRun& run_;
+  const Grid& grid_;
+  std::vector<Target> axes_, lets_;
+  Program let_values_;  ///< inputs: the axes, then the parameters of the run
+};
+
+}  // namespace casimir::tools

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "symbolic/case_file.hpp"
+#include "tools/analysis/section/problem.hpp"
+#include "tools/analysis/sweep/place.hpp"
+#include "tools/analysis/sweep/task.hpp"
+
+namespace casimir::tools {
+
+/// The Poincare section at each point of a grid, on the level that the point's initial state lies
+/// on. Columns: how many orbits and crossings, how many of the orbits are regular and chaotic, the
+/// largest exponent among them, and how far the crossings are from their level. Where nothing moves
+/// across the plane there are no orbits.
+class Sections : public SweepTask {
+ public:
+  /// All of these outlive it. \throws CaseError, UsageError  as section_problem does
+  Sections(const CaseFile& file, const Model& model, const Scene& scene, const Places& places,
+           std::size_t orbits, std::size_t points, double tolerance);
+
+  std::vector<std::string> columns() const override;
+  std::string fingerprint() const override;
+  std::vector<PointResult> run(const std::vector<std::size_t>& points, int threads,
+                               const std::function<bool()>& give_up) const override;
+
+ private:
+  PointResult cut(std::size_t point, int threads, const std::function<bool()>& give_up) const;
+
+  const CaseFile& file_;
+  const Model& model_;
+  const Scene& scene_;
+  const Places& places_;
+  std::size_t orbits_, points_;
+  double tolerance_;
+  std::string text_;  ///< what the section is of
+};
+
+}  // namespace casimir::tools
