@@ -8,7 +8,7 @@
 #include "runtime/quadratic_targets.hpp"
 #include "runtime/uncompiled.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 /// Steps in all columns together: a tenth of a second where the equations are quadratic, and half a
@@ -189,4 +189,4 @@ std::optional<Conditioning> conditioning(const SceneRun& run, const Settings& se
   return Follower(run, settings, duration, sizes).conditioning();
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

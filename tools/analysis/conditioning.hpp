@@ -6,7 +6,7 @@
 #include "runtime/integrate.hpp"
 #include "tools/analysis/scene_run.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// How small changes of the state grow along a run, from the variational equations: the derivative
 /// of the flow from the start, column by column, and along one direction each from a few later
@@ -38,4 +38,4 @@ std::vector<double> sizes_of(const Trajectory& trajectory);
 std::optional<Conditioning> conditioning(const SceneRun& run, const Settings& settings,
                                          double duration, const std::vector<double>& sizes);
 
-}  // namespace casimir::tools
+}  // namespace casimir

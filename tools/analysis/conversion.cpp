@@ -1,18 +1,15 @@
 #include "tools/analysis/conversion.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 
 #include "codegen/lower.hpp"
 #include "codegen/terms.hpp"
 #include "runtime/evaluate.hpp"
-#include "tools/case_library.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 /// A state that a map and its inverse do not bring back to this, relative to its size, has lost its
@@ -68,36 +65,8 @@ const Assumption* failing(const Program& program, const std::vector<Assumption>&
 
 }  // namespace
 
-Atlas bundled_atlas() {
-  Atlas atlas;
-  for (const std::filesystem::path& path : bundled_cases()) {
-    const CaseFile file = read_case(path);
-    const bool changes = std::any_of(file.maps.begin(), file.maps.end(),
-                                     [](const MapText& map) { return !map.inverses.empty(); });
-    if (changes) atlas.add(model_of(file), file.phase_space.canonical);
-  }
-  return atlas;
-}
-
-void add_in(CLI::App& command, std::string& set) {
-  command
-      .add_option("--in", set,
-                  "The case in other variables, such as euler-angles or quaternions: equations, "
-                  "integrals and scenes are carried along the maps of the bundled cases")
-      ->type_name("SET");
-}
-
-void add_as(CLI::App& command, std::string& set) {
-  command.add_option("--as", set, "Answer in other variables, such as euler-angles or andoyer")
-      ->type_name("SET");
-}
-
-Model in_variables(Model model, const std::string& set) {
-  if (set.empty()) return model;
-  return in_coordinates(model, bundled_atlas(), set);
-}
-
-Conversion::Conversion(const Model& model, const std::string& set) : atlas_(bundled_atlas()) {
+Conversion::Conversion(const Model& model, Atlas atlas, const std::string& set)
+    : atlas_(std::move(atlas)) {
   const std::size_t to = atlas_.named(set);
   const std::size_t from = atlas_.of(model);
   const auto path = atlas_.path(from, to, false);
@@ -174,4 +143,4 @@ std::vector<GiNaC::ex> Conversion::exact(const Scene& scene) const {
   return state;
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

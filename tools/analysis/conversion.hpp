@@ -6,31 +6,20 @@
 
 #include "runtime/program.hpp"
 #include "symbolic/coordinates.hpp"
-#include "tools/cli_names.hpp"
 
-namespace casimir::tools {
-
-/// The sets of variables that the bundled cases know, and the maps between them.
-Atlas bundled_atlas();
-
-/// `--in SET`: the case in the variables of SET, in all that a command does.
-void add_in(CLI::App& command, std::string& set);
-
-/// `--as SET`: answers in the variables of SET.
-void add_as(CLI::App& command, std::string& set);
-
-/// The model itself where `set` is empty. \throws ModelError, SingularPoint: see in_coordinates
-Model in_variables(Model model, const std::string& set);
+namespace casimir {
 
 /// States of a case in other variables, in double.
 class Conversion {
  public:
-  /// \throws ModelError  for an unknown set, or one that no maps lead to
-  Conversion(const Model& model, const std::string& set);
+  /// \param atlas        sets of variables and the maps between them.
+  /// \throws ModelError  for an unknown set, or one that no maps lead to.
+  Conversion(const Model& model, Atlas atlas, const std::string& set);
 
   Conversion(const Conversion&) = delete;
   Conversion& operator=(const Conversion&) = delete;
 
+  /// Names of the new variables.
   const std::vector<std::string>& names() const { return names_; }
 
   /// \param state  one number for each variable of the case
@@ -60,4 +49,4 @@ class Conversion {
   std::vector<std::string> names_;
 };
 
-}  // namespace casimir::tools
+}  // namespace casimir

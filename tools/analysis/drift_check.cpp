@@ -4,7 +4,7 @@
 
 #include "tools/analysis/limited_prove.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 constexpr double kSeconds = 10;
@@ -57,4 +57,4 @@ std::vector<std::string> check_drift(const Model& model, const std::vector<std::
   return doubts;
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

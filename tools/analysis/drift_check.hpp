@@ -7,7 +7,7 @@
 #include "symbolic/model.hpp"
 #include "symbolic/prove.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// Looks at the invariants that drifted by more than the tolerance allows. One that is proved to be
 /// an integral of the case turns an `ok` into `drift_exceeded`; one that is not proves nothing
@@ -19,4 +19,4 @@ std::vector<std::string> check_drift(const Model& model, const std::vector<std::
 /// Whether that invariant of the case, "H" or one of the file, is an integral.
 Verdict verdict_on(const Model& model, const std::string& invariant);
 
-}  // namespace casimir::tools
+}  // namespace casimir

@@ -9,7 +9,7 @@
 #include "codegen/lane_form.hpp"
 #include "runtime/uncompiled.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -102,4 +102,4 @@ EnsembleKernel ensemble_kernel(const SceneRun& run, const Method& method, std::s
   return result;
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

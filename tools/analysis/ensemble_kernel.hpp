@@ -8,7 +8,7 @@
 #include "runtime/methods.hpp"
 #include "tools/analysis/scene_run.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// What integrates an ensemble: a kernel with one member in each lane or, for other methods, a
 /// module for each thread.
@@ -26,4 +26,4 @@ struct EnsembleKernel {
 EnsembleKernel ensemble_kernel(const SceneRun& run, const Method& method, std::size_t members,
                                bool lanes);
 
-}  // namespace casimir::tools
+}  // namespace casimir

@@ -13,7 +13,7 @@
 #include "runtime/interpreter.hpp"
 #include "symbolic/search/search.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 using Vector = Eigen::VectorXd;
@@ -465,4 +465,4 @@ EquilibriumReport find_equilibria(const Model& model, const Scene& scene,
   return report;
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

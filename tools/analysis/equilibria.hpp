@@ -8,7 +8,7 @@
 
 #include "symbolic/model.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// A state that rests, or that moves with a symmetry only.
 struct Equilibrium {
@@ -42,4 +42,4 @@ struct EquilibriumReport {
 EquilibriumReport find_equilibria(const Model& model, const Scene& scene,
                                   const std::function<void(double)>& tick);
 
-}  // namespace casimir::tools
+}  // namespace casimir

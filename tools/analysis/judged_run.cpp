@@ -8,17 +8,14 @@
 
 #include "runtime/stiffness.hpp"
 #include "tools/analysis/drift_check.hpp"
+#include "tools/analysis/error.hpp"
 #include "tools/analysis/near_singular.hpp"
 #include "tools/analysis/projected.hpp"
-#include "tools/errors.hpp"
-#include "tools/run_report.hpp"
-#include "tools/watched_run.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 constexpr const char* kSmooth = "taylor";
-constexpr const char* kStiff = "radau9";
 /// Of `auto`, without a tolerance: where rounding takes over.
 constexpr double kSmoothTolerance = 1e-15, kStiffTolerance = 1e-13;
 /// After so many steps `auto` asks for the first time whether the equations are stiff; then after
@@ -71,9 +68,9 @@ class Judge {
     result_.settings = settings;
     result_.settings.sample_every = options_.sample_every;
     if (options_.run.projects()) {
-      result_.warnings.clear();
+      result_.doubts.clear();
       result_.projected =
-          set_projection(options_.run, model_, run_, result_.settings, result_.warnings);
+          set_projection(options_.run, model_, run_, result_.settings, result_.doubts);
     }
     result_.settings.give_up = time_limit(options_.time_limit);
     result_.compiled.emplace(compile_for(run_, method));
@@ -87,7 +84,7 @@ class Judge {
     if (result_.chosen.empty()) {
       result_.chosen = "the equations are not stiff";
     } else {
-      prepare(method_named(kStiff), settings_for(options_.run, run_, kStiffTolerance));
+      prepare(method_named(kStiffMethod), settings_for(options_.run, run_, kStiffTolerance));
       run_it();
     }
   }
@@ -105,33 +102,28 @@ class Judge {
       settings.give_up = [stiffness, limit = settings.give_up] {
         return !stiffness->finding().empty() || (limit && limit());
       };
-    WatchedRun watched(settings, options_.shows_progress, options_.keeps_interrupted);
-    try {
-      result_.trajectory = integrate(result_.compiled->module, *result_.method, settings,
-                                     run_.initial, run_.parameters);
-    } catch (const std::invalid_argument& problem) {
-      throw UsageError(problem.what());
-    }
-    result_.interrupted = watched.interrupted();
+    const auto run = [&] {
+      try {
+        result_.trajectory = integrate(result_.compiled->module, *result_.method, settings,
+                                       run_.initial, run_.parameters);
+      } catch (const std::invalid_argument& problem) {
+        throw RequestError(problem.what());
+      }
+    };
+    if (options_.around)
+      options_.around(settings, run);
+    else
+      run();
   }
 
   void judge() {
-    const auto say = [&](const std::vector<std::string>& warnings) {
-      result_.warnings.insert(result_.warnings.end(), warnings.begin(), warnings.end());
-    };
+    std::vector<std::string>& doubts = result_.doubts;
     Trajectory& trajectory = result_.trajectory;
-    if (!result_.compiled->warning.empty()) say({result_.compiled->warning});
-    say(check_drift(model_, run_.specialisation.invariant_names, trajectory));
+    if (!result_.compiled->warning.empty()) doubts.push_back(result_.compiled->warning);
+    for (std::string& doubt : check_drift(model_, run_.specialisation.invariant_names, trajectory))
+      doubts.push_back(std::move(doubt));
     result_.trust = assess(run_, *result_.compiled, *result_.method, result_.settings, trajectory);
-    say(warnings_of(result_.trust));
-    const auto singular = singular_->finding();
-    if (singular && trajectory.status == Status::ok) say({*singular});
-    if (trajectory.status == Status::ok) return;
-    const bool stiff = trajectory.reason.find("stiff") != std::string::npos;
-    result_.advice = singular              ? *singular
-                     : stiff               ? fmt::format("--method {}, or auto", kStiff)
-                     : result_.interrupted ? "the run was interrupted: begin it again"
-                                           : advice(trajectory.status);
+    result_.near_singular = singular_->finding();
   }
 
   const Model& model_;
@@ -147,4 +139,4 @@ JudgedRun integrate_judged(const Model& model, const SceneRun& run, const Judged
   return Judge(model, run, options).judged();
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

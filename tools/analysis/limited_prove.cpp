@@ -12,19 +12,22 @@
 #include <cstring>
 #include <exception>
 
-#include "tools/errors.hpp"
-#include "tools/proof_report.hpp"
+#include "codegen/compile.hpp"
+#include "tools/analysis/proof_json.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// What the worker ends with where nobody listens any more.
+constexpr int kUnheard = 1;
 
 void send(int descriptor, const std::string& line) {
   for (std::size_t done = 0; done < line.size();) {
     const ssize_t n = write(descriptor, line.data() + done, line.size() - done);
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) _exit(kEnvironment);
+    if (n <= 0) _exit(kUnheard);
     done += static_cast<std::size_t>(n);
   }
 }
@@ -33,7 +36,7 @@ void send(int descriptor, const std::string& line) {
 [[noreturn]] void work(int descriptor, const Model& model, const Candidates& candidates,
                        pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(kEnvironment);  // it had ended before
+  if (getppid() != parent) _exit(kUnheard);  // it had ended before
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
   try {
@@ -84,10 +87,11 @@ std::vector<Proof> prove_within(double seconds, const Model& model, const Candid
   std::vector<Proof> proofs = pending(model, candidates);
   int ends[2];
   if (pipe(ends) != 0)
-    throw SystemError(fmt::format("cannot start a worker: {}", std::strerror(errno)));
+    throw EnvironmentError(fmt::format("cannot start a worker: {}", std::strerror(errno)));
   const pid_t parent = getpid();
   const pid_t worker = fork();
-  if (worker < 0) throw SystemError(fmt::format("cannot start a worker: {}", std::strerror(errno)));
+  if (worker < 0)
+    throw EnvironmentError(fmt::format("cannot start a worker: {}", std::strerror(errno)));
   if (worker == 0) {
     close(ends[0]);
     work(ends[1], model, candidates, parent);
@@ -125,4 +129,4 @@ std::vector<Proof> prove_within(double seconds, const Model& model, const Candid
   return proofs;
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

@@ -5,7 +5,7 @@
 
 #include "symbolic/prove.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// `prove` with a time limit. The proofs run in a process of their own, which is ended when the
 /// time is up: exact algebra cannot be asked to stop in the middle of a product. What was not
@@ -14,4 +14,4 @@ namespace casimir::tools {
 std::vector<Proof> prove_within(double seconds, const Model& model, const Candidates& candidates,
                                 const std::function<void(const Proof&)>& report);
 
-}  // namespace casimir::tools
+}  // namespace casimir

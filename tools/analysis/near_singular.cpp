@@ -10,7 +10,7 @@
 #include "codegen/lower.hpp"
 #include "runtime/evaluate.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 constexpr double kNear = 1e-3;
@@ -122,4 +122,4 @@ std::optional<std::string> NearSingular::finding() const {
       worst->time, where, worst->least / worst->largest);
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

@@ -6,7 +6,7 @@
 
 #include "tools/analysis/scene_run.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// Watches what the equations divide by: where it comes near zero, digits are lost and steps become
 /// short, though the motion itself may be harmless, as in Euler angles near the vertical.
@@ -37,4 +37,4 @@ class NearSingular {
   std::vector<Range> ranges_;
 };
 
-}  // namespace casimir::tools
+}  // namespace casimir

@@ -11,7 +11,7 @@
 
 #include "runtime/dense.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 using Number = std::complex<double>;
@@ -207,4 +207,4 @@ NumericBalances find_numeric_balances(const search::LeadingSystem& system,
   return result;
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

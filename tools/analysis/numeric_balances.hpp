@@ -5,7 +5,7 @@
 
 #include "symbolic/search/exponents.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 struct NumericBalances {
   std::vector<search::Balance> balances;  ///< with exponents that are numeric
@@ -22,4 +22,4 @@ struct NumericBalances {
 NumericBalances find_numeric_balances(const search::LeadingSystem& system,
                                       const std::function<void(double)>& tick);
 
-}  // namespace casimir::tools
+}  // namespace casimir

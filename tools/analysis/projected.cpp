@@ -8,9 +8,9 @@
 #include "codegen/differentiate.hpp"
 #include "runtime/projection.hpp"
 #include "tools/analysis/drift_check.hpp"
-#include "tools/errors.hpp"
+#include "tools/analysis/error.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 std::string said_of(const std::string& name, Verdict verdict) {
@@ -20,7 +20,7 @@ std::string said_of(const std::string& name, Verdict verdict) {
 
 }  // namespace
 
-std::vector<std::string> set_projection(const RunOptions& options, const Model& model,
+std::vector<std::string> set_projection(const RunRequest& options, const Model& model,
                                         const SceneRun& run, Settings& settings,
                                         std::vector<std::string>& doubts) {
   if (!options.projects()) return {};
@@ -29,8 +29,8 @@ std::vector<std::string> set_projection(const RunOptions& options, const Model& 
   for (const std::string& name : options.project_onto) {
     if (std::ranges::count(known, name)) continue;
     const std::string hint = suggest_or_list(name, known);
-    throw UsageError(fmt::format("--project-onto: no invariant of this run is called '{}'{}",
-                                 printable(name), hint.empty() ? "" : "; " + hint));
+    throw RequestError(fmt::format("--project-onto: no invariant of this run is called '{}'{}",
+                                   printable(name), hint.empty() ? "" : "; " + hint));
   }
   std::vector<std::string> names;
   std::vector<std::size_t> chosen;
@@ -39,7 +39,7 @@ std::vector<std::string> set_projection(const RunOptions& options, const Model& 
     if (!options.project_onto.empty() && !named) continue;
     const Verdict verdict = verdict_on(model, known[k]);
     if (verdict != Verdict::proved) {
-      if (named) throw UsageError("--project-onto: " + said_of(known[k], verdict));
+      if (named) throw RequestError("--project-onto: " + said_of(known[k], verdict));
       doubts.push_back("not projected onto: " + said_of(known[k], verdict));
       continue;
     }
@@ -47,7 +47,7 @@ std::vector<std::string> set_projection(const RunOptions& options, const Model& 
     chosen.push_back(k);
   }
   if (names.empty())
-    throw UsageError("--project: the run has no invariant that is proved to be an integral");
+    throw RequestError("--project: the run has no invariant that is proved to be an integral");
   const SparseProgram gradients = codegen::gradients(s.invariants, s.states.size());
   const auto projector = std::make_shared<Projector>(
       s.invariants, chosen, gradients.program, gradients.entries, run.initial, run.parameters);
@@ -55,4 +55,4 @@ std::vector<std::string> set_projection(const RunOptions& options, const Model& 
   return names;
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

@@ -8,9 +8,9 @@
 #include "codegen/lower.hpp"
 #include "codegen/terms.hpp"
 #include "runtime/evaluate.hpp"
-#include "tools/errors.hpp"
+#include "tools/analysis/error.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 Quantities::Quantities(const Model& model, const Scene& scene,
                        const std::vector<GiNaC::ex>& functions,
@@ -30,7 +30,7 @@ Quantities::Quantities(const Model& model, const Scene& scene,
     for (std::size_t i = 0; i < model.variables.size(); ++i) {
       if (bound.has(model.variables[i]) &&
           std::find(places_.begin(), places_.end(), i) == places_.end())
-        throw UsageError(fmt::format("{} is left out of this run; see --observe", names[i]));
+        throw RequestError(fmt::format("{} is left out of this run; see --observe", names[i]));
     }
     outputs.push_back(dag.convert(bound));
     labels.push_back(fmt::format("f{}", labels.size()));
@@ -49,4 +49,4 @@ std::vector<double> Quantities::operator()(double t, const std::vector<double>& 
   }
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

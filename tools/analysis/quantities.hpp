@@ -7,7 +7,7 @@
 #include "runtime/program.hpp"
 #include "symbolic/model.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// Functions of the state and the time, to be evaluated along a run.
 class Quantities {
@@ -15,7 +15,7 @@ class Quantities {
   /// \param functions  over the variables of the model, its time, and parameters, which have the
   ///                   values of the scene.
   /// \param states     those that a run has, in its order.
-  /// \throws UsageError  for a function of a state that the run does not have, which is named.
+  /// \throws RequestError  for a function of a state that the run does not have, which is named.
   Quantities(const Model& model, const Scene& scene, const std::vector<GiNaC::ex>& functions,
              const std::vector<std::string>& states);
 
@@ -28,4 +28,4 @@ class Quantities {
   std::size_t inputs_ = 0;
 };
 
-}  // namespace casimir::tools
+}  // namespace casimir

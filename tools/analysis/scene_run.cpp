@@ -18,7 +18,7 @@
 #include "runtime/term_size.hpp"
 #include "runtime/uncompiled.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -172,4 +172,4 @@ std::function<bool()> time_limit(double seconds) {
   return [end] { return Clock::now() > end; };
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

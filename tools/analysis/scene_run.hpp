@@ -14,7 +14,7 @@
 #include "runtime/integrate.hpp"
 #include "symbolic/model.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// A scene made ready to run: generated code, and its numbers in double.
 struct SceneRun {
@@ -91,4 +91,4 @@ double remainder(const cln::cl_F& value, double nearest);
 /// A watch for `--time-limit`: answers true once that many seconds have passed; never for 0.
 std::function<bool()> time_limit(double seconds);
 
-}  // namespace casimir::tools
+}  // namespace casimir

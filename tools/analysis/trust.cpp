@@ -1,7 +1,5 @@
 #include "tools/analysis/trust.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -10,9 +8,8 @@
 #include "runtime/quadratic_targets.hpp"
 #include "runtime/uncompiled.hpp"
 #include "tools/analysis/conditioning.hpp"
-#include "tools/run_report.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 constexpr double kUnitRoundoff = 0x1p-53;
@@ -23,8 +20,6 @@ constexpr double kSmall = 0.05;
 /// Rounding errors that grow to this size leave no digits to speak of.
 constexpr double kSpoiled = 1e-3;
 constexpr double kSixDigits = 1e-6;
-/// Estimated errors that the user is warned of.
-constexpr double kDoubtful = 1e-4;
 /// Seconds of a run that is repeated though it takes long, since it may have passed something over.
 constexpr double kLongestToRepeat = 10;
 constexpr double kCrossCheckTolerance = 1e-10;
@@ -163,16 +158,6 @@ CrossCheck cross_check(const SceneRun& run, const Method& method, const Settings
   return result;
 }
 
-/// Whether changes that no double holds are made on the way and do not show at the end.
-bool died_out(const Trust& trust) {
-  return trust.beyond_double && trust.conditioning * kUnitRoundoff < kSpoiled;
-}
-
-std::string six_digits(const Trust& trust) {
-  if (!trust.six_digits_until) return "";
-  return fmt::format(", and six digits hold until t = {:.6g}", *trust.six_digits_until);
-}
-
 /// The sizes of the states at both ends, where they are smaller than on the way.
 std::vector<double> end_sizes(const SceneRun& run, const Trajectory& trajectory) {
   Trajectory ends = trajectory;
@@ -185,6 +170,8 @@ std::vector<double> end_sizes(const SceneRun& run, const Trajectory& trajectory)
 }
 
 }  // namespace
+
+bool Trust::died_out() const { return beyond_double && conditioning * kUnitRoundoff < kSpoiled; }
 
 Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& method,
              const Settings& settings, const Trajectory& trajectory, double budget) {
@@ -230,7 +217,7 @@ Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& 
   trust.beyond_double = !(trust.on_the_way * kUnitRoundoff < kSpoiled);
   // Which way the motion took was decided by rounding: all of the state is in doubt, which the
   // growth up to the end does not show.
-  if (died_out(trust)) trust.error_estimate = std::max(trust.error_estimate, 1.);
+  if (trust.died_out()) trust.error_estimate = std::max(trust.error_estimate, 1.);
   if (!flow) return trust;
   if (trust.beyond_double) trust.six_digits_until = flow->time_of(kSixDigits / kUnitRoundoff);
   if (flow->followed > 0 && flow->followed < 0.99 * std::abs(trajectory.time))
@@ -238,51 +225,4 @@ Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& 
   return trust;
 }
 
-nlohmann::ordered_json to_json(const Trust& trust) {
-  nlohmann::ordered_json json = {{"conditioning", nullptr},
-                                 {"input_rounding", nullptr},
-                                 {"error_estimate", nullptr},
-                                 {"beyond_double", nullptr}};
-  if (!trust.known) return json;
-  json["conditioning"] = exact_text(trust.conditioning);
-  json["input_rounding"] = exact_text(trust.input_rounding);
-  json["beyond_double"] = trust.beyond_double;
-  if (trust.on_the_way > 2 * trust.conditioning)
-    json["conditioning_on_the_way"] = exact_text(trust.on_the_way);
-  if (!trust.unconfirmed) json["error_estimate"] = exact_text(trust.error_estimate);
-  if (trust.six_digits_until) json["six_digits_until"] = exact_text(*trust.six_digits_until);
-  if (trust.followed) json["extrapolated_from"] = exact_text(*trust.followed);
-  return json;
-}
-
-std::vector<std::string> warnings_of(const Trust& trust) {
-  std::vector<std::string> warnings;
-  if (trust.unconfirmed)
-    warnings.push_back(
-        "a run with a hundredth of the tolerance, or one by Taylor series, does not reach the end "
-        "or would take too long: nothing confirms this one");
-  if (!trust.known) {
-    warnings.push_back(
-        "how much small changes grow is not known: the variational equations could not be "
-        "integrated along this run");
-  } else if (died_out(trust)) {
-    warnings.push_back(fmt::format(
-        "on the way small changes grow {:.0e} times, beyond what double precision can hold, though "
-        "they have died out at the end{}: which way the motion took is decided by rounding",
-        trust.on_the_way, six_digits(trust)));
-  } else if (trust.beyond_double) {
-    warnings.push_back(fmt::format(
-        "the end state is beyond what double precision can hold: small changes of the initial "
-        "state grow {:.0e} times{}; --digits {} can hold it",
-        trust.conditioning, six_digits(trust),
-        static_cast<int>(20 + std::log10(trust.conditioning))));
-  }
-  if (!trust.beyond_double && !trust.unconfirmed && !(trust.error_estimate < kDoubtful)) {
-    warnings.push_back(
-        fmt::format("the end state may be off by {:.0e} of its size: tighten --tolerance",
-                    trust.error_estimate));
-  }
-  return warnings;
-}
-
-}  // namespace casimir::tools
+}  // namespace casimir

@@ -1,14 +1,11 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "runtime/integrate.hpp"
 #include "tools/analysis/scene_run.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// How far the end state of a run can be believed. Relative to the size of each state.
 struct Trust {
@@ -23,6 +20,10 @@ struct Trust {
   /// Up to when rounding leaves six digits, where it does not to the end.
   std::optional<double> six_digits_until;
   std::optional<double> followed;  ///< the growth beyond this time is extrapolated
+
+  /// Whether changes that no double holds are made on the way and do not show at the end: which way
+  /// the motion took was decided by rounding.
+  bool died_out() const;
 };
 
 /// Integrates the variational equations along a finished run, and repeats it with a tighter
@@ -30,10 +31,4 @@ struct Trust {
 Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& method,
              const Settings& settings, const Trajectory& trajectory, double budget = 1);
 
-/// The interface's keys; null where it is not known.
-nlohmann::ordered_json to_json(const Trust& trust);
-
-/// Sentences for the user where the result is in doubt.
-std::vector<std::string> warnings_of(const Trust& trust);
-
-}  // namespace casimir::tools
+}  // namespace casimir

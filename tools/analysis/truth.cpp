@@ -13,9 +13,8 @@
 #include "runtime/evaluate.hpp"
 #include "runtime/methods.hpp"
 #include "runtime/reference.hpp"
-#include "tools/errors.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -27,7 +26,7 @@ constexpr double kGood = 1e-17;
 struct EndState {
   std::vector<cln::cl_F> state = {};
   std::string reason = {};  ///< why there is none
-  Exit failure = kDone;
+  NoReference failure = NoReference::none;
   double error_bound = 0;
   int digits = 0;
   std::optional<double> singular_time = {};
@@ -94,13 +93,13 @@ EndState own_run(const SceneRun& run, const TruthOptions& options) {
         fmt::format("there is no reference state: {} (t = {:.6g})",
                     out_of_time ? "the multiprecision run took too long" : reference.reason,
                     cln::double_approx(reference.time));
-    result.failure = out_of_time ? kEnvironment : kNotContinued;
+    result.failure = out_of_time ? NoReference::took_too_long : NoReference::not_reached;
     if (reference.singular) result.singular_time = cln::double_approx(reference.time);
   } else if (reference.error_bound > kGood) {
     result.reason = fmt::format(
         "two multiprecision runs differ by {:.1e}: more --digits are needed for a reference",
         reference.error_bound);
-    result.failure = kNotContinued;
+    result.failure = NoReference::not_reached;
   } else {
     result.state = std::move(reference.state);
   }
@@ -127,7 +126,7 @@ TruthOrReason compared(EndState& in_file, const EndState& own, const std::vector
     result.reason = fmt::format(
         "the reference state in the case file is {:.1e} off what a run with {} digits ends in",
         apart, own.digits);
-    result.failure = kBadInput;
+    result.failure = NoReference::contradicted;
     return result;
   }
   result.error_bound = apart + own.error_bound;
@@ -243,4 +242,4 @@ double growth_of(const SceneRun& run, const Truth& truth) {
                                       : conditioning(entrant, truth);
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

@@ -8,9 +8,16 @@
 #include "runtime/work_precision.hpp"
 #include "symbolic/model.hpp"
 #include "tools/analysis/scene_run.hpp"
-#include "tools/errors.hpp"
 
-namespace casimir::tools {
+namespace casimir {
+
+/// Why there is no reference state.
+enum class NoReference {
+  none,           ///< there is one
+  contradicted,   ///< that of the case file is not what our own run ends in
+  took_too_long,  ///< our own run did
+  not_reached,    ///< our own run did not reach the end, or not well enough
+};
 
 /// The state that errors are measured against, and how good it is.
 struct TruthOrReason {
@@ -19,7 +26,7 @@ struct TruthOrReason {
   double error_bound = 0;   ///< of any state, relative to its size along the run
   int digits = 0;           ///< significant ones: of the file's numbers, or of our own run
   std::string reason = {};  ///< why there is none
-  Exit failure = kDone;     ///< what that means for a command that needs one
+  NoReference failure = NoReference::none;
   /// Where the motion has no value at the end: the time after which our own run found none.
   std::optional<double> singular_time = {};
 };
@@ -58,4 +65,4 @@ GoodRun good_run(const SceneRun& run, const Settings& settings);
 /// method that reaches the end. Infinite where that takes more than a few seconds.
 double growth_of(const SceneRun& run, const Truth& truth);
 
-}  // namespace casimir::tools
+}  // namespace casimir

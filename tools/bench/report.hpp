@@ -7,6 +7,7 @@
 #include "tools/analysis/benchmark/contest.hpp"
 #include "tools/machine.hpp"
 #include "tools/plot.hpp"
+#include "tools/run_report.hpp"
 
 namespace casimir::tools {
 

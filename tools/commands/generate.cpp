@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "codegen/emit_cpp.hpp"
-#include "tools/analysis/conversion.hpp"
+#include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/choices.hpp"
 #include "tools/cli.hpp"

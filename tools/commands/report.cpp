@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "tools/analysis/conversion.hpp"
+#include "tools/atlas.hpp"
 #include "tools/book_order.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"

@@ -6,7 +6,7 @@
 
 #include "symbolic/search/darboux.hpp"
 #include "symbolic/search/search.hpp"
-#include "tools/analysis/conversion.hpp"
+#include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/errors.hpp"
 #include "tools/resources.hpp"

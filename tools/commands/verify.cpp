@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "symbolic/certificate.hpp"
-#include "tools/analysis/conversion.hpp"
 #include "tools/analysis/limited_prove.hpp"
+#include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
 #include "tools/errors.hpp"

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "runtime/methods.hpp"
-#include "tools/analysis/conversion.hpp"
+#include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/usage/option.hpp"
 

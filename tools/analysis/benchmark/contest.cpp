@@ -11,9 +11,8 @@
 #include "symbolic/error.hpp"
 #include "tools/analysis/scene_run.hpp"
 #include "tools/analysis/truth.hpp"
-#include "tools/errors.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 /// An end state so far off, in sizes of the state, has nothing to do with the reference.
@@ -72,7 +71,7 @@ class Gathering {
       tell(options_, "compiling", static_cast<double>(i) / static_cast<double>(names.size()));
       add(method_named(names[i]), asked);
     }
-    if (ready_.empty()) throw SystemError("there is nothing to measure: " + first_reason_);
+    if (ready_.empty()) throw EnvironmentError("there is nothing to measure: " + first_reason_);
     // Ours first; the order asked for otherwise.
     std::stable_partition(ready_.begin(), ready_.end(),
                           [](const Ready& r) { return r.contender.own(); });
@@ -130,9 +129,9 @@ class Gathering {
   bool tables_ = false;
 };
 
-Entrant entrant_of(const Ready& ready, const Codes& codes, const RunOptions& asked,
+Entrant entrant_of(const Ready& ready, const Codes& codes, const RunRequest& asked,
                    double tolerance) {
-  RunOptions run = asked;
+  RunRequest run = asked;
   run.tolerance = tolerance;
   const Settings settings = settings_for(run, *ready.run);
   return {&ready.compiled.module, ready.method,          settings,
@@ -154,12 +153,12 @@ Row row_of(const Contest& contest, const Ready& ready, const Entrant& entrant, c
           .rounds = sample.rounds,
           .steps = sample.steps,
           .evaluations = sample.evaluations,
-          .status = to_string(sample.status)};
+          .status = sample.status};
   if (!sample.refused.empty()) {
-    row.status = "refused";
+    row.end = RowEnd::refused;
     row.reason = sample.refused;
   } else if (sample.too_slow) {
-    row.status = "too_slow";
+    row.end = RowEnd::too_slow;
     row.reason = "a run takes too much of --budget";
   } else if (sample.status == Status::ok) {
     const double explained = explained_error(entrant, sample, truth, contest.conditioning);
@@ -170,7 +169,7 @@ Row row_of(const Contest& contest, const Ready& ready, const Entrant& entrant, c
     } else if (!(sample.error < kWrong)) {
       row.reason = "the end state is another one; the tolerance is too coarse for this motion";
     }
-    if (!row.reason.empty()) row.status = "wrong";
+    if (!row.reason.empty()) row.end = RowEnd::wrong;
   }
   return row;
 }
@@ -199,7 +198,7 @@ void measure_all(const std::vector<Ready>& ready, const Codes& codes, const Trut
   try {
     samples = measure(entrants, truth, plan);
   } catch (const Abandoned&) {
-    throw SystemError("the time limit was reached");
+    throw EnvironmentError("the time limit was reached");
   }
   for (std::size_t i = 0; i < samples.size(); ++i)
     contest.rows.push_back(row_of(contest, *whose[i], entrants[i], truth, samples[i]));
@@ -210,7 +209,7 @@ void measure_all(const std::vector<Ready>& ready, const Codes& codes, const Trut
 WorkPrecision Contest::curve(const Contender& contender) const {
   std::vector<Measured> runs;
   for (const Row& row : rows) {
-    if (row.method == contender.method && row.code == contender.code && row.status == "ok")
+    if (row.method == contender.method && row.code == contender.code && row.ok())
       runs.push_back({row.error, row.seconds});
   }
   return WorkPrecision(std::move(runs));
@@ -246,7 +245,7 @@ Contest hold_contest(const Model& model, const Scene& scene, const ContestOption
                                         .check_the_file = true,
                                         .longest = options.reference_limit,
                                         .give_up = options.give_up});
-  if (options.give_up && options.give_up()) throw SystemError("the time limit was reached");
+  if (options.give_up && options.give_up()) throw EnvironmentError("the time limit was reached");
   contest.no_reference = truth.reason;
   contest.failure = truth.failure;
   if (!truth.truth) return contest;
@@ -259,4 +258,4 @@ Contest hold_contest(const Model& model, const Scene& scene, const ContestOption
   return contest;
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

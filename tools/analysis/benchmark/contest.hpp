@@ -7,17 +7,17 @@
 #include "codegen/specialise.hpp"
 #include "runtime/equal_error.hpp"
 #include "symbolic/model.hpp"
-#include "tools/errors.hpp"
-#include "tools/run_options.hpp"
-#include "tools/run_report.hpp"
+#include "tools/analysis/row.hpp"
+#include "tools/analysis/run_request.hpp"
+#include "tools/analysis/truth.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// What is to be measured, and for how long.
 struct ContestOptions {
   std::vector<std::string> methods = {};  ///< empty: all that suit the case
   std::vector<double> tolerances = {};
-  RunOptions run = {};
+  RunRequest run = {};
   SceneOptions code = {};  ///< of the specialised code: parameters that are kept, for one
   int digits = 30;
   double budget = 8;
@@ -41,11 +41,11 @@ struct Contender {
 struct Contest {
   std::string case_name, title, scene;
   std::string no_reference;  ///< why nothing could be measured, or empty
-  Exit failure = kDone;      ///< what that means for a command about this case alone
-  std::string reference;     ///< where the reference state is from
-  double error_bound = 0;    ///< of it, relative to the size of each state
-  int digits = 0;            ///< of it
-  double conditioning = 0;   ///< growth of small changes; see runtime/work_precision.hpp
+  NoReference failure = NoReference::none;
+  std::string reference;    ///< where the reference state is from
+  double error_bound = 0;   ///< of it, relative to the size of each state
+  int digits = 0;           ///< of it
+  double conditioning = 0;  ///< growth of small changes; see runtime/work_precision.hpp
   std::vector<std::string> all_states, states;  ///< of the case, and those that are integrated
   OperationCount general, specialised;          ///< of one right-hand side
   std::vector<Contender> contenders;            ///< ours first
@@ -65,7 +65,7 @@ const std::vector<std::string>& usual_methods();
 /// A row whose end state is a tenth of a state's size off is "wrong", and so is one whose error is
 /// more than `explained_error`: no tolerance asked for it. Only the latter, by a method of our own,
 /// makes the row `failed`.
-/// \throws SystemError  if nothing is left to be measured, with the reason of the first.
+/// \throws EnvironmentError  if nothing is left to be measured, with the reason of the first.
 Contest hold_contest(const Model& model, const Scene& scene, const ContestOptions& options);
 
-}  // namespace casimir::tools
+}  // namespace casimir

@@ -5,7 +5,7 @@
 
 #include "runtime/dense.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 using Vector = LevelSet::Vector;
@@ -197,4 +197,4 @@ CycleSearch find_cycles(const LevelSet& level, const OrbitCutter& cutter,
   return result;
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

@@ -7,7 +7,7 @@
 
 #include "tools/analysis/section/orbits.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// A cycle of the return map; one of length 1 is a fixed point.
 struct Cycle {
@@ -39,4 +39,4 @@ CycleSearch find_cycles(const LevelSet& level, const OrbitCutter& cutter,
                         const std::vector<PlacedPoint>& starts, std::size_t longest,
                         const std::function<void(double)>& progress);
 
-}  // namespace casimir::tools
+}  // namespace casimir

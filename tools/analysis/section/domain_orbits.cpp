@@ -1,6 +1,6 @@
 #include "tools/analysis/section/domain_orbits.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 std::vector<OrbitReport> domain_orbits(const LevelSet& level, const OrbitCutter& cutter,
                                        std::size_t orbits, std::size_t points) {
@@ -17,4 +17,4 @@ std::vector<OrbitReport> domain_orbits(const LevelSet& level, const OrbitCutter&
   return judged_orbits(level, cutter.orbits(seeds, points), seeds);
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

@@ -7,7 +7,7 @@
 #include "runtime/evaluate.hpp"
 #include "runtime/term_size.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 constexpr int kMostSteps = 60;
@@ -160,4 +160,4 @@ LevelSet::Vector LevelSet::difference(const Vector& to, const Vector& from) cons
   return result;
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

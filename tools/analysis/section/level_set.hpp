@@ -7,7 +7,7 @@
 #include "runtime/interpreter.hpp"
 #include "tools/analysis/section/problem.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// The points of the plane on one energy and Casimir level. One object serves one thread.
 class LevelSet {
@@ -53,4 +53,4 @@ class LevelSet {
   mutable std::vector<double> inputs_, values_, entries_;
 };
 
-}  // namespace casimir::tools
+}  // namespace casimir

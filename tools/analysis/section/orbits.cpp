@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/errors.hpp"
+#include "codegen/compile.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 using Vector = LevelSet::Vector;
@@ -21,7 +21,7 @@ EnsembleKernel kernel_for(const SectionProblem& problem, std::size_t work) {
   EnsembleKernel kernel = ensemble_kernel(problem.deviating, *find_method("taylor"),
                                           work > kWorthCompiling ? work : 1, true);
   if (!kernel.lanes)
-    throw SystemError(
+    throw EnvironmentError(
         "there is no C++ compiler, and the equations are not polynomials of degree two, which "
         "need none; install one, for instance with: apt-get install g++");
   return kernel;
@@ -158,4 +158,4 @@ std::vector<OrbitReport> judged_orbits(const LevelSet& level, SectionResult resu
   return reports;
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

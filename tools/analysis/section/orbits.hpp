@@ -8,7 +8,7 @@
 #include "tools/analysis/section/level_set.hpp"
 #include "tools/analysis/section/spread.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 struct OrbitOptions {
   double tolerance = 1e-14;
@@ -21,7 +21,7 @@ struct OrbitOptions {
 class OrbitCutter {
  public:
   /// \param work  crossings to be computed in all, about: whether it is worth compiling.
-  /// \throws SystemError  where there is no kernel for the system.
+  /// \throws EnvironmentError  where there is no kernel for the system.
   OrbitCutter(const SectionProblem& problem, const OrbitOptions& options, std::size_t work);
 
   const EnsembleKernel& kernel() const { return kernel_; }
@@ -72,4 +72,4 @@ inline constexpr double kOnLevel = 1e-10;
 std::vector<OrbitReport> judged_orbits(const LevelSet& level, SectionResult result,
                                        const std::vector<LevelSet::Vector>& seeds);
 
-}  // namespace casimir::tools
+}  // namespace casimir

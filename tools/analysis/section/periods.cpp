@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 using GiNaC::ex;
@@ -74,4 +74,4 @@ std::vector<bool> angles_among(const std::vector<GiNaC::symbol>& variables,
   return angles;
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace casimir::tools {
+namespace casimir {
 
 /// The period of a function that is an angle: of which atan2(..) or angular variables are terms
 /// with rational coefficients. 0 where there is none. \param angles  variables that are known up to
@@ -17,4 +17,4 @@ double period_of(const GiNaC::ex& function, const std::vector<GiNaC::symbol>& an
 std::vector<bool> angles_among(const std::vector<GiNaC::symbol>& variables,
                                const std::vector<GiNaC::ex>& functions);
 
-}  // namespace casimir::tools
+}  // namespace casimir

@@ -1,7 +1,7 @@
 #include "tools/analysis/section/problem.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <fmt/ostream.h>
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -15,31 +15,21 @@
 #include "symbolic/decimal.hpp"
 #include "symbolic/expression.hpp"
 #include "symbolic/measure.hpp"
+#include "tools/analysis/error.hpp"
 #include "tools/analysis/section/periods.hpp"
-#include "tools/errors.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
-
-Text option_text(const std::string& option, const std::string& value) {
-  return {value, {option, 1, 1}, value};
-}
-
-double real_constant(const Text& text) {
-  const std::optional<GiNaC::numeric> value = real_decimal(parse_constant(text));
-  if (!value) throw text.error("expected a real number");
-  return value->to_double();
-}
 
 /// Collects what a problem is made of.
 class Maker {
  public:
-  Maker(const CaseFile& file, const Model& model, const Scene& scene, const SectionRequest& request)
-      : file_(file.section), model_(model), scene_(scene), request_(request) {}
+  Maker(const Model& model, const Scene& scene, const SectionRequest& request)
+      : model_(model), scene_(scene), request_(request) {}
 
   SectionProblem make() {
     const auto start = std::chrono::steady_clock::now();
-    check_system();
+    require_energy_level(model_);
     read_plane();
     read_pair();
     specialise_all();
@@ -52,76 +42,35 @@ class Maker {
   }
 
  private:
-  void check_system() const {
-    if (!model_.hamiltonian || !model_.poisson)
-      throw UsageError(fmt::format(
-          "'{}' is given by its equations: a section lies on a level of the Hamiltonian, and there "
-          "is none",
-          model_.name));
-    if (model_.time)
-      throw UsageError(fmt::format(
-          "'{}' depends on the time '{}': its energy changes, and no section lies on one level of "
-          "it",
-          model_.name, model_.time->get_name()));
-  }
-
   void read_plane() {
-    bool upwards = !model_.section || model_.section->upwards;
-    if (request_.plane) {
-      const Text text = option_text("--plane", *request_.plane);
-      problem_.plane_text = text.value;
-      if (text.value.find('=') != std::string::npos) {
-        const Identity level = model_.parse_identity(text);
-        const auto& [left, right] = std::tie(level.left, level.right);
-        plane_ = left - right;
-      } else {
-        plane_ = model_.parse(text);
-      }
-      upwards = true;
-    } else if (model_.section) {
-      plane_ = model_.section->function;
-      problem_.plane_text = file_ ? file_->function.value : "function of [section]";
-    } else {
-      throw UsageError(fmt::format(
-          "'{}' has no [section]: give the plane by --plane EXPR and what is plotted by --pair U V",
-          model_.name));
-    }
-    if (request_.direction) upwards = *request_.direction == "up";
-    problem_.plane.upwards = upwards;
-    plane_ = model_.at_parameters(plane_, scene_);
+    if (!request_.plane && !model_.section)
+      throw RequestError(
+          fmt::format("'{}' has no plane for a section, and none is given", model_.name));
+    const FunctionText plane =
+        request_.plane ? *request_.plane
+                       : FunctionText{model_.section->function, "function of [section]"};
+    problem_.plane_text = plane.text;
+    problem_.plane.upwards = request_.upwards.value_or(request_.plane || model_.section->upwards);
+    plane_ = model_.at_parameters(plane.function, scene_);
     if (std::ranges::none_of(model_.variables, [&](const auto& x) { return plane_.has(x); }))
-      throw UsageError(fmt::format("the plane '{}' is the same everywhere in phase space",
-                                   printable(problem_.plane_text)));
+      throw RequestError(fmt::format("the plane '{}' is the same everywhere in phase space",
+                                     printable(problem_.plane_text)));
   }
 
   void read_pair() {
-    std::vector<std::string> texts = request_.pair;
-    if (!texts.empty()) {
-      for (const std::string& text : texts)
-        pair_.push_back(model_.parse(option_text("--pair", text)));
-    } else {
-      if (model_.section) pair_ = model_.section->plot;
-      if (file_)
-        for (const Text& text : file_->plot) texts.push_back(text.value);
-    }
-    if (pair_.size() != 2) {
-      const std::string message =
-          fmt::format("a section is plotted by two functions, and there are {}", pair_.size());
-      if (request_.pair.empty() && file_ && !file_->plot.empty())
-        throw file_->plot.front().error(message);
-      throw UsageError(message + ": give them by --pair U V");
-    }
-    std::vector<std::string> labels = request_.labels;
-    if (labels.empty() && request_.pair.empty() && file_)
-      for (const Text& text : file_->labels) labels.push_back(text.value);
-    if (!labels.empty() && labels.size() != 2) {
-      if (request_.labels.empty()) throw file_->labels.front().error("'labels' must be two");
-      throw UsageError("--labels needs two");
-    }
+    std::vector<FunctionText> pair = request_.pair;
+    if (pair.empty() && model_.section)
+      for (const GiNaC::ex& function : model_.section->plot)
+        pair.push_back({function, fmt::format("{}", fmt::streamed(function))});
+    if (pair.size() != 2)
+      throw RequestError(
+          fmt::format("a section is plotted by two functions, and there are {}", pair.size()));
+    if (!request_.labels.empty() && request_.labels.size() != 2)
+      throw RequestError("a section has two labels, or none");
     for (std::size_t i = 0; i < 2; ++i) {
-      pair_[i] = model_.at_parameters(pair_[i], scene_);
-      texts.resize(2);
-      problem_.plotted[i] = {texts[i], labels.empty() ? texts[i] : labels[i], 0};
+      pair_.push_back(model_.at_parameters(pair[i].function, scene_));
+      problem_.plotted[i] = {pair[i].text,
+                             request_.labels.empty() ? pair[i].text : request_.labels[i], 0};
     }
   }
 
@@ -158,7 +107,7 @@ class Maker {
   std::size_t level_count() const {
     const auto& names = problem_.run.specialisation.invariant_names;
     const auto plane = std::ranges::find(names, "the plane");
-    if (plane == names.end()) throw UsageError("the plane's function is a constant");
+    if (plane == names.end()) throw RequestError("the plane's function is a constant");
     return static_cast<std::size_t>(plane - names.begin());
   }
 
@@ -201,38 +150,22 @@ class Maker {
       if (std::abs(values.back()) < kZero * sizes[i].size) values.back() = 0;
     }
     problem_.levels = values;
-    if (request_.energy)
-      problem_.levels[0] = real_constant(option_text("--energy", *request_.energy));
-    else if (file_ && file_->energy)
-      problem_.levels[0] = real_constant(*file_->energy);
-    if (file_)
-      for (const auto& [name, value] : file_->casimirs) set_casimir(name, real_constant(value));
-    for (const std::string& text : request_.casimirs) set_casimir(text);
+    if (request_.energy) problem_.levels[0] = *request_.energy;
+    for (const auto& [name, value] : request_.casimirs) set_casimir(name, value);
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (!std::isfinite(problem_.levels[i]))
-        throw UsageError(
+        throw RequestError(
             fmt::format("{} has no finite value on the level", problem_.level_names[i]));
       const double size = std::max(std::abs(values[i]), 1.);
       if (std::abs(problem_.levels[i] - values[i]) > 1e-12 * size) problem_.on_scene = false;
     }
   }
 
-  void set_casimir(const std::string& text) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos)
-      throw UsageError(fmt::format("--casimir '{}': expected NAME=VALUE", printable(text)));
-    const Text value{text.substr(equals + 1), {"--casimir", 1, static_cast<int>(equals) + 2}, text};
-    set_casimir({text.substr(0, equals), {"--casimir", 1, 1}, text}, real_constant(value));
-  }
-
-  void set_casimir(const Text& name, double value) {
+  void set_casimir(const std::string& name, double value) {
     const std::vector<std::string> known = names_of(model_.casimirs);
-    const auto found = std::ranges::find(known, name.value);
-    if (found == known.end()) {
-      throw name.error(
-          fmt::format("the case names no Casimir function '{}'", printable(name.value)), 0,
-          known.empty() ? "it names none at all" : suggest_or_list(name.value, known));
-    }
+    const auto found = std::ranges::find(known, name);
+    if (found == known.end())
+      throw RequestError(fmt::format("the case names no Casimir function '{}'", printable(name)));
     problem_.levels[1 + static_cast<std::size_t>(found - known.begin())] = value;
   }
 
@@ -271,18 +204,17 @@ class Maker {
   void judge_dimensions(Eigen::Index leaf, Eigen::Index casimirs, Eigen::Index named) {
     problem_.leaf = static_cast<std::size_t>(leaf);
     if (leaf < 4)
-      throw UsageError(fmt::format(
+      throw RequestError(fmt::format(
           "'{}' has {}: its orbits are themselves the level lines of the energy, and a section of "
           "them is a few points; a section needs two degrees of freedom",
           model_.name, leaf == 0 ? "no degree of freedom" : "one degree of freedom"));
     if (named < casimirs)
-      throw UsageError(fmt::format(
+      throw RequestError(fmt::format(
           "'{}' has {} independent Casimir functions and names {}: without the others the level is "
           "not fixed; name them in [casimirs] ('casimir search --casimirs' finds polynomial ones)",
           model_.name, casimirs, named));
   }
 
-  const std::optional<SectionText>& file_;
   const Model& model_;
   const Scene& scene_;
   const SectionRequest& request_;
@@ -293,6 +225,19 @@ class Maker {
 
 }  // namespace
 
+void require_energy_level(const Model& model) {
+  if (!model.hamiltonian || !model.poisson)
+    throw RequestError(fmt::format(
+        "'{}' is given by its equations: a section lies on a level of the Hamiltonian, and there "
+        "is none",
+        model.name));
+  if (model.time)
+    throw RequestError(fmt::format(
+        "'{}' depends on the time '{}': its energy changes, and no section lies on one level of "
+        "it",
+        model.name, model.time->get_name()));
+}
+
 std::string SectionProblem::level_text() const {
   std::string text;
   for (std::size_t i = 0; i < levels.size(); ++i)
@@ -300,9 +245,9 @@ std::string SectionProblem::level_text() const {
   return text;
 }
 
-SectionProblem section_problem(const CaseFile& file, const Model& model, const Scene& scene,
+SectionProblem section_problem(const Model& model, const Scene& scene,
                                const SectionRequest& request) {
-  return Maker(file, model, scene, request).make();
+  return Maker(model, scene, request).make();
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

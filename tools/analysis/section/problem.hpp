@@ -3,21 +3,29 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/section.hpp"
 #include "symbolic/model.hpp"
 #include "tools/analysis/scene_run.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
-/// What a user says of a section on the command line; what is left out is as in the case file.
+/// A function of the state, and how it was written.
+struct FunctionText {
+  GiNaC::ex function;
+  std::string text;
+};
+
+/// What is asked of a section; what is left out is that of the case and of the scene.
 struct SectionRequest {
-  std::optional<std::string> energy;      ///< an exact real constant
-  std::vector<std::string> casimirs;      ///< NAME=VALUE
-  std::optional<std::string> plane;       ///< an expression, or LEFT = RIGHT
-  std::optional<std::string> direction;   ///< "up" or "down"
-  std::vector<std::string> pair, labels;  ///< none or two
+  std::optional<FunctionText> plane = {};  ///< it is zero there
+  std::optional<bool> upwards = {};        ///< in which direction the plane is crossed
+  std::vector<FunctionText> pair = {};     ///< what is plotted: none or two
+  std::vector<std::string> labels = {};    ///< of the axes: none or two
+  std::optional<double> energy = {};
+  std::vector<std::pair<std::string, double>> casimirs = {};  ///< values by name
 };
 
 /// One of the two functions that are plotted.
@@ -45,11 +53,14 @@ struct SectionProblem {
   std::size_t states() const { return run.specialisation.states.size(); }
 };
 
-/// Reads plane, pair and level, and specialises the system.
-/// \throws CaseError, UsageError  for what cannot be read, and for systems that have no such
-///                    section: no Hamiltonian, the time in it, one degree of freedom, Casimir
-///                    functions that the file does not name.
-SectionProblem section_problem(const CaseFile& file, const Model& model, const Scene& scene,
-                               const SectionRequest& request);
+/// \throws RequestError  for a system whose orbits lie on no level of an energy: one without a
+///                       Hamiltonian, or with the time in it.
+void require_energy_level(const Model& model);
 
-}  // namespace casimir::tools
+/// Specialises the system with plane, pair and level.
+/// \throws RequestError  for systems that have no such section: no Hamiltonian, the time in it, one
+///                       degree of freedom, Casimir functions that the case does not name.
+SectionProblem section_problem(const Model& model, const Scene& scene,
+                               const SectionRequest& request = {});
+
+}  // namespace casimir

@@ -10,7 +10,7 @@
 #include <random>
 #include <utility>
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 using Vector = LevelSet::Vector;
@@ -248,4 +248,4 @@ std::string energies_there(const LevelSet& level) {
       least);
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

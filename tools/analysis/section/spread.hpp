@@ -6,7 +6,7 @@
 
 #include "tools/analysis/section/level_set.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// A point of the level set with its place in the picture.
 struct PlacedPoint {
@@ -42,4 +42,4 @@ std::vector<PlacedPoint> centred(const LevelSet& level, const std::vector<Placed
 /// another one.
 std::string energies_there(const LevelSet& level);
 
-}  // namespace casimir::tools
+}  // namespace casimir

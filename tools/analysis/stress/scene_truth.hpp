@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,7 +7,7 @@
 #include "runtime/work_precision.hpp"
 #include "symbolic/model.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// What is known about the end of a scene: what its answers are judged by.
 struct SceneTruth {
@@ -27,8 +25,4 @@ struct SceneTruth {
 /// \param longest  seconds that a run of our own may take.
 SceneTruth truth_of_scene(const Model& model, const Scene& scene, double longest);
 
-/// From one process to another: numbers are kept exactly.
-nlohmann::json packed(const SceneTruth& truth);
-SceneTruth unpacked(const nlohmann::json& json);
-
-}  // namespace casimir::tools
+}  // namespace casimir

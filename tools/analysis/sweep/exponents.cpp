@@ -9,10 +9,10 @@
 #include <thread>
 
 #include "codegen/emit_cpp.hpp"
-#include "tools/errors.hpp"
-#include "tools/run_report.hpp"
+#include "tools/analysis/error.hpp"
+#include "tools/analysis/exact_text.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 /// After each such part of the time the deviation is made small again.
@@ -31,7 +31,7 @@ LyapunovExponents::LyapunovExponents(const Model& model, const Scene& scene, con
       settings_(settings),
       deviating_(run) {
   const Specialisation& s = run.specialisation;
-  if (s.uses_time) throw UsageError("--do exponents: the equations depend on the time");
+  if (s.uses_time) throw RequestError("the equations depend on the time: no exponents");
   SpecialiseOptions what;
   what.keep_parameters = s.parameters;
   what.observe = s.states;
@@ -120,10 +120,10 @@ std::vector<PointResult> LyapunovExponents::run(const std::vector<std::size_t>& 
     try {
       std::rethrow_exception(problem);
     } catch (const std::invalid_argument& said) {
-      throw UsageError(said.what());
+      throw RequestError(said.what());
     }
   }
   return results;
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

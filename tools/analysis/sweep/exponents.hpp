@@ -1,10 +1,10 @@
 #pragma once
 
+#include "tools/analysis/run_request.hpp"
 #include "tools/analysis/sweep/place.hpp"
 #include "tools/analysis/sweep/task.hpp"
-#include "tools/run_options.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// The largest Lyapunov exponent of the motion from each point of a grid: the growth of a deviation
 /// by the variational equations, made small again along the way, per unit of time. Columns: t, the
@@ -13,7 +13,7 @@ namespace casimir::tools {
 class LyapunovExponents : public SweepTask {
  public:
   /// \param run  whose states and parameters the places are; all of these outlive it
-  /// \throws UsageError  for equations that depend on the time
+  /// \throws RequestError  for equations that depend on the time
   LyapunovExponents(const Model& model, const Scene& scene, const SceneRun& run,
                     const Places& places, const Method& method, const Settings& settings);
 
@@ -32,4 +32,4 @@ class LyapunovExponents : public SweepTask {
   SceneRun deviating_;  ///< the system and one deviation
 };
 
-}  // namespace casimir::tools
+}  // namespace casimir

@@ -7,10 +7,10 @@
 
 #include "codegen/emit_cpp.hpp"
 #include "runtime/ensemble.hpp"
-#include "tools/errors.hpp"
-#include "tools/run_report.hpp"
+#include "tools/analysis/error.hpp"
+#include "tools/analysis/exact_text.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 Integrations::Integrations(const SceneRun& run, const Places& places, const Method& method,
                            const Settings& settings, std::size_t points)
@@ -60,7 +60,7 @@ std::vector<PointResult> Integrations::run(const std::vector<std::size_t>& point
                : integrate_members(ensemble, kernel_.module_for_thread, method_, s.invariants,
                                    settings, threads);
   } catch (const std::invalid_argument& problem) {
-    throw UsageError(problem.what());
+    throw RequestError(problem.what());
   }
   std::vector<PointResult> results;
   for (const MemberResult& member : done.members) {
@@ -78,4 +78,4 @@ std::vector<PointResult> Integrations::run(const std::vector<std::size_t>& point
   return results;
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

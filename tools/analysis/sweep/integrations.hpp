@@ -2,11 +2,11 @@
 
 #include "tools/analysis/ensemble_kernel.hpp"
 
+#include "tools/analysis/run_request.hpp"
 #include "tools/analysis/sweep/place.hpp"
 #include "tools/analysis/sweep/task.hpp"
-#include "tools/run_options.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// Integrates the scene from each point of a grid, in the lanes of registers where `integrate
 /// --ensemble` does. Columns: t, the states at the end, the drift of each invariant, the steps.
@@ -32,4 +32,4 @@ class Integrations : public SweepTask {
   EnsembleKernel kernel_;
 };
 
-}  // namespace casimir::tools
+}  // namespace casimir

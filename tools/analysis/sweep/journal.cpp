@@ -13,10 +13,11 @@
 #include <optional>
 #include <sstream>
 
+#include "codegen/compile.hpp"
 #include "symbolic/error.hpp"
-#include "tools/errors.hpp"
+#include "tools/analysis/error.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 constexpr const char* kFirstLine = "casimir sweep 1,";
@@ -77,14 +78,15 @@ Journal::Journal(const std::string& output, const std::string& fingerprint, std:
     : path_(output + ".journal") {
   file_ = open(path_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0)
-    throw SystemError(
+    throw EnvironmentError(
         fmt::format("cannot write '{}': {}", printable(path_, 200), std::strerror(errno)));
   if (flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     close(file_);
-    throw SystemError(fmt::format("'{}' is being written by another sweep", printable(path_, 200)));
+    throw EnvironmentError(
+        fmt::format("'{}' is being written by another sweep", printable(path_, 200)));
   }
   if (restart && ftruncate(file_, 0) != 0)
-    throw SystemError(
+    throw EnvironmentError(
         fmt::format("cannot empty '{}': {}", printable(path_, 200), std::strerror(errno)));
   try {
     read(fingerprint, columns);
@@ -108,7 +110,7 @@ void Journal::read(const std::string& fingerprint, std::size_t columns) {
     return;
   }
   if (line != own)
-    throw UsageError(fmt::format(
+    throw RequestError(fmt::format(
         "'{0}' holds the points of another sweep (another case, grid, method or version)\n  hint: "
         "another --output, or --restart to throw them away",
         printable(path_, 200)));
@@ -131,7 +133,7 @@ void Journal::write(const std::string& text) {
     const ssize_t count = ::write(file_, text.data() + written, text.size() - written);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0)
-      throw SystemError(
+      throw EnvironmentError(
           fmt::format("cannot write all of '{}': {}", printable(path_, 200), std::strerror(errno)));
     written += static_cast<std::size_t>(count);
   }
@@ -147,4 +149,4 @@ void Journal::append(const std::map<std::size_t, PointResult>& results) {
 
 void Journal::remove() { unlink(path_.c_str()); }
 
-}  // namespace casimir::tools
+}  // namespace casimir

@@ -6,7 +6,7 @@
 
 #include "tools/analysis/sweep/task.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// Points of a sweep that are done, kept beside the output until all are: a text file that is only
 /// ever appended to, with a checksum in each line. A kill can lose what was not yet appended and
@@ -16,8 +16,8 @@ class Journal {
   /// Opens the journal of this output, or begins it.
   /// \param fingerprint  of the sweep
   /// \param restart      what is there is thrown away
-  /// \throws UsageError   if it belongs to another sweep
-  /// \throws SystemError  if it cannot be written, or another process writes it
+  /// \throws RequestError   if it belongs to another sweep
+  /// \throws EnvironmentError  if it cannot be written, or another process writes it
   Journal(const std::string& output, const std::string& fingerprint, std::size_t columns,
           bool restart);
   ~Journal();
@@ -29,7 +29,7 @@ class Journal {
   /// What is done, by point.
   const std::map<std::size_t, PointResult>& done() const { return done_; }
 
-  /// Adds results; they are on the disk when this returns. \throws SystemError
+  /// Adds results; they are on the disk when this returns. \throws EnvironmentError
   void append(const std::map<std::size_t, PointResult>& results);
 
   /// After the output has been written.
@@ -47,4 +47,4 @@ class Journal {
 /// 32 hexadecimal digits that tell a text from others.
 std::string digest(const std::string& text);
 
-}  // namespace casimir::tools
+}  // namespace casimir

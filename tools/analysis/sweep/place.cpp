@@ -10,18 +10,10 @@
 #include "codegen/terms.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/term_size.hpp"
-#include "symbolic/expression.hpp"
-#include "tools/errors.hpp"
+#include "tools/analysis/error.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
-
-/// The name before the equal sign of a --let.
-std::string let_name(const std::string& let) {
-  std::string name = let.substr(0, let.find('='));
-  std::erase(name, ' ');
-  return name;
-}
 
 Program program_of(const std::vector<GiNaC::ex>& functions,
                    const std::vector<GiNaC::symbol>& symbols) {
@@ -114,19 +106,16 @@ class PointCheck {
 
 }  // namespace
 
-std::vector<std::string> Places::names(const Grid& grid, const std::vector<std::string>& lets) {
-  std::vector<std::string> result;
-  for (const Axis& axis : grid.axes)
-    if (axis.kind != Axis::Kind::free) result.push_back(axis.name);
-  for (const std::string& let : lets) result.push_back(let_name(let));
-  return result;
-}
-
 Places::Places(const Model& model, const Scene& scene, const SceneRun& run, const Grid& grid,
-               const std::vector<std::string>& lets)
+               const Lets& lets)
     : run_(run), grid_(grid) {
   for (const Axis& axis : grid.axes) axes_.push_back(target(axis.name));
-  read_lets(model, lets);
+  std::vector<GiNaC::ex> functions;
+  for (const auto& [name, value] : lets.values) {
+    lets_.push_back(target(name));
+    functions.push_back(value);
+  }
+  let_values_ = program_of(functions, lets.axes);
   check(model, scene);
 }
 
@@ -135,42 +124,6 @@ Places::Target Places::target(const std::string& name) const {
   const std::size_t state = place_in(s.states, name);
   if (state < s.states.size()) return {true, state, name};
   return {false, place_in(s.parameters, name), name};
-}
-
-void Places::read_lets(const Model& model, const std::vector<std::string>& lets) {
-  NameTable table;
-  std::vector<GiNaC::symbol> symbols;
-  for (const Axis& axis : grid_.axes) {
-    symbols.emplace_back(axis.name);
-    table.add(axis.name, Quantity::symbol(symbols.back()));
-  }
-  std::vector<GiNaC::ex> functions;
-  const auto known = [&](const std::string& name) {
-    const auto is = [&](const GiNaC::symbol& s) { return s.get_name() == name; };
-    return std::ranges::any_of(model.variables, is) || std::ranges::any_of(model.parameters, is);
-  };
-  for (const std::string& let : lets) {
-    const Text option{let, {"--let", 1, 1}, let};
-    const std::size_t equals = let.find('=');
-    if (equals == std::string::npos)
-      throw option.error("expected NAME=EXPR, such as --let \"g1=sin(theta)\"");
-    const std::string name = let_name(let);
-    if (!known(name)) {
-      std::vector<std::string> names;
-      for (const auto* list : {&model.variables, &model.parameters})
-        for (const GiNaC::symbol& s : *list) names.push_back(s.get_name());
-      throw option.error(fmt::format("there is no variable or parameter '{}'", printable(name)), 0,
-                         suggest_or_list(name, names));
-    }
-    for (const Target& other : axes_)
-      if (other.name == name) throw option.error(fmt::format("'{}' is given by --over", name));
-    for (const Target& other : lets_)
-      if (other.name == name) throw option.error(fmt::format("there are two '{}'", name));
-    Text expression{let.substr(equals + 1), {"--let", 1, static_cast<int>(equals) + 2}, let};
-    functions.push_back(parse_expression(expression, table).value);
-    lets_.push_back(target(name));
-  }
-  let_values_ = program_of(functions, symbols);
 }
 
 std::pair<std::vector<double>, std::vector<double>> Places::at(std::size_t point) const {
@@ -220,8 +173,8 @@ void Places::check(const Model& model, const Scene& scene) const {
     const std::vector<double> values = grid_.at(point);
     for (std::size_t i = 0; i < values.size(); ++i)
       where += fmt::format("{}{} = {:g}", i == 0 ? "" : ", ", grid_.axes[i].name, values[i]);
-    throw UsageError(fmt::format("at {}: {}", where, wrong));
+    throw RequestError(fmt::format("at {}: {}", where, wrong));
   }
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

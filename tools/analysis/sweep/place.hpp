@@ -9,22 +9,18 @@
 #include "tools/analysis/scene_run.hpp"
 #include "tools/analysis/sweep/grid.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// Initial state and parameters at the points of a grid: the scene's, with the values of the axes
-/// and of `--let NAME=EXPR` in their place.
+/// and of the lets in their place.
 class Places {
  public:
   /// \param run   with the parameters of the axes and lets at run time
-  /// \param lets  NAME=EXPR, over the names of the axes and the parameters
-  /// \throws CaseError   with the place in an option
-  /// \throws UsageError  for a point that violates an assumption or leaves a constraint; the
+  /// \param lets  over the axes of the grid
+  /// \throws RequestError  for a point that violates an assumption or leaves a constraint; the
   ///                     message names it
   Places(const Model& model, const Scene& scene, const SceneRun& run, const Grid& grid,
-         const std::vector<std::string>& lets);
-
-  /// Names that a grid and its lets set: parameters among them must be known at run time only.
-  static std::vector<std::string> names(const Grid& grid, const std::vector<std::string>& lets);
+         const Lets& lets);
 
   /// State and parameters of the run at a point.
   std::pair<std::vector<double>, std::vector<double>> at(std::size_t point) const;
@@ -39,7 +35,6 @@ class Places {
     std::string name;
   };
   Target target(const std::string& name) const;
-  void read_lets(const Model& model, const std::vector<std::string>& lets);
   void check(const Model& model, const Scene& scene) const;
 
   const SceneRun& run_;
@@ -48,4 +43,4 @@ class Places {
   Program let_values_;  ///< inputs: the axes, then the parameters of the run
 };
 
-}  // namespace casimir::tools
+}  // namespace casimir

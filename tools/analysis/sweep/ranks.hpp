@@ -1,46 +1,44 @@
 #pragma once
 
-#include <string>
+#include <stdexcept>
 #include <vector>
 
-namespace casimir::tools {
+namespace casimir {
 
-/// The processes that share a sweep: those that mpirun started, or this one alone. Rank 0 reads,
-/// writes and speaks. Made and destroyed by all of them together.
+/// The processes that share a sweep: this one alone, unless a class of its own says otherwise. Rank
+/// 0 reads, writes and speaks.
 class Ranks {
  public:
-  /// \throws SystemError  under mpirun, if this program was built without MPI: every process would
-  ///                      do the whole sweep
   Ranks();
-  ~Ranks();
+  virtual ~Ranks() = default;
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
 
+  /// The number of this process, from 0.
   int rank() const { return rank_; }
+  /// How many there are.
   int size() const { return size_; }
+  /// Whether this is the one that reads, writes and speaks.
   bool speaks() const { return rank_ == 0; }
 
   /// Processors for the threads of this rank, so that together they use each once.
   int processors() const { return processors_; }
 
   /// Rank 0's numbers, in all ranks.
-  void broadcast(std::vector<unsigned long long>& numbers) const;
+  virtual void broadcast(std::vector<unsigned long long>& numbers) const;
 
   /// The numbers of all ranks one after the other, in rank 0; empty in the others.
-  std::vector<double> gather(const std::vector<double>& numbers) const;
+  virtual std::vector<double> gather(const std::vector<double>& numbers) const;
 
   /// The largest of all ranks.
-  int largest(int number) const;
+  virtual int largest(int number) const;
 
-  /// Ends all of them at once.
-  [[noreturn]] void abort(int status) const;
+  /// Called in one of several ranks for a failure that the others do not have, and would wait for:
+  /// ends them all, or returns and lets it be thrown.
+  virtual void end_all(const std::exception& problem) const;
 
- private:
+ protected:
   int rank_ = 0, size_ = 1, processors_ = 1;
-  bool started_ = false;
 };
 
-/// The MPI that this program was built with, or empty.
-std::string mpi_version();
-
-}  // namespace casimir::tools
+}  // namespace casimir

@@ -6,26 +6,26 @@
 #include <limits>
 
 #include "codegen/emit_cpp.hpp"
+#include "tools/analysis/exact_text.hpp"
 #include "tools/analysis/section/domain_orbits.hpp"
-#include "tools/run_report.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-Sections::Sections(const CaseFile& file, const Model& model, const Scene& scene,
-                   const Places& places, std::size_t orbits, std::size_t points, double tolerance)
-    : file_(file),
-      model_(model),
+Sections::Sections(const Model& model, const Scene& scene, const Places& places,
+                   SectionRequest request, std::size_t orbits, std::size_t points, double tolerance)
+    : model_(model),
       scene_(scene),
       places_(places),
+      request_(std::move(request)),
       orbits_(orbits),
       points_(points),
       tolerance_(tolerance) {
-  const SectionProblem problem = section_problem(file, model, scene, {});
+  const SectionProblem problem = section_problem(model, scene, request_);
   text_ = fmt::format("{} {} {} {}\n", problem.plane_text, problem.plane.upwards,
                       problem.plotted[0].text, problem.plotted[1].text) +
           emit_module(problem.run.specialisation, {}, false);
@@ -45,7 +45,7 @@ std::string Sections::fingerprint() const {
 PointResult Sections::cut(std::size_t point, int threads,
                           const std::function<bool()>& give_up) const {
   const Scene scene = places_.scene_at(point, model_, scene_);
-  const SectionProblem problem = section_problem(file_, model_, scene, {});
+  const SectionProblem problem = section_problem(model_, scene, request_);
   const LevelSet level(problem);
   const OrbitCutter cutter(problem, {tolerance_, threads, give_up}, orbits_ * points_);
   const std::vector<OrbitReport> orbits = domain_orbits(level, cutter, orbits_, points_);
@@ -74,4 +74,4 @@ std::vector<PointResult> Sections::run(const std::vector<std::size_t>& points, i
   return results;
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

@@ -1,11 +1,10 @@
 #pragma once
 
-#include "symbolic/case_file.hpp"
 #include "tools/analysis/section/problem.hpp"
 #include "tools/analysis/sweep/place.hpp"
 #include "tools/analysis/sweep/task.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// The Poincare section at each point of a grid, on the level that the point's initial state lies
 /// on. Columns: how many orbits and crossings, how many of the orbits are regular and chaotic, the
@@ -13,8 +12,8 @@ namespace casimir::tools {
 /// across the plane there are no orbits.
 class Sections : public SweepTask {
  public:
-  /// All of these outlive it. \throws CaseError, UsageError  as section_problem does
-  Sections(const CaseFile& file, const Model& model, const Scene& scene, const Places& places,
+  /// Model, scene and places outlive it. \throws RequestError  as section_problem does
+  Sections(const Model& model, const Scene& scene, const Places& places, SectionRequest request,
            std::size_t orbits, std::size_t points, double tolerance);
 
   std::vector<std::string> columns() const override;
@@ -25,13 +24,13 @@ class Sections : public SweepTask {
  private:
   PointResult cut(std::size_t point, int threads, const std::function<bool()>& give_up) const;
 
-  const CaseFile& file_;
   const Model& model_;
   const Scene& scene_;
   const Places& places_;
+  SectionRequest request_;
   std::size_t orbits_, points_;
   double tolerance_;
   std::string text_;  ///< what the section is of
 };
 
-}  // namespace casimir::tools
+}  // namespace casimir

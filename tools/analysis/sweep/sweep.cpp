@@ -5,15 +5,13 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <iostream>
 #include <map>
 #include <optional>
 
+#include "tools/analysis/exact_text.hpp"
 #include "tools/analysis/sweep/journal.hpp"
-#include "tools/errors.hpp"
-#include "tools/run_report.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -41,7 +39,7 @@ class Sweep {
         columns_(task.columns().size()),
         points_(grid.points()) {}
 
-  /// In the rank that speaks. \throws UsageError, SystemError
+  /// In the rank that speaks. \throws RequestError, EnvironmentError
   void open_journal(const Grid& grid) {
     journal_.emplace(options_.output, digest(task_.fingerprint() + text_of(grid)), columns_,
                      options_.restart);
@@ -79,9 +77,8 @@ class Sweep {
     try {
       work();
     } catch (const std::exception& problem) {
-      if (ranks_.size() == 1) throw;
-      std::cerr << "casimir: error: " << problem.what() << '\n';
-      ranks_.abort(kEnvironment);
+      if (ranks_.size() > 1) ranks_.end_all(problem);
+      throw;
     }
   }
 
@@ -178,4 +175,4 @@ SweepOutcome sweep_over(const SweepTask& task, const Grid& grid, const Ranks& ra
   return sweep.run(finish);
 }
 
-}  // namespace casimir::tools
+}  // namespace casimir

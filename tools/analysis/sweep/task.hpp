@@ -6,7 +6,7 @@
 
 #include "runtime/integrate.hpp"
 
-namespace casimir::tools {
+namespace casimir {
 
 /// What was found at one point of a grid: a status, and a number for each column of the task.
 struct PointResult {
@@ -34,4 +34,4 @@ class SweepTask {
                                        const std::function<bool()>& give_up) const = 0;
 };
 
-}  // namespace casimir::tools
+}  // namespace casimir
