@@ -119,8 +119,10 @@ void name_stiffness(const Module& module, const Method& method, const double* pa
   if (method.implicit || trajectory.steps == 0) return;
   if (trajectory.status != Status::step_underflow && trajectory.status != Status::max_steps) return;
   const double step = trajectory.time / static_cast<double>(trajectory.steps);
-  if (const auto why = stiffness_at(module, trajectory.time, trajectory.state, parameters, step))
+  if (const auto why = stiffness_at(module, trajectory.time, trajectory.state, parameters, step)) {
+    trajectory.stiff = true;
     trajectory.reason += "; " + *why;
+  }
 }
 
 }  // namespace

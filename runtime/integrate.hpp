@@ -77,6 +77,7 @@ struct InvariantRecord {
 struct Trajectory {
   Status status = Status::ok;
   std::string reason;  ///< a sentence, where the status is not ok
+  bool stiff = false;  ///< an explicit method got no further because the equations are stiff
   double time = 0;
   std::vector<double> state;
   std::vector<double> sizes;  ///< largest |x_i| after any step; at both ends, if not monitored

@@ -1,10 +1,7 @@
 #pragma once
 
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "runtime/program.hpp"
 #include "symbolic/coordinates.hpp"
 #include "tools/cli_names.hpp"
 
@@ -21,43 +18,5 @@ void add_as(CLI::App& command, std::string& set);
 
 /// The model itself where `set` is empty. \throws ModelError, SingularPoint: see in_coordinates
 Model in_variables(Model model, const std::string& set);
-
-/// States of a case in other variables, in double.
-class Conversion {
- public:
-  /// \throws ModelError  for an unknown set, or one that no maps lead to
-  Conversion(const Model& model, const std::string& set);
-
-  Conversion(const Conversion&) = delete;
-  Conversion& operator=(const Conversion&) = delete;
-
-  const std::vector<std::string>& names() const { return names_; }
-
-  /// \param state  one number for each variable of the case
-  /// \throws SingularPoint  where the variables are singular, or the state has no image: a state
-  ///                        that does not come back when it is mapped back is refused
-  std::vector<double> operator()(std::vector<double> state) const;
-
-  /// The initial state of a scene, exactly. \throws SingularPoint
-  std::vector<GiNaC::ex> exact(const Scene& scene) const;
-
- private:
-  struct Branch {
-    Program values, conditions;
-    std::vector<Assumption> domain;
-  };
-  struct Step {
-    const CoordinateChange* change;
-    std::vector<Branch> branches;
-    Program there;  ///< the differences of the domain of the new variables
-    std::vector<Assumption> there_domain;
-    std::optional<Program> back;  ///< of an inverse: the map
-  };
-  std::vector<double> apply(const Step& step, const std::vector<double>& state) const;
-
-  Atlas atlas_;
-  std::vector<Step> steps_;
-  std::vector<std::string> names_;
-};
 
 }  // namespace casimir::tools

@@ -49,7 +49,7 @@ int run_guarded(int argc, char** argv) {
     return run(argc, argv);
   } catch (const CaseError& problem) {
     return fail(kBadInput, problem.what());
-  } catch (const UsageError& problem) {
+  } catch (const RequestError& problem) {
     return fail(kBadInput, fmt::format("casimir: error: {}", problem.what()));
   } catch (const SingularPoint& problem) {
     return fail(kNotContinued, fmt::format("casimir: error: {}", problem.what()));

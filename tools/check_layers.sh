@@ -10,6 +10,7 @@ set -euo pipefail
 readonly include_rules='
 function layer(file) {
   if (file ~ /^runtime\/kernels\//) return "runtime/kernels"
+  if (file ~ /^tools\/analysis\//) return "tools/analysis"
   return substr(file, 1, index(file, "/") - 1)
 }
 BEGIN {
@@ -17,11 +18,13 @@ BEGIN {
   may["codegen"] = "^(codegen/|symbolic/|runtime/program[.]hpp$|runtime/module_abi[.]h$|runtime/quadratic_form[.]hpp$|runtime/lane_form[.]hpp$)"
   may["runtime"] = "^runtime/"
   may["runtime/kernels"] = "^(runtime/kernels/|runtime/module_abi[.]h$)"
+  may["tools/analysis"] = "^(tools/analysis|codegen|symbolic|runtime)/"
   may["tools"] = "^(tools|codegen|symbolic|runtime)/"
   # Libraries that would carry one layer'"'"'s business into another.
   never["symbolic"] = "^(Eigen/|CLI/|nlohmann/|sundials/|boost/)"
   never["codegen"] = "^(Eigen/|CLI/|toml|sundials/)"
   never["runtime"] = "^(ginac/|toml|CLI/|nlohmann/|iostream$)"
+  never["tools/analysis"] = "^(CLI/|toml|mpi|sundials/|iostream$)"
   never["runtime/kernels"] = "^(ginac/|cln/|toml|CLI/|nlohmann/|iostream$)"
 }
 match($0, /^[^:]+:[0-9]+:/) {
@@ -110,6 +113,10 @@ self_test() {
   bent runtime/a.cpp '#include <ginac/ginac.h>' 'runtime must not include <ginac/ginac.h>'
   bent runtime/kernels/a.hpp '#include "runtime/program.hpp"' \
     'runtime/kernels must not include "runtime/program.hpp"'
+  bent tools/analysis/a.cpp '#include "tools/output.hpp"' \
+    'tools/analysis must not include "tools/output.hpp"'
+  bent tools/analysis/sweep/a.hpp '#include <CLI/CLI.hpp>' \
+    'tools/analysis must not include <CLI/CLI.hpp>'
   bent tools/commands/a.cpp '#include "tests/systems.hpp"' \
     'tools must not include "tests/systems.hpp"'
   bent tools/a.cpp 'if (name == "top") {' 'names a case: if (name == "top") {'
@@ -120,6 +127,8 @@ self_test() {
   bent runtime/kernels/a.hpp '#include "runtime/module_abi.h"' ''
   bent runtime/a.cpp '#include <vector>' ''
   bent tools/commands/a.cpp '#include "runtime/module.hpp"' ''
+  bent tools/commands/a.cpp '#include "tools/analysis/a.hpp"' ''
+  bent tools/analysis/a.cpp '#include "codegen/compile.hpp"' ''
   bent tools/a.cpp 'help("for instance: casimir show top");' ''
   bent tools/a.cpp '// such as "top"' ''
 

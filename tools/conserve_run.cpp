@@ -6,8 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "tools/analysis/truth.hpp"
 #include "tools/errors.hpp"
-#include "tools/truth.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -59,7 +59,7 @@ Row conserve_scene(const Model& model, const Scene& scene, const Method& method,
           .method = std::string(method.name),
           .tolerance = settings.rtol};
   if (!suits(run, method)) {
-    row.status = "does not split";
+    row.end = RowEnd::does_not_split;
     row.refused = true;
     return row;
   }
@@ -78,7 +78,7 @@ Row conserve_scene(const Model& model, const Scene& scene, const Method& method,
   row.seconds = trajectory.seconds;
   row.steps = trajectory.steps;
   row.evaluations = trajectory.evaluations;
-  row.status = to_string(trajectory.status);
+  row.status = trajectory.status;
   if (trajectory.status == Status::ok && !scene.reference.empty() && !options.run.duration) {
     const TruthOrReason truth = truth_of(scene, run, {.give_up = options.give_up});
     if (truth.truth) row.error = error_of(trajectory.state, *truth.truth);
@@ -86,8 +86,10 @@ Row conserve_scene(const Model& model, const Scene& scene, const Method& method,
   row.refused = trajectory.status != Status::ok && may_be_refused(scene);
   // Written so that a drift that is not a number fails too.
   row.failed = !row.refused && (trajectory.status != Status::ok || !(row.drift <= options.bound));
-  if (trajectory.status == Status::ok && row.failed)
-    row.status = fmt::format("drift above {:g}", options.bound);
+  if (trajectory.status == Status::ok && row.failed) {
+    row.end = RowEnd::drifted;
+    row.bound = options.bound;
+  }
   return row;
 }
 

@@ -4,15 +4,15 @@
 #include <vector>
 
 #include "symbolic/model.hpp"
+#include "tools/analysis/run_request.hpp"
 #include "tools/drift_plot.hpp"
-#include "tools/run_options.hpp"
 #include "tools/run_report.hpp"
 
 namespace casimir::tools {
 
 /// What `conserve` does with a scene and a method.
 struct ConserveOptions {
-  RunOptions run = {};
+  RunRequest run = {};
   SceneOptions code = {};
   double bound = 1e-9;  ///< largest drift allowed
   /// Told now and then which share of the run is done, from 0 to 1.

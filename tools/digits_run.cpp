@@ -40,7 +40,7 @@ void check(const DigitsRequest& request) {
     throw UsageError(fmt::format("--digits {}: at most {}", request.digits, kMostDigits));
   if (request.method != "auto" && request.method != "taylor")
     does_not_go("--method " + request.method, "only taylor has any number of digits");
-  const RunOptions& run = request.run;
+  const RunRequest& run = request.run.asked;
   if (run.rtol || run.atol || run.tolerance)
     does_not_go("a tolerance", "the digits are the tolerance");
   if (run.step) does_not_go("--step", "the steps follow from the digits");
@@ -74,7 +74,7 @@ PreciseProblem problem_of(const DigitsRequest& request, const Specialisation& s)
   PreciseProblem problem;
   problem.rhs = &s.rhs;
   problem.invariants = s.invariant_names.empty() ? nullptr : &s.invariants;
-  problem.max_steps = request.run.max_steps;
+  problem.max_steps = request.run.asked.max_steps;
   problem.start = [&](int digits) {
     const std::vector<cln::cl_F> values = start_values(s, digits);
     std::vector<cln::cl_R> start(values.begin(), values.end());

@@ -9,9 +9,9 @@
 #include <iostream>
 #include <optional>
 
+#include "tools/analysis/ensemble_kernel.hpp"
 #include "tools/case_library.hpp"
 #include "tools/ensemble_file.hpp"
-#include "tools/ensemble_kernel.hpp"
 #include "tools/errors.hpp"
 #include "tools/output.hpp"
 #include "tools/run_report.hpp"
@@ -230,7 +230,7 @@ int integrate_ensemble(const EnsembleRequest& request) {
   const Method& method = method_named(request.method);
   const EnsembleFile file = file_of(model, request.file);
   const SceneRun run = prepared(model, scene, request.how, file);
-  Settings settings = settings_for(request.run, run);
+  Settings settings = settings_for(request.run.request(), run);
   settings.give_up = time_limit(request.common.time_limit);
   settings.invariant_terms = nullptr;
   const Ensemble ensemble = members(run, file);

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "tools/analysis/error.hpp"
+
 namespace casimir::tools {
 
 /// Exit statuses, as the interface documents them.
@@ -16,8 +18,8 @@ enum Exit : int {
 };
 
 /// A command line that cannot be carried out.
-class UsageError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
+class UsageError : public RequestError {
+  using RequestError::RequestError;
 };
 
 /// Something outside this program that does not work: a file that cannot be written, a missing

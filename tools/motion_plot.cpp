@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/quantities.hpp"
+#include "tools/analysis/quantities.hpp"
 
 namespace casimir::tools {
 namespace {

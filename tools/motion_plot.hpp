@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "symbolic/model.hpp"
-#include "tools/judged_run.hpp"
+#include "tools/analysis/judged_run.hpp"
 #include "tools/plot.hpp"
 
 namespace casimir::tools {

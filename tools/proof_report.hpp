@@ -5,11 +5,9 @@
 #include <vector>
 
 #include "symbolic/prove.hpp"
+#include "tools/analysis/proof_json.hpp"
 
 namespace casimir::tools {
-
-nlohmann::ordered_json to_json(const Proof& proof);
-Proof proof_from_json(const nlohmann::ordered_json& json);
 
 /// The interface's document for `verify`: case, verdict, seconds, claims, facts, notes.
 nlohmann::ordered_json to_json(const Model& model, const std::vector<Proof>& proofs,

@@ -23,6 +23,26 @@ std::string spread_text(const Row& row) {
 
 }  // namespace
 
+std::string status_text(const Row& row) {
+  switch (row.end) {
+    case RowEnd::ran:
+      break;
+    case RowEnd::wrong:
+      return "wrong";
+    case RowEnd::too_slow:
+      return "too_slow";
+    case RowEnd::refused:
+      return "refused";
+    case RowEnd::crashed:
+      return "crashed";
+    case RowEnd::does_not_split:
+      return "does not split";
+    case RowEnd::drifted:
+      return fmt::format("drift above {:g}", row.bound);
+  }
+  return to_string(row.status);
+}
+
 Json to_json(const std::vector<Row>& rows) {
   Json list = Json::array();
   int failed = 0;
@@ -40,7 +60,7 @@ Json to_json(const std::vector<Row>& rows) {
                     {"rounds", row.rounds},
                     {"steps", row.steps},
                     {"evaluations", row.evaluations},
-                    {"status", row.status},
+                    {"status", status_text(row)},
                     {"failed", row.failed}});
     if (!row.reason.empty()) list.back()["reason"] = row.reason;
   }
@@ -55,7 +75,7 @@ void write_csv(std::ostream& stream, const std::vector<Row>& rows) {
                           csv_field(row.case_name), csv_field(row.scene), row.method, row.code,
                           row.tolerance, std::isnan(row.error) ? "" : exact_text(row.error),
                           exact_text(row.drift), row.seconds, row.spread, row.rounds, row.steps,
-                          row.evaluations, csv_field(row.status));
+                          row.evaluations, csv_field(status_text(row)));
   }
 }
 
@@ -80,10 +100,11 @@ std::string to_text(const std::vector<Row>& rows, bool with_error) {
                               "code", "tolerance", error_column("error"), "drift", "time",
                               spread_column("spread"), "steps", "evaluations", "status");
     }
-    text += fmt::format("  {:<18} {:<12} {:>9.0e} {}{:>9} {:>10} {}{:>9} {:>11}  {}\n", row.method,
-                        row.code, row.tolerance, error_column(short_number(row.error)),
-                        short_number(row.drift), duration_text(row.seconds),
-                        spread_column(spread_text(row)), row.steps, row.evaluations, row.status);
+    text +=
+        fmt::format("  {:<18} {:<12} {:>9.0e} {}{:>9} {:>10} {}{:>9} {:>11}  {}\n", row.method,
+                    row.code, row.tolerance, error_column(short_number(row.error)),
+                    short_number(row.drift), duration_text(row.seconds),
+                    spread_column(spread_text(row)), row.steps, row.evaluations, status_text(row));
   }
   return text;
 }
@@ -108,14 +129,6 @@ std::string advice(Status status) {
       return "";
   }
 }
-
-std::string exact_text(long double value) {
-  const auto near = static_cast<double>(value);
-  const bool fits = std::isfinite(near) && (near != 0 || value == 0);
-  return fits ? exact_text(near) : fmt::format("{:.17g}", value);
-}
-
-std::string exact_text(double value) { return fmt::format("{:.17g}", value); }
 
 std::string duration_text(double seconds) {
   if (seconds < 1e-3) return fmt::format("{:.1f} us", seconds * 1e6);

@@ -10,9 +10,9 @@
 #include <optional>
 
 #include "symbolic/vector_form.hpp"
+#include "tools/analysis/quantities.hpp"
 #include "tools/errors.hpp"
 #include "tools/motion_plot.hpp"
-#include "tools/quantities.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -1,6 +1,7 @@
 // An installed tree that was moved: the program, and the libraries for the programs of others.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <regex>
 #include <set>
 
@@ -81,6 +82,23 @@ TEST(Install, HeadersIncludeOnlyWhatIsInstalled) {
   EXPECT_GT(count, 40U);
 }
 
+/// What follows a mark in a text.
+std::string after(const std::string& text, const std::string& mark) {
+  const std::size_t at = text.find(mark);
+  return at == std::string::npos ? "(no " + mark + ")" : text.substr(at + mark.size());
+}
+
+/// A user's first programs are no longer than that, and the README shows them as they are.
+TEST(Install, TheReadmeShowsTheExamplesAndTheyAreShort) {
+  const std::string readme = file_text(CASIMIR_SOURCE_DIR "/README.md");
+  for (const char* name : {"verify", "solve", "section"}) {
+    const std::string text =
+        file_text(std::string(CASIMIR_SOURCE_DIR "/tools/examples/") + name + ".cpp");
+    EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 25) << name;
+    EXPECT_TRUE(shows(readme, "```cpp\n" + text + "```\n")) << name;
+  }
+}
+
 TEST(Install, ExamplesBuildWithFindPackageAndRun) {
   const Installed installed;
   const Outcome built =
@@ -104,6 +122,25 @@ TEST(Install, ExamplesBuildWithFindPackageAndRun) {
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(shows(run.out, "q1 = 0.22514698")) << run.out;
   EXPECT_TRUE(shows(run.out, "less than 1e-10: yes")) << run.out;
+  const Outcome verified = shell(installed, "build/verify\n");
+  EXPECT_EQ(verified.status, 0) << verified.err;
+  EXPECT_TRUE(shows(verified.out, "L: proved\nF: refuted\nits rate is ")) << verified.out;
+  const Outcome solved =
+      shell(installed,
+            "build/solve prefix/share/casimir/cases/kovalevskaya.toml\n"
+            "prefix/bin/casimir integrate kovalevskaya --duration 10 --tolerance 1e-14 --json\n");
+  EXPECT_EQ(solved.status, 0) << solved.err;
+  EXPECT_TRUE(shows(solved.out, "taylor: the equations are not stiff")) << solved.out;
+  EXPECT_TRUE(shows(solved.out, "\nerror about ")) << solved.out;
+  // The same state as the program has it, to nine digits.
+  const std::string mine = after(solved.out, "M1(10) = "),
+                    program = after(solved.out, "\"M1\": \"");
+  EXPECT_EQ(mine.substr(0, 11), program.substr(0, 11)) << solved.out;
+  const Outcome section = shell(installed, "build/section\n");
+  EXPECT_EQ(section.status, 0) << section.err;
+  EXPECT_TRUE(shows(section.out, "H = 0.125: 1600 crossings")) << section.out;
+  EXPECT_TRUE(shows(section.out, ": chaotic")) << section.out;
+  EXPECT_TRUE(shows(section.out, ": regular")) << section.out;
 }
 
 TEST(Install, AnUnknownVersionOrComponentIsRefused) {
@@ -126,9 +163,14 @@ TEST(Install, PkgConfigBuildsAnExample) {
             "'" CASIMIR_CXX "' " CASIMIR_CXX_FLAGS
             " -std=c++20 "
             "prefix/share/doc/casimir/examples/integrate.cpp -o integrate "
-            "$(pkg-config --cflags --libs casimir)\n./integrate\n");
+            "$(pkg-config --cflags --libs casimir)\n./integrate\n"
+            "'" CASIMIR_CXX "' " CASIMIR_CXX_FLAGS
+            " -std=c++20 "
+            "prefix/share/doc/casimir/examples/section.cpp -o section "
+            "$(pkg-config --cflags --libs casimir)\n./section | head -1\n");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_TRUE(shows(outcome.out, "less than 1e-10: yes")) << outcome.out;
+  EXPECT_TRUE(shows(outcome.out, "H = 0.125: 1600 crossings")) << outcome.out;
 }
 
 TEST(Install, ShellsFindTheirCompletion) {

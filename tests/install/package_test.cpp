@@ -22,16 +22,16 @@ TEST(Package, DebianPackagesAreCleanAndRun) {
     EXPECT_TRUE(shows(program, need)) << program;
   const std::string development =
       shell(folder, "dpkg-deb -I packages/libcasimir-dev_*.deb control\n").out;
-  for (const char* need : {"libginac-dev", "libflint-dev", "libsundials-dev"})
+  for (const char* need : {"libginac-dev", "libflint-dev", "libsundials-dev", "libeigen3-dev"})
     EXPECT_TRUE(shows(development, need)) << development;
 
-  const Outcome run =
-      shell(folder,
-            "for package in packages/*.deb; do dpkg-deb -x $package root; done\n"
-            "root/usr/bin/casimir verify kovalevskaya\n"
-            "ls root/usr/lib/libcasimir_runtime.a root/usr/lib/pkgconfig/casimir.pc "
-            "root/usr/share/man/man1/casimir-verify.1.gz "
-            "root/usr/share/doc/libcasimir-dev/copyright\n");
+  const Outcome run = shell(folder,
+                            "for package in packages/*.deb; do dpkg-deb -x $package root; done\n"
+                            "root/usr/bin/casimir verify kovalevskaya\n"
+                            "ls root/usr/lib/libcasimir_runtime.a "
+                            "root/usr/lib/libcasimir_analysis.a root/usr/lib/pkgconfig/casimir.pc "
+                            "root/usr/share/man/man1/casimir-verify.1.gz "
+                            "root/usr/share/doc/libcasimir-dev/copyright\n");
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(shows(run.out, "12 proved, 0 refuted")) << run.out;
 }

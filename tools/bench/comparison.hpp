@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/bench/contest.hpp"
+#include "tools/analysis/benchmark/contest.hpp"
 
 namespace casimir::tools {
 

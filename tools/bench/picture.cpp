@@ -16,7 +16,7 @@ Plot picture_of(const Contest& contest) {
     if (!contender.own()) curve.style = Curve::Style::outside;
     if (contender.code == "general") curve.style = Curve::Style::variant;
     for (const Row& row : contest.rows) {
-      if (row.method == contender.method && row.code == contender.code && row.status == "ok")
+      if (row.method == contender.method && row.code == contender.code && row.ok())
         curve.points.emplace_back(row.error, row.seconds);
     }
     if (!curve.points.empty()) plot.curves.push_back(std::move(curve));

@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "tools/bench/contest.hpp"
+#include "tools/analysis/benchmark/contest.hpp"
 #include "tools/machine.hpp"
 #include "tools/plot.hpp"
+#include "tools/run_report.hpp"
 
 namespace casimir::tools {
 

@@ -88,8 +88,8 @@ std::string html::rows_table(const Contest& contest) {
                                 "steps", "evaluations", "status"},
                                "th");
   for (const Row& r : contest.rows) {
-    const std::string style = r.status == "wrong" ? "wrong" : r.status == "ok" ? "" : "other";
-    const std::string status = r.reason.empty() ? r.status : r.status + ": " + r.reason;
+    const std::string style = r.end == RowEnd::wrong ? "wrong" : r.ok() ? "" : "other";
+    const std::string status = r.reason.empty() ? status_text(r) : status_text(r) + ": " + r.reason;
     rows += html::row(
         {html::text(r.method), html::text(r.code), fmt::format("{:.0e}", r.tolerance),
          std::isnan(r.error) ? "&ndash;" : fmt::format("{:.2e}", r.error),

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "tools/bench/contest.hpp"
+#include "tools/analysis/benchmark/contest.hpp"
 
 namespace casimir::tools::html {
 

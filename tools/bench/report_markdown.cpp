@@ -66,7 +66,7 @@ std::string summary(const BenchReport& report) {
 std::string spread_text(const BenchReport& report) {
   std::vector<double> spreads;
   for (const Row& row : report.rows())
-    if (row.status == "ok" && row.seconds > 0) spreads.push_back(100 * row.spread / row.seconds);
+    if (row.ok() && row.seconds > 0) spreads.push_back(100 * row.spread / row.seconds);
   if (spreads.empty()) return "";
   std::sort(spreads.begin(), spreads.end());
   return fmt::format("; times have a spread of {:.1f} % in the median and {:.1f} % at most",

@@ -62,7 +62,7 @@ std::string about_text(const Contest& contest) {
                       contest.conditioning);
   const auto count = [&](bool failed) {
     return std::count_if(contest.rows.begin(), contest.rows.end(), [&](const Row& row) {
-      return row.status == "wrong" && row.failed == failed;
+      return row.end == RowEnd::wrong && row.failed == failed;
     });
   };
   if (const auto coarse = count(false); coarse > 0)

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <iostream>
 
+#include "tools/analysis/benchmark/contest.hpp"
+#include "tools/analysis/scene_run.hpp"
 #include "tools/atlas.hpp"
-#include "tools/bench/contest.hpp"
 #include "tools/bench/report.hpp"
 #include "tools/case_library.hpp"
 #include "tools/choices.hpp"
@@ -15,7 +16,7 @@
 #include "tools/kept_parameters.hpp"
 #include "tools/output.hpp"
 #include "tools/progress.hpp"
-#include "tools/scene_run.hpp"
+#include "tools/run_options.hpp"
 #include "tools/scene_values.hpp"
 
 namespace casimir::tools {
@@ -29,11 +30,27 @@ struct Options {
   std::string in, tag;
   std::string plot, format = "text";
   bool all = false;
+  RunOptions run;
   ContestOptions contest{.tolerances = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10,
                                         1e-11, 1e-12, 1e-13, 1e-14, 1e-15}};
 };
 
 bool is_page(const std::string& path) { return path.ends_with(".html") || path.ends_with(".htm"); }
+
+/// What it means for a command about one case that there is no reference state.
+Exit exit_of(NoReference failure) {
+  switch (failure) {
+    case NoReference::none:
+      break;
+    case NoReference::contradicted:
+      return kBadInput;
+    case NoReference::took_too_long:
+      return kEnvironment;
+    case NoReference::not_reached:
+      return kNotContinued;
+  }
+  return kDone;
+}
 
 /// A contest that could not be held, with the reason.
 Contest not_held(const std::string& name, const std::string& scene, const std::string& reason) {
@@ -41,7 +58,6 @@ Contest not_held(const std::string& name, const std::string& scene, const std::s
   contest.case_name = contest.title = name;
   contest.scene = scene;
   contest.no_reference = reason;
-  contest.failure = kBadInput;
   return contest;
 }
 
@@ -50,6 +66,7 @@ Contest hold(const CaseFile& file, const Options& options, Progress& progress) {
       options.kept.model_of(options.start.in(file), options.common.parameter_values()), options.in);
   const Scene& scene = model.scene(options.common.scene);
   ContestOptions what = options.contest;
+  what.run = options.run.request();
   what.code = options.kept.in<SceneOptions>();
   std::string doing;
   what.progress = [&](const std::string& now, double share) {
@@ -76,7 +93,7 @@ void hold_all(const Options& options, Progress& progress, BenchReport& report) {
       skip(problem);
     } catch (const ModelError& problem) {
       skip(problem);
-    } catch (const UsageError& problem) {
+    } catch (const RequestError& problem) {
       skip(problem);
     }
   }
@@ -134,7 +151,7 @@ void check_usage(const Options& options) {
   if (options.all == !options.case_names.empty())
     throw UsageError("bench needs either a CASE or --all");
   if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
-  if (options.contest.run.rtol || options.contest.run.atol)
+  if (options.run.asked.rtol || options.run.asked.atol)
     throw UsageError("bench runs at a range of tolerances: --tolerances X,Y, or --tolerance X");
   if (options.plot.empty()) return;
   check_plot_name(options.plot);
@@ -144,7 +161,7 @@ void check_usage(const Options& options) {
 
 int bench(Options options) {
   check_usage(options);
-  if (options.contest.run.tolerance) options.contest.tolerances = {*options.contest.run.tolerance};
+  if (options.run.asked.tolerance) options.contest.tolerances = {*options.run.asked.tolerance};
   options.contest.give_up = time_limit(options.common.time_limit);
   const BenchReport report = hold_contests(options);
   // The rows first: pictures need a program that may be missing.
@@ -152,7 +169,7 @@ int bench(Options options) {
   if (!report.several && !report.contests.front().no_reference.empty()) {
     const Contest& contest = report.contests.front();
     std::cerr << "casimir: error: " << contest.no_reference << '\n';
-    return contest.failure;
+    return exit_of(contest.failure);
   }
   print(report, options);
   if (!options.plot.empty()) draw(picture_of(report.contests.front()), options.plot);
@@ -164,7 +181,7 @@ int bench(Options options) {
   return failed ? kFailed : kDone;
 }
 
-void add_measurement_options(CLI::App& command, ContestOptions& options) {
+void add_measurement_options(CLI::App& command, ContestOptions& options, RunOptions& run) {
   command
       .add_option("--method", options.methods,
                   "Methods to run (default: all that suit the case), of " + method_list())
@@ -189,7 +206,7 @@ void add_measurement_options(CLI::App& command, ContestOptions& options) {
                   "Time every run in exactly so many rounds, whatever it takes")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000));
-  add_run_options(command, options.run);
+  add_run_options(command, run);
   command
       .add_option("--digits", options.digits, "Digits of our own reference solution (default 30)")
       ->check(CLI::Range(20, 1000));
@@ -213,7 +230,7 @@ void register_bench(CLI::App& program, Action& action) {
   command->add_option("CASE", options->case_names,
                       "Bundled cases, case files, or - for standard input");
   add_all(*command, options->all, options->tag, "Every bundled case");
-  add_measurement_options(*command, options->contest);
+  add_measurement_options(*command, options->contest, options->run);
   command
       ->add_option("--output", options->outputs,
                    "Write the rows to a .csv file, or all of it to an .html page (repeatable)")

@@ -14,6 +14,7 @@
 #include "tools/kept_parameters.hpp"
 #include "tools/output.hpp"
 #include "tools/progress.hpp"
+#include "tools/run_options.hpp"
 #include "tools/scene_values.hpp"
 
 namespace casimir::tools {
@@ -56,7 +57,7 @@ void conserve_case(const CaseFile& file, const Options& options,
   if (scenes.empty() && !options.all) model.scene("default");  // throws: there is none
   const Scene* drawn = picture ? &model.scene(options.common.scene) : nullptr;
   if (picture) picture->title = fmt::format("{}, scene {}", model.name, drawn->name);
-  ConserveOptions what{.run = options.run,
+  ConserveOptions what{.run = options.run.request(),
                        .code = options.kept.in<SceneOptions>(),
                        .bound = options.bound,
                        .give_up = give_up};

@@ -7,9 +7,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "tools/analysis/equilibria.hpp"
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
-#include "tools/equilibria.hpp"
 #include "tools/errors.hpp"
 #include "tools/search_watch.hpp"
 

@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "symbolic/search/exponents.hpp"
+#include "tools/analysis/numeric_balances.hpp"
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/errors.hpp"
-#include "tools/numeric_balances.hpp"
 #include "tools/search_options.hpp"
 #include "tools/search_watch.hpp"
 

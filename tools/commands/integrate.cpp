@@ -8,6 +8,9 @@
 #include <iostream>
 #include <optional>
 
+#include "tools/analysis/conversion.hpp"
+#include "tools/analysis/judged_run.hpp"
+#include "tools/analysis/scene_run.hpp"
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
@@ -15,14 +18,14 @@
 #include "tools/ensemble_run.hpp"
 #include "tools/errors.hpp"
 #include "tools/generated_report.hpp"
-#include "tools/judged_run.hpp"
 #include "tools/kept_parameters.hpp"
 #include "tools/motion_options.hpp"
 #include "tools/output.hpp"
 #include "tools/run_options.hpp"
 #include "tools/run_report.hpp"
-#include "tools/scene_run.hpp"
 #include "tools/scene_values.hpp"
+#include "tools/trust_report.hpp"
+#include "tools/watched_run.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -51,7 +54,7 @@ class Answer {
     if (as.empty()) return;
     if (names_.size() != model.variables.size())
       throw UsageError("--as needs every variable, and some are left out; see --observe");
-    conversion_.emplace(model, as);
+    conversion_.emplace(model, bundled_atlas(), as);
     names_ = conversion_->names();
   }
 
@@ -91,8 +94,8 @@ void write_samples(const std::string& path, const Answer& answer, const Trajecto
   file.commit();
 }
 
-Json to_json(const Model& model, const SceneRun& run, const Answer& answer,
-             const JudgedRun& judged) {
+Json to_json(const Model& model, const SceneRun& run, const Answer& answer, const JudgedRun& judged,
+             const RunWords& words) {
   const Specialisation& s = run.specialisation;
   const Trajectory& trajectory = judged.trajectory;
   Json json = {{"case", model.name},
@@ -124,17 +127,18 @@ Json to_json(const Model& model, const SceneRun& run, const Answer& answer,
                      {"integrate", trajectory.seconds}};
   json["from_cache"] = judged.compiled->from_cache;
   json["left_out"] = left_out_json(s);
-  json["warnings"] = judged.warnings;
+  json["warnings"] = words.warnings;
   json["trust"] = tools::to_json(judged.trust);
   if (trajectory.status != Status::ok) {
     json["stopped"] = {{"time", exact_text(trajectory.time)},
                        {"reason", trajectory.reason},
-                       {"advice", judged.advice}};
+                       {"advice", words.advice}};
   }
   return json;
 }
 
-void print_text(const SceneRun& run, const Answer& answer, const JudgedRun& judged) {
+void print_text(const SceneRun& run, const Answer& answer, const JudgedRun& judged,
+                const RunWords& words) {
   const Specialisation& s = run.specialisation;
   const CompiledModule& compiled = *judged.compiled;
   const Trajectory& trajectory = judged.trajectory;
@@ -164,11 +168,11 @@ void print_text(const SceneRun& run, const Answer& answer, const JudgedRun& judg
                judged.trust.error_estimate, judged.trust.conditioning);
   for (const LeftOut& item : s.left_out)
     fmt::print("  left out: {} {}, {}\n", item.kind, item.name, item.reason);
-  for (const std::string& warning : judged.warnings) fmt::print("  warning: {}\n", warning);
+  for (const std::string& warning : words.warnings) fmt::print("  warning: {}\n", warning);
 }
 
 /// What a run that stopped early says beside its answer. \return  the exit status
-int report_stop(const SceneRun& run, const JudgedRun& judged) {
+int report_stop(const SceneRun& run, const JudgedRun& judged, const RunWords& words) {
   const Trajectory& trajectory = judged.trajectory;
   std::string state;
   for (std::size_t i = 0; i < run.specialisation.states.size(); ++i) {
@@ -180,8 +184,8 @@ int report_stop(const SceneRun& run, const JudgedRun& judged) {
   std::cerr << fmt::format("casimir: error: the integration {} t = {}: {}\n  {}: {}\n  hint: {}\n",
                            ended ? "cannot be trusted to" : "stopped at",
                            exact_text(trajectory.time), trajectory.reason,
-                           ended ? "state" : "last good state", state, judged.advice);
-  if (judged.interrupted) return kInterrupted;
+                           ended ? "state" : "last good state", state, words.advice);
+  if (words.interrupted) return kInterrupted;
   return trajectory.status == Status::stopped ? kEnvironment : kNotContinued;
 }
 
@@ -198,7 +202,7 @@ SceneOptions scene_options(const Options& options) {
 int integrate_members_of(const Options& options) {
   if (!options.in.empty() || !options.as.empty())
     throw UsageError("--in and --as do not go with --ensemble");
-  if (options.run.projects()) throw UsageError("--project does not go with --ensemble");
+  if (options.run.asked.projects()) throw UsageError("--project does not go with --ensemble");
   if (options.every > 0)
     throw UsageError("--every does not go with --ensemble: the end of each member is written");
   return integrate_ensemble({options.common, options.run, options.kept, options.start,
@@ -231,7 +235,7 @@ int integrate_case(const Options& options) {
     throw UsageError("--plot does not go with --as; --in integrates and draws in other variables");
   if (options.digits) {
     if (!options.ensemble.empty()) throw UsageError("--digits does not go with --ensemble");
-    if (options.run.projects()) throw UsageError("--project does not go with --digits");
+    if (options.run.asked.projects()) throw UsageError("--project does not go with --digits");
     return integrate_with_digits({options.common, options.run, options.kept, options.start,
                                   options.case_name, options.in, options.as, options.method,
                                   options.output, options.every, *options.digits,
@@ -250,25 +254,31 @@ int integrate_case(const Options& options) {
   if (options.every > 0 && options.output.empty() && !options.picture.wanted())
     throw UsageError("--every needs --output FILE.csv or --plot FILE.svg");
   check_picture(model, scene, run, options);
-  JudgedOptions how{.method = options.method, .run = options.run};
+  JudgedOptions how{.method = options.method, .run = options.run.request()};
   how.time_limit = options.common.time_limit;
-  how.shows_progress = !options.common.quiet;
-  // What is written to a file is worth keeping; without one an interrupt leaves nothing behind.
-  how.keeps_interrupted = !options.output.empty();
+  bool interrupted = false;
+  how.around = [&](Settings& settings, const std::function<void()>& run_it) {
+    // What is written to a file is worth keeping; without one an interrupt leaves nothing behind.
+    const WatchedRun watched(settings, !options.common.quiet, !options.output.empty());
+    run_it();
+    interrupted = watched.interrupted();
+  };
   if (!options.output.empty())
-    how.sample_every = options.every > 0 ? options.every
-                                         : std::abs(settings_for(options.run, run).duration) / 1000;
+    how.sample_every =
+        options.every > 0 ? options.every : std::abs(settings_for(how.run, run).duration) / 1000;
   const JudgedRun judged = integrate_judged(model, run, how);
+  const RunWords words = words_of(judged, interrupted);
   if (!options.output.empty()) write_samples(options.output, answer, judged.trajectory);
   if (options.common.json) {
-    std::cout << to_json(model, run, answer, judged).dump(2) << '\n';
+    std::cout << to_json(model, run, answer, judged, words).dump(2) << '\n';
   } else if (!options.common.quiet) {
-    print_text(run, answer, judged);
+    print_text(run, answer, judged, words);
     if (!options.output.empty())
       fmt::print("  wrote {} states to {}\n", judged.trajectory.samples.size(),
                  printable(options.output, 200));
   }
-  const int status = judged.trajectory.status == Status::ok ? kDone : report_stop(run, judged);
+  const int status =
+      judged.trajectory.status == Status::ok ? kDone : report_stop(run, judged, words);
   // The answer first: pictures need a program that may be missing.
   draw_motion(model, scene, run, judged, options);
   return status;

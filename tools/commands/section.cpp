@@ -16,6 +16,7 @@
 #include "tools/scene_values.hpp"
 #include "tools/section/picture.hpp"
 #include "tools/section/report.hpp"
+#include "tools/section/request.hpp"
 #include "tools/section/seeds.hpp"
 
 namespace casimir::tools {
@@ -25,7 +26,7 @@ struct Options {
   Common common;
   OtherStart start;
   std::string case_name, seeds;
-  SectionRequest request;
+  SectionOptions request;
   std::vector<std::string> outputs;
   std::size_t orbits = 40, points = 500, cycles = 0;
   bool fixed_points = false;
@@ -71,8 +72,8 @@ class Section {
       : options_(options),
         file_(options.start.in(load_case(options.case_name))),
         model_(model_of(file_, options.common.parameter_values())),
-        problem_(
-            section_problem(file_, model_, model_.scene(options.common.scene), options.request)),
+        problem_(section_problem(model_, model_.scene(options.common.scene),
+                                 section_request(file_, model_, options.request))),
         level_(problem_),
         progress_(!options.common.quiet),
         cutter_(problem_, {options.tolerance, options.jobs, time_limit(options.common.time_limit)},
@@ -316,7 +317,7 @@ int section(const Options& options) {
   return Section(options).run();
 }
 
-void add_plane_options(CLI::App& command, SectionRequest& request) {
+void add_plane_options(CLI::App& command, SectionOptions& request) {
   command.add_option("--energy", request.energy, "Value of the Hamiltonian (default: the scene's)")
       ->type_name("VALUE");
   command

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "tools/analysis/conversion.hpp"
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/choices.hpp"
@@ -27,7 +28,7 @@ struct Options {
 
 /// The initial states of the scenes in other variables, exactly and as numbers.
 int show_scenes_as(const Model& model, const Options& options) {
-  const Conversion conversion(model, options.as);
+  const Conversion conversion(model, bundled_atlas(), options.as);
   nlohmann::ordered_json scenes = nlohmann::json::array();
   for (const Scene& scene : model.scenes) {
     if (options.common.scene_given && &scene != &model.scene(options.common.scene)) continue;

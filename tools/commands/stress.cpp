@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "symbolic/error.hpp"
+#include "tools/analysis/scene_run.hpp"
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
@@ -18,10 +19,10 @@
 #include "tools/output.hpp"
 #include "tools/progress.hpp"
 #include "tools/run_options.hpp"
-#include "tools/scene_run.hpp"
 #include "tools/stress/children.hpp"
 #include "tools/stress/matrix.hpp"
 #include "tools/stress/picture.hpp"
+#include "tools/stress/transport.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -168,7 +169,7 @@ class Stress {
     StressMatrix::Line line{models_[source].name, scene.name, scene.extreme, {}};
     for (const StressMatrix::Column& column : matrix_.columns) {
       StressCell cell{.row = asked(entries_.back(), column), .outside = column.outside};
-      cell.row.status = to_string(Status::stopped);
+      cell.row.status = Status::stopped;
       cell.row.reason = "it was not run";
       line.cells.push_back(std::move(cell));
     }
@@ -233,10 +234,11 @@ class Stress {
     const std::size_t line = i / matrix_.columns.size(), column = i % matrix_.columns.size();
     const Entry& entry = entries_[line];
     const StressMatrix::Column& how = matrix_.columns[column];
-    matrix_.lines[line].cells[column] = cell_of(asked(entry, how), how.outside, entry.truth, reply);
-    const nlohmann::json said = nlohmann::json::parse(reply.out, nullptr, false);
-    return said.is_discarded() || said.at("status") != "stopped" ||
-           said.at("seconds").at("compile").get<double>() < options_.cell_limit / 4;
+    const StressAnswer answer = answer_of(reply);
+    matrix_.lines[line].cells[column] =
+        cell_of(asked(entry, how), how.outside, entry.truth, answer);
+    return answer.kind != StressAnswer::Kind::answered || answer.status != Status::stopped ||
+           answer.compile_seconds < options_.cell_limit / 4;
   }
 
   void run(const std::vector<Job>& jobs,

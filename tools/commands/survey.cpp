@@ -8,11 +8,11 @@
 #include <optional>
 
 #include "codegen/specialise.hpp"
+#include "tools/analysis/limited_prove.hpp"
 #include "tools/case_library.hpp"
 #include "tools/choices.hpp"
 #include "tools/cli.hpp"
 #include "tools/errors.hpp"
-#include "tools/limited_prove.hpp"
 #include "tools/marked_file.hpp"
 #include "tools/output.hpp"
 #include "tools/progress.hpp"

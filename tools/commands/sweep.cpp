@@ -10,6 +10,10 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "tools/analysis/sweep/exponents.hpp"
+#include "tools/analysis/sweep/integrations.hpp"
+#include "tools/analysis/sweep/sections.hpp"
+#include "tools/analysis/sweep/sweep.hpp"
 #include "tools/case_library.hpp"
 #include "tools/choices.hpp"
 #include "tools/cli.hpp"
@@ -17,11 +21,11 @@
 #include "tools/output.hpp"
 #include "tools/progress.hpp"
 #include "tools/run_report.hpp"
+#include "tools/run_options.hpp"
 #include "tools/scene_values.hpp"
-#include "tools/sweep/exponents.hpp"
-#include "tools/sweep/integrations.hpp"
-#include "tools/sweep/sections.hpp"
-#include "tools/sweep/sweep.hpp"
+#include "tools/section/request.hpp"
+#include "tools/sweep/grid_options.hpp"
+#include "tools/sweep/mpi_ranks.hpp"
 #include "tools/sweep/table.hpp"
 
 namespace casimir::tools {
@@ -59,15 +63,15 @@ struct Prepared {
         scene(&model.scene(options.common.scene)),
         method(&method_named(options.method)) {
     SceneOptions how;
-    const std::vector<std::string> set = Places::names(grid, options.lets);
+    const std::vector<std::string> set = names_set(grid, options.lets);
     for (const GiNaC::symbol& p : model.parameters)
       if (std::ranges::find(set, p.get_name()) != set.end())
         how.keep_parameters.push_back(p.get_name());
     if (!options.observe.empty()) how.observe = options.observe;
     run = prepare(model, *scene, how);
-    RunOptions how_far = options.run;
+    RunRequest how_far = options.run.request();
     // A section goes on until it has its points.
-    if (options.task == kSection && !scene->duration) how_far.duration = "0";
+    if (options.task == kSection && !scene->duration) how_far.duration = 0;
     settings = settings_for(how_far, run);
     settings.invariant_terms = nullptr;
     if (options.task == kSection) {
@@ -81,11 +85,14 @@ struct Prepared {
 std::unique_ptr<SweepTask> task_of(const Options& options, const CaseFile& file, const Prepared& p,
                                    const Places& places) {
   if (options.task == kSection)
-    return std::make_unique<Sections>(file, p.model, *p.scene, places, options.orbits,
-                                      options.points, kSectionTolerance);
-  if (options.task == kExponents)
+    return std::make_unique<Sections>(p.model, *p.scene, places, section_request(file, p.model),
+                                      options.orbits, options.points, kSectionTolerance);
+  if (options.task == kExponents) {
+    if (p.run.specialisation.uses_time)
+      throw UsageError("--do exponents: the equations depend on the time");
     return std::make_unique<LyapunovExponents>(p.model, *p.scene, p.run, places, *p.method,
                                                p.settings);
+  }
   return std::make_unique<Integrations>(p.run, places, *p.method, p.settings, p.grid.points());
 }
 
@@ -203,7 +210,7 @@ int sweep_in(const Ranks& ranks, const Options& options) {
   const std::string output = options.output.empty() ? file.name + "-sweep.csv" : options.output;
   check_sweep_output(output);
   const Prepared p(options, file);
-  const Places places(p.model, *p.scene, p.run, p.grid, options.lets);
+  const Places places(p.model, *p.scene, p.run, p.grid, read_lets(options.lets, p.grid, p.model));
   const std::unique_ptr<SweepTask> doing = task_of(options, file, p, places);
   const SweepTask& task = *doing;
   const auto* integrations = dynamic_cast<const Integrations*>(doing.get());
@@ -242,7 +249,7 @@ int sweep_in(const Ranks& ranks, const Options& options) {
 }
 
 int sweep(const Options& options) {
-  const Ranks ranks;
+  const MpiRanks ranks;
   try {
     return sweep_in(ranks, options);
   } catch (const std::exception&) {

@@ -10,11 +10,11 @@
 #include <optional>
 
 #include "symbolic/certificate.hpp"
+#include "tools/analysis/limited_prove.hpp"
 #include "tools/atlas.hpp"
 #include "tools/case_library.hpp"
 #include "tools/cli.hpp"
 #include "tools/errors.hpp"
-#include "tools/limited_prove.hpp"
 #include "tools/output.hpp"
 #include "tools/proof_report.hpp"
 #include "tools/verify_report.hpp"

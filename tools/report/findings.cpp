@@ -7,10 +7,10 @@
 
 #include "codegen/compile.hpp"
 #include "symbolic/error.hpp"
+#include "tools/analysis/limited_prove.hpp"
 #include "tools/conserve_run.hpp"
 #include "tools/errors.hpp"
-#include "tools/judged_run.hpp"
-#include "tools/limited_prove.hpp"
+#include "tools/trust_report.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -67,7 +67,7 @@ class Investigation {
       note(problem);
     } catch (const ModelError& problem) {
       note(problem);
-    } catch (const UsageError& problem) {
+    } catch (const RequestError& problem) {
       note(problem);
     } catch (const SingularPoint& problem) {
       note(problem);
@@ -106,7 +106,7 @@ class Investigation {
     if (judged.trajectory.status != Status::ok)
       result_.notes.push_back(fmt::format("motion: the run stopped at t = {:.6g}: {}",
                                           judged.trajectory.time, judged.trajectory.reason));
-    for (const std::string& warning : judged.warnings)
+    for (const std::string& warning : words_of(judged).warnings)
       result_.notes.push_back("motion: " + warning);
   }
 
@@ -132,7 +132,7 @@ class Investigation {
     const ConserveOptions what{.code = options_.code, .give_up = time_limit(seconds)};
     std::vector<DriftRecord> drifts;
     Row row = conserve_scene(model_, scene, method, what, &drifts);
-    if (row.status == to_string(Status::stopped)) {
+    if (row.end == RowEnd::ran && row.status == Status::stopped) {
       row.failed = false;
       row.refused = true;
       row.reason = fmt::format("not at its end after {:.2g} s", seconds);

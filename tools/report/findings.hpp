@@ -8,7 +8,7 @@
 
 #include "codegen/specialise.hpp"
 #include "symbolic/prove.hpp"
-#include "tools/bench/contest.hpp"
+#include "tools/analysis/benchmark/contest.hpp"
 #include "tools/drift_plot.hpp"
 #include "tools/machine.hpp"
 #include "tools/motion_plot.hpp"

@@ -43,7 +43,7 @@ std::string left_out(const Specialisation& code) {
 }
 
 std::string status_of(const Row& row) {
-  return row.reason.empty() ? row.status : row.status + ": " + row.reason;
+  return row.reason.empty() ? status_text(row) : status_text(row) + ": " + row.reason;
 }
 
 }  // namespace

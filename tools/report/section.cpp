@@ -1,9 +1,10 @@
 // The Poincare section of a report: some orbits all over the domain of possible motion, on the
 // level of the scene.
+#include "tools/analysis/section/domain_orbits.hpp"
 #include "tools/plot.hpp"
 #include "tools/report/pictures.hpp"
-#include "tools/section/domain_orbits.hpp"
 #include "tools/section/picture.hpp"
+#include "tools/section/request.hpp"
 
 namespace casimir::tools {
 
@@ -11,7 +12,7 @@ std::string section_svg(const CaseFile& file, const Model& model, const Scene& s
                         const std::string& beside) {
   constexpr std::size_t kOrbits = 24, kPoints = 200;
   constexpr double kTolerance = 1e-14, kLongest = 5;
-  const SectionProblem problem = section_problem(file, model, scene, {});
+  const SectionProblem problem = section_problem(model, scene, section_request(file, model));
   const LevelSet level(problem);
   const OrbitCutter cutter(problem, {kTolerance, 0, time_limit(kLongest)}, kOrbits * kPoints);
   const std::vector<OrbitReport> orbits = domain_orbits(level, cutter, kOrbits, kPoints);

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/section/cycles.hpp"
-#include "tools/section/orbits.hpp"
+#include "tools/analysis/section/cycles.hpp"
+#include "tools/analysis/section/orbits.hpp"
 
 namespace casimir::tools {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/section/spread.hpp"
+#include "tools/analysis/section/spread.hpp"
 
 namespace casimir::tools {
 

@@ -123,7 +123,7 @@ void write_csv(std::ostream& stream, const StressMatrix& matrix) {
       stream << fmt::format("{},{},{},{:g},{},{},{:.6g},{},{},{},{},{},{}\n",
                             csv_field(row.case_name), csv_field(row.scene), row.method,
                             row.tolerance, number(row.error), number(row.drift), row.seconds,
-                            row.steps, row.evaluations, row.status, to_string(cell.verdict),
+                            row.steps, row.evaluations, status_text(row), to_string(cell.verdict),
                             line.extreme, csv_field(row.reason));
     }
   }

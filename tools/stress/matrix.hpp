@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/stress/cell.hpp"
+#include "tools/analysis/stress/cell.hpp"
+#include "tools/run_report.hpp"
 
 namespace casimir::tools {
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "symbolic/error.hpp"
 #include "tools/errors.hpp"
 #include "tools/output.hpp"
 #include "tools/run_report.hpp"

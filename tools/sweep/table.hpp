@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/sweep/grid.hpp"
-#include "tools/sweep/task.hpp"
+#include "tools/analysis/sweep/grid.hpp"
+#include "tools/analysis/sweep/task.hpp"
 
 namespace casimir::tools {
 

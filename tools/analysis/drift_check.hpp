@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/integrate.hpp"
+#include "symbolic/model.hpp"
+#include "symbolic/prove.hpp"
+
+namespace casimir {
+
+/// Looks at the invariants that drifted by more than the tolerance allows. One that is proved to be
+/// an integral of the case turns an `ok` into `drift_exceeded`; one that is not proves nothing
+/// about the run. \param names  of the invariants of the trajectory, "H" and those of the file
+/// \return       a sentence about each that is no proved integral
+std::vector<std::string> check_drift(const Model& model, const std::vector<std::string>& names,
+                                     Trajectory& trajectory);
+
+/// Whether that invariant of the case, "H" or one of the file, is an integral.
+Verdict verdict_on(const Model& model, const std::string& invariant);
+
+}  // namespace casimir

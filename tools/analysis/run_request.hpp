@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/integrate.hpp"
+#include "runtime/methods.hpp"
+#include "tools/analysis/scene_run.hpp"
+
+namespace casimir {
+
+/// What a run shall be like, as far as anything is asked: the rest follows from the scene.
+struct RunRequest {
+  std::optional<double> rtol, atol;
+  std::optional<double> tolerance;   ///< both; the absolute one in units of a small initial state
+  std::optional<double> step;        ///< constant, instead of error control
+  std::optional<double> duration;    ///< without it that of the scene
+  unsigned long long max_steps = 0;  ///< 0: no limit
+  bool project = false;              ///< onto every invariant that is proved
+  std::vector<std::string> project_onto;  ///< only onto these
+  /// Whether anything is projected onto.
+  bool projects() const { return project || !project_onto.empty(); }
+};
+
+/// Settings for a scene. The absolute tolerance of `tolerance` is in units of the initial state
+/// where that is smaller than 1: a tiny scene is not all tolerance. Without any request it is a
+/// thousandth of that.
+/// \throws CaseError  where neither the request nor the scene has a duration.
+Settings settings_for(const RunRequest& request, const SceneRun& run,
+                      double default_tolerance = 1e-10);
+
+/// The method of that name; "auto" is resolved.
+/// \throws RequestError  with the nearest name.
+const Method& method_named(const std::string& name);
+
+}  // namespace casimir

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "tools/analysis/section/orbits.hpp"
+
+namespace casimir {
+
+/// A cycle of the return map; one of length 1 is a fixed point.
+struct Cycle {
+  std::vector<PlacedPoint> points;  ///< in the order in which they are visited
+  double period = 0;                ///< time for all of it
+  double trace = 0;                 ///< of the derivative of the return map's n-th iterate
+  double determinant = 1;           ///< of the same; 1 but for errors: the map keeps the area
+  double residual = 0;              ///< distance of the point that it returns to, in phase space
+
+  std::size_t length() const { return points.size(); }
+  /// "elliptic", "hyperbolic", "inverse hyperbolic".
+  std::string kind() const;
+  bool stable() const;
+  /// The two Floquet multipliers of the periodic orbit that are not 1 by the motion along it and
+  /// across the levels: the roots of m^2 - trace*m + 1.
+  std::array<std::complex<double>, 2> multipliers() const;
+};
+
+struct CycleSearch {
+  std::vector<Cycle> cycles;
+  std::size_t degenerate = 0;  ///< members of families: the trace is 2, as in integrable systems
+};
+
+/// Cycles up to a length, by Newton's method on the return map from each of the starts. Its
+/// derivative follows from the variational equations, along the level and the plane. Finds what
+/// the starts lead to: there may be others.
+/// \param progress  told the share that is done.
+CycleSearch find_cycles(const LevelSet& level, const OrbitCutter& cutter,
+                        const std::vector<PlacedPoint>& starts, std::size_t longest,
+                        const std::function<void(double)>& progress);
+
+}  // namespace casimir

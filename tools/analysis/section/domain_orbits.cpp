@@ -1,0 +1,20 @@
+#include "tools/analysis/section/domain_orbits.hpp"
+
+namespace casimir {
+
+std::vector<OrbitReport> domain_orbits(const LevelSet& level, const OrbitCutter& cutter,
+                                       std::size_t orbits, std::size_t points) {
+  const SectionProblem& problem = level.problem();
+  std::vector<LevelSet::Vector> known;
+  if (problem.on_scene)
+    known.emplace_back(Eigen::Map<const LevelSet::Vector>(
+        problem.run.initial.data(), static_cast<Eigen::Index>(problem.states())));
+  const std::vector<PlacedPoint> domain = points_of_domain(level, cutter.returning(), known);
+  if (domain.empty()) return {};
+  std::vector<LevelSet::Vector> seeds;
+  for (const PlacedPoint& point : centred(level, domain, spread_out(level, domain, orbits)))
+    seeds.push_back(point.x);
+  return judged_orbits(level, cutter.orbits(seeds, points), seeds);
+}
+
+}  // namespace casimir

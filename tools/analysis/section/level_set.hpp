@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "runtime/interpreter.hpp"
+#include "tools/analysis/section/problem.hpp"
+
+namespace casimir {
+
+/// The points of the plane on one energy and Casimir level. One object serves one thread.
+class LevelSet {
+ public:
+  using Vector = Eigen::VectorXd;
+
+  explicit LevelSet(const SectionProblem& problem);
+
+  const SectionProblem& problem() const { return problem_; }
+
+  /// Moves a point to the nearest one of the level set, about, by Newton's method with the shortest
+  /// correction (Gauss and Newton). Whether it arrived, to rounding.
+  /// \param pair    these values of the plotted pair are to be met too.
+  /// \param energy  false: on any energy.
+  bool project(Vector& x, const std::array<double, 2>* pair = nullptr, bool energy = true) const;
+
+  /// How far the level functions are from their values, relative to the size of their terms: the
+  /// largest of all.
+  double distance_from_level(const double* x) const;
+
+  double energy(const Vector& x) const;
+  Vector energy_gradient(const Vector& x) const;
+  Vector field(const Vector& x) const;
+  Vector plane_gradient(const Vector& x) const;
+  /// Rate of the plane's function along the field over the product of the lengths of both: between
+  /// -1 and 1, positive where it is crossed in the direction wanted.
+  double speed(const Vector& x) const;
+  /// The plotted pair, angles from 0 to their period.
+  std::array<double, 2> plotted(const double* x) const;
+  /// An orthonormal basis of the directions that stay in the level set: a column each, as many as
+  /// the leaf has dimensions but two.
+  Eigen::MatrixXd tangent(const Vector& x) const;
+  /// The difference of two points, angles the short way round.
+  Vector difference(const Vector& to, const Vector& from) const;
+
+ private:
+  void evaluate(const double* x) const;
+  Eigen::MatrixXd gradients(const Vector& x) const;
+  Eigen::Index plane_index() const { return static_cast<Eigen::Index>(problem_.levels.size()); }
+
+  const SectionProblem& problem_;
+  Interpreter invariants_, gradients_, rhs_;
+  mutable std::vector<double> inputs_, values_, entries_;
+};
+
+}  // namespace casimir

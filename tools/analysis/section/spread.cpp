@@ -1,0 +1,251 @@
+#include "tools/analysis/section/spread.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <random>
+#include <utility>
+
+namespace casimir {
+namespace {
+
+using Vector = LevelSet::Vector;
+
+constexpr int kRandomPoints = 1500, kRounds = 5, kParents = 120, kChildren = 4;
+/// Points that are crossed at a smaller angle are next to tangencies.
+constexpr double kLeastSpeed = 1e-6;
+constexpr double kFarAway = 30;
+/// To a side of the picture.
+constexpr double kCells = 100;
+constexpr int kCentrings = 3;
+
+/// Numbers that are the same with every standard library.
+class Chance {
+ public:
+  /// From -1 to 1.
+  double operator()() { return std::ldexp(static_cast<double>(engine_() >> 11), -52) - 1; }
+
+ private:
+  std::mt19937_64 engine_{20190719};
+};
+
+double size_of_scene(const LevelSet& level) {
+  double size = 0;
+  for (const double x : level.problem().run.initial) size = std::max(size, std::abs(x));
+  return size > 0 ? size : 1;
+}
+
+/// A point anywhere near where the scene is, in one of several sizes.
+Vector anywhere(const LevelSet& level, Chance& chance, int number) {
+  constexpr double kSizes[] = {0.3, 1, 3};
+  const double size = kSizes[number % 3] * size_of_scene(level);
+  Vector x(static_cast<Eigen::Index>(level.problem().states()));
+  for (Eigen::Index i = 0; i < x.size(); ++i)
+    x[i] = (level.problem().angles[static_cast<std::size_t>(i)] ? std::acos(-1.) : size) * chance();
+  return x;
+}
+
+/// From b to a in the picture, whose sides have the lengths `sides`; angles the short way round.
+std::array<double, 2> way(const LevelSet& level, const std::array<double, 2>& sides,
+                          const std::array<double, 2>& a, const std::array<double, 2>& b) {
+  std::array<double, 2> result{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    double d = a[k] - b[k];
+    const double period = level.problem().plotted[k].period;
+    if (period > 0) d -= period * std::round(d / period);
+    result[k] = d / sides[k];
+  }
+  return result;
+}
+
+double distance(const LevelSet& level, const std::array<double, 2>& sides,
+                const std::array<double, 2>& a, const std::array<double, 2>& b) {
+  const auto [x, y] = way(level, sides, a, b);
+  return std::sqrt(x * x + y * y);
+}
+
+std::array<double, 2> sides_of(const LevelSet& level, const std::vector<PlacedPoint>& points) {
+  std::array<double, 2> sides{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    double least = std::numeric_limits<double>::infinity(), largest = -least;
+    for (const PlacedPoint& point : points) {
+      least = std::min(least, point.place[k]);
+      largest = std::max(largest, point.place[k]);
+    }
+    const double period = level.problem().plotted[k].period;
+    sides[k] = period > 0 ? period : largest > least ? largest - least : 1;
+  }
+  return sides;
+}
+
+class Search {
+ public:
+  Search(const LevelSet& level, const Returning& returning)
+      : level_(level), returning_(returning), size_(size_of_scene(level)) {}
+
+  void add(Vector x) {
+    if (!level_.project(x) || level_.speed(x) < kLeastSpeed) return;
+    if (x.norm() > kFarAway * size_ * std::sqrt(static_cast<double>(x.size()))) return;
+    const std::array<double, 2> place = level_.plotted(x.data());
+    if (std::isfinite(place[0]) && std::isfinite(place[1])) fresh_.push_back({x, place});
+  }
+
+  /// Keeps those of the new points that orbits return from.
+  void sift() {
+    const std::vector<bool> keep = returning_(fresh_);
+    for (std::size_t i = 0; i < fresh_.size(); ++i)
+      if (keep[i]) points_.push_back(std::move(fresh_[i]));
+    fresh_.clear();
+  }
+
+  void random(int count) {
+    for (int i = 0; i < count; ++i) add(anywhere(level_, chance_, i));
+  }
+
+  /// Further points from the sparsest parts.
+  void grow() {
+    for (const PlacedPoint& parent : spread_out(level_, points_, kParents)) {
+      const Eigen::MatrixXd basis = level_.tangent(parent.x);
+      for (int child = 0; child < kChildren; ++child) {
+        Vector direction(basis.cols());
+        for (Eigen::Index i = 0; i < direction.size(); ++i) direction[i] = chance_();
+        add(parent.x + size_ * std::ldexp(0.5, -child) * (basis * direction));
+      }
+    }
+  }
+
+  std::vector<PlacedPoint> points() { return std::move(points_); }
+  bool empty() const { return points_.empty(); }
+
+ private:
+  const LevelSet& level_;
+  const Returning& returning_;
+  const double size_;
+  Chance chance_;
+  std::vector<PlacedPoint> fresh_, points_;
+};
+
+}  // namespace
+
+std::vector<PlacedPoint> points_of_domain(const LevelSet& level, const Returning& returning,
+                                          const std::vector<Vector>& known) {
+  Search search(level, returning);
+  for (const Vector& x : known) search.add(x);
+  search.random(kRandomPoints);
+  search.sift();
+  for (int round = 0; round < kRounds && !search.empty(); ++round) {
+    search.grow();
+    search.sift();
+  }
+  return search.points();
+}
+
+namespace {
+
+/// One place for each small part of the picture that has any.
+PicturePlaces thinned(const std::array<double, 2>& sides, const PicturePlaces& places) {
+  std::map<std::pair<long, long>, std::array<double, 2>> cells;
+  for (const auto& place : places)
+    cells.try_emplace(
+        {std::lround(kCells * place[0] / sides[0]), std::lround(kCells * place[1] / sides[1])},
+        place);
+  PicturePlaces result;
+  for (const auto& [cell, place] : cells) result.push_back(place);
+  return result;
+}
+
+}  // namespace
+
+std::vector<PlacedPoint> spread_out(const LevelSet& level, const std::vector<PlacedPoint>& points,
+                                    std::size_t count, const PicturePlaces& taken) {
+  const std::array<double, 2> sides = sides_of(level, points);
+  std::array<double, 2> middle{};
+  for (const PlacedPoint& point : points)
+    for (std::size_t k = 0; k < 2; ++k)
+      middle[k] += point.place[k] / static_cast<double>(points.size());
+  std::vector<double> nearest(points.size(), std::numeric_limits<double>::infinity());
+  const PicturePlaces others = thinned(sides, taken);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (const auto& place : others)
+      nearest[i] = std::min(nearest[i], distance(level, sides, points[i].place, place));
+    if (others.empty()) nearest[i] = 1 / (1 + distance(level, sides, points[i].place, middle));
+  }
+  std::vector<PlacedPoint> chosen;
+  while (chosen.size() < std::min(count, points.size())) {
+    const auto next = static_cast<std::size_t>(std::ranges::max_element(nearest) - nearest.begin());
+    if (!(nearest[next] > 0)) break;  // what is left lies where others are
+    const bool first = chosen.empty() && others.empty();
+    chosen.push_back(points[next]);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double d = distance(level, sides, points[i].place, points[next].place);
+      nearest[i] = first ? d : std::min(nearest[i], d);
+    }
+  }
+  return chosen;
+}
+
+std::vector<PlacedPoint> centred(const LevelSet& level, const std::vector<PlacedPoint>& points,
+                                 std::vector<PlacedPoint> chosen) {
+  const std::array<double, 2> sides = sides_of(level, points);
+  PicturePlaces all;
+  for (const PlacedPoint& point : points) all.push_back(point.place);
+  all = thinned(sides, all);
+  const auto nearest_of = [&](const std::vector<PlacedPoint>& list,
+                              const std::array<double, 2>& to) {
+    return static_cast<std::size_t>(
+        std::ranges::min_element(
+            list, {},
+            [&](const PlacedPoint& point) { return distance(level, sides, point.place, to); }) -
+        list.begin());
+  };
+  for (int round = 0; round < kCentrings && !chosen.empty(); ++round) {
+    std::vector<std::array<double, 3>> sums(chosen.size());  // of the ways, and their number
+    for (const auto& place : all) {
+      const std::size_t owner = nearest_of(chosen, place);
+      const auto [x, y] = way(level, sides, place, chosen[owner].place);
+      sums[owner][0] += x;
+      sums[owner][1] += y;
+      sums[owner][2] += 1;
+    }
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      if (sums[i][2] == 0) continue;
+      std::array<double, 2> middle = chosen[i].place;
+      for (std::size_t k = 0; k < 2; ++k) middle[k] += sides[k] * sums[i][k] / sums[i][2];
+      chosen[i] = points[nearest_of(points, middle)];
+    }
+  }
+  return chosen;
+}
+
+std::string energies_there(const LevelSet& level) {
+  Chance chance;
+  double least = std::numeric_limits<double>::infinity(), largest = -least;
+  for (int i = 0; i < 300; ++i) {
+    Vector x = anywhere(level, chance, i);
+    if (!level.project(x, nullptr, false)) continue;
+    largest = std::max(largest, level.energy(x));
+    // Downhill along the level, as far as it goes.
+    double step = 0.5 * size_of_scene(level);
+    for (int moves = 0; step > 1e-6 && moves < 300; ++moves) {
+      const Vector gradient = level.energy_gradient(x);
+      if (!(gradient.norm() > 0)) break;
+      Vector lower = x - step * gradient / gradient.norm();
+      if (level.project(lower, nullptr, false) && level.energy(lower) < level.energy(x))
+        x = lower;
+      else
+        step /= 2;
+    }
+    least = std::min(least, level.energy(x));
+  }
+  if (!(least <= largest))
+    return "no point with these values of the Casimir functions was found on the plane";
+  return fmt::format(
+      "with these values of the Casimir functions the energies found on the plane begin at {:.6g}",
+      least);
+}
+
+}  // namespace casimir

@@ -1,0 +1,22 @@
+#include "tools/analysis/stress/scene_truth.hpp"
+
+#include "tools/analysis/scene_run.hpp"
+#include "tools/analysis/truth.hpp"
+
+namespace casimir {
+
+SceneTruth truth_of_scene(const Model& model, const Scene& scene, double longest) {
+  const SceneRun run = prepare(model, scene);
+  const TruthOrReason known = truth_of(scene, run, {.longest = longest});
+  SceneTruth result{.states = run.specialisation.states};
+  result.source = known.truth ? known.source : known.reason;
+  result.singular_time = known.singular_time;
+  const bool called_so = scene.extreme == "blowup" && scene.reference.empty();
+  result.has_end = !called_so;
+  if (known.singular_time || !result.has_end || !known.truth) return result;
+  result.truth = known.truth;
+  result.growth = growth_of(run, *known.truth);
+  return result;
+}
+
+}  // namespace casimir

@@ -1,0 +1,81 @@
+#include "tools/analysis/sweep/integrations.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "codegen/emit_cpp.hpp"
+#include "runtime/ensemble.hpp"
+#include "tools/analysis/error.hpp"
+#include "tools/analysis/exact_text.hpp"
+
+namespace casimir {
+
+Integrations::Integrations(const SceneRun& run, const Places& places, const Method& method,
+                           const Settings& settings, std::size_t points)
+    : run_(run),
+      places_(places),
+      method_(method),
+      settings_(settings),
+      kernel_(ensemble_kernel(run, method, points, !(settings.fixed_step > 0))) {}
+
+std::vector<std::string> Integrations::columns() const {
+  const Specialisation& s = run_.specialisation;
+  std::vector<std::string> names{"t"};
+  names.insert(names.end(), s.states.begin(), s.states.end());
+  for (const std::string& name : s.invariant_names) names.push_back("drift_" + name);
+  names.emplace_back("steps");
+  return names;
+}
+
+std::string Integrations::fingerprint() const {
+  std::string text = fmt::format("integrate {} {} rtol {} atol {} step {} duration {} max {}\n",
+                                 method_.name, CASIMIR_VERSION, exact_text(settings_.rtol),
+                                 exact_text(settings_.atol), exact_text(settings_.fixed_step),
+                                 exact_text(settings_.duration), settings_.max_steps);
+  text += emit_module(run_.specialisation, {}, false);
+  for (const double x : run_.initial) text += exact_text(x) + " ";
+  for (const double p : run_.parameters) text += exact_text(p) + " ";
+  return text;
+}
+
+std::vector<PointResult> Integrations::run(const std::vector<std::size_t>& points, int threads,
+                                           const std::function<bool()>& give_up) const {
+  const Specialisation& s = run_.specialisation;
+  Ensemble ensemble;
+  ensemble.states = s.states.size();
+  ensemble.parameters = run_.parameters.size();
+  for (const std::size_t point : points) {
+    const auto [state, parameters] = places_.at(point);
+    ensemble.initial.insert(ensemble.initial.end(), state.begin(), state.end());
+    ensemble.values.insert(ensemble.values.end(), parameters.begin(), parameters.end());
+  }
+  Settings settings = settings_;
+  settings.give_up = give_up;
+  EnsembleResult done;
+  try {
+    done = kernel_.lanes
+               ? integrate_in_lanes(ensemble, *kernel_.lanes, s.invariants, settings, threads)
+               : integrate_members(ensemble, kernel_.module_for_thread, method_, s.invariants,
+                                   settings, threads);
+  } catch (const std::invalid_argument& problem) {
+    throw RequestError(problem.what());
+  }
+  std::vector<PointResult> results;
+  for (const MemberResult& member : done.members) {
+    PointResult& result = results.emplace_back();
+    result.status = member.status;
+    result.values.push_back(member.time);
+    result.values.insert(result.values.end(), member.state.begin(), member.state.end());
+    // A member whose turn never came has no invariants, and no state.
+    result.values.resize(1 + s.states.size(), std::numeric_limits<double>::quiet_NaN());
+    for (const InvariantRecord& record : member.invariants) result.values.push_back(record.drift);
+    result.values.resize(1 + s.states.size() + s.invariant_names.size(),
+                         std::numeric_limits<double>::quiet_NaN());
+    result.values.push_back(static_cast<double>(member.steps));
+  }
+  return results;
+}
+
+}  // namespace casimir

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "runtime/integrate.hpp"
+
+namespace casimir {
+
+/// What was found at one point of a grid: a status, and a number for each column of the task.
+struct PointResult {
+  Status status = Status::stopped;
+  std::vector<double> values;
+};
+
+/// What a sweep does at each of its points. An implementation is a file beside this one and a name
+/// in `sweep --do`. What it finds at a point must not depend, by a single bit, on the others, on
+/// their number, or on the number of threads.
+class SweepTask {
+ public:
+  virtual ~SweepTask() = default;
+
+  /// Names of the numbers that it finds at a point.
+  virtual std::vector<std::string> columns() const = 0;
+
+  /// Everything that the results follow from, besides the grid: a sweep goes on only from results
+  /// of the same text.
+  virtual std::string fingerprint() const = 0;
+
+  /// Results for these points, in their order. \param give_up  true ends it: the points that are
+  /// not done are `stopped`
+  virtual std::vector<PointResult> run(const std::vector<std::size_t>& points, int threads,
+                                       const std::function<bool()>& give_up) const = 0;
+};
+
+}  // namespace casimir

@@ -1,0 +1,14 @@
+#include "tools/analysis/verify.hpp"
+
+#include "tools/analysis/limited_prove.hpp"
+
+namespace casimir {
+
+Verification verify(const Model& model, double seconds) {
+  Verification result;
+  result.proofs = prove_within(seconds, model, {}, {});
+  result.verdict = overall(model, result.proofs);
+  return result;
+}
+
+}  // namespace casimir

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "tools/analysis/stress/cell.hpp"
+#include "tools/stress/children.hpp"
+
+namespace casimir::tools {
+
+/// From one process to another: numbers are kept exactly.
+nlohmann::json packed(const SceneTruth& truth);
+SceneTruth unpacked(const nlohmann::json& json);
+
+/// What a run of `integrate --json` answered.
+StressAnswer answer_of(const Reply& reply);
+
+}  // namespace casimir::tools
