@@ -28,10 +28,9 @@ TEST(Install, WorksRightAfterTheProgramWasBuiltAndNotBefore) {
   const Folder folder;
   const std::string built = CASIMIR_BUILD_DIR;
   const Outcome configured = shell(
-      folder,
-      "'" CASIMIR_CMAKE "' -S '" CASIMIR_SOURCE_DIR
-      "' -B build -DCMAKE_BUILD_TYPE=Release -DCASIMIR_TESTS=OFF -DCMAKE_SKIP_RPATH=ON "
-      "-DCMAKE_CXX_COMPILER='" CASIMIR_CXX "'\n");
+      folder, "'" CASIMIR_CMAKE "' -S '" CASIMIR_SOURCE_DIR
+              "' -B build -DCMAKE_BUILD_TYPE=Release -DCASIMIR_TESTS=OFF -DCMAKE_SKIP_RPATH=ON "
+              "-DCMAKE_CXX_COMPILER='" CASIMIR_CXX "'\n");
   ASSERT_EQ(configured.status, 0) << configured.out << configured.err;
   const std::string install = "'" CASIMIR_CMAKE "' --install build --prefix \"$PWD/prefix\"\n";
 
