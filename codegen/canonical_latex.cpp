@@ -4,20 +4,14 @@
 
 #include <algorithm>
 #include <set>
-#include <sstream>
 
 #include "codegen/canonical.hpp"
+#include "codegen/literal.hpp"
 
 namespace casimir::codegen {
 namespace {
 
-std::string shown(const cln::cl_RA& value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
-const char* function_name(Op op) {
+const char* latex_name_of(Op op) {
   switch (op) {
     case Op::sin:
       return "\\sin";
@@ -61,8 +55,8 @@ class Typesetter {
 
   static std::string number(const cln::cl_RA& c) {
     const cln::cl_I over = cln::denominator(c);
-    if (over == 1) return shown(c);
-    return "\\frac{" + shown(cln::numerator(c)) + "}{" + shown(over) + "}";
+    if (over == 1) return rational_text(c);
+    return "\\frac{" + rational_text(cln::numerator(c)) + "}{" + rational_text(over) + "}";
   }
 
   static std::string bracketed(const std::string& inner) { return "\\left(" + inner + "\\right)"; }
@@ -105,8 +99,8 @@ class Typesetter {
       place += power(dag_[f.node], cln::abs(f.exponent));
     }
     if (below.empty()) return coefficient == 1 ? above : number(coefficient) + " " + above;
-    const std::string top = shown(cln::numerator(coefficient));
-    const std::string bottom = shown(cln::denominator(coefficient));
+    const std::string top = rational_text(cln::numerator(coefficient));
+    const std::string bottom = rational_text(cln::denominator(coefficient));
     return "\\frac{" + (above.empty() ? top : (top == "1" ? "" : top + " ") + above) + "}{" +
            (bottom == "1" ? "" : bottom + " ") + below + "}";
   }
@@ -117,11 +111,11 @@ class Typesetter {
     // sin^2(x), as people write it.
     if (base.kind == NodeKind::function && exponent != 1 && cln::denominator(exponent) == 1) {
       const std::size_t end = inner.find("\\left(");
-      return inner.substr(0, end) + "^{" + shown(exponent) + "}" + inner.substr(end);
+      return inner.substr(0, end) + "^{" + rational_text(exponent) + "}" + inner.substr(end);
     }
     const bool compound = base.kind == NodeKind::sum || base.kind == NodeKind::product;
     const std::string shell = compound ? bracketed(inner) : inner;
-    return exponent == 1 ? shell : shell + "^{" + shown(exponent) + "}";
+    return exponent == 1 ? shell : shell + "^{" + rational_text(exponent) + "}";
   }
 
   std::string atom(const Node& node) const {
@@ -132,7 +126,7 @@ class Typesetter {
       case NodeKind::pi:
         return "\\pi";
       case NodeKind::number:
-        return shown(node.number);
+        return rational_text(node.number);
       case NodeKind::sum:
         return sum(node.terms, 1);
       case NodeKind::product:
@@ -143,7 +137,7 @@ class Typesetter {
     std::string inside;
     for (const Scaled& argument : node.terms)
       inside += (inside.empty() ? "" : ", ") + scaled(argument);
-    return std::string(function_name(node.function)) + bracketed(inside);
+    return std::string(latex_name_of(node.function)) + bracketed(inside);
   }
 
   const Dag& dag_;

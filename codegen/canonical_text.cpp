@@ -2,19 +2,12 @@
 #include <cln/integer_io.h>
 #include <cln/rational_io.h>
 
-#include <sstream>
-
 #include "codegen/canonical.hpp"
+#include "codegen/literal.hpp"
 
 namespace casimir::codegen {
 
 namespace {
-
-std::string shown(const cln::cl_RA& value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
 
 /// How tightly the outermost operation of a text binds.
 enum Binding { kSum, kProduct, kPower, kAtom };
@@ -28,7 +21,7 @@ std::string at_least(Binding needed, const Text& part) {
   return part.binding < needed ? "(" + part.text + ")" : part.text;
 }
 
-const char* function_name(Op op) {
+const char* name_in_case_files(Op op) {
   switch (op) {
     case Op::sin:
       return "sin";
@@ -71,8 +64,8 @@ class Printer {
   /// |coefficient| * node, as "2*x/3".
   Text magnitude(const Scaled& e) const {
     const cln::cl_RA size = cln::abs(e.coefficient);
-    const std::string over = shown(cln::denominator(size));
-    if (e.node == Dag::kOne) return {shown(size), over == "1" ? kAtom : kProduct};
+    const std::string over = rational_text(cln::denominator(size));
+    if (e.node == Dag::kOne) return {rational_text(size), over == "1" ? kAtom : kProduct};
     Text result = node(e.node, cln::numerator(size));
     if (over == "1") return result;
     return {at_least(kProduct, result) + "/" + over, kProduct};
@@ -83,7 +76,7 @@ class Printer {
     if (n.kind == NodeKind::product) return product(n.factors, multiple);
     const Text plain = atom(n);
     if (multiple == 1) return plain;
-    return {shown(multiple) + "*" + at_least(kPower, plain), kProduct};
+    return {rational_text(multiple) + "*" + at_least(kPower, plain), kProduct};
   }
 
   Text atom(const Node& n) const {
@@ -93,7 +86,7 @@ class Printer {
       case NodeKind::pi:
         return {"Pi", kAtom};
       case NodeKind::number:
-        return {shown(n.number), kAtom};
+        return {rational_text(n.number), kAtom};
       case NodeKind::sum:
         return sum(n.terms, 1);
       case NodeKind::product:
@@ -105,7 +98,7 @@ class Printer {
     for (const Scaled& argument : n.terms) {
       inside += (inside.empty() ? "" : ", ") + scaled(argument).text;
     }
-    return {std::string(function_name(n.function)) + "(" + inside + ")", kAtom};
+    return {std::string(name_in_case_files(n.function)) + "(" + inside + ")", kAtom};
   }
 
   Text sum(const std::vector<Scaled>& terms, const cln::cl_RA& factor) const {
@@ -124,7 +117,7 @@ class Printer {
   }
 
   Text product(const std::vector<Factor>& factors, const cln::cl_I& multiple) const {
-    std::string above = multiple == 1 ? "" : shown(multiple);
+    std::string above = multiple == 1 ? "" : rational_text(multiple);
     std::string below;
     int divisors = 0;
     for (const Factor& f : factors) {
@@ -144,7 +137,8 @@ class Printer {
     if (exponent == 1) return at_least(kPower, inner);
     if (exponent == cln::cl_RA(1) / 2) return "sqrt(" + inner.text + ")";
     const bool whole = cln::denominator(exponent) == 1;
-    return at_least(kAtom, inner) + "^" + (whole ? shown(exponent) : "(" + shown(exponent) + ")");
+    return at_least(kAtom, inner) + "^" +
+           (whole ? rational_text(exponent) : "(" + rational_text(exponent) + ")");
   }
 
   const Dag& dag_;

@@ -15,19 +15,19 @@
 
 namespace casimir::codegen {
 
-namespace {
-
-constexpr int kShortDigits = 8;
-constexpr int kLargestExponent = 40'000;  // binary; beyond every type here
-
-std::string shown(const cln::cl_RA& value) {
+std::string rational_text(const cln::cl_RA& value) {
   std::ostringstream out;
   out << value;
   return out.str();
 }
 
+namespace {
+
+constexpr int kShortDigits = 8;
+constexpr int kLargestExponent = 40'000;  // binary; beyond every type here
+
 /// The exact value in a message, without pages of digits.
-std::string brief(const cln::cl_RA& value) { return printable(shown(value)); }
+std::string brief(const cln::cl_RA& value) { return printable(rational_text(value)); }
 
 /// value * 2^-shift, rounded to an integer, ties to even.
 cln::cl_I scaled_integer(const cln::cl_RA& value, long shift) {
@@ -128,8 +128,9 @@ NumberText wide_text(const cln::cl_RA& value, Scalar scalar) {
   const cln::cl_I above = cln::numerator(value);
   const cln::cl_I below = cln::denominator(value);
   if (fits(above, 62) && fits(below, 31)) {
-    const std::string number = shown(above) + (fits(above, 31) ? "" : "LL");
-    return {below == 1 ? type + "(" + number + ")" : type + "(" + number + ") / " + shown(below),
+    const std::string number = rational_text(above) + (fits(above, 31) ? "" : "LL");
+    return {below == 1 ? type + "(" + number + ")"
+                       : type + "(" + number + ") / " + rational_text(below),
             false, ""};
   }
   return {sum_of_doubles(value, type), false, brief(value)};
@@ -171,7 +172,7 @@ template long double nearest<long double>(const cln::cl_RA&);
 NumberText number_text(const cln::cl_RA& value, Scalar scalar, const std::string& comment) {
   const bool integer = cln::denominator(value) == 1;
   const int plain_bits = scalar == Scalar::real32 ? 24 : 31;
-  if (integer && fits(cln::numerator(value), plain_bits)) return {shown(value), true, ""};
+  if (integer && fits(cln::numerator(value), plain_bits)) return {rational_text(value), true, ""};
   if (scalar == Scalar::float128 || scalar == Scalar::templated) {
     NumberText result = wide_text(value, scalar);
     if (!comment.empty())

@@ -14,6 +14,9 @@ enum class Scalar { real64, real32, long_double, float128, templated };
 
 namespace codegen {
 
+/// The number in decimal digits, "3" or "-1/3".
+std::string rational_text(const cln::cl_RA& value);
+
 /// The nearest number of the type, ties to even, also among the denormal numbers.
 /// \throws ModelError  if the value overflows, or is not zero and becomes zero.
 template <class Real>

@@ -19,7 +19,7 @@ using codegen::Dag;
 using codegen::Scaled;
 
 /// An equation of more terms is taken to depend on all that is in it.
-constexpr double kMostTerms = 1e5;
+constexpr double kMostTermsOfEquation = 1e5;
 
 std::string joined(const std::vector<std::string>& names) {
   std::string result;
@@ -222,7 +222,7 @@ class Specialiser {
   /// Whether dx_i/dt depends on x_j; (x + y)*z - y*z does not depend on y.
   bool really_depends(std::size_t i, std::size_t j) {
     if (!depends(field_[i], model_.variables[j])) return false;
-    const GiNaC::ex expanded = expanded_within(field_[i], kMostTerms);
+    const GiNaC::ex expanded = expanded_within(field_[i], kMostTermsOfEquation);
     if (depends(expanded, model_.variables[j])) return true;
     field_[i] = expanded;
     return false;

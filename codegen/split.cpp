@@ -16,7 +16,7 @@ using GiNaC::matrix;
 using GiNaC::symbol;
 
 /// A Hamiltonian of more terms is taken for one that does not split.
-constexpr double kMostTerms = 1e5;
+constexpr double kMostTermsOfHamiltonian = 1e5;
 
 bool is_null(const ex& e) { return e.expand().is_zero() || normal_form(e).is_zero(); }
 
@@ -148,7 +148,7 @@ class Splitter {
   }
 
   void take_terms() {
-    const ex expanded = expanded_within(source_.hamiltonian, kMostTerms);
+    const ex expanded = expanded_within(source_.hamiltonian, kMostTermsOfHamiltonian);
     const std::size_t count = GiNaC::is_a<GiNaC::add>(expanded) ? expanded.nops() : 1;
     for (std::size_t k = 0; k < count; ++k) {
       const ex term = GiNaC::is_a<GiNaC::add>(expanded) ? expanded.op(k) : expanded;

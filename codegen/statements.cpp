@@ -21,7 +21,7 @@ bool is_leaf(Op op) { return op == Op::input || op == Op::constant || op == Op::
 
 bool is_call(Op op) { return op >= Op::pow; }
 
-const char* function_name(Op op) {
+const char* c_name_of(Op op) {
   return kFunctionNames[static_cast<int>(op) - static_cast<int>(Op::pow)];
 }
 
@@ -138,7 +138,7 @@ class StatementWriter {
   }
 
   void append_call(const Instruction& c, std::string& out) {
-    out += style_.call_prefix + function_name(c.op) + style_.call_suffix + "(";
+    out += style_.call_prefix + c_name_of(c.op) + style_.call_suffix + "(";
     if (c.op == Op::sign) out += converted("1") + ", ";
     append_argument(c.a, out);
     if (c.b >= 0) {

@@ -11,10 +11,10 @@ namespace casimir::codegen {
 
 namespace {
 
-constexpr std::size_t kMostTerms = 2000;
+constexpr std::size_t kMostTermsOfExpansion = 2000;
 
 std::optional<TermSystem> expansion(const Dag& dag, const Scaled& e, std::size_t inputs) {
-  return expanded(system_of(dag, inputs, {e}), kMostTerms);
+  return expanded(system_of(dag, inputs, {e}), kMostTermsOfExpansion);
 }
 
 const Polynomial& result_of(const TermSystem& system) {

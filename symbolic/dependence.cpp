@@ -59,14 +59,14 @@ std::optional<cln::cl_RA> reconstructed(mp_limb_t value) {
 }
 
 /// A scoped matrix modulo the prime.
-class Matrix {
+class ResidueMatrix {
  public:
-  Matrix(std::size_t rows, std::size_t columns) {
+  ResidueMatrix(std::size_t rows, std::size_t columns) {
     nmod_mat_init(value_, static_cast<slong>(rows), static_cast<slong>(columns), kPrime);
   }
-  ~Matrix() { nmod_mat_clear(value_); }
-  Matrix(const Matrix&) = delete;
-  Matrix& operator=(const Matrix&) = delete;
+  ~ResidueMatrix() { nmod_mat_clear(value_); }
+  ResidueMatrix(const ResidueMatrix&) = delete;
+  ResidueMatrix& operator=(const ResidueMatrix&) = delete;
   mp_limb_t& operator()(std::size_t i, std::size_t j) { return value_->rows[i][j]; }
   nmod_t modulus() const { return value_->mod; }
   void reduce() { nmod_mat_rref(value_); }
@@ -76,9 +76,9 @@ class Matrix {
 };
 
 /// What the relation may be made of: the functions, then the parameters, each with its degree.
-class Relation {
+class ModularRelation {
  public:
-  Relation(Prover& prover, const std::vector<NamedExpression>& functions) : prover_(prover) {
+  ModularRelation(Prover& prover, const std::vector<NamedExpression>& functions) : prover_(prover) {
     for (const NamedExpression& f : functions)
       add(f.name, prover.convert(f.value), /*parameter=*/false);
     for (std::size_t i = 0; i < prover.model().parameters.size(); ++i) {
@@ -149,7 +149,7 @@ class Relation {
   /// The first monomial that is a combination of those before it, and that combination.
   std::optional<std::vector<Term>> null_vector(const std::vector<Exponents>& monomials) {
     const std::size_t columns = monomials.size();
-    Matrix matrix(columns + kSpareRows, columns);
+    ResidueMatrix matrix(columns + kSpareRows, columns);
     for (std::size_t row = 0; row < columns + kSpareRows; ++row) {
       const auto values = values_at_random(matrix.modulus());
       if (!values) return std::nullopt;
@@ -231,7 +231,7 @@ class Relation {
 
 std::optional<std::string> polynomial_relation(Prover& prover,
                                                const std::vector<NamedExpression>& functions) {
-  return Relation(prover, functions).find();
+  return ModularRelation(prover, functions).find();
 }
 
 }  // namespace casimir

@@ -27,13 +27,13 @@ struct Less {
 };
 
 /// A product of p^e with 0 < e < 1, of I, of exp(a + b I), and of one logarithm or Pi.
-struct Monomial {
+struct RadicalTerm {
   std::map<Rational, Rational, Less> powers;  ///< prime to exponent
   bool imaginary = false;
   Rational exponent_real = 0, exponent_imaginary = 0;
   Rational logarithm = 0;  ///< of this prime; 0: none, 1: Pi
 
-  friend int compare(const Monomial& a, const Monomial& b) {
+  friend int compare(const RadicalTerm& a, const RadicalTerm& b) {
     const auto three_way = [](const Rational& x, const Rational& y) { return cln::compare(x, y); };
     if (const int c = three_way(a.logarithm, b.logarithm)) return c;
     if (const int c = three_way(a.exponent_real, b.exponent_real)) return c;
@@ -47,12 +47,12 @@ struct Monomial {
     }
     return i != a.powers.end() ? 1 : j != b.powers.end() ? -1 : 0;
   }
-  friend bool operator<(const Monomial& a, const Monomial& b) { return compare(a, b) < 0; }
+  friend bool operator<(const RadicalTerm& a, const RadicalTerm& b) { return compare(a, b) < 0; }
 };
 
-using Sum = std::map<Monomial, Rational>;
+using Sum = std::map<RadicalTerm, Rational>;
 
-void add_to(Sum& sum, const Monomial& monomial, const Rational& coefficient) {
+void add_to(Sum& sum, const RadicalTerm& monomial, const Rational& coefficient) {
   Rational& place = sum[monomial];
   place = place + coefficient;
   if (cln::zerop(place)) sum.erase(monomial);
@@ -60,12 +60,12 @@ void add_to(Sum& sum, const Monomial& monomial, const Rational& coefficient) {
 
 Sum constant(const Rational& value) {
   Sum sum;
-  if (!cln::zerop(value)) sum[Monomial{}] = value;
+  if (!cln::zerop(value)) sum[RadicalTerm{}] = value;
   return sum;
 }
 
 /// p^e of a prime, any rational e: a rational factor times a power with 0 <= exponent < 1.
-void take_power(Monomial& monomial, Rational& coefficient, const Rational& prime,
+void take_power(RadicalTerm& monomial, Rational& coefficient, const Rational& prime,
                 const Rational& exponent) {
   const Rational total =
       monomial.powers.contains(prime) ? monomial.powers[prime] + exponent : exponent;
@@ -86,7 +86,7 @@ Sum product(const Sum& a, const Sum& b) {
   Sum result;
   for (const auto& [m, c] : a) {
     for (const auto& [n, d] : b) {
-      Monomial monomial = m;
+      RadicalTerm monomial = m;
       Rational coefficient = c * d;
       for (const auto& [prime, exponent] : n.powers)
         take_power(monomial, coefficient, prime, exponent);
@@ -148,7 +148,7 @@ Quotient evaluate(const ex& e);
 /// base^exponent where the base is one term without logarithms and exponentials.
 Quotient root(const Quotient& base, const Rational& exponent) {
   if (base.top.size() != 1 || base.bottom.size() != 1) throw Unknown{};
-  Monomial result;
+  RadicalTerm result;
   Rational coefficient = 1;
   const auto take = [&](const Sum& side, int sign) {
     const auto& [m, c] = *side.begin();
@@ -179,7 +179,7 @@ Quotient power(const Quotient& base, const ex& exponent) {
   if (!number.is_integer()) {
     const bool negative = base.top.size() == 1 && cln::minusp(base.top.begin()->second);
     if (negative && number.denom().is_equal(2)) {  // (-a)^(k/2) = I^k a^(k/2)
-      Monomial i;
+      RadicalTerm i;
       i.imaginary = true;
       const Quotient minus_one{constant(-1), constant(1)};
       return power({Sum{{i, 1}}, constant(1)}, number.numer()) *
@@ -196,7 +196,7 @@ Quotient power(const Quotient& base, const ex& exponent) {
 
 /// exp(a + b I) for rational a, b.
 Quotient exponential(const Rational& real, const Rational& imaginary) {
-  Monomial m;
+  RadicalTerm m;
   m.exponent_real = real;
   m.exponent_imaginary = imaginary;
   return {Sum{{m, 1}}, constant(1)};
@@ -218,7 +218,7 @@ Quotient logarithm(const Rational& argument) {
     const auto factors = prime_factors(integer);
     if (!factors) throw Unknown{};
     for (const auto& [prime, times] : *factors) {
-      Monomial m;
+      RadicalTerm m;
       m.logarithm = prime;
       add_to(sum, m, sign * Rational(cln::cl_I(times)));
     }
@@ -235,7 +235,7 @@ Quotient function_value(const GiNaC::function& f) {
   const Quotient forward = exponential(0, angle);
   const Quotient back = exponential(0, -angle);
   const Quotient minus_one{constant(-1), constant(1)};
-  Monomial i;
+  RadicalTerm i;
   i.imaginary = true;
   const Quotient sine = (forward + minus_one * back) * inverse({Sum{{i, 2}}, constant(1)});
   const Quotient cosine = (forward + back) * Quotient{constant(cln::cl_RA(1) / 2), constant(1)};
@@ -247,13 +247,13 @@ Quotient evaluate(const ex& e) {
     const GiNaC::numeric number = GiNaC::ex_to<GiNaC::numeric>(e);
     if (!number.is_crational()) throw Unknown{};
     Sum sum = constant(cln::the<cln::cl_RA>(number.real().to_cl_N()));
-    Monomial i;
+    RadicalTerm i;
     i.imaginary = true;
     add_to(sum, i, cln::the<cln::cl_RA>(number.imag().to_cl_N()));
     return {sum, constant(1)};
   }
   if (e.is_equal(GiNaC::Pi)) {
-    Monomial m;
+    RadicalTerm m;
     m.logarithm = 1;
     return {Sum{{m, 1}}, constant(1)};
   }
@@ -276,7 +276,7 @@ std::string text_of(const Rational& value) {
   return stream.str();
 }
 
-std::string text_of(const Monomial& m) {
+std::string text_of(const RadicalTerm& m) {
   std::string text;
   const auto times = [&](const std::string& factor) { text += (text.empty() ? "" : "*") + factor; };
   for (const auto& [prime, exponent] : m.powers) {
@@ -311,7 +311,8 @@ std::optional<ExactConstant> exact_constant(const ex& value) {
     Quotient quotient = evaluate(value);
     if (is_zero(quotient.bottom)) return std::nullopt;
     const bool zero = is_zero(quotient.top);
-    if (quotient.bottom.size() == 1 && compare(quotient.bottom.begin()->first, Monomial{}) == 0) {
+    if (quotient.bottom.size() == 1 &&
+        compare(quotient.bottom.begin()->first, RadicalTerm{}) == 0) {
       const Rational factor = quotient.bottom.begin()->second;
       for (auto& [monomial, coefficient] : quotient.top) coefficient = coefficient / factor;
       return ExactConstant{zero, text_of(quotient.top)};

@@ -8,29 +8,29 @@
 namespace casimir {
 namespace {
 
-using Monomial = std::vector<unsigned long>;
+using PowerProduct = std::vector<unsigned long>;
 
-Monomial leading_monomial(const Polynomial& p) { return p.term_list().front().second; }
+PowerProduct leading_monomial(const Polynomial& p) { return p.term_list().front().second; }
 
-Monomial least_common_multiple(const Monomial& a, const Monomial& b) {
-  Monomial result(a.size());
+PowerProduct least_common_multiple(const PowerProduct& a, const PowerProduct& b) {
+  PowerProduct result(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) result[i] = std::max(a[i], b[i]);
   return result;
 }
 
-bool divides(const Monomial& a, const Monomial& b) {
+bool divides(const PowerProduct& a, const PowerProduct& b) {
   return std::equal(a.begin(), a.end(), b.begin(),
                     [](unsigned long x, unsigned long y) { return x <= y; });
 }
 
-bool coprime(const Monomial& a, const Monomial& b) {
+bool coprime(const PowerProduct& a, const PowerProduct& b) {
   return std::equal(a.begin(), a.end(), b.begin(),
                     [](unsigned long x, unsigned long y) { return std::min(x, y) == 0; });
 }
 
-unsigned long degree(const Monomial& m) { return std::accumulate(m.begin(), m.end(), 0UL); }
+unsigned long degree(const PowerProduct& m) { return std::accumulate(m.begin(), m.end(), 0UL); }
 
-Polynomial power_product(const PolynomialRing& ring, const Monomial& exponents) {
+Polynomial power_product(const PolynomialRing& ring, const PowerProduct& exponents) {
   Polynomial result = ring.constant(1);
   for (std::size_t i = 0; i < exponents.size(); ++i) {
     if (exponents[i] > 0) result *= ring.variable(i).pow(exponents[i]);
@@ -39,8 +39,8 @@ Polynomial power_product(const PolynomialRing& ring, const Monomial& exponents) 
 }
 
 /// `p`, with leading coefficient 1, times what lifts its leading monomial to `multiple`.
-Polynomial lifted(const Polynomial& p, const Monomial& leading, const Monomial& multiple) {
-  Monomial factor(multiple.size());
+Polynomial lifted(const Polynomial& p, const PowerProduct& leading, const PowerProduct& multiple) {
+  PowerProduct factor(multiple.size());
   for (std::size_t i = 0; i < factor.size(); ++i) factor[i] = multiple[i] - leading[i];
   return p * power_product(p.ring(), factor);
 }
@@ -63,7 +63,7 @@ class Buchberger {
       if (done == limits_.reductions || elements_.size() > limits_.elements) return elements_;
       const auto [size, i, j] = *pairs_.begin();
       pairs_.erase(pairs_.begin());
-      const Monomial multiple = least_common_multiple(leading_[i], leading_[j]);
+      const PowerProduct multiple = least_common_multiple(leading_[i], leading_[j]);
       if (superfluous(i, j, multiple)) continue;
       const Polynomial rest = reduced(lifted(elements_[i], leading_[i], multiple) -
                                       lifted(elements_[j], leading_[j], multiple));
@@ -102,12 +102,12 @@ class Buchberger {
 
   bool done(std::size_t i, std::size_t j) const {
     const auto [first, second] = std::minmax(i, j);
-    const Monomial multiple = least_common_multiple(leading_[first], leading_[second]);
+    const PowerProduct multiple = least_common_multiple(leading_[first], leading_[second]);
     return !pairs_.contains({degree(multiple), first, second}) && !never_.contains({first, second});
   }
 
   /// Whether another element links the two by pairs that are done.
-  bool superfluous(std::size_t i, std::size_t j, const Monomial& multiple) const {
+  bool superfluous(std::size_t i, std::size_t j, const PowerProduct& multiple) const {
     for (std::size_t k = 0; k < elements_.size(); ++k) {
       if (k == i || k == j || redundant_[k] || !divides(leading_[k], multiple)) continue;
       if (done(i, k) && done(j, k)) return true;
@@ -117,7 +117,7 @@ class Buchberger {
 
   const GroebnerLimits& limits_;
   std::vector<Polynomial> elements_;  ///< with leading coefficient 1
-  std::vector<Monomial> leading_;
+  std::vector<PowerProduct> leading_;
   std::vector<bool> redundant_;  ///< reduced by a later element
   std::set<std::tuple<unsigned long, std::size_t, std::size_t>> pairs_;
   std::set<std::pair<std::size_t, std::size_t>> never_;  ///< pairs with a redundant element

@@ -13,7 +13,7 @@
 namespace casimir {
 namespace {
 
-using Monomial = std::vector<std::size_t>;
+using GeneratorProduct = std::vector<std::size_t>;
 using Equation = std::vector<std::pair<std::size_t, long>>;  ///< unknown and coefficient
 
 /// A scoped FLINT matrix of integers.
@@ -34,8 +34,8 @@ class IntegerMatrix {
   fmpz_mat_t value_;
 };
 
-void append_monomials(std::size_t variables, std::size_t degree, Monomial& start,
-                      std::vector<Monomial>& list) {
+void append_monomials(std::size_t variables, std::size_t degree, GeneratorProduct& start,
+                      std::vector<GeneratorProduct>& list) {
   if (degree == 0) {
     list.push_back(start);
     return;
@@ -64,15 +64,16 @@ std::vector<std::vector<Equation>> integer_brackets(const LieAlgebra& algebra) {
 }
 
 /// The coefficients of {x_i, F} for all i, as equations for those of F; each once.
-std::set<Equation> equations_for(const LieAlgebra& algebra, const std::vector<Monomial>& unknowns) {
+std::set<Equation> equations_for(const LieAlgebra& algebra,
+                                 const std::vector<GeneratorProduct>& unknowns) {
   const auto bracket = integer_brackets(algebra);
   std::set<Equation> result;
   for (std::size_t i = 0; i < algebra.dimension; ++i) {
-    std::map<Monomial, std::map<std::size_t, long>> rows;
+    std::map<GeneratorProduct, std::map<std::size_t, long>> rows;
     for (std::size_t u = 0; u < unknowns.size(); ++u) {
       for (std::size_t place = 0; place < unknowns[u].size(); ++place) {
         for (const auto& [k, value] : bracket[i][unknowns[u][place]]) {
-          Monomial image = unknowns[u];
+          GeneratorProduct image = unknowns[u];
           image[place] = k;
           std::ranges::sort(image);
           rows[image][u] += value;
@@ -113,7 +114,7 @@ std::vector<std::vector<std::size_t>> groups_of(std::size_t unknowns,
 
 /// The rows of a matrix in reduced echelon form, each without a common factor.
 std::vector<IntegerForm> tidy_rows(IntegerMatrix& rows, std::size_t count,
-                                   const std::vector<Monomial>& monomials) {
+                                   const std::vector<GeneratorProduct>& monomials) {
   fmpz_t number;
   fmpz_init(number);
   fmpz_mat_rref(rows.get(), number, rows.get());
@@ -140,7 +141,7 @@ std::vector<IntegerForm> tidy_rows(IntegerMatrix& rows, std::size_t count,
 /// The forms in some of the monomials that solve the equations which are about these.
 std::vector<IntegerForm> solutions(const std::vector<std::size_t>& group,
                                    const std::vector<Equation>& equations,
-                                   const std::vector<Monomial>& unknowns) {
+                                   const std::vector<GeneratorProduct>& unknowns) {
   const std::size_t n = group.size();
   IntegerMatrix system(equations.size(), n), kernel(n, n), rows(n, n);
   for (std::size_t i = 0; i < equations.size(); ++i) {
@@ -151,21 +152,21 @@ std::vector<IntegerForm> solutions(const std::vector<std::size_t>& group,
   }
   const slong dimension = fmpz_mat_nullspace(kernel.get(), system.get());
   fmpz_mat_transpose(rows.get(), kernel.get());
-  std::vector<Monomial> monomials;
+  std::vector<GeneratorProduct> monomials;
   for (const std::size_t u : group) monomials.push_back(unknowns[u]);
   return tidy_rows(rows, static_cast<std::size_t>(dimension), monomials);
 }
 
 bool starts_with_a_power(const IntegerForm& form) {
-  const Monomial& first = form.front().first;
+  const GeneratorProduct& first = form.front().first;
   return first.front() == first.back();
 }
 
 IntegerForm product(const IntegerForm& a, const IntegerForm& b) {
-  std::map<Monomial, long> terms;
+  std::map<GeneratorProduct, long> terms;
   for (const auto& [x, p] : a) {
     for (const auto& [y, q] : b) {
-      Monomial both = x;
+      GeneratorProduct both = x;
       both.insert(both.end(), y.begin(), y.end());
       std::ranges::sort(both);
       terms[both] += p * q;
@@ -176,7 +177,7 @@ IntegerForm product(const IntegerForm& a, const IntegerForm& b) {
 
 /// Which of the forms no earlier ones combine to.
 std::vector<std::size_t> independent(const std::vector<IntegerForm>& forms) {
-  std::map<Monomial, std::size_t> row_of;
+  std::map<GeneratorProduct, std::size_t> row_of;
   for (const IntegerForm& form : forms) {
     for (const auto& [monomial, value] : form) row_of.try_emplace(monomial, row_of.size());
   }
@@ -190,8 +191,8 @@ std::vector<std::size_t> independent(const std::vector<IntegerForm>& forms) {
 }  // namespace
 
 std::vector<IntegerForm> invariant_forms(const LieAlgebra& algebra, std::size_t degree) {
-  std::vector<Monomial> unknowns;
-  Monomial start;
+  std::vector<GeneratorProduct> unknowns;
+  GeneratorProduct start;
   append_monomials(algebra.dimension, degree, start, unknowns);
   const std::set<Equation> equations = equations_for(algebra, unknowns);
   const auto groups = groups_of(unknowns.size(), equations);

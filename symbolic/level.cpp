@@ -7,11 +7,11 @@
 namespace casimir {
 namespace {
 
-using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;  ///< coordinates i <= j
+using IndexPairs = std::vector<std::pair<std::size_t, std::size_t>>;  ///< coordinates i <= j
 
 /// A relation sum x_i x_j = constant: each pair once, all with one coefficient.
 struct ScalarProduct {
-  Pairs pairs;
+  IndexPairs pairs;
   Polynomial constant;
 };
 
@@ -42,12 +42,12 @@ std::optional<ScalarProduct> scalar_product(const Polynomial& relation, std::siz
   return result;
 }
 
-bool is_square(const Pairs& pairs) {
+bool is_square(const IndexPairs& pairs) {
   return std::all_of(pairs.begin(), pairs.end(), [](const auto& p) { return p.first == p.second; });
 }
 
 /// The coordinates that the pairs put beside those of `vector`, in its order.
-std::optional<std::vector<std::size_t>> partner(const Pairs& pairs,
+std::optional<std::vector<std::size_t>> partner(const IndexPairs& pairs,
                                                 const std::vector<std::size_t>& vector) {
   std::map<std::size_t, std::size_t> beside;
   for (const auto& [i, j] : pairs) {

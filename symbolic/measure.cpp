@@ -20,7 +20,7 @@ double bit_length(const GiNaC::numeric& number) {
 }
 
 /// Shared parts are looked at once, and count as often as they are used.
-class Measure {
+class SizeOfExpression {
  public:
   const Quantity& of(const ex& e) {
     if (const auto it = known_.find(e); it != known_.end()) return it->second;
@@ -161,7 +161,7 @@ ex expanded_within(const ex& expression, double terms) {
 }
 
 Quantity measured(const ex& value) {
-  Quantity q = Measure().of(value);
+  Quantity q = SizeOfExpression().of(value);
   q.value = value;
   return q;
 }

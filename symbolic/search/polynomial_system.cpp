@@ -7,11 +7,11 @@
 namespace casimir::search {
 namespace {
 
-constexpr std::size_t kMostTerms = 3000;  // of an equation
+constexpr std::size_t kMostTermsOfEquation = 3000;  // of an equation
 constexpr std::size_t kMostCases = 1000;
 constexpr int kDeepest = 60;
 // Beyond these a Groebner basis is given up: it would not be short.
-constexpr GroebnerLimits kLimits{.reductions = 600, .elements = 100, .terms = 1000};
+constexpr GroebnerLimits kBasisLimits{.reductions = 600, .elements = 100, .terms = 1000};
 
 class Solver {
  public:
@@ -98,7 +98,7 @@ void Solver::solve(std::vector<Polynomial> equations, Branch branch, int depth, 
   for (const Polynomial& p : equations) {
     if (p.is_zero()) continue;
     if (!has_unknowns(p)) return;
-    if (p.terms() > kMostTerms) {
+    if (p.terms() > kMostTermsOfEquation) {
       give_up(std::move(branch), std::move(equations));
       return;
     }
@@ -124,7 +124,7 @@ void Solver::solve(std::vector<Polynomial> equations, Branch branch, int depth, 
   if (const std::optional<Linear> linear = find_linear(clean, false))
     return eliminate(clean, *linear, std::move(branch), depth);
   if (!based && clean.size() > 1)
-    return solve(groebner_basis(clean, kLimits), std::move(branch), depth + 1, true);
+    return solve(groebner_basis(clean, kBasisLimits), std::move(branch), depth + 1, true);
   finish(std::move(clean), std::move(branch), depth);
 }
 

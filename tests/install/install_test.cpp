@@ -23,6 +23,39 @@ TEST(Install, TheProgramFindsItsCasesFromAnywhere) {
   EXPECT_TRUE(shows(outcome.out, "12 proved, 0 refuted")) << outcome.out;
 }
 
+/// A folder that is configured, with the program and the libraries in it and nothing else: as
+/// tools/start leaves it. Before they are there, nothing is installed.
+TEST(Install, WorksRightAfterTheProgramWasBuiltAndNotBefore) {
+  const Folder folder;
+  const std::string built = CASIMIR_BUILD_DIR;
+  const Outcome configured = shell(
+      folder, "'" CASIMIR_CMAKE "' -S '" CASIMIR_SOURCE_DIR
+              "' -B build -DCMAKE_BUILD_TYPE=Release -DCASIMIR_TESTS=OFF -DCMAKE_SKIP_RPATH=ON "
+              "-DCMAKE_CXX_COMPILER='" CASIMIR_CXX "'\n");
+  ASSERT_EQ(configured.status, 0) << configured.out << configured.err;
+  const std::string install = "'" CASIMIR_CMAKE "' --install build --prefix \"$PWD/prefix\"\n";
+
+  const Outcome early = shell(folder, install);
+  EXPECT_NE(early.status, 0);
+  EXPECT_TRUE(shows(early.err, "Build it first")) << early.err;
+  EXPECT_FALSE(fs::exists(folder.path() / "prefix"));
+
+  const Outcome installed =
+      shell(folder, "cd '" + built +
+                        "'\nfor file in casimir */libcasimir_*.a tools/*/libcasimir_*.a; do\n"
+                        "  [ ! -e \"$file\" ] || cp \"$file\" \"$HOME/build/$file\"\ndone\ncd\n"
+                        "ls build/manual && exit 1\n" +
+                        install + "prefix/bin/casimir list\n");
+  EXPECT_EQ(installed.status, 0) << installed.out << installed.err;
+  EXPECT_TRUE(shows(installed.out, "Clebsch")) << installed.out;
+  const auto names = [](const fs::path& prefix) {
+    std::set<fs::path> result;
+    for (const fs::path& file : files_below(prefix)) result.insert(file.lexically_relative(prefix));
+    return result;
+  };
+  EXPECT_EQ(names(folder.path() / "prefix"), names(Installed().prefix()));
+}
+
 TEST(Install, TheProgramCompilesWhatItIntegrates) {
   const Installed installed;
   const Outcome outcome =

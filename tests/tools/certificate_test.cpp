@@ -32,22 +32,16 @@ int coqc(const Folder& folder, const std::string& file) {
 /// Coq accepts the certificate STEM.v, and nothing that it states rests on an axiom.
 void expect_proved(const Folder& folder, const std::string& stem, const CoqReader& reader) {
   ASSERT_EQ(coqc(folder, stem + ".v"), 0) << file_text(folder.path() / "said");
-  std::string text = "Require Import " + stem + ".\n";
-  std::size_t expected = 0;
+  // All in one: asked about each by itself, Coq goes through its library again for each.
+  std::string all;
   for (const auto* names : {&reader.theorems(), &reader.lemmas()}) {
-    for (const std::string& name : *names) {
-      text += "Print Assumptions " + name + ".\n";
-      ++expected;
-    }
+    for (const std::string& name : *names) all += (all.empty() ? "@" : ", @") + name;
   }
-  folder.write("assumptions.v", text);
+  EXPECT_NE(all, "");
+  folder.write("assumptions.v", "Require Import " + stem + ".\nDefinition everything := (" + all +
+                                    ").\nPrint Assumptions everything.\n");
   ASSERT_EQ(coqc(folder, "assumptions.v"), 0) << file_text(folder.path() / "said");
-  std::istringstream said(file_text(folder.path() / "said"));
-  std::size_t closed = 0;
-  for (std::string line; std::getline(said, line); ++closed)
-    EXPECT_EQ(line, "Closed under the global context");
-  EXPECT_EQ(closed, expected);
-  EXPECT_GT(expected, 0U);
+  EXPECT_EQ(file_text(folder.path() / "said"), "Closed under the global context\n");
 }
 
 /// "NAME" as part of an identifier.
