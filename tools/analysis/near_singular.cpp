@@ -115,6 +115,11 @@ std::optional<std::string> NearSingular::finding() const {
   for (const std::size_t i : states_[which])
     where += fmt::format("{}{} = {:.6g}", where.empty() ? "" : ", ", run_.specialisation.states[i],
                          worst->state[i]);
+  if (where.empty())  // a quantity of the time alone, which no other variables mend
+    return fmt::format(
+        "the equations divide by a quantity that comes down to {:.0e} of its largest value at "
+        "t = {:.6g}, which costs digits",
+        worst->least / worst->largest, worst->time);
   return fmt::format(
       "the coordinates are nearly singular at t = {:.6g}, where {}: the equations divide by a "
       "quantity that comes down to {:.0e} of its largest value there, which costs digits; "
