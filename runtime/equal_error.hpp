@@ -17,6 +17,7 @@ struct Measured {
 /// fastest run costs; one smaller than all of them is out of reach.
 class WorkPrecision {
  public:
+  /// In any order.
   explicit WorkPrecision(std::vector<Measured> runs);
 
   /// Seconds for this error or a smaller one; not a number where the method does not reach it.

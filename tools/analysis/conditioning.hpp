@@ -12,6 +12,7 @@ namespace casimir {
 /// of the flow from the start, column by column, and along one direction each from a few later
 /// times. Relative to the sizes of the states.
 struct Conditioning {
+  /// A change has grown so many times by then.
   struct Growth {
     double time = 0, factor = 1;
   };

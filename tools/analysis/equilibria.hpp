@@ -27,6 +27,7 @@ struct Equilibrium {
   double growth() const;
 };
 
+/// What a search for equilibria found, and where it looked.
 struct EquilibriumReport {
   std::vector<std::string> symmetries;  ///< linear integrals whose flows were allowed
   std::vector<std::string> level;       ///< functions that have the values of the scene

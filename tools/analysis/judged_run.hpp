@@ -31,6 +31,7 @@ struct JudgedRun {
   std::optional<std::string> near_singular;
 };
 
+/// What is asked of a run, and what watches it.
 struct JudgedOptions {
   std::string method = "auto";
   RunRequest run = {};

@@ -12,10 +12,12 @@ namespace casimir {
 /// short, though the motion itself may be harmless, as in Euler angles near the vertical.
 class NearSingular {
  public:
+  /// \param run  must outlive this object.
   explicit NearSingular(const SceneRun& run);
 
   /// Whether there is anything to watch.
   bool divides() const { return !divisors_.outputs.empty(); }
+  /// Looks at the state after a step.
   void see(double t, const double* x);
 
   /// A sentence, if a divisor changed its sign, or came down to less than a thousandth of its

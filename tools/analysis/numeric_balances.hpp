@@ -7,6 +7,7 @@
 
 namespace casimir {
 
+/// Balances that were found in numbers.
 struct NumericBalances {
   std::vector<search::Balance> balances;  ///< with exponents that are numeric
   std::size_t starts = 0;                 ///< of Newton's iteration

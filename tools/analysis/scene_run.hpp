@@ -33,6 +33,7 @@ struct SceneRun {
   double generate_seconds = 0;
 };
 
+/// What a scene is specialised for.
 struct SceneOptions {
   bool fold_parameters = true;
   std::vector<std::string> keep_parameters = {};  ///< although the others are folded
@@ -84,8 +85,9 @@ inline constexpr int kConstantDigits = 60;
 /// The numbers of a scene, as Specialisation::start lists them.
 std::vector<cln::cl_F> start_values(const Specialisation& specialisation, int digits);
 
-/// The nearest double, and what is left when it is taken away.
+/// The nearest double.
 double rounded(const cln::cl_F& value);
+/// What is left of a number when its nearest double is taken away.
 double remainder(const cln::cl_F& value, double nearest);
 
 /// A watch for `--time-limit`: answers true once that many seconds have passed; never for 0.

@@ -31,6 +31,7 @@ struct TruthOrReason {
   std::optional<double> singular_time = {};
 };
 
+/// How a reference state is found.
 struct TruthOptions {
   int digits = 30;              ///< of a run of our own
   bool check_the_file = false;  ///< by a run of our own, if it does not take too long

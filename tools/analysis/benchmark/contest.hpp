@@ -33,7 +33,9 @@ struct Contender {
   std::string method;
   std::string code;     ///< "specialised" or "general"
   std::string outside;  ///< the library that does it, or empty
+  /// How tables and pictures name it.
   std::string label() const { return code == "general" ? method + " general" : method; }
+  /// Whether it is a method of our own.
   bool own() const { return outside.empty(); }
 };
 

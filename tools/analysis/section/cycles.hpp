@@ -17,15 +17,18 @@ struct Cycle {
   double determinant = 1;           ///< of the same; 1 but for errors: the map keeps the area
   double residual = 0;              ///< distance of the point that it returns to, in phase space
 
+  /// How many times it crosses the plane.
   std::size_t length() const { return points.size(); }
   /// "elliptic", "hyperbolic", "inverse hyperbolic".
   std::string kind() const;
+  /// Whether neighbours stay near: it is elliptic.
   bool stable() const;
   /// The two Floquet multipliers of the periodic orbit that are not 1 by the motion along it and
   /// across the levels: the roots of m^2 - trace*m + 1.
   std::array<std::complex<double>, 2> multipliers() const;
 };
 
+/// The cycles that a search found.
 struct CycleSearch {
   std::vector<Cycle> cycles;
   std::size_t degenerate = 0;  ///< members of families: the trace is 2, as in integrable systems

@@ -12,10 +12,13 @@ namespace casimir {
 /// The points of the plane on one energy and Casimir level. One object serves one thread.
 class LevelSet {
  public:
+  /// A state of the system.
   using Vector = Eigen::VectorXd;
 
+  /// \param problem  must outlive this object.
   explicit LevelSet(const SectionProblem& problem);
 
+  /// What was asked.
   const SectionProblem& problem() const { return problem_; }
 
   /// Moves a point to the nearest one of the level set, about, by Newton's method with the shortest
@@ -28,9 +31,13 @@ class LevelSet {
   /// largest of all.
   double distance_from_level(const double* x) const;
 
+  /// The value of the Hamiltonian.
   double energy(const Vector& x) const;
+  /// Its derivatives by the states.
   Vector energy_gradient(const Vector& x) const;
+  /// The rates of the states.
   Vector field(const Vector& x) const;
+  /// The derivatives of the function of the plane.
   Vector plane_gradient(const Vector& x) const;
   /// Rate of the plane's function along the field over the product of the lengths of both: between
   /// -1 and 1, positive where it is crossed in the direction wanted.

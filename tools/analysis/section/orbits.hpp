@@ -10,6 +10,7 @@
 
 namespace casimir {
 
+/// How orbits are followed.
 struct OrbitOptions {
   double tolerance = 1e-14;
   int jobs = 0;
@@ -24,7 +25,9 @@ class OrbitCutter {
   /// \throws EnvironmentError  where there is no kernel for the system.
   OrbitCutter(const SectionProblem& problem, const OrbitOptions& options, std::size_t work);
 
+  /// What integrates them.
   const EnsembleKernel& kernel() const { return kernel_; }
+  /// Of each step.
   double tolerance() const { return options_.tolerance; }
 
   /// So many crossings from each of these states, with the growth of a deviation.
@@ -39,6 +42,7 @@ class OrbitCutter {
   /// For `points_of_domain`.
   Returning returning() const;
 
+  /// Whether it was asked to end.
   bool interrupted() const { return options_.give_up && options_.give_up(); }
 
  private:

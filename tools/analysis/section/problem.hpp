@@ -50,6 +50,7 @@ struct SectionProblem {
 
   /// "H = 1.5, F1 = 1".
   std::string level_text() const;
+  /// The number of states.
   std::size_t states() const { return run.specialisation.states.size(); }
 };
 

@@ -26,6 +26,7 @@ using Returning = std::function<std::vector<bool>(const std::vector<PlacedPoint>
 std::vector<PlacedPoint> points_of_domain(const LevelSet& level, const Returning& returning,
                                           const std::vector<LevelSet::Vector>& known);
 
+/// Places in the picture: values of the plotted pair.
 using PicturePlaces = std::vector<std::array<double, 2>>;
 
 /// So many of the points, each as far as possible from those chosen before it, by their places in

@@ -12,6 +12,7 @@ namespace casimir {
 /// What is varied along one direction of a grid.
 struct Axis {
   std::string name;
+  /// What it sets.
   enum class Kind { parameter, state, free };  ///< free: only expressions of `Lets` have it
   Kind kind = Kind::parameter;
   std::vector<double> values;  ///< each the nearest to its exact value

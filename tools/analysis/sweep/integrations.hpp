@@ -21,7 +21,9 @@ class Integrations : public SweepTask {
   std::vector<PointResult> run(const std::vector<std::size_t>& points, int threads,
                                const std::function<bool()>& give_up) const override;
 
+  /// How many points one register holds.
   int lanes() const { return kernel_.lanes ? kernel_.lanes->lanes : 1; }
+  /// What the user should know of how the code was made, or empty.
   const std::string& warning() const { return kernel_.warning; }
 
  private:

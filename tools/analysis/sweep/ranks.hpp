@@ -38,7 +38,9 @@ class Ranks {
   virtual void end_all(const std::exception& problem) const;
 
  protected:
-  int rank_ = 0, size_ = 1, processors_ = 1;
+  int rank_ = 0;        ///< see `rank`
+  int size_ = 1;        ///< see `size`
+  int processors_ = 1;  ///< see `processors`
 };
 
 }  // namespace casimir

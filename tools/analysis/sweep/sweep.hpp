@@ -10,6 +10,7 @@
 
 namespace casimir {
 
+/// Where a sweep is kept, and what ends it.
 struct SweepOptions {
   std::string output;
   bool restart = false;

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+#include "symbolic/case_file.hpp"
+#include "symbolic/model.hpp"
+#include "tools/analysis/system.hpp"
+
+namespace casimir::test {
+
+/// The model of a case file.
+inline Model model_of(const std::string& toml) {
+  return build_model(parse_case(toml, "test.toml"));
+}
+
+/// q'' = -q.
+struct Oscillator {
+  GiNaC::symbol q{"q"}, p{"p"};
+  Model model = hamiltonian_system("oscillator", {q}, {p}, (q * q + p * p) / 2);
+  /// From q = 1 at rest: q = cos t, p = -sin t.
+  Scene scene(const GiNaC::ex& duration) const { return scene_from(model, {1, 0}, duration); }
+};
+
+/// Equations in one variable x, which begins at 1.
+inline Model one_equation(const std::string& rate, const std::string& duration,
+                          const std::string& more = {}) {
+  return model_of("title = \"t\"\n[phase_space]\nvariables = [\"x\"]\n[equations]\nx = \"" + rate +
+                  "\"\n[[scene]]\nname = \"default\"\ninitial = { x = \"1\" }\nduration = \"" +
+                  duration + "\"\n" + more);
+}
+
+}  // namespace casimir::test

@@ -1,0 +1,89 @@
+// How far an end state can be believed.
+#include "tools/analysis/trust.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/tools/analysis/systems.hpp"
+#include "tools/analysis/conditioning.hpp"
+#include "tools/analysis/solve.hpp"
+
+namespace casimir::test {
+namespace {
+
+TEST(Trust, TheEstimateIsAboveTheErrorAndNotFarAbove) {
+  const Oscillator oscillator;
+  for (const double tolerance : {1e-4, 1e-7, 1e-10}) {
+    SolveOptions options;
+    options.method = "dop853";
+    options.run.tolerance = tolerance;
+    const Solution motion = solve(oscillator.model, oscillator.scene(100), options);
+    ASSERT_TRUE(motion.ok());
+    const Trust& trust = motion.trust();
+    ASSERT_TRUE(trust.known);
+    const double error = std::hypot(motion.trajectory().state[0] - std::cos(100.),
+                                    motion.trajectory().state[1] + std::sin(100.));
+    EXPECT_GE(trust.error_estimate, error / 2) << tolerance;
+    EXPECT_LE(trust.error_estimate, 100 * error + 1e-14) << tolerance;
+    EXPECT_FALSE(trust.beyond_double);
+    EXPECT_FALSE(trust.unconfirmed);
+  }
+}
+
+TEST(Trust, GrowthOfChangesIsThatOfTheFlow) {
+  // In units of the largest state, which both of them are at the end of x = e^t.
+  const Model growing = one_equation("x", "10");
+  EXPECT_NEAR(solve(growing, growing.scene("default")).trust().conditioning / std::exp(10), 1,
+              0.01);
+  // Away from x = 1, which the motion does not leave: a change grows e^10 times.
+  const Model unstable = one_equation("x - 1", "10");
+  const Solution motion = solve(unstable, unstable.scene("default"));
+  ASSERT_TRUE(motion.trust().known);
+  EXPECT_NEAR(motion.trust().conditioning / std::exp(10), 1, 0.01);
+  EXPECT_FALSE(motion.trust().beyond_double);
+  const Model lost = one_equation("x - 1", "40");
+  const Trust none = solve(lost, lost.scene("default")).trust();
+  EXPECT_TRUE(none.beyond_double);
+  ASSERT_TRUE(none.six_digits_until);
+  // Rounding grows to 1e-6 at the time log(1e-6 / 2^-53): the end of a step before it.
+  EXPECT_LE(*none.six_digits_until, std::log(1e-6 * 0x1p53));
+}
+
+TEST(Trust, RoundingOfTheDataIsCounted) {
+  const Oscillator oscillator;
+  const auto input = [&](const GiNaC::ex& q) {
+    return solve(oscillator.model, scene_from(oscillator.model, {q, 0}, 10)).trust().input_rounding;
+  };
+  EXPECT_EQ(input(GiNaC::numeric(1, 2)), 0);
+  EXPECT_GT(input(GiNaC::numeric(1, 3)), 1e-18);
+  EXPECT_LT(input(GiNaC::numeric(1, 3)), 1e-15);
+}
+
+TEST(Trust, ChangesThatDiedOutAreToldFromThoseThatAreThere) {
+  Trust trust;
+  trust.conditioning = 1;
+  EXPECT_FALSE(trust.died_out());
+  trust.beyond_double = true;
+  EXPECT_TRUE(trust.died_out());
+  trust.conditioning = 1e14;
+  EXPECT_FALSE(trust.died_out());
+}
+
+TEST(Trust, NothingIsSaidOfARunThatStopped) {
+  const Model model = one_equation("x^2", "2");
+  EXPECT_FALSE(solve(model, model.scene("default")).trust().known);
+}
+
+TEST(Conditioning, TheTimeOfAGrowthIsTheLastBeforeIt) {
+  Conditioning flow;
+  flow.growth = {{0, 1}, {1, 4}, {2, 64}};
+  EXPECT_EQ(flow.time_of(1), 0);
+  EXPECT_EQ(flow.time_of(3), 0);
+  EXPECT_EQ(flow.time_of(5), 1);
+  EXPECT_FALSE(flow.time_of(65));
+  EXPECT_EQ(flow.on_the_way(), 64);
+}
+
+}  // namespace
+}  // namespace casimir::test
