@@ -19,21 +19,24 @@ constexpr double kTightest = 1e-15;
 /// Of base orbits: near separatrices their own errors would pass for the distance from them.
 constexpr double kLoosest = 1e-10;
 constexpr double kMost = 1e250;
-/// Of deviations, which enter linearly: far below the states, whose errors rule the steps.
-constexpr double kUnit = 0x1p-130;
+/// Of deviations, which enter linearly: far below the states, whose errors rule the steps. Where the
+/// states rest they rule nothing, and deviations are as large as states.
+constexpr double kUnit = 0x1p-130, kUnitAtRest = 1;
+/// A state that moves by less, relative to its size, rests.
+constexpr double kRest = 1e-6;
 
 using Growth = Conditioning::Growth;
 
 /// One deviation, followed step by step.
 class Deviation {
  public:
-  explicit Deviation(const std::vector<double>& sizes) : sizes_(sizes) {}
+  Deviation(const std::vector<double>& sizes, double unit) : sizes_(sizes), unit_(unit) {}
 
   void see(double t, const double* state) {
     const std::size_t n = sizes_.size();
     double size = 0;
     for (std::size_t i = 0; i < n; ++i)
-      size = std::max(size, std::abs(state[n + i]) / (kUnit * sizes_[i]));
+      size = std::max(size, std::abs(state[n + i]) / (unit_ * sizes_[i]));
     reached_ = std::abs(t);
     now_ = std::min(size, kMost);
     if (now_ >= 2 * growth_.back().factor) growth_.push_back({reached_, now_});
@@ -68,6 +71,7 @@ class Deviation {
   }
 
   const std::vector<double>& sizes_;
+  const double unit_;
   std::vector<Growth> growth_{{0, 1}};
   double now_ = 1, reached_ = 0;
 };
@@ -98,6 +102,7 @@ class Follower {
   std::optional<Conditioning> conditioning() {
     const std::size_t n = sizes_.size();
     settings_.max_steps = steps_ / n;
+    if (rests()) unit_ = kUnitAtRest;
     for (std::size_t j = 0; j < n; ++j) {
       std::vector<double> direction(n, 0.);
       direction[j] = 1;
@@ -114,7 +119,7 @@ class Follower {
   std::optional<Deviation> follow(const Point& from, const std::vector<double>& direction,
                                   bool keep) {
     const std::size_t n = sizes_.size();
-    Deviation deviation(sizes_);
+    Deviation deviation(sizes_, unit_);
     Settings settings = settings_;
     settings.begin = from.time;
     settings.duration -= from.time;
@@ -123,7 +128,7 @@ class Follower {
       if (keep) path_.push_back({t, {x, x + n}});
     };
     std::vector<double> start = from.state;
-    for (std::size_t i = 0; i < n; ++i) start.push_back(kUnit * sizes_[i] * direction[i]);
+    for (std::size_t i = 0; i < n; ++i) start.push_back(unit_ * sizes_[i] * direction[i]);
     const Trajectory run =
         integrate(*module_, *find_method("taylor"), settings, start, run_.parameters);
     if (run.status != Status::ok && run.status != Status::max_steps) return std::nullopt;
@@ -131,6 +136,21 @@ class Follower {
     deviation.extrapolate(std::abs(settings.duration));
     include(deviation, std::abs(from.time));
     return deviation;
+  }
+
+  /// Whether the motion is none, or next to none.
+  bool rests() const {
+    std::vector<double> start = run_.initial;
+    start.resize(2 * start.size());
+    bool result = true;
+    Settings settings = settings_;
+    settings.watch = [&](double, const double* x) {
+      for (std::size_t i = 0; i < sizes_.size(); ++i)
+        result = result && std::abs(x[i] - run_.initial[i]) <= kRest * sizes_[i];
+    };
+    settings.give_up = [&, asked = settings_.give_up] { return !result || (asked && asked()); };
+    integrate(*module_, *find_method("taylor"), settings, start, run_.parameters);
+    return result;
   }
 
   /// Changes made on the way may grow more than those at the start, as at the passage of a saddle.
@@ -163,6 +183,7 @@ class Follower {
   std::optional<Module> module_;
   Settings settings_;
   unsigned long long steps_ = 0;
+  double unit_ = kUnit;
   std::vector<Point> path_;
   std::vector<Growth> grown_;
   Conditioning result_;

@@ -45,6 +45,7 @@ TEST(Trust, GrowthOfChangesIsThatOfTheFlow) {
   const Model lost = one_equation("x - 1", "40");
   const Trust none = solve(lost, lost.scene("default")).trust();
   EXPECT_TRUE(none.beyond_double);
+  EXPECT_NEAR(none.conditioning / std::exp(40), 1, 0.01);  // no step is long because nothing moves
   ASSERT_TRUE(none.six_digits_until);
   // Rounding grows to 1e-6 at the time log(1e-6 / 2^-53): the end of a step before it.
   EXPECT_LE(*none.six_digits_until, std::log(1e-6 * 0x1p53));
