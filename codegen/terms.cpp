@@ -119,7 +119,7 @@ class Builder {
 
   Monomial literals_of(const Factor& f) {
     const bool half = cln::denominator(f.exponent) == 2;
-    if (half && is_square(f.node)) return root_of_square(f);
+    if (!is_integer(f.exponent) && is_square(f.node)) return root_of_square(f);
     const int base = variable_of(f.node);
     if (is_integer(f.exponent) && cln::plusp(f.exponent)) return {{base, small(f.exponent)}};
     if (cln::minusp(f.exponent) && inverse_roots_.contains(f.node) &&
@@ -143,11 +143,16 @@ class Builder {
   }
 
   /// The root of a square is |.|, whose derivative exists wherever that is not zero and whose
-  /// series is that of the other factor.
+  /// series is that of the other factor; another broken power of a square is one of |.|.
   Monomial root_of_square(const Factor& f) {
     Monomial result;
     for (const Factor& inner : dag_[f.node].factors) {
       const cln::cl_RA exponent = inner.exponent * f.exponent;
+      if (!is_integer(exponent)) {
+        const int modulus = function(Op::abs, {variable_of(inner.node)});
+        result = multiply(result, {{function(Op::pow, {modulus}, exponent), 1}});
+        continue;
+      }
       const bool odd = cln::oddp(cln::numerator(exponent));
       int base = variable_of(inner.node);
       if (odd) base = function(Op::abs, {base});

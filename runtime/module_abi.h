@@ -82,8 +82,9 @@ struct casimir_outcome {
   unsigned long long steps, rejected, evaluations, jacobians;
 };
 
-/* A step of members that stand in the lanes of registers, before their states are replaced. The state i of the member in lane l is the sum of rows[i][k * lanes + l] s^k at the
- * time t[l] + s unit[l], from s = 0 up to taken[l]. All pointers are valid during the call only. */
+/* A step of members that stand in the lanes of registers, before their states are replaced. The
+ * state i of the member in lane l is the sum of rows[i][k * lanes + l] s^k at the time t[l] + s
+ * unit[l], from s = 0 up to taken[l]. All pointers are valid during the call only. */
 struct casimir_lane_step {
   int lanes, states, order;
   const double* const* rows; /* for each state, order + 1 registers */

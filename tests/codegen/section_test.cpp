@@ -188,8 +188,9 @@ TEST(Section, OrbitsTurnWhereTheEquationsJump) {
       const double speed = std::sqrt(2 * seeds[2 * i]);
       EXPECT_EQ(orbit.size(), 20U) << i;
       for (std::size_t n = 0; n < orbit.size(); ++n)
-        error = std::max({error, std::abs(orbit.times[n] - (3 + 4 * static_cast<double>(n)) * speed),
-                          std::abs(orbit.states[2 * n + 1] - speed)});
+        error =
+            std::max({error, std::abs(orbit.times[n] - (3 + 4 * static_cast<double>(n)) * speed),
+                      std::abs(orbit.states[2 * n + 1] - speed)});
     }
     return error;
   };

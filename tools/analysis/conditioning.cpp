@@ -19,8 +19,8 @@ constexpr double kTightest = 1e-15;
 /// Of base orbits: near separatrices their own errors would pass for the distance from them.
 constexpr double kLoosest = 1e-10;
 constexpr double kMost = 1e250;
-/// Of deviations, which enter linearly: far below the states, whose errors rule the steps. Where the
-/// states rest they rule nothing, and deviations are as large as states.
+/// Of deviations, which enter linearly: far below the states, whose errors rule the steps. Where
+/// the states rest they rule nothing, and deviations are as large as states.
 constexpr double kUnit = 0x1p-130, kUnitAtRest = 1;
 /// A state that moves by less, relative to its size, rests.
 constexpr double kRest = 1e-6;
