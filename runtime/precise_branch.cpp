@@ -1,8 +1,5 @@
 #include "runtime/precise_branch.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "runtime/evaluate.hpp"
 
 namespace casimir {
@@ -58,6 +55,7 @@ BigFloat PreciseLook::argument(const PreciseStep& step, std::size_t place,
 /// From a place that is on the other side to as many digits as a double has. Regula falsi, which
 /// halves the value at an end that stays (the Illinois rule).
 BigFloat PreciseLook::branch(const PreciseStep& step, std::size_t place, BigFloat behind) const {
+  constexpr slong kBeforeBits = -20;
   constexpr double kBefore = 0x1p-20, kFurther = 0x1p-50;
   BigFloat before = times(behind, 1 - kBefore), first = argument(step, place, before);
   BigFloat last = argument(step, place, behind);
@@ -88,10 +86,12 @@ BigFloat PreciseLook::branch(const PreciseStep& step, std::size_t place, BigFloa
       side = -1;
     }
   }
-  // The least that is behind.
-  for (double further = std::exp2(2. - static_cast<double>(BigFloat::precision()));; further *= 4) {
-    const BigFloat next = before + times(behind, further);
-    if (further >= kBefore || argument(step, place, next).sign() == last.sign()) return next;
+  // The least that is behind. By exponents: of many digits the last is no double.
+  for (slong last_bits = 2 - BigFloat::precision();; last_bits += 2) {
+    BigFloat further;
+    arf_mul_2exp_si(further.mid(), behind.mid(), last_bits);
+    const BigFloat next = before + further;
+    if (last_bits >= kBeforeBits || argument(step, place, next).sign() == last.sign()) return next;
   }
 }
 

@@ -240,6 +240,17 @@ TEST(PreciseRun, CornersAreFoundToAllDigits) {
   EXPECT_LT(agreed.run.steps, 20U);
 }
 
+/// The last of so many digits is below every double.
+TEST(PreciseRun, CornersAreFoundToMoreDigitsThanAnExponentHas) {
+  Builder b({"x"});
+  b.output(b.op(Op::abs, b.op(Op::sub, b.time(), b.number(cln::cl_RA("7/3")))));
+  const Program program = b.program();
+  const AgreedRun agreed = agreed_run(problem(program, {cln::cl_RA("1/2"), 5}), 500);
+  ASSERT_EQ(agreed.run.status, Status::ok) << agreed.run.reason;
+  const cln::cl_F truth = cln::cl_float(cln::cl_RA("61/9"), cln::float_format(600));
+  EXPECT_EQ(agreed_digits(agreed.run.state[0], truth, 500), 500);
+}
+
 /// q'' = -sign(q) from height 1: after 20 quarters of sqrt(2) it stands where it began, and 1/2
 /// later at 1 - 1/8.
 TEST(PreciseRun, JumpsAreFoundToAllDigits) {

@@ -58,18 +58,7 @@ TEST(Equilibria, AFlatValleyIsOneFamily) {
 }
 
 TEST(Equilibria, EquationsThatDependOnTheTimeHaveNone) {
-  const Model model = model_of(R"toml(
-title = "driven"
-[phase_space]
-variables = ["x"]
-time = "t"
-[equations]
-x = "t - x"
-[[scene]]
-name = "default"
-initial = { x = "0" }
-duration = "4"
-)toml");
+  const Model model = driven_equation("t - x");
   EXPECT_THROW(find_equilibria(model, model.scene("default"), [](double) {}), ModelError);
 }
 

@@ -43,18 +43,7 @@ TEST(Solve, BackwardsInTimeIsTheSame) {
 }
 
 TEST(Solve, EquationsThatDependOnTheTimeAreFollowedFromTheirOwnTime) {
-  const Model model = model_of(R"toml(
-title = "driven"
-[phase_space]
-variables = ["x"]
-time = "t"
-[equations]
-x = "2*t"
-[[scene]]
-name = "default"
-initial = { x = "0" }
-duration = "4"
-)toml");
+  const Model model = driven_equation("2*t");
   const Solution motion = solve(model, model.scene("default"), dense());
   ASSERT_TRUE(motion.ok());
   for (const double t : {0.5, 1.7, 3.9}) EXPECT_NEAR(motion(t)[0], t * t, 1e-12) << t;

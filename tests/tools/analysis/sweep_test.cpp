@@ -122,18 +122,7 @@ TEST(Exponents, OfASaddleIsItsEigenvalueAndOfACentreNone) {
 }
 
 TEST(Exponents, EquationsThatDependOnTheTimeHaveNone) {
-  const Model model = model_of(R"toml(
-title = "driven"
-[phase_space]
-variables = ["x"]
-time = "t"
-[equations]
-x = "t - x"
-[[scene]]
-name = "default"
-initial = { x = "0" }
-duration = "4"
-)toml");
+  const Model model = driven_equation("t - x");
   const Scene& scene = model.scene("default");
   const SceneRun run = prepare(model, scene);
   const Grid grid{{{"x", Axis::Kind::state, {1}}}};

@@ -29,4 +29,12 @@ inline Model one_equation(const std::string& rate, const std::string& duration,
                   duration + "\"\n" + more);
 }
 
+/// Equations in x and the time t, from x = 0.
+inline Model driven_equation(const std::string& rate) {
+  return model_of(
+      "title = \"driven\"\n[phase_space]\nvariables = [\"x\"]\ntime = \"t\"\n"
+      "[equations]\nx = \"" +
+      rate + "\"\n[[scene]]\nname = \"default\"\ninitial = { x = \"0\" }\nduration = \"4\"\n");
+}
+
 }  // namespace casimir::test
