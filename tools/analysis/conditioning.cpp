@@ -127,11 +127,16 @@ class Follower {
       deviation.see(t - from.time, x);
       if (keep) path_.push_back({t, {x, x + n}});
     };
+    // More is not told apart, and deviations that begin as large as states would overflow.
+    settings.give_up = [&] {
+      return deviation.now() >= kMost || (settings_.give_up && settings_.give_up());
+    };
     std::vector<double> start = from.state;
     for (std::size_t i = 0; i < n; ++i) start.push_back(unit_ * sizes_[i] * direction[i]);
     const Trajectory run =
         integrate(*module_, *find_method("taylor"), settings, start, run_.parameters);
-    if (run.status != Status::ok && run.status != Status::max_steps) return std::nullopt;
+    const bool grown = run.status == Status::stopped && deviation.now() >= kMost;
+    if (run.status != Status::ok && run.status != Status::max_steps && !grown) return std::nullopt;
     result_.followed = std::min(result_.followed, std::abs(from.time) + deviation.reached());
     deviation.extrapolate(std::abs(settings.duration));
     include(deviation, std::abs(from.time));

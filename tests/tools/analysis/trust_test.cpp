@@ -47,6 +47,10 @@ TEST(Trust, GrowthOfChangesIsThatOfTheFlow) {
   EXPECT_TRUE(none.beyond_double);
   EXPECT_NEAR(none.conditioning / std::exp(40), 1, 0.01);  // no step is long because nothing moves
   ASSERT_TRUE(none.six_digits_until);
+  const Model overflowing = one_equation("x - 1", "800");
+  const Trust most = solve(overflowing, overflowing.scene("default")).trust();
+  EXPECT_TRUE(most.known);
+  EXPECT_TRUE(most.beyond_double);
   // Rounding grows to 1e-6 at the time log(1e-6 / 2^-53): the end of a step before it.
   EXPECT_LE(*none.six_digits_until, std::log(1e-6 * 0x1p53));
 }
