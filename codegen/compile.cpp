@@ -12,9 +12,9 @@
 #include <sstream>
 #include <utility>
 
-#include "codegen/cache.hpp"
-#include "codegen/compiler.hpp"
-#include "codegen/shared_object.hpp"
+#include "codegen/compile/cache.hpp"
+#include "codegen/compile/compiler.hpp"
+#include "codegen/compile/shared_object.hpp"
 
 namespace casimir {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "codegen/literal.hpp"
+#include "codegen/emit/number_literal.hpp"
 #include "codegen/specialise.hpp"
 #include "codegen/split.hpp"
 
@@ -51,16 +51,16 @@ std::string emit_header(const Specialisation& specialisation, const HeaderOption
 /// J)` by columns, all entries.
 /// \param with_series  instead of `casimir_integrate`, what the precompiled integrator along Taylor
 ///        series calls; the kernel is then the storage of recurrences
-///        (runtime/kernels/convolved.hpp).
+///        (runtime/kernels/taylor/convolved.hpp).
 /// \param splitting  if set, `System` has also the flows of the parts of the Hamiltonian, as
-///        runtime/kernels/splitting.hpp asks for them.
+///        runtime/kernels/one_step/splitting.hpp asks for them.
 std::string emit_module(const Specialisation& specialisation, const std::string& kernel_source = {},
                         bool with_series = false, const Splitting* splitting = nullptr);
 
 /// The text of a module for ensembles: Taylor series, one trajectory in each lane of a register.
 /// Run-time parameters are those of a member. Quadratic systems have a better one, see
-/// lane_form.hpp. \param kernel_source  the text of runtime/kernels/lane_convolved.hpp with all it
-/// includes.
+/// lane_form.hpp. \param kernel_source  the text of runtime/kernels/lanes/lane_convolved.hpp with
+/// all it includes.
 std::string emit_series_lanes(const Specialisation& specialisation,
                               const std::string& kernel_source);
 

@@ -7,8 +7,8 @@
 #include <tuple>
 #include <utility>
 
-#include "codegen/literal.hpp"
-#include "codegen/lower.hpp"
+#include "codegen/emit/number_literal.hpp"
+#include "codegen/optimise/lower.hpp"
 
 namespace casimir {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "runtime/lane_form.hpp"
+#include "runtime/taylor/lane_form.hpp"
 
 namespace casimir {
 
@@ -15,7 +15,7 @@ std::optional<LaneForm> lane_form(const Program& rhs);
 
 /// The text of a module for ensembles of that form: its tables as constants in front of the kernel,
 /// whose loops are then written out.
-/// \param kernel_source  the text of runtime/kernels/lane_quadratic.hpp with all it includes.
+/// \param kernel_source  the text of runtime/kernels/lanes/lane_quadratic.hpp with all it includes.
 std::string emit_lane_module(const LaneForm& form, const std::string& kernel_source);
 
 }  // namespace casimir

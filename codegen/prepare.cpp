@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "codegen/program_writer.hpp"
+#include "codegen/optimise/program_writer.hpp"
 
 namespace casimir::codegen {
 

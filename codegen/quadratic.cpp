@@ -9,8 +9,8 @@
 #include <map>
 #include <utility>
 
-#include "codegen/literal.hpp"
-#include "codegen/lower.hpp"
+#include "codegen/emit/number_literal.hpp"
+#include "codegen/optimise/lower.hpp"
 
 namespace casimir {
 namespace {

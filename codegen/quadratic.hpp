@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "runtime/program.hpp"
-#include "runtime/quadratic_form.hpp"
+#include "runtime/taylor/quadratic_form.hpp"
 
 namespace casimir {
 

@@ -5,11 +5,11 @@
 #include <set>
 #include <utility>
 
-#include "codegen/canonical.hpp"
-#include "codegen/optimise.hpp"
-#include "codegen/terms.hpp"
-#include "codegen/vanishing.hpp"
-#include "symbolic/measure.hpp"
+#include "codegen/dag/expression_dag.hpp"
+#include "codegen/dag/vanishing.hpp"
+#include "codegen/optimise/optimise.hpp"
+#include "codegen/optimise/terms.hpp"
+#include "symbolic/case/expression_size.hpp"
 
 namespace casimir {
 

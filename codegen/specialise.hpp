@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "codegen/differentiate.hpp"
-#include "codegen/lower.hpp"
+#include "codegen/optimise/differentiate.hpp"
+#include "codegen/optimise/lower.hpp"
 #include "runtime/program.hpp"
 #include "symbolic/model.hpp"
 

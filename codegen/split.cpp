@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "codegen/canonical.hpp"
-#include "codegen/optimise.hpp"
+#include "codegen/dag/expression_dag.hpp"
+#include "codegen/optimise/optimise.hpp"
+#include "symbolic/case/expression_size.hpp"
 #include "symbolic/error.hpp"
-#include "symbolic/measure.hpp"
 
 namespace casimir {
 namespace {

@@ -1,7 +1,7 @@
 # Writes the texts of FILES (separated by |, names relative to ROOT) as a C++ table to OUTPUT.
 string(REPLACE "|" ";" FILES "${FILES}")
 set(text "// Written by runtime/embed.cmake. The kernels as text, for compilation at run time.\n")
-string(APPEND text "#include \"runtime/kernel_text.hpp\"\n\nnamespace casimir {\n\n")
+string(APPEND text "#include \"runtime/step/kernel_text.hpp\"\n\nnamespace casimir {\n\n")
 string(APPEND text "const KernelText kKernelTexts[] = {\n")
 set(count 0)
 foreach(name IN LISTS FILES)

@@ -6,8 +6,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "runtime/ensemble_work.hpp"
-#include "runtime/lane_look.hpp"
+#include "runtime/ensemble/ensemble_work.hpp"
+#include "runtime/ensemble/lane_look.hpp"
 
 namespace casimir {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "runtime/ensemble/lane_kernel.hpp"
 #include "runtime/integrate.hpp"
-#include "runtime/lane_kernel.hpp"
 
 namespace casimir {
 

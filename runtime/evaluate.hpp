@@ -3,7 +3,7 @@
 #include <cassert>
 #include <vector>
 
-#include "runtime/operation.hpp"
+#include "runtime/program/operation.hpp"
 
 namespace casimir {
 

@@ -7,11 +7,11 @@
 #include <optional>
 #include <stdexcept>
 
-#include "runtime/arkode.hpp"
-#include "runtime/cvode.hpp"
-#include "runtime/observer.hpp"
-#include "runtime/step_watch.hpp"
-#include "runtime/stiffness.hpp"
+#include "runtime/outside/arkode.hpp"
+#include "runtime/outside/cvode.hpp"
+#include "runtime/step/observer.hpp"
+#include "runtime/step/step_watch.hpp"
+#include "runtime/step/stiffness.hpp"
 
 namespace casimir {
 namespace {

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <set>
 
-#include "runtime/kernel_text.hpp"
+#include "runtime/step/kernel_text.hpp"
 
 namespace casimir {
 namespace {
@@ -15,7 +15,7 @@ constexpr Method gauss(std::string_view name, int order, std::string_view entry)
           .uses_jacobian = true,
           .preserves_quadratic = true,
           .fixed_step_ok = true,
-          .header = "runtime/kernels/gauss.hpp",
+          .header = "runtime/kernels/one_step/gauss.hpp",
           .entry = entry,
           // Short sums in a chain of dependent steps: packing them costs a third of the speed (GCC
           // 12).
@@ -30,7 +30,7 @@ constexpr Method radau(std::string_view name, int order, std::string_view entry)
           .implicit = true,
           .uses_jacobian = true,
           .fixed_step_ok = true,
-          .header = "runtime/kernels/radau.hpp",
+          .header = "runtime/kernels/one_step/radau.hpp",
           .entry = entry,
           .description = "collocation at the Radau nodes, L-stable, for stiff and damped systems",
           .literature =
@@ -43,7 +43,7 @@ constexpr Method splitting(std::string_view name, int order, std::string_view en
           .order = order,
           .fixed_step_ok = true,
           .splits = true,
-          .header = "runtime/kernels/splitting.hpp",
+          .header = "runtime/kernels/one_step/splitting.hpp",
           .entry = entry,
           .description = "composition of exact flows of parts of the Hamiltonian, a Poisson map",
           .literature =
@@ -56,7 +56,7 @@ constexpr Method taylor(std::string_view name) {
   return {.name = name,
           .fixed_step_ok = true,
           .series = true,
-          .header = "runtime/kernels/convolved.hpp",
+          .header = "runtime/kernels/taylor/convolved.hpp",
           .description = "Taylor series of order 8 to 24 by recurrences, for smooth problems",
           .literature =
               "Jorba, Zou: A software package for the numerical integration of ODEs "
@@ -68,7 +68,7 @@ constexpr Method odeint(std::string_view name, int order, std::string_view entry
   return {.name = name,
           .order = order,
           .outside = "Boost.Odeint",
-          .header = "runtime/kernels/odeint.hpp",
+          .header = "runtime/kernels/one_step/odeint.hpp",
           .entry = entry,
           .description = description,
           .literature = "Ahnert, Mulansky: Odeint, AIP Conf. Proc. 1389 (2011) 1586"};
@@ -80,7 +80,7 @@ constexpr Method kMethods[] = {
     {.name = "dop853",
      .order = 8,
      .fixed_step_ok = true,
-     .header = "runtime/kernels/dop853.hpp",
+     .header = "runtime/kernels/one_step/dop853.hpp",
      .entry = "dop853::integrate<System>",
      .description = "explicit Runge-Kutta method of Dormand and Prince",
      .literature = "Hairer, Norsett, Wanner: Solving Ordinary Differential Equations I (1993), "
@@ -88,7 +88,7 @@ constexpr Method kMethods[] = {
     {.name = "dopri5",
      .order = 5,
      .fixed_step_ok = true,
-     .header = "runtime/kernels/dopri5.hpp",
+     .header = "runtime/kernels/one_step/dopri5.hpp",
      .entry = "dopri5::integrate<System>",
      .description = "explicit Runge-Kutta pair of Dormand and Prince of order 5(4), for few digits",
      .literature = "Hairer, Norsett, Wanner: Solving Ordinary Differential Equations I (1993), "

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "runtime/quadratic_targets.hpp"
-#include "runtime/step_watch.hpp"
+#include "runtime/step/step_watch.hpp"
+#include "runtime/taylor/quadratic_targets.hpp"
 
 namespace casimir {
 namespace {

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "runtime/angle_branches.hpp"
+#include "runtime/digits/precise_branch.hpp"
+#include "runtime/digits/precise_step.hpp"
 #include "runtime/evaluate.hpp"
-#include "runtime/interpreter.hpp"
-#include "runtime/precise_branch.hpp"
-#include "runtime/precise_step.hpp"
-#include "runtime/taylor_jet.hpp"
+#include "runtime/program/angle_branches.hpp"
+#include "runtime/program/interpreter.hpp"
+#include "runtime/program/program_series.hpp"
 
 namespace casimir {
 namespace {

@@ -3,9 +3,9 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/angle_branches.hpp"
-#include "runtime/interpreter.hpp"
 #include "runtime/program.hpp"
+#include "runtime/program/angle_branches.hpp"
+#include "runtime/program/interpreter.hpp"
 
 namespace casimir {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/agreed_run.hpp"
+#include "runtime/digits/agreed_run.hpp"
 
 namespace casimir {
 Reference reference_solution(const Program& rhs, const std::vector<cln::cl_R>& initial,

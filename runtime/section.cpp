@@ -12,11 +12,11 @@
 #include <stdexcept>
 #include <thread>
 
-#include "runtime/ensemble_work.hpp"
-#include "runtime/jet_layout.hpp"
-#include "runtime/lane_look.hpp"
-#include "runtime/part_of_step.hpp"
-#include "runtime/section_orbit.hpp"
+#include "runtime/ensemble/ensemble_work.hpp"
+#include "runtime/ensemble/lane_look.hpp"
+#include "runtime/ensemble/part_of_step.hpp"
+#include "runtime/section/section_orbit.hpp"
+#include "runtime/taylor/jet_layout.hpp"
 
 namespace casimir {
 namespace {

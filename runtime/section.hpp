@@ -3,8 +3,8 @@
 #include <functional>
 #include <vector>
 
+#include "runtime/ensemble/lane_kernel.hpp"
 #include "runtime/integrate.hpp"
-#include "runtime/lane_kernel.hpp"
 
 namespace casimir {
 

@@ -4,10 +4,10 @@
 #include <memory>
 #include <stdexcept>
 
-#include "runtime/interpreted_series.hpp"
-#include "runtime/interpreter.hpp"
-#include "runtime/quadratic_targets.hpp"
-#include "runtime/scaled_run.hpp"
+#include "runtime/program/interpreted_series.hpp"
+#include "runtime/program/interpreter.hpp"
+#include "runtime/taylor/quadratic_targets.hpp"
+#include "runtime/taylor/scaled_run.hpp"
 
 namespace casimir {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "runtime/module.hpp"
 #include "runtime/program.hpp"
-#include "runtime/quadratic_form.hpp"
+#include "runtime/taylor/quadratic_form.hpp"
 
 namespace casimir {
 

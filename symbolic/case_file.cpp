@@ -7,10 +7,10 @@
 #include <cctype>
 #include <fstream>
 
-#include "symbolic/limits.hpp"
-#include "symbolic/spelling.hpp"
-#include "symbolic/toml_keys.hpp"
-#include "symbolic/toml_reader.hpp"
+#include "symbolic/case/limits.hpp"
+#include "symbolic/case/spelling.hpp"
+#include "symbolic/case/toml_keys.hpp"
+#include "symbolic/case/toml_reader.hpp"
 
 namespace casimir {
 namespace {

@@ -8,9 +8,9 @@
 #include <set>
 #include <stdexcept>
 
-#include "symbolic/coq_file.hpp"
-#include "symbolic/function_ring.hpp"
-#include "symbolic/limits.hpp"
+#include "symbolic/case/limits.hpp"
+#include "symbolic/functions/function_ring.hpp"
+#include "symbolic/proof/coq_file.hpp"
 
 namespace casimir {
 namespace {

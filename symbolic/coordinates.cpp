@@ -9,9 +9,9 @@
 #include <optional>
 #include <set>
 
-#include "symbolic/decimal.hpp"
-#include "symbolic/exact_constant.hpp"
-#include "symbolic/measure.hpp"
+#include "symbolic/algebra/exact_constant.hpp"
+#include "symbolic/case/decimal.hpp"
+#include "symbolic/case/expression_size.hpp"
 
 namespace casimir {
 namespace {

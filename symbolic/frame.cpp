@@ -6,10 +6,10 @@
 #include <map>
 #include <random>
 
-#include "symbolic/expression.hpp"
-#include "symbolic/function_ring.hpp"
-#include "symbolic/measure.hpp"
-#include "symbolic/rational_matrix.hpp"
+#include "symbolic/algebra/rational_matrix.hpp"
+#include "symbolic/case/expression.hpp"
+#include "symbolic/case/expression_size.hpp"
+#include "symbolic/functions/function_ring.hpp"
 
 namespace casimir {
 namespace {

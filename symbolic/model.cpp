@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "symbolic/exact_constant.hpp"
-#include "symbolic/expression.hpp"
-#include "symbolic/measure.hpp"
-#include "symbolic/model_dynamics.hpp"
+#include "symbolic/algebra/exact_constant.hpp"
+#include "symbolic/case/expression.hpp"
+#include "symbolic/case/expression_size.hpp"
+#include "symbolic/model/model_dynamics.hpp"
 
 namespace casimir {
 

@@ -4,8 +4,8 @@
 #include <new>
 #include <stdexcept>
 
-#include "symbolic/claims/claim.hpp"
-#include "symbolic/limits.hpp"
+#include "symbolic/case/limits.hpp"
+#include "symbolic/proof/claims/claim.hpp"
 
 namespace casimir {
 namespace {

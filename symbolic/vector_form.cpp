@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "symbolic/measure.hpp"
+#include "symbolic/case/expression_size.hpp"
 
 namespace casimir {
 namespace {

@@ -9,11 +9,11 @@
 
 #include "codegen/compile.hpp"
 #include "symbolic/error.hpp"
-#include "tools/cli.hpp"
-#include "tools/errors.hpp"
-#include "tools/output.hpp"
-#include "tools/program.hpp"
-#include "tools/standard_streams.hpp"
+#include "tools/cli/cli.hpp"
+#include "tools/cli/command_line.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/cli/standard_streams.hpp"
 #include "tools/usage/helpers.hpp"
 
 namespace {

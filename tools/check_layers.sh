@@ -15,7 +15,7 @@ function layer(file) {
 }
 BEGIN {
   may["symbolic"] = "^symbolic/"
-  may["codegen"] = "^(codegen/|symbolic/|runtime/program[.]hpp$|runtime/module_abi[.]h$|runtime/quadratic_form[.]hpp$|runtime/lane_form[.]hpp$)"
+  may["codegen"] = "^(codegen/|symbolic/|runtime/program[.]hpp$|runtime/module_abi[.]h$|runtime/taylor/quadratic_form[.]hpp$|runtime/taylor/lane_form[.]hpp$)"
   may["runtime"] = "^runtime/"
   may["runtime/kernels"] = "^(runtime/kernels/|runtime/module_abi[.]h$)"
   may["tools/analysis"] = "^(tools/analysis|codegen|symbolic|runtime)/"
@@ -113,8 +113,8 @@ self_test() {
   bent runtime/a.cpp '#include <ginac/ginac.h>' 'runtime must not include <ginac/ginac.h>'
   bent runtime/kernels/a.hpp '#include "runtime/program.hpp"' \
     'runtime/kernels must not include "runtime/program.hpp"'
-  bent tools/analysis/a.cpp '#include "tools/output.hpp"' \
-    'tools/analysis must not include "tools/output.hpp"'
+  bent tools/analysis/a.cpp '#include "tools/cli/output.hpp"' \
+    'tools/analysis must not include "tools/cli/output.hpp"'
   bent tools/analysis/sweep/a.hpp '#include <CLI/CLI.hpp>' \
     'tools/analysis must not include <CLI/CLI.hpp>'
   bent tools/commands/a.cpp '#include "tests/systems.hpp"' \

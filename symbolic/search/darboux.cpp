@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <map>
 
-#include "symbolic/search/monomials.hpp"
+#include "symbolic/algebra/short_text.hpp"
+#include "symbolic/search/modular/monomials.hpp"
 #include "symbolic/search/polynomial_system.hpp"
 #include "symbolic/search/quasi_homogeneous.hpp"
-#include "symbolic/search/short_text.hpp"
 #include "symbolic/search/system.hpp"
 
 namespace casimir::search {

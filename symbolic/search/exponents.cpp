@@ -11,9 +11,9 @@
 #include <set>
 #include <sstream>
 
-#include "symbolic/expression.hpp"
-#include "symbolic/ideal.hpp"
-#include "symbolic/search/polynomial_roots.hpp"
+#include "symbolic/algebra/ideal.hpp"
+#include "symbolic/algebra/polynomial_roots.hpp"
+#include "symbolic/case/expression.hpp"
 #include "symbolic/search/polynomial_system.hpp"
 #include "symbolic/search/quasi_homogeneous.hpp"
 #include "symbolic/search/system.hpp"

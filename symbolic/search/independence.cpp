@@ -31,7 +31,7 @@
 #include <numeric>
 #include <set>
 
-#include "symbolic/search/span.hpp"
+#include "symbolic/search/modular/span.hpp"
 
 namespace casimir::search {
 namespace {

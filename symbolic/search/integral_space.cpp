@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "symbolic/search/level_points.hpp"
-#include "symbolic/search/reconstruct.hpp"
-#include "symbolic/search/shorten.hpp"
+#include "symbolic/search/modular/level_points.hpp"
+#include "symbolic/search/modular/reconstruct.hpp"
+#include "symbolic/search/modular/shorten.hpp"
 
 namespace casimir::search {
 namespace {

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "symbolic/search/echelon.hpp"
-#include "symbolic/search/linear_map.hpp"
-#include "symbolic/search/span.hpp"
+#include "symbolic/search/modular/echelon.hpp"
+#include "symbolic/search/modular/linear_map.hpp"
+#include "symbolic/search/modular/span.hpp"
 #include "symbolic/search/watch.hpp"
 
 namespace casimir::search {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "symbolic/ideal.hpp"
-#include "symbolic/polynomial.hpp"
+#include "symbolic/algebra/ideal.hpp"
+#include "symbolic/algebra/polynomial.hpp"
 #include "symbolic/search/watch.hpp"
 
 namespace casimir::search {

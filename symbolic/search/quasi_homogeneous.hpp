@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "symbolic/polynomial.hpp"
+#include "symbolic/algebra/polynomial.hpp"
 
 namespace casimir::search {
 

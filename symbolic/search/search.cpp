@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <charconv>
 
+#include "symbolic/algebra/short_text.hpp"
+#include "symbolic/search/conditions/real_ideal.hpp"
 #include "symbolic/search/finder.hpp"
 #include "symbolic/search/independence.hpp"
 #include "symbolic/search/not_constant.hpp"
-#include "symbolic/search/real_ideal.hpp"
-#include "symbolic/search/short_text.hpp"
 
 namespace casimir::search {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "symbolic/error.hpp"
-#include "symbolic/search/modular_roots.hpp"
+#include "symbolic/search/modular/modular_roots.hpp"
 #include "symbolic/search/watch.hpp"
 
 namespace casimir::search {

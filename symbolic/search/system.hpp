@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "symbolic/limits.hpp"
-#include "symbolic/prover.hpp"
-#include "symbolic/search/modular.hpp"
+#include "symbolic/case/limits.hpp"
+#include "symbolic/proof/prover.hpp"
+#include "symbolic/search/modular/modular.hpp"
 
 namespace casimir::search {
 

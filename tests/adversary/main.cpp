@@ -2,7 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "symbolic/limits.hpp"
+#include "symbolic/case/limits.hpp"
 #include "tests/adversary/run.hpp"
 
 int main(int argc, char** argv) {

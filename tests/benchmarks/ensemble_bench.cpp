@@ -20,12 +20,12 @@
 #include <random>
 
 #include "codegen/compile.hpp"
+#include "codegen/emit/number_literal.hpp"
 #include "codegen/lane_form.hpp"
-#include "codegen/literal.hpp"
 #include "codegen/quadratic.hpp"
 #include "codegen/specialise.hpp"
 #include "runtime/ensemble.hpp"
-#include "runtime/quadratic_targets.hpp"
+#include "runtime/taylor/quadratic_targets.hpp"
 #include "symbolic/case_file.hpp"
 
 namespace {
@@ -191,7 +191,7 @@ std::vector<Curve> curves_of(const Problem& problem, const LaneKernel& compiled,
 }
 
 LaneKernel compiled_kernel(const LaneForm& form) {
-  const std::string kernel = kernel_text("runtime/kernels/lane_quadratic.hpp");
+  const std::string kernel = kernel_text("runtime/kernels/lanes/lane_quadratic.hpp");
   LaneKernel result = loaded_lanes(compile(emit_lane_module(form, kernel)).path);
   result.numbers = form.numbers;
   return result;

@@ -21,8 +21,8 @@
 #include <iostream>
 #include <optional>
 
-#include "prove_problems.hpp"
-#include "symbolic/function_ring.hpp"
+#include "tests/benchmarks/prove_problems.hpp"
+#include "symbolic/functions/function_ring.hpp"
 #include "symbolic/prove.hpp"
 
 namespace casimir::test {

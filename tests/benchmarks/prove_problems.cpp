@@ -1,4 +1,4 @@
-#include "prove_problems.hpp"
+#include "tests/benchmarks/prove_problems.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -16,8 +16,8 @@
 #include <random>
 
 #include "symbolic/case_file.hpp"
-#include "symbolic/search/echelon.hpp"
-#include "symbolic/search/linear_map.hpp"
+#include "symbolic/search/modular/echelon.hpp"
+#include "symbolic/search/modular/linear_map.hpp"
 #include "symbolic/search/search.hpp"
 #include "symbolic/search/system.hpp"
 

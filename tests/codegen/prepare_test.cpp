@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "codegen/emit_cpp.hpp"
-#include "random_system.hpp"
+#include "tests/codegen/differential/random_system.hpp"
 #include "runtime/integrate.hpp"
-#include "support.hpp"
+#include "tests/codegen/support.hpp"
 
 namespace casimir {
 namespace {

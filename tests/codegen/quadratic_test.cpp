@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "runtime/evaluate.hpp"
-#include "runtime/quadratic_layout.hpp"
-#include "support.hpp"
+#include "runtime/taylor/quadratic_layout.hpp"
+#include "tests/codegen/support.hpp"
 
 namespace casimir {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "support.hpp"
+#include "tests/codegen/support.hpp"
 
 namespace casimir {
 namespace {

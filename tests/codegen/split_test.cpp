@@ -9,7 +9,7 @@
 #include "codegen/emit_cpp.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/integrate.hpp"
-#include "support.hpp"
+#include "tests/codegen/support.hpp"
 #include "tests/bundled_cases.hpp"
 
 namespace casimir::testing {

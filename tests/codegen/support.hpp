@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "codegen/compile.hpp"
-#include "codegen/compiler.hpp"
+#include "codegen/compile/compiler.hpp"
 #include "codegen/specialise.hpp"
 #include "symbolic/case_file.hpp"
 #include "tests/folder.hpp"

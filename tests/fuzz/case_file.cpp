@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "symbolic/limits.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/model.hpp"
 #include "tests/fuzz/target.hpp"
 

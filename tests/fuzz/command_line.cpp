@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "tests/fuzz/target.hpp"
-#include "tools/errors.hpp"
-#include "tools/program.hpp"
-#include "tools/search_options.hpp"
+#include "tools/cli/command_line.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/options/search_options.hpp"
 
 namespace {
 

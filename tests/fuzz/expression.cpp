@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <string>
 
-#include "symbolic/expression.hpp"
-#include "symbolic/limits.hpp"
+#include "symbolic/case/expression.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/model.hpp"
-#include "symbolic/model_dynamics.hpp"
+#include "symbolic/model/model_dynamics.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <ctime>
 
-#include "symbolic/limits.hpp"
+#include "symbolic/case/limits.hpp"
 
 /// What libFuzzer and tests/fuzz/replay.cpp call for each input. Whatever it throws, and whatever a
 /// sanitizer sees, is an error.

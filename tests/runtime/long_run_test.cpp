@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/quadratic_targets.hpp"
+#include "runtime/taylor/quadratic_targets.hpp"
 
 namespace casimir::test {
 namespace {

@@ -10,7 +10,7 @@
 #include <limits>
 #include <map>
 
-#include "runtime/kernels/splitting.hpp"
+#include "runtime/kernels/one_step/splitting.hpp"
 #include "runtime/module.hpp"
 #include "tests/folder.hpp"
 #include "tests/runtime/systems.hpp"

@@ -7,7 +7,7 @@
 #include <boost/math/special_functions/jacobi_elliptic.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-#include "runtime/agreed_run.hpp"
+#include "runtime/digits/agreed_run.hpp"
 #include "tests/runtime/programs.hpp"
 
 namespace casimir::test {

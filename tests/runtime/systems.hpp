@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "runtime/integrate.hpp"
-#include "runtime/kernels/dop853.hpp"
-#include "runtime/kernels/dopri5.hpp"
-#include "runtime/kernels/gauss.hpp"
-#include "runtime/kernels/radau.hpp"
+#include "runtime/kernels/one_step/dop853.hpp"
+#include "runtime/kernels/one_step/dopri5.hpp"
+#include "runtime/kernels/one_step/gauss.hpp"
+#include "runtime/kernels/one_step/radau.hpp"
 #include "runtime/program.hpp"
 
 // Problems with known solutions, as the classes that kernels are instantiated with.

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "codegen/lower.hpp"
-#include "codegen/terms.hpp"
+#include "codegen/optimise/lower.hpp"
+#include "codegen/optimise/terms.hpp"
 #include "runtime/evaluate.hpp"
 
 namespace casimir {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "codegen/lower.hpp"
-#include "codegen/terms.hpp"
+#include "codegen/optimise/lower.hpp"
+#include "codegen/optimise/terms.hpp"
 #include "runtime/evaluate.hpp"
 #include "tools/analysis/error.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "runtime/integrate.hpp"
 #include "runtime/methods.hpp"
-#include "tools/analysis/scene_run.hpp"
+#include "tools/analysis/run/prepared_scene.hpp"
 
 namespace casimir {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/analysis/judged_run.hpp"
+#include "tools/analysis/run/assessed_run.hpp"
 
 namespace casimir {
 

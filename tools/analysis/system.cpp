@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <set>
 
-#include "symbolic/decimal.hpp"
-#include "symbolic/elementary.hpp"
-#include "symbolic/expression.hpp"
+#include "symbolic/case/decimal.hpp"
+#include "symbolic/case/elementary.hpp"
+#include "symbolic/case/expression.hpp"
 
 namespace casimir {
 namespace {

@@ -1,6 +1,6 @@
 #include "tools/analysis/verify.hpp"
 
-#include "tools/analysis/limited_prove.hpp"
+#include "tools/analysis/proof/prove_in_process.hpp"
 
 namespace casimir {
 

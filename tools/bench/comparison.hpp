@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/analysis/benchmark/contest.hpp"
+#include "tools/analysis/benchmark/method_comparison.hpp"
 
 namespace casimir::tools {
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "tools/analysis/benchmark/contest.hpp"
-#include "tools/machine.hpp"
-#include "tools/plot.hpp"
-#include "tools/run_report.hpp"
+#include "tools/analysis/benchmark/method_comparison.hpp"
+#include "tools/cli/machine.hpp"
+#include "tools/plot/plot.hpp"
+#include "tools/text/run_report.hpp"
 
 namespace casimir::tools {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "tools/analysis/benchmark/contest.hpp"
+#include "tools/analysis/benchmark/method_comparison.hpp"
 
 namespace casimir::tools::html {
 

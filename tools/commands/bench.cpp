@@ -5,19 +5,19 @@
 #include <algorithm>
 #include <iostream>
 
-#include "tools/analysis/benchmark/contest.hpp"
-#include "tools/analysis/scene_run.hpp"
-#include "tools/atlas.hpp"
+#include "tools/analysis/benchmark/method_comparison.hpp"
+#include "tools/analysis/run/prepared_scene.hpp"
 #include "tools/bench/report.hpp"
-#include "tools/case_library.hpp"
-#include "tools/choices.hpp"
-#include "tools/cli.hpp"
-#include "tools/errors.hpp"
-#include "tools/kept_parameters.hpp"
-#include "tools/output.hpp"
-#include "tools/progress.hpp"
-#include "tools/run_options.hpp"
-#include "tools/scene_values.hpp"
+#include "tools/cli/case_library.hpp"
+#include "tools/cli/cli.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/options/choices.hpp"
+#include "tools/cli/options/kept_parameters.hpp"
+#include "tools/cli/options/run_options.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/cli/progress.hpp"
+#include "tools/runs/atlas.hpp"
+#include "tools/runs/scene_values.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -6,16 +6,16 @@
 #include <cmath>
 #include <iostream>
 
-#include "tools/atlas.hpp"
-#include "tools/case_library.hpp"
-#include "tools/cli.hpp"
-#include "tools/conserve_run.hpp"
-#include "tools/errors.hpp"
-#include "tools/kept_parameters.hpp"
-#include "tools/output.hpp"
-#include "tools/progress.hpp"
-#include "tools/run_options.hpp"
-#include "tools/scene_values.hpp"
+#include "tools/cli/case_library.hpp"
+#include "tools/cli/cli.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/options/kept_parameters.hpp"
+#include "tools/cli/options/run_options.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/cli/progress.hpp"
+#include "tools/runs/atlas.hpp"
+#include "tools/runs/conserve_run.hpp"
+#include "tools/runs/scene_values.hpp"
 
 namespace casimir::tools {
 namespace {

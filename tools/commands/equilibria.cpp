@@ -7,11 +7,11 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "tools/analysis/equilibria.hpp"
-#include "tools/atlas.hpp"
-#include "tools/case_library.hpp"
-#include "tools/errors.hpp"
-#include "tools/search_watch.hpp"
+#include "tools/analysis/equilibria/equilibria.hpp"
+#include "tools/cli/case_library.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/search_watch.hpp"
+#include "tools/runs/atlas.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "symbolic/search/exponents.hpp"
-#include "tools/analysis/numeric_balances.hpp"
-#include "tools/atlas.hpp"
-#include "tools/case_library.hpp"
-#include "tools/errors.hpp"
-#include "tools/search_options.hpp"
-#include "tools/search_watch.hpp"
+#include "tools/analysis/equilibria/numeric_balances.hpp"
+#include "tools/cli/case_library.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/options/search_options.hpp"
+#include "tools/cli/search_watch.hpp"
+#include "tools/runs/atlas.hpp"
 
 namespace casimir::tools {
 namespace {

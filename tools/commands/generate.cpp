@@ -7,15 +7,15 @@
 #include <iostream>
 
 #include "codegen/emit_cpp.hpp"
-#include "tools/atlas.hpp"
-#include "tools/case_library.hpp"
-#include "tools/choices.hpp"
-#include "tools/cli.hpp"
-#include "tools/errors.hpp"
-#include "tools/generated_report.hpp"
-#include "tools/kept_parameters.hpp"
-#include "tools/output.hpp"
-#include "tools/scene_values.hpp"
+#include "tools/cli/case_library.hpp"
+#include "tools/cli/cli.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/options/choices.hpp"
+#include "tools/cli/options/kept_parameters.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/runs/atlas.hpp"
+#include "tools/runs/scene_values.hpp"
+#include "tools/text/generated_report.hpp"
 
 namespace casimir::tools {
 namespace {

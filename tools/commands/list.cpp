@@ -6,10 +6,10 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "tools/book_order.hpp"
-#include "tools/case_library.hpp"
-#include "tools/cli.hpp"
-#include "tools/errors.hpp"
+#include "tools/cli/case_library.hpp"
+#include "tools/cli/cli.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/show/book_order.hpp"
 
 namespace casimir::tools {
 namespace {

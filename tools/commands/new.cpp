@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "symbolic/error.hpp"
-#include "tools/cli.hpp"
-#include "tools/errors.hpp"
-#include "tools/new_case.hpp"
-#include "tools/output.hpp"
+#include "tools/cli/cli.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/runs/new_case.hpp"
 
 namespace casimir::tools {
 namespace {

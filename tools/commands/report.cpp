@@ -9,17 +9,17 @@
 #include <set>
 #include <sstream>
 
-#include "tools/atlas.hpp"
-#include "tools/book_order.hpp"
-#include "tools/case_library.hpp"
-#include "tools/cli.hpp"
-#include "tools/errors.hpp"
-#include "tools/output.hpp"
-#include "tools/progress.hpp"
-#include "tools/proof_table.hpp"
+#include "tools/cli/case_library.hpp"
+#include "tools/cli/cli.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/cli/progress.hpp"
 #include "tools/report/index.hpp"
 #include "tools/report/page.hpp"
-#include "tools/scene_values.hpp"
+#include "tools/runs/atlas.hpp"
+#include "tools/runs/scene_values.hpp"
+#include "tools/show/book_order.hpp"
+#include "tools/text/proof_table.hpp"
 
 namespace casimir::tools {
 namespace {

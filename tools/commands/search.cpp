@@ -6,13 +6,13 @@
 
 #include "symbolic/search/darboux.hpp"
 #include "symbolic/search/search.hpp"
-#include "tools/atlas.hpp"
-#include "tools/case_library.hpp"
-#include "tools/errors.hpp"
-#include "tools/resources.hpp"
-#include "tools/search_options.hpp"
-#include "tools/search_report.hpp"
-#include "tools/search_watch.hpp"
+#include "tools/cli/case_library.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/options/search_options.hpp"
+#include "tools/cli/resources.hpp"
+#include "tools/cli/search_watch.hpp"
+#include "tools/runs/atlas.hpp"
+#include "tools/text/search_report.hpp"
 
 namespace casimir::tools {
 namespace {

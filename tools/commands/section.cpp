@@ -6,18 +6,18 @@
 #include <iostream>
 #include <memory>
 
-#include "tools/case_library.hpp"
-#include "tools/choices.hpp"
-#include "tools/cli.hpp"
-#include "tools/errors.hpp"
-#include "tools/gnuplot.hpp"
-#include "tools/progress.hpp"
-#include "tools/run_report.hpp"
-#include "tools/scene_values.hpp"
+#include "tools/cli/case_library.hpp"
+#include "tools/cli/cli.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/options/choices.hpp"
+#include "tools/cli/progress.hpp"
+#include "tools/plot/gnuplot.hpp"
+#include "tools/runs/scene_values.hpp"
 #include "tools/section/picture.hpp"
 #include "tools/section/report.hpp"
 #include "tools/section/request.hpp"
 #include "tools/section/seeds.hpp"
+#include "tools/text/run_report.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/analysis/conversion.hpp"
-#include "tools/atlas.hpp"
-#include "tools/case_library.hpp"
-#include "tools/choices.hpp"
-#include "tools/cli.hpp"
-#include "tools/errors.hpp"
-#include "tools/run_report.hpp"
-#include "tools/show.hpp"
+#include "tools/cli/case_library.hpp"
+#include "tools/cli/cli.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/options/choices.hpp"
+#include "tools/runs/atlas.hpp"
+#include "tools/show/show.hpp"
+#include "tools/text/run_report.hpp"
 
 namespace casimir::tools {
 namespace {

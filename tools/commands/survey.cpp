@@ -8,15 +8,15 @@
 #include <optional>
 
 #include "codegen/specialise.hpp"
-#include "tools/analysis/limited_prove.hpp"
-#include "tools/case_library.hpp"
-#include "tools/choices.hpp"
-#include "tools/cli.hpp"
-#include "tools/errors.hpp"
-#include "tools/marked_file.hpp"
-#include "tools/output.hpp"
-#include "tools/progress.hpp"
-#include "tools/survey_table.hpp"
+#include "tools/analysis/proof/prove_in_process.hpp"
+#include "tools/cli/case_library.hpp"
+#include "tools/cli/cli.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/options/choices.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/cli/progress.hpp"
+#include "tools/text/marked_file.hpp"
+#include "tools/text/survey_table.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -10,23 +10,23 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "tools/analysis/sweep/exponents.hpp"
 #include "tools/analysis/sweep/integrations.hpp"
+#include "tools/analysis/sweep/lyapunov.hpp"
 #include "tools/analysis/sweep/sections.hpp"
 #include "tools/analysis/sweep/sweep.hpp"
-#include "tools/case_library.hpp"
-#include "tools/choices.hpp"
-#include "tools/cli.hpp"
-#include "tools/errors.hpp"
-#include "tools/output.hpp"
-#include "tools/progress.hpp"
-#include "tools/run_options.hpp"
-#include "tools/run_report.hpp"
-#include "tools/scene_values.hpp"
+#include "tools/cli/case_library.hpp"
+#include "tools/cli/cli.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/options/choices.hpp"
+#include "tools/cli/options/run_options.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/cli/progress.hpp"
+#include "tools/runs/scene_values.hpp"
 #include "tools/section/request.hpp"
 #include "tools/sweep/grid_options.hpp"
 #include "tools/sweep/mpi_ranks.hpp"
 #include "tools/sweep/table.hpp"
+#include "tools/text/run_report.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -10,14 +10,14 @@
 #include <optional>
 
 #include "symbolic/certificate.hpp"
-#include "tools/analysis/limited_prove.hpp"
-#include "tools/atlas.hpp"
-#include "tools/case_library.hpp"
-#include "tools/cli.hpp"
-#include "tools/errors.hpp"
-#include "tools/output.hpp"
-#include "tools/proof_report.hpp"
-#include "tools/verify_report.hpp"
+#include "tools/analysis/proof/prove_in_process.hpp"
+#include "tools/cli/case_library.hpp"
+#include "tools/cli/cli.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/runs/atlas.hpp"
+#include "tools/text/proof_report.hpp"
+#include "tools/text/verify_report.hpp"
 
 namespace casimir::tools {
 namespace {

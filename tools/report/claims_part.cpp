@@ -1,11 +1,11 @@
 // The claims of a report with their verdicts.
 #include <fmt/format.h>
 
-#include "tools/html.hpp"
-#include "tools/proof_report.hpp"
-#include "tools/proof_table.hpp"
+#include "tools/report/html.hpp"
 #include "tools/report/page.hpp"
-#include "tools/run_report.hpp"
+#include "tools/text/proof_report.hpp"
+#include "tools/text/proof_table.hpp"
+#include "tools/text/run_report.hpp"
 
 namespace casimir::tools {
 namespace {

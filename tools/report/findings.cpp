@@ -7,10 +7,10 @@
 
 #include "codegen/compile.hpp"
 #include "symbolic/error.hpp"
-#include "tools/analysis/limited_prove.hpp"
-#include "tools/conserve_run.hpp"
-#include "tools/errors.hpp"
-#include "tools/trust_report.hpp"
+#include "tools/analysis/proof/prove_in_process.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/runs/conserve_run.hpp"
+#include "tools/text/trust_report.hpp"
 
 namespace casimir::tools {
 namespace {

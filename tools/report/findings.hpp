@@ -8,11 +8,11 @@
 
 #include "codegen/specialise.hpp"
 #include "symbolic/prove.hpp"
-#include "tools/analysis/benchmark/contest.hpp"
-#include "tools/drift_plot.hpp"
-#include "tools/machine.hpp"
-#include "tools/motion_plot.hpp"
-#include "tools/run_report.hpp"
+#include "tools/analysis/benchmark/method_comparison.hpp"
+#include "tools/cli/machine.hpp"
+#include "tools/plot/drift_plot.hpp"
+#include "tools/plot/motion_plot.hpp"
+#include "tools/text/run_report.hpp"
 
 namespace casimir::tools {
 

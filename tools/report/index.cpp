@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "tools/bench/comparison.hpp"
-#include "tools/book_order.hpp"
-#include "tools/html.hpp"
-#include "tools/proof_table.hpp"
+#include "tools/report/html.hpp"
 #include "tools/report/page.hpp"
+#include "tools/show/book_order.hpp"
+#include "tools/text/proof_table.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/machine.hpp"
+#include "tools/cli/machine.hpp"
 #include "tools/report/findings.hpp"
 
 namespace casimir::tools {

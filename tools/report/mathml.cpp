@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <map>
 
-#include "tools/html.hpp"
+#include "tools/report/html.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -8,9 +8,9 @@
 #include "tools/bench/comparison.hpp"
 #include "tools/bench/report.hpp"
 #include "tools/bench/report_html.hpp"
-#include "tools/generated_report.hpp"
-#include "tools/html.hpp"
+#include "tools/report/html.hpp"
 #include "tools/report/page.hpp"
+#include "tools/text/generated_report.hpp"
 
 namespace casimir::tools {
 namespace {

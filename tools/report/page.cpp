@@ -6,9 +6,9 @@
 #include <ctime>
 
 #include "symbolic/error.hpp"
-#include "tools/html.hpp"
-#include "tools/proof_table.hpp"
+#include "tools/report/html.hpp"
 #include "tools/report/style.hpp"
+#include "tools/text/proof_table.hpp"
 
 namespace casimir::tools {
 namespace {

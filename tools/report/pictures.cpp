@@ -1,7 +1,7 @@
 #include "tools/report/pictures.hpp"
 
 #include "tools/bench/report.hpp"
-#include "tools/errors.hpp"
+#include "tools/cli/errors.hpp"
 
 namespace casimir::tools {
 namespace {

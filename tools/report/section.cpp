@@ -1,7 +1,7 @@
 // The Poincare section of a report: some orbits all over the domain of possible motion, on the
 // level of the scene.
 #include "tools/analysis/section/domain_orbits.hpp"
-#include "tools/plot.hpp"
+#include "tools/plot/plot.hpp"
 #include "tools/report/pictures.hpp"
 #include "tools/section/picture.hpp"
 #include "tools/section/request.hpp"

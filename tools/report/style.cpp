@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "tools/plot.hpp"
+#include "tools/plot/plot.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <sstream>
 
-#include "tools/html.hpp"
+#include "tools/report/html.hpp"
 #include "tools/report/mathml.hpp"
 #include "tools/report/page.hpp"
-#include "tools/show.hpp"
+#include "tools/show/show.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
-#include "tools/gnuplot.hpp"
-#include "tools/output.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/plot/gnuplot.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/output.hpp"
-#include "tools/run_report.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/text/run_report.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "symbolic/decimal.hpp"
-#include "symbolic/expression.hpp"
-#include "tools/errors.hpp"
+#include "symbolic/case/decimal.hpp"
+#include "symbolic/case/expression.hpp"
+#include "tools/cli/errors.hpp"
 
 namespace casimir::tools {
 namespace {

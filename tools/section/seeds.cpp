@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "tools/ensemble_file.hpp"
-#include "tools/errors.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/text/ensemble_file.hpp"
 
 namespace casimir::tools {
 namespace {

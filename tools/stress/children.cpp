@@ -15,7 +15,7 @@
 #include <iostream>
 #include <list>
 
-#include "tools/errors.hpp"
+#include "tools/cli/errors.hpp"
 
 namespace casimir::tools {
 namespace {

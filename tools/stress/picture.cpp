@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "tools/gnuplot.hpp"
-#include "tools/output.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/plot/gnuplot.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "symbolic/error.hpp"
-#include "tools/analysis/exact_text.hpp"
-#include "tools/analysis/scene_run.hpp"
+#include "tools/analysis/proof/exact_text.hpp"
+#include "tools/analysis/run/prepared_scene.hpp"
 
 namespace casimir::tools {
 namespace {

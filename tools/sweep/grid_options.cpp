@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <charconv>
 
-#include "codegen/canonical.hpp"
-#include "codegen/optimise.hpp"
+#include "codegen/dag/expression_dag.hpp"
+#include "codegen/optimise/optimise.hpp"
 #include "runtime/evaluate.hpp"
-#include "runtime/number.hpp"
-#include "symbolic/expression.hpp"
-#include "tools/analysis/scene_run.hpp"
-#include "tools/errors.hpp"
+#include "runtime/program/number.hpp"
+#include "symbolic/case/expression.hpp"
+#include "tools/analysis/run/prepared_scene.hpp"
+#include "tools/cli/errors.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -1,8 +1,8 @@
 // The results of a sweep as HDF5: what h5py, Julia and MATLAB read as arrays of the grid's shape.
 #include <fmt/format.h>
 
-#include "tools/errors.hpp"
-#include "tools/output.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/output.hpp"
 #include "tools/sweep/table.hpp"
 #ifdef CASIMIR_HDF5
 #include <hdf5.h>

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <thread>
 
-#include "tools/errors.hpp"
+#include "tools/cli/errors.hpp"
 #ifdef CASIMIR_MPI
 #include <mpi.h>
 #endif

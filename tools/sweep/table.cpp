@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "symbolic/error.hpp"
-#include "tools/errors.hpp"
-#include "tools/output.hpp"
-#include "tools/run_report.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/text/run_report.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "runtime/methods.hpp"
-#include "tools/atlas.hpp"
-#include "tools/case_library.hpp"
+#include "tools/cli/case_library.hpp"
+#include "tools/runs/atlas.hpp"
 #include "tools/usage/option.hpp"
 
 namespace casimir::tools {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <iostream>
 
-#include "tools/errors.hpp"
-#include "tools/output.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/output.hpp"
 #include "tools/usage/completion.hpp"
 #include "tools/usage/manual.hpp"
 

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "tools/cli_names.hpp"
+#include "tools/cli/cli_names.hpp"
 
 namespace casimir::tools {
 

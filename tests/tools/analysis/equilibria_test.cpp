@@ -1,5 +1,5 @@
 // Equilibria and their eigenvalues.
-#include "tools/analysis/equilibria.hpp"
+#include "tools/analysis/equilibria/equilibria.hpp"
 
 #include <gtest/gtest.h>
 

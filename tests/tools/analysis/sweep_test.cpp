@@ -10,8 +10,8 @@
 #include "tests/folder.hpp"
 #include "tests/tools/analysis/systems.hpp"
 #include "tools/analysis/error.hpp"
-#include "tools/analysis/sweep/exponents.hpp"
 #include "tools/analysis/sweep/integrations.hpp"
+#include "tools/analysis/sweep/lyapunov.hpp"
 
 namespace casimir::test {
 namespace {

@@ -1,12 +1,12 @@
 // How far an end state can be believed.
-#include "tools/analysis/trust.hpp"
+#include "tools/analysis/estimate/error_estimate.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "tests/tools/analysis/systems.hpp"
-#include "tools/analysis/conditioning.hpp"
+#include "tools/analysis/estimate/growth_of_changes.hpp"
 #include "tools/analysis/solve.hpp"
 
 namespace casimir::test {

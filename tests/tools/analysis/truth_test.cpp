@@ -1,5 +1,5 @@
 // Reference states.
-#include "tools/analysis/truth.hpp"
+#include "tools/analysis/estimate/reference_state.hpp"
 
 #include <gtest/gtest.h>
 

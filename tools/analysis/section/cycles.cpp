@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/dense.hpp"
+#include "runtime/step/dense.hpp"
 
 namespace casimir {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/dense.hpp"
 #include "runtime/evaluate.hpp"
-#include "runtime/term_size.hpp"
+#include "runtime/program/term_size.hpp"
+#include "runtime/step/dense.hpp"
 
 namespace casimir {
 namespace {

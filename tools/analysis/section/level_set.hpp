@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "runtime/interpreter.hpp"
+#include "runtime/program/interpreter.hpp"
 #include "tools/analysis/section/problem.hpp"
 
 namespace casimir {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/analysis/ensemble_kernel.hpp"
+#include "tools/analysis/run/ensemble_kernel.hpp"
 #include "tools/analysis/section/level_set.hpp"
 #include "tools/analysis/section/spread.hpp"
 

@@ -9,12 +9,12 @@
 #include <cmath>
 
 #include "codegen/specialise.hpp"
-#include "runtime/dense.hpp"
 #include "runtime/evaluate.hpp"
-#include "runtime/term_size.hpp"
-#include "symbolic/decimal.hpp"
-#include "symbolic/expression.hpp"
-#include "symbolic/measure.hpp"
+#include "runtime/program/term_size.hpp"
+#include "runtime/step/dense.hpp"
+#include "symbolic/case/decimal.hpp"
+#include "symbolic/case/expression.hpp"
+#include "symbolic/case/expression_size.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/section/periods.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "runtime/section.hpp"
 #include "symbolic/model.hpp"
-#include "tools/analysis/scene_run.hpp"
+#include "tools/analysis/run/prepared_scene.hpp"
 
 namespace casimir {
 

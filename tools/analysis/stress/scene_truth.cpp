@@ -1,7 +1,7 @@
 #include "tools/analysis/stress/scene_truth.hpp"
 
-#include "tools/analysis/scene_run.hpp"
-#include "tools/analysis/truth.hpp"
+#include "tools/analysis/estimate/reference_state.hpp"
+#include "tools/analysis/run/prepared_scene.hpp"
 
 namespace casimir {
 

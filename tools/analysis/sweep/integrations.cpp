@@ -8,7 +8,7 @@
 #include "codegen/emit_cpp.hpp"
 #include "runtime/ensemble.hpp"
 #include "tools/analysis/error.hpp"
-#include "tools/analysis/exact_text.hpp"
+#include "tools/analysis/proof/exact_text.hpp"
 
 namespace casimir {
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "tools/analysis/ensemble_kernel.hpp"
+#include "tools/analysis/run/ensemble_kernel.hpp"
 
 #include "tools/analysis/run_request.hpp"
-#include "tools/analysis/sweep/place.hpp"
+#include "tools/analysis/sweep/grid_point.hpp"
 #include "tools/analysis/sweep/task.hpp"
 
 namespace casimir {

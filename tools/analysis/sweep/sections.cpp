@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "codegen/emit_cpp.hpp"
-#include "tools/analysis/exact_text.hpp"
+#include "tools/analysis/proof/exact_text.hpp"
 #include "tools/analysis/section/domain_orbits.hpp"
 
 namespace casimir {

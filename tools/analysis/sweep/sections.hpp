@@ -1,7 +1,7 @@
 #pragma once
 
 #include "tools/analysis/section/problem.hpp"
-#include "tools/analysis/sweep/place.hpp"
+#include "tools/analysis/sweep/grid_point.hpp"
 #include "tools/analysis/sweep/task.hpp"
 
 namespace casimir {

@@ -8,7 +8,7 @@
 #include <map>
 #include <optional>
 
-#include "tools/analysis/exact_text.hpp"
+#include "tools/analysis/proof/exact_text.hpp"
 #include "tools/analysis/sweep/journal.hpp"
 
 namespace casimir {

@@ -1,0 +1,153 @@
+// Dag::text: expressions in the notation of case files.
+#include <cln/integer_io.h>
+#include <cln/rational_io.h>
+
+#include "codegen/dag/expression_dag.hpp"
+#include "codegen/emit/number_literal.hpp"
+
+namespace casimir::codegen {
+
+namespace {
+
+/// How tightly the outermost operation of a text binds.
+enum Binding { kSum, kProduct, kPower, kAtom };
+
+struct Text {
+  std::string text;
+  Binding binding;
+};
+
+std::string at_least(Binding needed, const Text& part) {
+  return part.binding < needed ? "(" + part.text + ")" : part.text;
+}
+
+const char* name_in_case_files(Op op) {
+  switch (op) {
+    case Op::sin:
+      return "sin";
+    case Op::cos:
+      return "cos";
+    case Op::tan:
+      return "tan";
+    case Op::exp:
+      return "exp";
+    case Op::log:
+      return "log";
+    case Op::asin:
+      return "asin";
+    case Op::acos:
+      return "acos";
+    case Op::abs:
+      return "abs";
+    case Op::sign:
+      return "sign";
+    default:
+      return "atan2";
+  }
+}
+
+class Printer {
+ public:
+  explicit Printer(const Dag& dag) : dag_(dag) {}
+
+  Text scaled(const Scaled& e) const {
+    if (e.node != Dag::kOne && dag_[e.node].kind == NodeKind::sum && e.coefficient != 1) {
+      return sum(dag_[e.node].terms, e.coefficient);
+    }
+    if (cln::minusp(e.coefficient)) {
+      return {"-" + at_least(kProduct, magnitude(e)), kSum};
+    }
+    return magnitude(e);
+  }
+
+ private:
+  /// |coefficient| * node, as "2*x/3".
+  Text magnitude(const Scaled& e) const {
+    const cln::cl_RA size = cln::abs(e.coefficient);
+    const std::string over = rational_text(cln::denominator(size));
+    if (e.node == Dag::kOne) return {rational_text(size), over == "1" ? kAtom : kProduct};
+    Text result = node(e.node, cln::numerator(size));
+    if (over == "1") return result;
+    return {at_least(kProduct, result) + "/" + over, kProduct};
+  }
+
+  Text node(NodeId id, const cln::cl_I& multiple) const {
+    const Node& n = dag_[id];
+    if (n.kind == NodeKind::product) return product(n.factors, multiple);
+    const Text plain = atom(n);
+    if (multiple == 1) return plain;
+    return {rational_text(multiple) + "*" + at_least(kPower, plain), kProduct};
+  }
+
+  Text atom(const Node& n) const {
+    switch (n.kind) {
+      case NodeKind::symbol:
+        return {dag_.symbol_name(n.symbol), kAtom};
+      case NodeKind::pi:
+        return {"Pi", kAtom};
+      case NodeKind::number:
+        return {rational_text(n.number), kAtom};
+      case NodeKind::sum:
+        return sum(n.terms, 1);
+      case NodeKind::product:
+        return product(n.factors, 1);
+      default:
+        break;
+    }
+    std::string inside;
+    for (const Scaled& argument : n.terms) {
+      inside += (inside.empty() ? "" : ", ") + scaled(argument).text;
+    }
+    return {std::string(name_in_case_files(n.function)) + "(" + inside + ")", kAtom};
+  }
+
+  Text sum(const std::vector<Scaled>& terms, const cln::cl_RA& factor) const {
+    std::string result;
+    for (const Scaled& term : terms) {
+      const cln::cl_RA coefficient = term.coefficient * factor;
+      const bool minus = cln::minusp(coefficient);
+      if (result.empty()) {
+        result = minus ? "-" : "";
+      } else {
+        result += minus ? " - " : " + ";
+      }
+      result += at_least(kProduct, magnitude({coefficient, term.node}));
+    }
+    return {result, kSum};
+  }
+
+  Text product(const std::vector<Factor>& factors, const cln::cl_I& multiple) const {
+    std::string above = multiple == 1 ? "" : rational_text(multiple);
+    std::string below;
+    int divisors = 0;
+    for (const Factor& f : factors) {
+      const bool inverse = cln::minusp(f.exponent);
+      std::string& place = inverse ? below : above;
+      divisors += inverse ? 1 : 0;
+      if (!place.empty()) place += "*";
+      place += power(dag_[f.node], cln::abs(f.exponent));
+    }
+    if (above.empty()) above = "1";
+    if (divisors == 0) return {above, kProduct};
+    return {above + "/" + (divisors > 1 ? "(" + below + ")" : below), kProduct};
+  }
+
+  std::string power(const Node& base, const cln::cl_RA& exponent) const {
+    const Text inner = atom(base);
+    if (exponent == 1) return at_least(kPower, inner);
+    if (exponent == cln::cl_RA(1) / 2) return "sqrt(" + inner.text + ")";
+    const bool whole = cln::denominator(exponent) == 1;
+    return at_least(kAtom, inner) + "^" +
+           (whole ? rational_text(exponent) : "(" + rational_text(exponent) + ")");
+  }
+
+  const Dag& dag_;
+};
+
+}  // namespace
+
+std::string Dag::text(const Scaled& expression) const {
+  return Printer(*this).scaled(expression).text;
+}
+
+}  // namespace casimir::codegen

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "codegen/dag/expression_dag.hpp"
+
+namespace casimir::codegen {
+
+/// variable ^ exponent, exponent >= 1.
+struct Literal {
+  int variable;
+  int exponent;
+  friend auto operator<=>(const Literal&, const Literal&) = default;
+};
+
+/// Sorted by variable; empty is 1.
+using Monomial = std::vector<Literal>;
+
+struct Term {
+  cln::cl_RA coefficient;
+  Monomial monomial;
+};
+
+using Polynomial = std::vector<Term>;
+
+/// A quantity of a TermSystem: an input, a function of other variables, or a polynomial.
+struct Variable {
+  enum class Kind {
+    input,  ///< input number `input`
+    pi,
+    function,    ///< `function` of `arguments`; Op::div is 1/argument, Op::pow has `exponent`
+    polynomial,  ///< `value`
+  };
+  Kind kind = Kind::input;
+  int input = -1;
+  Op function = Op::input;
+  std::vector<int> arguments;
+  cln::cl_RA exponent = 1;
+  Polynomial value;
+  bool constant = false;  ///< free of inputs
+};
+
+/// Definitions in which every sum is a sum of products: what the factoring passes work on.
+/// A variable may refer to variables of any index, never to itself through others.
+struct TermSystem {
+  std::size_t inputs = 0;  ///< variables 0 .. inputs-1 are the inputs
+  std::vector<Variable> variables;
+  std::vector<int> outputs;  ///< indices of polynomial variables
+
+  int add(Variable variable);
+};
+
+/// The expressions as they are structured, with one variable for each sum that is a factor or an
+/// argument. Input i is symbol i of the Dag.
+TermSystem system_of(const Dag& dag, std::size_t inputs, const std::vector<Scaled>& outputs);
+
+/// The same outputs with products of sums multiplied out, except inside functions, roots and
+/// denominators. Nothing if that takes more than `limit` terms in all.
+std::optional<TermSystem> expanded(const TermSystem& system, std::size_t limit);
+
+/// Substitutes polynomials that are used once, as a plain term of a sum.
+TermSystem flattened(TermSystem system);
+
+/// Sums that are factors, made larger by numbers that save multiplications: 1/10*(10*x + 1) is
+/// x + 1/10.
+TermSystem rescaled(TermSystem system);
+
+/// A product of two monomials.
+Monomial multiply(const Monomial& a, const Monomial& b);
+
+}  // namespace casimir::codegen

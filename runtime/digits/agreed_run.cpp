@@ -1,0 +1,168 @@
+#include "runtime/digits/agreed_run.hpp"
+
+#include <cln/integer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace casimir {
+namespace {
+
+constexpr double kLog10Of2 = 0.30102999566398120;
+constexpr double kNoDifference = -1e18;
+
+/// log10 |x|.
+double log10_of(const cln::cl_F& x) {
+  if (cln::zerop(x)) return kNoDifference;
+  const cln::decoded_float parts = cln::decode_float(x);
+  return kLog10Of2 * static_cast<double>(cln::cl_I_to_long(parts.exponent)) +
+         std::log10(cln::double_approx(parts.mantissa));
+}
+
+/// log10 |a - b| / |b|.
+double log10_difference(const cln::cl_F& a, const cln::cl_F& b) {
+  return a == b ? kNoDifference : log10_of(a - b) - log10_of(b);
+}
+
+double largest(const std::vector<double>& values) {
+  return *std::max_element(values.begin(), values.end());
+}
+
+/// The same for the component of two end states that differs most. One is zero to that many digits,
+/// and not compared, if it is below the last digit both of the state and of its own largest value
+/// along the run; or below far more digits of whatever there was.
+double log10_difference(const PreciseRun& a, const PreciseRun& b, int digits) {
+  const int far = 2 * digits + 200;
+  std::vector<double> sizes, state;
+  for (const double size : b.log2_sizes) sizes.push_back(kLog10Of2 * size);
+  for (std::size_t i = 0; i < b.state.size(); ++i)
+    state.push_back(std::max(log10_of(a.state[i]), log10_of(b.state[i])));
+  double difference = kNoDifference;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const bool zero =
+        state[i] < std::min(sizes[i], largest(state)) - digits || state[i] < largest(sizes) - far;
+    if (!zero) difference = std::max(difference, log10_difference(a.state[i], b.state[i]));
+  }
+  return difference;
+}
+
+int whole_digits(double log10_error, int most) {
+  return static_cast<int>(std::clamp(std::floor(-log10_error), 0., static_cast<double>(most)));
+}
+
+constexpr int kMoreDigits = 10;
+constexpr int kMostRounds = 8;
+
+/// The search for two runs that agree.
+class Search {
+ public:
+  Search(PreciseProblem problem, int digits, const std::function<void(int)>& begin)
+      : problem_(std::move(problem)), wanted_(digits), begin_(begin) {}
+
+  AgreedRun operator()() {
+    find_loss();
+    int working = wanted_ + best_.lost;
+    for (int round = 0; round < kMostRounds && !stopped_; ++round) {
+      compare(working, wanted_);
+      if (best_.digits >= wanted_) break;
+      // A state beside a singularity may have no more digits however many are spent.
+      if (best_.run.status != Status::ok && round > 1) break;
+      // Nothing in common: the loss is not known, only that it is more.
+      working =
+          best_.digits == 0 ? 2 * working : std::max(working + kMoreDigits, wanted_ + best_.lost);
+    }
+    return std::move(best_);
+  }
+
+ private:
+  /// What the motion costs, by runs with a quarter of the digits: a few hundredths of the work.
+  void find_loss() {
+    constexpr int kLeast = 12, kWorthwhile = 40;
+    if (wanted_ < kWorthwhile) return;
+    for (int working = std::max(kLeast, wanted_ / 4); working < wanted_ && !stopped_;
+         working *= 2) {
+      compare(working, working);
+      if (best_.digits > 0 || best_.run.status != Status::ok) break;
+    }
+  }
+
+  /// Two runs, the second with more digits, and what they agree in.
+  void compare(int working, int most) {
+    const int more = std::max(kMoreDigits, wanted_ / 16);
+    AgreedRun next;
+    next.check = run(problem_, working);
+    if (stopped_) return keep_stopped(std::move(next.check));
+    PreciseProblem checking = problem_;
+    if (next.check.status == Status::max_steps) {
+      checking.max_steps = 0;
+      checking.end = next.check.time;
+    } else if (next.check.status != Status::ok) {
+      checking.mark = next.check.time;
+    }
+    next.run = run(checking, working + more);
+    if (stopped_) return keep_stopped(std::move(next.run));
+    if (next.check.status == Status::max_steps && next.run.status == Status::ok) {
+      next.run.status = next.check.status;
+      next.run.reason = next.check.reason;
+    } else if (!next.run.at_mark.empty()) {
+      next.run.time = next.check.time;
+      next.run.state = std::exchange(next.run.at_mark, {});
+    }
+    judge(next, working, most);
+  }
+
+  void judge(AgreedRun& next, int working, int most) {
+    next.checked = next.run.status == next.check.status;
+    next.log10_error = 0;
+    if (next.checked && next.run.singular_time && next.check.singular_time) {
+      next.log10_error = log10_difference(*next.check.singular_time, *next.run.singular_time);
+    } else if (next.checked && log10_difference(next.check.time, next.run.time) < -working) {
+      next.log10_error = log10_difference(next.check, next.run, most);
+    }
+    // Two runs that are equal by chance still have no more digits than they were made with.
+    next.log10_error = std::max(next.log10_error, -static_cast<double>(next.run.digits));
+    next.digits = whole_digits(next.log10_error, most);
+    next.lost = working - whole_digits(next.log10_error, working);
+    next.runs = runs_;
+    best_ = std::move(next);
+  }
+
+  PreciseRun run(const PreciseProblem& problem, int digits) {
+    if (begin_) begin_(digits);
+    PreciseRun result = precise_run(problem, digits);
+    ++runs_;
+    stopped_ = result.status == Status::stopped;
+    return result;
+  }
+
+  /// The time is up: a pair of runs with fewer digits is better than a part of one.
+  void keep_stopped(PreciseRun part) {
+    if (best_.checked && best_.digits > 0) {
+      best_.run.status = part.status;
+      best_.run.reason = part.reason;
+    } else {
+      best_ = AgreedRun{.run = std::move(part), .check = {}};
+    }
+    best_.runs = runs_;
+  }
+
+  PreciseProblem problem_;
+  int wanted_;
+  const std::function<void(int)>& begin_;
+  AgreedRun best_;
+  bool stopped_ = false;
+  int runs_ = 0;
+};
+
+}  // namespace
+
+int agreed_digits(const cln::cl_F& a, const cln::cl_F& b, int most) {
+  return whole_digits(log10_difference(a, b), most);
+}
+
+AgreedRun agreed_run(PreciseProblem problem, int digits, const std::function<void(int)>& begin) {
+  return Search(std::move(problem), digits, begin)();
+}
+
+}  // namespace casimir

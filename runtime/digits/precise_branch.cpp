@@ -1,0 +1,98 @@
+#include "runtime/digits/precise_branch.hpp"
+
+#include "runtime/evaluate.hpp"
+
+namespace casimir {
+namespace {
+
+double double_of(const BigFloat& value) { return arf_get_d(value.mid(), ARF_RND_NEAR); }
+
+BigFloat times(const BigFloat& value, double factor) {
+  BigFloat result;
+  arf_set_d(result.mid(), factor);
+  return value * result;
+}
+
+void state_at(const casimir_step* seen, double t, double* x) {
+  const PreciseStep& step = *static_cast<const PreciseStep*>(seen->data);
+  BigFloat h;
+  arf_set_d(h.mid(), t - seen->t0);
+  for (const BigFloat& value : step.state(h)) *x++ = double_of(value);
+}
+
+}  // namespace
+
+PreciseLook::PreciseLook(const Program& rhs, std::vector<BigFloat> parameters)
+    : watch_(rhs), parameters_(std::move(parameters)) {
+  if (watch_.empty()) return;
+  std::vector<double> numbers;
+  for (const BigFloat& value : parameters_) numbers.push_back(double_of(value));
+  look_ = std::make_unique<StepLook>(watch_, rhs.outputs.size(), numbers.data());
+}
+
+BigFloat PreciseLook::size(const PreciseStep& step) {
+  if (!look_) return step.size;
+  std::vector<double> x0, x1;
+  for (const BigFloat& value : step.state(BigFloat())) x0.push_back(double_of(value));
+  for (const BigFloat& value : step.state(step.size)) x1.push_back(double_of(value));
+  const double begin = double_of(step.begin), end = double_of(step.begin + step.size);
+  const double part =
+      (*look_)({begin, end, x0.data(), x1.data(), &state_at, &step, nullptr, nullptr});
+  if (part >= 1) return step.size;
+  const BigFloat shorter = times(step.size, part);
+  const StepWatch::Watched* const met = look_->met();
+  return met ? branch(step, met->place, shorter) : shorter;
+}
+
+BigFloat PreciseLook::argument(const PreciseStep& step, std::size_t place,
+                               const BigFloat& h) const {
+  std::vector<BigFloat> inputs = step.state(h);
+  inputs.insert(inputs.end(), parameters_.begin(), parameters_.end());
+  inputs.push_back(step.begin + h);
+  return evaluate(watch_.arguments(), inputs)[place];
+}
+
+/// From a place that is on the other side to as many digits as a double has. Regula falsi, which
+/// halves the value at an end that stays (the Illinois rule).
+BigFloat PreciseLook::branch(const PreciseStep& step, std::size_t place, BigFloat behind) const {
+  constexpr slong kBeforeBits = -20;
+  constexpr double kBefore = 0x1p-20, kFurther = 0x1p-50;
+  BigFloat before = times(behind, 1 - kBefore), first = argument(step, place, before);
+  BigFloat last = argument(step, place, behind);
+  for (double further = kFurther; first.sign() * last.sign() >= 0; further *= 4) {
+    if (further > kBefore) return behind;
+    behind = times(behind, 1 + further);
+    last = argument(step, place, behind);
+  }
+  const double enough = behind.log2() - static_cast<double>(BigFloat::precision());
+  int side = 0;
+  constexpr int kMostRounds = 500;
+  for (int round = 0; round < kMostRounds && (behind - before).log2() > enough; ++round) {
+    const BigFloat middle = (before * last - behind * first) / (last - first);
+    const BigFloat u = argument(step, place, middle);
+    if (u.is_zero() || middle == before || middle == behind) {
+      before = middle;
+      break;
+    }
+    if (u.sign() == last.sign()) {
+      behind = middle;
+      last = u;
+      if (side == 1) first = times(first, 0.5);
+      side = 1;
+    } else {
+      before = middle;
+      first = u;
+      if (side == -1) last = times(last, 0.5);
+      side = -1;
+    }
+  }
+  // The least that is behind. By exponents: of many digits the last is no double.
+  for (slong last_bits = 2 - BigFloat::precision();; last_bits += 2) {
+    BigFloat further;
+    arf_mul_2exp_si(further.mid(), behind.mid(), last_bits);
+    const BigFloat next = before + further;
+    if (last_bits >= kBeforeBits || argument(step, place, next).sign() == last.sign()) return next;
+  }
+}
+
+}  // namespace casimir

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "runtime/digits/big_float.hpp"
+#include "runtime/step/step_watch.hpp"
+
+namespace casimir {
+
+/// A step of a multiprecision run.
+struct PreciseStep {
+  const BigFloat& begin;  ///< the time at which it begins
+  const BigFloat& size;   ///< in time, negative for a run backwards
+  /// The state at a time after the beginning.
+  std::function<std::vector<BigFloat>(const BigFloat& h)> state;
+};
+
+/// Looks at the steps of a multiprecision run: see StepLook. In double precision, which shows
+/// whether there is a branch or a narrow pulse within a step; where a branch begins is then worked
+/// out to all digits.
+class PreciseLook {
+ public:
+  /// Borrows the program of a right-hand side, not beyond the construction.
+  PreciseLook(const Program& rhs, std::vector<BigFloat> parameters);
+
+  /// The step that may be taken, or is to be tried, in the place of this one: the same size if it
+  /// may be taken. One that ends where a branch begins is just so long that the argument has the
+  /// sign of the other side.
+  BigFloat size(const PreciseStep& step);
+
+ private:
+  BigFloat argument(const PreciseStep& step, std::size_t place, const BigFloat& h) const;
+  BigFloat branch(const PreciseStep& step, std::size_t place, BigFloat behind) const;
+
+  StepWatch watch_;
+  std::vector<BigFloat> parameters_;
+  std::unique_ptr<StepLook> look_;  ///< none where there is nothing to be watched
+};
+
+}  // namespace casimir

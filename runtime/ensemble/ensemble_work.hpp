@@ -1,0 +1,67 @@
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "runtime/ensemble.hpp"
+#include "runtime/program/angle_branches.hpp"
+#include "runtime/program/interpreter.hpp"
+
+namespace casimir {
+
+/// Hands out the members of an ensemble to threads, and takes what came of them.
+class EnsembleWork {
+ public:
+  EnsembleWork(const Ensemble& ensemble, const Settings& settings);
+
+  /// The next member that nobody has, or -1.
+  long long next();
+
+  /// Whether all shall end: asks the settings now and then.
+  bool give_up(unsigned& calls);
+
+  /// Runs `worker` on `jobs` threads (0: one for each processor, never more than members / `lanes`
+  /// rounded up) and rethrows the first exception of any.
+  void on_threads(int jobs, int lanes, const std::function<void()>& worker);
+
+  const Ensemble& ensemble() const { return ensemble_; }
+  EnsembleResult result;
+
+ private:
+  void fail(std::exception_ptr problem);
+
+  const Ensemble& ensemble_;
+  const Settings& settings_;
+  std::atomic<std::size_t> next_ = 0;
+  std::atomic<bool> stop_ = false;
+  std::mutex guard_;
+  std::exception_ptr problem_;
+};
+
+/// Exact constants of programs count their references without locks: who makes, copies, destroys or
+/// evaluates one in a thread holds this.
+std::mutex& exact_constants_guard();
+
+/// Compares the invariants of a member at its start and its end. One for each thread, made and
+/// destroyed under `exact_constants_guard`, which it takes itself when it compares.
+class EndCheck {
+ public:
+  EndCheck(const Ensemble& ensemble, const Program& invariants);
+  void operator()(std::size_t member, MemberResult& result);
+
+ private:
+  void evaluate_at(std::size_t member, const double* state, double time,
+                   std::vector<double>& values);
+  void put_on_one_branch(const std::vector<long double>& start);
+
+  const Ensemble& ensemble_;
+  const Program& program_;
+  Interpreter invariants_;
+  std::vector<Angle> angles_;
+  std::vector<double> inputs_, first_, last_, sizes_;
+};
+
+}  // namespace casimir

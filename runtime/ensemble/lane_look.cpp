@@ -1,0 +1,89 @@
+#include "runtime/ensemble/lane_look.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace casimir {
+namespace {
+
+/// The states of all lanes, each at a time of its own: x[i * lanes + lane].
+template <int lanes>
+void states_at(const casimir_lane_step& step, const double* s, std::size_t states, double* x) {
+  for (std::size_t i = 0; i < states; ++i) {
+    const double* row = step.rows[i] + step.order * lanes;
+    std::array<double, lanes> sum;
+    for (std::size_t l = 0; l < lanes; ++l) sum[l] = row[l];
+    for (int k = step.order; k > 0; --k) {
+      row -= lanes;
+      for (std::size_t l = 0; l < lanes; ++l) sum[l] = sum[l] * s[l] + row[l];
+    }
+    std::copy_n(sum.begin(), lanes, x + i * lanes);
+  }
+}
+
+void states_at(const casimir_lane_step& step, const double* s, std::size_t states, double* x) {
+  if (step.lanes == 8)
+    states_at<8>(step, s, states, x);
+  else if (step.lanes == 4)
+    states_at<4>(step, s, states, x);
+  else
+    states_at<2>(step, s, states, x);
+}
+
+/// What a step is in one of its lanes.
+struct Seen {
+  const casimir_lane_step& step;
+  int lane;
+  std::size_t states;
+};
+
+void state_at(const casimir_step* step, double t, double* x) {
+  const auto& [all, lane, states] = *static_cast<const Seen*>(step->data);
+  const double s = (t - step->t0) / all.unit[lane];
+  std::fill_n(x, states, 0.);
+  for (int k = all.order; k >= 0; --k) {
+    const int place = k * all.lanes + lane;
+    // The states do not wait for each other.
+    for (std::size_t i = 0; i < states; ++i) x[i] = x[i] * s + all.rows[i][place];
+  }
+}
+
+}  // namespace
+
+LaneLook::LaneLook(const StepWatch& watch, std::size_t states, int lanes, Parameters parameters)
+    : states_(states),
+      parameters_(std::move(parameters)),
+      lanes_(static_cast<std::size_t>(lanes), Lane{StepLook(watch, states, nullptr)}),
+      places_(lanes_.size()),
+      middle_(states * lanes_.size()),
+      end_(middle_.size()),
+      x0_(states),
+      xm_(states),
+      x1_(states) {}
+
+void LaneLook::operator()(const casimir_lane_step& trial, double* parts) {
+  for (std::size_t l = 0; l < lanes_.size(); ++l) {
+    Lane& own = lanes_[l];
+    if (trial.held[l] && own.member != trial.member[l]) {
+      own.member = trial.member[l];
+      own.look.begin(parameters_(own.member));
+    }
+    places_[l] = own.look.place_within() * trial.taken[l];
+  }
+  states_at(trial, places_.data(), states_, middle_.data());
+  states_at(trial, trial.taken, states_, end_.data());
+  for (std::size_t l = 0; l < lanes_.size(); ++l) {
+    if (!trial.held[l]) continue;
+    for (std::size_t i = 0; i < states_; ++i) {
+      x0_[i] = trial.rows[i][l];
+      xm_[i] = middle_[i * lanes_.size() + l];
+      x1_[i] = end_[i * lanes_.size() + l];
+    }
+    const Seen seen{trial, static_cast<int>(l), states_};
+    const double t0 = trial.t[l], t1 = t0 + trial.taken[l] * trial.unit[l];
+    parts[l] = lanes_[l].look({t0, t1, x0_.data(), x1_.data(), &state_at, &seen, nullptr, nullptr},
+                              xm_.data());
+  }
+}
+
+}  // namespace casimir

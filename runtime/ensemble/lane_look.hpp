@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "runtime/step/step_watch.hpp"
+
+namespace casimir {
+
+/// Looks at the steps of trajectories that stand in the lanes of registers, each by itself: see
+/// casimir_ensemble::look.
+class LaneLook {
+ public:
+  /// The parameters of a member; null if there are none.
+  using Parameters = std::function<const double*(long long member)>;
+
+  /// Borrows the watch.
+  LaneLook(const StepWatch& watch, std::size_t states, int lanes, Parameters parameters);
+
+  /// \param parts  for each lane that is to take the step, what StepLook says.
+  void operator()(const casimir_lane_step& trial, double* parts);
+
+ private:
+  struct Lane {
+    StepLook look;
+    long long member = -1;
+  };
+
+  const std::size_t states_;
+  const Parameters parameters_;
+  std::vector<Lane> lanes_;
+  std::vector<double> places_;        ///< in units of time, one for each lane
+  std::vector<double> middle_, end_;  ///< states, each in all lanes
+  std::vector<double> x0_, xm_, x1_;  ///< of one lane
+};
+
+}  // namespace casimir

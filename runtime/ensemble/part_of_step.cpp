@@ -1,0 +1,47 @@
+#include "runtime/ensemble/part_of_step.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace casimir {
+
+const casimir_lane_step& PartOfStep::take(const casimir_lane_step& whole, int which, int parts) {
+  const auto lanes = static_cast<std::size_t>(whole.lanes),
+             entries = static_cast<std::size_t>(whole.order + 1) * lanes,
+             states = static_cast<std::size_t>(whole.states);
+  constexpr std::size_t kAligned = 8;  // numbers in the widest register
+  step_ = whole;
+  times_.assign(2 * kAligned, 0);
+  lengths_.assign(2 * kAligned, 0);
+  memory_.resize(states * entries + kAligned);
+  rows_.resize(states);
+  const auto aligned = [](std::vector<double>& numbers) {
+    const auto address = reinterpret_cast<std::uintptr_t>(numbers.data());
+    return numbers.data() + (64 - address % 64) % 64 / sizeof(double);
+  };
+  double *const times = aligned(times_), *const lengths = aligned(lengths_),
+                *const memory = aligned(memory_);
+  std::vector<double> from(lanes);
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    from[lane] = whole.taken[lane] * which / parts;
+    lengths[lane] = whole.taken[lane] / parts;
+    times[lane] = whole.t[lane] + from[lane] * whole.unit[lane];
+  }
+  for (std::size_t i = 0; i < states; ++i) {
+    double* const c = memory + i * entries;
+    std::copy_n(whole.rows[i], entries, c);
+    // Horner's scheme, again and again: the polynomial in s - from.
+    for (int done = 0; done < whole.order; ++done)
+      for (int k = whole.order - 1; k >= done; --k)
+        for (std::size_t lane = 0; lane < lanes; ++lane)
+          c[static_cast<std::size_t>(k) * lanes + lane] +=
+              from[lane] * c[static_cast<std::size_t>(k + 1) * lanes + lane];
+    rows_[i] = c;
+  }
+  step_.rows = rows_.data();
+  step_.t = times;
+  step_.taken = lengths;
+  return step_;
+}
+
+}  // namespace casimir

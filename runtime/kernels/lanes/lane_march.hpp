@@ -1,0 +1,547 @@
+#pragma once
+
+#include "runtime/kernels/taylor/taylor.hpp"
+
+namespace casimir_kernel {
+
+/// The method of Taylor series for many trajectories at once, one in each lane of a register.
+///
+/// Every lane has a time, a step, a unit and a status of its own and takes the next trajectory when
+/// its own has ended. A lane computes what `taylor::March` does for one trajectory, by operations
+/// that never look into another lane, so what becomes of a trajectory does not depend on where it
+/// stood or beside which.
+///
+/// The coefficients come from a class
+///
+///   struct Series {
+///     using V;                          a register
+///     static constexpr int room;        the most states it can have
+///     static constexpr bool smooth;     the right-hand side is a polynomial: analytic everywhere
+///     static constexpr bool fixed_states;      `states` is a constant
+///     int states, order;                order: a multiple of 4. Both may be static
+///     V* row(int i);                    row(i)[k]: coefficient k of state i, k = 0 .. order
+///     void enter(int lane, const double* numbers);      a new member in this lane
+///     void begin(V t, const V* x, V* rate);             dx/dt at a state
+///     void expand(V unit);              coefficients 1 .. order at the state in row(i)[0], after
+///   };                                  `begin` there (where it is smooth that may be left out)
+namespace lanes {
+
+template <class V>
+inline constexpr int width_of = sizeof(V) / sizeof(double);
+template <class V>
+using Mask = Indices<width_of<V>>;
+
+template <class V>
+CASIMIR_INLINE Mask<V> bits_of(V v) {
+  return (Mask<V>)v;
+}
+
+template <class V>
+CASIMIR_INLINE V larger_of(V a, V b) {
+  return a > b ? a : b;
+}
+
+/// log2 of positive numbers to within 0.01; -1023 for 0. No conversion of integers, which not every
+/// instruction set has.
+template <class V>
+CASIMIR_INLINE V rough_log2(V a) {
+  using Bits = Unsigned<width_of<V>>;
+  const Bits bits = (Bits)a;
+  const V exponent = (V)((bits >> 52) | 0x4330000000000000ULL) - (0x1p52 + 1023);
+  const V m = (V)((bits & 0xfffffffffffffULL) | 0x3ff0000000000000ULL);
+  return exponent + (m * (2 - m * (1. / 3)) - 5. / 3);
+}
+
+/// 2^a to within 1 %, for |a| < 1000.
+template <class V>
+CASIMIR_INLINE V rough_exp2(V a) {
+  const V shifted = (a - 0.5) + 0x1.8p52;
+  const V part = a - (shifted - 0x1.8p52);  // 0 .. 1
+  const V power = (V)((bits_of(shifted) + 1023) << 52);
+  return power * (1 + part * (0.6565 + 0.3435 * part));
+}
+
+/// 1/a to within 1 %, for normal positive a whose inverse is normal.
+template <class V>
+CASIMIR_INLINE V rough_inverse(V a) {
+  const V guess = (V)(0x7fde623822fc16e6LL - bits_of(a));
+  return guess * (2 - a * guess);
+}
+
+/// The power of two next to each positive number.
+template <class V>
+CASIMIR_INLINE V power_of_two_near(V a) {
+  a = a > 0x1p-1020 ? a : all_lanes<V>(0x1p-1020);
+  a = a < 0x1p1019 ? a : all_lanes<V>(0x1p1019);
+  return (V)((bits_of(a) + 0x8000000000000LL) & 0x7ff0000000000000LL);
+}
+
+template <class Series>
+class March {
+  using V = typename Series::V;
+  using M = Mask<V>;
+  static constexpr int width = width_of<V>, room = Series::room;
+  // As for one trajectory.
+  static constexpr double kDefect = 1000, kRounding = 0x1p-40, kLongest = 16, kHalf = 0.5;
+
+ public:
+  March(const casimir_ensemble* run, Series& series)
+      : run_(run), series_(series), span_(run->t_end - run->t_begin) {
+    for (int i = 0; i < series_.states; ++i) {
+      series_.row(i)[0] = carry_[i] = V{};
+      rows_[i] = reinterpret_cast<const double*>(series_.row(i));
+    }
+    for (long long& member : member_) member = -1;
+  }
+
+  void go() {
+    refill();
+    while (occupied_ > 0) {
+      bool eventful = step();
+      if (run_->observe && any(seen_enough_)) {
+        end(seen_enough_ & active_, CASIMIR_STOPPED);
+        seen_enough_ = M{};
+        eventful = true;
+      }
+      if (eventful && any(ended_)) refill();
+      if (run_->give_up && run_->give_up(run_->source)) stop();
+    }
+  }
+
+ private:
+  /// A step of every lane. Whether anything else happened.
+  CASIMIR_INLINE bool step() {
+    if (!Series::smooth && !ready_) series_.begin(time_, states(), rate_);
+    series_.expand(unit_);
+    V s = chosen_steps();
+    M trying = active_ & (s > 0);
+    ready_ = !Series::smooth;
+    if (!attempt(s, trying) && !run_->max_steps) return false;
+    const M lost = active_ & ~(s > 0);
+    if (any(lost)) shrink_units(lost);
+    while (any(trying)) {  // those whose trial did not hold
+      reject(s, trying);
+      attempt(s, trying);
+    }
+    if (run_->max_steps) limit_steps();
+    return true;
+  }
+
+  /// The states, beside each other.
+  const V* states() {
+    for (int i = 0; i < series_.states; ++i) here_[i] = series_.row(i)[0];
+    return here_;
+  }
+
+  // Members come and go.
+
+  __attribute__((noinline)) void refill() {
+    M fresh = {};
+    do {
+      for (int lane = 0; lane < width; ++lane) {
+        if (ended_[lane]) leave(lane);
+        if (member_[lane] < 0 && !empty_) fresh[lane] = enter(lane) ? -1 : 0;
+      }
+      ended_ = M{};
+      start(fresh);
+      fresh = M{};
+    } while (any(ended_));  // members that end where they begin
+    ready_ = false;
+  }
+
+  bool enter(int lane) {
+    double x[room];
+    const double* numbers = nullptr;
+    const long long member = run_->next(run_->source, x, &numbers);
+    empty_ = member < 0;
+    if (empty_) return false;
+    member_[lane] = member;
+    ++occupied_;
+    series_.enter(lane, numbers);
+    for (int i = 0; i < series_.states; ++i) {
+      series_.row(i)[0][lane] = x[i];
+      carry_[i][lane] = 0;
+    }
+    time_[lane] = run_->t_begin;
+    time_carry_[lane] = steps_[lane] = rejected_[lane] = 0;
+    part_[lane] = kHalf;
+    cut_[lane] = jumps_[lane] = 0;
+    status_[lane] = failure_[lane] = CASIMIR_OK;
+    return true;
+  }
+
+  /// Reports the member of a lane, which then holds zeros.
+  void leave(int lane) {
+    double x[room];
+    for (int i = 0; i < series_.states; ++i) {
+      x[i] = series_.row(i)[0][lane];
+      series_.row(i)[0][lane] = 0;
+    }
+    const double order = series_.order;
+    const casimir_outcome out = {
+        static_cast<int>(status_[lane]),
+        time_[lane],
+        static_cast<unsigned long long>(steps_[lane]),
+        static_cast<unsigned long long>(rejected_[lane]),
+        static_cast<unsigned long long>((steps_[lane] + rejected_[lane]) * order),
+        0};
+    run_->done(run_->source, member_[lane], x, &out);
+    member_[lane] = -1;
+    unit_[lane] = 0;
+    time_[lane] = run_->t_begin;
+    --occupied_;
+  }
+
+  /// Rates, and a first guess of the unit of time, for the lanes of a mask.
+  void start(M fresh) {
+    if (!any(fresh)) return;
+    active_ |= fresh;
+    series_.begin(time_, states(), rate_);
+    V size = all_lanes<V>(run_->atol), speed = V{}, zero = V{};
+    for (int i = 0; i < series_.states; ++i) {
+      size = larger_of(size, absolute(here_[i]));
+      speed = larger_of(speed, absolute(rate_[i]));
+      zero += here_[i] * 0 + rate_[i] * 0;
+    }
+    const V whole = all_lanes<V>(magnitude(span_));
+    // The solution's own time scale; a guess, which the coefficients correct.
+    const V scale = size / (speed > 0 ? speed : all_lanes<V>(1));
+    const V guess = ((speed > 0) & (scale < whole)) ? scale : whole;
+    unit_ = fresh ? towards_end(power_of_two_near(guess)) : unit_;
+    checked_ &= ~fresh;
+    end(fresh & ~(zero == 0), CASIMIR_NON_FINITE);
+    if (!__builtin_isfinite(span_)) end(fresh & active_, CASIMIR_NON_FINITE);
+    if (span_ == 0) end(fresh & active_, CASIMIR_OK);
+  }
+
+  V towards_end(V positive) const { return span_ < 0 ? -positive : positive; }
+
+  void end(M which, int status) {
+    status_ = which ? all_lanes<V>(status) : status_;
+    ended_ |= which;
+    active_ &= ~which;
+  }
+
+  void limit_steps() {
+    const double most = static_cast<double>(run_->max_steps);
+    end(active_ & (steps_ + rejected_ >= most), CASIMIR_MAX_STEPS);
+  }
+
+  __attribute__((cold, noinline)) void stop() {
+    empty_ = true;
+    end(active_, CASIMIR_STOPPED);
+    refill();
+  }
+
+  // One step.
+
+  /// For each state; written out where their number is known.
+  template <class Action>
+  CASIMIR_INLINE void each_state(Action action) {
+    if constexpr (Series::fixed_states) {
+      CASIMIR_UNROLL
+      for (int i = 0; i < Series::states; ++i) action(i);
+    } else {
+      for (int i = 0; i < series_.states; ++i) action(i);
+    }
+  }
+
+  /// The error allowed to state i, whose size is what it takes during the step.
+  CASIMIR_INLINE V allowed(int i) {
+    const V* c = series_.row(i);
+    const V size = absolute(c[0]) + absolute(c[1]) + absolute(c[2]);
+    return larger_of(run_->atol + run_->rtol * size, all_lanes<V>(0x1p-1000));
+  }
+
+  /// The steps in units at which the last two terms are as large as the tolerance allows, or 0
+  /// where the coefficients are no numbers.
+  CASIMIR_INLINE V chosen_steps() {
+    const int order = series_.order;
+    V a = V{}, z = V{};
+    each_state([&](int i) CASIMIR_INLINE_LAMBDA {
+      const V* c = series_.row(i);
+      const V weight = rough_inverse(allowed(i));
+      a += absolute(c[order - 1]) * weight;
+      z += absolute(c[order]) * weight;
+    });
+    const V rate =
+        larger_of(lanes::rough_log2(a) * (1. / (order - 1)), lanes::rough_log2(z) * (1. / order));
+    const V s = rate < -4 ? all_lanes<V>(kLongest) : lanes::rough_exp2(-rate);
+    return a + z < 1e300 ? s : V{};
+  }
+
+  /// A trial step in all lanes.
+  struct Trial {
+    V s, h, t1, t1_carry;
+    M there, vanished, good;
+  };
+
+  CASIMIR_INLINE Trial tried(V s) {
+    Trial trial;
+    V h = s * unit_;
+    const V rest = (run_->t_end - time_) - time_carry_;
+    trial.there = absolute(rest) <= absolute(h);
+    trial.t1 = time_;
+    trial.t1_carry = time_carry_;
+    const V least = larger_of(16 * kEpsilon * absolute(time_), all_lanes<V>(16 * kSmallest));
+    trial.vanished = ~trial.there & (absolute(h) <= least);
+    if (__builtin_expect(any(trial.there), 0)) {
+      h = trial.there ? rest : h;
+      s = trial.there ? h / unit_ : s;
+    }
+    add(trial.t1, trial.t1_carry, h);
+    trial.t1 = trial.there ? all_lanes<V>(run_->t_end) : trial.t1;
+    trial.s = s;
+    trial.h = h;
+    trial.good = next_states(s);
+    return trial;
+  }
+
+  /// Tries steps of s units in the lanes of a mask; leaves those in it whose trial does not hold.
+  /// Whether anything happened that is not just another step of every lane.
+  CASIMIR_INLINE bool attempt(V s, M& trying) {
+    const Trial trial = tried(s);
+    if constexpr (Series::smooth) {
+      const M plain =
+          trying & trial.good & checked_ & ~(trial.s > 3) & ~trial.there & ~trial.vanished;
+      if (__builtin_expect(!any(active_ & ~plain), 1)) {
+        accept(plain, trial);
+        trying = M{};
+        return false;
+      }
+    }
+    examine(trial, trying);
+    return true;
+  }
+
+  __attribute__((noinline)) void examine(const Trial& trial, M& trying) {
+    const M vanished = trying & trial.vanished;
+    if (any(vanished)) {
+      fail(vanished, CASIMIR_STEP_UNDERFLOW);
+      trying &= ~vanished;
+    }
+    failure_ = trying & ~trial.good ? all_lanes<V>(CASIMIR_NON_FINITE) : failure_;
+    M held = trying & trial.good;
+    if constexpr (!Series::smooth)
+      if (run_->look) look(held, trial);
+    M unsure = held;
+    if constexpr (Series::smooth) unsure &= ~checked_ | (trial.s > 3);
+    if (any(unsure)) {
+      const M good = follows(unsure, trial);
+      checked_ |= unsure & good;
+      held &= ~unsure | good;
+    }
+    accept(held, trial);
+    end(held & trial.there, CASIMIR_OK);
+    ready_ = ready_ && !any(active_ & ~held);
+    trying &= ~held;
+  }
+
+  /// Leaves those in a mask whose step may be taken; of the others, what part is to be tried next.
+  __attribute__((noinline)) void look(M& held, const Trial& trial) {
+    const M asked = held;
+    const casimir_lane_step step = shown(asked, trial, nullptr);
+    double parts[width];
+    run_->look(run_->source, &step, parts);
+    for (int lane = 0; lane < width; ++lane) {
+      if (!asked[lane]) continue;
+      const double part = parts[lane];
+      jumps_[lane] = part > 1 ? -1 : 0;
+      if (part >= 1) continue;
+      held[lane] = 0;
+      part_[lane] = part;
+      cut_[lane] = -1;
+      failure_[lane] = CASIMIR_STEP_UNDERFLOW;
+    }
+  }
+
+  /// The step as others see it.
+  CASIMIR_INLINE casimir_lane_step shown(const M& held, const Trial& trial, M* finished) const {
+    return {width,
+            series_.states,
+            series_.order,
+            rows_,
+            reinterpret_cast<const double*>(&time_),
+            reinterpret_cast<const double*>(&unit_),
+            reinterpret_cast<const double*>(&trial.s),
+            member_,
+            reinterpret_cast<const long long*>(&held),
+            reinterpret_cast<long long*>(finished)};
+  }
+
+  /// total + carry becomes total + carry + increment, in all lanes.
+  static CASIMIR_INLINE void add(V& total, V& carry, V increment) {
+    const V y = increment + carry;
+    const V sum = total + y;
+    const V part = sum - total;
+    carry = (total - (sum - part)) + (y - part);
+    total = sum;
+  }
+
+  /// next_ = the state after s units, summed in four chains; where that is finite. The product with
+  /// s and the sum with the carry stand in one place: whether they are fused must not depend on how
+  /// the loop is compiled.
+  CASIMIR_INLINE M next_states(V s) {
+    const V s2 = s * s, s4 = s2 * s2;
+    V zero = V{};
+    each_state([&](int i) CASIMIR_INLINE_LAMBDA {
+      const V* c = series_.row(i) + series_.order - 3;
+      V p0 = c[0], p1 = c[1], p2 = c[2], p3 = c[3];
+      for (int k = series_.order - 4; k > 0; k -= 4) {
+        c -= 4;
+        p0 = p0 * s4 + c[0];
+        p1 = p1 * s4 + c[1];
+        p2 = p2 * s4 + c[2];
+        p3 = p3 * s4 + c[3];
+      }
+      V x = c[-1], carry = carry_[i];
+      add(x, carry, ((p0 + p1 * s) + (p2 + p3 * s) * s2) * s);
+      next_[i] = x;
+      next_carry_[i] = carry;
+      zero += x * 0;
+    });
+    return zero == 0;
+  }
+
+  CASIMIR_INLINE void accept(M held, const Trial& trial) {
+    if (__builtin_expect(run_->observe != nullptr, 0)) observe(held, trial);
+    time_ = held ? trial.t1 : time_;
+    time_carry_ = held ? trial.t1_carry : time_carry_;
+    steps_ += held ? all_lanes<V>(1) : V{};
+    M resize = held & ~(absolute(trial.s - 1.2) < 0.8);
+    if constexpr (!Series::smooth) {
+      resize &= ~cut_;  // a step that was cut short says nothing about the next one
+      cut_ &= ~held;
+    }
+    unit_ = resize ? towards_end(power_of_two_near(absolute(trial.h))) : unit_;
+    each_state([&](int i) CASIMIR_INLINE_LAMBDA {
+      V& x = series_.row(i)[0];
+      x = held ? next_[i] : x;
+      carry_[i] = held ? next_carry_[i] : carry_[i];
+    });
+  }
+
+  /// Shows a step while the rows still hold it. Who has seen enough of a member ends it: in its
+  /// next state, unless the step ends it anyway.
+  __attribute__((noinline)) void observe(M held, const Trial& trial) {
+    M finished = {};
+    const casimir_lane_step step = shown(held, trial, &finished);
+    run_->observe(run_->source, &step);
+    seen_enough_ |= finished & held;
+  }
+
+  /// Where the series has the derivative that the equations ask for, within the step and at its
+  /// end: the last coefficients alone show no kink of the right-hand side, and a pulse may have
+  /// passed before the end. The places within are those of a member's own count of steps, so that
+  /// no motion has the same ones in each and no neighbour matters.
+  __attribute__((noinline)) M follows(M which, const Trial& trial) {
+    constexpr double kGoldenSection = 0.6180339887498949;
+    const int places = Series::smooth ? 4 : 1;
+    M good = which;
+    for (int i = 0; i < places; ++i) {
+      V within;
+      for (int lane = 0; lane < width; ++lane) {
+        const double place = kGoldenSection * (steps_[lane] + rejected_[lane]);
+        const double part = place - static_cast<double>(static_cast<long long>(place));
+        within[lane] = trial.s[lane] * ((i + 0.1 + 0.8 * part) / places);
+      }
+      V x[room];
+      each_state([&](int j) CASIMIR_INLINE_LAMBDA {
+        const V* c = series_.row(j);
+        V sum = V{};
+        for (int k = series_.order; k > 0; --k) sum = (sum + c[k]) * within;
+        x[j] = c[0] + sum;
+      });
+      good &= follows_at(which, within, time_ + within * unit_, x);
+    }
+    // Last, since what begins at the end is the next step.
+    return good & (follows_at(which, trial.s, trial.t1, next_) | jumps_);
+  }
+
+  CASIMIR_INLINE M follows_at(M which, V s, V t, const V* x) {
+    series_.begin(t, x, rate_);
+    V defect = V{};
+    for (int i = 0; i < series_.states; ++i) {
+      const V* c = series_.row(i);
+      V told = V{};
+      for (int k = series_.order; k > 0; --k) told = (told + c[k] * k) * s;
+      const V size = absolute(c[0]) + absolute(x[i]) + absolute(told);
+      const V most = kDefect * allowed(i) + size * kRounding;
+      defect += absolute(rate_[i] * (s * unit_) - told) / most;
+    }
+    failure_ = (which & (defect < 1e300))    ? all_lanes<V>(CASIMIR_STEP_UNDERFLOW)
+               : (which & ~(defect < 1e300)) ? all_lanes<V>(CASIMIR_NON_FINITE)
+                                             : failure_;
+    return defect < 1;
+  }
+
+  // What seldom happens.
+
+  /// After trials that did not hold: a part of the step, or the end.
+  __attribute__((cold, noinline)) void reject(V& s, M& trying) {
+    rejected_ += trying ? all_lanes<V>(1) : V{};
+    if (run_->max_steps) {
+      limit_steps();
+      trying &= active_;
+    }
+    const V rest = absolute((run_->t_end - time_) - time_carry_) / absolute(unit_);
+    s = trying ? (s < rest ? s : rest) * part_ : s;
+    part_ = trying ? all_lanes<V>(kHalf) : part_;
+  }
+
+  /// The coefficients left the range of numbers: a smaller unit, or the end.
+  __attribute__((cold, noinline)) void shrink_units(M lost) {
+    rejected_ += lost ? all_lanes<V>(1) : V{};
+    unit_ = lost ? unit_ * 0x1p-8 : unit_;
+    failure_ = lost ? all_lanes<V>(CASIMIR_NON_FINITE) : failure_;
+    const V least = larger_of(kEpsilon * absolute(time_), all_lanes<V>(0x1p-1000));
+    const M vanished = lost & (absolute(unit_) <= least);
+    if (any(vanished)) fail(vanished, CASIMIR_NON_FINITE);
+  }
+
+  /// Ends lanes whose step has shrunk to nothing, each for its own reason.
+  __attribute__((cold, noinline)) void fail(M which, int failure) {
+    series_.begin(time_, states(), rate_);
+    ready_ = false;
+    for (int lane = 0; lane < width; ++lane) {
+      if (!which[lane]) continue;
+      double x[room] = {}, f[room] = {};
+      for (int i = 0; i < series_.states; ++i) {
+        x[i] = here_[i][lane];
+        f[i] = rate_[i][lane];
+      }
+      int reason = failure;
+      const int before = static_cast<int>(failure_[lane]);
+      if (reason == CASIMIR_STEP_UNDERFLOW && before != CASIMIR_OK) reason = before;
+      M alone = {};
+      alone[lane] = -1;
+      end(alone, status_of_vanished_step<room>(time_[lane] - run_->t_begin, x, f, reason));
+    }
+  }
+
+  const casimir_ensemble* run_;
+  Series& series_;
+  const double span_;
+  V carry_[room], next_[room], next_carry_[room], rate_[room], here_[room];
+  V time_ = {}, time_carry_ = {}, unit_ = {}, steps_ = {}, rejected_ = {}, status_ = {},
+    failure_ = {}, part_ = all_lanes<V>(kHalf);
+  M active_ = {}, ended_ = {}, checked_ = {}, seen_enough_ = {}, cut_ = {}, jumps_ = {};
+  long long member_[width];
+  const double* rows_[room];
+  int occupied_ = 0;
+  bool empty_ = false, ready_ = false;
+};
+
+/// The order at which a tolerance costs least, as measured: lower than for one trajectory, whose
+/// step has more to wait for.
+inline int order_of(const casimir_ensemble* run) {
+  const int order = run->order > 0      ? run->order
+                    : run->rtol > 3e-5  ? 8
+                    : run->rtol > 1e-8  ? 12
+                    : run->rtol > 7e-13 ? 16
+                                        : 20;
+  return order < 24 ? order : 24;
+}
+
+}  // namespace lanes
+}  // namespace casimir_kernel

@@ -1,0 +1,101 @@
+// The table-driven kernels for one instruction set. This file is compiled once for each, with
+// CASIMIR_TARGET naming it. Templates that were compiled with different options and carry the same
+// name would be merged by the linker, so everything here is in a namespace of its target.
+#define CASIMIR_JOIN_(a, b) a##b
+#define CASIMIR_JOIN(a, b) CASIMIR_JOIN_(a, b)
+#define casimir_kernel CASIMIR_JOIN(casimir_kernel_, CASIMIR_TARGET)
+
+#include "runtime/kernels/taylor/quadratic.hpp"
+#include "runtime/kernels/taylor/wide.hpp"
+
+namespace {
+
+constexpr int kWidth = casimir_kernel::kNativeWidth;
+
+struct RunTimeTables {
+  static constexpr bool known = false;
+  const casimir_quadratic& tables;
+  static int diagonals(const casimir_quadratic& from) { return from.diagonals; }
+  static int parts(const casimir_quadratic& from, int d) { return from.parts[d]; }
+  static int moves(const casimir_quadratic& from, int m) { return from.moves[m]; }
+};
+
+template <int width, int registers, int order>
+void integrate(const casimir_quadratic& tables, const casimir_run* run, double* x,
+               casimir_outcome* out) {
+  using Series = casimir_kernel::taylor::Quadratic<RunTimeTables, width, registers, order>;
+  Series series(RunTimeTables{tables});
+  casimir_kernel::taylor::March<Series>(run, series, x, out).go();
+}
+
+template <int width, int registers>
+void with_order(const casimir_quadratic& tables, const casimir_run* run, double* x,
+                casimir_outcome* out) {
+  const int order = casimir_kernel::taylor::order_for(run);
+  if (order <= 8) return integrate<width, registers, 8>(tables, run, x, out);
+  if (order <= 16) return integrate<width, registers, 16>(tables, run, x, out);
+  integrate<width, registers, 24>(tables, run, x, out);
+}
+
+constexpr int kMostBlocks = CASIMIR_WIDE_STATES / kWidth;
+
+template <int blocks, int fixed>
+void march_wide(const casimir_wide& tables, const casimir_run* run, double* x,
+                casimir_outcome* out) {
+  using Series = casimir_kernel::taylor::Wide<kWidth, blocks, fixed>;
+  Series series(tables, casimir_kernel::taylor::order_for(run));
+  casimir_kernel::taylor::March<Series>(run, series, x, out).go();
+}
+
+template <int blocks>
+void integrate_wide(const casimir_wide& tables, const casimir_run* run, double* x,
+                    casimir_outcome* out) {
+  if constexpr (blocks < kMostBlocks) {
+    if (tables.blocks > blocks) return integrate_wide<blocks + 1>(tables, run, x, out);
+  }
+  if constexpr (blocks <= CASIMIR_WIDE_BLOCKS) {
+    static_assert(CASIMIR_WIDE_FEW == 4);
+    if (tables.registers == 1) return march_wide<blocks, 1>(tables, run, x, out);
+    if (tables.registers == 2) return march_wide<blocks, 2>(tables, run, x, out);
+    if (tables.registers == 3) return march_wide<blocks, 3>(tables, run, x, out);
+    if (tables.registers == 4) return march_wide<blocks, 4>(tables, run, x, out);
+  }
+  march_wide<blocks, 0>(tables, run, x, out);
+}
+
+}  // namespace
+
+extern "C" void CASIMIR_JOIN(casimir_wide_, CASIMIR_TARGET)(const casimir_wide* tables,
+                                                            const casimir_run* run, double* x,
+                                                            casimir_outcome* out) {
+  integrate_wide<1>(*tables, run, x, out);
+}
+
+extern "C" void CASIMIR_JOIN(casimir_quadratic_,
+                             CASIMIR_TARGET)([[maybe_unused]] const casimir_quadratic* tables,
+                                             [[maybe_unused]] const casimir_run* run,
+                                             [[maybe_unused]] double* x,
+                                             [[maybe_unused]] casimir_outcome* out) {
+  if constexpr (kWidth >= 4) {
+    if (tables->states <= 4) {
+      if (tables->products <= 1) return with_order<4, 1>(*tables, run, x, out);
+      if (tables->products == 2) return with_order<4, 2>(*tables, run, x, out);
+      return with_order<4, 3>(*tables, run, x, out);
+    }
+  }
+  if constexpr (kWidth == 8) {
+    switch (tables->products) {
+      case 0:
+      case 1:
+        return with_order<8, 1>(*tables, run, x, out);
+      case 2:
+        return with_order<8, 2>(*tables, run, x, out);
+      case 3:
+        return with_order<8, 3>(*tables, run, x, out);
+      case 4:
+        return with_order<8, 4>(*tables, run, x, out);
+      default:
+        return with_order<8, 5>(*tables, run, x, out);
+    }
+  }
+}

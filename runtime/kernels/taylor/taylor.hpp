@@ -1,0 +1,529 @@
+#pragma once
+
+#include "runtime/kernels/lanes/lanes.hpp"
+#include "runtime/kernels/one_step/control.hpp"
+
+namespace casimir_kernel {
+
+/// The method of Taylor series: each step sums the solution's own power series.
+///
+/// The coefficients come from a class
+///
+///   struct Series {
+///     using V;                          a register
+///     static constexpr int room;        most registers that may hold a state
+///     int blocks;                       registers that do, filled up with zeros
+///     int states;
+///     bool smooth;                      the right-hand side is a polynomial of low degree
+///     int order;                        a multiple of 4
+///     V c[..][blocks];                  x(t + s unit) = sum of c[k] s^k, k = 0 .. order
+///     V rate[blocks];                   dx/dt, from `begin`
+///     void begin(double t, const V* x); the rate at a state
+///     void expand(double unit);         c[1] .. c[order] at the state c[0]
+///     static constexpr bool prepared;   `expand` needs `begin` before it, at the same state
+///   };
+///
+/// whose numbers may be static constants: then the loops over registers are written out.
+///
+/// The unit of time is a power of two near the step, so coefficients of any order stay near the
+/// size of the state whatever the scales of state and time are.
+namespace taylor {
+
+/// log2 of a positive number to within 0.01; -1023 for 0.
+CASIMIR_INLINE double rough_log2(double a) {
+  long long bits;
+  __builtin_memcpy(&bits, &a, sizeof bits);
+  const double exponent = static_cast<double>((bits >> 52) - 1023);
+  bits = (bits & 0xfffffffffffffLL) | 0x3ff0000000000000LL;
+  double m;
+  __builtin_memcpy(&m, &bits, sizeof m);
+  return exponent + (m * (2 - m / 3) - 5. / 3);
+}
+
+/// 2^a to within 1 %, for |a| < 1000.
+CASIMIR_INLINE double rough_exp2(double a) {
+  const long long whole = static_cast<long long>(a + 2048) - 2048;
+  const double part = a - static_cast<double>(whole);
+  const long long bits = (whole + 1023) << 52;
+  double power;
+  __builtin_memcpy(&power, &bits, sizeof power);
+  return power * (1 + part * (0.6565 + 0.3435 * part));
+}
+
+/// The power of two next to a positive number.
+inline double power_of_two_near(double a) {
+  double power = 1;
+  long long bits;
+  __builtin_memcpy(&bits, &a, sizeof bits);
+  bits = (bits + 0x8000000000000LL) & 0x7ff0000000000000LL;
+  if (bits > 0x0030000000000000LL && bits < 0x7fd0000000000000LL)
+    __builtin_memcpy(&power, &bits, sizeof power);
+  else
+    power = bits > 0x3ff0000000000000LL ? 0x1p1020 : 0x1p-1020;
+  return power;
+}
+
+/// The part of the tolerance that a step aims at. Truncation errors add up in one direction,
+/// rounding errors in all: at the least tolerances truncation shall not be what millions of steps
+/// show.
+inline double aim(const casimir_run* run) {
+  // A hundredth of what rounding a step costs: 25 million steps show more than that.
+  constexpr double kFine = 1e-14, kUnseen = 1e-18;
+  if (run->leading) return kUnseen / run->rtol;
+  return run->rtol > 0 && run->rtol < kFine ? run->rtol / kFine : 1;
+}
+
+/// sum of c[k] s^k, k = 1 .. order: four chains, so that the processor need not wait for each.
+template <class Series, class V>
+CASIMIR_INLINE void increment(const Series& series, double s, V* sum) {
+  const int blocks = series.blocks;
+  const V s1 = all_lanes<V>(s), s2 = s1 * s1, s4 = s2 * s2;
+  CASIMIR_UNROLL
+  for (int b = 0; b < blocks; ++b) {
+    const auto* c = &series.c[series.order - 3][b];
+    V p0 = c[0], p1 = c[blocks], p2 = c[2 * blocks], p3 = c[3 * blocks];
+    CASIMIR_UNROLL
+    for (int k = series.order - 4; k > 0; k -= 4) {
+      c -= 4 * blocks;
+      p0 = p0 * s4 + c[0];
+      p1 = p1 * s4 + c[blocks];
+      p2 = p2 * s4 + c[2 * blocks];
+      p3 = p3 * s4 + c[3 * blocks];
+    }
+    sum[b] = ((p0 + p1 * s1) + (p2 + p3 * s1) * s2) * s1;
+  }
+}
+
+/// sum of c[k] s^(k - first), k = first .. order, where first = CASIMIR_LEADING + 1.
+template <class Series, class V>
+CASIMIR_INLINE void tail(const Series& series, double s, V* sum) {
+  static_assert(CASIMIR_LEADING == 2);
+  const int blocks = series.blocks;
+  const V s1 = all_lanes<V>(s), s2 = s1 * s1, s4 = s2 * s2;
+  CASIMIR_UNROLL
+  for (int b = 0; b < blocks; ++b) {
+    V p0 = V{}, p1 = V{}, p2 = V{}, p3 = V{};
+    for (int k = series.order - 3; k > 4; k -= 4) {
+      const auto* c = &series.c[k][b];
+      p0 = p0 * s4 + c[0];
+      p1 = p1 * s4 + c[blocks];
+      p2 = p2 * s4 + c[2 * blocks];
+      p3 = p3 * s4 + c[3 * blocks];
+    }
+    const V from_5 = (p0 + p1 * s1) + (p2 + p3 * s1) * s2;
+    sum[b] = series.c[3][b] + (series.c[4][b] + from_5 * s1) * s1;
+  }
+}
+
+/// sum of k c[k] s^k: the derivative of the series, times s.
+template <class Series, class V>
+CASIMIR_INLINE void slope(const Series& series, double s, V* sum) {
+  const int blocks = series.blocks;
+  const V s1 = all_lanes<V>(s), s2 = s1 * s1, s4 = s2 * s2;
+  CASIMIR_UNROLL
+  for (int b = 0; b < blocks; ++b) {
+    V p0 = V{}, p1 = V{}, p2 = V{}, p3 = V{};
+    for (int k = series.order - 3; k > 0; k -= 4) {
+      const auto* c = &series.c[k][b];
+      p0 = p0 * s4 + c[0] * k;
+      p1 = p1 * s4 + c[blocks] * (k + 1);
+      p2 = p2 * s4 + c[2 * blocks] * (k + 2);
+      p3 = p3 * s4 + c[3 * blocks] * (k + 3);
+    }
+    sum[b] = ((p0 + p1 * s1) + (p2 + p3 * s1) * s2) * s1;
+  }
+}
+
+template <class Series>
+class March {
+  using V = typename Series::V;
+  static constexpr int width = sizeof(V) / sizeof(double);
+  static constexpr int most_blocks = Series::room, room = most_blocks * width;
+  /// How far the derivative at the end of a step may be from the series, in allowed errors: far
+  /// more than a step of the right size ever gives, far less than a wrong one.
+  static constexpr double kDefect = 100, kRounding = 0x1p-40;
+  /// Of the time at the start, the least first guess of a step.
+  static constexpr double kLeastGuess = 0x1p-40;
+  /// No step is longer than this many units: what a step may grow by.
+  static constexpr double kLongest = 16;
+
+ public:
+  March(const casimir_run* run, Series& series, double* x, casimir_outcome* out)
+      : run_(run),
+        series_(series),
+        x_(x),
+        out_(out),
+        rtol_(run->rtol * aim(run)),
+        atol_(run->atol * aim(run)),
+        span_(run->t_end - run->t_begin),
+        pace_(run->t_begin) {}
+
+  void go() {
+    if (!start()) return finish();
+    while (status_ == CASIMIR_OK && !there_) {
+      if (run_->max_steps && steps_ + rejected_ >= run_->max_steps) {
+        status_ = CASIMIR_MAX_STEPS;
+        break;
+      }
+      if (pieces_ == 0 && !run_->max_steps && pace_.hopeless(steps_ + rejected_, t_, run_->t_end)) {
+        fail(CASIMIR_STEP_UNDERFLOW);
+        break;
+      }
+      CASIMIR_UNROLL
+      for (int b = 0; b < series_.blocks; ++b) series_.c[0][b] = state_[b];
+      if (Series::prepared && series_.smooth) series_.begin(t_, state_);
+      series_.expand(unit_);
+      ++expansions_;
+      double s = chosen_step();
+      if (__builtin_expect(!(s > 0), 0)) {
+        shrink_unit();
+        continue;
+      }
+      while (!attempt(s)) {
+        if (!reject(s)) break;
+      }
+    }
+    finish();
+  }
+
+ private:
+  bool start() {
+    CASIMIR_UNROLL
+    for (int b = 0; b < series_.blocks; ++b) state_[b] = carry_[b] = V{};
+    for (int i = 0; i < series_.states; ++i) state_[i / width][i % width] = x_[i];
+    t_ = run_->t_begin;
+    status_ = CASIMIR_NON_FINITE;
+    if (!finite(state_) || !__builtin_isfinite(span_)) return false;
+    status_ = CASIMIR_OK;
+    there_ = span_ == 0;
+    if (there_) return false;
+    series_.begin(t_, state_);
+    if (!finite(series_.rate)) {
+      status_ = CASIMIR_NON_FINITE;
+      return false;
+    }
+    return run_->fixed_step > 0 ? start_fixed() : start_free();
+  }
+
+  bool start_free() {
+    double size = run_->atol, speed = 0;
+    for (int i = 0; i < series_.states; ++i) {
+      size = larger(size, magnitude(x_[i]));
+      speed = larger(speed, magnitude(series_.rate[i / width][i % width]));
+    }
+    // The solution's own time scale; a guess, which the coefficients correct.
+    double guess = magnitude(span_);
+    if (speed > 0 && size / speed < guess) guess = size / speed;
+    // A start at zero says nothing of the scale, but the time has its own rounding.
+    guess = larger(guess, kLeastGuess * magnitude(run_->t_begin));
+    if (run_->first_step > 0) guess = run_->first_step;
+    set_unit(guess);
+    fresh_ = true;
+    return true;
+  }
+
+  bool start_fixed() {
+    pieces_ = __builtin_ceil(magnitude(span_) / run_->fixed_step * (1 - 4 * kEpsilon));
+    pieces_ = larger(pieces_, 1);
+    if (!(pieces_ < 0x1p53)) status_ = CASIMIR_STEP_UNDERFLOW;
+    set_unit(magnitude(span_) / pieces_);
+    scale_ = 0;
+    for (int i = 0; i < series_.states; ++i) scale_ = larger(scale_, magnitude(x_[i]));
+    return status_ == CASIMIR_OK;
+  }
+
+  void set_unit(double h) {
+    unit_ = power_of_two_near(h);
+    if (span_ < 0) unit_ = -unit_;
+  }
+
+  CASIMIR_INLINE bool finite(const V* x) const {
+    V zero = V{};
+    CASIMIR_UNROLL
+    for (int b = 0; b < series_.blocks; ++b) zero += x[b] * 0;
+    return lane_sum(zero) == 0;
+  }
+
+  /// One over the error allowed to each component, whose size is what it takes during the step.
+  CASIMIR_INLINE V weight(int b) const {
+    const V size =
+        absolute(series_.c[0][b]) + absolute(series_.c[1][b]) + absolute(series_.c[2][b]);
+    const V unit = pieces_ > 0 ? size + scale_ : atol_ + rtol_ * size;
+    return 1 / (unit > kSmallest ? unit : all_lanes<V>(kSmallest));
+  }
+
+  /// The step in units at which the last two terms are as large as the tolerance allows, or 0
+  /// where the coefficients are no numbers.
+  CASIMIR_INLINE double chosen_step() {
+    const int order = series_.order;
+    V last = V{}, before = V{};
+    CASIMIR_UNROLL
+    for (int b = 0; b < series_.blocks; ++b) {
+      weight_[b] = weight(b);
+      before += absolute(series_.c[order - 1][b]) * weight_[b];
+      last += absolute(series_.c[order][b]) * weight_[b];
+    }
+    const double a = lane_sum(before), z = lane_sum(last);
+    if (!(a + z < 1e300)) return 0;
+    if (pieces_ > 0) return fixed_step(z);
+    const double rate = larger(rough_log2(a) / (order - 1), rough_log2(z) / order);
+    const double s = rate < -4 ? kLongest : rough_exp2(-rate);
+    return s;
+  }
+
+  double fixed_step(double last) {
+    const double h = span_ / pieces_, s = h / unit_;
+    // Without error control, but not beyond all meaning: the last term reaches the state itself.
+    for (int k = 0; k < series_.order; ++k) last *= s;
+    if (!(last < 1)) fail(CASIMIR_NO_CONVERGENCE);
+    return s;
+  }
+
+  /// A step of s units: whether it was taken.
+  CASIMIR_INLINE bool attempt(double s) {
+    if (status_ != CASIMIR_OK) return true;
+    double h = s * unit_;
+    double t1 = t_, t1_carry = t_carry_;
+    if (pieces_ > 0) {
+      there_ = static_cast<double>(steps_ + 1) >= pieces_;
+      t1 = run_->t_begin + static_cast<double>(steps_ + 1) * (span_ / pieces_);
+    } else {
+      const double rest = (run_->t_end - t_) - t_carry_;
+      there_ = magnitude(rest) <= magnitude(h);
+      if (there_) {
+        h = rest;
+        s = h / unit_;
+      } else if (magnitude(h) <= larger(16 * kEpsilon * magnitude(t_), 16 * kSmallest)) {
+        fail(CASIMIR_STEP_UNDERFLOW);
+        return true;
+      }
+      add_carried(t1, t1_carry, h);
+    }
+    if (there_) t1 = run_->t_end;
+    V next[most_blocks], next_carry[most_blocks];
+    if (__builtin_expect(run_->leading != nullptr, 0)) {
+      step_with_leading_terms(s, next, next_carry);
+    } else {
+      increment(series_, s, next);
+      CASIMIR_UNROLL
+      for (int b = 0; b < series_.blocks; ++b) {
+        const V y = next[b] + carry_[b];
+        const V sum = state_[b] + y;
+        const V part = sum - state_[b];
+        next_carry[b] = (state_[b] - (sum - part)) + (y - part);
+        next[b] = sum;
+      }
+    }
+    if (__builtin_expect(!finite(next), 0)) {
+      failure_ = CASIMIR_NON_FINITE;
+      return false;
+    }
+    if (__builtin_expect(run_->project != nullptr, 0)) project(t1, next, next_carry);
+    const bool was_cut = cut_;
+    if (__builtin_expect(run_->look != nullptr, 0) && pieces_ == 0) {
+      if (!looks_right(t1, next)) return false;
+    }
+    if (!series_.smooth || __builtin_expect(fresh_ || s > 3, 0)) {
+      if (!follows(s, t1, next)) return false;
+    }
+    accept(t1, t1_carry, next, next_carry);
+    cut_ = false;
+    // A step that was cut short says nothing about the next one.
+    if (!(magnitude(s - 1.2) < 0.8) && pieces_ == 0 && !was_cut) set_unit(magnitude(h));
+    return true;
+  }
+
+  /// Whether the step may be taken; if not, what part of it is to be tried next.
+  __attribute__((noinline)) bool looks_right(double t1, const V* next) {
+    double x0[room], x1[room];
+    const casimir_step trial = seen(t1, next, x0, x1);
+    const double part = run_->look(run_->looker, &trial);
+    jumps_ = part > 1;
+    if (part >= 1) return true;
+    part_ = part;
+    cut_ = true;
+    failure_ = CASIMIR_STEP_UNDERFLOW;
+    return false;
+  }
+
+  /// Where the state is far from zero a step changes it by as much as itself, and a carry alone
+  /// saves nothing: then it is the leading terms that round.
+  __attribute__((noinline)) void step_with_leading_terms(double s, V* next, V* next_carry) {
+    V rest[most_blocks];
+    tail(series_, s, rest);
+    for (int b = 0; b < series_.blocks; ++b) {
+      next[b] = state_[b];
+      next_carry[b] = carry_[b];
+    }
+    const casimir_leading& leading = *run_->leading;
+    leading.add(leading.object, t_, unit_, s, reinterpret_cast<double*>(next),
+                reinterpret_cast<double*>(next_carry), reinterpret_cast<const double*>(rest));
+  }
+
+  __attribute__((cold, noinline)) void project(double t1, V* next, V* next_carry) {
+    double x[room], carry[room];
+    for (int i = 0; i < series_.states; ++i) {
+      x[i] = next[i / width][i % width];
+      carry[i] = next_carry[i / width][i % width];
+    }
+    run_->project(run_->projector, t1, x, carry);
+    for (int i = 0; i < series_.states; ++i) {
+      next[i / width][i % width] = x[i];
+      next_carry[i / width][i % width] = carry[i];
+    }
+  }
+
+  /// Whether the series has the derivative that the equations ask for, within the step and at its
+  /// end. The last coefficients alone do not show a kink of the right-hand side, nor terms that are
+  /// missing only from them, and a pulse may have passed before the end.
+  ///
+  /// The places within the step follow the golden section, so that no motion of whatever period has
+  /// the same ones in each step.
+  __attribute__((noinline)) bool follows(double s, double t1, const V* next) {
+    const int places = fresh_ || s > 3 ? 4 : 1;
+    for (int i = 0; i < places; ++i) {
+      constexpr double kGoldenSection = 0.6180339887498949;
+      place_ += kGoldenSection;
+      if (place_ >= 1) place_ -= 1;
+      const double within = s * ((static_cast<double>(i) + 0.1 + 0.8 * place_) / places);
+      V x[most_blocks];
+      increment(series_, within, x);
+      CASIMIR_UNROLL
+      for (int b = 0; b < series_.blocks; ++b) x[b] = state_[b] + x[b];
+      if (!follows_at(within, t_ + within * unit_, x)) return false;
+    }
+    // Last, since what begins at the end is the next step.
+    if (!follows_at(s, t1, next) && !jumps_) return false;
+    fresh_ = false;
+    return true;
+  }
+
+  CASIMIR_INLINE bool follows_at(double s, double t, const V* next) {
+    V told[most_blocks], defect = V{};
+    slope(series_, s, told);
+    series_.begin(t, next);
+    ++evaluations_;
+    CASIMIR_UNROLL
+    for (int b = 0; b < series_.blocks; ++b) {
+      const V size = absolute(state_[b]) + absolute(next[b]) + absolute(told[b]);
+      const V w = 1 / (kDefect / weight_[b] + size * kRounding);
+      defect += absolute(series_.rate[b] * (s * unit_) - told[b]) * w;
+    }
+    const double sum = lane_sum(defect);
+    failure_ = sum < 1e300 ? CASIMIR_STEP_UNDERFLOW : CASIMIR_NON_FINITE;
+    return sum < 1 || (pieces_ > 0 && sum < 1e300);
+  }
+
+  CASIMIR_INLINE void accept(double t1, double t1_carry, const V* next, const V* next_carry) {
+    ++steps_;
+    if (__builtin_expect(run_->observe != nullptr, 0)) {
+      show(t1, next);
+    }
+    t_ = t1;
+    t_carry_ = t1_carry;
+    CASIMIR_UNROLL
+    for (int b = 0; b < series_.blocks; ++b) {
+      state_[b] = next[b];
+      carry_[b] = next_carry[b];
+    }
+  }
+
+  __attribute__((cold, noinline)) void show(double t1, const V* next) {
+    double x0[room], x1[room];
+    const casimir_step step = seen(t1, next, x0, x1);
+    if (run_->observe(run_->observer, &step) && !there_) status_ = CASIMIR_STOPPED;
+  }
+
+  /// The step as others see it, in their arrays.
+  CASIMIR_INLINE casimir_step seen(double t1, const V* next, double* x0, double* x1) const {
+    for (int i = 0; i < series_.states; ++i) {
+      x0[i] = state_[i / width][i % width];
+      x1[i] = next[i / width][i % width];
+    }
+    return {t_, t1, x0, x1, &dense, this, nullptr, nullptr};
+  }
+
+  __attribute__((cold)) static void dense(const casimir_step* step, double t, double* at) {
+    const March* self = static_cast<const March*>(step->data);
+    V sum[most_blocks];
+    increment(self->series_, (t - step->t0) / self->unit_, sum);
+    for (int i = 0; i < self->series_.states; ++i) at[i] = step->x0[i] + sum[i / width][i % width];
+  }
+
+  /// After a trial that did not hold: a part of the step, or the end. Whether to try again.
+  __attribute__((cold, noinline)) bool reject(double& s) {
+    ++rejected_;
+    there_ = false;
+    if (pieces_ > 0) {
+      fail(failure_ == CASIMIR_NON_FINITE ? CASIMIR_NON_FINITE : CASIMIR_NO_CONVERGENCE);
+      return false;
+    }
+    if (run_->max_steps && steps_ + rejected_ >= run_->max_steps) {
+      status_ = CASIMIR_MAX_STEPS;
+      return false;
+    }
+    const double rest = magnitude((run_->t_end - t_) - t_carry_) / magnitude(unit_);
+    s = (s < rest ? s : rest) * part_;
+    part_ = 0.5;
+    return true;
+  }
+
+  /// The coefficients left the range of numbers: a smaller unit, or the end.
+  __attribute__((cold, noinline)) void shrink_unit() {
+    if (status_ != CASIMIR_OK) return;
+    ++rejected_;
+    unit_ *= 0x1p-8;
+    failure_ = CASIMIR_NON_FINITE;
+    const bool vanished =
+        magnitude(unit_) <= larger(kEpsilon * magnitude(t_), 0x1p-1000) || pieces_ > 0;
+    if (vanished) fail(CASIMIR_NON_FINITE);
+  }
+
+  __attribute__((cold, noinline)) void fail(int failure) {
+    double x[room] = {}, f[room] = {};
+    series_.begin(t_, state_);
+    for (int i = 0; i < series_.states; ++i) {
+      x[i] = state_[i / width][i % width];
+      f[i] = series_.rate[i / width][i % width];
+    }
+    there_ = false;
+    if (failure == CASIMIR_STEP_UNDERFLOW && failure_ != CASIMIR_OK) failure = failure_;
+    status_ = status_of_vanished_step<room>(t_ - run_->t_begin, x, f, failure);
+  }
+
+  void finish() {
+    for (int i = 0; i < series_.states; ++i) x_[i] = state_[i / width][i % width];
+    out_->status = status_;
+    out_->t = t_;
+    out_->steps = steps_;
+    out_->rejected = rejected_;
+    out_->evaluations = expansions_ * static_cast<unsigned long long>(series_.order) + evaluations_;
+    out_->jacobians = 0;
+  }
+
+  const casimir_run* run_;
+  Series& series_;
+  double* x_;
+  casimir_outcome* out_;
+  const double rtol_, atol_;  // aimed at
+  V state_[most_blocks], carry_[most_blocks], weight_[most_blocks];
+  double t_ = 0, t_carry_ = 0;
+  const double span_;
+  Pace pace_;
+  double unit_ = 1, pieces_ = 0, scale_ = 0;
+  unsigned long long steps_ = 0, rejected_ = 0, expansions_ = 0, evaluations_ = 0;
+  int status_ = CASIMIR_OK, failure_ = CASIMIR_OK;
+  bool there_ = false, fresh_ = false, cut_ = false, jumps_ = false;
+  double part_ = 0.5;   // of a step that did not hold, what is tried next
+  double place_ = 0.5;  // within a step, where it was looked at last
+};
+
+/// The order at which a tolerance costs least, as measured.
+inline int order_for(const casimir_run* run) {
+  const double tolerance = run->fixed_step > 0 ? 0 : run->rtol;
+  return tolerance > 3e-5 ? 8 : tolerance > 1e-8 ? 16 : 24;
+}
+
+}  // namespace taylor
+
+}  // namespace casimir_kernel

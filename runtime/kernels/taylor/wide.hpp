@@ -1,0 +1,229 @@
+#pragma once
+
+#include "runtime/kernels/reciprocals.hpp"
+#include "runtime/kernels/taylor/taylor.hpp"
+#include "runtime/kernels/taylor/wide_tables.h"
+
+namespace casimir_kernel::taylor {
+
+/// Taylor coefficients of x' = constant + linear + quadratic, for states that fill `the_blocks`
+/// registers and any number of products. The system is a table; nothing depends on it but counts
+/// of loops.
+///
+/// The operands of the products stay in memory. Their convolutions are formed for four orders at a
+/// time as far as the coefficients are known, so that a number that is loaded serves four sums;
+/// what the four coefficients themselves add follows order by order.
+///
+/// \tparam fixed  the number of registers of products where it is small: loops over them are then
+///                written out, and sums of products stay in registers. 0: any number.
+template <int width, int the_blocks, int fixed>
+struct Wide {
+  using V = Lanes<width>;
+  static constexpr int blocks = the_blocks, room = blocks, most = 24;
+  static constexpr bool smooth = true, prepared = false;
+
+  const int states, order;
+  V c[most + 1][blocks];
+  V rate[blocks];
+
+  Wide(const casimir_wide& tables, int the_order)
+      : states(tables.states), order(the_order), tables_(tables) {
+    for (int m = 0; m < fixed; ++m)
+      for (int b = 0; b < blocks; ++b)
+        own_[m][b] = load<V>(tables.dense + (m * blocks + b) * width);
+  }
+
+  __attribute__((noinline)) void begin(double, const V* x) {
+    V state[blocks];
+    for (int b = 0; b < blocks; ++b) state[b] = c[0][b] = x[b];
+    rates_at(state, 1);
+    for (int b = 0; b < blocks; ++b) rate[b] = state[b];
+  }
+
+  __attribute__((noinline)) void expand(double unit) {
+    V x[blocks];  // the newest coefficient, which the next one waits for
+    CASIMIR_UNROLL
+    for (int b = 0; b < blocks; ++b) x[b] = c[0][b];
+    rates_at(x, unit);
+    store(1, x);
+    next<true, 0>(1, unit, x);
+    next<true, 1>(1, unit, x);
+    next<true, 2>(1, unit, x);
+    next<true, 3>(1, unit, x);
+    for (int first = 5; first < order; first += 4) {
+      look_ahead(first);
+      next<false, 0>(first, unit, x);
+      next<false, 1>(first, unit, x);
+      next<false, 2>(first, unit, x);
+      if (first + 3 < order) next<false, 3>(first, unit, x);
+    }
+  }
+
+ private:
+  static constexpr int most_registers = CASIMIR_WIDE_PRODUCTS / width;
+
+  /// The coefficients 0, 1, .. of the factors.
+  struct Product {
+    V left[most], right[most];
+  };
+
+  CASIMIR_INLINE void store(int k, const V* x) {
+    CASIMIR_UNROLL
+    for (int b = 0; b < blocks; ++b) c[k][b] = x[b];
+  }
+
+  /// The states by the indices of a register: of coefficient k, which is x.
+  CASIMIR_INLINE V operand(int k, const V* x, const long long* indices) const {
+    return gathered<blocks>(gathers_in_registers<V, blocks> ? x : c[k], indices);
+  }
+
+  /// The state c[0], which is x, becomes its rates times a factor.
+  CASIMIR_INLINE void rates_at(V* x, double factor) {
+    V own[fixed > 0 ? fixed : 1];
+    each_register([&](int m) CASIMIR_INLINE_LAMBDA {
+      const V l = operand(0, x, tables_.left + m * width);
+      const V r = operand(0, x, tables_.right + m * width);
+      product_[m].left[0] = l;
+      product_[m].right[0] = r;
+      keep(own, m, l * r);
+    });
+    combine(own, 0, x);
+    CASIMIR_UNROLL
+    for (int b = 0; b < blocks; ++b) x[b] = (x[b] + load<V>(tables_.constant + b * width)) * factor;
+  }
+
+  /// For m = 0 .. registers - 1.
+  template <class Action>
+  CASIMIR_INLINE void each_register(Action action) const {
+    if constexpr (fixed > 0) {
+      CASIMIR_UNROLL
+      for (int m = 0; m < fixed; ++m) action(m);
+    } else {
+      for (int m = 0; m < tables_.registers; ++m) action(m);
+    }
+  }
+
+  /// The products of register m: in a register for their own lanes, in memory to be moved.
+  CASIMIR_INLINE void keep(V* own, int m, V value) {
+    if constexpr (fixed > 0) own[m] = value;
+    product_now_[m] = value;
+  }
+
+  /// What the coefficients before `first` give to the products of order first .. first + 3, except
+  /// for coefficient 0.
+  CASIMIR_INLINE void look_ahead(int first) {
+    each_register([&](int m) CASIMIR_INLINE_LAMBDA {
+      const V* const l = product_[m].left;
+      const V* const r = product_[m].right + first;
+      V r1 = r[-1], r2 = r[-2], r3 = r[-3];
+      // l[1] .. l[3] do not reach the later orders: there r is not known yet.
+      V s0 = l[1] * r1 + l[2] * r2 + l[3] * r3;
+      V s1 = l[2] * r1 + l[3] * r2;
+      V s2 = l[3] * r1;
+      V s3 = V{};
+      for (int j = 4; j < first; ++j) {
+        const V a = l[j], r4 = r[-j];
+        s0 += a * r4;
+        s1 += a * r3;
+        s2 += a * r2;
+        s3 += a * r1;
+        r1 = r2;
+        r2 = r3;
+        r3 = r4;
+      }
+      ahead_[m][0] = s0;
+      ahead_[m][1] = s1;
+      ahead_[m][2] = s2;
+      ahead_[m][3] = s3;
+    });
+  }
+
+  /// The inner terms of order k = first + q of register m: all without coefficient 0 and k.
+  CASIMIR_INLINE V inner(int m, int first, int q) const {
+    const Product& p = product_[m];
+    V even = V{}, odd = V{};
+    if (first == 1) {  // nothing was looked ahead
+      CASIMIR_UNROLL
+      for (int j = 1; j <= q; ++j) even += p.left[j] * p.right[q + 1 - j];
+    } else {
+      even = ahead_[m][q];
+      CASIMIR_UNROLL
+      for (int i = 0; i < q; ++i) {
+        even += p.left[first + i] * p.right[q - i];
+        odd += p.left[q - i] * p.right[first + i];
+      }
+    }
+    return even + odd;
+  }
+
+  /// Coefficient k + 1 from coefficient k = first + q, which is x and becomes the new one.
+  template <bool at_start, int q>
+  CASIMIR_INLINE void next(int first, double unit, V* x) {
+    const int k = first + q;
+    V own[fixed > 0 ? fixed : 1];
+    each_register([&](int m) CASIMIR_INLINE_LAMBDA {
+      Product& p = product_[m];
+      const V l = operand(k, x, tables_.left + m * width);
+      const V r = operand(k, x, tables_.right + m * width);
+      p.left[k] = l;
+      p.right[k] = r;
+      keep(own, m, (inner(m, at_start ? 1 : first, q) + p.left[0] * r) + l * p.right[0]);
+    });
+    combine(own, k, x);
+    const double factor = unit * reciprocal.of[k + 1];
+    const double lost = unit * reciprocal.rest[k + 1];
+    CASIMIR_UNROLL
+    for (int b = 0; b < blocks; ++b)
+      x[b] = at_start || first < Reciprocals::felt ? x[b] * factor + x[b] * lost : x[b] * factor;
+    store(k + 1, x);
+  }
+
+  /// The products of entry e, in the lanes where they are needed.
+  CASIMIR_INLINE V moved(int e) const {
+    const long long* const lanes = tables_.moved_lane + e * width;
+    if constexpr (width == 2)
+      return collected<V>(reinterpret_cast<const double*>(product_now_), lanes);
+    else
+      return permuted_by(product_now_[tables_.moved_from[e]], lanes);
+  }
+
+  /// What the products and coefficient k, which is x, make of the rates, which take its place;
+  /// without the constants.
+  CASIMIR_INLINE void combine(const V* own, int k, V* x) {
+    V rates[blocks];
+    CASIMIR_UNROLL
+    for (int b = 0; b < blocks; ++b) {
+      V even = V{}, odd = V{};
+      for (int e = tables_.linear_begin[b]; e < tables_.linear_begin[b + 1]; ++e) {
+        even += load<V>(tables_.linear_factor + e * width) *
+                operand(k, x, tables_.linear_state + e * width);
+      }
+      if constexpr (fixed > 0) {
+        CASIMIR_UNROLL
+        for (int m = 0; m < fixed; ++m) (m % 2 ? odd : even) += own_[m][b] * own[m];
+      } else {
+        for (int e = tables_.own_begin[b]; e < tables_.own_begin[b + 1]; e += 2) {
+          const double* const f = tables_.own_factor + e * width;
+          even += load<V>(f) * product_now_[tables_.own_from[e]];
+          odd += load<V>(f + width) * product_now_[tables_.own_from[e + 1]];
+        }
+      }
+      for (int e = tables_.moved_begin[b]; e < tables_.moved_begin[b + 1]; e += 2) {
+        const double* const f = tables_.moved_factor + e * width;
+        even += load<V>(f) * moved(e);
+        odd += load<V>(f + width) * moved(e + 1);
+      }
+      rates[b] = even + odd;
+    }
+    CASIMIR_UNROLL
+    for (int b = 0; b < blocks; ++b) x[b] = rates[b];
+  }
+
+  const casimir_wide tables_;
+  V own_[fixed > 0 ? fixed : 1][blocks];  // the factors of `dense`
+  V ahead_[most_registers][4];
+  V product_now_[most_registers];
+  Product product_[most_registers];
+};
+
+}  // namespace casimir_kernel::taylor

@@ -1,0 +1,473 @@
+// Case files to models: every expression is read, every name declared once.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "symbolic/case/build_scene.hpp"
+#include "symbolic/case/case_names.hpp"
+#include "symbolic/case/expression.hpp"
+#include "symbolic/case/expression_size.hpp"
+#include "symbolic/case/limits.hpp"
+#include "symbolic/case/toml_keys.hpp"
+#include "symbolic/lie_algebra.hpp"
+#include "symbolic/model.hpp"
+#include "symbolic/model/model_dynamics.hpp"
+#include "symbolic/model/phase_space.hpp"
+
+namespace casimir {
+namespace {
+
+using GiNaC::ex;
+
+class Builder {
+ public:
+  Builder(const CaseFile& file, const ParameterValues& fixed, const FindCase& find_case)
+      : file_(file), fixed_(fixed), find_case_(find_case), dynamics_(model_) {}
+
+  Model build() {
+    check_counts();
+    copy_texts();
+    declare_names();
+    read_equations();
+    read_claims();
+    for (const SceneText& scene : file_.scenes)
+      model_.scenes.push_back(read_scene(scene, model_, fixed_));
+    return std::move(model_);
+  }
+
+ private:
+  void check_counts() const {
+    const auto check = [&](std::size_t count, double Limits::*limit, const char* what) {
+      if (static_cast<double>(count) > limits().*limit)
+        throw CaseError(
+            {file_.file},
+            fmt::format("{} {} given; the limit is {:.0f}", count, what, limits().*limit), {},
+            limit_hint(limit));
+    };
+    check(file_.parameters.size(), &Limits::parameters, "parameters");
+    check(file_.scenes.size(), &Limits::scenes, "scenes");
+    check(file_.casimirs.size() + file_.integrals.size() + file_.conditionals.size() +
+              file_.invariant_relations.size() + file_.lax.size() + file_.maps.size() +
+              file_.measures.size() + file_.identities.size(),
+          &Limits::claims, "claims");
+  }
+
+  void copy_texts() {
+    model_.name = file_.name;
+    model_.file = file_.file;
+    model_.title = file_.title;
+    model_.source = file_.source;
+    model_.book = file_.book;
+    model_.tags = file_.tags;
+    model_.integrable = file_.integrable;
+    model_.phase_space = describe(file_.phase_space);
+  }
+
+  const Text* fixed_value(const std::string& parameter) const {
+    const auto it = std::find_if(fixed_.begin(), fixed_.end(),
+                                 [&](const auto& pair) { return pair.first.value == parameter; });
+    return it == fixed_.end() ? nullptr : &it->second;
+  }
+
+  /// A witness gives each symbol its value by name, and the residual's under the name `value`.
+  static void check_symbol_name(const Text& name) {
+    if (name.value == "value")
+      throw name.error("'value' names the value of a residual in a witness, and cannot name this");
+  }
+
+  void declare_names() {
+    names_.allow_complex_numbers(file_.complex_numbers);
+    model_.complex_numbers = file_.complex_numbers;
+    model_.variables = make_variables(file_.phase_space);
+    for (std::size_t i = 0; i < model_.variables.size(); ++i) {
+      check_symbol_name(file_.phase_space.variables[i]);
+      names_.declare(file_.phase_space.variables[i], "a variable",
+                     Quantity::symbol(model_.variables[i]));
+    }
+    if (const auto& time = file_.phase_space.time) {
+      check_symbol_name(*time);
+      model_.time = GiNaC::symbol(time->value);
+      names_.declare(*time, "the time", Quantity::symbol(*model_.time));
+    }
+    std::vector<std::string> known;
+    for (const ParameterText& parameter : file_.parameters) {
+      known.push_back(parameter.name.value);
+      check_symbol_name(parameter.name);
+      if (const Text* text = fixed_value(parameter.name.value)) {
+        const ex value = parse_real_constant(*text);
+        names_.declare(parameter.name, "a parameter", measured(value));
+        model_.fixed.emplace_back(parameter.name, value);
+        continue;
+      }
+      model_.parameters.push_back(GiNaC::symbol(parameter.name.value));
+      names_.declare(parameter.name, "a parameter", Quantity::symbol(model_.parameters.back()));
+    }
+    for (const auto& [name, value] : fixed_) {
+      if (std::find(known.begin(), known.end(), name.value) == known.end()) {
+        throw name.error(
+            fmt::format("'{}' is not a parameter of this case", printable(name.value)), 0,
+            known.empty() ? "it has none" : suggest_or_list(name.value, known, "parameters"));
+      }
+    }
+    for (const Entry& definition : file_.definitions) names_.define(definition);
+    for (const ParameterText& parameter : file_.parameters) {
+      for (const Text& text : parameter.assume) read_assumption(text);
+    }
+    for (const Text& text : file_.phase_space.domain) read_assumption(text);
+  }
+
+  void read_assumption(const Text& text) {
+    const Assumption assumption = assumption_of(text, names_);
+    if (GiNaC::is_a<GiNaC::numeric>(assumption.difference) && !assumption.holds_at({})) {
+      throw text.error(fmt::format("the assumption '{}' does not hold", printable(text.value)));
+    }
+    model_.assumptions.push_back(assumption);
+  }
+
+  static Assumption assumption_of(const Text& text, Scope& names) {
+    const Relation relation = parse_relation(text, names);
+    return {relation.lhs - relation.rhs, relation.relation, text.value};
+  }
+
+  void read_equations() {
+    model_.frame = make_frame(file_.phase_space, model_.variables, model_.parameters, names_);
+    model_.linear_bracket = file_.phase_space.algebra || file_.phase_space.structure_constants;
+    model_.poisson = make_bracket(file_.phase_space, model_.variables, names_, model_.frame,
+                                  &model_.bracket_domain);
+    if (file_.equations) {
+      if (model_.poisson || file_.hamiltonian) {
+        throw CaseError(file_.phase_space.where,
+                        "a system is given either by [equations] or by a bracket and a "
+                        "hamiltonian, not by both");
+      }
+      read_explicit_field();
+    } else {
+      if (!model_.poisson) {
+        throw CaseError(
+            file_.phase_space.where,
+            "the phase space needs a bracket: one of 'algebra', 'canonical', 'brackets', "
+            "'structure_constants' and 'vector_fields'; or the file a table [equations]");
+      }
+      read_hamiltonian();
+      // In a function of that name, and before it, H is not known.
+      if (!function_named_H()) names_.offer("H", measured(*model_.hamiltonian));
+      model_.field = model_.poisson->flow(*model_.hamiltonian);
+    }
+    names_.allow(&dynamics_);
+    for (const Entry& definition : file_.definitions) {
+      model_.definitions.push_back(named(definition.first, *names_.find(definition.first.value)));
+    }
+  }
+
+  /// The Casimir function or integral that the file calls H, or null.
+  const Text* function_named_H() const {
+    for (const auto* entries : {&file_.casimirs, &file_.integrals}) {
+      const auto found =
+          std::ranges::find(*entries, "H", [](const Entry& e) { return e.first.value; });
+      if (found != entries->end()) return &found->first;
+    }
+    return nullptr;
+  }
+
+  void read_hamiltonian() {
+    if (file_.lagrangian) read_lagrangian(*file_.lagrangian);
+    if (file_.hamiltonian) {
+      model_.hamiltonian = in_domain(parse_expression(*file_.hamiltonian, names_));
+    } else if (file_.lagrangian) {
+      model_.hamiltonian = legendre_transform(*model_.frame, *file_.lagrangian);
+    } else {
+      no_hamiltonian();
+    }
+  }
+
+  /// A key below the head of a table belongs to that table, which TOML does not say.
+  [[noreturn]] void no_hamiltonian() const {
+    const std::string what = "the case file needs a key 'hamiltonian'";
+    for (const auto* table : {&file_.definitions, &file_.casimirs, &file_.integrals}) {
+      for (const auto& [name, value] : *table) {
+        if (name.value == "hamiltonian") throw name.error(what, 0, root_key_hint(name.value));
+      }
+    }
+    throw CaseError({file_.file, 1, 1}, what);
+  }
+
+  /// In the quasi-velocities, by default w1, w2, ..
+  void read_lagrangian(const Text& text) {
+    if (!model_.frame) {
+      throw text.error(
+          "a Lagrangian needs [phase_space.vector_fields], the frame whose "
+          "quasi-velocities it is written in");
+    }
+    const std::vector<Text>& given = file_.phase_space.vector_fields->velocities;
+    const std::size_t k = model_.frame->momenta.size();
+    if (!given.empty() && given.size() != k) {
+      throw given[0].error(fmt::format("{} velocities given for {} momenta", given.size(), k));
+    }
+    for (std::size_t s = 0; s < k; ++s) {
+      const Text name = given.empty() ? Text{fmt::format("w{}", s + 1), {}, {}} : given[s];
+      check_name(name, "a velocity");
+      const bool again = std::ranges::any_of(model_.frame->velocities, [&](const auto& other) {
+        return other.get_name() == name.value;
+      });
+      if (again || names_.find(name.value) != nullptr)
+        throw(given.empty() ? text : name)
+            .error(fmt::format("'{}' is declared twice", name.value), 0,
+                   "'velocities' in [phase_space.vector_fields] names the quasi-velocities");
+      if (name.value == "H")
+        throw name.error("'H' names the Hamiltonian and cannot name a velocity");
+      model_.frame->velocities.push_back(GiNaC::symbol(name.value));
+    }
+    ExtendedNames names(names_, model_.frame->velocities);
+    model_.frame->lagrangian = parse_expression(text, names).value;
+  }
+
+  void read_explicit_field() {
+    std::map<std::string, const Text*> given;
+    for (const auto& [key, text] : *file_.equations) {
+      variable_position(key);
+      given[key.value] = &text;
+    }
+    for (const GiNaC::symbol& x : model_.variables) {
+      const auto it = given.find(x.get_name());
+      if (it == given.end()) {
+        throw CaseError(file_.phase_space.where,
+                        fmt::format("[equations] has no equation for '{}'", x.get_name()));
+      }
+      model_.field.push_back(in_domain(parse_expression(*it->second, names_)));
+    }
+  }
+
+  std::size_t variable_position(const Text& name) const {
+    return symbol_position(name, name.value, 0, model_.variables, "a variable of this case");
+  }
+
+  static NamedExpression named(const Text& name, const Quantity& quantity) {
+    return {name.value, quantity.value, name.where, lost_parts(quantity)};
+  }
+
+  NamedExpression anonymous(const Text& text) {
+    return named(text, parse_expression(text, names_));
+  }
+
+  /// The value of what the motion is made of; it has one only where all parts have.
+  ex in_domain(const Quantity& quantity) {
+    for (const ex& part : lost_parts(quantity)) model_.domain.push_back(part);
+    return quantity.value;
+  }
+
+  std::vector<NamedExpression> read_named(const std::vector<Entry>& entries) {
+    std::vector<NamedExpression> result;
+    for (const auto& [name, text] : entries) {
+      check_name(name, "a function");
+      const Quantity quantity = parse_expression(text, names_);
+      result.push_back(named(name, quantity));
+      names_.name_function(name, quantity);
+      check_name_H(name, quantity.value);
+    }
+    return result;
+  }
+
+  /// Every command calls the Hamiltonian H where it lists the integrals.
+  void check_name_H(const Text& name, const ex& value) const {
+    if (name.value == "H" && model_.hamiltonian && !value.is_equal(*model_.hamiltonian))
+      throw name.error("'H' names the Hamiltonian among the integrals; here it would be another", 0,
+                       "give this function another name, or write it as the Hamiltonian");
+  }
+
+  LevelClaim read_level(const LevelText& text) {
+    LevelClaim claim{named(text.name, parse_expression(text.expression, names_)), {}};
+    for (const Text& relation : text.on) claim.on.push_back(anonymous(relation));
+    return claim;
+  }
+
+  void read_claims() {
+    if (!model_.poisson && !file_.casimirs.empty()) {
+      throw file_.casimirs[0].first.error(
+          "a Casimir function needs a bracket, which this phase space does not have");
+    }
+    if (!model_.poisson && !file_.maps.empty()) {
+      throw file_.maps[0].name.error(
+          "a Poisson map needs a bracket, which this phase space does not have");
+    }
+    model_.casimirs = read_named(file_.casimirs);
+    model_.integrals = read_named(file_.integrals);
+    for (const Text& text : file_.phase_space.constraints)
+      model_.constraints.push_back(anonymous(text));
+    for (const LevelText& text : file_.conditionals)
+      model_.conditionals.push_back(read_level(text));
+    for (const LevelText& text : file_.invariant_relations)
+      model_.invariant_relations.push_back(read_level(text));
+    for (const LaxText& text : file_.lax) read_lax(text);
+    for (const MapText& text : file_.maps) read_map(text);
+    for (const MeasureText& text : file_.measures) {
+      if (text.every_hamiltonian && !model_.poisson)
+        throw text.density.error("'every_hamiltonian' needs a bracket");
+      model_.measures.push_back({anonymous(text.density), text.every_hamiltonian});
+    }
+    for (const IdentityText& text : file_.identities) {
+      const Quantity left = parse_expression(text.left, names_);
+      const Quantity right = text.right ? parse_expression(*text.right, names_) : Quantity{0};
+      Identity identity{text.name.value, text.name.where, left.value, right.value, {},
+                        lost_parts(left)};
+      for (const ex& part : lost_parts(right)) identity.domain.push_back(part);
+      for (const Text& relation : text.on) identity.on.push_back(anonymous(relation));
+      model_.identities.push_back(std::move(identity));
+    }
+    if (!file_.section) return;
+    Section section{parse_expression(file_.section->function, names_).value, true, {}};
+    if (const auto& direction = file_.section->direction) {
+      if (direction->value != "up" && direction->value != "down")
+        throw direction->error("'direction' must be \"up\" or \"down\"");
+      section.upwards = direction->value == "up";
+    }
+    for (const Text& text : file_.section->plot)
+      section.plot.push_back(parse_expression(text, names_).value);
+    model_.section = section;
+  }
+
+  void read_lax(const LaxText& text) {
+    const std::size_t n = text.l.size();
+    if (n == 0 || text.a.size() != n) {
+      throw CaseError(
+          {file_.file, text.l.empty() || text.l[0].empty() ? 1 : text.l[0][0].where.line, 1},
+          "the matrices L and A of a Lax pair must have the same size");
+    }
+    LaxPair pair{std::nullopt, GiNaC::matrix(unsigned(n), unsigned(n)),
+                 GiNaC::matrix(unsigned(n), unsigned(n))};
+    pair.spectral = GiNaC::symbol(text.spectral ? text.spectral->value : "(none)");
+    if (text.spectral) {
+      check_name(*text.spectral, "the spectral parameter");
+      check_symbol_name(*text.spectral);
+      if (names_.find(text.spectral->value) != nullptr)
+        throw text.spectral->error(fmt::format("'{}' is declared twice", text.spectral->value));
+    }
+    ExtendedNames names(names_, {*pair.spectral});
+    for (unsigned i = 0; i < n; ++i) {
+      for (unsigned j = 0; j < n; ++j) {
+        const Quantity l = parse_expression(text.l[i][j], names);
+        const Quantity a = parse_expression(text.a[i][j], names);
+        pair.l(i, j) = l.value;
+        pair.a(i, j) = a.value;
+        for (const Quantity* entry : {&l, &a})
+          for (const ex& part : lost_parts(*entry)) pair.domain.push_back(part);
+      }
+    }
+    if (!text.spectral) pair.spectral.reset();
+    model_.lax_pairs.push_back(std::move(pair));
+  }
+
+  /// The phase space that a map leads to: written out, an algebra, or that of another case.
+  PhaseSpaceText target_of(const MapText& text) const {
+    if (text.to_table) return *text.to_table;
+    if (!find_lie_algebra(text.to->value)) {
+      if (const auto found = find_case(text.to->value)) {
+        return found->phase_space;
+      }
+    }
+    PhaseSpaceText target;
+    target.where = text.to->where;
+    target.algebra = text.to;
+    for (const Entry& entry : text.expressions) target.variables.push_back(entry.first);
+    return target;
+  }
+
+  std::optional<CaseFile> find_case(const std::string& name) const {
+    if (find_case_) return find_case_(name);
+    if (name.find('/') != std::string::npos) return std::nullopt;
+    const auto path = std::filesystem::path(file_.file).parent_path() / (name + ".toml");
+    std::error_code problem;
+    if (!std::filesystem::is_regular_file(path, problem)) return std::nullopt;
+    return read_case(path);
+  }
+
+  /// One expression for each symbol, over `names`.
+  /// \param domain  gets what they are defined by beside their values, as of NamedExpression
+  static std::vector<ex> all_components(const Text& map, const std::vector<Entry>& entries,
+                                        const std::vector<GiNaC::symbol>& symbols, Scope& names,
+                                        const std::string& what, std::vector<ex>& domain) {
+    std::vector<ex> result(symbols.size());
+    std::vector<bool> seen(symbols.size());
+    for (const auto& [name, value] : entries) {
+      const std::size_t i = symbol_position(name, name.value, 0, symbols, what);
+      const Quantity quantity = parse_expression(value, names);
+      for (const ex& part : lost_parts(quantity)) domain.push_back(part);
+      result[i] = quantity.value;
+      seen[i] = true;
+    }
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (!seen[i])
+        throw map.error(fmt::format("the map gives no expression for '{}'", symbols[i].get_name()));
+    }
+    return result;
+  }
+
+  void read_map(const MapText& text) {
+    const PhaseSpaceText target = target_of(text);
+    const std::vector<GiNaC::symbol> coordinates = make_variables(target);
+    NameTable names;  // the bracket of the target may have the parameters of this case
+    for (const GiNaC::symbol& s : model_.parameters) names.add(s.get_name(), Quantity::symbol(s));
+    for (const auto& [parameter, value] : model_.fixed) names.add(parameter.value, measured(value));
+    for (std::size_t i = 0; i < coordinates.size(); ++i) {
+      const std::string name = coordinates[i].get_name();
+      // What this file writes over the target's coordinates must not be able to mean a parameter.
+      const bool written_here = text.to_table || !text.image.empty() || !text.inverses.empty();
+      if (written_here && names.find(name) != nullptr)
+        throw(text.to_table ? target.variables[i] : text.name)
+            .error(fmt::format("'{}' names a parameter of this case and a variable of 'to'", name));
+      names.add(name, Quantity::symbol(coordinates[i]));
+    }
+    const std::optional<Frame> frame = make_frame(target, coordinates, model_.parameters, names);
+    std::vector<ex> target_domain, domain;
+    const std::optional<PoissonStructure> bracket =
+        make_bracket(target, coordinates, names, frame, &target_domain);
+    if (!bracket) throw CaseError(target.where, "the phase space of 'to' needs a bracket");
+    PoissonMap map{text.name.value,
+                   text.name.where,
+                   *bracket,
+                   all_components(text.name, text.expressions, coordinates, names_,
+                                  "a variable of the phase space of 'to'", domain),
+                   {},
+                   1,
+                   text.to ? text.to->value : std::string{},
+                   {},
+                   {}};
+    GiNaC::exmap image;
+    for (std::size_t i = 0; i < coordinates.size(); ++i) image[coordinates[i]] = map.expressions[i];
+    for (const ex& part : target_domain) domain.push_back(substituted(part, image));
+    map.domain = std::move(domain);
+    for (const Text& function : text.image.empty() ? target.constraints : text.image)
+      map.image.push_back({function.value, parse_expression(function, names).value, {}});
+    for (const MapInverseText& inverse : text.inverses) {
+      MapInverse& branch = map.inverses.emplace_back();
+      branch.expressions = all_components(text.name, inverse.expressions, model_.variables, names,
+                                          "a variable of this case", branch.defined_by);
+      for (const Text& condition : inverse.domain)
+        branch.domain.push_back(assumption_of(condition, names));
+    }
+    for (const Text& relation : text.on) map.on.push_back(anonymous(relation));
+    if (text.sign && text.sign->value == "-")
+      map.sign = -1;
+    else if (text.sign && text.sign->value != "+")
+      throw text.sign->error("'sign' must be \"+\" or \"-\"");
+    model_.maps.push_back(std::move(map));
+  }
+
+  const CaseFile& file_;
+  const ParameterValues& fixed_;
+  const FindCase& find_case_;
+  CaseNames names_;
+  Model model_;
+  ModelDynamics dynamics_;
+};
+
+}  // namespace
+
+Model build_model(const CaseFile& file, const ParameterValues& fixed, const FindCase& find_case) {
+  return Builder(file, fixed, find_case).build();
+}
+
+}  // namespace casimir

@@ -1,0 +1,160 @@
+// Scenes: exact initial data for a case.
+#include "symbolic/case/build_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "symbolic/algebra/exact_constant.hpp"
+#include "symbolic/case/decimal.hpp"
+#include "symbolic/case/expression.hpp"
+#include "symbolic/case/expression_size.hpp"
+
+namespace casimir {
+namespace {
+
+using GiNaC::ex;
+
+class SceneReader {
+ public:
+  SceneReader(const Model& model, const ParameterValues& fixed) : model_(model), fixed_(fixed) {}
+
+  /// The values of a scene's table, one for each symbol.
+  std::vector<std::optional<ex>> values(const std::vector<Entry>& entries,
+                                        const std::vector<GiNaC::symbol>& symbols,
+                                        const std::string& what) const {
+    std::vector<std::optional<ex>> result(symbols.size());
+    for (const auto& [name, text] : entries) {
+      if (what == "parameter" && is_fixed(name.value)) continue;
+      result[symbol_position(name, name.value, 0, symbols, "a " + what + " of this case")] =
+          parse_real_constant(text);
+    }
+    return result;
+  }
+
+  Scene read(const SceneText& text) const {
+    Scene scene;
+    scene.name = text.name.value;
+    scene.where = text.name.where;
+    for (const Scene& other : model_.scenes) {
+      if (other.name == scene.name)
+        throw text.name.error(fmt::format("the scene '{}' is given twice", printable(scene.name)));
+    }
+    const auto complete = [&](const std::vector<Entry>& entries,
+                              const std::vector<GiNaC::symbol>& symbols, const std::string& what) {
+      std::vector<ex> result;
+      const auto given = values(entries, symbols, what);
+      for (std::size_t i = 0; i < given.size(); ++i) {
+        if (!given[i])
+          throw text.name.error(fmt::format("the scene '{}' has no value for the {} '{}'",
+                                            printable(scene.name), what, symbols[i].get_name()));
+        result.push_back(*given[i]);
+      }
+      return result;
+    };
+    scene.parameters = complete(text.parameters, model_.parameters, "parameter");
+    scene.initial = complete(text.initial, model_.variables, "variable");
+    if (text.duration) {
+      scene.duration = parse_real_constant(*text.duration);
+      if (real_decimal(*scene.duration)->is_negative())
+        throw text.duration->error("the duration must not be negative");
+    } else if (!text.reference.empty()) {
+      throw text.name.error(
+          fmt::format("the scene '{}' has a reference state but no duration, at whose end it is",
+                      printable(scene.name)));
+    }
+    for (const Text& name : text.observe) {
+      symbol_position(name, name.value, 0, model_.variables, "a variable of this case");
+      scene.observe.push_back(name.value);
+    }
+    if (text.extreme) scene.extreme = kind_of_extreme(*text.extreme);
+    if (!text.reference.empty() && keeps_its_parameters(text)) {
+      scene.reference = values(text.reference, model_.variables, "variable");
+    }
+    check_assumptions(text.name, scene);
+    check_constraints(text, scene);
+    return scene;
+  }
+
+  static std::string kind_of_extreme(const Text& text) {
+    const std::vector<std::string> kinds = {"separatrix", "stiff", "scale",
+                                            "gimbal",     "long",  "blowup"};
+    if (std::find(kinds.begin(), kinds.end(), text.value) != kinds.end()) return text.value;
+    throw text.error(fmt::format("unknown kind of extreme scene '{}'", printable(text.value)), 0,
+                     suggest_or_list(text.value, kinds));
+  }
+
+  /// Whether the parameters fixed from outside have the values that the scene gives them: only then
+  /// is its reference state that of the motion.
+  bool keeps_its_parameters(const SceneText& text) const {
+    return std::all_of(fixed_.begin(), fixed_.end(), [&](const auto& pair) {
+      const auto own =
+          std::find_if(text.parameters.begin(), text.parameters.end(),
+                       [&](const Entry& entry) { return entry.first.value == pair.first.value; });
+      return own != text.parameters.end() &&
+             (parse_real_constant(own->second) - parse_real_constant(pair.second))
+                 .expand()
+                 .is_zero();
+    });
+  }
+
+  /// The scene has to lie on the constraints of its case and on the levels that it names itself,
+  /// exactly. Under other parameters than its own it may leave them; then it cannot be run.
+  void check_constraints(const SceneText& text, Scene& scene) const {
+    std::vector<std::pair<const Text*, NamedExpression>> relations;
+    for (const NamedExpression& constraint : model_.constraints)
+      relations.emplace_back(&text.name, constraint);
+    for (const Text& relation : text.on)
+      relations.emplace_back(&relation,
+                             NamedExpression{relation.value, model_.parse(relation), {}});
+    const GiNaC::exmap point = point_of(scene);
+    for (const auto& [where, relation] : relations) {
+      const ex value = normal_form(substituted(relation.value, point));
+      const auto constant = exact_constant(value);
+      if (constant && constant->zero) continue;
+      std::string what = fmt::format("the scene '{}' is not on the level {} = 0",
+                                     printable(scene.name), printable(relation.name));
+      what += constant ? fmt::format(": the value there is {}", printable(constant->text))
+                       : ": whether the value there is zero is not decided";
+      if (!text.altered && keeps_its_parameters(text)) throw where->error(what);
+      scene.unusable = what + ", with the values given";
+      return;
+    }
+  }
+
+  GiNaC::exmap point_of(const Scene& scene) const {
+    GiNaC::exmap point;
+    for (std::size_t i = 0; i < model_.parameters.size(); ++i)
+      point[model_.parameters[i]] = scene.parameters[i];
+    for (std::size_t i = 0; i < model_.variables.size(); ++i)
+      point[model_.variables[i]] = scene.initial[i];
+    return point;
+  }
+
+  void check_assumptions(const Text& name, const Scene& scene) const {
+    const GiNaC::exmap point = point_of(scene);
+    for (const Assumption& assumption : model_.assumptions) {
+      const ex value = substituted(assumption.difference, point);
+      if (!decimal(value) || assumption.holds_at(point)) continue;
+      throw name.error(fmt::format("the scene '{}' is outside the assumption '{}'",
+                                   printable(scene.name), printable(assumption.text)));
+    }
+  }
+
+ private:
+  bool is_fixed(const std::string& parameter) const {
+    return std::any_of(fixed_.begin(), fixed_.end(),
+                       [&](const auto& pair) { return pair.first.value == parameter; });
+  }
+
+  const Model& model_;
+  const ParameterValues& fixed_;
+};
+
+}  // namespace
+
+Scene read_scene(const SceneText& text, const Model& model, const ParameterValues& fixed) {
+  return SceneReader(model, fixed).read(text);
+}
+
+}  // namespace casimir

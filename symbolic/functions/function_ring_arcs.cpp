@@ -1,0 +1,117 @@
+// Inverse functions in a FunctionRing that are others, up to their sign and quarter turns.
+//
+// Two angles with one sine and one cosine differ by a multiple of 2 Pi. Where the ranges of the
+// inverse functions leave no such difference but zero, they are equal, and that at every point at
+// which both have real values, the ends of their ranges included:
+//   asin(-u) = -asin(u), acos(-u) = Pi - acos(u), asin(u) + acos(u) = Pi/2,
+//   atan(1/u) = Pi/2 - atan(u) for u > 0 and -Pi/2 - atan(u) for u < 0,
+//   atan2(y, x) = atan(y/x) for x > 0, atan2(t y, t x) = atan2(y, x) for t > 0,
+//   asin(u/sqrt(1 + u^2)) = atan(u).
+// The signs come in by the roots in the sines and cosines, which know no more than is declared.
+// atan2(-y, x) = -atan2(y, x) is not among them: on the cut both are Pi.
+#include <algorithm>
+#include <array>
+
+#include "symbolic/functions/function_ring.hpp"
+
+namespace casimir {
+namespace {
+
+/// Of an inverse function, in quarters of a turn.
+struct Range {
+  int low, high;
+  bool has_low, has_high;  ///< whether the ends belong to it
+};
+
+/// Whether a - sign*b - quarters is zero wherever it is a whole number of turns.
+bool is_one_turn_only(const Range& a, const Range& b, int sign, int quarters) {
+  const int low = a.low - (sign > 0 ? b.high : -b.low) - quarters;
+  const int high = a.high - (sign > 0 ? b.low : -b.high) - quarters;
+  const bool has_low = a.has_low && (sign > 0 ? b.has_high : b.has_low);
+  const bool has_high = a.has_high && (sign > 0 ? b.has_low : b.has_high);
+  constexpr std::array kTurns = {-8, -4, 4, 8};
+  return std::none_of(kTurns.begin(), kTurns.end(), [&](int turn) {
+    return (turn > low || (turn == low && has_low)) && (turn < high || (turn == high && has_high));
+  });
+}
+
+}  // namespace
+
+/// The generator, with a sign and quarter turns, that an inverse function is.
+std::optional<Polynomial> FunctionRing::known_inverse(const GiNaC::function& f) {
+  if (complex_) return std::nullopt;  // on the cuts of complex functions values are a convention
+  const std::string name = f.get_name();
+  const Polynomial one = ring_->constant(1);
+  const auto tag = name == "asin"   ? kArcSine
+                   : name == "acos" ? kArcCosine
+                   : name == "atan" ? kArcTangent
+                                    : kArcTangentOfTwo;
+  const auto range = [&](const GiNaC::ex& value, unsigned long kind) {
+    if (kind == kArcSine) return Range{-1, 1, true, true};
+    if (kind == kArcCosine) return Range{0, 2, true, true};
+    if (kind == kArcTangent) return Range{-1, 1, false, false};
+    if (sign_of(convert(value.op(1))) > 0) return Range{-1, 1, true, true};
+    return Range{-2, 2, false, true};
+  };
+  struct Squares {
+    Polynomial sine, cosine, bottom;
+  };
+  const auto squares = [&](const GiNaC::ex& value, unsigned long kind) {
+    const Polynomial v = convert(value.op(0));
+    const Polynomial square = checked_product(v, v);
+    if (kind == kArcSine) return Squares{square, one - square, one};
+    if (kind == kArcCosine) return Squares{one - square, square, one};
+    if (kind == kArcTangent) return Squares{square, one, one + square};
+    const Polynomial x = convert(value.op(1));
+    return Squares{square, checked_product(x, x), checked_product(x, x) + square};
+  };
+  /// The arguments of `other` have values where those of f have.
+  const auto has_values = [&](std::size_t other) {
+    const auto made_of = [&](const GiNaC::ex& value) {
+      std::vector<Polynomial> arguments;
+      for (std::size_t i = 0; i < value.nops(); ++i) arguments.push_back(convert(value.op(i)));
+      return generators_in(arguments);
+    };
+    const std::vector<std::size_t> used = made_of(f), inner = made_of(generators_[other].value);
+    return std::all_of(inner.begin(), inner.end(), [&](std::size_t g) {
+      if (std::find(used.begin(), used.end(), g) != used.end()) return true;
+      const Generator& own = generators_[g];
+      if (own.kind == Kind::inverse) return is_nowhere_zero(own.base);
+      if (own.kind == Kind::root) return sign_of(own.base) > 0;
+      return own.kind != Kind::function;
+    });
+  };
+  for (std::size_t g = 0; g < generators_.size(); ++g) {
+    if (generators_[g].kind != Kind::function) continue;
+    const unsigned long other = generators_[g].order;
+    if (other != kArcSine && other != kArcCosine && other != kArcTangent &&
+        other != kArcTangentOfTwo)
+      continue;
+    // The squares of the sines come without roots.
+    const Squares a = squares(f, tag), b = squares(generators_[g].value, other);
+    const auto equal = [&](const Polynomial& p, const Polynomial& q) {
+      return numerator(checked_product(p, b.bottom) - checked_product(q, a.bottom)).is_zero();
+    };
+    if (!equal(a.sine, b.sine) && !equal(a.sine, b.cosine)) continue;
+    const auto [s1, c1] = inverse_sine_cosine({Kind::function, f, one, tag, {}, 1});
+    const auto [s2, c2] = inverse_sine_cosine(Generator(generators_[g]));
+    for (const int sign : {1, -1}) {
+      const Polynomial s = s2.scaled(sign);
+      const std::array turned = {std::pair(s, c2), std::pair(c2, -s), std::pair(-s, -c2),
+                                 std::pair(-c2, s)};
+      for (int k = 0; k < 4; ++k) {
+        const int quarters = k == 3 ? -1 : k;
+        const auto& [sine, cosine] = turned[static_cast<std::size_t>(k)];
+        if (!is_one_turn_only(range(f, tag), range(generators_[g].value, other), sign, quarters) ||
+            !numerator(s1 - sine).is_zero() || !numerator(c1 - cosine).is_zero() || !has_values(g))
+          continue;
+        const Polynomial angle = ring_->variable(symbols_.size() + g).scaled(sign);
+        if (quarters == 0) return angle;
+        return angle + convert(GiNaC::Pi).scaled(cln::cl_RA(quarters) / 2);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace casimir

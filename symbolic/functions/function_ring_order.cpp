@@ -1,0 +1,184 @@
+// What in a FunctionRing is not negative, or not zero, at any point at which everything is real.
+#include <algorithm>
+
+#include "symbolic/functions/function_ring.hpp"
+
+namespace casimir {
+
+/// A sum of monomials with positive coefficients, in squares and in what is not negative.
+bool FunctionRing::is_sum_of_squares(const Polynomial& p) const {
+  const auto terms = p.term_list();
+  return std::all_of(terms.begin(), terms.end(), [&](const auto& term) {
+    if (!cln::plusp(term.first)) return false;
+    for (std::size_t i = 0; i < term.second.size(); ++i)
+      if (term.second[i] % 2 == 1 && !is_never_negative(i)) return false;
+    return true;
+  });
+}
+
+/// Whether a variable of the ring is not negative at any point at which it is real: a root of even
+/// order, or of what is not negative; an absolute value; an exponential; an angle in [0, Pi].
+bool FunctionRing::is_never_negative(std::size_t place) const {
+  if (place < symbols_.size()) return false;
+  const Generator& g = generators_[place - symbols_.size()];
+  if (g.kind == Kind::root) return g.order % 2 == 0 || sign_of(g.base) > 0;
+  if (g.kind == Kind::function) return !complex_ && g.order == kArcCosine;
+  return g.kind == Kind::absolute || g.kind == Kind::exponential;
+}
+
+/// Whether a variable of the ring vanishes nowhere.
+bool FunctionRing::is_never_zero(std::size_t place) const {
+  const Polynomial variable = ring_->variable(place);
+  const auto listed = [&](const Polynomial& f) { return f == variable || f == -variable; };
+  if (std::any_of(nonzero_.begin(), nonzero_.end(), listed)) return true;
+  if (std::any_of(signs_.begin(), signs_.end(),
+                  [&](const Sign& s) { return s.strict && listed(s.of); }))
+    return true;
+  if (place < symbols_.size()) return false;
+  const Generator& g = generators_[place - symbols_.size()];
+  if (g.kind == Kind::exponential) return true;
+  return (g.kind == Kind::root || g.kind == Kind::absolute) && is_nowhere_zero(g.base);
+}
+
+/// The sign that a variable of the ring has wherever it does not vanish, or 0.
+int FunctionRing::sign_of_variable(std::size_t place) const {
+  if (is_never_negative(place)) return 1;
+  const Polynomial variable = ring_->variable(place);
+  for (const Sign& s : signs_) {
+    if (s.of == variable) return s.sign;
+    if (s.of == -variable) return -s.sign;
+  }
+  return 0;
+}
+
+/// Of a term: 1 where it is never negative, -1 where it is never positive, or 0.
+int FunctionRing::sign_of_term(const cln::cl_RA& coefficient,
+                               const std::vector<unsigned long>& exponents) const {
+  int sign = cln::minusp(coefficient) ? -1 : 1;
+  for (std::size_t i = 0; i < exponents.size() && sign != 0; ++i)
+    if (exponents[i] % 2 == 1) sign *= sign_of_variable(i);
+  return sign;
+}
+
+/// Where p has no terms that may be negative but those in sines and cosines alone, which are at
+/// most 1: whether p > 0, and not only p >= 0. Else `bad` is a term that stands in the way.
+std::optional<bool> FunctionRing::not_negative_by_terms(
+    const Polynomial& p, std::pair<cln::cl_RA, std::vector<unsigned long>>* bad) const {
+  cln::cl_RA room = 0;
+  bool strict = false;
+  for (const auto& [coefficient, exponents] : p.term_list()) {
+    bool constant = true, bounded = true, nonzero = true;
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
+      if (exponents[i] == 0) continue;
+      constant = false;
+      nonzero = nonzero && is_never_zero(i);
+      const bool sine =
+          i >= symbols_.size() && (generators_[i - symbols_.size()].kind == Kind::sine ||
+                                   generators_[i - symbols_.size()].kind == Kind::cosine);
+      bounded = bounded && sine;
+    }
+    if (constant) {
+      room = room + coefficient;
+      if (cln::minusp(coefficient)) *bad = {coefficient, exponents};
+    } else if (sign_of_term(coefficient, exponents) > 0) {
+      strict = strict || nonzero;
+    } else if (bounded) {
+      room = room - cln::abs(coefficient);
+      *bad = {coefficient, exponents};
+    } else {
+      *bad = {coefficient, exponents};
+      return std::nullopt;
+    }
+  }
+  if (cln::minusp(room)) return std::nullopt;
+  return strict || cln::plusp(room);
+}
+
+/// Functions l_1, l_2, .. with p = d_1 l_1^2 + d_2 l_2^2 + .. and positive numbers d_i, for p of
+/// degree 2: squares are completed, one variable after the other.
+std::optional<std::vector<Polynomial>> FunctionRing::squares_of_quadratic(Polynomial p) const {
+  constexpr std::size_t kMostTerms = 30;
+  if (p.total_degree() != 2 || p.terms() > kMostTerms) return std::nullopt;
+  std::vector<Polynomial> squares;
+  for (std::size_t i = 0; i < ring_->size(); ++i) {
+    if (!p.uses(i)) continue;
+    const std::vector<Polynomial> parts = p.coefficients(i);
+    if (parts.size() != 3) return std::nullopt;
+    const cln::cl_RA d = parts[2].term_list()[0].first;
+    if (!cln::plusp(d)) return std::nullopt;
+    const Polynomial half = parts[1].scaled(1 / (2 * d));
+    squares.push_back(ring_->variable(i) + half);
+    p = parts[0] - (half * half).scaled(d);
+  }
+  if (p.is_zero()) return squares;
+  if (cln::minusp(p.term_list()[0].first)) return std::nullopt;
+  squares.push_back(ring_->constant(1));
+  return squares;
+}
+
+/// Whether p >= 0 wherever everything is real, and whether even p > 0: by its terms, by squares, or
+/// less a positive multiple of something with a known sign, as I1 - I3 = (I1 - I2) + (I2 - I3).
+std::optional<bool> FunctionRing::is_not_negative(const Polynomial& p, int depth) const {
+  if (p.is_zero()) return false;
+  std::pair<cln::cl_RA, std::vector<unsigned long>> bad;
+  if (const auto found = not_negative_by_terms(p, &bad)) return found;
+  if (const auto squares = squares_of_quadratic(p)) {
+    return std::any_of(squares->begin(), squares->end(),
+                       [](const Polynomial& l) { return l.is_constant(); });
+  }
+  // Generators are judged by earlier ones: this ends.
+  std::size_t end = symbols_.size();
+  for (std::size_t i = end; i < ring_->size(); ++i)
+    if (p.uses(i)) end = i + 1;
+  for (const Sign& s : signs_) {
+    if (depth == 0) break;
+    bool later = !is_real_everywhere(s.of);
+    for (std::size_t i = end; i < ring_->size(); ++i) later = later || s.of.uses(i);
+    if (later) continue;
+    for (const auto& [coefficient, exponents] : s.of.term_list()) {
+      const cln::cl_RA factor = bad.first / (coefficient * s.sign);
+      if (exponents != bad.second || !cln::plusp(factor)) continue;
+      const auto rest = is_not_negative(p - s.of.scaled(factor * s.sign), depth - 1);
+      if (rest) return *rest || s.strict;
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<Polynomial> FunctionRing::real_zeros(const Polynomial& p) const {
+  if (complex_ && !generators_.empty()) return {p};
+  for (const Polynomial& side : {p, -p}) {
+    std::vector<Polynomial> zeros;
+    const auto terms = side.term_list();
+    const bool squares = std::all_of(terms.begin(), terms.end(), [&](const auto& term) {
+      return sign_of_term(term.first, term.second) > 0;
+    });
+    if (!squares) {
+      if (auto completed = squares_of_quadratic(side)) return *completed;
+      continue;
+    }
+    for (const auto& [coefficient, exponents] : terms) {
+      Polynomial product = ring_->constant(1);
+      for (std::size_t i = 0; i < exponents.size(); ++i) {
+        if (exponents[i] > 0 && !is_never_zero(i)) product *= zeros_of_variable(i);
+      }
+      zeros.push_back(std::move(product));
+    }
+    return zeros;
+  }
+  return {p};
+}
+
+/// What vanishes where a variable of the ring does: of a root or an absolute value, its radicand.
+Polynomial FunctionRing::zeros_of_variable(std::size_t place) const {
+  const Polynomial variable = ring_->variable(place);
+  if (place < symbols_.size()) return variable;
+  const Generator& g = generators_[place - symbols_.size()];
+  if (g.kind != Kind::root && g.kind != Kind::absolute) return variable;
+  Polynomial result = ring_->constant(1);
+  for (const auto& [f, exponent] : fraction(g.base).first.factors())
+    if (!f.is_constant()) result *= f;
+  return result;
+}
+
+}  // namespace casimir

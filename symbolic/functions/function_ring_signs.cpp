@@ -1,0 +1,245 @@
+// The signs that a FunctionRing knows: from assumptions, and since roots and logarithms are real.
+//
+// What is inferred has to hold at every point at which the assumptions hold and everything that was
+// converted has a real value, not only at almost all of them: a level may consist of the others. So
+// the difference between > and >= counts. x^2*y >= 0 says nothing of y where x = 0, nor does
+// a*b >= 0 say anything of b where a = 0.
+#include <algorithm>
+
+#include "symbolic/algebra/ball_evaluator.hpp"
+#include "symbolic/functions/function_ring.hpp"
+
+namespace casimir {
+
+void FunctionRing::read_signs() {
+  for (const Reading reading : {Reading::first, Reading::second}) read_all(reading);
+  // What was learnt may tell more of the others: a*b > 0, a*c > 0 and c > 0.
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::size_t before = signs_.size() + nonzero_.size();
+    read_all(Reading::second);
+    if (signs_.size() + nonzero_.size() == before) return;
+  }
+}
+
+void FunctionRing::read_all(Reading reading) {
+  for (const Assumption& assumption : assumptions_) read_assumption(assumption, reading);
+  // By place, and a copy: what is converted may imply more.
+  for (const auto* list : {&implied_, &products_}) {
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const Implied implied = (*list)[i];
+      read_sign(convert(implied.value), 1, reading, true, implied.strict);
+    }
+  }
+}
+
+/// The first reading is of the inequalities that give the sign of a single factor, the second is of
+/// those that rest on signs already known.
+void FunctionRing::read_assumption(const Assumption& assumption, Reading reading) {
+  const std::string& relation = assumption.relation;
+  if (relation == "!=") {
+    const Polynomial difference = fraction(convert(assumption.difference)).first;
+    if (difference.is_zero()) return;
+    for (const auto& [f, exponent] : difference.factors()) {
+      if (!f.is_constant() && !known_nonzero(f)) nonzero_.push_back(f);
+    }
+    return;
+  }
+  const bool positive = relation == ">" || relation == ">=";
+  const bool negative = relation == "<" || relation == "<=";
+  const bool strict = relation == ">" || relation == "<";
+  if (positive || negative)
+    read_sign(convert(assumption.difference), positive ? 1 : -1, reading, false, strict);
+}
+
+/// The sign of a product of irreducible factors gives that of the only one whose own is unknown, if
+/// none of the others can vanish; and those of two, where a sum of them has a known sign: G > 0 and
+/// G^2 > L^2 make G - L and G + L positive.
+void FunctionRing::read_sign(const Polynomial& p, int sign, Reading reading, bool implied,
+                             bool strict) {
+  const auto [top, bottom] = fraction(p);
+  if (top.is_zero()) return;                                    // 0 >= 0 says nothing
+  const auto factors = checked_product(top, bottom).factors();  // of one sign with the fraction
+  std::vector<Polynomial> unknown;
+  std::size_t odd = 0;
+  bool others_vanish = false;
+  if (cln::minusp(factors[0].first.term_list()[0].first)) sign = -sign;
+  for (std::size_t k = 1; k < factors.size(); ++k) {
+    const Polynomial& f = factors[k].first;
+    // A product that is not zero has no factor that is; nor has a fraction with a value a
+    // denominator that is.
+    Polynomial quotient(*ring_);
+    if ((strict || bottom.divide(f, &quotient)) && !known_nonzero(f)) nonzero_.push_back(f);
+    const int known = factors[k].second % 2 == 0 ? 1 : known_sign(f);
+    if (factors[k].second % 2 == 1) ++odd;
+    if (known == 0) unknown.push_back(f);
+    if (known != 0 && !known_nonzero(f)) others_vanish = true;
+    if (known < 0) sign = -sign;
+  }
+  if ((odd == 1) != (reading == Reading::first) || others_vanish) return;
+  if (unknown.size() == 1) add_sign(unknown[0], sign, implied, strict);
+  if (unknown.size() != 2) return;
+  // f g >= 0 and f + g >= 0 make neither negative: if f were, so would be g, and the sum.
+  const Polynomial sum = unknown[0] + unknown[1].scaled(sign);  // the two have one sign
+  if (sum.is_zero()) return;
+  const cln::cl_RA content = sum.content();
+  const int known = known_sign(sum.scaled(1 / content)) * (cln::minusp(content) ? -1 : 1);
+  if (known == 0) return;
+  add_sign(unknown[0], known, implied, strict);
+  add_sign(unknown[1], sign * known, implied, strict);
+}
+
+void FunctionRing::add_sign(const Polynomial& f, int sign, bool implied, bool strict) {
+  signs_.push_back({f, sign, implied, strict});
+}
+
+/// The sign that an irreducible polynomial has wherever it does not vanish, or 0.
+int FunctionRing::known_sign(const Polynomial& p) const {
+  for (const Sign& s : signs_) {
+    if (s.of == p) return s.sign;
+    if (s.of == -p) return -s.sign;
+  }
+  if (!is_real_everywhere(p)) return 0;
+  if (const auto sign = sign_of_number(p)) return *sign;
+  return is_not_negative(p) ? 1 : is_not_negative(-p) ? -1 : 0;
+}
+
+/// Whether an irreducible polynomial is known not to vanish.
+bool FunctionRing::known_nonzero(const Polynomial& p) const {
+  if (p.is_constant()) return !p.is_zero();
+  const auto listed = [&](const Polynomial& f) { return f == p || f == -p; };
+  if (std::any_of(nonzero_.begin(), nonzero_.end(), listed)) return true;
+  if (std::any_of(signs_.begin(), signs_.end(),
+                  [&](const Sign& s) { return s.strict && listed(s.of); }))
+    return true;
+  if (is_exponential(p)) return true;
+  if (!is_real_everywhere(p)) return false;
+  if (const auto sign = sign_of_number(p)) return *sign != 0;
+  return is_not_negative(p).value_or(false) || is_not_negative(-p).value_or(false);
+}
+
+/// The sign of a number other than zero, certified by balls; empty for what is not a number.
+std::optional<int> FunctionRing::sign_of_number(const Polynomial& p) const {
+  if (p.is_constant()) return std::nullopt;
+  for (std::size_t i = 0; i < symbols_.size(); ++i)
+    if (p.uses(i)) return std::nullopt;
+  for (const std::size_t g : generators_in({p})) {
+    const Generator& generator = generators_[g];
+    const bool number = generator.kind == Kind::root || generator.kind == Kind::inverse ||
+                        (generator.kind == Kind::function &&
+                         (generator.order == kConstant || generator.order == kCosineOfPi));
+    if (!number) return std::nullopt;
+    for (std::size_t i = 0; i < symbols_.size(); ++i)
+      if (generator.base.uses(i)) return std::nullopt;
+  }
+  constexpr long kBits = 256;
+  try {
+    BallEvaluator evaluator(BallEvaluator::Numbers::real, kBits);
+    const auto sign = evaluator.sign(expression(p));
+    return sign && *sign != 0 ? sign : std::nullopt;
+  } catch (const NotCertified&) {
+    return std::nullopt;
+  }
+}
+
+/// 1 where `p` is not negative anywhere, -1 where it is not positive, 0 where neither is known:
+/// by the signs of its factors.
+int FunctionRing::sign_of(const Polynomial& p) const {
+  const auto [top, bottom] = fraction(p);
+  if (top.is_zero()) return 1;
+  int sign = 1;
+  for (const auto& [f, exponent] : checked_product(top, bottom).factors()) {
+    if (exponent % 2 == 0 && is_real_everywhere(f)) continue;
+    if (f.is_constant()) {
+      if (cln::minusp(f.term_list()[0].first)) sign = -sign;
+      continue;
+    }
+    sign *= known_sign(f);
+  }
+  return sign;
+}
+
+/// Adds what is not listed. \return whether it was not
+bool FunctionRing::keep(std::vector<Implied>& list, const GiNaC::ex& value, bool strict) {
+  const bool listed = std::any_of(list.begin(), list.end(), [&](const Implied& known) {
+    return known.strict == strict && known.value.is_equal(value);
+  });
+  if (!listed) list.push_back({value, strict});
+  return !listed;
+}
+
+/// Takes it that f has this sign, since a root or a logarithm is real only there.
+void FunctionRing::imply_sign(const Polynomial& f, int sign, bool strict) {
+  if (complex_ || built_) return;
+  if (known_sign(f) != 0) {
+    if (strict && !known_nonzero(f)) {
+      nonzero_.push_back(f);
+      keep(implied_, sign * expression(f), true);
+    }
+    return;
+  }
+  add_sign(f, sign, true, strict);
+  if (!keep(implied_, sign * expression(f), strict)) return;
+  // What was made without knowing it may have another form now.
+  for (const Generator& g : generators_) {
+    const bool may_change = g.kind == Kind::absolute || g.kind == Kind::root ||
+                            (g.kind == Kind::function && g.order == kLogOfAbsolute);
+    for (std::size_t i = 0; i < ring_->size() && may_change; ++i)
+      if (f.uses(i) && g.base.uses(i)) throw Full{};
+  }
+}
+
+/// asin(v) and acos(v) are real for -1 <= v <= 1 only. A denominator does not vanish.
+void FunctionRing::imply_between(const Polynomial& v) {
+  if (complex_) return;
+  const Polynomial one = ring_->constant(1);
+  for (const Polynomial& side : {one - v, one + v}) {
+    const auto [unreduced, bottom] = fraction(side);
+    const Polynomial top = numerator(unreduced);
+    if (!top.is_zero()) imply_radicand(factors_of(checked_product(top, bottom)), false);
+  }
+}
+
+/// Of a product of which several signs are not known yet: it is read again when more is.
+void FunctionRing::keep_product(const std::vector<std::pair<Polynomial, unsigned long>>& factors,
+                                bool strict) {
+  constexpr std::size_t kMostTerms = 50;
+  Polynomial product = ring_->constant(1);
+  for (const auto& [f, exponent] : factors) {
+    if (f.terms() > kMostTerms || product.terms() > kMostTerms) return;
+    product = checked_product(product, exponent % 2 == 1 ? f : f * f);
+  }
+  keep(products_, expression(product), strict);
+}
+
+/// The radicand of an even root is not negative where the root is real, and that gives the sign of
+/// the only factor of odd power whose sign is not known, if no other factor can vanish.
+/// \param strict  it is not zero either, as what a logarithm is taken of
+void FunctionRing::imply_radicand(const std::vector<std::pair<Polynomial, unsigned long>>& factors,
+                                  bool strict) {
+  const Polynomial* unknown = nullptr;
+  std::size_t odd = 0;
+  bool others_vanish = false;
+  int sign = 1;
+  for (const auto& [f, exponent] : factors) {
+    if (exponent % 2 == 1) {
+      const int known =
+          f.is_constant() ? (cln::minusp(f.term_list()[0].first) ? -1 : 1) : known_sign(f);
+      if (known < 0) sign = -sign;
+      if (!f.is_constant()) ++odd;
+      if (known == 0 && unknown != nullptr) return keep_product(factors, strict);
+      if (known == 0) {
+        unknown = &f;
+        continue;
+      }
+    }
+    others_vanish = others_vanish || (!strict && !known_nonzero(f));
+  }
+  if (unknown != nullptr && !others_vanish) imply_sign(*unknown, sign, strict);
+  if (unknown == nullptr && strict && odd == 1) {
+    for (const auto& [f, exponent] : factors)
+      if (!f.is_constant() && exponent % 2 == 1) imply_sign(f, known_sign(f), strict);
+  }
+}
+
+}  // namespace casimir

@@ -1,0 +1,40 @@
+// Casimir functions: {x_i, C} = 0 for every coordinate, and so {F, C} = 0 for every F.
+#include <fmt/format.h>
+
+#include "symbolic/proof/claims/claim.hpp"
+
+namespace casimir {
+
+Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>& on) {
+  return {"casimir",
+          f.name,
+          false,
+          [f, on](Prover& prover, Proof& proof) {
+            const Polynomial c = prover.convert(f.value);
+            std::vector<Residual> residuals;
+            for (std::size_t i = 0; i < prover.dimension(); ++i) {
+              const GiNaC::symbol x = prover.model().variables[i];
+              const GiNaC::ex value = f.value;
+              residuals.push_back(
+                  {fmt::format("{{{}, {}}}", x.get_name(), f.name),
+                   prover.bracket(prover.ring().ring().variable(i), c),
+                   [&prover, x, value] { return prover.model().poisson->bracket(x, value); }});
+            }
+            const Level level = prover.level(on);
+            prover.decide(proof, residuals, level);
+            if (proof.verdict == Verdict::proved && !level.empty())
+              prover.is_smooth_on(proof, level, {f});
+          },
+          names_of(on),
+          values_of(on, f),
+          false,
+          Subject::bracket};
+}
+
+std::vector<Claim> casimir_claims(const Model& model) {
+  std::vector<Claim> claims;
+  for (const NamedExpression& f : model.casimirs) claims.push_back(casimir_claim(f, {}));
+  return claims;
+}
+
+}  // namespace casimir

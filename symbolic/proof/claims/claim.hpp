@@ -1,0 +1,90 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "symbolic/proof/prover.hpp"
+
+namespace casimir {
+
+/// A statement about a case and how to decide it.
+struct Claim {
+  std::string kind;
+  std::string name;
+  bool fact = false;
+  std::function<void(Prover&, Proof&)> decide;
+  std::vector<std::string> on{};         ///< the level, as written
+  std::vector<GiNaC::ex> expressions{};  ///< what it is about, beside the bracket and the flow
+  bool note = false;                     ///< said beside the claims; never counts
+  Subject subject = Subject::motion;     ///< what of the system it speaks of
+};
+
+/// Reads the claims of one kind off a case. A new kind is one new file with such a function, and
+/// one line in `kClaimKinds`.
+using ClaimKind = std::vector<Claim> (*)(const Model&);
+
+std::vector<Claim> skew_claims(const Model& model);
+std::vector<Claim> jacobi_claims(const Model& model);
+std::vector<Claim> casimir_claims(const Model& model);
+std::vector<Claim> integral_claims(const Model& model);
+std::vector<Claim> conditional_claims(const Model& model);
+std::vector<Claim> invariant_relation_claims(const Model& model);
+std::vector<Claim> lax_claims(const Model& model);
+std::vector<Claim> map_claims(const Model& model);
+std::vector<Claim> measure_claims(const Model& model);
+std::vector<Claim> identity_claims(const Model& model);
+std::vector<Claim> frame_claims(const Model& model);
+std::vector<Claim> involution_claims(const Model& model);
+std::vector<Claim> independence_claims(const Model& model);
+std::vector<Claim> rank_claims(const Model& model);
+std::vector<Claim> liouville_claims(const Model& model);
+std::vector<Claim> level_liouville_notes(const Model& model);
+std::vector<Claim> unimodularity_notes(const Model& model);
+
+/// In the order in which they are reported.
+inline constexpr ClaimKind kClaimKinds[] = {
+    skew_claims,
+    jacobi_claims,
+    frame_claims,
+    casimir_claims,
+    integral_claims,
+    conditional_claims,
+    invariant_relation_claims,
+    lax_claims,
+    map_claims,
+    measure_claims,
+    identity_claims,
+    involution_claims,
+    independence_claims,
+    rank_claims,
+    liouville_claims,
+    level_liouville_notes,
+    unimodularity_notes,
+};
+
+/// Those of the functions that have real values everywhere: they may help with a claim that does
+/// not speak of them, without narrowing its domain.
+std::vector<NamedExpression> real_everywhere(const std::vector<NamedExpression>& functions);
+
+/// The expressions of the functions, and of one more, with those that they are defined by.
+std::vector<GiNaC::ex> values_of(const std::vector<NamedExpression>& functions);
+std::vector<GiNaC::ex> values_of(const std::vector<NamedExpression>& functions,
+                                 const NamedExpression& more);
+
+/// What the facts call the Hamiltonian: H, unless the file calls something else that.
+std::string hamiltonian_name(const Model& model);
+
+/// {x_i, f} for every coordinate, on a level if one is given.
+Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
+/// df/dt = 0, on an invariant level if one is given (kind "conditional" then).
+Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
+/// What else can be said of a candidate: Casimir function, dependent on the known integrals,
+/// an integral on a known level.
+Claim judgement_note(const Model& model, const NamedExpression& f);
+/// left = right, on a level if one is given.
+Claim identity_claim(const Identity& identity);
+/// f = 0 is preserved, on the level of `on` if one is given.
+Claim invariant_relation_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
+
+}  // namespace casimir

@@ -1,0 +1,104 @@
+// First integrals, on the whole phase space or on an invariant level, and invariant relations:
+// Borisov & Mamaev, Sec. 1.1, (1.10).
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "symbolic/proof/claims/claim.hpp"
+
+namespace casimir {
+namespace {
+
+Residual rate_of(Prover& prover, const NamedExpression& f) {
+  const GiNaC::ex value = f.value;
+  return {fmt::format("d({})/dt", f.name), prover.rate(prover.convert(value)),
+          [&prover, value] { return prover.model().rate(value); }};
+}
+
+/// Are `residuals` zero on the level, and is the level itself invariant?
+void decide_on_invariant_level(Prover& prover, Proof& proof, const std::vector<Residual>& residuals,
+                               const NamedExpression& f, const std::vector<NamedExpression>& on) {
+  if (on.empty()) {
+    prover.decide(proof, residuals, {});
+    prover.say_where_motion_is_unique(proof, f);
+    return;
+  }
+  Proof invariance;
+  prover.decide_invariance(invariance, on);
+  if (invariance.verdict == Verdict::proved) {
+    const Level level = prover.level(on);
+    prover.decide(proof, residuals, level);
+    if (proof.verdict == Verdict::proved && !prover.is_smooth_on(proof, level, {f})) return;
+    for (const std::string& condition : invariance.where) {
+      if (std::find(proof.where.begin(), proof.where.end(), condition) == proof.where.end())
+        proof.where.push_back(condition);
+    }
+    return;
+  }
+  proof.verdict = invariance.verdict;
+  proof.reason = "the level is not shown to be invariant: " + invariance.reason;
+  if (invariance.verdict == Verdict::refuted)
+    proof.reason = "the level is not invariant: " + invariance.reason;
+  proof.residual = invariance.residual;
+  proof.witness = invariance.witness;
+  proof.nonzero = invariance.nonzero;
+}
+
+}  // namespace
+
+Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression>& on) {
+  return {"integral",
+          f.name,
+          false,
+          [f, on](Prover& prover, Proof& proof) {
+            decide_on_invariant_level(prover, proof, {rate_of(prover, f)}, f, on);
+          },
+          names_of(on),
+          values_of(on, f)};
+}
+
+Claim invariant_relation_claim(const NamedExpression& f, const std::vector<NamedExpression>& on) {
+  return {"invariant_relation",
+          f.name,
+          false,
+          [f, on](Prover& prover, Proof& proof) {
+            // The common zero level of f and `on` has to be carried into itself.
+            std::vector<NamedExpression> all = on;
+            all.push_back(f);
+            prover.decide_invariance(proof, all);
+          },
+          names_of(on),
+          values_of(on, f)};
+}
+
+std::vector<Claim> integral_claims(const Model& model) {
+  std::vector<Claim> claims;
+  for (const NamedExpression& f : model.integrals) claims.push_back(integral_claim(f, {}));
+  return claims;
+}
+
+std::vector<Claim> conditional_claims(const Model& model) {
+  std::vector<Claim> claims;
+  for (const LevelClaim& claim : model.conditionals) {
+    claims.push_back(integral_claim(claim.expression, claim.on));
+    claims.back().kind = "conditional";
+  }
+  return claims;
+}
+
+std::vector<Claim> invariant_relation_claims(const Model& model) {
+  std::vector<Claim> claims;
+  // What restricts the scenes has to restrict their motions.
+  if (!model.constraints.empty()) {
+    const std::vector<NamedExpression> others(model.constraints.begin(),
+                                              model.constraints.end() - 1);
+    claims.push_back(invariant_relation_claim(model.constraints.back(), others));
+    claims.back().name = "constraints";
+  }
+  for (const LevelClaim& claim : model.invariant_relations) {
+    claims.push_back(invariant_relation_claim(claim.expression, claim.on));
+  }
+  return claims;
+}
+
+}  // namespace casimir

@@ -1,0 +1,174 @@
+// Lax pairs: dL/dt = [L, A] = L A - A L, entry by entry and identically in the spectral parameter,
+// and the integrals that the characteristic polynomial of L gives.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "symbolic/proof/claims/claim.hpp"
+#include "symbolic/proof/generic_rank.hpp"
+
+namespace casimir {
+namespace {
+
+using Matrix = std::vector<std::vector<Polynomial>>;
+
+Matrix product(const FunctionRing& ring, const Matrix& a, const Matrix& b) {
+  Matrix result(a.size(), std::vector<Polynomial>(a.size(), Polynomial(ring.ring())));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < a.size(); ++j) {
+      for (std::size_t k = 0; k < a.size(); ++k) {
+        if (!a[i][k].is_zero() && !b[k][j].is_zero())
+          result[i][j] += ring.checked_product(a[i][k], b[k][j]);
+      }
+    }
+  }
+  return result;
+}
+
+/// The coefficients of det(mu - L) at mu^(n-1), .., mu^0, by the method of Faddeev and LeVerrier.
+std::vector<Polynomial> characteristic_polynomial(const FunctionRing& ring, const Matrix& l) {
+  std::vector<Polynomial> result;
+  Matrix m = l;
+  for (std::size_t k = 1; k <= l.size(); ++k) {
+    Polynomial trace(ring.ring());
+    for (std::size_t i = 0; i < l.size(); ++i) trace += m[i][i];
+    result.push_back(trace.scaled(cln::cl_RA(-1) / cln::cl_I(k)));
+    if (k == l.size()) break;
+    for (std::size_t i = 0; i < l.size(); ++i) m[i][i] += result.back();
+    m = product(ring, l, m);
+  }
+  return result;
+}
+
+/// The rank of the gradients; empty where it is not shown to be the generic one.
+std::optional<std::size_t> rank_of(Prover& prover, const std::vector<Polynomial>& functions) {
+  if (functions.empty()) return 0;
+  const auto found = gradient_rank(prover, functions);
+  return found && found->exact ? std::optional(found->rank) : std::nullopt;
+}
+
+bool proportional(const Polynomial& a, const Polynomial& b) {
+  return a.terms() == b.terms() && a.scaled(1 / a.content()) == b.scaled(1 / b.content());
+}
+
+/// The integrals that follow from a proved Lax pair; constants and repetitions left out.
+std::vector<Polynomial> integrals_of(Prover& prover, const LaxPair& pair) {
+  FunctionRing& ring = prover.ring();
+  const unsigned n = pair.l.rows();
+  Matrix l;
+  for (unsigned i = 0; i < n; ++i) {
+    l.emplace_back();
+    for (unsigned j = 0; j < n; ++j) l.back().push_back(ring.convert(pair.l(i, j)));
+  }
+  std::vector<Polynomial> result;
+  for (const Polynomial& coefficient : characteristic_polynomial(ring, l)) {
+    std::vector<Polynomial> parts{coefficient};
+    if (pair.spectral) {
+      const auto& symbols = ring.symbols();
+      const auto place = std::find_if(symbols.begin(), symbols.end(), [&](const GiNaC::symbol& s) {
+        return s.is_equal(*pair.spectral);
+      });
+      parts = ring.spectral_coefficients(
+          coefficient, static_cast<std::size_t>(place - symbols.begin()), prover.dimension());
+    }
+    for (Polynomial& f : parts) {
+      const std::vector<Polynomial> slopes = prover.gradient(f);
+      const bool constant = std::all_of(slopes.begin(), slopes.end(), [&](const Polynomial& slope) {
+        return prover.is_zero(slope);
+      });
+      const bool known = std::any_of(result.begin(), result.end(),
+                                     [&](const Polynomial& g) { return proportional(f, g); });
+      if (!constant && !known && prover.is_zero(prover.rate(f))) result.push_back(std::move(f));
+    }
+  }
+  return result;
+}
+
+/// Evidence of a proved pair: what its spectrum gives, and whether that is more than is known.
+void describe_integrals(Prover& prover, Proof& proof, const LaxPair& pair) {
+  constexpr std::size_t kMaxTerms = 40;
+  const std::vector<Polynomial> found = integrals_of(prover, pair);
+  for (const Polynomial& f : found) {
+    proof.integrals.push_back(f.terms() <= kMaxTerms
+                                  ? prover.ring().text(f.scaled(1 / f.content()))
+                                  : fmt::format("a function of {} terms", f.terms()));
+  }
+  std::vector<Polynomial> known;
+  const Model& model = prover.model();
+  for (const NamedExpression& f : real_everywhere(model.casimirs))
+    known.push_back(prover.convert(f.value));
+  if (model.hamiltonian && !model.time) known.push_back(prover.convert(*model.hamiltonian));
+  for (const NamedExpression& f : real_everywhere(model.integrals))
+    known.push_back(prover.convert(f.value));
+  std::vector<Polynomial> all = known;
+  all.insert(all.end(), found.begin(), found.end());
+  proof.evidence = fmt::format("the characteristic polynomial gives {} integral{}", found.size(),
+                               found.size() == 1 ? "" : "s");
+  const auto own = rank_of(prover, found);
+  const auto before = rank_of(prover, known);
+  const auto together = rank_of(prover, all);
+  if (own) proof.evidence += fmt::format(", {} independent", *own);
+  if (before && together) {
+    proof.evidence += *together == *before
+                          ? "; all follow from the known ones"
+                          : fmt::format("; {} beyond the known ones", *together - *before);
+  }
+}
+
+void decide_lax(Prover& prover, Proof& proof, const LaxPair& pair) {
+  prover.set_spectral(pair.spectral);
+  const unsigned n = pair.l.rows();
+  const auto entry = [&](const GiNaC::matrix& m, unsigned i, unsigned j) {
+    return prover.convert(m(i, j));
+  };
+  std::vector<Residual> residuals;
+  for (unsigned i = 0; i < n; ++i) {
+    for (unsigned j = 0; j < n; ++j) {
+      Polynomial defect = prover.rate(entry(pair.l, i, j));
+      for (unsigned k = 0; k < n; ++k) {
+        defect -= entry(pair.l, i, k) * entry(pair.a, k, j);
+        defect += entry(pair.a, i, k) * entry(pair.l, k, j);
+      }
+      residuals.push_back({fmt::format("(dL/dt - [L, A])[{},{}]", i + 1, j + 1), std::move(defect),
+                           [&prover, &pair, n, i, j] {
+                             GiNaC::ex sum = prover.model().rate(pair.l(i, j));
+                             for (unsigned k = 0; k < n; ++k)
+                               sum -= pair.l(i, k) * pair.a(k, j) - pair.a(i, k) * pair.l(k, j);
+                             return sum;
+                           }});
+    }
+  }
+  prover.decide(proof, residuals, {});
+  if (proof.verdict == Verdict::proved) {
+    try {
+      describe_integrals(prover, proof, pair);
+    } catch (const TooLarge& limit) {
+      proof.evidence = std::string("its characteristic polynomial: ") + limit.what();
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Claim> lax_claims(const Model& model) {
+  std::vector<Claim> claims;
+  for (std::size_t i = 0; i < model.lax_pairs.size(); ++i) {
+    const std::string name =
+        model.lax_pairs.size() == 1 ? "Lax pair" : fmt::format("Lax pair {}", i + 1);
+    claims.push_back({"lax", name, false, [i](Prover& prover, Proof& proof) {
+                        decide_lax(prover, proof, prover.model().lax_pairs[i]);
+                      }});
+    // The known integrals too: are those of the spectrum among them?
+    std::vector<GiNaC::ex>& expressions = claims.back().expressions;
+    for (const auto* list : {&model.casimirs, &model.integrals}) {
+      for (const NamedExpression& f : real_everywhere(*list)) expressions.push_back(f.value);
+    }
+    for (const GiNaC::ex& part : model.lax_pairs[i].domain) expressions.push_back(part);
+    for (const GiNaC::matrix* m : {&model.lax_pairs[i].l, &model.lax_pairs[i].a}) {
+      for (std::size_t k = 0; k < m->nops(); ++k) expressions.push_back(m->op(k));
+    }
+  }
+  return claims;
+}
+
+}  // namespace casimir

@@ -1,0 +1,121 @@
+// Poisson and anti-Poisson maps y = phi(x): {phi_i, phi_j} = sign * {y_i, y_j} at y = phi(x).
+#include <fmt/format.h>
+
+#include "symbolic/case/expression_size.hpp"
+#include "symbolic/proof/claims/claim.hpp"
+
+namespace casimir {
+namespace {
+
+void decide_map(Prover& prover, Proof& proof, const PoissonMap& map) {
+  const std::vector<GiNaC::ex> target = map.composed_brackets();
+  const auto& y = map.target.coordinates();
+  std::vector<Residual> residuals;
+  std::size_t index = 0;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    for (std::size_t j = i + 1; j < y.size(); ++j, ++index) {
+      const GiNaC::ex expected = map.sign * target[index];
+      residuals.push_back(
+          {fmt::format("{{{0}, {1}}} less its image", y[i].get_name(), y[j].get_name()),
+           prover.bracket(prover.convert(map.expressions[i]), prover.convert(map.expressions[j])) -
+               prover.convert(expected),
+           [&prover, &map, i, j, expected] {
+             return prover.model().poisson->bracket(map.expressions[i], map.expressions[j]) -
+                    expected;
+           }});
+    }
+  }
+  const Level level = prover.level(map.on);
+  prover.decide(proof, residuals, level);
+  if (proof.verdict != Verdict::proved || level.empty()) return;
+  std::vector<NamedExpression> functions;
+  for (std::size_t i = 0; i < y.size(); ++i)
+    functions.push_back({y[i].get_name(), map.expressions[i], {}});
+  prover.is_smooth_on(proof, level, functions);
+}
+
+GiNaC::exmap image_point(const PoissonMap& map) {
+  GiNaC::exmap point;
+  for (std::size_t i = 0; i < map.expressions.size(); ++i)
+    point[map.target.coordinates()[i]] = map.expressions[i];
+  return point;
+}
+
+std::vector<GiNaC::ex> composed(const std::vector<GiNaC::ex>& functions, const GiNaC::exmap& at) {
+  std::vector<GiNaC::ex> result;
+  for (const GiNaC::ex& f : functions) result.push_back(substituted(f, at));
+  return result;
+}
+
+/// The functions that have to vanish on this case's constraints for `inverse` to be what it is said
+/// to be: phi(inverse(phi(x))) - phi(x), so that it is a right inverse wherever phi leads, the
+/// constraints at inverse(phi(x)), and what is claimed of the image at phi(x).
+std::vector<std::pair<std::string, GiNaC::ex>> inverse_defects(const Model& model,
+                                                               const PoissonMap& map,
+                                                               const MapInverse& inverse) {
+  const GiNaC::exmap image = image_point(map);
+  const std::vector<GiNaC::ex> lifted = composed(inverse.expressions, image);
+  GiNaC::exmap lift;
+  for (std::size_t i = 0; i < lifted.size(); ++i) lift[model.variables[i]] = lifted[i];
+  std::vector<std::pair<std::string, GiNaC::ex>> defects;
+  const std::vector<GiNaC::ex> again = composed(map.expressions, lift);
+  for (std::size_t i = 0; i < again.size(); ++i) {
+    defects.emplace_back(
+        fmt::format("{} of the inverse less itself", map.target.coordinates()[i].get_name()),
+        again[i] - map.expressions[i]);
+  }
+  for (const NamedExpression& constraint : model.constraints)
+    defects.emplace_back(fmt::format("{} at the inverse", constraint.name),
+                         substituted(constraint.value, lift));
+  for (const NamedExpression& f : map.image)
+    defects.emplace_back(fmt::format("{} on the image", f.name), substituted(f.value, image));
+  return defects;
+}
+
+Claim inverse_claim(const Model& model, std::size_t index, std::size_t branch) {
+  const PoissonMap& map = model.maps[index];
+  Claim claim{"map", map.name + ", right inverse", false, {}};
+  claim.subject = Subject::functions;
+  if (map.inverses.size() > 1) claim.name += fmt::format(" {}", branch + 1);
+  for (const auto& [label, defect] : inverse_defects(model, map, map.inverses[branch]))
+    claim.expressions.push_back(defect);
+  for (const GiNaC::ex& part : composed(map.inverses[branch].defined_by, image_point(map)))
+    claim.expressions.push_back(part);
+  claim.expressions.insert(claim.expressions.end(), map.domain.begin(), map.domain.end());
+  claim.on = names_of(model.constraints);
+  claim.decide = [index, branch](Prover& prover, Proof& proof) {
+    const Model& owner = prover.model();
+    const PoissonMap& own = owner.maps[index];
+    std::vector<Residual> residuals;
+    for (const auto& [label, defect] : inverse_defects(owner, own, own.inverses[branch]))
+      residuals.push_back({label, prover.convert(defect), [value = defect] { return value; }});
+    prover.decide(proof, residuals, prover.level(owner.constraints));
+  };
+  return claim;
+}
+
+std::vector<GiNaC::ex> expressions_of(const PoissonMap& map) {
+  std::vector<GiNaC::ex> expressions = values_of(map.on);
+  expressions.insert(expressions.end(), map.expressions.begin(), map.expressions.end());
+  for (const GiNaC::ex& bracket : map.composed_brackets()) expressions.push_back(bracket);
+  // What GiNaC simplified away: sqrt(q)^2 is q only where q >= 0.
+  expressions.insert(expressions.end(), map.domain.begin(), map.domain.end());
+  return expressions;
+}
+
+}  // namespace
+
+std::vector<Claim> map_claims(const Model& model) {
+  std::vector<Claim> claims;
+  for (std::size_t i = 0; i < model.maps.size(); ++i) {
+    claims.push_back(
+        {"map", model.maps[i].name, false,
+         [i](Prover& prover, Proof& proof) { decide_map(prover, proof, prover.model().maps[i]); },
+         names_of(model.maps[i].on), expressions_of(model.maps[i]), false, Subject::bracket});
+    for (std::size_t branch = 0; branch < model.maps[i].inverses.size(); ++branch)
+      claims.push_back(inverse_claim(model, i, branch));
+  }
+  return claims;
+}
+
+}  // namespace casimir

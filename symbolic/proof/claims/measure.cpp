@@ -1,0 +1,132 @@
+// Invariant measures: the density rho satisfies div(rho f) + d(rho)/dt = 0 for the flow f, or for
+// the flow of every Hamiltonian, which for rho = 1 is the unimodularity of a Lie algebra
+// (Borisov & Mamaev, Sec. 1.2). A density is a real function that is not zero everywhere: of the
+// zero function the equation would say nothing.
+#include <fmt/format.h>
+
+#include "symbolic/proof/claims/claim.hpp"
+#include "symbolic/proof/generic_rank.hpp"
+
+namespace casimir {
+namespace {
+
+Residual divergence_of_flow(Prover& prover, const NamedExpression& density) {
+  const Polynomial rho = prover.convert(density.value);
+  return {fmt::format("the divergence of ({}) * dx/dt", density.name),
+          prover.rate(rho) + rho * prover.divergence(), [&prover, density] {
+            const Model& model = prover.model();
+            GiNaC::ex sum = model.rate(density.value);
+            for (std::size_t i = 0; i < model.variables.size(); ++i)
+              sum += density.value * model.field[i].diff(model.variables[i]);
+            return sum;
+          }};
+}
+
+/// sum_i d(rho J_ij)/dx_i for each j: what multiplies dH/dx_j in the divergence.
+std::vector<Residual> modular_field(Prover& prover, const NamedExpression& density) {
+  const Polynomial rho = prover.convert(density.value);
+  std::vector<Residual> residuals;
+  for (std::size_t j = 0; j < prover.dimension(); ++j) {
+    Polynomial sum(prover.ring().ring());
+    for (std::size_t i = 0; i < prover.dimension(); ++i)
+      sum += prover.ring().derivative(rho * prover.bracket_entry(i, j), i);
+    residuals.push_back({fmt::format("the divergence of ({}) * dx/dt for H = {}", density.name,
+                                     prover.model().variables[j].get_name()),
+                         std::move(sum), [&prover, density, j] {
+                           const Model& model = prover.model();
+                           GiNaC::ex total = 0;
+                           for (std::size_t i = 0; i < model.variables.size(); ++i)
+                             total +=
+                                 (density.value * (*model.poisson)(i, j)).diff(model.variables[i]);
+                           return total;
+                         }});
+  }
+  return residuals;
+}
+
+bool has_imaginary_number(const GiNaC::ex& e) {
+  for (auto part = e.preorder_begin(); part != e.preorder_end(); ++part) {
+    if (GiNaC::is_a<GiNaC::numeric>(*part) && !GiNaC::ex_to<GiNaC::numeric>(*part).is_real())
+      return true;
+  }
+  return false;
+}
+
+/// Why the function is not known to be a density; empty where it is one. `both_signs` becomes
+/// whether points are found at which it is positive and others at which it is negative.
+std::string doubt_about(Prover& prover, const GiNaC::ex& density, bool* both_signs,
+                        std::vector<std::string>* where) {
+  if (prover.ring().numerator(prover.convert(density)).is_zero())
+    return "the density is identically zero, which is no measure";
+  if (has_imaginary_number(density) && has_imaginary_number(density.expand()))
+    return "the density is not shown to be real";
+  bool positive = false;
+  bool negative = false;
+  constexpr int kPoints = 12;
+  for (int i = 0; i < kPoints && !(positive && negative); ++i) {
+    auto point = prover.real_points().random(prover.domain());
+    if (!point) break;
+    const auto sign = point->evaluator().sign(density);
+    positive = positive || sign == 1;
+    negative = negative || sign == -1;
+  }
+  if (!positive && !negative)
+    return "no point was found at which the density has a real value that is not zero";
+  *both_signs = positive && negative;
+  const auto found = generic_rank(prover, {{prover.convert(density)}});
+  if (!found || !found->uneven.empty() || found->rank == 0)
+    return "the density is not shown to differ from zero on every piece of the domain";
+  *where = found->nonzero;
+  if (!found->where.empty()) where->push_back(found->where);
+  return {};
+}
+
+void decide_measure(Prover& prover, Proof& proof, const NamedExpression& density, bool every) {
+  prover.decide(
+      proof,
+      every ? modular_field(prover, density) : std::vector{divergence_of_flow(prover, density)},
+      {});
+  if (proof.verdict != Verdict::proved) return;
+  bool both_signs = false;
+  proof.reason = doubt_about(prover, density.value, &both_signs, &proof.where);
+  if (!proof.reason.empty()) {
+    proof.verdict = Verdict::undecided;
+  } else if (both_signs) {
+    proof.evidence = "the density has both signs: it is a measure only on parts of the domain";
+  }
+}
+
+}  // namespace
+
+std::vector<Claim> measure_claims(const Model& model) {
+  std::vector<Claim> claims;
+  for (const Measure& measure : model.measures) {
+    const NamedExpression density = measure.density;
+    const bool every = measure.every_hamiltonian;
+    claims.push_back({"measure",
+                      density.name + (every ? ", every Hamiltonian" : ""),
+                      false,
+                      [density, every](Prover& prover, Proof& proof) {
+                        decide_measure(prover, proof, density, every);
+                      },
+                      {},
+                      values_of({density}),
+                      false,
+                      every ? Subject::bracket : Subject::motion});
+  }
+  return claims;
+}
+
+std::vector<Claim> unimodularity_notes(const Model& model) {
+  if (!model.linear_bracket) return {};
+  Claim note{"measure", "unimodular algebra", false, [](Prover& prover, Proof& proof) {
+               prover.decide(proof, modular_field(prover, {"1", 1, {}}), {});
+               if (proof.verdict == Verdict::proved)
+                 proof.evidence = "the flow of every Hamiltonian keeps the volume";
+             }};
+  note.note = true;
+  note.subject = Subject::bracket;
+  return {note};
+}
+
+}  // namespace casimir

@@ -1,0 +1,198 @@
+#include "symbolic/proof/prover.hpp"
+
+#include <cln/integer.h>
+#include <cln/rational.h>
+#include <cln/rational_io.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+
+#include "symbolic/case/expression_size.hpp"
+#include "symbolic/proof/exact_point.hpp"
+#include "symbolic/proof/witness.hpp"
+
+namespace casimir {
+namespace {
+
+using GiNaC::ex;
+
+}  // namespace
+
+std::vector<GiNaC::symbol> Prover::symbols_of(const Model& model) {
+  std::vector<GiNaC::symbol> symbols = model.variables;
+  symbols.insert(symbols.end(), model.parameters.begin(), model.parameters.end());
+  if (model.time) symbols.push_back(*model.time);
+  for (const LaxPair& pair : model.lax_pairs) {
+    if (pair.spectral) symbols.push_back(*pair.spectral);
+  }
+  return symbols;
+}
+
+std::vector<ex> Prover::with_dynamics(const Model& model, std::vector<ex> expressions,
+                                      Subject subject) {
+  if (subject == Subject::motion) {
+    expressions.insert(expressions.end(), model.domain.begin(), model.domain.end());
+    expressions.insert(expressions.end(), model.field.begin(),
+                       model.poisson ? model.field.begin() : model.field.end());
+    if (model.poisson) expressions.push_back(*model.hamiltonian);
+  }
+  if (subject == Subject::functions || !model.poisson) return expressions;
+  expressions.insert(expressions.end(), model.bracket_domain.begin(), model.bracket_domain.end());
+  for (std::size_t i = 0; i < model.variables.size(); ++i) {
+    for (std::size_t j = i + 1; j < model.variables.size(); ++j)
+      expressions.push_back((*model.poisson)(i, j));
+  }
+  return expressions;
+}
+
+Prover::Prover(const Model& model, const std::vector<ex>& expressions, Subject subject)
+    : model_(model),
+      ring_(symbols_of(model), model.assumptions, with_dynamics(model, expressions, subject)),
+      points_(model, ring_),
+      real_points_(model, ring_),
+      domain_(with_dynamics(model, expressions, subject)),
+      all_(domain_),
+      subject_(subject) {
+  const std::size_t n = dimension();
+  if (!model.poisson) {
+    if (subject != Subject::motion) return;
+    for (const ex& rate : model.field) field_.push_back(ring_.convert(rate));
+    return;
+  }
+  if (subject == Subject::functions) return;
+  brackets_.assign(n * n, Polynomial(ring_.ring()));
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i + 1; j < n; ++j) {
+      const ex entry = (*model.poisson)(i, j);
+      if (entry.is_zero()) continue;
+      brackets_[i * n + j] = ring_.convert(entry);
+      brackets_[j * n + i] = -brackets_[i * n + j];
+    }
+  }
+  if (subject == Subject::motion) field_ = flow_of(gradient(ring_.convert(*model.hamiltonian)));
+}
+
+void Prover::begin_claim(const std::vector<ex>& expressions, Subject subject) {
+  divided_by_.clear();
+  spectral_.reset();
+  claim_ = expressions;
+  domain_ = with_dynamics(model_, expressions, subject);
+  subject_ = subject;
+  divisors_.reset();
+  motion_divisors_.reset();
+  claim_inhabited_.reset();
+}
+
+const Polynomial& Prover::convert(const ex& expression) {
+  if (!ring_.is_polynomial()) {
+    // What cancels in the sum was divided by all the same.
+    for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
+      if (GiNaC::is_a<GiNaC::power>(*part) || GiNaC::is_a<GiNaC::function>(*part))
+        used(ring_.convert(*part));
+    }
+  }
+  return used(ring_.convert(expression));
+}
+
+const std::vector<Polynomial>& Prover::field() const {
+  for (const Polynomial& rate : field_) used(rate);
+  return field_;
+}
+
+std::vector<Polynomial> Prover::gradient(const Polynomial& f) const {
+  std::vector<Polynomial> result;
+  result.reserve(dimension());
+  for (std::size_t i = 0; i < dimension(); ++i) result.push_back(ring_.derivative(f, i));
+  return result;
+}
+
+std::vector<Polynomial> Prover::flow_of(const std::vector<Polynomial>& slope) const {
+  std::vector<Polynomial> result;
+  result.reserve(dimension());
+  for (std::size_t i = 0; i < dimension(); ++i) {
+    SumOfProducts sum(ring_.ring());
+    for (std::size_t j = 0; j < dimension(); ++j) sum.add(bracket_entry(i, j), slope[j]);
+    result.push_back(sum.finish());
+  }
+  return result;
+}
+
+/// {f, g} = df . (J dg): a flow is as short as a gradient, while products of gradients are not.
+Polynomial Prover::bracket(const Polynomial& f, const Polynomial& g) const {
+  return along(f, flow_of(gradient(g)));
+}
+
+Polynomial Prover::along(const Polynomial& f, const std::vector<Polynomial>& field) const {
+  SumOfProducts sum(ring_.ring());
+  for (std::size_t i = 0; i < dimension(); ++i) {
+    if (!field[i].is_zero()) sum.add(ring_.derivative(f, i), field[i]);
+  }
+  return sum.finish();
+}
+
+const std::vector<Polynomial>& Prover::flow(const ex& f) {
+  const auto known = flows_.find(f);
+  if (known != flows_.end()) {
+    for (const Polynomial& rate : known->second) used(rate);
+    return known->second;
+  }
+  return flows_.emplace(f, flow_of(gradient(convert(f)))).first->second;
+}
+
+Polynomial Prover::bracket(const ex& f, const ex& g) {
+  if (f.compare(g) > 0) return -bracket(g, f);
+  const auto known = known_brackets_.find({f, g});
+  if (known != known_brackets_.end()) return known->second;
+  Polynomial result = ring_.reduced(along(convert(f), flow(g)));
+  return known_brackets_.emplace(std::pair(f, g), std::move(result)).first->second;
+}
+
+Polynomial Prover::rate(const Polynomial& f) const {
+  Polynomial result = along(f, field());
+  if (model_.time) result += ring_.derivative(f, dimension() + model_.parameters.size());
+  return result;
+}
+
+Polynomial Prover::divergence() const {
+  std::vector<Polynomial> slopes;
+  slopes.reserve(dimension());
+  for (std::size_t i = 0; i < dimension(); ++i) slopes.push_back(ring_.derivative(field()[i], i));
+  return Polynomial::sum(ring_.ring(), slopes);
+}
+
+std::optional<Witness> Prover::witness(const Polynomial& rest, const Residual& residual,
+                                       const Level& level) {
+  auto found = find_witness(model_, ring_, points_, real_points_,
+                            {rest, residual.by_ginac(), domain_}, level, in_branch_);
+  if (!found) return found;
+  // Of the values of all symbols of the ring, in its order, those that this claim may speak of.
+  const std::size_t own = own_symbols(model_);
+  std::vector<std::pair<std::string, std::string>> all = std::exchange(found->point, {});
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i < own || (spectral_ && ring_.symbols()[i].is_equal(*spectral_)))
+      found->point.push_back(std::move(all[i]));
+  }
+  return found;
+}
+
+std::optional<Point> Prover::random_point(const Level& level) {
+  return points_.completed(level, {.formal = true});
+}
+
+std::optional<RealPoint> Prover::exact_point(const Level& level) {
+  constexpr int kPoints = 20;
+  for (int i = 0; i < kPoints; ++i) {
+    const auto found = points_.rational(level);
+    if (!found) return std::nullopt;
+    std::vector<ex> coordinates;
+    for (std::size_t k = 0; k < ring_.symbols().size(); ++k)
+      coordinates.emplace_back(GiNaC::numeric((*found)[k]));
+    RealPoint point = real_points_.at(std::move(coordinates));
+    if (ring_.is_polynomial() || real_points_.admits(point, domain_)) return point;
+  }
+  return std::nullopt;
+}
+
+}  // namespace casimir

@@ -1,0 +1,183 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "symbolic/algebra/rational_matrix.hpp"
+#include "symbolic/functions/function_ring.hpp"
+#include "symbolic/model.hpp"
+#include "symbolic/proof/level.hpp"
+#include "symbolic/proof/point_search.hpp"
+#include "symbolic/proof/real_level_point.hpp"
+#include "symbolic/proof/real_point.hpp"
+#include "symbolic/prove.hpp"
+
+namespace casimir {
+
+/// Something that a claim says is zero.
+struct Residual {
+  std::string label;                    ///< as "{M1, F1}"
+  Polynomial value;                     ///< in the prover's ring
+  std::function<GiNaC::ex()> by_ginac;  ///< the same by GiNaC alone: re-evaluates a witness
+};
+
+/// The text, or its beginning with the number of terms.
+std::string shortened(std::string text, std::size_t terms);
+
+struct ExpressionPairLess {
+  using Pair = std::pair<GiNaC::ex, GiNaC::ex>;
+  bool operator()(const Pair& a, const Pair& b) const {
+    const int order = a.first.compare(b.first);
+    return order != 0 ? order < 0 : a.second.compare(b.second) < 0;
+  }
+};
+
+/// What of the system a claim speaks of: it holds, or not, also where the rest has no real value.
+enum class Subject { functions, bracket, motion };
+
+/// What the claims of one case are decided with: its functions as polynomials, its flow, and the
+/// search for witnesses. Deterministic: random points come from a fixed seed.
+class Prover {
+ public:
+  /// \param expressions  what will be asked about, beside the bracket and the flow.
+  /// \param subject      what of these; the others have no signs to give, and may not be asked for
+  Prover(const Model& model, const std::vector<GiNaC::ex>& expressions,
+         Subject subject = Subject::motion);
+
+  const Model& model() const { return model_; }
+  FunctionRing& ring() { return ring_; }
+  const FunctionRing& ring() const { return ring_; }
+  std::size_t dimension() const { return model_.variables.size(); }
+
+  /// An expression in the ring; its denominators are from now on part of what a proof assumes.
+  const Polynomial& convert(const GiNaC::ex& expression);
+  /// Forgets what was divided by so far: the next claim begins.
+  /// \param expressions  what it is about: it says nothing where one of them has no real value
+  void begin_claim(const std::vector<GiNaC::ex>& expressions, Subject subject);
+  /// The claim is about this spectral parameter. Witnesses give its value, and not those of other
+  /// Lax pairs, which may have the same name.
+  void set_spectral(const std::optional<GiNaC::symbol>& spectral) { spectral_ = spectral; }
+  /// The expressions of the claim, and those of the bracket and the flow.
+  const std::vector<GiNaC::ex>& domain() const { return domain_; }
+
+  const Polynomial& bracket_entry(std::size_t i, std::size_t j) const {
+    return used(brackets_[i * dimension() + j]);
+  }
+  /// dx_i/dt for every coordinate.
+  const std::vector<Polynomial>& field() const;
+  Polynomial bracket(const Polynomial& f, const Polynomial& g) const;
+  /// {f, g} for functions of the case, kept since several claims ask for the same.
+  Polynomial bracket(const GiNaC::ex& f, const GiNaC::ex& g);
+  /// J grad f for a function of the case, kept: entry i is {x_i, f}.
+  const std::vector<Polynomial>& flow(const GiNaC::ex& f);
+  /// J times a gradient.
+  std::vector<Polynomial> flow_of(const std::vector<Polynomial>& slope) const;
+  /// df/dt along the flow, with the explicit dependence on time.
+  Polynomial rate(const Polynomial& f) const;
+  /// Of the flow: the sum of d(dx_i/dt)/dx_i.
+  Polynomial divergence() const;
+  std::vector<Polynomial> gradient(const Polynomial& f) const;
+
+  Level level(const std::vector<NamedExpression>& on);
+  /// Residuals that say that the level is invariant.
+  std::vector<Residual> level_rates(const Level& level);
+
+  /// Is the common zero level of the functions carried into itself? That their rates vanish there
+  /// is necessary, but not enough: on q = 0 so does that of q^2, whatever the motion. The rates
+  /// have to lie in the ideal of the functions, with cofactors that are continuous there; one that
+  /// only vanishes on the level joins them, and its own rate has to vanish too, and so on.
+  ///
+  /// Theorem (Gronwall): if f = (f_1, .., f_k) is continuously differentiable near the level and
+  /// df/dt = A f with A continuous, a solution that starts on f = 0 stays there. Hypotheses: no
+  /// radicand of f vanishes on the level (`is_smooth_on`), nor does a denominator of df/dt in
+  /// lowest terms (`vanishes_nowhere_on`); the leading coefficients that the level was solved by do
+  /// not vanish, or the level on which they do is invariant too.
+  void decide_invariance(Proof& proof, const std::vector<NamedExpression>& functions);
+
+  /// Whether `f` is differentiable at every point of the level, as far as this can be told; if not,
+  /// `proof` is left undecided for this reason.
+  /// \param continuous  no angle may jump either, by a whole turn that a derivative does not see
+  bool is_smooth_on(Proof& proof, const Level& level, const std::vector<NamedExpression>& list,
+                    bool continuous = false);
+
+  /// Fills in verdict, evidence, residual, reason and witness: are all residuals zero on the level,
+  /// wherever the functions of the claim have real values? A claim about nothing is not proved.
+  void decide(Proof& proof, const std::vector<Residual>& residuals, const Level& level);
+
+  /// Whether `p` is zero wherever it has a value. That its numerator is says so only where no
+  /// denominator is a divisor of zero, as |x| - x is: (|x| - x)*(|x| + x) = 0.
+  bool is_zero(const Polynomial& p);
+  /// Whether no denominator in them is one: then they may be multiplied by their denominators.
+  bool has_no_zero_divisors(const std::vector<std::vector<Polynomial>>& rows);
+
+  /// A claim about nothing is not proved: for all points of the empty set everything is true.
+  void check_inhabited(Proof& proof, const Level& level);
+
+  /// Solutions need not be unique where a root in the equations vanishes: x = 0 and x = t^2 solve
+  /// dx/dt = 2*sqrt(x), and along the first one sqrt(x) - t is no constant. Where a function has
+  /// the same root it is proved to be an integral only beside its zeros.
+  void say_where_motion_is_unique(Proof& proof, const NamedExpression& f);
+
+  /// Points for ranks and the like.
+  RealPoints& real_points() { return real_points_; }
+
+  /// A point of the ring at which no denominator vanishes, every assumption holds and the level's
+  /// functions are zero; empty if none was found.
+  std::optional<Point> random_point(const Level& level);
+
+  /// A point of the level with rational coordinates, inside every assumption and at which all
+  /// functions of the claim have real values; empty if none was found.
+  std::optional<RealPoint> exact_point(const Level& level);
+
+ private:
+  const Polynomial& used(const Polynomial& p) const {
+    if (!ring_.is_polynomial()) ring_.mark_denominators(p, divided_by_);
+    return p;
+  }
+  std::vector<NamedExpression> simplified(const NamedExpression& f, int depth);
+  bool vanishes_by_substitution(const Residual& residual, const Level& level) const;
+  Polynomial along(const Polynomial& f, const std::vector<Polynomial>& field) const;
+  /// Whether the residual is a combination of the level's functions with continuous coefficients
+  /// (where nothing that the level was solved by vanishes).
+  bool in_ideal(const Residual& residual, const Level& level);
+  bool vanishes_on(const Residual& residual, Polynomial& rest, const Level& level, Proof& proof);
+  void decide_on(Proof& proof, const std::vector<Residual>& residuals, const Level& level);
+  void decide_invariance_once(Proof& proof, std::vector<NamedExpression> functions);
+  /// Decides again on the part of the level where what it was solved by vanishes.
+  void decide_branches(
+      Proof& proof, const std::vector<NamedExpression>& functions, int depth,
+      const std::function<void(Proof&, const std::vector<NamedExpression>&, int)>& decide_part);
+  enum class Divisors { of_motion, all };
+  /// Whether `p` vanishes at no point of the level at which the claim says something.
+  bool vanishes_nowhere_on(const Polynomial& p, const Level& level, Divisors which = Divisors::all);
+  const std::vector<Polynomial>& explicit_divisors(Divisors which);
+  std::optional<Witness> witness(const Polynomial& rest, const Residual& residual,
+                                 const Level& level);
+  void say_conditions(Proof& proof);
+  static std::vector<GiNaC::symbol> symbols_of(const Model& model);
+  static std::vector<GiNaC::ex> with_dynamics(const Model& model,
+                                              std::vector<GiNaC::ex> expressions, Subject subject);
+
+  const Model& model_;
+  FunctionRing ring_;
+  std::vector<Polynomial> brackets_;
+  std::vector<Polynomial> field_;
+  std::unordered_map<GiNaC::ex, std::vector<Polynomial>> flows_;
+  std::map<std::pair<GiNaC::ex, GiNaC::ex>, Polynomial, ExpressionPairLess> known_brackets_;
+  PointSearch points_;
+  std::optional<GiNaC::symbol> spectral_;
+  RealPoints real_points_;
+  std::vector<GiNaC::ex> claim_, domain_, all_;
+  std::optional<std::vector<Polynomial>> divisors_, motion_divisors_;
+  Subject subject_;
+  std::optional<bool> all_inhabited_, claim_inhabited_;
+  std::vector<Polynomial> leads_;  ///< that the last decision took for not zero
+  bool in_branch_ = false;         ///< where less work is spent: the answer may become a condition
+  mutable std::vector<bool> divided_by_;  ///< which of the ring's denominators
+};
+
+}  // namespace casimir

@@ -1,0 +1,482 @@
+// Claims on levels: what vanishes there, and whether the motion keeps to it.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "symbolic/case/expression_size.hpp"
+#include "symbolic/proof/prover.hpp"
+
+namespace casimir {
+namespace {
+
+using GiNaC::ex;
+
+constexpr std::size_t kMaxResidualText = 2000;
+constexpr GroebnerLimits kSmallBasis{200, 60, 2000};
+
+/// What holds between the functions everywhere, as c^2 - (1 - s^2): on a level such as c = 1 it
+/// says more than the normal form of the ring, that s^2 = 0.
+std::vector<Polynomial> square_relations(const FunctionRing& ring) {
+  std::vector<Polynomial> relations;
+  for (std::size_t i = ring.symbols().size(); i < ring.ring().size(); ++i) {
+    const Polynomial square = ring.ring().variable(i) * ring.ring().variable(i);
+    const Polynomial relation = square - ring.numerator(square);
+    // Not so for 1/d, whose numerator is another function.
+    if (!relation.is_zero() && ring.numerator(relation).is_zero()) relations.push_back(relation);
+  }
+  return relations;
+}
+
+std::vector<NamedExpression> functions_of(const Level& level) {
+  std::vector<NamedExpression> result;
+  for (std::size_t i = 0; i < level.functions.size(); ++i)
+    result.push_back({level.texts[i], level.functions[i], {}});
+  return result;
+}
+
+}  // namespace
+
+std::string shortened(std::string text, std::size_t terms) {
+  if (text.size() <= kMaxResidualText) return text;
+  const std::size_t cut = text.rfind(' ', kMaxResidualText);
+  return text.substr(0, cut) + fmt::format(" ... ({} terms)", terms);
+}
+
+/// Simpler functions with the common real zeros of one, which may be what the level of a square or
+/// of a sum of squares is invariant by: without factors that vanish nowhere, with each other factor
+/// once, and the parts of what is never negative.
+std::vector<NamedExpression> Prover::simplified(const NamedExpression& f, int depth) {
+  const Polynomial numerator = ring_.lowest_terms(convert(f.value)).first;
+  if (ring_.is_complex() || numerator.is_zero() || depth == 0) return {f};
+  Polynomial product = ring_.ring().constant(1), rest = product;
+  std::size_t count = 0;
+  for (const auto& [factor, exponent] : numerator.factors()) {
+    if (factor.is_constant()) continue;
+    rest = ring_.is_nowhere_zero(factor) ? rest * factor : rest * factor.pow(exponent - 1);
+    if (ring_.is_nowhere_zero(factor)) continue;
+    product *= factor;
+    ++count;
+  }
+  if (count == 0) return {f};
+  const std::vector<Polynomial> zeros =
+      count == 1 ? ring_.real_zeros(product) : std::vector<Polynomial>{product};
+  if (rest.is_constant() && zeros.size() == 1 && zeros[0] == product) return {f};
+  try {
+    std::vector<NamedExpression> result;
+    for (const Polynomial& zero : zeros) {
+      const auto parts = simplified({ring_.text(zero), ring_.expression(zero), {}}, depth - 1);
+      result.insert(result.end(), parts.begin(), parts.end());
+    }
+    return result;
+  } catch (const TooLarge&) {
+    return {f};  // simpler by its zeros alone
+  }
+}
+
+Level Prover::level(const std::vector<NamedExpression>& on) {
+  constexpr int kDepth = 3;
+  Level result;
+  for (const NamedExpression& whole : on) {
+    for (const NamedExpression& f : simplified(whole, kDepth)) {
+      Polynomial numerator = ring_.lowest_terms(convert(f.value)).first;
+      if (numerator.is_zero()) continue;  // no condition, and no divisor
+      result.texts.push_back(f.name);
+      result.functions.push_back(f.value);
+      result.numerators.push_back(std::move(numerator));
+    }
+  }
+  // The time moves as well, and t = 0 is no part of a level.
+  const std::size_t time = dimension() + model_.parameters.size();
+  result.solved = triangular_set(result.numerators, dimension(), [&](const Polynomial& p) {
+    return ring_.depends_on_first(p, dimension()) || (model_.time && ring_.depends_on(p, time));
+  });
+  if (result.solved.empty() && !result.empty()) {
+    std::vector<Polynomial> ideal = result.numerators;
+    const std::vector<Polynomial> identities = square_relations(ring_);
+    ideal.insert(ideal.end(), identities.begin(), identities.end());
+    result.basis = groebner_basis(ideal, in_branch_ ? kSmallBasis : GroebnerLimits{});
+  }
+  result.orthogonal = orthogonal_vectors(result.numerators, dimension());
+  return result;
+}
+
+std::vector<Residual> Prover::level_rates(const Level& level) {
+  std::vector<Residual> result;
+  for (std::size_t i = 0; i < level.functions.size(); ++i) {
+    const ex f = level.functions[i];
+    result.push_back({fmt::format("d({})/dt", level.texts[i]), rate(convert(f)),
+                      [this, f] { return model_.rate(f); }});
+  }
+  return result;
+}
+
+/// What the claim, the bracket and the flow divide by, or take the logarithm of, and the squared
+/// distances from the origin of which they take the angle: where one of these vanishes, nothing is
+/// claimed.
+const std::vector<Polynomial>& Prover::explicit_divisors(Divisors which) {
+  std::optional<std::vector<Polynomial>>& known =
+      which == Divisors::all ? divisors_ : motion_divisors_;
+  if (known) return *known;
+  known.emplace();
+  const auto add_polynomial = [&](const Polynomial& p) {
+    for (const auto& [f, exponent] : ring_.lowest_terms(p).first.factors()) {
+      if (!f.is_constant()) known->push_back(f);
+    }
+  };
+  const auto add = [&](const ex& base) { add_polynomial(ring_.convert(base)); };
+  const std::vector<ex> motion = with_dynamics(model_, {}, subject_);
+  for (const ex& expression : which == Divisors::all ? domain_ : motion) {
+    for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
+      if (GiNaC::is_a<GiNaC::power>(*part)) {
+        const ex exponent = part->op(1);
+        if (!GiNaC::is_a<GiNaC::numeric>(exponent) ||
+            GiNaC::ex_to<GiNaC::numeric>(exponent).is_negative())
+          add(part->op(0));
+      } else if (GiNaC::is_a<GiNaC::function>(*part)) {
+        const std::string name = GiNaC::ex_to<GiNaC::function>(*part).get_name();
+        if (name == "log") add(part->op(0));
+        if (name == "tan") add(GiNaC::cos(part->op(0)));
+        if (name == "atan2") {
+          const Polynomial& y = ring_.convert(part->op(0));
+          const Polynomial& x = ring_.convert(part->op(1));
+          add_polynomial(x * x + y * y);
+        }
+      }
+    }
+  }
+  return *known;
+}
+
+/// A factor vanishes nowhere there that the assumptions keep from zero, that is divided by, or that
+/// has no zero in common with the level: then the ideal of both contains 1, or something else that
+/// vanishes nowhere (the easy half of Hilbert's Nullstellensatz).
+bool Prover::vanishes_nowhere_on(const Polynomial& p, const Level& level, Divisors which) {
+  const auto kept_from_zero = [&](const Polynomial& f) {
+    if (ring_.is_nowhere_zero(f)) return true;
+    const auto& divisors = explicit_divisors(which);
+    return std::any_of(divisors.begin(), divisors.end(),
+                       [&](const Polynomial& d) { return d == f || d == -f; });
+  };
+  const auto never = [&](const Polynomial& f) {
+    if (f.is_constant()) return !f.is_zero();
+    const auto factors = f.factors();
+    return std::all_of(factors.begin(), factors.end(), [&](const auto& factor) {
+      return factor.first.is_constant() || kept_from_zero(factor.first);
+    });
+  };
+  if (p.is_constant()) return !p.is_zero();
+  for (const auto& [f, exponent] : p.factors()) {
+    if (f.is_constant() || kept_from_zero(f)) continue;
+    std::vector<Polynomial> ideal = level.numerators;
+    const std::vector<Polynomial> identities = square_relations(ring_);
+    ideal.insert(ideal.end(), identities.begin(), identities.end());
+    const std::vector<Polynomial> zeros = ring_.real_zeros(f);
+    ideal.insert(ideal.end(), zeros.begin(), zeros.end());
+    const std::vector<Polynomial> basis = groebner_basis(ideal, kSmallBasis);
+    // Or a divisor vanishes wherever f does, so that nothing is claimed there.
+    const auto& divisors = explicit_divisors(which);
+    const bool undefined = std::any_of(divisors.begin(), divisors.end(), [&](const Polynomial& d) {
+      std::vector<Polynomial> quotients;
+      return d.remainder(basis, &quotients).is_zero();
+    });
+    if (!undefined && std::none_of(basis.begin(), basis.end(), never)) return false;
+  }
+  return true;
+}
+
+/// The same where relations x = value are put in first: on the level the functions may be simpler
+/// than the ring knows, as sqrt(G^2 - H^2) where H = 0 and G > 0; and so may the assumptions be. It
+/// is the numerator that is put in: roots that were differentiated have denominators, from which
+/// the new ring would conclude that they are not zero.
+bool Prover::vanishes_by_substitution(const Residual& residual, const Level& level) const {
+  if (ring_.is_polynomial() || level.solved.empty()) return false;
+  const auto on_level = [&](ex value) {
+    for (const SolvedRelation& solved : level.solved) {
+      if (!solved.leading.is_constant() || solved.relation.degree(solved.variable) != 1) continue;
+      const Polynomial rest = solved.relation.coefficients(solved.variable)[0];
+      const cln::cl_RA factor = -1 / solved.leading.term_list()[0].first;
+      value = substituted(
+          value, {{ring_.symbols()[solved.variable], ring_.expression(rest.scaled(factor))}});
+    }
+    return value;
+  };
+  try {
+    const ex value = on_level(ring_.expression(ring_.lowest_terms(residual.value).first));
+    std::vector<Assumption> assumptions = model_.assumptions;
+    for (Assumption& a : assumptions) a.difference = on_level(a.difference);
+    FunctionRing fresh(ring_.symbols(), assumptions, {value});
+    return fresh.numerator(fresh.convert(value)).is_zero();
+  } catch (const std::exception&) {
+    return false;  // a pole on the level, or too large
+  }
+}
+
+bool Prover::in_ideal(const Residual& residual, const Level& level) {
+  const Polynomial value = ring_.lowest_terms(residual.value).first;
+  std::vector<Polynomial> quotients;
+  if (value.is_zero() || value.remainder(level.numerators, &quotients).is_zero()) return true;
+  const Polynomial rest = level.solved.empty()
+                              ? value.remainder(level.basis, &quotients)
+                              : ring_.lowest_terms(pseudo_remainder(value, level.solved)).first;
+  if (rest.is_zero()) return true;
+  if (!vanishes_by_substitution(residual, level)) return false;
+  // r(x) = r(x) - r(x') with x' on the level is a combination with continuous coefficients (the
+  // mean values of the derivatives) only where r has continuous derivatives: sqrt(x) on x = 0 has
+  // not.
+  const std::vector<Polynomial> radicands = ring_.radicand_factors(residual.value, true);
+  return std::all_of(radicands.begin(), radicands.end(), [&](const Polynomial& f) {
+    return vanishes_nowhere_on(f, level, Divisors::of_motion);
+  });
+}
+
+bool Prover::is_smooth_on(Proof& proof, const Level& level,
+                          const std::vector<NamedExpression>& list, bool continuous) {
+  if (ring_.is_polynomial()) return true;
+  for (const NamedExpression& f : list) {
+    const Polynomial& value = convert(f.value);
+    for (const Polynomial& radicand : ring_.radicand_factors(value, continuous)) {
+      if (ring_.is_smooth_across(value, radicand)) continue;
+      // What only the claim divides by, the motion passes: x/|x| is 1 until it is -1.
+      const Divisors which = continuous ? Divisors::of_motion : Divisors::all;
+      if (vanishes_nowhere_on(radicand, level, which)) continue;
+      proof.verdict = Verdict::undecided;
+      proof.evidence.clear();
+      proof.reason = fmt::format(
+          "{} need not be differentiable where {} = 0, which is not excluded on the level", f.name,
+          ring_.text(radicand));
+      return false;
+    }
+  }
+  return true;
+}
+
+void Prover::decide_invariance_once(Proof& proof, std::vector<NamedExpression> functions) {
+  const Proof blank = proof;
+  constexpr int kRounds = 4;
+  for (int round = 0; round < kRounds; ++round) {
+    const Level own = level(functions);
+    const std::vector<Residual> rates = level_rates(own);
+    proof = blank;
+    decide_on(proof, rates, own);
+    if (proof.verdict != Verdict::proved || !is_smooth_on(proof, own, functions_of(own), true))
+      return;
+    const std::size_t before = functions.size();
+    for (const Residual& rate : rates) {
+      if (!in_ideal(rate, own)) functions.push_back({rate.label, rate.by_ginac(), {}});
+    }
+    if (functions.size() == before) return;
+  }
+  proof = blank;
+  proof.verdict = Verdict::undecided;
+  proof.reason =
+      "the rates of the functions vanish on their zero level, but are no combinations of them";
+}
+
+void Prover::decide_branches(
+    Proof& proof, const std::vector<NamedExpression>& functions, int depth,
+    const std::function<void(Proof&, const std::vector<NamedExpression>&, int)>& decide_part) {
+  if (proof.verdict != Verdict::proved) return;
+  constexpr int kDepth = 2;
+  const std::vector<Polynomial> leads = std::exchange(leads_, {});
+  for (const Polynomial& lead : leads) {
+    for (const auto& [f, exponent] : lead.factors()) {
+      if (f.is_constant() || vanishes_nowhere_on(f, {})) continue;
+      const std::string text = ring_.text(f);
+      const std::string condition = text + " != 0";
+      if (std::find(proof.where.begin(), proof.where.end(), condition) != proof.where.end())
+        continue;
+      Proof part;
+      part.verdict = Verdict::undecided;
+      if (depth < kDepth) {
+        std::vector<NamedExpression> more = functions;
+        more.push_back({text, ring_.expression(f), {}});
+        const bool outer = std::exchange(in_branch_, true);
+        decide_part(part, more, depth + 1);
+        in_branch_ = outer;
+      }
+      if (part.verdict == Verdict::refuted) {
+        part.on = proof.on;
+        part.kind = proof.kind;
+        part.name = proof.name;
+        part.fact = proof.fact;
+        part.note = proof.note;
+        proof = std::move(part);
+        return;
+      }
+      if (part.verdict != Verdict::proved || !part.where.empty()) proof.where.push_back(condition);
+    }
+  }
+}
+
+void Prover::decide_invariance(Proof& proof, const std::vector<NamedExpression>& functions) {
+  std::function<void(Proof&, const std::vector<NamedExpression>&, int)> decide_part;
+  decide_part = [&](Proof& part, const std::vector<NamedExpression>& own, int depth) {
+    decide_invariance_once(part, own);
+    decide_branches(part, own, depth, decide_part);
+  };
+  decide_part(proof, functions, 0);
+  check_inhabited(proof, level(functions));
+  say_conditions(proof);
+}
+
+bool Prover::vanishes_on(const Residual& residual, Polynomial& rest, const Level& level,
+                         Proof& proof) {
+  auto [top, bottom] = ring_.lowest_terms(residual.value);
+  rest = std::move(top);
+  if (rest.is_zero()) return true;
+  // Numerators say nothing where the denominator, too, vanishes.
+  if (!vanishes_nowhere_on(bottom, level)) {
+    proof.reason = fmt::format("{} has the denominator {}, which may vanish on the level",
+                               residual.label, shortened(ring_.text(bottom), bottom.terms()));
+    return false;
+  }
+  std::vector<Polynomial> cofactors;
+  const Polynomial plain = rest.remainder(level.numerators, &cofactors);
+  if (plain.is_zero()) {
+    for (std::size_t i = 0; i < cofactors.size(); ++i) {
+      if (cofactors[i].is_zero()) continue;
+      if (!proof.evidence.empty()) proof.evidence += "; ";
+      proof.evidence +=
+          fmt::format("{} has the cofactor {} of {}", residual.label,
+                      shortened(ring_.text(cofactors[i]), cofactors[i].terms()), level.texts[i]);
+    }
+    rest = plain;
+    return true;
+  }
+  bool solved_by_leads = false;
+  const auto reduced = [&](const Polynomial& p) {
+    if (level.solved.empty()) return p.remainder(level.basis, &cofactors);
+    solved_by_leads = true;
+    return ring_.lowest_terms(pseudo_remainder(p, level.solved)).first;
+  };
+  rest = reduced(rest);
+  // The ideal need not contain all that vanishes on the level: cos(q) = 1 gives sin(q)^2 = 0.
+  constexpr std::size_t kMaxSquared = 100;
+  if (!rest.is_zero() && rest.terms() <= kMaxSquared &&
+      reduced(ring_.numerator(rest * rest)).is_zero())
+    rest = Polynomial(ring_.ring());
+  if (!rest.is_zero()) {
+    solved_by_leads = false;  // only relations x = value are put in
+    if (!vanishes_by_substitution(residual, level)) return false;
+  }
+  for (const SolvedRelation& solved : level.solved) {
+    const bool listed = std::find(leads_.begin(), leads_.end(), solved.leading) != leads_.end();
+    if (solved_by_leads && !solved.leading.is_constant() && !listed)
+      leads_.push_back(solved.leading);
+  }
+  return true;
+}
+
+void Prover::decide_on(Proof& proof, const std::vector<Residual>& residuals, const Level& level) {
+  proof.verdict = Verdict::proved;
+  leads_.clear();
+  int searches = 0;
+  for (const Residual& residual : residuals) {
+    std::string singular;
+    if (is_zero(residual.value)) continue;
+    Polynomial rest = ring_.numerator(residual.value);
+    if (rest.is_zero() && level.empty()) {
+      rest = ring_.reduced(residual.value);
+      singular = fmt::format(
+          "{} is shown to vanish only after multiplication by what may be a divisor of zero",
+          residual.label);
+    } else if (!level.empty()) {
+      const std::string before = std::exchange(proof.reason, {});
+      const bool vanishes = vanishes_on(residual, rest, level, proof);
+      singular = std::exchange(proof.reason, before);
+      if (vanishes) continue;
+    }
+    const bool first = proof.verdict == Verdict::proved;
+    // A level on which no exact point is found the first time is not searched again and again.
+    constexpr int kSearches = 2;
+    std::optional<Witness> found;
+    if (searches++ < kSearches || level.empty()) found = witness(rest, residual, level);
+    if (!first && !found) continue;
+    proof.verdict = found ? Verdict::refuted : Verdict::undecided;
+    proof.residual = shortened(ring_.text(rest), rest.terms());
+    proof.reason = found ? fmt::format("{} is not zero", residual.label)
+                   : !singular.empty()
+                       ? singular
+                       : fmt::format(
+                             "{} does not reduce to zero, and no exact point was found at which "
+                             "it is not zero",
+                             residual.label);
+    proof.witness = std::move(found);
+    if (proof.witness) break;
+  }
+  if (proof.verdict != Verdict::proved) proof.evidence.clear();
+}
+
+void Prover::decide(Proof& proof, const std::vector<Residual>& residuals, const Level& own) {
+  decide_on(proof, residuals, own);
+  std::function<void(Proof&, const std::vector<NamedExpression>&, int)> decide_part;
+  decide_part = [&](Proof& part, const std::vector<NamedExpression>& functions, int depth) {
+    decide_on(part, residuals, level(functions));
+    decide_branches(part, functions, depth, decide_part);
+  };
+  decide_branches(proof, functions_of(own), 0, decide_part);
+  check_inhabited(proof, own);
+  say_conditions(proof);
+}
+
+void Prover::say_where_motion_is_unique(Proof& proof, const NamedExpression& f) {
+  if (proof.verdict != Verdict::proved || ring_.is_polynomial()) return;
+  std::vector<Polynomial> of_motion;
+  for (const Polynomial& rate : field()) {
+    for (Polynomial& p : ring_.radicand_factors(rate)) of_motion.push_back(std::move(p));
+  }
+  for (const Polynomial& p : ring_.radicand_factors(convert(f.value))) {
+    const bool shared = std::find(of_motion.begin(), of_motion.end(), p) != of_motion.end();
+    if (shared && !vanishes_nowhere_on(p, {})) proof.where.push_back(ring_.text(p) + " != 0");
+  }
+}
+
+/// A claim about nothing says so: for all points of the empty set everything is true.
+void Prover::check_inhabited(Proof& proof, const Level& own) {
+  if (proof.verdict != Verdict::proved) return;
+  const bool everywhere = ring_.is_polynomial() && model_.assumptions.empty();
+  static const std::vector<ex> kNothing;
+  const std::vector<ex>& domain = ring_.is_polynomial() ? kNothing : domain_;
+  if (own.empty()) {
+    if (everywhere) return;
+    if (!all_inhabited_)
+      all_inhabited_ = real_points_.any(ring_.is_polynomial() ? kNothing : all_).has_value();
+    if (*all_inhabited_) return;
+    if (!claim_inhabited_) claim_inhabited_ = real_points_.any(domain).has_value();
+    if (*claim_inhabited_) return;
+  } else if (RealLevelPoints(ring_, real_points_, points_).exists(own, domain)) {
+    return;
+  }
+  proof.verdict = Verdict::undecided;
+  proof.evidence.clear();
+  proof.reason = own.empty()
+                     ? "no real point was found inside the assumptions at which all functions of "
+                       "the claim have real values: it may be about nothing"
+                     : "no real point of the level was found inside the assumptions at which all "
+                       "functions of the claim have real values: it may be about nothing";
+}
+
+void Prover::say_conditions(Proof& proof) {
+  // x^n is read as exp(n*log(x)), though for whole n it has values for x < 0 too.
+  for (const ex& expression : proof.verdict == Verdict::proved ? domain_ : std::vector<ex>{}) {
+    for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
+      if (!GiNaC::is_a<GiNaC::power>(*part) || GiNaC::is_a<GiNaC::numeric>(part->op(1))) continue;
+      const Polynomial base = ring_.convert(part->op(0));
+      const bool assumed = base.is_constant() || ring_.is_assumed_positive(base);
+      const std::string condition = ring_.text(base) + " > 0";
+      const bool said =
+          std::find(proof.where.begin(), proof.where.end(), condition) != proof.where.end();
+      if (!assumed && !said) proof.where.push_back(condition);
+    }
+  }
+  proof.nonzero.clear();
+  proof.positive.clear();
+  const std::vector<Polynomial> denominators = ring_.denominators();
+  for (std::size_t k = 0; k < divided_by_.size(); ++k) {
+    if (divided_by_[k] && !ring_.is_nowhere_zero(denominators[k]))
+      proof.nonzero.push_back(ring_.text(denominators[k]));
+  }
+  for (const Polynomial& p : ring_.implied_positive()) proof.positive.push_back(ring_.text(p));
+}
+
+}  // namespace casimir

@@ -1,0 +1,415 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <sstream>
+
+#include "symbolic/case/expression.hpp"
+#include "symbolic/error.hpp"
+#include "symbolic/search/conditions/rank_conditions.hpp"
+#include "symbolic/search/conditions/special_sets.hpp"
+#include "symbolic/search/conditions/special_values.hpp"
+#include "symbolic/search/finder.hpp"
+
+namespace casimir::search {
+namespace {
+
+using GiNaC::ex;
+
+enum class Domain { inside, outside };
+
+/// An assumption where a parameter has a value; kept where it still says something.
+Domain put_assumptions(Model& model, const std::function<ex(const ex&)>& put) {
+  std::vector<Assumption> kept;
+  for (Assumption& a : model.assumptions) {
+    a.difference = put(a.difference);
+    if (!GiNaC::is_a<GiNaC::numeric>(a.difference.expand())) {
+      kept.push_back(a);
+    } else if (a.difference.expand().info(GiNaC::info_flags::rational) && !a.holds_at({})) {
+      return Domain::outside;
+    }
+  }
+  model.assumptions = std::move(kept);
+  return Domain::inside;
+}
+
+/// Whether the difference is zero where the symbols have these values; it need have no value there.
+bool vanishes_at(const ex& difference, const GiNaC::exmap& values) {
+  try {
+    return difference.subs(values).normal().is_zero();
+  } catch (const GiNaC::pole_error&) {
+    return false;
+  }
+}
+
+/// The model where a parameter has a value, which may contain the others. Only what a search needs;
+/// empty where an assumption excludes the value.
+std::optional<Model> with_value(const Model& model, const GiNaC::symbol& parameter,
+                                const ex& value) {
+  const GiNaC::exmap map{{parameter, value}};
+  const auto put = [&](const ex& e) { return e.subs(map, GiNaC::subs_options::no_pattern); };
+  Model result = model;
+  std::erase_if(result.parameters, [&](const GiNaC::symbol& s) { return s.is_equal(parameter); });
+  if (put_assumptions(result, put) == Domain::outside) return std::nullopt;
+  if (result.hamiltonian) result.hamiltonian = put(*result.hamiltonian);
+  for (ex& rate : result.field) rate = put(rate);
+  for (auto* list : {&result.definitions, &result.casimirs, &result.integrals})
+    for (NamedExpression& f : *list) f.value = put(f.value);
+  if (result.poisson) {
+    std::vector<ex> upper;
+    for (std::size_t i = 0; i < result.poisson->dimension(); ++i)
+      for (std::size_t j = i + 1; j < result.poisson->dimension(); ++j)
+        upper.push_back(put((*result.poisson)(i, j)));
+    result.poisson = PoissonStructure(result.poisson->coordinates(), upper);
+  }
+  result.lax_pairs.clear();
+  result.maps.clear();
+  result.scenes.clear();
+  result.conditionals.clear();
+  result.invariant_relations.clear();
+  result.measures.clear();
+  result.identities.clear();
+  result.section.reset();
+  result.fixed.emplace_back(Text{parameter.get_name(), {}, {}}, value);
+  return result;
+}
+
+/// Values of some parameters, as a model is put to them.
+struct Place {
+  std::vector<std::pair<GiNaC::symbol, ex>> values;
+  std::vector<std::pair<std::string, std::string>> names;
+};
+
+// For which values a of a parameter is there an additional integral of the degree? The equations
+// for the coefficients of an integral are A(a) c = 0, where A is a matrix of polynomials in a, and
+// in the other parameters, which have generic values. There are more solutions at a value than in
+// general exactly where A loses rank; there all minors of full rank vanish, and so do the common
+// factors of any combinations of them. So the roots of these are all candidates, and
+//
+//   - each is decided by an exact search at the value, a factor without real roots has none; a
+//     factor with real roots that are not rational leaves the answer open (add_factor);
+//   - A has to be polynomial in a: if a is inside a function, then at special values this may be
+//     another function, of which no minor knows (inside_functions);
+//   - the level has to be the same for all a, or its leading monomials might change (run);
+//   - the generic search has to be complete, with functions that are independent (Finder::doubt);
+//   - denominators that are multiplied out change nothing where they do not vanish identically;
+//     where they do, the equations have no meaning (meaningless);
+//   - new Casimir functions are integrals, which the generic ones do not generate.
+//
+// For several parameters common factors of minors are hypersurfaces. All minors may vanish on
+// smaller sets as well: none are left where one combination of minors has no other factors
+// (RankConditions::covered), else they are sought among simple ones and the answer is open.
+class ConditionFinder {
+ public:
+  ConditionFinder(const Model& model, const Request& request, const Watch& watch)
+      : model_(model), request_(request), watch_(watch), finder_(model, request, watch) {}
+
+  ConditionReport run(const std::vector<std::size_t>& free);
+
+ private:
+  void add_factor(const Polynomial& factor, const std::vector<std::size_t>& free);
+  void add_roots(const Polynomial& factor, std::size_t place);
+  void add_points(const std::vector<ParametricBlock>& blocks, const std::vector<std::size_t>& free);
+  void add_sets(const std::vector<ParametricBlock>& blocks, const std::vector<std::size_t>& free);
+  void try_values(std::size_t place);
+  bool on_a_found_surface(const GiNaC::exmap& point) const;
+  bool is_known(const Place& place) const;
+  enum class Confirmed { found, none, open };
+  Confirmed confirm(const Place& place, Condition condition);
+  void leave_open(const std::string& reason);
+  std::string quotient_text(const Polynomial& top, const Polynomial& bottom);
+  std::string text(const Polynomial& p) { return finder_.system().prover().ring().text(p); }
+  const GiNaC::symbol& parameter(std::size_t place) const {
+    return model_.parameters[place - model_.variables.size()];
+  }
+
+  const Model& model_;
+  const Request& request_;
+  const Watch& watch_;
+  Finder finder_;
+  ConditionReport report_;
+  std::vector<Polynomial> surfaces_;
+  std::vector<Place> confirmed_;  ///< of the conditions with values, in their order
+};
+
+void ConditionFinder::leave_open(const std::string& reason) {
+  report_.complete = false;
+  constexpr std::size_t kLongest = 400;
+  if (report_.reason.find(reason) != std::string::npos || report_.reason.size() > kLongest) return;
+  report_.reason += (report_.reason.empty() ? "" : "; ") + reason;
+}
+
+/// In lowest terms already, since the two make an irreducible polynomial.
+std::string ConditionFinder::quotient_text(const Polynomial& top, const Polynomial& bottom) {
+  if (bottom.is_constant()) return text(top.scaled(1 / bottom.term_list()[0].first));
+  const auto bracketed = [&](const Polynomial& p) {
+    return p.terms() > 1 ? "(" + text(p) + ")" : text(p);
+  };
+  return bracketed(top) + "/(" + text(bottom) + ")";
+}
+
+/// Whether the equations of motion cannot be read there, as a denominator vanishes.
+bool meaningless(const Model& special) {
+  try {
+    Prover prover(special, {});
+    prover.field();
+    return false;
+  } catch (const TooLarge&) {
+    return false;
+  } catch (const ModelError&) {
+    return true;
+  }
+}
+
+/// Whether the values are those of a known place, or lie in it.
+bool ConditionFinder::is_known(const Place& place) const {
+  GiNaC::exmap map;
+  for (const auto& [symbol, value] : place.values) map.emplace(symbol, value);
+  return std::any_of(confirmed_.begin(), confirmed_.end(), [&](const Place& known) {
+    return std::all_of(known.values.begin(), known.values.end(), [&](const auto& entry) {
+      return vanishes_at(ex(entry.first) - entry.second, map);
+    });
+  });
+}
+
+/// What is found at special values beside what is found for generic ones, and on sets around them.
+ConditionFinder::Confirmed ConditionFinder::confirm(const Place& place, Condition condition) {
+  condition.parameters = place.names;
+  std::string where;
+  for (const auto& [name, value] : place.names)
+    where += fmt::format("{}{} = {}", where.empty() ? "" : ", ", name, value);
+  try {
+    Model special = model_;
+    for (const auto& [symbol, value] : place.values) {
+      std::optional<Model> next = with_value(special, symbol, value);
+      if (!next) return Confirmed::none;
+      special = std::move(*next);
+    }
+    if (meaningless(special)) return Confirmed::none;
+    Request request = request_;
+    request.casimirs_are_integrals = true;
+    const auto know = [&](const std::vector<Found>& list) {
+      for (const Found& found : list) request.known.push_back({found.text, {"found", 1, 1}, {}});
+    };
+    know(report_.generic.casimirs);
+    know(report_.generic.found);
+    for (std::size_t i = 0; i < confirmed_.size(); ++i) {
+      Place known = confirmed_[i];
+      GiNaC::exmap map;
+      for (const auto& [symbol, value] : place.values) map.emplace(symbol, value);
+      const bool around = std::all_of(known.values.begin(), known.values.end(), [&](const auto& e) {
+        return vanishes_at(ex(e.first) - e.second, map);
+      });
+      if (around) know(report_.conditions[i].found);
+    }
+    const Report found = find_integrals(special, request, watch_);
+    condition.found = found.found;
+    condition.verdict = found.complete ? Verdict::proved : Verdict::undecided;
+    if (!found.complete) {
+      leave_open(fmt::format("whether there is an additional one at {} is undecided: {}", where,
+                             found.reason));
+    }
+    if (found.found.empty()) return found.complete ? Confirmed::none : Confirmed::open;
+  } catch (const GiNaC::pole_error&) {
+    return Confirmed::none;
+  } catch (const ModelError& problem) {
+    leave_open(fmt::format("the search at {} has no answer: {}", where, problem.what()));
+    return Confirmed::open;
+  } catch (const TooMuchWork& problem) {
+    leave_open(fmt::format("the search at {} has no answer: {}", where, problem.what()));
+    return Confirmed::open;
+  }
+  const auto after_the_confirmed = static_cast<std::ptrdiff_t>(confirmed_.size());
+  confirmed_.push_back(place);
+  report_.conditions.insert(report_.conditions.begin() + after_the_confirmed, std::move(condition));
+  return Confirmed::found;
+}
+
+void ConditionFinder::add_factor(const Polynomial& factor, const std::vector<std::size_t>& free) {
+  if (std::any_of(surfaces_.begin(), surfaces_.end(),
+                  [&](const Polynomial& known) { return known == factor; }))
+    return;
+  surfaces_.push_back(factor);
+  Condition condition;
+  condition.relation = text(factor);
+  // Solved for a parameter in which it is linear, if there is one.
+  std::optional<std::size_t> main, only;
+  std::size_t used = 0;
+  for (std::size_t i = 0; i < factor.ring().size(); ++i) {
+    if (!factor.uses(i)) continue;
+    ++used;
+    only = i;
+  }
+  for (const std::size_t place : free) {
+    if (factor.degree(place) != 1) continue;
+    if (!main || factor.coefficients(place)[1].is_constant()) main = place;
+  }
+  if (!main) {
+    if (used == 1 && real_roots(factor, *only) == 0) return;
+    if (used == 1 && factor.degree(*only) == 2) return add_roots(factor, *only);
+    leave_open(fmt::format("'{} = 0' has no rational solution to confirm", condition.relation));
+    report_.conditions.push_back(condition);
+    return;
+  }
+  const std::vector<Polynomial> parts = factor.coefficients(*main);
+  const ex value = finder_.system().functions().quotient(-parts[0], parts[1]);
+  const Place place{{{parameter(*main), value}},
+                    {{parameter(*main).get_name(), quotient_text(-parts[0], parts[1])}}};
+  // Where the leading coefficient vanishes, the value is none: a set of two conditions.
+  if (used == 1) condition.relation.clear();
+  confirm(place, condition);
+}
+
+/// Both roots of a factor of degree two.
+void ConditionFinder::add_roots(const Polynomial& factor, std::size_t place) {
+  const std::vector<Polynomial> c = factor.coefficients(place);
+  const Polynomial discriminant = c[1] * c[1] - (c[0] * c[2]).scaled(4);
+  const FunctionRing& ring = finder_.system().functions();
+  const std::string bottom = text(c[2].scaled(2));
+  for (const int sign : {1, -1}) {
+    const ex root = GiNaC::sqrt(ring.expression(discriminant)) * sign;
+    const ex value = (root - ring.expression(c[1])) / ring.expression(c[2].scaled(2));
+    Condition condition;
+    condition.relation = text(factor);
+    const std::string size = fmt::format("sqrt({})", text(discriminant));
+    const std::string top =
+        c[1].is_zero() ? (sign > 0 ? size : "-" + size)
+                       : fmt::format("({} {} {})", text(-c[1]), sign > 0 ? "+" : "-", size);
+    const Place own{{{parameter(place), value}},
+                    {{parameter(place).get_name(), top + "/" + bottom}}};
+    if (confirm(own, condition) == Confirmed::open && sign > 0)
+      report_.conditions.push_back(condition);
+  }
+}
+
+bool ConditionFinder::on_a_found_surface(const GiNaC::exmap& point) const {
+  const FunctionRing& ring = const_cast<Finder&>(finder_).system().functions();
+  return std::any_of(surfaces_.begin(), surfaces_.end(), [&](const Polynomial& surface) {
+    return ring.expression(surface).subs(point).expand().is_zero();
+  });
+}
+
+/// Isolated points of two parameters: candidates for the first, and the search for the second with
+/// the first fixed.
+void ConditionFinder::add_points(const std::vector<ParametricBlock>& blocks,
+                                 const std::vector<std::size_t>& free) {
+  std::vector<cln::cl_RA> candidates;
+  for (const ParametricBlock& block : blocks) {
+    for (const cln::cl_RA& value :
+         isolated_values(finder_.system(), block, free[0], free[1], watch_)) {
+      if (std::find(candidates.begin(), candidates.end(), value) == candidates.end())
+        candidates.push_back(value);
+    }
+  }
+  std::sort(candidates.begin(), candidates.end());
+  for (const cln::cl_RA& value : candidates) {
+    const GiNaC::symbol& first = parameter(free[0]);
+    const GiNaC::symbol& second = parameter(free[1]);
+    const ex number{GiNaC::numeric(value)};
+    if (on_a_found_surface({{first, number}})) continue;
+    std::ostringstream number_text;
+    number_text << number;
+    const std::optional<Model> special = with_value(model_, first, number);
+    if (!special) continue;
+    const ConditionReport inner =
+        find_conditions(*special, request_, {{second.get_name(), {}, {}}}, watch_);
+    for (const Condition& point : inner.conditions) {
+      if (point.parameters.empty() || point.found.empty()) continue;
+      const ex other = special->parse({point.parameters[0].second, {"found", 1, 1}, {}});
+      if (on_a_found_surface({{first, number}, {second, other}})) continue;
+      const Place place{{{first, number}, {second, other}},
+                        {{first.get_name(), number_text.str()}, point.parameters[0]}};
+      if (!is_known(place)) confirm(place, {});
+    }
+  }
+}
+
+/// Sets of two and more conditions.
+void ConditionFinder::add_sets(const std::vector<ParametricBlock>& blocks,
+                               const std::vector<std::size_t>& free) {
+  const FunctionRing& ring = finder_.system().functions();
+  for (SpecialSet& set : special_sets(finder_.system(), blocks, free, surfaces_, watch_)) {
+    std::sort(set.values.begin(), set.values.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    Place place;
+    for (const auto& [parameter_place, value] : set.values) {
+      place.values.emplace_back(parameter(parameter_place), ring.expression(value));
+      place.names.emplace_back(parameter(parameter_place).get_name(), text(value));
+    }
+    if (!is_known(place)) confirm(place, {});
+  }
+}
+
+/// A parameter that is inside a function: no algebra leads to its special values.
+void ConditionFinder::try_values(std::size_t place) {
+  for (const cln::cl_RA& value : simple_values(model_)) {
+    watch_.tick(0.5);
+    std::ostringstream number;
+    number << GiNaC::numeric(value);
+    const Place own{{{parameter(place), GiNaC::numeric(value)}},
+                    {{parameter(place).get_name(), number.str()}}};
+    if (!is_known(own)) confirm(own, {});
+  }
+}
+
+ConditionReport ConditionFinder::run(const std::vector<std::size_t>& free) {
+  report_.generic = find_integrals(model_, request_, watch_);
+  report_.complete = report_.generic.complete;
+  report_.reason = report_.generic.reason;
+  watch_.begin("conditions");
+  const Problem problem = finder_.integral_problem({});
+  const Ansatz ansatz = make_ansatz(finder_.system(), problem, watch_);
+  const std::vector<ParametricBlock> blocks =
+      parametric_blocks(finder_.system(), problem.fields, ansatz.monomials, ansatz.relations);
+  const std::vector<std::size_t> inside = inside_functions(finder_.system(), free);
+  for (const std::size_t place : inside) {
+    leave_open(fmt::format("'{}' is inside a function, of which only simple values were tried",
+                           parameter(place).get_name()));
+  }
+  for (const Polynomial& level : problem.on) {
+    for (const std::size_t place : free) {
+      if (level.uses(place))
+        leave_open(fmt::format("the level depends on '{}'", parameter(place).get_name()));
+    }
+  }
+  std::vector<Polynomial> factors;
+  bool covered = true;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    watch_.tick(static_cast<double>(b) / static_cast<double>(blocks.size()));
+    const RankConditions own = rank_conditions(finder_.system(), blocks[b], free, watch_);
+    if (!own.decided) {
+      leave_open(
+          "some block of equations is too large, or its conditions involve further parameters: "
+          "give numbers to other parameters (--param) or free them too");
+    }
+    covered = covered && own.covered;
+    for (const Polynomial& factor : own.factors) factors.push_back(factor);
+  }
+  for (const Polynomial& factor : factors) add_factor(factor, free);
+  for (const std::size_t place : inside) try_values(place);
+  if (free.size() > 1) {
+    if (free.size() == 2) add_points(blocks, free);
+    add_sets(blocks, free);
+    report_.sets_open = report_.complete && !covered;
+    if (!covered) leave_open("sets of two and more conditions were sought among simple ones only");
+  }
+  return report_;
+}
+
+}  // namespace
+
+ConditionReport find_conditions(const Model& model, const Request& request,
+                                const std::vector<Text>& free, const Watch& watch) {
+  std::vector<std::size_t> places;
+  for (const Text& name : free) {
+    const std::size_t position =
+        symbol_position(name, name.value, 0, model.parameters, "a parameter of this case");
+    places.push_back(model.variables.size() + position);
+  }
+  if (std::set<std::size_t>(places.begin(), places.end()).size() < places.size())
+    throw free.back().error("a parameter is named twice");
+  return ConditionFinder(model, request, watch).run(places);
+}
+
+}  // namespace casimir::search

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "symbolic/search/modular/modular.hpp"
+
+namespace casimir::search {
+
+/// A root of sum_k coefficients[k] x^k modulo a prime, drawn among those there are; empty for none.
+std::optional<Residue> random_root(const std::vector<Residue>& coefficients, const Modulus& modulus,
+                                   std::mt19937_64& random);
+
+}  // namespace casimir::search

@@ -1,0 +1,207 @@
+#include "codegen/optimise/optimise.hpp"
+
+#include <cln/integer.h>
+
+#include <gtest/gtest.h>
+
+#include "codegen/optimise/factor.hpp"
+#include "codegen/optimise/terms.hpp"
+#include "tests/codegen/support.hpp"
+
+namespace casimir::codegen {
+namespace {
+
+using casimir::testing::exact;
+using casimir::testing::Points;
+using GiNaC::ex;
+
+class Optimise : public ::testing::Test {
+ protected:
+  Optimise() {
+    for (const char* name : {"x", "y", "z", "u", "v"}) symbols_.emplace_back(name);
+  }
+
+  ex s(int i) const { return symbols_[static_cast<std::size_t>(i)]; }
+
+  /// Sums of products of sums, with fractions and quotients.
+  ex random_expression(Points& points, int depth) {
+    const auto pick = [&](int n) {
+      return static_cast<int>(cln::cl_I_to_int(cln::floor1((points.next() + 4) * 4096))) % n;
+    };
+    if (depth == 0) return s(pick(5)) + GiNaC::numeric(pick(5) - 2, 1 + pick(3));
+    ex result = random_expression(points, depth - 1);
+    for (int i = 0; i < 1 + pick(3); ++i) {
+      const ex next = random_expression(points, depth - 1);
+      switch (pick(5)) {
+        case 0:
+          result = result * next;
+          break;
+        case 1:
+          result = result - s(pick(5)) * s(pick(5)) * next;
+          break;
+        case 2:
+          result = result / (1 + pow(next, 2));
+          break;
+        case 3:
+          result = pow(result, 1 + pick(3)) + next;
+          break;
+        default:
+          result = result + GiNaC::numeric(1 + pick(4), 3) * next * s(pick(5));
+          break;
+      }
+    }
+    return result;
+  }
+
+  std::vector<cln::cl_RA> point(Points& points) {
+    std::vector<cln::cl_RA> result;
+    for (std::size_t i = 0; i < symbols_.size(); ++i) result.push_back(points.next());
+    return result;
+  }
+
+  cln::cl_RA value(const ex& e, const std::vector<cln::cl_RA>& at) const {
+    GiNaC::exmap map;
+    for (std::size_t i = 0; i < at.size(); ++i) map[symbols_[i]] = GiNaC::numeric(at[i]);
+    return cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(e.subs(map)).to_cl_N());
+  }
+
+  Program lower_plainly(const std::vector<ex>& expressions) {
+    Dag dag(symbols_, symbols_.size());
+    std::vector<Scaled> converted;
+    for (const ex& e : expressions) converted.push_back(dag.convert(e));
+    return lowered(system_of(dag, symbols_.size(), converted), names_, outputs(expressions));
+  }
+
+  Program optimise(const std::vector<ex>& expressions) {
+    Dag dag(symbols_, symbols_.size());
+    std::vector<Scaled> converted;
+    for (const ex& e : expressions) converted.push_back(dag.convert(e));
+    return optimised(dag, converted, names_, outputs(expressions));
+  }
+
+  TermSystem system(const std::vector<ex>& expressions) {
+    Dag dag(symbols_, symbols_.size());
+    std::vector<Scaled> converted;
+    for (const ex& e : expressions) converted.push_back(dag.convert(e));
+    return system_of(dag, symbols_.size(), converted);
+  }
+
+  static std::vector<std::string> outputs(const std::vector<ex>& expressions) {
+    std::vector<std::string> result;
+    for (std::size_t i = 0; i < expressions.size(); ++i) result.push_back("f" + std::to_string(i));
+    return result;
+  }
+
+  OperationCount cost(const TermSystem& system) {
+    std::vector<std::string> names(system.outputs.size(), "f");
+    return count_operations(lowered(flattened(system), names_, names));
+  }
+
+  std::vector<GiNaC::symbol> symbols_;
+  std::vector<std::string> names_{"x", "y", "z", "u", "v"};
+};
+
+TEST_F(Optimise, ProgramsEqualTheExpressionsExactly) {
+  Points points;
+  for (int round = 0; round < 60; ++round) {
+    const std::vector<ex> expressions{random_expression(points, 1), random_expression(points, 2),
+                                      random_expression(points, 2)};
+    const Program program = optimise(expressions);
+    EXPECT_LE(weight(count_operations(program)),
+              weight(count_operations(lower_plainly(expressions))));
+    for (int k = 0; k < 5; ++k) {
+      const std::vector<cln::cl_RA> at = point(points);
+      const std::vector<cln::cl_RA> values = exact(program, at);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        EXPECT_EQ(values[i], value(expressions[i], at)) << expressions[i];
+      }
+    }
+  }
+}
+
+TEST_F(Optimise, ABentProgramIsNotEqual) {
+  Points points;
+  const ex e = (s(0) - s(1)) * s(2) + s(3);
+  Program program = optimise({e});
+  for (Instruction& c : program.code) {
+    if (c.op == Op::sub) c.op = Op::add;
+  }
+  const std::vector<cln::cl_RA> at = point(points);
+  EXPECT_NE(exact(program, at)[0], value(e, at));
+  EXPECT_EQ(exact(program, at)[0] - value(e, at), 2 * at[1] * at[2]);
+}
+
+TEST_F(Optimise, FactoringTakesOutCommonFactors) {
+  // x*y + x*z + x*u = x*(y + z + u)
+  EXPECT_EQ(cost(factored(system({(s(0) * s(1) + s(0) * s(2) + s(0) * s(3)).expand()}),
+                          Preference::best)),
+            (OperationCount{1, 2, 0, 0}));
+  // Horner: x^3 + 2*x^2 + 3*x + 4
+  const ex x = s(0);
+  EXPECT_EQ(cost(factored(system({pow(x, 3) + 2 * pow(x, 2) + 3 * x + 4}), Preference::best)),
+            (OperationCount{2, 3, 0, 0}));
+  // A sum that two outputs share up to a factor: (y + 3*z)*x and -2*y - 6*z + u.
+  EXPECT_EQ(
+      cost(factored(system({(s(0) * (s(1) + 3 * s(2))).expand(), -2 * s(1) - 6 * s(2) + s(3)}),
+                    Preference::best)),
+      (OperationCount{3, 2, 0, 0}));
+}
+
+TEST_F(Optimise, FactoringTakesOutCommonProducts) {
+  // x*y*z and y*z*u
+  EXPECT_EQ(cost(factored(system({s(0) * s(1) * s(2), s(1) * s(2) * s(3)}), Preference::best)),
+            (OperationCount{3, 0, 0, 0}));
+  EXPECT_EQ(cost(system({s(0) * s(1) * s(2), s(1) * s(2) * s(3)})), (OperationCount{4, 0, 0, 0}));
+  EXPECT_EQ(cost(factored(system({2 * s(0) * s(1), 2 * s(0) * s(2)}), Preference::best)),
+            (OperationCount{3, 0, 0, 0}));
+}
+
+TEST_F(Optimise, ExpansionMultipliesOutAndCancels) {
+  const auto zero = expanded(system({(s(0) + s(1)) * s(2) - s(0) * s(2) - s(1) * s(2)}), 100);
+  ASSERT_TRUE(zero);
+  EXPECT_TRUE(zero->variables[static_cast<std::size_t>(zero->outputs[0])].value.empty());
+  EXPECT_FALSE(expanded(system({pow(s(0) + s(1) + s(2) + s(3) + s(4), 12)}), 100));
+}
+
+TEST_F(Optimise, PowersShareTheirSquares) {
+  EXPECT_EQ(count_operations(optimise({pow(s(0), 8)})), (OperationCount{3, 0, 0, 0}));
+  EXPECT_EQ(count_operations(optimise({pow(s(0), 4), pow(s(0), 6)})), (OperationCount{3, 0, 0, 0}));
+  EXPECT_EQ(count_operations(optimise({pow(s(0), ex(3) / 2)})), (OperationCount{1, 0, 0, 1}));
+  // 1/r and 1/r^3 from one root and one division.
+  const ex r2 = pow(s(0), 2) + pow(s(1), 2);
+  const OperationCount count =
+      count_operations(optimise({pow(r2, ex(-1) / 2), s(0) * pow(r2, ex(-3) / 2)}));
+  EXPECT_EQ(count.calls, 1);
+  EXPECT_EQ(count.div, 1);
+}
+
+TEST_F(Optimise, DivisionsAreNotMultiplied) {
+  EXPECT_EQ(count_operations(optimise({s(0) / s(1)})), (OperationCount{0, 0, 1, 0}));
+  EXPECT_EQ(count_operations(optimise({s(0) / (s(1) * s(2))})), (OperationCount{1, 0, 1, 0}));
+  EXPECT_EQ(count_operations(optimise({s(0) / s(1), s(2) / s(1), s(3) / s(1)})),
+            (OperationCount{3, 0, 1, 0}));
+}
+
+TEST_F(Optimise, DeadCodeGoesAway) {
+  Program program{
+      {"x"},
+      {2, 5},
+      {{Op::input, 0}, {Op::constant, 0}, {Op::constant, 1}, {Op::mul, 0, 1}, {Op::add, 0, 2}},
+      {4},
+      {"f"}};
+  const Program live = without_dead_code(program);
+  EXPECT_EQ(live.code.size(), 3u);
+  EXPECT_EQ(live.constants.size(), 1u);
+  EXPECT_EQ(exact(live, {7})[0], 12);
+}
+
+TEST(OptimiseKovalevskaya, IsWhatAPersonWouldWrite) {
+  const Specialisation spec = casimir::testing::specialised(casimir::testing::kKovalevskaya);
+  EXPECT_LE(spec.specialised.mul, 9);
+  EXPECT_LE(spec.specialised.add, 5);
+  EXPECT_EQ(spec.specialised.div, 0);
+  EXPECT_GT(spec.general.mul, spec.specialised.mul);
+}
+
+}  // namespace
+}  // namespace casimir::codegen

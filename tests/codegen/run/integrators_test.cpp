@@ -1,0 +1,197 @@
+// The header in the hands of its users: Boost.Odeint and CVODE, compiled as they would.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "codegen/emit_cpp.hpp"
+#include "tests/codegen/support.hpp"
+
+namespace casimir {
+namespace {
+
+using testing::Folder;
+using testing::kKovalevskaya;
+using testing::specialised;
+
+const char* const kOdeint = R"(
+#include "top.hpp"
+#include <boost/numeric/odeint.hpp>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+int main() {
+  using namespace boost::numeric::odeint;
+  std::vector<double> x(kovalevskaya::initial_state, kovalevskaya::initial_state + kovalevskaya::dimension);
+  double before[4], after[4];
+  kovalevskaya::invariants(x.data(), before);
+  integrate_adaptive(make_controlled(1e-12, 1e-12, runge_kutta_fehlberg78<std::vector<double>>()),
+                     kovalevskaya::system{}, x, 0.0, kovalevskaya::duration, 0.01);
+  kovalevskaya::invariants(x.data(), after);
+  double drift = 0;
+  for (int i = 0; i < 4; ++i) {
+    const double d = std::fabs(after[i] - before[i]);
+    if (!(d <= drift)) drift = d;
+  }
+  std::printf("%.17g\n", drift);
+}
+)";
+
+const char* const kStiff = R"(
+#include "top.hpp"
+#include <boost/numeric/odeint.hpp>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+int main() {
+  using namespace boost::numeric::odeint;
+  boost::numeric::ublas::vector<double> x(6);
+  for (int i = 0; i < 6; ++i) x[i] = kovalevskaya::initial_state[i];
+  double before[4], after[4];
+  kovalevskaya::invariants(&x[0], before);
+  integrate_adaptive(make_dense_output<rosenbrock4<double>>(1e-10, 1e-10),
+                     std::make_pair(kovalevskaya::system{}, kovalevskaya::stiff_system{}), x, 0.0, 5.0, 0.01);
+  kovalevskaya::invariants(&x[0], after);
+  double drift = 0;
+  for (int i = 0; i < 4; ++i) {
+    const double d = std::fabs(after[i] - before[i]);
+    if (!(d <= drift)) drift = d;
+  }
+  std::printf("%.17g\n", drift);
+}
+)";
+
+const char* const kCvode = R"(
+#include "top.hpp"
+#include <cvode/cvode.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_context.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <cmath>
+#include <cstdio>
+int main() {
+  SUNContext context;
+  SUNContext_Create(nullptr, &context);
+  N_Vector y = N_VNew_Serial(kovalevskaya::dimension, context);
+  for (int i = 0; i < kovalevskaya::dimension; ++i) NV_Ith_S(y, i) = kovalevskaya::initial_state[i];
+  double before[4], after[4];
+  kovalevskaya::invariants(N_VGetArrayPointer(y), before);
+  void* memory = CVodeCreate(CV_BDF, context);
+  CVodeInit(memory, kovalevskaya::sundials_rhs<N_Vector>, 0, y);
+  CVodeSStolerances(memory, 1e-11, 1e-11);
+  CVodeSetMaxNumSteps(memory, 1000000);
+  SUNMatrix matrix = SUNDenseMatrix(kovalevskaya::dimension, kovalevskaya::dimension, context);
+  SUNLinearSolver solver = SUNLinSol_Dense(y, matrix, context);
+  CVodeSetLinearSolver(memory, solver, matrix);
+  CVodeSetJacFn(memory, kovalevskaya::sundials_jacobian<N_Vector, SUNMatrix>);
+  double t = 0;
+  if (CVode(memory, 10.0, y, &t, CV_NORMAL) < 0) return 1;
+  kovalevskaya::invariants(N_VGetArrayPointer(y), after);
+  double drift = 0;
+  for (int i = 0; i < 4; ++i) {
+    const double d = std::fabs(after[i] - before[i]);
+    if (!(d <= drift)) drift = d;
+  }
+  std::printf("%.17g\n", drift);
+}
+)";
+
+const char* const kGeneral = R"(
+#include "top.hpp"
+#include <boost/numeric/odeint.hpp>
+#include <array>
+#include <cmath>
+#include <cstdio>
+int main() {
+  using namespace boost::numeric::odeint;
+  std::array<double, 6> x{1, 0.5, 0.25, 0.6, 0, 0.8};
+  kovalevskaya::system top;
+  top.p.r = 3;
+  double before[4], after[4];
+  kovalevskaya::invariants(x.data(), top.p, before);
+  integrate_adaptive(make_controlled(1e-12, 1e-12, runge_kutta_fehlberg78<std::array<double, 6>>()), top, x, 0.0,
+                     10.0, 0.01);
+  kovalevskaya::invariants(x.data(), top.p, after);
+  double drift = 0;
+  for (int i = 0; i < 4; ++i) {
+    const double d = std::fabs(after[i] - before[i]);
+    if (!(d <= drift)) drift = d;
+  }
+  std::printf("%.17g\n", drift);
+}
+)";
+
+const char* const kWide = R"(
+#include "top.hpp"
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cstdio>
+int main() {
+  using Real = boost::multiprecision::cpp_bin_float_50;
+  Real x[6] = {1, Real(1) / 2, Real(1) / 3, Real(3) / 5, 0, Real(4) / 5};
+  Real invariants[4];
+  kovalevskaya::invariants(x, invariants);
+  const Real exact = (1 + Real(1) / 4 + Real(2) / 9) / 2 - Real(3) / 5;
+  std::printf("%.17g\n", static_cast<double>(abs(invariants[0] - exact)));
+}
+)";
+
+/// Compiles a user's program with the header beside it, runs it, and reads the number it prints.
+double drift_of(const std::string& header, const std::string& user,
+                const std::vector<std::string>& libraries = {},
+                const std::string& standard = "-std=c++20") {
+  const Folder folder;
+  testing::write(folder.path() / "top.hpp", header);
+  testing::write(folder.path() / "user.cpp", user);
+  std::vector<std::string> arguments{standard, "-O1",
+                                     "-w",     (folder.path() / "user.cpp").string(),
+                                     "-o",     (folder.path() / "user").string()};
+  if (const std::string boost = CASIMIR_BOOST_INCLUDE; !boost.empty() && boost != "/usr/include") {
+    arguments.push_back("-I" + boost);
+  }
+  arguments.insert(arguments.end(), libraries.begin(), libraries.end());
+  const codegen::CompilerRun built = testing::run("", arguments, folder.path());
+  EXPECT_TRUE(built.succeeded) << built.messages;
+  if (!built.succeeded) return 1e300;
+  const codegen::CompilerRun done =
+      testing::run((folder.path() / "user").string(), {}, folder.path());
+  EXPECT_TRUE(done.succeeded) << done.messages;
+  return std::strtod(done.messages.c_str(), nullptr);
+}
+
+TEST(Integrators, OdeintConservesTheIntegrals) {
+  EXPECT_LT(drift_of(emit_header(specialised(kKovalevskaya)), kOdeint), 1e-9);
+}
+
+TEST(Integrators, OdeintSeesABentEquation) {
+  std::string header = emit_header(specialised(kKovalevskaya));
+  const std::size_t place = header.find("g2 * t1 - M2 * g3");
+  ASSERT_NE(place, std::string::npos);
+  header.replace(place, 2, "1.001 * g2");
+  EXPECT_GT(drift_of(header, kOdeint), 1e-3);
+}
+
+TEST(Integrators, OdeintStiffStepperUsesTheJacobian) {
+  const std::string header = emit_header(specialised(kKovalevskaya));
+  // Boost 1.74's ublas is no C++20.
+  EXPECT_LT(drift_of(header, kStiff, {}, "-std=c++17"), 1e-7);
+}
+
+TEST(Integrators, CvodeConservesTheIntegrals) {
+  const std::vector<std::string> libraries{"-lsundials_cvode", "-lsundials_nvecserial",
+                                           "-lsundials_sunmatrixdense", "-lsundials_sunlinsoldense",
+                                           "-lm"};
+  EXPECT_LT(drift_of(emit_header(specialised(kKovalevskaya)), kCvode, libraries), 1e-7);
+}
+
+TEST(Integrators, ParametersCanBeChosenAtRunTime) {
+  SpecialiseOptions general;
+  general.fold_parameters = false;
+  EXPECT_LT(drift_of(emit_header(specialised(kKovalevskaya, general)), kGeneral), 1e-9);
+}
+
+TEST(Integrators, TemplatesTakeFiftyDigits) {
+  EXPECT_LT(drift_of(emit_header(specialised(kKovalevskaya), {Scalar::templated}), kWide), 1e-48);
+}
+
+}  // namespace
+}  // namespace casimir

@@ -1,0 +1,129 @@
+#include "runtime/step/step_watch.hpp"
+
+#include <cln/dfloat.h>
+#include <cln/rational.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "runtime/integrate.hpp"
+#include "runtime/methods.hpp"
+#include "runtime/uncompiled.hpp"
+#include "tests/runtime/programs.hpp"
+
+namespace casimir::test {
+namespace {
+
+Trajectory run(const Program& rhs, std::vector<double> start, double duration, bool looks = true,
+               double begin = 0) {
+  Module module = uncompiled_module(rhs, {}, std::nullopt, {});
+  if (!looks) module.watch_steps_of(Builder({"x"}).program());
+  Settings settings;
+  settings.begin = begin;
+  settings.duration = duration;
+  settings.rtol = 1e-15;
+  settings.atol = 1e-18;
+  return integrate(module, *find_method("taylor"), settings, start);
+}
+
+/// x' = |t - c|
+Program modulus(const cln::cl_RA& corner) {
+  Builder lines({"x"});
+  const int t = lines.time();
+  lines.output(lines.op(Op::abs, lines.op(Op::sub, t, lines.number(corner))));
+  return lines.program();
+}
+
+/// x' = exp(-((t - 3)/w)^2)/w, of which the integral is sqrt(Pi).
+Program pulse(const cln::cl_RA& width) {
+  Builder lines({"x"});
+  const int w = lines.number(width);
+  const int z = lines.op(Op::div, lines.op(Op::sub, lines.time(), lines.number(3)), w);
+  const int u = lines.op(Op::neg, lines.op(Op::mul, z, z));
+  lines.output(lines.op(Op::div, lines.op(Op::exp, u), w));
+  return lines.program();
+}
+
+TEST(StepWatch, PolynomialsOfLowDegreeHaveNothingToWatch) {
+  Builder lines({"x"});
+  const int x = 0;
+  lines.output(lines.op(Op::mul, x, x));
+  const Program square = lines.program();
+  EXPECT_TRUE(StepWatch(square).empty());
+  EXPECT_EQ(uncompiled_module(square, {}, std::nullopt, {}).watch(), nullptr);
+}
+
+TEST(StepWatch, HighPowersAreWatchedOnceEach) {
+  Builder lines({"x"});
+  int power = 0;
+  for (int i = 0; i < 4; ++i) power = lines.op(Op::mul, power, power);
+  lines.output(power);
+  const StepWatch watch(lines.program());
+  ASSERT_EQ(watch.watched().size(), 1U);
+  EXPECT_EQ(watch.watched()[0].kind, StepWatch::Kind::power);
+  EXPECT_EQ(watch.watched()[0].exponent, 16);
+}
+
+TEST(Steps, EndWhereAModulusTurns) {
+  for (const double c : {0.5, 1.0, 2.25}) {
+    const Trajectory orbit = run(modulus(cln::rational(cln::cl_DF(c))), {0}, 5);
+    ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
+    EXPECT_NEAR(orbit.state[0], (c * c + (5 - c) * (5 - c)) / 2, 1e-13) << c;
+    EXPECT_LT(orbit.steps, 30U);
+  }
+}
+
+/// At exactly zero the first term that is not zero says on which side the series begins.
+TEST(Steps, BeginAtTheCornerOfAModulusInBothDirections) {
+  for (const double way : {1., -1.}) {
+    const Trajectory orbit = run(modulus(0), {0}, 2 * way);
+    ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
+    EXPECT_NEAR(orbit.state[0], 2 * way, 1e-14);
+  }
+}
+
+/// x' = |t^2 - 1/1000 - 2 t + 1|: below zero between 1 - 0.0316 and 1 + 0.0316.
+TEST(Steps, SeeADipOfAModulusBetweenTheirEnds) {
+  Builder lines({"x"});
+  const int z = lines.op(Op::sub, lines.time(), lines.number(1));
+  const int u = lines.op(Op::sub, lines.op(Op::mul, z, z), lines.number(cln::cl_RA(1) / 1000));
+  lines.output(lines.op(Op::abs, u));
+  const Program dip = lines.program();
+  const double d = std::sqrt(1e-3), whole = 2. / 3 - 2e-3;
+  const Trajectory orbit = run(dip, {0}, 2);
+  ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
+  EXPECT_NEAR(orbit.state[0], whole + 2 * (2 * d * d * d - 2 * d * d * d / 3), 1e-13);
+}
+
+TEST(Steps, DoNotPassAPulseOver) {
+  const double area = std::sqrt(std::acos(-1));
+  for (const int inverse_width : {10, 100, 1000, 10000}) {
+    const Program rhs = pulse(cln::cl_RA(1) / inverse_width);
+    const Trajectory orbit = run(rhs, {0}, 20);
+    ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
+    EXPECT_NEAR(orbit.state[0], area, 1e-12) << inverse_width;
+    EXPECT_LT(orbit.steps, 300U) << inverse_width;
+  }
+  // Without the look it is gone.
+  EXPECT_LT(run(pulse(cln::cl_RA(1) / 1000), {0}, 20, false).state[0], 1e-3);
+}
+
+/// x' = sqrt(1 - t) ends at t = 1.
+TEST(Steps, EndWhereARootLosesItsRealValue) {
+  Builder lines({"x"});
+  const int u = lines.op(Op::sub, lines.number(1), lines.time());
+  lines.output(lines.op(Op::sqrt, u));
+  const Trajectory orbit = run(lines.program(), {0}, 2);
+  EXPECT_NE(orbit.status, Status::ok);
+  EXPECT_NEAR(orbit.time, 1, 1e-6);
+}
+
+TEST(Settings, ARunBeginsAtAnyTime) {
+  const Trajectory orbit = run(modulus(0), {0}, 2, true, 3);
+  ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
+  EXPECT_NEAR(orbit.state[0], 8, 1e-13);
+  EXPECT_EQ(orbit.time, 5);
+}
+
+}  // namespace
+}  // namespace casimir::test

@@ -1,0 +1,138 @@
+// The pages of casimir report: complete, by themselves, safe, and as a browser sees them.
+#include <gtest/gtest.h>
+
+#include "tests/tools/pages/browser.hpp"
+#include "tests/tools/pages/page_checks.hpp"
+#include "tests/tools/program.hpp"
+
+namespace casimir::test {
+namespace {
+
+/// A pendulum with an integral that is refuted, and names that would be markup.
+const char* const kEvil =
+    "title = \"</title><script>alert('1')</script> & <b>\\\" onload=x '\"\n"
+    "source = \"<img src=x onerror=alert(2)>\"\n"
+    "hamiltonian = \"p^2/2 - cos(q)\"\n[phase_space]\nvariables = [\"q\", \"p\"]\n"
+    "canonical = true\n[integrals]\nF = \"p\"\n"
+    "[[invariant_relation]]\nname = \"<u>$\\\\frac{x}{y}$</u>\"\nexpression = \"p\"\n"
+    "[[scene]]\nname = \"<i>&amp;\"\ninitial = { q = \"1\", p = \"0\" }\nduration = \"3\"\n";
+
+void expect_readable(const Seen& seen, const View& view) {
+  const auto& found = seen.found;
+  ASSERT_TRUE(found.is_object());
+  EXPECT_TRUE(seen.console.empty()) << seen.console.front();
+  EXPECT_TRUE(found.at("requests").empty()) << found.at("requests");
+  EXPECT_EQ(found.at("scripts"), 1) << "the probe alone";
+  EXPECT_EQ(found.at("inner"), view.width);
+  EXPECT_LE(found.at("width"), view.width) << "it scrolls sideways";
+  EXPECT_TRUE(found.at("broken").empty()) << found.at("broken");
+  EXPECT_TRUE(found.at("untypeset").empty()) << found.at("untypeset");
+  constexpr double kWords = 4.5,
+                   kCurves = 1.8;  // WCAG's contrast; curves have marks and dashes too
+  EXPECT_GE(found.at("contrast"), kWords);
+  for (const auto& [id, plot] : found.at("plots").items()) {
+    EXPECT_GE(plot.at("points"), 20) << id;
+    EXPECT_GE(plot.at("width"), 200) << id;
+    EXPECT_GE(plot.at("contrast"), kCurves) << id;
+    EXPECT_GE(plot.at("words"), kWords) << id;
+  }
+}
+
+TEST(Report, OfACaseHasEverythingAndIsReadableEverywhere) {
+  const Folder folder;
+  const Outcome outcome =
+      run_in(folder, {"report", "kovalevskaya", "--budget", "0.2", "--output", "k.html", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(folder.files(), 1U);
+  const std::string page = file_text(folder.path() / "k.html");
+  expect_self_contained(page);
+  for (const char* part :
+       {"Kovalevskaya top", "✓", "proved", "Liouville integrability", "Hamiltonian",
+        "right-hand side, specialised", "multiplications", "folded to 1", "figure-drift",
+        "figure-motion", "figure-apex", "figure-work-precision", "Versions and machine", "SUNDIALS",
+        "casimir verify kovalevskaya", "casimir report kovalevskaya", "algebra = &quot;e(3)&quot;"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  const auto json = outcome.json();
+  EXPECT_EQ(json.at("verdict"), "proved");
+  EXPECT_EQ(json.at("claims").at("proved"), 12);
+  EXPECT_GE(json.at("plots").size(), 5U);
+  ASSERT_TRUE(has_browser()) << "chromium-headless-shell is not installed; tools/test does that";
+  for (const View& view : {View{1200, 900, false}, View{1200, 900, true}, View{360, 740, true}}) {
+    const Seen seen = look(page, view);
+    SCOPED_TRACE(std::to_string(view.width) + (view.dark ? " dark" : " light"));
+    expect_readable(seen, view);
+    EXPECT_GE(seen.found.at("math"), 50);
+    EXPECT_GE(seen.found.at("plots").size(), 5U);
+  }
+}
+
+TEST(Report, TextOfStrangersIsNoMarkupAndWhatIsRefutedIsShown) {
+  const Folder folder;
+  const std::string file = folder.write("evil.toml", kEvil);
+  const Outcome outcome = run_in(
+      folder, {"report", file, "--scene", "<i>&amp;", "--budget", "0", "--output", "e.html"});
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  const std::string page = file_text(folder.path() / "e.html");
+  EXPECT_EQ(nesting_problem(page), "");
+  for (const char* markup : {"<script", "<i>", "<u>", "<img", "<b>"})
+    EXPECT_EQ(page.find(markup), std::string::npos) << markup;
+  for (const char* part : {"&lt;script&gt;alert(&#39;1&#39;)", "✗", "refuted", "witness",
+                           "residual", "&lt;i&gt;&amp;amp;"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  ASSERT_TRUE(has_browser()) << "chromium-headless-shell is not installed; tools/test does that";
+  const View view{360, 740, false};
+  const Seen seen = look(page, view);
+  ASSERT_TRUE(seen.found.is_object());
+  EXPECT_TRUE(seen.console.empty()) << seen.console.front();
+  EXPECT_EQ(seen.found.at("scripts"), 1);
+  EXPECT_LE(seen.found.at("width"), view.width);
+}
+
+TEST(Report, OfAllCasesHasAnIndexWhoseLinksLead) {
+  const Folder folder, cases;
+  const std::string oscillator =
+      "hamiltonian = \"(p^2 + q^2)/2\"\n[phase_space]\nvariables = [\"q\", \"p\"]\n"
+      "canonical = true\n[[scene]]\nname = \"default\"\ninitial = { q = \"1\", p = \"0\" }\n"
+      "duration = \"3\"\n";
+  cases.write("one.toml", "title = \"First\"\ntags = [\"mine\"]\n" + oscillator);
+  cases.write("two.toml", "title = \"Second\"\ntags = [\"mine\"]\n" + oscillator);
+  const Outcome outcome = run_in(
+      folder, {"report", "--all", "--tag", "mine", "--budget", "0", "--output", "out", "--json"},
+      {}, {{"CASIMIR_CASES", cases.path().string()}});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.json().at("cases").size(), 2U);
+  const std::string index = file_text(folder.path() / "out" / "index.html");
+  expect_self_contained(index);
+  for (const char* name : {"one.html", "two.html"}) {
+    EXPECT_NE(index.find(std::string("href=\"") + name + "\""), std::string::npos) << name;
+    const std::string page = file_text(folder.path() / "out" / name);
+    expect_self_contained(page);
+    EXPECT_NE(page.find("href=\"index.html\""), std::string::npos) << name;
+  }
+}
+
+TEST(Report, IsWrittenWithoutPicturesWhereGnuplotIsMissing) {
+  const Folder folder;
+  const Outcome outcome = run_in(folder, {"report", "euler", "--budget", "0"}, {},
+                                 {{"PATH", "/nonexistent"}, {"CXX", "/usr/bin/g++"}});
+  EXPECT_EQ(outcome.status, 4) << outcome.err;
+  EXPECT_NE(outcome.err.find("apt-get install gnuplot-nox"), std::string::npos) << outcome.err;
+  const std::string page = file_text(folder.path() / "euler.html");
+  EXPECT_NE(page.find("There is no picture"), std::string::npos);
+  EXPECT_NE(page.find("How well the invariants are kept"), std::string::npos);
+  EXPECT_EQ(folder.files(), 1U);
+}
+
+TEST(Report, RefusesWhatItCannotDo) {
+  const Folder folder;
+  EXPECT_EQ(run_in(folder, {"report"}).status, 2);
+  EXPECT_EQ(run_in(folder, {"report", "euler", "--all"}).status, 2);
+  EXPECT_EQ(run_in(folder, {"report", "euler", "--output", "x.pdf"}).status, 2);
+  EXPECT_EQ(run_in(folder, {"report", "euler", "--scene", "defualt"}).status, 2);
+  EXPECT_EQ(run_in(folder, {"report", "eulr"}).status, 2);
+  EXPECT_EQ(run_in(folder, {"report", "euler", "--output", "no/such/folder.html"}).status, 4);
+  EXPECT_EQ(folder.files(), 0U);
+}
+
+}  // namespace
+}  // namespace casimir::test

@@ -1,0 +1,228 @@
+#include "tools/analysis/estimate/error_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "codegen/quadratic.hpp"
+#include "runtime/taylor/quadratic_targets.hpp"
+#include "runtime/uncompiled.hpp"
+#include "tools/analysis/estimate/growth_of_changes.hpp"
+
+namespace casimir {
+namespace {
+
+constexpr double kUnitRoundoff = 0x1p-53;
+/// Relative changes of a state whose growth is measured. The first that stays small is taken: where
+/// a change grows to the size of the state itself, it says too little about smaller ones.
+constexpr double kChanges[] = {0x1p-26, 0x1p-36, 0x1p-46};
+constexpr double kSmall = 0.05;
+/// Rounding errors that grow to this size leave no digits to speak of.
+constexpr double kSpoiled = 1e-3;
+constexpr double kSixDigits = 1e-6;
+/// Seconds of a run that is repeated though it takes long, since it may have passed something over.
+constexpr double kLongestToRepeat = 10;
+constexpr double kCrossCheckTolerance = 1e-10;
+constexpr unsigned long long kCrossCheckSteps = 20000;
+/// What is narrower than a thousandth of the run CVODE may step over.
+constexpr double kLeastCrossCheckSteps = 1000;
+
+double distance(const std::vector<double>& a, const std::vector<double>& b,
+                const std::vector<double>& sizes) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    largest = std::max(largest, std::abs(a[i] - b[i]) / sizes[i]);
+  }
+  return largest;
+}
+
+/// Runs beside the one that is assessed.
+class Neighbours {
+ public:
+  Neighbours(const SceneRun& run, const CompiledModule& compiled, const Method& method,
+             const Settings& settings, const std::vector<double>& sizes)
+      : run_(run), compiled_(compiled), method_(method), tight_(settings), sizes_(sizes) {
+    tight_.monitor = false;
+    tight_.sample_every = 0;
+    tight_.invariant_changes = nullptr;
+    tight_.rtol = std::max(settings.rtol / 100, 2 * kLeastTolerance);
+    tight_.atol = settings.atol / 100;
+    tight_.fixed_step = settings.fixed_step / 2;
+    // At the least tolerance the steps would be the same ones.
+    constexpr double kOdd = 0.0618;
+    tight_.begin_anew = settings.fixed_step > 0 ? 0 : kOdd * std::abs(settings.duration);
+  }
+
+  /// With a hundredth of the tolerance. \return  whether it reached the end.
+  bool begin() {
+    better_ = integrate(compiled_.module, method_, tight_, run_.initial, run_.parameters);
+    return better_.status == Status::ok;
+  }
+  const std::vector<double>& better() const { return better_.state; }
+
+  /// How many times a relative change of a state has grown at the end; nothing if a run fails.
+  std::optional<double> growth_of_state(std::size_t j) const {
+    return growth([&](double change) {
+      std::vector<double> moved = run_.initial;
+      moved[j] += change * sizes_[j];
+      return integrate(compiled_.module, method_, tight_, moved, run_.parameters);
+    });
+  }
+
+  /// The same for a parameter at run time.
+  std::optional<double> growth_of_parameter(std::size_t j) const {
+    return growth([&](double change) {
+      SceneRun moved = run_;  // where nothing is compiled, the module holds the parameters
+      moved.parameters[j] *= 1 + change;
+      return integrate(compile_for(moved, method_).module, method_, tight_, moved.initial,
+                       moved.parameters);
+    });
+  }
+
+ private:
+  template <class NeighbourAt>
+  std::optional<double> growth(const NeighbourAt& neighbour_at) const {
+    double largest = 0;
+    for (const double change : kChanges) {
+      const Trajectory neighbour = neighbour_at(change);
+      if (neighbour.status != Status::ok) return std::nullopt;
+      const double apart = distance(neighbour.state, better_.state, sizes_);
+      largest = std::max(largest, apart / change);
+      if (apart < kSmall) break;
+    }
+    return largest;
+  }
+
+  const SceneRun& run_;
+  const CompiledModule& compiled_;
+  const Method& method_;
+  Settings tight_;
+  const std::vector<double>& sizes_;
+  Trajectory better_;
+};
+
+/// Where Taylor series get nowhere because the equations are stiff: by runs of the method itself,
+/// which see the growth at the end only.
+std::optional<Conditioning> conditioning_at_end(const Neighbours& neighbours, std::size_t states) {
+  Conditioning result;
+  result.growth = {{0, 1}};
+  for (std::size_t j = 0; j < states; ++j) {
+    const auto growth = neighbours.growth_of_state(j);
+    if (!growth) return std::nullopt;
+    result.columns.push_back(*growth);
+    result.at_end = std::max(result.at_end, *growth);
+  }
+  return result;
+}
+
+/// Where a second run would take too long: rounding errors that are made at every step and grow
+/// from there on, the drift of invariants, which grows likewise, and the local errors allowed.
+double estimate_without_repeat(double growth, const Settings& settings,
+                               const Trajectory& trajectory) {
+  const auto steps = static_cast<double>(trajectory.steps);
+  double drift = 0.03 * kUnitRoundoff * std::sqrt(steps);
+  for (const InvariantRecord& record : trajectory.invariants) drift = std::max(drift, record.drift);
+  return growth * drift + steps * settings.rtol;
+}
+
+/// The same motion by a method of another kind: steps that jump over a narrow passage do so at
+/// every tolerance. Taylor series without a compiler, and for a run by these the Adams methods of
+/// CVODE, where they get through in a few thousand steps.
+struct CrossCheck {
+  bool contradicts = false;  ///< they meet a singularity on the way
+  double distance = 0;       ///< of the end states, as far as their own errors do not explain it
+};
+
+CrossCheck cross_check(const SceneRun& run, const Method& method, const Settings& settings,
+                       const Trajectory& trajectory, const std::vector<double>& sizes,
+                       double growth) {
+  auto form = quadratic_form(run.specialisation.rhs, run.parameters);
+  if (form && !has_quadratic_kernel(*form)) form.reset();
+  const Module module = uncompiled_module(run.specialisation.rhs, {}, form, run.parameters);
+  Settings own;
+  own.duration = trajectory.time;
+  own.rtol = kCrossCheckTolerance;
+  own.atol = settings.atol * (own.rtol / std::max(settings.rtol, kLeastTolerance));
+  own.max_steps = kCrossCheckSteps;
+  own.longest_step = std::abs(trajectory.time) / kLeastCrossCheckSteps;
+  own.give_up = settings.give_up;
+  const Method& check = *find_method(method.series ? "cvode-adams" : "taylor");
+  const Trajectory other = integrate(module, check, own, run.initial, run.parameters);
+  CrossCheck result;
+  result.contradicts = !method.series &&
+                       (other.status == Status::singularity || other.status == Status::non_finite ||
+                        other.status == Status::step_underflow);
+  if (other.status != Status::ok) return result;
+  const double apart = distance(other.state, trajectory.state, sizes);
+  if (apart > std::min(0.1, 100 * growth * (own.rtol + settings.rtol))) result.distance = apart;
+  return result;
+}
+
+/// The sizes of the states at both ends, where they are smaller than on the way.
+std::vector<double> end_sizes(const SceneRun& run, const Trajectory& trajectory) {
+  Trajectory ends = trajectory;
+  for (std::size_t i = 0; i < ends.sizes.size(); ++i)
+    ends.sizes[i] = std::max(std::abs(run.initial[i]), std::abs(ends.state[i]));
+  const double largest = std::ranges::max(ends.sizes);
+  for (std::size_t i = 0; i < ends.sizes.size(); ++i)
+    ends.sizes[i] = std::min(trajectory.sizes[i], std::max(ends.sizes[i], 1e-3 * largest));
+  return sizes_of(ends);
+}
+
+}  // namespace
+
+bool Trust::died_out() const { return beyond_double && conditioning * kUnitRoundoff < kSpoiled; }
+
+Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& method,
+             const Settings& settings, const Trajectory& trajectory, double budget) {
+  Trust trust;
+  if (trajectory.status != Status::ok) return trust;
+  const std::vector<double> sizes = sizes_of(trajectory);
+  const std::size_t n = run.initial.size();
+  Neighbours neighbours(run, compiled, method, settings, sizes);
+  // Polynomials of low degree hide nothing from a step.
+  const bool may_hide = compiled.module.watch() || run.specialisation.uses_time;
+  const bool has_time =
+      3 * trajectory.seconds < budget || (may_hide && trajectory.seconds < kLongestToRepeat);
+  const bool repeated = has_time && neighbours.begin();
+  trust.unconfirmed = has_time && !repeated;
+  std::optional<Conditioning> flow = conditioning(run, settings, trajectory.time, sizes);
+  const bool short_of_end = !flow || flow->followed < 0.99 * std::abs(trajectory.time);
+  const double neighbours_take = static_cast<double>(n) * 3 * trajectory.seconds;
+  if (repeated && short_of_end && method.implicit && neighbours_take < budget)
+    flow = conditioning_at_end(neighbours, n);
+  trust.known = flow.has_value();
+  const double growth = flow ? flow->at_end : 1;
+  trust.conditioning = growth;
+  trust.on_the_way = flow ? flow->on_the_way() : 1;
+  for (std::size_t j = 0; flow && j < n; ++j)
+    trust.input_rounding += flow->columns[j] * std::abs(run.rounding[j]) / sizes[j];
+  for (std::size_t j = 0; repeated && j < run.parameters.size(); ++j) {
+    if (run.parameter_rounding[j] == 0) continue;
+    const double own = neighbours.growth_of_parameter(j).value_or(growth);
+    trust.input_rounding += own * std::abs(run.parameter_rounding[j] / run.parameters[j]);
+  }
+  trust.error_estimate =
+      trust.input_rounding +
+      (repeated ? distance(neighbours.better(), trajectory.state, end_sizes(run, trajectory)) +
+                      growth * kUnitRoundoff
+                : estimate_without_repeat(growth, settings, trajectory));
+  if (!method.series || may_hide) {
+    const CrossCheck check =
+        cross_check(run, method, settings, trajectory, end_sizes(run, trajectory), growth);
+    trust.unconfirmed = trust.unconfirmed || check.contradicts;
+    trust.error_estimate = std::max(trust.error_estimate, check.distance);
+  }
+  trust.unconfirmed = trust.unconfirmed || (may_hide && !has_time && short_of_end);
+  trust.beyond_double = !(trust.on_the_way * kUnitRoundoff < kSpoiled);
+  // Which way the motion took was decided by rounding: all of the state is in doubt, which the
+  // growth up to the end does not show.
+  if (trust.died_out()) trust.error_estimate = std::max(trust.error_estimate, 1.);
+  if (!flow) return trust;
+  if (trust.beyond_double) trust.six_digits_until = flow->time_of(kSixDigits / kUnitRoundoff);
+  if (flow->followed > 0 && flow->followed < 0.99 * std::abs(trajectory.time))
+    trust.followed = flow->followed;
+  return trust;
+}
+
+}  // namespace casimir

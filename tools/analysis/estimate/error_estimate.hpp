@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+
+#include "runtime/integrate.hpp"
+#include "tools/analysis/run/prepared_scene.hpp"
+
+namespace casimir {
+
+/// How far the end state of a run can be believed. Relative to the size of each state.
+struct Trust {
+  bool known = false;          ///< false: the variational equations could not be integrated
+  double conditioning = 0;     ///< largest growth of a small change of the initial state
+  double on_the_way = 0;       ///< the same up to any time before the end
+  double input_rounding = 0;   ///< error from rounding the scene's exact data to double
+  double error_estimate = 0;   ///< difference to a run with a hundredth of the tolerance, and
+                               ///< what double arithmetic alone costs
+  bool unconfirmed = false;    ///< a run with a tighter tolerance fails: there is no estimate
+  bool beyond_double = false;  ///< rounding alone spoils all but a few digits, at the end or before
+  /// Up to when rounding leaves six digits, where it does not to the end.
+  std::optional<double> six_digits_until;
+  std::optional<double> followed;  ///< the growth beyond this time is extrapolated
+
+  /// Whether changes that no double holds are made on the way and do not show at the end: which way
+  /// the motion took was decided by rounding.
+  bool died_out() const;
+};
+
+/// Integrates the variational equations along a finished run, and repeats it with a tighter
+/// tolerance where that takes about `budget` seconds at most.
+Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& method,
+             const Settings& settings, const Trajectory& trajectory, double budget = 1);
+
+}  // namespace casimir

@@ -1,0 +1,130 @@
+#include "tools/analysis/estimate/near_singular.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "codegen/optimise/lower.hpp"
+#include "runtime/evaluate.hpp"
+
+namespace casimir {
+namespace {
+
+constexpr double kNear = 1e-3;
+
+/// Lines that something is divided by: the factors of denominators, and bases of negative powers.
+std::set<int> divisors_of(const Program& program) {
+  const std::vector<bool> constant = codegen::constant_instructions(program);
+  std::set<int> lines;
+  const std::function<void(int)> add = [&](int line) {
+    const Instruction& code = program.code[static_cast<std::size_t>(line)];
+    if (code.op == Op::mul) {
+      add(code.a);
+      add(code.b);
+    } else if (!constant[static_cast<std::size_t>(line)]) {
+      lines.insert(line);
+    }
+  };
+  for (const Instruction& code : program.code) {
+    if (code.op == Op::div) add(code.b);
+    if (code.op != Op::pow) continue;
+    const Instruction& exponent = program.code[static_cast<std::size_t>(code.b)];
+    if (exponent.op == Op::constant &&
+        cln::minusp(program.constants[static_cast<std::size_t>(exponent.a)]))
+      add(code.a);
+  }
+  return lines;
+}
+
+/// The states that a line depends on.
+std::vector<std::size_t> states_in(const Program& program, int line, std::size_t states) {
+  std::set<int> open{line};
+  std::vector<std::size_t> found;
+  while (!open.empty()) {
+    const int last = *open.rbegin();
+    open.erase(last);
+    const Instruction& code = program.code[static_cast<std::size_t>(last)];
+    if (code.op == Op::input) {
+      if (static_cast<std::size_t>(code.a) < states)
+        found.push_back(static_cast<std::size_t>(code.a));
+    } else if (code.op != Op::constant && code.op != Op::pi) {
+      open.insert(code.a);
+      if (code.b >= 0) open.insert(code.b);
+    }
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+}  // namespace
+
+NearSingular::NearSingular(const SceneRun& run) : run_(run), divisors_(run.specialisation.rhs) {
+  divisors_.outputs.clear();
+  divisors_.output_names.clear();
+  for (const int line : divisors_of(run.specialisation.rhs)) {
+    divisors_.outputs.push_back(line);
+    divisors_.output_names.push_back("divisor");
+    states_.push_back(states_in(run.specialisation.rhs, line, run.initial.size()));
+  }
+  divisors_ = codegen::without_dead_code(divisors_);
+  ranges_.resize(divisors_.outputs.size());
+  inputs_ = run.initial;
+  inputs_.insert(inputs_.end(), run.parameters.begin(), run.parameters.end());
+  inputs_.push_back(0);
+  see(0, run.initial.data());
+}
+
+void NearSingular::see(double t, const double* x) {
+  if (!divides()) return;
+  std::copy_n(x, run_.initial.size(), inputs_.begin());
+  inputs_.back() = t;
+  const std::vector<double> values = evaluate(divisors_, inputs_);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    Range& range = ranges_[i];
+    const double size = std::abs(values[i]);
+    range.largest = std::max(range.largest, size);
+    if (values[i] * range.last < 0 && !range.crossed) range.crossed = t;
+    range.last = values[i];
+    if (!range.state.empty() && !(size < range.least)) continue;
+    range.least = size;
+    range.time = t;
+    range.state.assign(x, x + run_.initial.size());
+  }
+}
+
+std::optional<std::string> NearSingular::finding() const {
+  for (const Range& range : ranges_) {
+    if (range.crossed)
+      return fmt::format(
+          "the equations divide by a quantity that changes its sign before t = {:.6g}: a step went "
+          "over a pole of theirs, and what comes after it may mean nothing",
+          *range.crossed);
+  }
+  const Range* worst = nullptr;
+  for (const Range& range : ranges_) {
+    if (range.least < kNear * range.largest &&
+        (!worst || range.least / range.largest < worst->least / worst->largest))
+      worst = &range;
+  }
+  if (!worst) return std::nullopt;
+  const std::size_t which = static_cast<std::size_t>(worst - ranges_.data());
+  std::string where;
+  for (const std::size_t i : states_[which])
+    where += fmt::format("{}{} = {:.6g}", where.empty() ? "" : ", ", run_.specialisation.states[i],
+                         worst->state[i]);
+  if (where.empty())  // a quantity of the time alone, which no other variables mend
+    return fmt::format(
+        "the equations divide by a quantity that comes down to {:.0e} of its largest value at "
+        "t = {:.6g}, which costs digits",
+        worst->least / worst->largest, worst->time);
+  return fmt::format(
+      "the coordinates are nearly singular at t = {:.6g}, where {}: the equations divide by a "
+      "quantity that comes down to {:.0e} of its largest value there, which costs digits; "
+      "variables without this singularity do better (--in)",
+      worst->time, where, worst->least / worst->largest);
+}
+
+}  // namespace casimir

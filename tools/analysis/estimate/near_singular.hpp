@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/analysis/run/prepared_scene.hpp"
+
+namespace casimir {
+
+/// Watches what the equations divide by: where it comes near zero, digits are lost and steps become
+/// short, though the motion itself may be harmless, as in Euler angles near the vertical.
+class NearSingular {
+ public:
+  /// \param run  must outlive this object.
+  explicit NearSingular(const SceneRun& run);
+
+  /// Whether there is anything to watch.
+  bool divides() const { return !divisors_.outputs.empty(); }
+  /// Looks at the state after a step.
+  void see(double t, const double* x);
+
+  /// A sentence, if a divisor changed its sign, or came down to less than a thousandth of its
+  /// largest value: when, and in which state.
+  std::optional<std::string> finding() const;
+
+ private:
+  struct Range {
+    double least = 0, largest = 0;
+    double time = 0;
+    double last = 0;                ///< its value after the last step
+    std::optional<double> crossed;  ///< the first time at which it has another sign
+    std::vector<double> state;
+  };
+  const SceneRun& run_;
+  Program divisors_;
+  std::vector<std::vector<std::size_t>> states_;  ///< that each divisor depends on
+  std::vector<double> inputs_;
+  std::vector<Range> ranges_;
+};
+
+}  // namespace casimir

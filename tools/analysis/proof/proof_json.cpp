@@ -1,0 +1,62 @@
+#include "tools/analysis/proof/proof_json.hpp"
+
+namespace casimir {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Proof& proof) {
+  Json json = {{"kind", proof.kind},
+               {"name", proof.name},
+               {"verdict", to_string(proof.verdict)},
+               {"seconds", proof.seconds}};
+  if (!proof.on.empty()) json["on"] = proof.on;
+  if (!proof.evidence.empty()) json["evidence"] = proof.evidence;
+  if (!proof.where.empty()) json["where"] = proof.where;
+  if (!proof.nonzero.empty()) json["nonzero"] = proof.nonzero;
+  if (!proof.positive.empty()) json["positive"] = proof.positive;
+  if (!proof.residual.empty()) json["residual"] = proof.residual;
+  if (!proof.reason.empty()) json["reason"] = proof.reason;
+  if (proof.witness) {
+    Json witness = Json::object();
+    for (const auto& [name, value] : proof.witness->point) witness[name] = value;
+    witness["value"] = proof.witness->value;
+    json["witness"] = witness;
+  }
+  if (!proof.integrals.empty()) json["integrals"] = proof.integrals;
+  for (const Proof& finding : proof.findings) json["findings"].push_back(to_json(finding));
+  return json;
+}
+
+Proof proof_from_json(const Json& json) {
+  Proof proof;
+  proof.kind = json.at("kind");
+  proof.name = json.at("name");
+  const std::string verdict = json.at("verdict");
+  proof.verdict = verdict == "proved"    ? Verdict::proved
+                  : verdict == "refuted" ? Verdict::refuted
+                                         : Verdict::undecided;
+  proof.seconds = json.at("seconds");
+  proof.on = json.value("on", std::vector<std::string>{});
+  proof.evidence = json.value("evidence", "");
+  proof.where = json.value("where", std::vector<std::string>{});
+  proof.nonzero = json.value("nonzero", std::vector<std::string>{});
+  proof.positive = json.value("positive", std::vector<std::string>{});
+  proof.residual = json.value("residual", "");
+  proof.reason = json.value("reason", "");
+  if (json.contains("witness")) {
+    Witness witness;
+    for (const auto& [name, value] : json.at("witness").items()) {
+      if (name != "value") witness.point.emplace_back(name, value.get<std::string>());
+    }
+    witness.value = json.at("witness").at("value");
+    proof.witness = std::move(witness);
+  }
+  proof.integrals = json.value("integrals", std::vector<std::string>{});
+  if (json.contains("findings")) {
+    for (const Json& finding : json.at("findings"))
+      proof.findings.push_back(proof_from_json(finding));
+  }
+  return proof;
+}
+
+}  // namespace casimir

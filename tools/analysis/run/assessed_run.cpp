@@ -1,0 +1,142 @@
+#include "tools/analysis/run/assessed_run.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "runtime/step/stiffness.hpp"
+#include "tools/analysis/error.hpp"
+#include "tools/analysis/estimate/near_singular.hpp"
+#include "tools/analysis/run/drift_check.hpp"
+#include "tools/analysis/run/invariant_projection.hpp"
+
+namespace casimir {
+namespace {
+
+constexpr const char* kSmooth = "taylor";
+/// Of `auto`, without a tolerance: where rounding takes over.
+constexpr double kSmoothTolerance = 1e-15, kStiffTolerance = 1e-13;
+/// After so many steps `auto` asks for the first time whether the equations are stiff; then after
+/// twice as many, and so on.
+constexpr unsigned long long kFirstLook = 300;
+
+/// Looks for stiffness while an explicit method runs.
+class StiffnessWatch {
+ public:
+  StiffnessWatch(const CompiledModule& compiled, const SceneRun& run, double duration)
+      : compiled_(compiled), run_(run), duration_(duration) {}
+
+  void see(double t, const double* x) {
+    if (++steps_ != next_look_) return;
+    next_look_ *= 2;
+    const std::vector<double> state(x, x + run_.initial.size());
+    const double* const p = run_.parameters.empty() ? nullptr : run_.parameters.data();
+    if (!is_stiff(compiled_.module, t, state, p, std::abs(duration_ - t))) return;
+    finding_ = fmt::format("the equations are stiff at t = {:.3g}", t);
+  }
+  const std::string& finding() const { return finding_; }
+
+ private:
+  const CompiledModule& compiled_;
+  const SceneRun& run_;
+  double duration_;
+  unsigned long long steps_ = 0, next_look_ = kFirstLook;
+  std::string finding_;
+};
+
+class Judge {
+ public:
+  Judge(const Model& model, const SceneRun& run, const JudgedOptions& options)
+      : model_(model), run_(run), options_(options) {}
+
+  JudgedRun judged() {
+    if (options_.method == "auto") {
+      run_chosen_method();
+    } else {
+      prepare(method_named(options_.method), settings_for(options_.run, run_));
+      run_it();
+    }
+    judge();
+    return std::move(result_);
+  }
+
+ private:
+  void prepare(const Method& method, const Settings& settings) {
+    result_.method = &method;
+    result_.settings = settings;
+    result_.settings.sample_every = options_.sample_every;
+    if (options_.run.projects()) {
+      result_.doubts.clear();
+      result_.projected =
+          set_projection(options_.run, model_, run_, result_.settings, result_.doubts);
+    }
+    result_.settings.give_up = time_limit(options_.time_limit);
+    result_.compiled.emplace(compile_for(run_, method));
+  }
+
+  void run_chosen_method() {
+    prepare(method_named(kSmooth), settings_for(options_.run, run_, kSmoothTolerance));
+    StiffnessWatch stiffness(*result_.compiled, run_, result_.settings.duration);
+    run_it(&stiffness);
+    result_.chosen = stiffness.finding();
+    if (result_.chosen.empty()) {
+      result_.chosen = "the equations are not stiff";
+    } else {
+      prepare(method_named(kStiffMethod), settings_for(options_.run, run_, kStiffTolerance));
+      run_it();
+    }
+  }
+
+  /// One run; what `stiffness` finds ends it.
+  void run_it(StiffnessWatch* stiffness = nullptr) {
+    singular_.emplace(run_);
+    Settings settings = result_.settings;
+    if (singular_->divides() || stiffness)
+      settings.watch = [&, stiffness](double t, const double* x) {
+        singular_->see(t, x);
+        if (stiffness) stiffness->see(t, x);
+      };
+    if (stiffness)
+      settings.give_up = [stiffness, limit = settings.give_up] {
+        return !stiffness->finding().empty() || (limit && limit());
+      };
+    const auto run = [&] {
+      try {
+        result_.trajectory = integrate(result_.compiled->module, *result_.method, settings,
+                                       run_.initial, run_.parameters);
+      } catch (const std::invalid_argument& problem) {
+        throw RequestError(problem.what());
+      }
+    };
+    if (options_.around)
+      options_.around(settings, run);
+    else
+      run();
+  }
+
+  void judge() {
+    std::vector<std::string>& doubts = result_.doubts;
+    Trajectory& trajectory = result_.trajectory;
+    if (!result_.compiled->warning.empty()) doubts.push_back(result_.compiled->warning);
+    for (std::string& doubt : check_drift(model_, run_.specialisation.invariant_names, trajectory))
+      doubts.push_back(std::move(doubt));
+    result_.trust = assess(run_, *result_.compiled, *result_.method, result_.settings, trajectory);
+    result_.near_singular = singular_->finding();
+  }
+
+  const Model& model_;
+  const SceneRun& run_;
+  const JudgedOptions& options_;
+  std::optional<NearSingular> singular_;
+  JudgedRun result_;
+};
+
+}  // namespace
+
+JudgedRun integrate_judged(const Model& model, const SceneRun& run, const JudgedOptions& options) {
+  return Judge(model, run, options).judged();
+}
+
+}  // namespace casimir

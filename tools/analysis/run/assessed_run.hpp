@@ -1,0 +1,52 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/integrate.hpp"
+#include "symbolic/model.hpp"
+#include "tools/analysis/estimate/error_estimate.hpp"
+#include "tools/analysis/run/prepared_scene.hpp"
+#include "tools/analysis/run_request.hpp"
+
+namespace casimir {
+
+/// What `auto` changes to where the equations are stiff: Radau IIA of order 9.
+inline constexpr const char* kStiffMethod = "radau9";
+
+/// A run with everything that is known of how far it can be believed.
+struct JudgedRun {
+  const Method* method = nullptr;
+  std::string chosen;  ///< why, where `auto` chose the method
+  Settings settings;
+  std::optional<CompiledModule> compiled;  ///< set
+  Trajectory trajectory;
+  Trust trust;
+  std::vector<std::string> projected;  ///< onto the levels of these invariants
+  /// Sentences on how the run was made and on its invariants, where these leave a doubt.
+  std::vector<std::string> doubts;
+  /// Where the equations come near a division by zero: a sentence.
+  std::optional<std::string> near_singular;
+};
+
+/// What is asked of a run, and what watches it.
+struct JudgedOptions {
+  std::string method = "auto";
+  RunRequest run = {};
+  double time_limit = 0;    ///< in seconds; 0: none
+  double sample_every = 0;  ///< time between samples; 0: none
+  /// If set, called with the settings of each run, which it may add to, and with what does it.
+  std::function<void(Settings& settings, const std::function<void()>& run)> around = {};
+};
+
+/// Integrates a scene. `auto` begins with Taylor series, at what double precision can hold where
+/// no tolerance is given, and changes to Radau IIA of order 9 where the run shows that the
+/// equations are stiff. A proved invariant that drifts beyond what the tolerance allows makes the
+/// status `drift_exceeded`.
+/// \param run            must outlive the result.
+/// \throws RequestError  for a method or settings that cannot be.
+JudgedRun integrate_judged(const Model& model, const SceneRun& run, const JudgedOptions& options);
+
+}  // namespace casimir

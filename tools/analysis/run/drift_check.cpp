@@ -1,0 +1,60 @@
+#include "tools/analysis/run/drift_check.hpp"
+
+#include <fmt/format.h>
+
+#include "tools/analysis/proof/prove_in_process.hpp"
+
+namespace casimir {
+namespace {
+
+constexpr double kSeconds = 10;
+
+bool declares(const Model& model, const std::string& name) {
+  try {
+    model.parse({name, {"--integral", 1, 1}, name});
+    return true;
+  } catch (const CaseError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+Verdict verdict_on(const Model& model, const std::string& invariant) {
+  // Among the invariants H is the Hamiltonian, though the file may call a variable or a definition
+  // that: here it gets a name that the file does not use.
+  Model named = model;
+  std::string name = invariant;
+  if (invariant == "H" && model.hamiltonian) {
+    while (declares(named, name)) name += "_";
+    named.definitions.push_back({name, *model.hamiltonian, {}});
+  }
+  Candidates candidates;
+  candidates.integrals.push_back({name, {"--integral", 1, 1}, name});
+  const std::vector<Proof> proofs = prove_within(kSeconds, named, candidates, {});
+  return proofs.empty() ? Verdict::undecided : proofs.front().verdict;
+}
+
+std::vector<std::string> check_drift(const Model& model, const std::vector<std::string>& names,
+                                     Trajectory& trajectory) {
+  std::vector<std::string> doubts;
+  for (std::size_t i = 0; i < trajectory.invariants.size(); ++i) {
+    const InvariantRecord& record = trajectory.invariants[i];
+    if (record.drift <= record.allowed) continue;
+    const Verdict verdict = verdict_on(model, names[i]);
+    if (verdict != Verdict::proved) {
+      doubts.push_back(
+          fmt::format("{} changes by {:.1e} of its size, and it is {} to be an integral", names[i],
+                      record.drift, verdict == Verdict::refuted ? "refuted" : "not proved"));
+    } else if (trajectory.status == Status::ok) {
+      trajectory.status = Status::drift_exceeded;
+      trajectory.reason = fmt::format(
+          "{} is proved to be an integral, but drifted by {:.1e} of its size, where the tolerance "
+          "allows {:.1e}",
+          names[i], record.drift, record.allowed);
+    }
+  }
+  return doubts;
+}
+
+}  // namespace casimir

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "runtime/ensemble.hpp"
+#include "runtime/methods.hpp"
+#include "tools/analysis/run/prepared_scene.hpp"
+
+namespace casimir {
+
+/// What integrates an ensemble: a kernel with one member in each lane or, for other methods, a
+/// module for each thread.
+struct EnsembleKernel {
+  std::optional<LaneKernel> lanes;
+  std::function<Module()> module_for_thread;
+  double seconds = 0;  ///< to compile, fetch or lay it out
+  bool compiled = false, from_cache = false;
+  std::string warning = {};
+};
+
+/// \param members  how many there are: for a few nothing is compiled that need not be. That changes
+///                 no result by a bit.
+/// \param lanes    false: member by member, whatever the method.
+EnsembleKernel ensemble_kernel(const SceneRun& run, const Method& method, std::size_t members,
+                               bool lanes);
+
+}  // namespace casimir

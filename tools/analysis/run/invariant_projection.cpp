@@ -1,0 +1,58 @@
+#include "tools/analysis/run/invariant_projection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "codegen/optimise/differentiate.hpp"
+#include "runtime/projection.hpp"
+#include "tools/analysis/error.hpp"
+#include "tools/analysis/run/drift_check.hpp"
+
+namespace casimir {
+namespace {
+
+std::string said_of(const std::string& name, Verdict verdict) {
+  return fmt::format("{} is {} to be an integral", name,
+                     verdict == Verdict::refuted ? "refuted" : "not proved");
+}
+
+}  // namespace
+
+std::vector<std::string> set_projection(const RunRequest& options, const Model& model,
+                                        const SceneRun& run, Settings& settings,
+                                        std::vector<std::string>& doubts) {
+  if (!options.projects()) return {};
+  const Specialisation& s = run.specialisation;
+  const std::vector<std::string>& known = s.invariant_names;
+  for (const std::string& name : options.project_onto) {
+    if (std::ranges::count(known, name)) continue;
+    const std::string hint = suggest_or_list(name, known);
+    throw RequestError(fmt::format("--project-onto: no invariant of this run is called '{}'{}",
+                                   printable(name), hint.empty() ? "" : "; " + hint));
+  }
+  std::vector<std::string> names;
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    const bool named = std::ranges::count(options.project_onto, known[k]) != 0;
+    if (!options.project_onto.empty() && !named) continue;
+    const Verdict verdict = verdict_on(model, known[k]);
+    if (verdict != Verdict::proved) {
+      if (named) throw RequestError("--project-onto: " + said_of(known[k], verdict));
+      doubts.push_back("not projected onto: " + said_of(known[k], verdict));
+      continue;
+    }
+    names.push_back(known[k]);
+    chosen.push_back(k);
+  }
+  if (names.empty())
+    throw RequestError("--project: the run has no invariant that is proved to be an integral");
+  const SparseProgram gradients = codegen::gradients(s.invariants, s.states.size());
+  const auto projector = std::make_shared<Projector>(
+      s.invariants, chosen, gradients.program, gradients.entries, run.initial, run.parameters);
+  settings.project = [projector](double t, double* x, double* carry) { (*projector)(t, x, carry); };
+  return names;
+}
+
+}  // namespace casimir

@@ -1,0 +1,175 @@
+#include "tools/analysis/run/prepared_scene.hpp"
+
+#include <cln/float_io.h>
+#include <cln/real.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "codegen/compile.hpp"
+#include "codegen/emit/number_literal.hpp"
+#include "codegen/emit_cpp.hpp"
+#include "codegen/quadratic.hpp"
+#include "runtime/evaluate.hpp"
+#include "runtime/methods.hpp"
+#include "runtime/program/term_size.hpp"
+#include "runtime/taylor/quadratic_targets.hpp"
+#include "runtime/uncompiled.hpp"
+
+namespace casimir {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+CaseError without_duration(const Location& where, const std::string& scene) {
+  return CaseError(where, fmt::format("the scene '{}' has no duration", printable(scene)), {},
+                   "add a line such as duration = \"100\" to it, or give --duration T to a command "
+                   "that has it");
+}
+
+}  // namespace
+
+std::vector<cln::cl_F> start_values(const Specialisation& specialisation, int digits) {
+  return evaluate(specialisation.start, {}, Arithmetic<cln::cl_F>(digits));
+}
+
+double rounded(const cln::cl_F& value) { return codegen::nearest<double>(cln::rational(value)); }
+
+double remainder(const cln::cl_F& value, double nearest) {
+  return cln::double_approx(value - cln::cl_float(cln::cl_DF(nearest), value));
+}
+
+SceneRun prepare(const Model& model, const Scene& scene, const SceneOptions& options) {
+  const auto start = Clock::now();
+  SpecialiseOptions what;
+  what.fold_parameters = options.fold_parameters;
+  what.keep_parameters = options.keep_parameters;
+  what.observe = options.observe;
+  SceneRun run;
+  run.specialisation = specialise(model, scene, what);
+  const Specialisation& s = run.specialisation;
+  const std::vector<cln::cl_F> values = start_values(s, kConstantDigits);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < s.states.size(); ++i, ++next) {
+    run.initial.push_back(rounded(values[next]));
+    run.rounding.push_back(remainder(values[next], run.initial.back()));
+  }
+  for (std::size_t i = 0; i < s.parameters.size(); ++i, ++next) {
+    run.parameters.push_back(rounded(values[next]));
+    run.parameter_rounding.push_back(remainder(values[next], run.parameters.back()));
+  }
+  run.duration = rounded(values[next]);
+  run.where = scene.where;
+  run.split_source = split_source(model, scene, s.states, s.parameters, run.no_split);
+  run.generate_seconds = seconds_since(start);
+  return run;
+}
+
+double duration_of(const SceneRun& run) {
+  if (!run.specialisation.has_duration) throw without_duration(run.where, run.specialisation.scene);
+  return run.duration;
+}
+
+void require_duration(const Scene& scene) {
+  if (!scene.duration) throw without_duration(scene.where, scene.name);
+}
+
+InvariantTerms SceneRun::invariant_terms() const {
+  return [this](double t, const double* x, long double* values, long double* sizes) {
+    std::vector<SizedNumber> inputs;
+    for (std::size_t i = 0; i < initial.size(); ++i)
+      inputs.push_back(Arithmetic<SizedNumber>::plain(x[i]));
+    for (const double p : parameters) inputs.push_back(Arithmetic<SizedNumber>::plain(p));
+    inputs.push_back(Arithmetic<SizedNumber>::plain(t));
+    for (const SizedNumber& number : evaluate(specialisation.invariants, inputs)) {
+      *values++ = number.value;
+      *sizes++ = std::abs(number.size);
+    }
+  };
+}
+
+namespace {
+
+/// \throws ModelError  where the Hamiltonian does not split.
+Splitting splitting_of(const SceneRun& run) {
+  if (!run.split_source) throw ModelError("no splitting: " + run.no_split);
+  return split(*run.split_source);
+}
+
+/// A module from the compiler.
+/// \throws CompilerMissing  without one; the text names the method that does not need it.
+CompiledModule compiled_module(const SceneRun& run, const Method& method) {
+  Specialisation s = run.specialisation;
+  std::optional<Splitting> splitting;
+  if (method.splits) splitting = splitting_of(run);
+  // What no kernel of ours calls need not be compiled.
+  if (!method.header.empty() && !method.uses_jacobian) s.has_jacobian = false;
+  // A library that only calls the right-hand side has no kernel: one module serves them all.
+  const std::string kernel = method.header.empty() ? std::string{} : kernel_source(method);
+  CompileOptions options;
+  options.standard_library = !method.outside.empty() && !kernel.empty();
+  const std::string text = emit_module(s, kernel, method.series, splitting ? &*splitting : nullptr);
+  try {
+    const CompiledObject object = compile(text, options);
+    CompiledModule result{.module = loaded([&] { return Module::load(object.path); }),
+                          .from_cache = object.from_cache};
+    result.module.watch_steps_of(run.specialisation.rhs);
+    return result;
+  } catch (const CompilerMissing& problem) {
+    throw CompilerMissing(std::string(problem.what()) +
+                          ", or use --method taylor, which needs none");
+  }
+}
+
+/// For the method of Taylor series: the tables where the system has that shape, else the compiler,
+/// and without one the program itself.
+CompiledModule taylor_module(const SceneRun& run, const Method& method) {
+  const Specialisation& s = run.specialisation;
+  auto form = quadratic_form(s.rhs, run.parameters);
+  if (form && !has_quadratic_kernel(*form)) form.reset();
+  if (!form) {
+    try {
+      return compiled_module(run, method);
+    } catch (const CompilerMissing&) {
+    }
+  }
+  CompiledModule result{.module = uncompiled_module(s.rhs, s.invariants, form, run.parameters),
+                        .compiled = false};
+  if (!form) result.warning = kInterpretedWarning;
+  return result;
+}
+
+}  // namespace
+
+CompiledModule compile_for(const SceneRun& run, const Method& method) {
+  const auto start = Clock::now();
+  CompiledModule result =
+      method.name == "taylor" ? taylor_module(run, method) : compiled_module(run, method);
+  result.seconds = seconds_since(start);
+  return result;
+}
+
+bool suits(const SceneRun& run, const Method& method) {
+  if (!method.splits) return true;
+  try {
+    splitting_of(run);
+    return true;
+  } catch (const ModelError&) {
+    return false;
+  }
+}
+
+std::function<bool()> time_limit(double seconds) {
+  if (seconds <= 0) return {};
+  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(seconds));
+  return [end] { return Clock::now() > end; };
+}
+
+}  // namespace casimir

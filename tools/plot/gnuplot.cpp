@@ -1,0 +1,101 @@
+#include "tools/plot/gnuplot.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "symbolic/error.hpp"
+#include "tools/cli/errors.hpp"
+
+extern char** environ;
+
+namespace casimir::tools {
+namespace {
+
+/// Runs `gnuplot FILE`; what it says is kept in `log`.
+int run_gnuplot(const std::string& file, const std::string& log) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(),
+                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  std::string program = "gnuplot";
+  std::string argument = file;
+  char* const arguments[] = {program.data(), argument.data(), nullptr};
+  pid_t child = 0;
+  const int problem = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (problem != 0)
+    throw SystemError(
+        fmt::format("a plot needs gnuplot, which could not be started ({}); install it with: "
+                    "apt-get install gnuplot-nox",
+                    std::strerror(problem)));
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+}
+
+/// Whether the picture has its end: gnuplot does not notice where it cannot write.
+bool is_whole(const std::string& picture) {
+  std::ifstream in(picture, std::ios::binary | std::ios::ate);
+  const auto size = std::min<std::streamoff>(in.tellg(), 32);
+  std::string end(static_cast<std::size_t>(std::max<std::streamoff>(size, 0)), '\0');
+  in.seekg(-size, std::ios::end);
+  in.read(end.data(), size);
+  return in && (end.find("</svg>") != std::string::npos || end.find("IEND") != std::string::npos);
+}
+
+}  // namespace
+
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) {
+    if (c >= ' ' && c <= '~' && c != '\'' && c != '`' && c != '\\') result += c;
+  }
+  return result + "'";
+}
+
+std::string quoted_path(const std::string& path) {
+  if (path.find_first_of("'`\\\n") != std::string::npos)
+    throw UsageError("a plot's name must not contain quotes");
+  // From the root on: gnuplot runs what follows a '|', and takes a '-' for an option.
+  return "'" + std::filesystem::absolute(path).string() + "'";
+}
+
+void check_plot_name(const std::string& path) {
+  if (!path.ends_with(".svg") && !path.ends_with(".png")) {
+    throw UsageError(
+        fmt::format("'{}': a plot's name must end in .svg or .png", printable(path, 200)));
+  }
+}
+
+void draw_script(const std::string& script, OutputFile& picture) {
+  const std::string beside = std::filesystem::absolute(picture.temporary()).string();
+  OutputFile commands(beside + ".gnuplot");
+  OutputFile log(beside + ".log");
+  commands.stream() << script;
+  if (!commands.stream().flush())
+    throw SystemError(fmt::format("cannot write all of '{}': the disk may be full",
+                                  printable(commands.temporary().string(), 200)));
+  if (run_gnuplot(commands.temporary().string(), log.temporary().string()) != 0) {
+    std::ifstream said(log.temporary());
+    std::string line;
+    while (line.empty() && std::getline(said, line)) {
+    }
+    throw SystemError("gnuplot failed: " + printable(line, 200));
+  }
+  if (std::filesystem::is_regular_file(beside) && !is_whole(beside))
+    throw SystemError(fmt::format("gnuplot could not write all of '{}': the disk may be full",
+                                  printable(beside, 200)));
+}
+
+}  // namespace casimir::tools

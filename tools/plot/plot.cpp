@@ -1,0 +1,266 @@
+#include "tools/plot/plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "tools/cli/output.hpp"
+#include "tools/plot/gnuplot.hpp"
+
+namespace casimir::tools {
+namespace {
+
+/// Okabe and Ito's colours, which differ in lightness too, and further ones apart from them.
+constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#e69f00",
+                                    "#cc79a7", "#000000", "#882255", "#56b4e9",
+                                    "#808080", "#117733", "#332288", "#999933"};
+/// The same on a dark page: as far from it as those are from white.
+constexpr const char* kDarkColours[] = {"#4db2f0", "#ff8a3d", "#2fd6a4", "#ffc14d",
+                                        "#f0a0cc", "#f0f0f0", "#e0709f", "#8fd3ff",
+                                        "#a8a8a8", "#5fc97f", "#a89cf5", "#d6d66a"};
+constexpr const char* kGrid = "#d8d8d8";
+constexpr const char* kGuide = "#b0b0b0";
+
+/// gnuplot's numbers of marks that have an open and a filled form: with them, curves can be told
+/// apart without colour.
+struct Mark {
+  int open, filled;
+};
+constexpr Mark kMarks[] = {{4, 5}, {6, 7}, {8, 9}, {10, 11}, {12, 13}, {14, 15}};
+
+/// Patterns of lines without a mark at every point, for the same reason.
+constexpr const char* kDashes[] = {"solid", "(14,5)", "(5,4)", "(14,4,3,4)", "(24,6)", "(3,5)"};
+
+bool drawn(const Plot& plot, const std::pair<double, double>& point) {
+  const auto [x, y] = point;
+  return std::isfinite(x) && std::isfinite(y) && (!plot.log_x || x > 0) && (!plot.log_y || y > 0);
+}
+
+/// So that a long line has a few marks, which do not lie above those of the others.
+std::size_t marked_every(const Curve& curve, std::size_t group) {
+  constexpr std::size_t kMarksOfLine = 8, kStagger = 9;
+  const std::size_t points = curve.points.size();
+  return std::max<std::size_t>(1, points / kMarksOfLine + group % 6 * points / (kStagger * 12));
+}
+
+std::string style_of(const Curve& curve, std::size_t group) {
+  const Mark mark = kMarks[group % std::size(kMarks)];
+  const char* colour = kColours[group % std::size(kColours)];
+  switch (curve.style) {
+    case Curve::Style::line:
+      return fmt::format("linespoints lw 1.6 dt {} pt {} ps 0.9 pi {} lc rgb '{}'",
+                         kDashes[group % std::size(kDashes)], mark.filled,
+                         marked_every(curve, group), colour);
+    case Curve::Style::path:
+      return fmt::format("lines lw 1.2 lc rgb '{}'", colour);
+    case Curve::Style::mark:
+      return fmt::format("points lw 1.6 pt {} ps 1.3 lc rgb '{}'", kMarks[1].filled, colour);
+    case Curve::Style::far_mark:
+      return fmt::format("points lw 1.6 pt {} ps 1.3 lc rgb '{}'", kMarks[1].open, colour);
+    case Curve::Style::guide:
+      return fmt::format("lines lw 0.8 lc rgb '{}'", kGuide);
+    case Curve::Style::faint:
+      return fmt::format("lines lw 1.0 dt (2,4) lc rgb '{}'", colour);
+    case Curve::Style::variant:
+      return fmt::format("points lw 1.2 pt {} ps 1.8 lc rgb '{}'", mark.open, colour);
+    case Curve::Style::outside:
+      return fmt::format("linespoints lw 1.6 dt (8,4) pt {} ps 1.1 lc rgb '{}'", mark.open, colour);
+    default:
+      return fmt::format("linespoints lw 2 pt {} ps 1.0 lc rgb '{}'", mark.filled, colour);
+  }
+}
+
+bool in_legend(const Curve& curve) {
+  return curve.style != Curve::Style::guide && curve.style != Curve::Style::faint &&
+         !curve.name.empty() && !curve.points.empty();
+}
+
+/// Points that are not drawn interrupt their curve.
+std::string data_of(const Plot& plot, const Curve& curve) {
+  std::string points;
+  bool gap = false;
+  for (const auto& point : curve.points) {
+    if (drawn(plot, point)) {
+      if (gap && !points.empty() && !plot.log_x && !plot.log_y) points += '\n';
+      points += fmt::format("{:.9g} {:.9g}\n", point.first, point.second);
+    }
+    gap = !drawn(plot, point);
+  }
+  return points;
+}
+
+std::string axes(const Plot& plot) {
+  std::string text;
+  if (!plot.title.empty()) text += fmt::format("set title {}\n", quoted(plot.title));
+  if (plot.square) {
+    text += "set size ratio -1\nunset border\nunset tics\nset lmargin 2\nset rmargin 2\n";
+  } else {
+    text +=
+        fmt::format("set xlabel {}\nset ylabel {}\n", quoted(plot.x_label), quoted(plot.y_label));
+    text +=
+        fmt::format("set grid lt 1 lw 0.8 lc rgb '{}'\nset tics nomirror\nset border 3\n", kGrid);
+  }
+  if (plot.log_x) text += "set logscale x\nunset mxtics\nset format x '1e%T'\n";
+  if (plot.log_y) text += "set logscale y\nset format y '1e%T'\n";
+  if (!plot.y_unit.empty())
+    text += fmt::format("set format y {}\n", quoted("%.0s %c" + plot.y_unit));
+  return text;
+}
+
+std::string script(const Plot& plot, const std::string& terminal, const std::string& key,
+                   const std::string& output) {
+  std::string text = fmt::format("set encoding utf8\nset terminal {} noenhanced\nset output {}\n{}",
+                                 terminal, quoted_path(output), axes(plot));
+  const bool legend = std::ranges::any_of(plot.curves, in_legend);
+  text += legend ? "set key " + key + "\n" : "unset key\n";
+  std::string commands;
+  std::size_t group = 0;
+  for (std::size_t i = 0; i < plot.curves.size(); ++i) {
+    const Curve& curve = plot.curves[i];
+    const std::string points = data_of(plot, curve);
+    if (!points.empty()) {
+      text += fmt::format("$curve{} << EOD\n{}EOD\n", i, points);
+      commands +=
+          fmt::format("{}$curve{} using 1:2 with {} {}", commands.empty() ? "plot " : ", \\\n     ",
+                      i, style_of(curve, group),
+                      in_legend(curve) ? "title " + quoted(curve.name) : std::string("notitle"));
+    }
+    const bool next_has_it =
+        curve.style == Curve::Style::guide || curve.style == Curve::Style::faint ||
+        (i + 1 < plot.curves.size() && plot.curves[i + 1].style == Curve::Style::variant);
+    if (!next_has_it) ++group;
+  }
+  // gnuplot refuses a plot of nothing.
+  if (commands.empty()) {
+    text += "unset key\nset xrange [1e-3:1]\nset yrange [1e-3:1]\n";
+    commands = "plot 1/0";
+  }
+  return text + commands + "\n";
+}
+
+constexpr const char* kKeyBeside = "outside right top Left reverse";
+
+std::string svg_terminal(const Plot& plot) {
+  return fmt::format("svg size {} dynamic background rgb 'white' font 'sans,13'",
+                     plot.square ? "720,760" : "1000,600");
+}
+
+std::string png_terminal(const Plot& plot) {
+  return fmt::format("pngcairo size {} font 'sans,13' background rgb 'white'",
+                     plot.square ? "940,990" : "1300,780");
+}
+
+/// The element in what gnuplot wrote, with `name` before every identifier.
+std::string element_of(const OutputFile& picture, const std::string& name) {
+  std::ostringstream text;
+  text << std::ifstream(picture.temporary(), std::ios::binary).rdbuf();
+  std::string svg = text.str();
+  svg.erase(0, std::min(svg.find("<svg"), svg.size()));
+  for (const std::string before : {"id='", "id=\"", "href='#", "href=\"#", "url(#"}) {
+    for (std::size_t at = svg.find(before); at != std::string::npos;
+         at = svg.find(before, at + before.size()))
+      svg.insert(at + before.size(), name + "-");
+  }
+  return svg;
+}
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos;
+       at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
+/// As gnuplot writes a colour into SVG: "rgb(  0, 114, 178)", without the spaces.
+std::string rgb(const std::string& hex) {
+  const auto part = [&](std::size_t at) { return std::stoi(hex.substr(at, 2), nullptr, 16); };
+  return fmt::format("rgb({},{},{})", part(1), part(3), part(5));
+}
+
+/// Colours become variables of the page.
+void use_variables(std::string& svg) {
+  for (std::size_t at = svg.find("rgb("); at != std::string::npos; at = svg.find("rgb(", at + 4)) {
+    const std::size_t end = svg.find(')', at);
+    if (end == std::string::npos) break;
+    std::string colour = svg.substr(at, end - at);
+    std::erase(colour, ' ');
+    svg.replace(at, end - at, colour);
+  }
+  for (std::size_t i = 0; i < std::size(kColours); ++i)
+    replace_all(svg, rgb(kColours[i]), fmt::format("var(--plot-{})", i + 1));
+  replace_all(svg, rgb(kGrid), "var(--plot-grid)");
+  replace_all(svg, rgb(kGuide), "var(--plot-guide)");
+  for (const char* name : {"black", "#ffffff", "#FFFFFF", "white"}) {
+    const char* variable = name[0] == 'b' ? "var(--plot-ink)" : "var(--plot-paper)";
+    for (const char quote : {'"', '\''}) {
+      for (const char* key : {"fill=", "stroke=", "color="})
+        replace_all(svg, fmt::format("{}{}{}{}", key, quote, name, quote),
+                    fmt::format("{}{}{}{}", key, quote, variable, quote));
+    }
+  }
+}
+
+}  // namespace
+
+std::string plot_script(const Plot& plot, const std::string& path, const std::string& output) {
+  return script(plot, path.ends_with(".svg") ? svg_terminal(plot) : png_terminal(plot), kKeyBeside,
+                output);
+}
+
+void draw(const Plot& plot, const std::string& path) {
+  check_plot_name(path);
+  OutputFile picture(path);
+  draw_script(plot_script(plot, path, picture.temporary().string()), picture);
+  picture.commit();
+}
+
+std::string svg_element(const Plot& plot, const std::string& name, const std::string& beside) {
+  OutputFile picture(beside + "." + name + ".svg");
+  draw_script(plot_script(plot, ".svg", picture.temporary().string()), picture);
+  return element_of(picture, name);
+}
+
+std::string page_svg(const Plot& plot, const std::string& name, const std::string& beside) {
+  constexpr std::size_t kWidth = 640, kHeight = 440, kLine = 24;
+  // As many columns as the longest name allows: gnuplot itself would take one.
+  constexpr std::size_t kSample = 60, kLetter = 8;
+  std::size_t entries = 0, longest = 0;
+  for (const Curve& curve : plot.curves) {
+    if (!in_legend(curve)) continue;
+    ++entries;
+    longest = std::max(longest, curve.name.size());
+  }
+  const std::size_t columns = std::clamp<std::size_t>(kWidth / (kSample + kLetter * longest), 1, 4);
+  const std::size_t lines = (entries + columns - 1) / columns;
+  const std::string terminal =
+      fmt::format("svg size {},{} dynamic background rgb 'white' font 'sans,15'",
+                  plot.square ? kHeight : kWidth, kHeight + kLine * lines);
+  const std::string key = fmt::format(
+      "below center vertical maxrows {} Left reverse spacing 1.15 font ',13'\n"
+      "set xlabel offset 0,0.4",
+      lines);
+  return page_svg([&](const std::string& output) { return script(plot, terminal, key, output); },
+                  name, beside);
+}
+
+std::string page_svg(const std::function<std::string(const std::string& output)>& script_for,
+                     const std::string& name, const std::string& beside) {
+  OutputFile picture(beside + "." + name + ".svg");
+  draw_script(script_for(picture.temporary().string()), picture);
+  std::string svg = element_of(picture, name);
+  use_variables(svg);
+  return svg;
+}
+
+std::string plot_variables(bool dark) {
+  std::string text = dark ? "--plot-ink:#e6e6e6;--plot-paper:#16181c;--plot-grid:#3a3d44;"
+                            "--plot-guide:#5c6068;"
+                          : "--plot-ink:#000;--plot-paper:#fff;--plot-grid:#d8d8d8;"
+                            "--plot-guide:#b0b0b0;";
+  for (std::size_t i = 0; i < std::size(kColours); ++i)
+    text += fmt::format("--plot-{}:{};", i + 1, dark ? kDarkColours[i] : kColours[i]);
+  return text;
+}
+
+}  // namespace casimir::tools

@@ -1,0 +1,79 @@
+// The LaTeX of casimir show.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "tools/show/show.hpp"
+
+namespace casimir::tools {
+namespace {
+
+/// A display with aligned equal signs.
+void print_align(const std::vector<Formula>& formulas) {
+  if (formulas.empty()) return;
+  fmt::print("\\begin{{align*}}\n");
+  for (std::size_t i = 0; i < formulas.size(); ++i) {
+    const Formula& f = formulas[i];
+    fmt::print("{} &= {}", f.left, f.right);
+    if (!f.on.empty()) fmt::print(" \\quad \\text{{on }} {} = 0", fmt::join(f.on, " = "));
+    fmt::print("{}\n", i + 1 < formulas.size() ? " \\\\" : "");
+  }
+  fmt::print("\\end{{align*}}\n");
+}
+
+std::string pmatrix(const StringMatrix& m) {
+  std::string text = "\\begin{pmatrix}\n";
+  for (std::size_t i = 0; i < m.size(); ++i)
+    text += fmt::format("{}{}\n", fmt::join(m[i], " & "), i + 1 < m.size() ? " \\\\" : "");
+  return text + "\\end{pmatrix}";
+}
+
+void append(std::vector<Formula>& list, const std::vector<Formula>& more) {
+  list.insert(list.end(), more.begin(), more.end());
+}
+
+void print_bracket(const Model& model, const SystemView& view) {
+  std::vector<Formula> lines;
+  for (const VectorEntries& v : view.vectors)
+    lines.push_back({v.shown, fmt::format("({})", fmt::join(v.entries, ", "))});
+  append(lines, view.vector_brackets);
+  constexpr std::size_t kFew = 3;
+  if (!view.vector_brackets.empty() && view.zero_brackets.size() <= kFew)
+    append(lines, view.zero_brackets);
+  const bool as_matrix = view.variables.size() <= kLargestMatrix;
+  if (!as_matrix && view.vector_brackets.empty()) append(lines, view.brackets);
+  print_align(lines);
+  const auto rank = rank_of(model);
+  const std::string rank_text =
+      rank && rank->rank ? fmt::format("\\operatorname{{rank}} J = {}", *rank->rank) : "";
+  if (as_matrix) {
+    fmt::print("\\begin{{equation*}}\nJ = {}{}{}\n\\end{{equation*}}\n",
+               pmatrix(view.structure_matrix), rank_text.empty() ? "" : ", \\qquad ", rank_text);
+  } else if (!rank_text.empty()) {
+    fmt::print("\\begin{{equation*}}\n{}\n\\end{{equation*}}\n", rank_text);
+  }
+}
+
+}  // namespace
+
+void show_latex(const Model& model) {
+  Notation notation(model);
+  const SystemView view = view_of(model, notation, Markup::latex);
+  if (model.poisson) print_bracket(model, view);
+  std::vector<Formula> lines;
+  if (!view.hamiltonian.empty()) lines.push_back({"H", view.hamiltonian});
+  append(lines, view.vector_equations);
+  append(lines, view.gradients);
+  append(lines, view.equations);
+  print_align(lines);
+  lines.clear();
+  for (const FormulaGroup& group : view.claims) append(lines, group.formulas);
+  print_align(lines);
+  for (const LaxView& pair : view.lax_pairs) {
+    fmt::print(
+        "\\begin{{equation*}}\n\\dot{{L}} = [L, A], \\qquad L = {}, \\qquad A = {}\n"
+        "\\end{{equation*}}\n",
+        pmatrix(pair.l), pmatrix(pair.a));
+  }
+}
+
+}  // namespace casimir::tools

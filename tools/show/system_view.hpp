@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "symbolic/model.hpp"
+#include "tools/show/notation.hpp"
+
+namespace casimir::tools {
+
+/// Of an equation that is multiplied out: nobody reads more.
+inline constexpr double kMostTermsShown = 5000;
+
+/// left = right, where the functions `on` vanish.
+struct Formula {
+  std::string left, right;
+  std::vector<std::string> on = {};
+};
+
+/// Claims of one kind, or matrices that belong together.
+struct FormulaGroup {
+  std::string title;
+  std::vector<Formula> formulas;
+};
+
+using StringMatrix = std::vector<std::vector<std::string>>;
+
+/// A Lax pair in one markup.
+struct LaxView {
+  std::string spectral;  ///< empty if there is none
+  StringMatrix l, a;
+};
+
+/// What `show` tells of a system, in one markup. What a case does not have is empty.
+struct SystemView {
+  std::vector<std::string> variables;
+  std::vector<VectorEntries> vectors;
+  std::vector<Formula> vector_brackets;  ///< the non-zero ones in the shorthand: {M_i, g_j} = ..
+  std::vector<Formula> zero_brackets;    ///< {g_i, g_j} = 0
+  StringMatrix structure_matrix;         ///< {x_i, x_j}
+  std::vector<Formula> brackets;         ///< the non-zero entries of its upper half
+  std::string hamiltonian;
+  std::vector<Formula> vector_equations;  ///< dM/dt = M x dH/dM + ..
+  std::vector<Formula> gradients;         ///< dH/dM = (..), of those that occur there
+  std::vector<Formula> equations;         ///< in components
+  std::vector<FormulaGroup> claims;
+  std::vector<LaxView> lax_pairs;
+};
+
+SystemView view_of(const Model& model, Notation& notation, Markup markup);
+
+/// The rank of the bracket on the generic leaf.
+struct RankView {
+  std::string name;      ///< "rank 4"
+  std::string evidence;  ///< or why it is not known
+  std::optional<int> rank;
+};
+
+/// None for a system without a bracket.
+std::optional<RankView> rank_of(const Model& model);
+
+}  // namespace casimir::tools
