@@ -42,7 +42,7 @@ double processor_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-double run_once(const Runner& runner, const Truth& truth) {
+double run_once(const Runner& runner, const ReferenceState& truth) {
   const Entrant& e = *runner.entrant;
   const Trajectory end = integrate(*e.module, *e.method, runner.bare, e.initial, e.parameters);
   const double error = end.status == Status::ok ? error_of(end.state, truth, e.which) : kInfinity;
@@ -51,7 +51,7 @@ double run_once(const Runner& runner, const Truth& truth) {
 }
 
 /// The run that tells error and drift. Gives up after `longest` seconds.
-Sample watched_run(const Entrant& e, const Truth& truth, double longest,
+Sample watched_run(const Entrant& e, const ReferenceState& truth, double longest,
                    const std::function<bool()>& give_up) {
   Settings watched = e.settings;
   watched.monitor = true;
@@ -109,7 +109,7 @@ void share_out(std::vector<Runner>& runners, const Plan& plan) {
   for (Runner& runner : runners) runner.rounds = rounds_for(runner, low);
 }
 
-void take_turn(Runner& runner, const Truth& truth) {
+void take_turn(Runner& runner, const ReferenceState& truth) {
   if (runner.batch > 1) run_once(runner, truth);
   const double start = processor_seconds();
   double spent = 0;
@@ -120,7 +120,7 @@ void take_turn(Runner& runner, const Truth& truth) {
   runner.seconds.push_back(spent / runner.batch);
 }
 
-void timed_rounds(std::vector<Runner>& runners, const Truth& truth, const Plan& plan,
+void timed_rounds(std::vector<Runner>& runners, const ReferenceState& truth, const Plan& plan,
                   const std::function<void(double)>& spent) {
   int rounds = 0;
   for (const Runner& runner : runners) rounds = std::max(rounds, runner.rounds);
@@ -168,7 +168,8 @@ bool hopeless(std::span<const Entrant> before, const std::vector<Sample>& sample
 
 }  // namespace
 
-double error_of(const std::vector<double>& x, const Truth& truth, std::span<const int> which) {
+double error_of(const std::vector<double>& x, const ReferenceState& truth,
+                std::span<const int> which) {
   assert(which.empty() ? x.size() == truth.state.size() : which.size() == truth.state.size());
   double largest = 0;
   for (std::size_t i = 0; i < truth.state.size(); ++i) {
@@ -180,7 +181,7 @@ double error_of(const std::vector<double>& x, const Truth& truth, std::span<cons
   return largest;
 }
 
-std::vector<Sample> measure(std::span<const Entrant> entrants, const Truth& truth,
+std::vector<Sample> measure(std::span<const Entrant> entrants, const ReferenceState& truth,
                             const Plan& plan) {
   std::vector<Sample> samples;
   samples.reserve(entrants.size());  // runners point into it
@@ -219,7 +220,7 @@ std::vector<Sample> measure(std::span<const Entrant> entrants, const Truth& trut
   return samples;
 }
 
-double conditioning(const Entrant& entrant, const Truth& truth, int times) {
+double conditioning(const Entrant& entrant, const ReferenceState& truth, int times) {
   // The first that stays small is taken: where a change grows to the size of the state itself, it
   // says too little about smaller ones.
   constexpr double kChanges[] = {0x1p-26, 0x1p-36, 0x1p-46};
@@ -267,7 +268,7 @@ double conditioning(const Entrant& entrant, const Truth& truth, int times) {
   return largest;
 }
 
-double explained_error(const Entrant& entrant, const Sample& sample, const Truth& truth,
+double explained_error(const Entrant& entrant, const Sample& sample, const ReferenceState& truth,
                        double conditioning) {
   if (entrant.settings.fixed_step > 0) return kInfinity;
   constexpr double kGenerous = 1000;

@@ -10,7 +10,7 @@
 namespace casimir {
 
 /// The state that runs should end in.
-struct Truth {
+struct ReferenceState {
   std::vector<double> state;  ///< the reference rounded to double
   std::vector<double> rest;   ///< the reference less `state`
   std::vector<double> scale;  ///< of each state: its size over the run; not zero
@@ -18,7 +18,8 @@ struct Truth {
 
 /// Max over the states of the truth of |x - truth| / scale; infinity where x is no number.
 /// \param which  for each state of the truth its place in `x`; empty: the same states.
-double error_of(const std::vector<double>& x, const Truth& truth, std::span<const int> which = {});
+double error_of(const std::vector<double>& x, const ReferenceState& truth,
+                std::span<const int> which = {});
 
 /// A method at one tolerance on one module: what is measured against its like.
 struct Entrant {
@@ -65,7 +66,7 @@ struct Abandoned {};
 ///
 /// The error is that of the timed runs as well: where one ends elsewhere, the larger error counts.
 /// \throws Abandoned
-std::vector<Sample> measure(std::span<const Entrant> entrants, const Truth& truth,
+std::vector<Sample> measure(std::span<const Entrant> entrants, const ReferenceState& truth,
                             const Plan& plan);
 
 /// How much a small change of the state, made at the start or at one of a few later times, has
@@ -73,12 +74,12 @@ std::vector<Sample> measure(std::span<const Entrant> entrants, const Truth& trut
 /// By differences of runs with `entrant`'s method; infinity where one of them does not arrive.
 /// \param times  how many, the start among them; 1 for equations that depend on the time, which an
 ///               integration counts from zero.
-double conditioning(const Entrant& entrant, const Truth& truth, int times = 8);
+double conditioning(const Entrant& entrant, const ReferenceState& truth, int times = 8);
 
 /// The largest error that tolerance and rounding explain: a thousand times what arrives at the end
 /// if every step does all of the harm that it may, steps * conditioning * (tolerance + 2^-52), the
 /// tolerance relative to the scales of `truth`. Infinite without error control.
-double explained_error(const Entrant& entrant, const Sample& sample, const Truth& truth,
+double explained_error(const Entrant& entrant, const Sample& sample, const ReferenceState& truth,
                        double conditioning);
 
 }  // namespace casimir

@@ -26,7 +26,7 @@ std::optional<std::pair<Monomial, Monomial>> split(const Monomial& monomial, std
                                                    std::size_t inputs) {
   Monomial product;
   Monomial coefficient;
-  for (const Literal& l : monomial) {
+  for (const VariablePower& l : monomial) {
     if (static_cast<std::size_t>(l.variable) >= inputs) return std::nullopt;
     (static_cast<std::size_t>(l.variable) < states ? product : coefficient).push_back(l);
   }
@@ -55,7 +55,7 @@ std::vector<VanishingTerm> vanishing_terms(Dag& dag, const Scaled& general, cons
   }
   const auto power_product = [&](const Monomial& monomial, const cln::cl_RA& factor) {
     std::vector<Scaled> factors{{factor, Dag::kOne}};
-    for (const Literal& l : monomial) {
+    for (const VariablePower& l : monomial) {
       factors.push_back(dag.power(dag.symbol(l.variable), l.exponent));
     }
     return dag.product(factors);

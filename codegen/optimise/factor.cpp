@@ -22,7 +22,7 @@ int chain(int exponent) {
 int cost(const cln::cl_RA& coefficient, const Monomial& monomial) {
   if (monomial.empty()) return 0;
   int result = static_cast<int>(monomial.size()) - 1 + (cln::abs(coefficient) == 1 ? 0 : 1);
-  for (const Literal& l : monomial) result += chain(l.exponent);
+  for (const VariablePower& l : monomial) result += chain(l.exponent);
   return result;
 }
 
@@ -47,7 +47,7 @@ Monomial common(const Monomial& a, const Monomial& b) {
 Monomial quotient(const Monomial& a, const Monomial& b) {
   Monomial result;
   auto j = b.begin();
-  for (const Literal& l : a) {
+  for (const VariablePower& l : a) {
     if (j == b.end() || j->variable != l.variable) {
       result.push_back(l);
     } else {

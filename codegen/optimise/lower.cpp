@@ -42,7 +42,7 @@ class Lowering {
       count_uses(argument, reached);
     }
     for (const Term& t : variable(v).value) {
-      for (const Literal& l : t.monomial) {
+      for (const VariablePower& l : t.monomial) {
         ++monomials_with_[static_cast<std::size_t>(l.variable)];
         count_uses(l.variable, reached);
       }
@@ -107,7 +107,7 @@ class Lowering {
     int above = coefficient == 1 ? -1 : writer_.number(coefficient);
     int below = -1;
     for (const bool constant : {true, false}) {
-      for (const Literal& l : monomial) {
+      for (const VariablePower& l : monomial) {
         if (variable(l.variable).constant != constant) continue;
         if (is_inverse(l.variable) && monomials_with_[static_cast<std::size_t>(l.variable)] == 1) {
           const int base = value(variable(l.variable).arguments[0]);

@@ -65,7 +65,8 @@ class Signatures {
     for (const int argument : v.arguments) result.first.push_back(of(system, argument));
     for (const Term& t : v.value) {
       std::vector<std::pair<int, int>> monomial;
-      for (const Literal& l : t.monomial) monomial.emplace_back(of(system, l.variable), l.exponent);
+      for (const VariablePower& l : t.monomial)
+        monomial.emplace_back(of(system, l.variable), l.exponent);
       std::ranges::sort(monomial);
       result.first.push_back(static_cast<int>(monomial.size()));
       for (const auto& [base, exponent] : monomial)

@@ -30,7 +30,7 @@ std::vector<Sum> sums_of(const TermSystem& system) {
     const Variable& variable = system.variables[v];
     for (const int a : variable.arguments) result[static_cast<std::size_t>(a)].can_scale = false;
     for (std::size_t t = 0; t < variable.value.size(); ++t) {
-      for (const Literal& l : variable.value[t].monomial)
+      for (const VariablePower& l : variable.value[t].monomial)
         result[static_cast<std::size_t>(l.variable)].uses.push_back({v, t, l.exponent});
     }
   }

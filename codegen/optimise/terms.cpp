@@ -104,7 +104,7 @@ class Builder {
     all = joined_moduli(all);
     Monomial fixed;
     Monomial varying;
-    for (const Literal& l : all) {
+    for (const VariablePower& l : all) {
       (system_.variables[static_cast<std::size_t>(l.variable)].constant ? fixed : varying)
           .push_back(l);
     }
@@ -165,7 +165,7 @@ class Builder {
   /// x / |x| is sign(x), which has a value where x is zero, and so has x^3 / |x| = x |x|.
   Monomial joined_moduli(const Monomial& all) {
     Monomial result = all;
-    for (const Literal& l : all) {
+    for (const VariablePower& l : all) {
       const Variable& variable = system_.variables[static_cast<std::size_t>(l.variable)];
       if (variable.kind != Variable::Kind::function || variable.function != Op::div) continue;
       const int modulus = variable.arguments[0];
@@ -175,7 +175,7 @@ class Builder {
       const int power = exponent_of(result, base);
       if (power == 0) continue;
       const int rest = power - l.exponent;
-      std::erase_if(result, [&](const Literal& other) {
+      std::erase_if(result, [&](const VariablePower& other) {
         return other.variable == l.variable || other.variable == base;
       });
       const bool odd = std::min(power, l.exponent) % 2 == 1;
@@ -187,7 +187,7 @@ class Builder {
   }
 
   static int exponent_of(const Monomial& monomial, int variable) {
-    const auto found = std::ranges::find(monomial, variable, &Literal::variable);
+    const auto found = std::ranges::find(monomial, variable, &VariablePower::variable);
     return found == monomial.end() ? 0 : found->exponent;
   }
 

@@ -9,14 +9,14 @@
 namespace casimir::codegen {
 
 /// variable ^ exponent, exponent >= 1.
-struct Literal {
+struct VariablePower {
   int variable;
   int exponent;
-  friend auto operator<=>(const Literal&, const Literal&) = default;
+  friend auto operator<=>(const VariablePower&, const VariablePower&) = default;
 };
 
 /// Sorted by variable; empty is 1.
-using Monomial = std::vector<Literal>;
+using Monomial = std::vector<VariablePower>;
 
 struct Term {
   cln::cl_RA coefficient;

@@ -13,7 +13,7 @@ using Collected = std::map<Monomial, cln::cl_RA>;
 
 int degree(const Monomial& monomial) {
   int result = 0;
-  for (const Literal& l : monomial) result += l.exponent;
+  for (const VariablePower& l : monomial) result += l.exponent;
   return result;
 }
 
@@ -23,7 +23,7 @@ bool comes_before(const Term& a, const Term& b) {
   const int right = degree(b.monomial);
   if (left != right) return left > right;
   return std::ranges::lexicographical_compare(
-      a.monomial, b.monomial, [](const Literal& s, const Literal& t) {
+      a.monomial, b.monomial, [](const VariablePower& s, const VariablePower& t) {
         return s.variable != t.variable ? s.variable < t.variable : s.exponent > t.exponent;
       });
 }
@@ -63,7 +63,7 @@ class Expander {
 
   std::optional<Collected> collect(const Term& term) {
     Collected result{{Monomial{}, term.coefficient}};
-    for (const Literal& l : term.monomial) {
+    for (const VariablePower& l : term.monomial) {
       if (!is_product_of_sums(l.variable)) {
         result = multiplied(result, {{Monomial{l}, 1}});
         continue;
@@ -90,17 +90,17 @@ class Expander {
 
   /// x * (1/x) = 1.
   Monomial cancelled(Monomial monomial) const {
-    for (Literal& inverse : monomial) {
+    for (VariablePower& inverse : monomial) {
       const Variable& v = system_.variables[static_cast<std::size_t>(inverse.variable)];
       if (v.kind != Variable::Kind::function || v.function != Op::div) continue;
-      for (Literal& base : monomial) {
+      for (VariablePower& base : monomial) {
         if (base.variable != v.arguments[0]) continue;
         const int common = std::min(base.exponent, inverse.exponent);
         base.exponent -= common;
         inverse.exponent -= common;
       }
     }
-    std::erase_if(monomial, [](const Literal& l) { return l.exponent == 0; });
+    std::erase_if(monomial, [](const VariablePower& l) { return l.exponent == 0; });
     return monomial;
   }
 
@@ -120,7 +120,7 @@ std::vector<int> use_counts(const TermSystem& system) {
   for (const Variable& v : system.variables) {
     for (const int argument : v.arguments) ++uses[static_cast<std::size_t>(argument)];
     for (const Term& t : v.value) {
-      for (const Literal& l : t.monomial) {
+      for (const VariablePower& l : t.monomial) {
         uses[static_cast<std::size_t>(l.variable)] += l.exponent;
       }
     }

@@ -21,9 +21,9 @@
 #include <iostream>
 #include <optional>
 
-#include "tests/benchmarks/prove_problems.hpp"
 #include "symbolic/functions/function_ring.hpp"
 #include "symbolic/prove.hpp"
+#include "tests/benchmarks/prove_problems.hpp"
 
 namespace casimir::test {
 namespace {

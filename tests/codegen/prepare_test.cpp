@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "codegen/emit_cpp.hpp"
-#include "tests/codegen/differential/random_system.hpp"
 #include "runtime/integrate.hpp"
+#include "tests/codegen/differential/random_system.hpp"
 #include "tests/codegen/support.hpp"
 
 namespace casimir {

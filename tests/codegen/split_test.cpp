@@ -9,8 +9,8 @@
 #include "codegen/emit_cpp.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/integrate.hpp"
-#include "tests/codegen/support.hpp"
 #include "tests/bundled_cases.hpp"
+#include "tests/codegen/support.hpp"
 
 namespace casimir::testing {
 namespace {

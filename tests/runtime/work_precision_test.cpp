@@ -14,7 +14,7 @@ namespace {
 /// The oscillator until t = 50 by dop853.
 struct OscillatorRuns {
   Module module = module_of<Oscillator>(dop853<Oscillator>, 0, 1);
-  Truth truth = {{std::cos(50.), -std::sin(50.)}, {0, 0}, {1, 1}};
+  ReferenceState truth = {{std::cos(50.), -std::sin(50.)}, {0, 0}, {1, 1}};
 
   Entrant entrant(double tolerance, unsigned long long max_steps = 0) const {
     Settings settings;
@@ -94,7 +94,7 @@ std::vector<Entrant> recorded_entrants(const Module& module, int count) {
 TEST(WorkPrecision, RoundsAreInterleavedInChangingOrder) {
   const Module module = module_of<Oscillator>(recording_kernel);
   const int count = 5, rounds = 6;
-  const Truth truth = {{1, 0}, {0, 0}, {1, 1}};
+  const ReferenceState truth = {{1, 0}, {0, 0}, {1, 1}};
   const auto samples = measure(recorded_entrants(module, count), truth, {.rounds = rounds});
   for (const Sample& sample : samples) EXPECT_EQ(sample.rounds, rounds);
   EXPECT_EQ(watched, 5U) << "only the first run of each is watched";
@@ -119,7 +119,7 @@ TEST(WorkPrecision, RunThatEndsElsewhereWhenTimedIsNotExcused) {
     if (run->observe == nullptr) x[0] += 1;
   };
   const Module module = module_of<Oscillator>(two_faced);
-  const Truth truth = {{1, 0}, {0, 0}, {1, 1}};
+  const ReferenceState truth = {{1, 0}, {0, 0}, {1, 1}};
   const auto samples = measure(recorded_entrants(module, 1), truth, {.rounds = 1});
   EXPECT_EQ(samples.at(0).error, 1);
 }
@@ -183,7 +183,7 @@ TEST(Conditioning, IsTheGrowthOfChanges) {
   Settings settings;
   settings.duration = 10;
   const Entrant entrant = {&module, find_method("dop853"), settings, {0, 0}, {}, {}};
-  const Truth truth = {{0, 0}, {0, 0}, {1, 1}};
+  const ReferenceState truth = {{0, 0}, {0, 0}, {1, 1}};
   EXPECT_NEAR(conditioning(entrant, truth) / std::cosh(10.), 1, 1e-3);
   // The larger scale of the second state lets the same change of it move the first more.
   EXPECT_NEAR(conditioning(entrant, {{0, 0}, {0, 0}, {1, 4}}) / (4 * std::sinh(10.)), 1, 1e-3);
@@ -194,7 +194,7 @@ TEST(Conditioning, FindsGrowthThatBeginsLate) {
   Settings settings;
   settings.duration = 10;
   const Entrant entrant = {&module, find_method("dop853"), settings, {0, 0}, {}, {}};
-  const Truth truth = {{0, 0}, {0, 0}, {1, 10}};
+  const ReferenceState truth = {{0, 0}, {0, 0}, {1, 10}};
   EXPECT_NEAR(conditioning(entrant, truth, 1), 1, 1e-2);
   EXPECT_NEAR(conditioning(entrant, truth) / std::exp(2.5), 1, 1e-2);
 }
@@ -209,7 +209,7 @@ TEST(WorkPrecision, ToleranceExplainsOnlySoMuch) {
   EXPECT_LT(samples.at(0).error, explained / 100);
   EXPECT_LT(explained, 0.1) << "an error far above the tolerance is not excused";
   // States that are small beside the absolute tolerance may be off by more.
-  const Truth small = {{0, 0}, {0, 0}, {1, 1e-3}};
+  const ReferenceState small = {{0, 0}, {0, 0}, {1, 1e-3}};
   EXPECT_GT(explained_error(entrant, samples.at(0), small, growth), 100 * explained);
   Entrant fixed = entrant;
   fixed.settings.fixed_step = 0.1;

@@ -10,7 +10,8 @@
 
 namespace casimir {
 
-Settings settings_for(const RunRequest& request, const SceneRun& run, double default_tolerance) {
+Settings settings_for(const RunRequest& request, const PreparedScene& run,
+                      double default_tolerance) {
   Settings settings;
   settings.duration = request.duration ? *request.duration : duration_of(run);
   settings.rtol = request.rtol.value_or(request.tolerance.value_or(default_tolerance));

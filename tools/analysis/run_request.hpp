@@ -27,7 +27,7 @@ struct RunRequest {
 /// where that is smaller than 1: a tiny scene is not all tolerance. Without any request it is a
 /// thousandth of that.
 /// \throws CaseError  where neither the request nor the scene has a duration.
-Settings settings_for(const RunRequest& request, const SceneRun& run,
+Settings settings_for(const RunRequest& request, const PreparedScene& run,
                       double default_tolerance = 1e-10);
 
 /// The method of that name; "auto" is resolved.

@@ -11,11 +11,11 @@ namespace casimir {
 
 Solution solve(const Model& model, const Scene& scene, const SolveOptions& options) {
   Solution solution;
-  solution.scene_ = std::make_unique<const SceneRun>(prepare(model, scene, options.code));
-  JudgedOptions how{.method = options.method,
-                    .run = options.run,
-                    .time_limit = options.time_limit,
-                    .sample_every = options.sample_every};
+  solution.scene_ = std::make_unique<const PreparedScene>(prepare(model, scene, options.code));
+  AssessmentOptions how{.method = options.method,
+                        .run = options.run,
+                        .time_limit = options.time_limit,
+                        .sample_every = options.sample_every};
   if (options.dense)
     how.around = [&](Settings& settings, const std::function<void()>& run) {
       // `auto` may begin anew with another method.
@@ -26,7 +26,7 @@ Solution solve(const Model& model, const Scene& scene, const SolveOptions& optio
       };
       run();
     };
-  solution.run_ = integrate_judged(model, *solution.scene_, how);
+  solution.run_ = integrate_assessed(model, *solution.scene_, how);
   return solution;
 }
 

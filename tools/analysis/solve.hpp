@@ -28,11 +28,11 @@ class Solution {
   /// Whether it reached the end, and nothing contradicts it.
   bool ok() const { return run_.trajectory.status == Status::ok; }
   /// The error of the state at the end, and how much small changes grow.
-  const Trust& trust() const { return run_.trust; }
+  const ErrorEstimate& trust() const { return run_.trust; }
   /// The method, why it was chosen, the settings, and sentences on what is in doubt.
-  const JudgedRun& run() const { return run_; }
+  const AssessedRun& run() const { return run_; }
   /// The system as it was specialised and compiled.
-  const SceneRun& scene() const { return *scene_; }
+  const PreparedScene& scene() const { return *scene_; }
 
   /// The state at a time of the run, to the tolerance of the run: from the last step before it by a
   /// step or two more.
@@ -47,8 +47,8 @@ class Solution {
     double time;
     std::vector<double> state;
   };
-  std::unique_ptr<const SceneRun> scene_;  ///< which the run refers to
-  JudgedRun run_;
+  std::unique_ptr<const PreparedScene> scene_;  ///< which the run refers to
+  AssessedRun run_;
   std::vector<Step> steps_;  ///< where each of them began, in the order of the run
 };
 

@@ -13,13 +13,13 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 struct Curve {
-  Contender contender;
+  ComparedMethod contender;
   WorkPrecision runs;
 };
 
-std::vector<Curve> curves_of(const Contest& contest) {
+std::vector<Curve> curves_of(const MethodComparison& contest) {
   std::vector<Curve> curves;
-  for (const Contender& contender : contest.contenders)
+  for (const ComparedMethod& contender : contest.contenders)
     curves.push_back({contender, contest.curve(contender)});
   return curves;
 }
@@ -38,11 +38,11 @@ Cell cell_at(const std::vector<Curve>& curves, const Curve& curve, double error)
 }
 
 /// All ratios of a peer at one level, with the names of the cases.
-Mean mean_of(const std::vector<Contest>& contests, const std::string& peer, int level) {
+Mean mean_of(const std::vector<MethodComparison>& contests, const std::string& peer, int level) {
   Mean mean{.peer = peer, .at_best = level < 0, .least = kNaN};
   if (level >= 0) mean.error = kErrorLevels[static_cast<std::size_t>(level)];
   std::vector<double> ratios;
-  for (const Contest& contest : contests) {
+  for (const MethodComparison& contest : contests) {
     for (const Line& line : equal_error_lines(contest)) {
       if (line.contender.label() != peer) continue;
       const Cell& cell = level < 0 ? line.best : line.levels[static_cast<std::size_t>(level)];
@@ -60,7 +60,7 @@ Mean mean_of(const std::vector<Contest>& contests, const std::string& peer, int 
 
 }  // namespace
 
-std::vector<Line> equal_error_lines(const Contest& contest) {
+std::vector<Line> equal_error_lines(const MethodComparison& contest) {
   const std::vector<Curve> curves = curves_of(contest);
   std::vector<Line> lines;
   for (const Curve& curve : curves) {
@@ -72,7 +72,7 @@ std::vector<Line> equal_error_lines(const Contest& contest) {
   return lines;
 }
 
-std::vector<CodeLine> code_lines(const Contest& contest) {
+std::vector<CodeLine> code_lines(const MethodComparison& contest) {
   const std::vector<Curve> curves = curves_of(contest);
   std::vector<CodeLine> lines;
   for (const Curve& general : curves) {
@@ -90,10 +90,10 @@ std::vector<CodeLine> code_lines(const Contest& contest) {
   return lines;
 }
 
-std::vector<Mean> means(const std::vector<Contest>& contests) {
+std::vector<Mean> means(const std::vector<MethodComparison>& contests) {
   std::vector<std::string> peers;
-  for (const Contest& contest : contests) {
-    for (const Contender& contender : contest.contenders) {
+  for (const MethodComparison& contest : contests) {
+    for (const ComparedMethod& contender : contest.contenders) {
       if (!contender.own() &&
           std::find(peers.begin(), peers.end(), contender.label()) == peers.end())
         peers.push_back(contender.label());
@@ -108,7 +108,7 @@ std::vector<Mean> means(const std::vector<Contest>& contests) {
   return result;
 }
 
-std::vector<std::string> sentences(const Contest& contest) {
+std::vector<std::string> sentences(const MethodComparison& contest) {
   std::vector<std::string> result;
   for (const Line& line : equal_error_lines(contest)) {
     if (line.contender.own()) continue;

@@ -22,20 +22,20 @@ struct Cell {
 
 /// A contender at every level and at its best.
 struct Line {
-  Contender contender;
+  ComparedMethod contender;
   std::vector<Cell> levels;  ///< one for each of kErrorLevels
   Cell best;                 ///< at the smallest error that it reaches
 };
 
 /// One for each contender that has a good row.
-std::vector<Line> equal_error_lines(const Contest& contest);
+std::vector<Line> equal_error_lines(const MethodComparison& contest);
 
 /// How many times as long the general code of a method takes as its specialised code.
 struct CodeLine {
   std::string method;
   std::vector<double> ratios;  ///< one for each of kErrorLevels
 };
-std::vector<CodeLine> code_lines(const Contest& contest);
+std::vector<CodeLine> code_lines(const MethodComparison& contest);
 
 /// The ratios of one library's method over several cases, at one level or at its best errors.
 struct Mean {
@@ -47,10 +47,10 @@ struct Mean {
   double least = 0;
   std::string least_case = {};
 };
-std::vector<Mean> means(const std::vector<Contest>& contests);
+std::vector<Mean> means(const std::vector<MethodComparison>& contests);
 
 /// "X: taylor is 2.1 times as fast at 1e-06, 5.0 at 1e-12, ..", one for each method
 /// of another library.
-std::vector<std::string> sentences(const Contest& contest);
+std::vector<std::string> sentences(const MethodComparison& contest);
 
 }  // namespace casimir::tools

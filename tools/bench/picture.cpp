@@ -4,14 +4,14 @@
 
 namespace casimir::tools {
 
-Plot picture_of(const Contest& contest) {
+Plot picture_of(const MethodComparison& contest) {
   Plot plot{.title = fmt::format("{}, scene {}", contest.title, contest.scene),
             .x_label = "error at the end, relative to the size of each state along the run",
             .y_label = "run time",
             .log_x = true,
             .log_y = true,
             .y_unit = "s"};
-  for (const Contender& contender : contest.contenders) {
+  for (const ComparedMethod& contender : contest.contenders) {
     Curve curve{contender.label(), {}, Curve::Style::plain};
     if (!contender.own()) curve.style = Curve::Style::outside;
     if (contender.code == "general") curve.style = Curve::Style::variant;

@@ -13,7 +13,7 @@ namespace casimir::tools {
 
 /// All that a bench has found out.
 struct BenchReport {
-  std::vector<Contest> contests = {};
+  std::vector<MethodComparison> contests = {};
   Machine machine = {};
   bool several = false;  ///< cases were asked for: there is a summary over them
 
@@ -35,7 +35,7 @@ std::string to_html(const BenchReport& report, const std::vector<std::string>& p
 
 /// Error against run time: a curve for each contender, rows that are not good left out. Libraries
 /// beside us are dashed; general code is in small marks on the curve of its method.
-Plot picture_of(const Contest& contest);
+Plot picture_of(const MethodComparison& contest);
 
 /// "6 multiplications, 1 addition, 0 divisions, 0 calls".
 std::string operations_text(const OperationCount& count);

@@ -42,7 +42,7 @@ std::vector<std::string> level_heads(const std::string& first) {
 
 }  // namespace
 
-std::string html::equal_error_table(const Contest& contest) {
+std::string html::equal_error_table(const MethodComparison& contest) {
   std::vector<std::string> heads = level_heads("method");
   heads.emplace_back("best error");
   heads.emplace_back("time for it");
@@ -58,7 +58,7 @@ std::string html::equal_error_table(const Contest& contest) {
          html::table(rows);
 }
 
-std::string html::code_table(const Contest& contest) {
+std::string html::code_table(const MethodComparison& contest) {
   std::string rows = html::row(
       {"one right-hand side", "multiplications", "additions", "divisions", "calls", "states"},
       "th");
@@ -83,7 +83,7 @@ std::string html::code_table(const Contest& contest) {
   return text + html::table(ratios);
 }
 
-std::string html::rows_table(const Contest& contest) {
+std::string html::rows_table(const MethodComparison& contest) {
   std::string rows = html::row({"method", "code", "tolerance", "error", "drift", "time", "spread",
                                 "steps", "evaluations", "status"},
                                "th");
@@ -102,7 +102,8 @@ std::string html::rows_table(const Contest& contest) {
 
 namespace {
 
-std::string section(const Contest& contest, std::size_t index, const std::string& picture) {
+std::string section(const MethodComparison& contest, std::size_t index,
+                    const std::string& picture) {
   std::string text = fmt::format(
       "<section id=\"case-{}\">\n<h2>{} <small>{}, scene {}</small></h2>\n", index,
       html::text(contest.title), html::text(contest.case_name), html::text(contest.scene));
@@ -146,7 +147,7 @@ std::string summary(const BenchReport& report) {
 std::string contents(const BenchReport& report) {
   std::string text = "<ul>\n";
   for (std::size_t i = 0; i < report.contests.size(); ++i) {
-    const Contest& contest = report.contests[i];
+    const MethodComparison& contest = report.contests[i];
     text += fmt::format("<li><a href=\"#case-{}\">{}</a>{}</li>\n", i, html::text(contest.title),
                         contest.no_reference.empty() ? "" : ": not measured");
   }

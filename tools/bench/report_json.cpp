@@ -11,7 +11,7 @@ using Json = nlohmann::ordered_json;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json ratios_json(const Contest& contest) {
+Json ratios_json(const MethodComparison& contest) {
   Json list = Json::array();
   for (const Line& line : equal_error_lines(contest)) {
     const auto add = [&](const Cell& cell, bool best) {
@@ -31,7 +31,7 @@ Json ratios_json(const Contest& contest) {
   return list;
 }
 
-Json code_json(const Contest& contest) {
+Json code_json(const MethodComparison& contest) {
   Json list = Json::array();
   for (const CodeLine& line : code_lines(contest)) {
     for (std::size_t i = 0; i < line.ratios.size(); ++i)
@@ -42,7 +42,7 @@ Json code_json(const Contest& contest) {
   return list;
 }
 
-Json contest_json(const Contest& contest) {
+Json method_comparison_json(const MethodComparison& contest) {
   Json json = {{"case", contest.case_name}, {"title", contest.title}, {"scene", contest.scene}};
   json["operations"] = {{"general", to_json(contest.general)},
                         {"specialised", to_json(contest.specialised)}};
@@ -80,10 +80,12 @@ Json to_json(const BenchReport& report) {
   Json json = to_json(report.rows());
   if (report.several) {
     json["cases"] = Json::array();
-    for (const Contest& contest : report.contests) json["cases"].push_back(contest_json(contest));
+    for (const MethodComparison& contest : report.contests)
+      json["cases"].push_back(method_comparison_json(contest));
     json["summary"] = summary_json(report);
   } else {
-    for (const Contest& contest : report.contests) json.update(contest_json(contest));
+    for (const MethodComparison& contest : report.contests)
+      json.update(method_comparison_json(contest));
   }
   add_to_json(json, report.machine);
   return json;
@@ -91,7 +93,7 @@ Json to_json(const BenchReport& report) {
 
 std::vector<Row> BenchReport::rows() const {
   std::vector<Row> all;
-  for (const Contest& contest : contests)
+  for (const MethodComparison& contest : contests)
     all.insert(all.end(), contest.rows.begin(), contest.rows.end());
   return all;
 }

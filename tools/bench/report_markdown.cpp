@@ -37,7 +37,7 @@ std::string head() {
   return text + " best error (time) |\n" + rule + " ---: |\n";
 }
 
-std::string table(const Contest& contest) {
+std::string table(const MethodComparison& contest) {
   std::string text = head();
   for (const Line& line : equal_error_lines(contest)) {
     if (line.contender.code == "general") continue;
@@ -77,7 +77,7 @@ std::string spread_text(const BenchReport& report) {
 
 std::string to_markdown(const BenchReport& report) {
   std::string text;
-  for (const Contest& contest : report.contests) {
+  for (const MethodComparison& contest : report.contests) {
     text += fmt::format("{}, scene `{}`", escaped(contest.title), escaped(contest.scene));
     if (!contest.no_reference.empty()) {
       text += fmt::format(": {}\n\n", escaped(contest.no_reference));

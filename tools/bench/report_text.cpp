@@ -20,7 +20,7 @@ std::string cell_text(const Cell& cell) {
   return fmt::format("{:>10} {:>7}", duration_text(cell.seconds), ratio_text(cell.ratio));
 }
 
-std::string equal_error_text(const Contest& contest) {
+std::string equal_error_text(const MethodComparison& contest) {
   std::string text =
       "time at equal error (interpolated), and how many times as long as the fastest of ours\n";
   text += fmt::format("  {:<22}", "error");
@@ -34,7 +34,7 @@ std::string equal_error_text(const Contest& contest) {
   return text;
 }
 
-std::string code_text(const Contest& contest) {
+std::string code_text(const MethodComparison& contest) {
   const std::size_t kept = contest.states.size(), all = contest.all_states.size();
   std::string text =
       fmt::format("specialised code beside general code, {} of {} states\n", kept, all);
@@ -55,7 +55,7 @@ std::string code_text(const Contest& contest) {
   return text;
 }
 
-std::string about_text(const Contest& contest) {
+std::string about_text(const MethodComparison& contest) {
   std::string text = fmt::format("reference: {}; its error is below {:.0e}\n", contest.reference,
                                  contest.error_bound);
   text += fmt::format("small changes of the state grow {:.2g} times along the run at most\n",
@@ -74,13 +74,13 @@ std::string about_text(const Contest& contest) {
   return text;
 }
 
-std::string notes_text(const Contest& contest) {
+std::string notes_text(const MethodComparison& contest) {
   std::string text;
   for (const std::string& note : contest.notes) text += "note: " + note + '\n';
   return text;
 }
 
-std::string contest_text(const Contest& contest, bool with_rows) {
+std::string comparison_table(const MethodComparison& contest, bool with_rows) {
   std::string text;
   if (!with_rows || contest.rows.empty())
     text = fmt::format("{}, scene '{}'\n", contest.case_name, printable(contest.scene));
@@ -124,8 +124,8 @@ std::string operations_text(const OperationCount& count) {
 
 std::string to_text(const BenchReport& report) {
   std::string text;
-  for (const Contest& contest : report.contests)
-    text += contest_text(contest, !report.several) + '\n';
+  for (const MethodComparison& contest : report.contests)
+    text += comparison_table(contest, !report.several) + '\n';
   if (report.several) text += summary_text(report) + '\n';
   return text + fmt::format("machine: {}\n{}\n", processor_text(report.machine),
                             versions_text(report.machine));

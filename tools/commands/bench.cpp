@@ -31,8 +31,8 @@ struct Options {
   std::string plot, format = "text";
   bool all = false;
   RunOptions run;
-  ContestOptions contest{.tolerances = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10,
-                                        1e-11, 1e-12, 1e-13, 1e-14, 1e-15}};
+  ComparisonOptions contest{.tolerances = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10,
+                                           1e-11, 1e-12, 1e-13, 1e-14, 1e-15}};
 };
 
 bool is_page(const std::string& path) { return path.ends_with(".html") || path.ends_with(".htm"); }
@@ -53,19 +53,20 @@ Exit exit_of(NoReference failure) {
 }
 
 /// A contest that could not be held, with the reason.
-Contest not_held(const std::string& name, const std::string& scene, const std::string& reason) {
-  Contest contest;
+MethodComparison not_held(const std::string& name, const std::string& scene,
+                          const std::string& reason) {
+  MethodComparison contest;
   contest.case_name = contest.title = name;
   contest.scene = scene;
   contest.no_reference = reason;
   return contest;
 }
 
-Contest hold(const CaseFile& file, const Options& options, Progress& progress) {
+MethodComparison hold(const CaseFile& file, const Options& options, Progress& progress) {
   const Model model = in_variables(
       options.kept.model_of(options.start.in(file), options.common.parameter_values()), options.in);
   const Scene& scene = model.scene(options.common.scene);
-  ContestOptions what = options.contest;
+  ComparisonOptions what = options.contest;
   what.run = options.run.request();
   what.code = options.kept.in<SceneOptions>();
   std::string doing;
@@ -74,7 +75,7 @@ Contest hold(const CaseFile& file, const Options& options, Progress& progress) {
     doing = now;
     progress.show(share);
   };
-  return hold_contest(model, scene, what);
+  return compare_methods(model, scene, what);
 }
 
 /// Every bundled case. One that has no such scene, or a file that is no case, is told and skipped.
@@ -99,7 +100,7 @@ void hold_all(const Options& options, Progress& progress, BenchReport& report) {
   }
 }
 
-BenchReport hold_contests(const Options& options) {
+BenchReport compare_methods_on_scenes(const Options& options) {
   BenchReport report{.machine = this_machine(),
                      .several = options.all || options.case_names.size() > 1};
   Progress progress(!options.common.quiet);
@@ -163,11 +164,11 @@ int bench(Options options) {
   check_usage(options);
   if (options.run.asked.tolerance) options.contest.tolerances = {*options.run.asked.tolerance};
   options.contest.give_up = time_limit(options.common.time_limit);
-  const BenchReport report = hold_contests(options);
+  const BenchReport report = compare_methods_on_scenes(options);
   // The rows first: pictures need a program that may be missing.
   write_tables(report, options);
   if (!report.several && !report.contests.front().no_reference.empty()) {
-    const Contest& contest = report.contests.front();
+    const MethodComparison& contest = report.contests.front();
     std::cerr << "casimir: error: " << contest.no_reference << '\n';
     return exit_of(contest.failure);
   }
@@ -181,7 +182,7 @@ int bench(Options options) {
   return failed ? kFailed : kDone;
 }
 
-void add_measurement_options(CLI::App& command, ContestOptions& options, RunOptions& run) {
+void add_measurement_options(CLI::App& command, ComparisonOptions& options, RunOptions& run) {
   command
       .add_option("--method", options.methods,
                   "Methods to run (default: all that suit the case), of " + method_list())

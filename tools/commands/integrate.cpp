@@ -49,7 +49,7 @@ struct Options {
 /// What is shown: the states themselves, or in the variables of `--as`.
 class Answer {
  public:
-  Answer(const Model& model, const SceneRun& run, const std::string& as)
+  Answer(const Model& model, const PreparedScene& run, const std::string& as)
       : names_(run.specialisation.states) {
     if (as.empty()) return;
     if (names_.size() != model.variables.size())
@@ -94,8 +94,8 @@ void write_samples(const std::string& path, const Answer& answer, const Trajecto
   file.commit();
 }
 
-Json to_json(const Model& model, const SceneRun& run, const Answer& answer, const JudgedRun& judged,
-             const RunWords& words) {
+Json to_json(const Model& model, const PreparedScene& run, const Answer& answer,
+             const AssessedRun& judged, const RunWords& words) {
   const Specialisation& s = run.specialisation;
   const Trajectory& trajectory = judged.trajectory;
   Json json = {{"case", model.name},
@@ -137,7 +137,7 @@ Json to_json(const Model& model, const SceneRun& run, const Answer& answer, cons
   return json;
 }
 
-void print_text(const SceneRun& run, const Answer& answer, const JudgedRun& judged,
+void print_text(const PreparedScene& run, const Answer& answer, const AssessedRun& judged,
                 const RunWords& words) {
   const Specialisation& s = run.specialisation;
   const CompiledModule& compiled = *judged.compiled;
@@ -172,7 +172,7 @@ void print_text(const SceneRun& run, const Answer& answer, const JudgedRun& judg
 }
 
 /// What a run that stopped early says beside its answer. \return  the exit status
-int report_stop(const SceneRun& run, const JudgedRun& judged, const RunWords& words) {
+int report_stop(const PreparedScene& run, const AssessedRun& judged, const RunWords& words) {
   const Trajectory& trajectory = judged.trajectory;
   std::string state;
   for (std::size_t i = 0; i < run.specialisation.states.size(); ++i) {
@@ -211,15 +211,15 @@ int integrate_members_of(const Options& options) {
 }
 
 /// Before anything is integrated: what cannot be drawn is bad input, and so are its names.
-void check_picture(const Model& model, const Scene& scene, const SceneRun& run,
+void check_picture(const Model& model, const Scene& scene, const PreparedScene& run,
                    const Options& options) {
   if (!options.picture.wanted()) return;
   const Motion start{.names = run.specialisation.states, .times = {0.0}, .states = {run.initial}};
   options.picture.picture(model, scene, start);
 }
 
-void draw_motion(const Model& model, const Scene& scene, const SceneRun& run,
-                 const JudgedRun& judged, const Options& options) {
+void draw_motion(const Model& model, const Scene& scene, const PreparedScene& run,
+                 const AssessedRun& judged, const Options& options) {
   if (!options.picture.wanted()) return;
   draw(options.picture.picture(model, scene, motion_of(run, judged, options.every)),
        printable(options.picture.file(), 200));
@@ -249,12 +249,12 @@ int integrate_case(const Options& options) {
                    options.in);
   const Scene& scene = model.scene(options.common.scene);
   method_named(options.method);  // throws where there is none
-  const SceneRun run = prepare(model, scene, scene_options(options));
+  const PreparedScene run = prepare(model, scene, scene_options(options));
   const Answer answer(model, run, options.as);
   if (options.every > 0 && options.output.empty() && !options.picture.wanted())
     throw UsageError("--every needs --output FILE.csv or --plot FILE.svg");
   check_picture(model, scene, run, options);
-  JudgedOptions how{.method = options.method, .run = options.run.request()};
+  AssessmentOptions how{.method = options.method, .run = options.run.request()};
   how.time_limit = options.common.time_limit;
   bool interrupted = false;
   how.around = [&](Settings& settings, const std::function<void()>& run_it) {
@@ -266,7 +266,7 @@ int integrate_case(const Options& options) {
   if (!options.output.empty())
     how.sample_every =
         options.every > 0 ? options.every : std::abs(settings_for(how.run, run).duration) / 1000;
-  const JudgedRun judged = integrate_judged(model, run, how);
+  const AssessedRun judged = integrate_assessed(model, run, how);
   const RunWords words = words_of(judged, interrupted);
   if (!options.output.empty()) write_samples(options.output, answer, judged.trajectory);
   if (options.common.json) {

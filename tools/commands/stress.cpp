@@ -80,7 +80,7 @@ struct Entry {
   const Source* source;
   const Model* model;
   const Scene* scene;
-  SceneTruth truth = {};
+  SceneReference truth = {};
 };
 
 /// The command line of one cell.
@@ -123,7 +123,7 @@ class Stress {
     Progress progress(!options_.common.quiet);
     progress_ = &progress;
     gather();
-    find_truths();
+    find_reference_states();
     fill_cells();
     return std::move(matrix_);
   }
@@ -184,13 +184,13 @@ class Stress {
             .tolerance = options_.tolerance.value_or(0)};
   }
 
-  void find_truths() {
+  void find_reference_states() {
     progress_->begin("reference states");
     std::vector<Job> jobs;
     for (const Entry& entry : entries_) {
       jobs.push_back({[this, &entry] {
-                        std::cout << packed(
-                            truth_of_scene(*entry.model, *entry.scene, options_.reference_limit));
+                        std::cout << packed(reference_state_of_scene(*entry.model, *entry.scene,
+                                                                     options_.reference_limit));
                         return 0;
                       },
                       // Two runs in double and the compiler come on top.

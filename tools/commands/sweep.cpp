@@ -53,7 +53,7 @@ struct Prepared {
   Model model;
   Grid grid;
   const Scene* scene = nullptr;
-  SceneRun run;
+  PreparedScene run;
   const Method* method = nullptr;
   Settings settings;
 
@@ -83,7 +83,7 @@ struct Prepared {
 
 /// What is done at each point: a new one is a file in `sweep/` and a line here.
 std::unique_ptr<SweepTask> task_of(const Options& options, const CaseFile& file, const Prepared& p,
-                                   const Places& places) {
+                                   const GridPoints& places) {
   if (options.task == kSection)
     return std::make_unique<Sections>(p.model, *p.scene, places, section_request(file, p.model),
                                       options.orbits, options.points, kSectionTolerance);
@@ -210,7 +210,8 @@ int sweep_in(const Ranks& ranks, const Options& options) {
   const std::string output = options.output.empty() ? file.name + "-sweep.csv" : options.output;
   check_sweep_output(output);
   const Prepared p(options, file);
-  const Places places(p.model, *p.scene, p.run, p.grid, read_lets(options.lets, p.grid, p.model));
+  const GridPoints places(p.model, *p.scene, p.run, p.grid,
+                          read_lets(options.lets, p.grid, p.model));
   const std::unique_ptr<SweepTask> doing = task_of(options, file, p, places);
   const SweepTask& task = *doing;
   const auto* integrations = dynamic_cast<const Integrations*>(doing.get());

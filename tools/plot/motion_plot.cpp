@@ -52,7 +52,7 @@ std::string picture_title(const Model& model, const Scene& scene) {
   return fmt::format("{}, scene {}", model.title.empty() ? model.name : model.title, scene.name);
 }
 
-Motion motion_of(const SceneRun& run, const JudgedRun& judged, double every) {
+Motion motion_of(const PreparedScene& run, const AssessedRun& judged, double every) {
   Motion motion{.names = run.specialisation.states, .times = {0.0}, .states = {run.initial}};
   Settings settings = judged.settings;
   settings.duration = judged.trajectory.time;

@@ -22,7 +22,7 @@ std::string picture_title(const Model& model, const Scene& scene);
 
 /// The run once more, up to where it came, with many samples. \param every  time between them; 0:
 /// as the steps of the run tell
-Motion motion_of(const SceneRun& run, const JudgedRun& judged, double every = 0);
+Motion motion_of(const PreparedScene& run, const AssessedRun& judged, double every = 0);
 
 /// Names of states, or expressions over the variables, against time.
 /// \param what  empty: all states \throws CaseError, UsageError

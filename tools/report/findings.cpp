@@ -97,10 +97,10 @@ class Investigation {
   void move() {
     SceneOptions code = options_.code;
     code.observe = std::vector<std::string>{};
-    const SceneRun run = prepare(model_, *result_.scene, code);
-    JudgedOptions how;
+    const PreparedScene run = prepare(model_, *result_.scene, code);
+    AssessmentOptions how;
     how.time_limit = options_.time_limit > 0 ? left() : 0;
-    const JudgedRun judged = integrate_judged(model_, run, how);
+    const AssessedRun judged = integrate_assessed(model_, run, how);
     result_.motion_method = judged.method->name;
     result_.motion = motion_of(run, judged);
     if (judged.trajectory.status != Status::ok)
@@ -143,16 +143,16 @@ class Investigation {
   }
 
   void measure() {
-    ContestOptions what{.tolerances = {1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13, 1e-15},
-                        .code = options_.code,
-                        .budget = options_.budget,
-                        .reference_limit = std::max(2 * options_.budget, 2.0),
-                        .give_up = give_up()};
+    ComparisonOptions what{.tolerances = {1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13, 1e-15},
+                           .code = options_.code,
+                           .budget = options_.budget,
+                           .reference_limit = std::max(2 * options_.budget, 2.0),
+                           .give_up = give_up()};
     if (options_.progress)
       what.progress = [&](const std::string& doing, double share) {
         options_.progress(doing, 0.5 + share / 2);
       };
-    Contest contest = hold_contest(model_, *result_.scene, what);
+    MethodComparison contest = compare_methods(model_, *result_.scene, what);
     if (contest.no_reference.empty())
       result_.contest = std::move(contest);
     else

@@ -40,7 +40,7 @@ struct Findings {
   double drift_bound = 0;
   std::string motion_method;
   std::optional<Motion> motion;
-  std::optional<Contest> contest;
+  std::optional<MethodComparison> contest;
   Machine machine;
 
   std::vector<std::string> notes;     ///< what was left out for a reason of the case

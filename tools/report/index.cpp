@@ -15,7 +15,7 @@ namespace casimir::tools {
 namespace {
 
 /// The fastest of ours to an error of 1e-9.
-std::string fastest_of(const Contest& contest) {
+std::string fastest_of(const MethodComparison& contest) {
   constexpr double kLevel = 1e-9;
   for (const Line& line : equal_error_lines(contest)) {
     for (const Cell& cell : line.levels) {

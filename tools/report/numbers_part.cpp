@@ -135,7 +135,7 @@ std::string section_part(const Model& model, const Pictures& pictures) {
 
 std::string work_precision_part(const Findings& findings, const Pictures& pictures) {
   if (!findings.contest) return "";
-  const Contest& contest = *findings.contest;
+  const MethodComparison& contest = *findings.contest;
   std::string text = "<section id=\"work-precision\">\n<h2>Error against run time</h2>\n";
   text += html::paragraph(fmt::format(
       "Scene {}. Reference: {}; its error is below {:.0e}. Small changes of the state grow {:.2g} "

@@ -20,7 +20,7 @@ Plot drift_of(const Findings& findings) {
 }
 
 /// General code has a table of its own, and would lie on top of the specialised.
-Plot contest_of(const Findings& findings) {
+Plot method_comparison_of(const Findings& findings) {
   Plot plot = picture_of(*findings.contest);
   std::erase_if(plot.curves,
                 [](const Curve& curve) { return curve.style == Curve::Style::variant; });
@@ -44,7 +44,7 @@ Pictures draw_pictures(const CaseFile& file, const Model& model, const Findings&
     }
     if (!findings.drifts.empty()) pictures.drift = drawn(drift_of(findings), "drift", beside);
     if (findings.contest)
-      pictures.work_precision = drawn(contest_of(findings), "work-precision", beside);
+      pictures.work_precision = drawn(method_comparison_of(findings), "work-precision", beside);
     if (findings.scene && model.section) {
       try {
         pictures.section = section_svg(file, model, *findings.scene, beside);

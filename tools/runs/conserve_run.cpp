@@ -40,7 +40,7 @@ Row conserve_scene(const Model& model, const Scene& scene, const Method& method,
                    const ConserveOptions& options, std::vector<DriftRecord>* drifts) {
   SceneOptions code = options.code;
   code.observe = std::vector<std::string>{};
-  const SceneRun run = prepare(model, scene, code);
+  const PreparedScene run = prepare(model, scene, code);
   Settings settings = settings_for(options.run, run, kTolerance);
   settings.give_up = options.give_up;
   if (options.progress) {
@@ -80,7 +80,8 @@ Row conserve_scene(const Model& model, const Scene& scene, const Method& method,
   row.evaluations = trajectory.evaluations;
   row.status = trajectory.status;
   if (trajectory.status == Status::ok && !scene.reference.empty() && !options.run.duration) {
-    const TruthOrReason truth = truth_of(scene, run, {.give_up = options.give_up});
+    const ReferenceStateOrReason truth =
+        reference_state_of(scene, run, {.give_up = options.give_up});
     if (truth.truth) row.error = error_of(trajectory.state, *truth.truth);
   }
   row.refused = trajectory.status != Status::ok && may_be_refused(scene);

@@ -28,7 +28,7 @@ constexpr std::array kStatuses = {
 
 /// An ensemble that was integrated, and all that a report says of it.
 struct Report {
-  const SceneRun& run;
+  const PreparedScene& run;
   const Method& method;
   const Settings& settings;
   const EnsembleKernel& kernel;
@@ -54,7 +54,7 @@ std::vector<std::string> names_of_symbols(const std::vector<GiNaC::symbol>& symb
 }
 
 /// The members: what the file says in the place of what the scene says.
-Ensemble members(const SceneRun& run, const EnsembleFile& file) {
+Ensemble members(const PreparedScene& run, const EnsembleFile& file) {
   const Specialisation& s = run.specialisation;
   Ensemble ensemble;
   ensemble.states = s.states.size();
@@ -204,8 +204,8 @@ int verdict(const Report& report) {
 }
 
 /// Parameters that the file gives are known at run time only.
-SceneRun prepared(const Model& model, const Scene& scene, SceneOptions how,
-                  const EnsembleFile& file) {
+PreparedScene prepared(const Model& model, const Scene& scene, SceneOptions how,
+                       const EnsembleFile& file) {
   const std::vector<std::string> parameters = names_of_symbols(model.parameters);
   for (const std::string& column : file.columns)
     if (std::find(parameters.begin(), parameters.end(), column) != parameters.end())
@@ -229,7 +229,7 @@ int integrate_ensemble(const EnsembleRequest& request) {
   const Scene& scene = model.scene(request.common.scene);
   const Method& method = method_named(request.method);
   const EnsembleFile file = file_of(model, request.file);
-  const SceneRun run = prepared(model, scene, request.how, file);
+  const PreparedScene run = prepared(model, scene, request.how, file);
   Settings settings = settings_for(request.run.request(), run);
   settings.give_up = time_limit(request.common.time_limit);
   settings.invariant_terms = nullptr;

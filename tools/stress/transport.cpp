@@ -70,7 +70,7 @@ double largest_drift(const Json& invariants) {
 
 }  // namespace
 
-Json packed(const SceneTruth& truth) {
+Json packed(const SceneReference& truth) {
   Json json = {{"states", truth.states},
                {"source", truth.source},
                {"has_end", truth.has_end},
@@ -84,18 +84,18 @@ Json packed(const SceneTruth& truth) {
   return json;
 }
 
-SceneTruth unpacked(const Json& json) {
+SceneReference unpacked(const Json& json) {
   const auto number = [&](const char* key) {
     return std::strtod(json.at(key).get<std::string>().c_str(), nullptr);
   };
-  SceneTruth truth{.states = json.at("states").get<std::vector<std::string>>(),
-                   .source = json.at("source").get<std::string>(),
-                   .has_end = json.at("has_end").get<bool>(),
-                   .growth = number("growth")};
+  SceneReference truth{.states = json.at("states").get<std::vector<std::string>>(),
+                       .source = json.at("source").get<std::string>(),
+                       .has_end = json.at("has_end").get<bool>(),
+                       .growth = number("growth")};
   if (json.contains("singular_time")) truth.singular_time = number("singular_time");
   if (json.contains("state"))
-    truth.truth =
-        Truth{numbers(json.at("state")), numbers(json.at("rest")), numbers(json.at("scale"))};
+    truth.truth = ReferenceState{numbers(json.at("state")), numbers(json.at("rest")),
+                                 numbers(json.at("scale"))};
   return truth;
 }
 

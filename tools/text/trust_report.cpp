@@ -13,14 +13,14 @@ namespace {
 /// Estimated errors that the user is warned of.
 constexpr double kDoubtful = 1e-4;
 
-std::string six_digits(const Trust& trust) {
+std::string six_digits(const ErrorEstimate& trust) {
   if (!trust.six_digits_until) return "";
   return fmt::format(", and six digits hold until t = {:.6g}", *trust.six_digits_until);
 }
 
 }  // namespace
 
-nlohmann::ordered_json to_json(const Trust& trust) {
+nlohmann::ordered_json to_json(const ErrorEstimate& trust) {
   nlohmann::ordered_json json = {{"conditioning", nullptr},
                                  {"input_rounding", nullptr},
                                  {"error_estimate", nullptr},
@@ -37,7 +37,7 @@ nlohmann::ordered_json to_json(const Trust& trust) {
   return json;
 }
 
-std::vector<std::string> warnings_of(const Trust& trust) {
+std::vector<std::string> warnings_of(const ErrorEstimate& trust) {
   std::vector<std::string> warnings;
   if (trust.unconfirmed)
     warnings.push_back(
@@ -67,7 +67,7 @@ std::vector<std::string> warnings_of(const Trust& trust) {
   return warnings;
 }
 
-RunWords words_of(const JudgedRun& judged, bool interrupted) {
+RunWords words_of(const AssessedRun& judged, bool interrupted) {
   RunWords words{.warnings = judged.doubts, .advice = {}, .interrupted = interrupted};
   for (std::string& warning : warnings_of(judged.trust))
     words.warnings.push_back(std::move(warning));

@@ -9,10 +9,10 @@
 namespace casimir::tools {
 
 /// The interface's keys; null where it is not known.
-nlohmann::ordered_json to_json(const Trust& trust);
+nlohmann::ordered_json to_json(const ErrorEstimate& trust);
 
 /// Sentences for the user where the result is in doubt.
-std::vector<std::string> warnings_of(const Trust& trust);
+std::vector<std::string> warnings_of(const ErrorEstimate& trust);
 
 /// What is said of a run beside its numbers.
 struct RunWords {
@@ -22,6 +22,6 @@ struct RunWords {
 };
 
 /// \param interrupted  whether the user ended it.
-RunWords words_of(const JudgedRun& judged, bool interrupted = false);
+RunWords words_of(const AssessedRun& judged, bool interrupted = false);
 
 }  // namespace casimir::tools

@@ -151,8 +151,8 @@ constexpr bool gathers_in_registers =
 CASIMIR_INLINE Lanes4 permuted_by(Lanes4 v, const long long* from) {
 #ifdef __AVX2__
   typedef float Halves __attribute__((vector_size(32)));
-  typedef int Places __attribute__((vector_size(32)));
-  return (Lanes4)__builtin_ia32_permvarsf256((Halves)v, load<Places>(from));
+  typedef int GridPoints __attribute__((vector_size(32)));
+  return (Lanes4)__builtin_ia32_permvarsf256((Halves)v, load<GridPoints>(from));
 #else
   return Lanes4{v[from[0] >> 1 & 3], v[from[1] >> 1 & 3], v[from[2] >> 1 & 3], v[from[3] >> 1 & 3]};
 #endif

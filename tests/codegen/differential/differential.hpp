@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "codegen/emit_cpp.hpp"
-#include "tests/codegen/run/exact_series.hpp"
 #include "tests/codegen/differential/random_system.hpp"
+#include "tests/codegen/run/exact_series.hpp"
 #include "tests/codegen/support.hpp"
 
 namespace casimir::testing {

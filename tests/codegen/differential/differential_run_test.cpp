@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "runtime/program/interpreter.hpp"
 #include "tests/codegen/differential/differential.hpp"
 #include "tests/codegen/run/ensemble_forms.hpp"
-#include "runtime/program/interpreter.hpp"
 
 namespace casimir {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdlib>
 
 #include "codegen/emit_cpp.hpp"
-#include "tests/codegen/support.hpp"
 #include "tests/bundled_cases.hpp"
+#include "tests/codegen/support.hpp"
 
 namespace casimir {
 namespace {

@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "runtime/module_abi.h"
-#include "tests/codegen/support.hpp"
 #include "tests/bundled_cases.hpp"
+#include "tests/codegen/support.hpp"
 
 namespace casimir {
 namespace {

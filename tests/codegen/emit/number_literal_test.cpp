@@ -11,8 +11,8 @@
 #include <limits>
 
 #include "codegen/emit/identifiers.hpp"
-#include "tests/codegen/support.hpp"
 #include "symbolic/error.hpp"
+#include "tests/codegen/support.hpp"
 
 namespace casimir::codegen {
 namespace {

@@ -6,8 +6,8 @@
 #include "codegen/emit_cpp.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/program/term_size.hpp"
-#include "tests/codegen/support.hpp"
 #include "tests/bundled_cases.hpp"
+#include "tests/codegen/support.hpp"
 
 namespace casimir {
 namespace {

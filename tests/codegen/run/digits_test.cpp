@@ -6,8 +6,8 @@
 
 #include "runtime/evaluate.hpp"
 #include "runtime/precise_run.hpp"
-#include "tests/codegen/support.hpp"
 #include "tests/bundled_cases.hpp"
+#include "tests/codegen/support.hpp"
 
 namespace casimir::testing {
 namespace {

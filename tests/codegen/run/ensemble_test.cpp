@@ -2,8 +2,8 @@
 #include <cstring>
 #include <random>
 
-#include "tests/codegen/run/ensemble_forms.hpp"
 #include "tests/bundled_cases.hpp"
+#include "tests/codegen/run/ensemble_forms.hpp"
 
 namespace casimir {
 namespace {

@@ -4,11 +4,11 @@
 #include <cstdlib>
 #include <new>
 
-#include "tests/codegen/run/ensemble_forms.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/program/term_size.hpp"
-#include "tests/codegen/run/taylor_forms.hpp"
 #include "tests/bundled_cases.hpp"
+#include "tests/codegen/run/ensemble_forms.hpp"
+#include "tests/codegen/run/taylor_forms.hpp"
 
 namespace {
 unsigned long long allocations = 0;

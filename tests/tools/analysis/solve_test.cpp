@@ -92,8 +92,8 @@ TEST(Solve, AMotionThatEndsSaysWhereAndIsKnownUpToThere) {
 
 TEST(Solve, TolerancesFollowTheSizeOfTheStart) {
   const Oscillator oscillator;
-  const SceneRun large = prepare(oscillator.model, oscillator.scene(1));
-  const SceneRun small =
+  const PreparedScene large = prepare(oscillator.model, oscillator.scene(1));
+  const PreparedScene small =
       prepare(oscillator.model, scene_from(oscillator.model, {GiNaC::numeric(1, 1024), 0}, 1));
   RunRequest request;
   request.tolerance = 1e-8;

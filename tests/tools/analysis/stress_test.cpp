@@ -6,9 +6,9 @@
 namespace casimir::test {
 namespace {
 
-SceneTruth truth() {
-  SceneTruth known{.states = {"x"}};
-  known.truth = Truth{{1}, {0}, {1}};
+SceneReference truth() {
+  SceneReference known{.states = {"x"}};
+  known.truth = ReferenceState{{1}, {0}, {1}};
   known.growth = 1;
   return known;
 }
@@ -58,7 +58,7 @@ TEST(Stress, ARefusalNeedsAReason) {
 }
 
 TEST(Stress, TheTimeOfASingularityIsCompared) {
-  SceneTruth known = truth();
+  SceneReference known = truth();
   known.truth.reset();
   known.singular_time = 2;
   StressAnswer stopped = answer(1);

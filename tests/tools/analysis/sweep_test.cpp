@@ -20,9 +20,9 @@ namespace {
 struct Line {
   Oscillator oscillator;
   Scene scene = oscillator.scene(3);
-  SceneRun run = prepare(oscillator.model, scene);
+  PreparedScene run = prepare(oscillator.model, scene);
   Grid grid{{{"q", Axis::Kind::state, {0.5, 1, 2, 3}}}};
-  Places places{oscillator.model, scene, run, grid, {{oscillator.q}}};
+  GridPoints places{oscillator.model, scene, run, grid, {{oscillator.q}}};
   Settings settings = settings_for({}, run);
 };
 
@@ -34,14 +34,14 @@ TEST(Grid, TheLastAxisRunsFastest) {
   EXPECT_EQ(grid.at(3), (std::vector<double>{2, 5}));
 }
 
-TEST(Places, LetsAreFunctionsOfTheAxes) {
+TEST(GridPoints, LetsAreFunctionsOfTheAxes) {
   const Oscillator oscillator;
   const Scene scene = oscillator.scene(1);
-  const SceneRun run = prepare(oscillator.model, scene);
+  const PreparedScene run = prepare(oscillator.model, scene);
   const Grid grid{{{"phi", Axis::Kind::free, {0, 1}}}};
   const GiNaC::symbol phi("phi");
-  const Places places(oscillator.model, scene, run, grid,
-                      {{phi}, {{"p", GiNaC::sin(phi)}, {"q", GiNaC::cos(phi)}}});
+  const GridPoints places(oscillator.model, scene, run, grid,
+                          {{phi}, {{"p", GiNaC::sin(phi)}, {"q", GiNaC::cos(phi)}}});
   const auto [state, parameters] = places.at(1);
   EXPECT_NEAR(state[0], std::cos(1), 1e-15);
   EXPECT_NEAR(state[1], std::sin(1), 1e-15);
@@ -108,9 +108,9 @@ TEST(Exponents, OfASaddleIsItsEigenvalueAndOfACentreNone) {
     const GiNaC::symbol q("q"), p("p");
     const Model model = hamiltonian_system("h", {q}, {p}, (p * p + square * q * q) / 2);
     const Scene scene = scene_from(model, {1, 0}, 200);
-    const SceneRun run = prepare(model, scene);
+    const PreparedScene run = prepare(model, scene);
     const Grid grid{{{"q", Axis::Kind::state, {1}}}};
-    const Places places(model, scene, run, grid, {{q}});
+    const GridPoints places(model, scene, run, grid, {{q}});
     const Settings settings = settings_for({}, run);
     const LyapunovExponents task(model, scene, run, places, *find_method("taylor"), settings);
     const PointResult result = task.run({0}, 1, {})[0];
@@ -124,9 +124,9 @@ TEST(Exponents, OfASaddleIsItsEigenvalueAndOfACentreNone) {
 TEST(Exponents, EquationsThatDependOnTheTimeHaveNone) {
   const Model model = driven_equation("t - x");
   const Scene& scene = model.scene("default");
-  const SceneRun run = prepare(model, scene);
+  const PreparedScene run = prepare(model, scene);
   const Grid grid{{{"x", Axis::Kind::state, {1}}}};
-  const Places places(model, scene, run, grid, {{model.variables[0]}});
+  const GridPoints places(model, scene, run, grid, {{model.variables[0]}});
   const Settings settings = settings_for({}, run);
   EXPECT_THROW(LyapunovExponents(model, scene, run, places, *find_method("taylor"), settings),
                RequestError);

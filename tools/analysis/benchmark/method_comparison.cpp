@@ -20,25 +20,25 @@ constexpr double kWrong = 0.1;
 
 /// A contender ready to run.
 struct Ready {
-  Contender contender;
+  ComparedMethod contender;
   const Method* method;
-  const SceneRun* run;
+  const PreparedScene* run;
   CompiledModule compiled;
 };
 
-void tell(const ContestOptions& options, const std::string& what, double share) {
+void tell(const ComparisonOptions& options, const std::string& what, double share) {
   if (options.progress) options.progress(what, share);
 }
 
 /// The code before and after: parameters at run time and every state, and the scene's own.
 struct Codes {
-  SceneRun specialised, general;
+  PreparedScene specialised, general;
 
   bool same_states() const {
     return general.specialisation.states == specialised.specialisation.states;
   }
   /// Where the states of the specialised code are among those of `run`.
-  std::vector<int> places_in(const SceneRun& run) const {
+  std::vector<int> places_in(const PreparedScene& run) const {
     if (&run == &specialised || same_states()) return {};
     std::vector<int> places;
     for (const std::string& state : specialised.specialisation.states) {
@@ -61,7 +61,7 @@ std::string short_reason(const std::string& message) {
 /// always, methods of our own where nobody asked for them by name.
 class Gathering {
  public:
-  Gathering(const ContestOptions& options, const Codes& codes, Contest& contest)
+  Gathering(const ComparisonOptions& options, const Codes& codes, MethodComparison& contest)
       : options_(options), codes_(codes), contest_(contest) {}
 
   std::vector<Ready> run() && {
@@ -116,13 +116,13 @@ class Gathering {
                       compile_for(codes_.general, method)});
   }
 
-  static Contender contender(const Method& method, const char* code) {
+  static ComparedMethod contender(const Method& method, const char* code) {
     return {std::string(method.name), code, std::string(method.outside)};
   }
 
-  const ContestOptions& options_;
+  const ComparisonOptions& options_;
   const Codes& codes_;
-  Contest& contest_;
+  MethodComparison& contest_;
   std::vector<Ready> ready_;
   std::string compiled_series_, first_reason_;
   const Method* duplicate_ = nullptr;
@@ -139,8 +139,8 @@ Entrant entrant_of(const Ready& ready, const Codes& codes, const RunRequest& ask
 }
 
 /// The row of a sample: its status is more than how the run ended.
-Row row_of(const Contest& contest, const Ready& ready, const Entrant& entrant, const Truth& truth,
-           const Sample& sample) {
+Row row_of(const MethodComparison& contest, const Ready& ready, const Entrant& entrant,
+           const ReferenceState& truth, const Sample& sample) {
   Row row{.case_name = contest.case_name,
           .scene = contest.scene,
           .method = ready.contender.method,
@@ -174,8 +174,8 @@ Row row_of(const Contest& contest, const Ready& ready, const Entrant& entrant, c
   return row;
 }
 
-void measure_all(const std::vector<Ready>& ready, const Codes& codes, const Truth& truth,
-                 const ContestOptions& options, Contest& contest) {
+void measure_all(const std::vector<Ready>& ready, const Codes& codes, const ReferenceState& truth,
+                 const ComparisonOptions& options, MethodComparison& contest) {
   std::vector<double> tolerances = options.tolerances;
   std::sort(tolerances.begin(), tolerances.end(), std::greater<>());
   std::vector<Entrant> entrants;
@@ -206,7 +206,7 @@ void measure_all(const std::vector<Ready>& ready, const Codes& codes, const Trut
 
 }  // namespace
 
-WorkPrecision Contest::curve(const Contender& contender) const {
+WorkPrecision MethodComparison::curve(const ComparedMethod& contender) const {
   std::vector<Measured> runs;
   for (const Row& row : rows) {
     if (row.method == contender.method && row.code == contender.code && row.ok())
@@ -224,8 +224,9 @@ const std::vector<std::string>& usual_methods() {
   return kUsual;
 }
 
-Contest hold_contest(const Model& model, const Scene& scene, const ContestOptions& options) {
-  Contest contest;
+MethodComparison compare_methods(const Model& model, const Scene& scene,
+                                 const ComparisonOptions& options) {
+  MethodComparison contest;
   contest.case_name = model.name;
   contest.title = model.title.empty() ? model.name : model.title;
   contest.scene = scene.name;
@@ -240,11 +241,11 @@ Contest hold_contest(const Model& model, const Scene& scene, const ContestOption
   contest.general = codes.specialised.specialisation.general;
   contest.specialised = codes.specialised.specialisation.specialised;
   tell(options, "reference solution", 0);
-  const TruthOrReason truth = truth_of(scene, codes.specialised,
-                                       {.digits = options.digits,
-                                        .check_the_file = true,
-                                        .longest = options.reference_limit,
-                                        .give_up = options.give_up});
+  const ReferenceStateOrReason truth = reference_state_of(scene, codes.specialised,
+                                                          {.digits = options.digits,
+                                                           .check_the_file = true,
+                                                           .longest = options.reference_limit,
+                                                           .give_up = options.give_up});
   if (options.give_up && options.give_up()) throw EnvironmentError("the time limit was reached");
   contest.no_reference = truth.reason;
   contest.failure = truth.failure;

@@ -14,7 +14,7 @@
 namespace casimir {
 
 /// What is to be measured, and for how long.
-struct ContestOptions {
+struct ComparisonOptions {
   std::vector<std::string> methods = {};  ///< empty: all that suit the case
   std::vector<double> tolerances = {};
   RunRequest run = {};
@@ -29,7 +29,7 @@ struct ContestOptions {
 };
 
 /// One method on one kind of code: a curve of the plot, a line of the tables.
-struct Contender {
+struct ComparedMethod {
   std::string method;
   std::string code;     ///< "specialised" or "general"
   std::string outside;  ///< the library that does it, or empty
@@ -40,7 +40,7 @@ struct Contender {
 };
 
 /// The outcome of one scene.
-struct Contest {
+struct MethodComparison {
   std::string case_name, title, scene;
   std::string no_reference;  ///< why nothing could be measured, or empty
   NoReference failure = NoReference::none;
@@ -50,12 +50,12 @@ struct Contest {
   double conditioning = 0;  ///< growth of small changes; see runtime/work_precision.hpp
   std::vector<std::string> all_states, states;  ///< of the case, and those that are integrated
   OperationCount general, specialised;          ///< of one right-hand side
-  std::vector<Contender> contenders;            ///< ours first
+  std::vector<ComparedMethod> contenders;       ///< ours first
   std::vector<Row> rows;                        ///< by contender, from coarse to fine
   std::vector<std::string> notes;               ///< what was left out, and why
 
   /// What the good rows of a contender say: rows that are wrong or did not arrive are not in it.
-  WorkPrecision curve(const Contender& contender) const;
+  WorkPrecision curve(const ComparedMethod& contender) const;
 };
 
 /// Methods that a bench runs where none are named.
@@ -68,6 +68,7 @@ const std::vector<std::string>& usual_methods();
 /// more than `explained_error`: no tolerance asked for it. Only the latter, by a method of our own,
 /// makes the row `failed`.
 /// \throws EnvironmentError  if nothing is left to be measured, with the reason of the first.
-Contest hold_contest(const Model& model, const Scene& scene, const ContestOptions& options);
+MethodComparison compare_methods(const Model& model, const Scene& scene,
+                                 const ComparisonOptions& options);
 
 }  // namespace casimir

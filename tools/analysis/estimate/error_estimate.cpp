@@ -39,7 +39,7 @@ double distance(const std::vector<double>& a, const std::vector<double>& b,
 /// Runs beside the one that is assessed.
 class Neighbours {
  public:
-  Neighbours(const SceneRun& run, const CompiledModule& compiled, const Method& method,
+  Neighbours(const PreparedScene& run, const CompiledModule& compiled, const Method& method,
              const Settings& settings, const std::vector<double>& sizes)
       : run_(run), compiled_(compiled), method_(method), tight_(settings), sizes_(sizes) {
     tight_.monitor = false;
@@ -72,7 +72,7 @@ class Neighbours {
   /// The same for a parameter at run time.
   std::optional<double> growth_of_parameter(std::size_t j) const {
     return growth([&](double change) {
-      SceneRun moved = run_;  // where nothing is compiled, the module holds the parameters
+      PreparedScene moved = run_;  // where nothing is compiled, the module holds the parameters
       moved.parameters[j] *= 1 + change;
       return integrate(compile_for(moved, method_).module, method_, tight_, moved.initial,
                        moved.parameters);
@@ -93,7 +93,7 @@ class Neighbours {
     return largest;
   }
 
-  const SceneRun& run_;
+  const PreparedScene& run_;
   const CompiledModule& compiled_;
   const Method& method_;
   Settings tight_;
@@ -133,7 +133,7 @@ struct CrossCheck {
   double distance = 0;       ///< of the end states, as far as their own errors do not explain it
 };
 
-CrossCheck cross_check(const SceneRun& run, const Method& method, const Settings& settings,
+CrossCheck cross_check(const PreparedScene& run, const Method& method, const Settings& settings,
                        const Trajectory& trajectory, const std::vector<double>& sizes,
                        double growth) {
   auto form = quadratic_form(run.specialisation.rhs, run.parameters);
@@ -159,7 +159,7 @@ CrossCheck cross_check(const SceneRun& run, const Method& method, const Settings
 }
 
 /// The sizes of the states at both ends, where they are smaller than on the way.
-std::vector<double> end_sizes(const SceneRun& run, const Trajectory& trajectory) {
+std::vector<double> end_sizes(const PreparedScene& run, const Trajectory& trajectory) {
   Trajectory ends = trajectory;
   for (std::size_t i = 0; i < ends.sizes.size(); ++i)
     ends.sizes[i] = std::max(std::abs(run.initial[i]), std::abs(ends.state[i]));
@@ -171,11 +171,13 @@ std::vector<double> end_sizes(const SceneRun& run, const Trajectory& trajectory)
 
 }  // namespace
 
-bool Trust::died_out() const { return beyond_double && conditioning * kUnitRoundoff < kSpoiled; }
+bool ErrorEstimate::died_out() const {
+  return beyond_double && conditioning * kUnitRoundoff < kSpoiled;
+}
 
-Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& method,
-             const Settings& settings, const Trajectory& trajectory, double budget) {
-  Trust trust;
+ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, const Method& method,
+                     const Settings& settings, const Trajectory& trajectory, double budget) {
+  ErrorEstimate trust;
   if (trajectory.status != Status::ok) return trust;
   const std::vector<double> sizes = sizes_of(trajectory);
   const std::size_t n = run.initial.size();

@@ -8,7 +8,7 @@
 namespace casimir {
 
 /// How far the end state of a run can be believed. Relative to the size of each state.
-struct Trust {
+struct ErrorEstimate {
   bool known = false;          ///< false: the variational equations could not be integrated
   double conditioning = 0;     ///< largest growth of a small change of the initial state
   double on_the_way = 0;       ///< the same up to any time before the end
@@ -28,7 +28,7 @@ struct Trust {
 
 /// Integrates the variational equations along a finished run, and repeats it with a tighter
 /// tolerance where that takes about `budget` seconds at most.
-Trust assess(const SceneRun& run, const CompiledModule& compiled, const Method& method,
-             const Settings& settings, const Trajectory& trajectory, double budget = 1);
+ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, const Method& method,
+                     const Settings& settings, const Trajectory& trajectory, double budget = 1);
 
 }  // namespace casimir

@@ -83,7 +83,7 @@ struct Point {
 
 class Follower {
  public:
-  Follower(const SceneRun& run, const Settings& settings, double duration,
+  Follower(const PreparedScene& run, const Settings& settings, double duration,
            const std::vector<double>& sizes)
       : run_(run), sizes_(sizes), rhs_(codegen::variational(run.specialisation.rhs, sizes.size())) {
     auto form = quadratic_form(rhs_, run.parameters);
@@ -182,7 +182,7 @@ class Follower {
     grown_ = result_.growth = std::move(rising);
   }
 
-  const SceneRun& run_;
+  const PreparedScene& run_;
   const std::vector<double>& sizes_;
   Program rhs_;
   std::optional<Module> module_;
@@ -210,7 +210,7 @@ std::vector<double> sizes_of(const Trajectory& trajectory) {
   return sizes;
 }
 
-std::optional<Conditioning> conditioning(const SceneRun& run, const Settings& settings,
+std::optional<Conditioning> conditioning(const PreparedScene& run, const Settings& settings,
                                          double duration, const std::vector<double>& sizes) {
   return Follower(run, settings, duration, sizes).conditioning();
 }

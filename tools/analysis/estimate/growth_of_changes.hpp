@@ -36,7 +36,7 @@ std::vector<double> sizes_of(const Trajectory& trajectory);
 /// compiler, at the tolerance of the run or a tighter one; in a limited number of steps. Beyond,
 /// growth is extrapolated: by the power of time, or exponentially, that fits its second half.
 /// Nothing where that run does not get anywhere.
-std::optional<Conditioning> conditioning(const SceneRun& run, const Settings& settings,
+std::optional<Conditioning> conditioning(const PreparedScene& run, const Settings& settings,
                                          double duration, const std::vector<double>& sizes);
 
 }  // namespace casimir

@@ -61,7 +61,8 @@ std::vector<std::size_t> states_in(const Program& program, int line, std::size_t
 
 }  // namespace
 
-NearSingular::NearSingular(const SceneRun& run) : run_(run), divisors_(run.specialisation.rhs) {
+NearSingular::NearSingular(const PreparedScene& run)
+    : run_(run), divisors_(run.specialisation.rhs) {
   divisors_.outputs.clear();
   divisors_.output_names.clear();
   for (const int line : divisors_of(run.specialisation.rhs)) {

@@ -13,7 +13,7 @@ namespace casimir {
 class NearSingular {
  public:
   /// \param run  must outlive this object.
-  explicit NearSingular(const SceneRun& run);
+  explicit NearSingular(const PreparedScene& run);
 
   /// Whether there is anything to watch.
   bool divides() const { return !divisors_.outputs.empty(); }
@@ -32,7 +32,7 @@ class NearSingular {
     std::optional<double> crossed;  ///< the first time at which it has another sign
     std::vector<double> state;
   };
-  const SceneRun& run_;
+  const PreparedScene& run_;
   Program divisors_;
   std::vector<std::vector<std::size_t>> states_;  ///< that each divisor depends on
   std::vector<double> inputs_;

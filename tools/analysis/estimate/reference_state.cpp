@@ -47,7 +47,7 @@ int decimal_digits(const cln::cl_RA& value) {
 }
 
 /// The reference state of the file, if it has one for all kept states at the end of this run.
-std::optional<EndState> state_in_file(const Scene& scene, const SceneRun& run) {
+std::optional<EndState> state_in_file(const Scene& scene, const PreparedScene& run) {
   const Specialisation& s = run.specialisation;
   if (scene.reference.empty() || rounded(start_values(s, kConstantDigits).back()) != run.duration)
     return std::nullopt;
@@ -68,7 +68,7 @@ std::optional<EndState> state_in_file(const Scene& scene, const SceneRun& run) {
   return end;
 }
 
-EndState own_run(const SceneRun& run, const TruthOptions& options) {
+EndState own_run(const PreparedScene& run, const ReferenceOptions& options) {
   const Specialisation& s = run.specialisation;
   const std::vector<cln::cl_F> values = start_values(s, options.digits + kConstantDigits);
   const auto n = static_cast<std::ptrdiff_t>(s.states.size());
@@ -115,8 +115,9 @@ double distance(const std::vector<cln::cl_F>& a, const std::vector<cln::cl_F>& b
 }
 
 /// The file's state, with what our own run says about it.
-TruthOrReason compared(EndState& in_file, const EndState& own, const std::vector<double>& scale) {
-  TruthOrReason result{.error_bound = in_file.error_bound, .digits = in_file.digits};
+ReferenceStateOrReason compared(EndState& in_file, const EndState& own,
+                                const std::vector<double>& scale) {
+  ReferenceStateOrReason result{.error_bound = in_file.error_bound, .digits = in_file.digits};
   if (own.state.empty()) {
     result.source = fmt::format("the case file, {} digits, not checked", in_file.digits);
     return result;
@@ -137,12 +138,13 @@ TruthOrReason compared(EndState& in_file, const EndState& own, const std::vector
 
 }  // namespace
 
-TruthOrReason truth_of(const Scene& scene, const SceneRun& run, const TruthOptions& options) {
+ReferenceStateOrReason reference_state_of(const Scene& scene, const PreparedScene& run,
+                                          const ReferenceOptions& options) {
   std::optional<EndState> in_file = state_in_file(scene, run);
   const std::vector<double> scale = state_sizes(run);
   EndState own;
   if (!in_file || options.check_the_file) own = own_run(run, options);
-  TruthOrReason result;
+  ReferenceStateOrReason result;
   if (in_file) {
     result = compared(*in_file, own, scale);
   } else {
@@ -154,7 +156,7 @@ TruthOrReason truth_of(const Scene& scene, const SceneRun& run, const TruthOptio
               .singular_time = own.singular_time};
   }
   if (!result.reason.empty()) return result;
-  Truth truth;
+  ReferenceState truth;
   for (const cln::cl_F& x : in_file ? in_file->state : own.state) {
     truth.state.push_back(rounded(x));
     truth.rest.push_back(remainder(x, truth.state.back()));
@@ -167,7 +169,7 @@ TruthOrReason truth_of(const Scene& scene, const SceneRun& run, const TruthOptio
 namespace {
 
 /// What the sizes of the states are taken from: a run like this is no more exact than that.
-Settings coarse_settings(const SceneRun& run) {
+Settings coarse_settings(const PreparedScene& run) {
   Settings settings;
   settings.duration = run.duration;
   settings.rtol = 1e-8;
@@ -186,7 +188,7 @@ bool for_stiff_equations(const Method& method) {
 
 }  // namespace
 
-GoodRun good_run(const SceneRun& run, const Settings& settings) {
+GoodRun good_run(const PreparedScene& run, const Settings& settings) {
   // A second or so of Taylor series, and of a method that has few steps to take, or none.
   constexpr unsigned long long kMostSteps = 1'000'000, kMostStiffSteps = 50'000;
   Settings limited = settings;
@@ -212,7 +214,7 @@ GoodRun good_run(const SceneRun& run, const Settings& settings) {
   return first;
 }
 
-std::vector<double> state_sizes(const SceneRun& run) {
+std::vector<double> state_sizes(const PreparedScene& run) {
   const Trajectory trajectory = good_run(run, coarse_settings(run)).trajectory;
   std::vector<double> sizes(run.initial.size());
   for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::abs(run.initial[i]);
@@ -224,7 +226,7 @@ std::vector<double> state_sizes(const SceneRun& run) {
   return sizes;
 }
 
-double growth_of(const SceneRun& run, const Truth& truth) {
+double growth_of(const PreparedScene& run, const ReferenceState& truth) {
   constexpr double kTolerance = 1e-13, kStiffTolerance = 1e-10, kSeconds = 3;
   Settings settings = coarse_settings(run);
   settings.sample_every = 0;

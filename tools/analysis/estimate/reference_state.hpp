@@ -20,8 +20,8 @@ enum class NoReference {
 };
 
 /// The state that errors are measured against, and how good it is.
-struct TruthOrReason {
-  std::optional<Truth> truth = {};
+struct ReferenceStateOrReason {
+  std::optional<ReferenceState> truth = {};
   std::string source = {};  ///< "the case file, checked by our own run with 40 digits", ..
   double error_bound = 0;   ///< of any state, relative to its size along the run
   int digits = 0;           ///< significant ones: of the file's numbers, or of our own run
@@ -32,7 +32,7 @@ struct TruthOrReason {
 };
 
 /// How a reference state is found.
-struct TruthOptions {
+struct ReferenceOptions {
   int digits = 30;              ///< of a run of our own
   bool check_the_file = false;  ///< by a run of our own, if it does not take too long
   double longest = 60;          ///< seconds that a run of our own may take
@@ -45,11 +45,12 @@ struct TruthOptions {
 /// Its error bound is that of our own run, and for a state from the file the difference to our own
 /// run on top of it; where that was not made, half a unit in the last of the file's digits. A state
 /// in the file that our own run contradicts is no truth.
-TruthOrReason truth_of(const Scene& scene, const SceneRun& run, const TruthOptions& options);
+ReferenceStateOrReason reference_state_of(const Scene& scene, const PreparedScene& run,
+                                          const ReferenceOptions& options);
 
 /// The largest value that each state takes along a run in double precision, at 200 times; at least
 /// a millionth of the largest of all. What errors are measured against.
-std::vector<double> state_sizes(const SceneRun& run);
+std::vector<double> state_sizes(const PreparedScene& run);
 
 /// A method that reaches the end of a scene in double precision in a bearable number of steps, with
 /// its module: Taylor series, or a method for stiff equations where these take too many.
@@ -60,10 +61,10 @@ struct GoodRun {
 };
 
 /// The first method that does; the first of all where none does, with a trajectory that is not ok.
-GoodRun good_run(const SceneRun& run, const Settings& settings);
+GoodRun good_run(const PreparedScene& run, const Settings& settings);
 
 /// How much small changes of the state grow along the run: see runtime/work_precision.hpp. By the
 /// method that reaches the end. Infinite where that takes more than a few seconds.
-double growth_of(const SceneRun& run, const Truth& truth);
+double growth_of(const PreparedScene& run, const ReferenceState& truth);
 
 }  // namespace casimir

@@ -25,7 +25,7 @@ constexpr unsigned long long kFirstLook = 300;
 /// Looks for stiffness while an explicit method runs.
 class StiffnessWatch {
  public:
-  StiffnessWatch(const CompiledModule& compiled, const SceneRun& run, double duration)
+  StiffnessWatch(const CompiledModule& compiled, const PreparedScene& run, double duration)
       : compiled_(compiled), run_(run), duration_(duration) {}
 
   void see(double t, const double* x) {
@@ -40,7 +40,7 @@ class StiffnessWatch {
 
  private:
   const CompiledModule& compiled_;
-  const SceneRun& run_;
+  const PreparedScene& run_;
   double duration_;
   unsigned long long steps_ = 0, next_look_ = kFirstLook;
   std::string finding_;
@@ -48,10 +48,10 @@ class StiffnessWatch {
 
 class Judge {
  public:
-  Judge(const Model& model, const SceneRun& run, const JudgedOptions& options)
+  Judge(const Model& model, const PreparedScene& run, const AssessmentOptions& options)
       : model_(model), run_(run), options_(options) {}
 
-  JudgedRun judged() {
+  AssessedRun judged() {
     if (options_.method == "auto") {
       run_chosen_method();
     } else {
@@ -127,15 +127,16 @@ class Judge {
   }
 
   const Model& model_;
-  const SceneRun& run_;
-  const JudgedOptions& options_;
+  const PreparedScene& run_;
+  const AssessmentOptions& options_;
   std::optional<NearSingular> singular_;
-  JudgedRun result_;
+  AssessedRun result_;
 };
 
 }  // namespace
 
-JudgedRun integrate_judged(const Model& model, const SceneRun& run, const JudgedOptions& options) {
+AssessedRun integrate_assessed(const Model& model, const PreparedScene& run,
+                               const AssessmentOptions& options) {
   return Judge(model, run, options).judged();
 }
 

@@ -17,13 +17,13 @@ namespace casimir {
 inline constexpr const char* kStiffMethod = "radau9";
 
 /// A run with everything that is known of how far it can be believed.
-struct JudgedRun {
+struct AssessedRun {
   const Method* method = nullptr;
   std::string chosen;  ///< why, where `auto` chose the method
   Settings settings;
   std::optional<CompiledModule> compiled;  ///< set
   Trajectory trajectory;
-  Trust trust;
+  ErrorEstimate trust;
   std::vector<std::string> projected;  ///< onto the levels of these invariants
   /// Sentences on how the run was made and on its invariants, where these leave a doubt.
   std::vector<std::string> doubts;
@@ -32,7 +32,7 @@ struct JudgedRun {
 };
 
 /// What is asked of a run, and what watches it.
-struct JudgedOptions {
+struct AssessmentOptions {
   std::string method = "auto";
   RunRequest run = {};
   double time_limit = 0;    ///< in seconds; 0: none
@@ -47,6 +47,7 @@ struct JudgedOptions {
 /// status `drift_exceeded`.
 /// \param run            must outlive the result.
 /// \throws RequestError  for a method or settings that cannot be.
-JudgedRun integrate_judged(const Model& model, const SceneRun& run, const JudgedOptions& options);
+AssessedRun integrate_assessed(const Model& model, const PreparedScene& run,
+                               const AssessmentOptions& options);
 
 }  // namespace casimir

@@ -44,7 +44,7 @@ void quadratic(const LaneForm& form, bool worth_compiling, EnsembleKernel& resul
 }
 
 /// A module of the method, whose parameters may be others than the scene's.
-CompiledModule module_for_any(const SceneRun& run, const Method& method) {
+CompiledModule module_for_any(const PreparedScene& run, const Method& method) {
   // Tables for one trajectory hold the parameters of one.
   const bool tables = method.name == "taylor" && !run.parameters.empty();
   if (!tables) return compile_for(run, method);
@@ -59,7 +59,8 @@ CompiledModule module_for_any(const SceneRun& run, const Method& method) {
 }
 
 /// One module for each thread.
-std::function<Module()> modules(const SceneRun& run, const Method& method, EnsembleKernel& result) {
+std::function<Module()> modules(const PreparedScene& run, const Method& method,
+                                EnsembleKernel& result) {
   struct Store {
     std::mutex guard;
     std::optional<Module> first;
@@ -81,7 +82,7 @@ std::function<Module()> modules(const SceneRun& run, const Method& method, Ensem
 
 }  // namespace
 
-EnsembleKernel ensemble_kernel(const SceneRun& run, const Method& method, std::size_t members,
+EnsembleKernel ensemble_kernel(const PreparedScene& run, const Method& method, std::size_t members,
                                bool lanes) {
   const auto start = Clock::now();
   EnsembleKernel result;

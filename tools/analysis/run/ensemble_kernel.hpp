@@ -23,7 +23,7 @@ struct EnsembleKernel {
 /// \param members  how many there are: for a few nothing is compiled that need not be. That changes
 ///                 no result by a bit.
 /// \param lanes    false: member by member, whatever the method.
-EnsembleKernel ensemble_kernel(const SceneRun& run, const Method& method, std::size_t members,
+EnsembleKernel ensemble_kernel(const PreparedScene& run, const Method& method, std::size_t members,
                                bool lanes);
 
 }  // namespace casimir

@@ -21,7 +21,7 @@ std::string said_of(const std::string& name, Verdict verdict) {
 }  // namespace
 
 std::vector<std::string> set_projection(const RunRequest& options, const Model& model,
-                                        const SceneRun& run, Settings& settings,
+                                        const PreparedScene& run, Settings& settings,
                                         std::vector<std::string>& doubts) {
   if (!options.projects()) return {};
   const Specialisation& s = run.specialisation;

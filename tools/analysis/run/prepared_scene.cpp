@@ -45,13 +45,13 @@ double remainder(const cln::cl_F& value, double nearest) {
   return cln::double_approx(value - cln::cl_float(cln::cl_DF(nearest), value));
 }
 
-SceneRun prepare(const Model& model, const Scene& scene, const SceneOptions& options) {
+PreparedScene prepare(const Model& model, const Scene& scene, const SceneOptions& options) {
   const auto start = Clock::now();
   SpecialiseOptions what;
   what.fold_parameters = options.fold_parameters;
   what.keep_parameters = options.keep_parameters;
   what.observe = options.observe;
-  SceneRun run;
+  PreparedScene run;
   run.specialisation = specialise(model, scene, what);
   const Specialisation& s = run.specialisation;
   const std::vector<cln::cl_F> values = start_values(s, kConstantDigits);
@@ -71,7 +71,7 @@ SceneRun prepare(const Model& model, const Scene& scene, const SceneOptions& opt
   return run;
 }
 
-double duration_of(const SceneRun& run) {
+double duration_of(const PreparedScene& run) {
   if (!run.specialisation.has_duration) throw without_duration(run.where, run.specialisation.scene);
   return run.duration;
 }
@@ -80,7 +80,7 @@ void require_duration(const Scene& scene) {
   if (!scene.duration) throw without_duration(scene.where, scene.name);
 }
 
-InvariantTerms SceneRun::invariant_terms() const {
+InvariantTerms PreparedScene::invariant_terms() const {
   return [this](double t, const double* x, long double* values, long double* sizes) {
     std::vector<SizedNumber> inputs;
     for (std::size_t i = 0; i < initial.size(); ++i)
@@ -97,14 +97,14 @@ InvariantTerms SceneRun::invariant_terms() const {
 namespace {
 
 /// \throws ModelError  where the Hamiltonian does not split.
-Splitting splitting_of(const SceneRun& run) {
+Splitting splitting_of(const PreparedScene& run) {
   if (!run.split_source) throw ModelError("no splitting: " + run.no_split);
   return split(*run.split_source);
 }
 
 /// A module from the compiler.
 /// \throws CompilerMissing  without one; the text names the method that does not need it.
-CompiledModule compiled_module(const SceneRun& run, const Method& method) {
+CompiledModule compiled_module(const PreparedScene& run, const Method& method) {
   Specialisation s = run.specialisation;
   std::optional<Splitting> splitting;
   if (method.splits) splitting = splitting_of(run);
@@ -129,7 +129,7 @@ CompiledModule compiled_module(const SceneRun& run, const Method& method) {
 
 /// For the method of Taylor series: the tables where the system has that shape, else the compiler,
 /// and without one the program itself.
-CompiledModule taylor_module(const SceneRun& run, const Method& method) {
+CompiledModule taylor_module(const PreparedScene& run, const Method& method) {
   const Specialisation& s = run.specialisation;
   auto form = quadratic_form(s.rhs, run.parameters);
   if (form && !has_quadratic_kernel(*form)) form.reset();
@@ -147,7 +147,7 @@ CompiledModule taylor_module(const SceneRun& run, const Method& method) {
 
 }  // namespace
 
-CompiledModule compile_for(const SceneRun& run, const Method& method) {
+CompiledModule compile_for(const PreparedScene& run, const Method& method) {
   const auto start = Clock::now();
   CompiledModule result =
       method.name == "taylor" ? taylor_module(run, method) : compiled_module(run, method);
@@ -155,7 +155,7 @@ CompiledModule compile_for(const SceneRun& run, const Method& method) {
   return result;
 }
 
-bool suits(const SceneRun& run, const Method& method) {
+bool suits(const PreparedScene& run, const Method& method) {
   if (!method.splits) return true;
   try {
     splitting_of(run);

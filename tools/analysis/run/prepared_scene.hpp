@@ -17,7 +17,7 @@
 namespace casimir {
 
 /// A scene made ready to run: generated code, and its numbers in double.
-struct SceneRun {
+struct PreparedScene {
   Specialisation specialisation;
   std::vector<double> initial;     ///< of the kept states
   std::vector<double> rounding;    ///< what rounding them to double left out
@@ -41,10 +41,10 @@ struct SceneOptions {
 };
 
 /// Specialises a scene and rounds its data. \throws ModelError  for data outside double's range.
-SceneRun prepare(const Model& model, const Scene& scene, const SceneOptions& options = {});
+PreparedScene prepare(const Model& model, const Scene& scene, const SceneOptions& options = {});
 
 /// The duration of a scene. \throws CaseError  where the scene gives none.
-double duration_of(const SceneRun& run);
+double duration_of(const PreparedScene& run);
 /// \throws CaseError  where the scene gives no duration.
 void require_duration(const Scene& scene);
 
@@ -58,11 +58,11 @@ struct CompiledModule {
   std::string warning = {};  ///< what the user should know about how it was made, or empty
 };
 /// \throws ModelError  where the method splits the Hamiltonian and it does not split.
-CompiledModule compile_for(const SceneRun& run, const Method& method);
+CompiledModule compile_for(const PreparedScene& run, const Method& method);
 
 /// Whether the method can do anything with the scene: those that split the Hamiltonian need one
 /// that splits.
-bool suits(const SceneRun& run, const Method& method);
+bool suits(const PreparedScene& run, const Method& method);
 
 /// What `load` loads of a compiled object. \throws EnvironmentError  where it cannot be loaded.
 template <class Load>

@@ -85,7 +85,7 @@ class Maker {
     what.observe = std::vector<std::string>{};
     what.gradients = what.variational = true;
     what.jacobian = false;
-    SceneRun& run = problem_.run;
+    PreparedScene& run = problem_.run;
     run.specialisation = specialise(model, scene_, what);
     Specialisation& s = run.specialisation;
     const std::vector<cln::cl_F> start = start_values(s, kConstantDigits);

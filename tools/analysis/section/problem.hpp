@@ -37,8 +37,8 @@ struct PlottedFunction {
 
 /// A section made ready to be computed.
 struct SectionProblem {
-  SceneRun run;        ///< all states; invariants: H, the Casimirs, the plane, the plotted pair
-  SceneRun deviating;  ///< the same system with one deviation, by the variational equations
+  PreparedScene run;  ///< all states; invariants: H, the Casimirs, the plane, the plotted pair
+  PreparedScene deviating;  ///< the same system with one deviation, by the variational equations
   SectionPlane plane;
   std::string plane_text;
   std::array<PlottedFunction, 2> plotted;

@@ -34,7 +34,7 @@ StressCell without_answer(StressCell cell, const StressAnswer& answer) {
 }
 
 /// What could explain an error of this run.
-double explained(const StressAnswer& answer, const SceneTruth& truth) {
+double explained(const StressAnswer& answer, const SceneReference& truth) {
   Entrant entrant = {};
   entrant.settings.rtol = answer.rtol;
   entrant.settings.atol = answer.atol;
@@ -54,7 +54,7 @@ void fill(Row& row, const StressAnswer& answer) {
 
 /// Why a cell is what it is, where its status does not tell.
 std::string reason_of(const StressCell& cell, const Answer& judged, const StressAnswer& answer,
-                      const SceneTruth& truth) {
+                      const SceneReference& truth) {
   if (cell.verdict == Judgement::refused) return answer.stop_reason;
   if (cell.verdict == Judgement::unknown) return truth.source;
   if (cell.verdict == Judgement::right) return "";
@@ -74,7 +74,7 @@ double value_of(const StressAnswer& answer, const std::string& name) {
 
 }  // namespace
 
-StressCell cell_of(const Row& asked, bool outside, const SceneTruth& truth,
+StressCell cell_of(const Row& asked, bool outside, const SceneReference& truth,
                    const StressAnswer& answer) {
   StressCell cell{.row = asked, .outside = outside};
   if (answer.kind != StressAnswer::Kind::answered) return without_answer(cell, answer);

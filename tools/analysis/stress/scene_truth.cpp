@@ -5,10 +5,10 @@
 
 namespace casimir {
 
-SceneTruth truth_of_scene(const Model& model, const Scene& scene, double longest) {
-  const SceneRun run = prepare(model, scene);
-  const TruthOrReason known = truth_of(scene, run, {.longest = longest});
-  SceneTruth result{.states = run.specialisation.states};
+SceneReference reference_state_of_scene(const Model& model, const Scene& scene, double longest) {
+  const PreparedScene run = prepare(model, scene);
+  const ReferenceStateOrReason known = reference_state_of(scene, run, {.longest = longest});
+  SceneReference result{.states = run.specialisation.states};
   result.source = known.truth ? known.source : known.reason;
   result.singular_time = known.singular_time;
   const bool called_so = scene.extreme == "blowup" && scene.reference.empty();

@@ -10,9 +10,9 @@
 namespace casimir {
 
 /// What is known about the end of a scene: what its answers are judged by.
-struct SceneTruth {
+struct SceneReference {
   std::vector<std::string> states;           ///< those that are integrated
-  std::optional<Truth> truth = {};           ///< of them
+  std::optional<ReferenceState> truth = {};  ///< of them
   std::string source = {};                   ///< where the truth is from, or why there is none
   bool has_end = true;                       ///< the exact motion reaches the end time
   std::optional<double> singular_time = {};  ///< of a pole of the equations that it meets
@@ -23,6 +23,6 @@ struct SceneTruth {
 /// A scene that the file calls a blow-up and gives no reference state has no end, whatever a run of
 /// our own says.
 /// \param longest  seconds that a run of our own may take.
-SceneTruth truth_of_scene(const Model& model, const Scene& scene, double longest);
+SceneReference reference_state_of_scene(const Model& model, const Scene& scene, double longest);
 
 }  // namespace casimir

@@ -106,8 +106,8 @@ class PointCheck {
 
 }  // namespace
 
-Places::Places(const Model& model, const Scene& scene, const SceneRun& run, const Grid& grid,
-               const Lets& lets)
+GridPoints::GridPoints(const Model& model, const Scene& scene, const PreparedScene& run,
+                       const Grid& grid, const Lets& lets)
     : run_(run), grid_(grid) {
   for (const Axis& axis : grid.axes) axes_.push_back(target(axis.name));
   std::vector<GiNaC::ex> functions;
@@ -119,14 +119,14 @@ Places::Places(const Model& model, const Scene& scene, const SceneRun& run, cons
   check(model, scene);
 }
 
-Places::Target Places::target(const std::string& name) const {
+GridPoints::Target GridPoints::target(const std::string& name) const {
   const Specialisation& s = run_.specialisation;
   const std::size_t state = place_in(s.states, name);
   if (state < s.states.size()) return {true, state, name};
   return {false, place_in(s.parameters, name), name};
 }
 
-std::pair<std::vector<double>, std::vector<double>> Places::at(std::size_t point) const {
+std::pair<std::vector<double>, std::vector<double>> GridPoints::at(std::size_t point) const {
   std::vector<double> state = run_.initial, parameters = run_.parameters;
   const auto put = [&](const Target& target, double value) {
     std::vector<double>& into = target.state ? state : parameters;
@@ -142,7 +142,7 @@ std::pair<std::vector<double>, std::vector<double>> Places::at(std::size_t point
   return {state, parameters};
 }
 
-Scene Places::scene_at(std::size_t point, const Model& model, const Scene& scene) const {
+Scene GridPoints::scene_at(std::size_t point, const Model& model, const Scene& scene) const {
   const auto [state, parameters] = at(point);
   const auto exact = [](double x) {
     return GiNaC::ex(GiNaC::numeric(cln::rational(cln::cl_DF(x))));
@@ -163,7 +163,7 @@ Scene Places::scene_at(std::size_t point, const Model& model, const Scene& scene
 }
 
 /// What the scene was checked for exactly holds to rounding at every point.
-void Places::check(const Model& model, const Scene& scene) const {
+void GridPoints::check(const Model& model, const Scene& scene) const {
   PointCheck check(model, scene, run_.specialisation);
   for (std::size_t point = 0; point < grid_.points(); ++point) {
     const auto [state, parameters] = at(point);

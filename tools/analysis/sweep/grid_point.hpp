@@ -13,14 +13,14 @@ namespace casimir {
 
 /// Initial state and parameters at the points of a grid: the scene's, with the values of the axes
 /// and of the lets in their place.
-class Places {
+class GridPoints {
  public:
   /// \param run   with the parameters of the axes and lets at run time
   /// \param lets  over the axes of the grid
   /// \throws RequestError  for a point that violates an assumption or leaves a constraint; the
   ///                     message names it
-  Places(const Model& model, const Scene& scene, const SceneRun& run, const Grid& grid,
-         const Lets& lets);
+  GridPoints(const Model& model, const Scene& scene, const PreparedScene& run, const Grid& grid,
+             const Lets& lets);
 
   /// State and parameters of the run at a point.
   std::pair<std::vector<double>, std::vector<double>> at(std::size_t point) const;
@@ -37,7 +37,7 @@ class Places {
   Target target(const std::string& name) const;
   void check(const Model& model, const Scene& scene) const;
 
-  const SceneRun& run_;
+  const PreparedScene& run_;
   const Grid& grid_;
   std::vector<Target> axes_, lets_;
   Program let_values_;  ///< inputs: the axes, then the parameters of the run

@@ -12,7 +12,7 @@
 
 namespace casimir {
 
-Integrations::Integrations(const SceneRun& run, const Places& places, const Method& method,
+Integrations::Integrations(const PreparedScene& run, const GridPoints& places, const Method& method,
                            const Settings& settings, std::size_t points)
     : run_(run),
       places_(places),

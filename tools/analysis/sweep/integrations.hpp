@@ -13,7 +13,7 @@ namespace casimir {
 class Integrations : public SweepTask {
  public:
   /// All of these outlive it.
-  Integrations(const SceneRun& run, const Places& places, const Method& method,
+  Integrations(const PreparedScene& run, const GridPoints& places, const Method& method,
                const Settings& settings, std::size_t points);
 
   std::vector<std::string> columns() const override;
@@ -27,8 +27,8 @@ class Integrations : public SweepTask {
   const std::string& warning() const { return kernel_.warning; }
 
  private:
-  const SceneRun& run_;
-  const Places& places_;
+  const PreparedScene& run_;
+  const GridPoints& places_;
   const Method& method_;
   const Settings& settings_;
   EnsembleKernel kernel_;

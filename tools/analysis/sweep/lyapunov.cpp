@@ -21,9 +21,9 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-LyapunovExponents::LyapunovExponents(const Model& model, const Scene& scene, const SceneRun& run,
-                                     const Places& places, const Method& method,
-                                     const Settings& settings)
+LyapunovExponents::LyapunovExponents(const Model& model, const Scene& scene,
+                                     const PreparedScene& run, const GridPoints& places,
+                                     const Method& method, const Settings& settings)
     : places_(places),
       // The tables of the method that needs no compiler hold the values of the parameters.
       method_(method.name == "taylor" && !run.parameters.empty() ? *find_method("taylor-compiled")

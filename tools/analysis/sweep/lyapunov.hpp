@@ -14,8 +14,8 @@ class LyapunovExponents : public SweepTask {
  public:
   /// \param run  whose states and parameters the places are; all of these outlive it
   /// \throws RequestError  for equations that depend on the time
-  LyapunovExponents(const Model& model, const Scene& scene, const SceneRun& run,
-                    const Places& places, const Method& method, const Settings& settings);
+  LyapunovExponents(const Model& model, const Scene& scene, const PreparedScene& run,
+                    const GridPoints& places, const Method& method, const Settings& settings);
 
   std::vector<std::string> columns() const override;
   std::string fingerprint() const override;
@@ -26,10 +26,10 @@ class LyapunovExponents : public SweepTask {
   PointResult follow(const Module& module, std::size_t point,
                      const std::function<bool()>& give_up) const;
 
-  const Places& places_;
+  const GridPoints& places_;
   const Method& method_;
   const Settings& settings_;
-  SceneRun deviating_;  ///< the system and one deviation
+  PreparedScene deviating_;  ///< the system and one deviation
 };
 
 }  // namespace casimir

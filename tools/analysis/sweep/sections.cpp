@@ -16,7 +16,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-Sections::Sections(const Model& model, const Scene& scene, const Places& places,
+Sections::Sections(const Model& model, const Scene& scene, const GridPoints& places,
                    SectionRequest request, std::size_t orbits, std::size_t points, double tolerance)
     : model_(model),
       scene_(scene),

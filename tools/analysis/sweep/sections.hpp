@@ -13,7 +13,7 @@ namespace casimir {
 class Sections : public SweepTask {
  public:
   /// Model, scene and places outlive it. \throws RequestError  as section_problem does
-  Sections(const Model& model, const Scene& scene, const Places& places, SectionRequest request,
+  Sections(const Model& model, const Scene& scene, const GridPoints& places, SectionRequest request,
            std::size_t orbits, std::size_t points, double tolerance);
 
   std::vector<std::string> columns() const override;
@@ -26,7 +26,7 @@ class Sections : public SweepTask {
 
   const Model& model_;
   const Scene& scene_;
-  const Places& places_;
+  const GridPoints& places_;
   SectionRequest request_;
   std::size_t orbits_, points_;
   double tolerance_;

@@ -10,15 +10,16 @@
 namespace casimir::test {
 namespace {
 
-TruthOrReason truth(const Model& model, const TruthOptions& options = {}) {
+ReferenceStateOrReason truth(const Model& model, const ReferenceOptions& options = {}) {
   const Scene& scene = model.scene("default");
-  return truth_of(scene, prepare(model, scene), options);
+  return reference_state_of(scene, prepare(model, scene), options);
 }
 
-TEST(Truth, AnOwnRunHasTheExactStateToItsBound) {
+TEST(ReferenceState, AnOwnRunHasTheExactStateToItsBound) {
   const Oscillator oscillator;
   const Scene scene = oscillator.scene(10);
-  const TruthOrReason known = truth_of(scene, prepare(oscillator.model, scene), {});
+  const ReferenceStateOrReason known =
+      reference_state_of(scene, prepare(oscillator.model, scene), {});
   ASSERT_TRUE(known.truth) << known.reason;
   EXPECT_EQ(known.failure, NoReference::none);
   EXPECT_EQ(known.truth->state[0], std::cos(10.));
@@ -29,35 +30,38 @@ TEST(Truth, AnOwnRunHasTheExactStateToItsBound) {
   EXPECT_LT(std::abs(known.truth->rest[0]), 1e-16);
 }
 
-TEST(Truth, AStateInTheFileIsCheckedAndAWrongOneIsNone) {
+TEST(ReferenceState, AStateInTheFileIsCheckedAndAWrongOneIsNone) {
   // x = e^t at t = 1.
   const auto with = [](const std::string& value) {
     return one_equation("x", "1", "reference = { x = \"" + value + "\" }\n");
   };
-  const TruthOrReason right = truth(with("2.718281828459045235360287"), {.check_the_file = true});
+  const ReferenceStateOrReason right =
+      truth(with("2.718281828459045235360287"), {.check_the_file = true});
   ASSERT_TRUE(right.truth) << right.reason;
   EXPECT_EQ(right.digits, 25);
-  const TruthOrReason wrong = truth(with("2.718281828459045335360287"), {.check_the_file = true});
+  const ReferenceStateOrReason wrong =
+      truth(with("2.718281828459045335360287"), {.check_the_file = true});
   EXPECT_FALSE(wrong.truth);
   EXPECT_EQ(wrong.failure, NoReference::contradicted);
   EXPECT_FALSE(wrong.reason.empty());
 }
 
-TEST(Truth, AMotionThatHasNoEndHasNone) {
-  const TruthOrReason none = truth(one_equation("x^2", "2"));
+TEST(ReferenceState, AMotionThatHasNoEndHasNone) {
+  const ReferenceStateOrReason none = truth(one_equation("x^2", "2"));
   EXPECT_FALSE(none.truth);
   EXPECT_EQ(none.failure, NoReference::not_reached);
   ASSERT_TRUE(none.singular_time);
   EXPECT_NEAR(*none.singular_time, 1, 1e-6);
 }
 
-TEST(Truth, ARunThatIsGivenUpSaysSo) {
-  const TruthOrReason none = truth(one_equation("x", "1"), {.give_up = [] { return true; }});
+TEST(ReferenceState, ARunThatIsGivenUpSaysSo) {
+  const ReferenceStateOrReason none =
+      truth(one_equation("x", "1"), {.give_up = [] { return true; }});
   EXPECT_FALSE(none.truth);
   EXPECT_EQ(none.failure, NoReference::took_too_long);
 }
 
-TEST(Truth, SizesAreTheLargestAlongTheRun) {
+TEST(ReferenceState, SizesAreTheLargestAlongTheRun) {
   const Oscillator oscillator;
   const Scene scene = scene_from(oscillator.model, {3, 0}, 10);
   const std::vector<double> sizes = state_sizes(prepare(oscillator.model, scene));
@@ -65,10 +69,10 @@ TEST(Truth, SizesAreTheLargestAlongTheRun) {
   EXPECT_NEAR(sizes[1], 3, 1e-2);
 }
 
-TEST(Truth, GrowthIsThatOfTheFlow) {
+TEST(ReferenceState, GrowthIsThatOfTheFlow) {
   const Model model = one_equation("x - 1", "10");
-  const SceneRun run = prepare(model, model.scene("default"));
-  const TruthOrReason known = truth_of(model.scene("default"), run, {});
+  const PreparedScene run = prepare(model, model.scene("default"));
+  const ReferenceStateOrReason known = reference_state_of(model.scene("default"), run, {});
   ASSERT_TRUE(known.truth) << known.reason;
   EXPECT_NEAR(growth_of(run, *known.truth) / std::exp(10), 1, 0.05);
 }

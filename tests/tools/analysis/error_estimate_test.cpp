@@ -12,7 +12,7 @@
 namespace casimir::test {
 namespace {
 
-TEST(Trust, TheEstimateIsAboveTheErrorAndNotFarAbove) {
+TEST(ErrorEstimate, TheEstimateIsAboveTheErrorAndNotFarAbove) {
   const Oscillator oscillator;
   for (const double tolerance : {1e-4, 1e-7, 1e-10}) {
     SolveOptions options;
@@ -20,7 +20,7 @@ TEST(Trust, TheEstimateIsAboveTheErrorAndNotFarAbove) {
     options.run.tolerance = tolerance;
     const Solution motion = solve(oscillator.model, oscillator.scene(100), options);
     ASSERT_TRUE(motion.ok());
-    const Trust& trust = motion.trust();
+    const ErrorEstimate& trust = motion.trust();
     ASSERT_TRUE(trust.known);
     const double error = std::hypot(motion.trajectory().state[0] - std::cos(100.),
                                     motion.trajectory().state[1] + std::sin(100.));
@@ -31,7 +31,7 @@ TEST(Trust, TheEstimateIsAboveTheErrorAndNotFarAbove) {
   }
 }
 
-TEST(Trust, GrowthOfChangesIsThatOfTheFlow) {
+TEST(ErrorEstimate, GrowthOfChangesIsThatOfTheFlow) {
   // In units of the largest state, which both of them are at the end of x = e^t.
   const Model growing = one_equation("x", "10");
   EXPECT_NEAR(solve(growing, growing.scene("default")).trust().conditioning / std::exp(10), 1,
@@ -43,19 +43,19 @@ TEST(Trust, GrowthOfChangesIsThatOfTheFlow) {
   EXPECT_NEAR(motion.trust().conditioning / std::exp(10), 1, 0.01);
   EXPECT_FALSE(motion.trust().beyond_double);
   const Model lost = one_equation("x - 1", "40");
-  const Trust none = solve(lost, lost.scene("default")).trust();
+  const ErrorEstimate none = solve(lost, lost.scene("default")).trust();
   EXPECT_TRUE(none.beyond_double);
   EXPECT_NEAR(none.conditioning / std::exp(40), 1, 0.01);  // no step is long because nothing moves
   ASSERT_TRUE(none.six_digits_until);
   const Model overflowing = one_equation("x - 1", "800");
-  const Trust most = solve(overflowing, overflowing.scene("default")).trust();
+  const ErrorEstimate most = solve(overflowing, overflowing.scene("default")).trust();
   EXPECT_TRUE(most.known);
   EXPECT_TRUE(most.beyond_double);
   // Rounding grows to 1e-6 at the time log(1e-6 / 2^-53): the end of a step before it.
   EXPECT_LE(*none.six_digits_until, std::log(1e-6 * 0x1p53));
 }
 
-TEST(Trust, RoundingOfTheDataIsCounted) {
+TEST(ErrorEstimate, RoundingOfTheDataIsCounted) {
   const Oscillator oscillator;
   const auto input = [&](const GiNaC::ex& q) {
     return solve(oscillator.model, scene_from(oscillator.model, {q, 0}, 10)).trust().input_rounding;
@@ -65,8 +65,8 @@ TEST(Trust, RoundingOfTheDataIsCounted) {
   EXPECT_LT(input(GiNaC::numeric(1, 3)), 1e-15);
 }
 
-TEST(Trust, ChangesThatDiedOutAreToldFromThoseThatAreThere) {
-  Trust trust;
+TEST(ErrorEstimate, ChangesThatDiedOutAreToldFromThoseThatAreThere) {
+  ErrorEstimate trust;
   trust.conditioning = 1;
   EXPECT_FALSE(trust.died_out());
   trust.beyond_double = true;
@@ -75,7 +75,7 @@ TEST(Trust, ChangesThatDiedOutAreToldFromThoseThatAreThere) {
   EXPECT_FALSE(trust.died_out());
 }
 
-TEST(Trust, NothingIsSaidOfARunThatStopped) {
+TEST(ErrorEstimate, NothingIsSaidOfARunThatStopped) {
   const Model model = one_equation("x^2", "2");
   EXPECT_FALSE(solve(model, model.scene("default")).trust().known);
 }
