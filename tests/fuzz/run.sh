@@ -21,6 +21,7 @@ fi
 ninja -C "$build" "${targets[@]/#/fuzz_}" >>"$build.log" 2>&1 || { tail -n 60 "$build.log"; exit 4; }
 
 mkdir -p "$build/found"
+"$root/tests/fuzz/pack.sh" unpack "$build/kept"
 # Memory that GiNaC and FLINT keep for later is no leak.
 export ASAN_OPTIONS=detect_leaks=0:quarantine_size_mb=4:malloc_context_size=3:max_malloc_fill_size=0
 export LLVM_PROFILE_FILE=/dev/null  # where the build counts for coverage
@@ -32,7 +33,7 @@ for target in "${targets[@]}"; do
   log=$build/$target.log
   if "$build/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -max_len=400 -timeout=20 -report_slow_units=1 \
       -rss_limit_mb=1024 -print_final_stats=1 -detect_leaks=0 -artifact_prefix="$build/found/$target-" \
-      "${dictionary[@]}" "$build/corpus/$target" "$root/tests/fuzz/corpus/$target" >"$log" 2>&1; then
+      "${dictionary[@]}" "$build/corpus/$target" "$build/kept/corpus/$target" >"$log" 2>&1; then
     printf '%-14s %s runs\n' "$target" "$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")"
   else
     failed=1
