@@ -12,21 +12,21 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-struct Curve {
+struct ErrorCurve {
   ComparedMethod contender;
   WorkPrecision runs;
 };
 
-std::vector<Curve> curves_of(const MethodComparison& contest) {
-  std::vector<Curve> curves;
+std::vector<ErrorCurve> curves_of(const MethodComparison& contest) {
+  std::vector<ErrorCurve> curves;
   for (const ComparedMethod& contender : contest.contenders)
     curves.push_back({contender, contest.curve(contender)});
   return curves;
 }
 
-Cell cell_at(const std::vector<Curve>& curves, const Curve& curve, double error) {
+Cell cell_at(const std::vector<ErrorCurve>& curves, const ErrorCurve& curve, double error) {
   Cell cell{error, curve.runs.seconds_at(error), kNaN, "", kNaN};
-  for (const Curve& ours : curves) {
+  for (const ErrorCurve& ours : curves) {
     if (!ours.contender.own() || ours.contender.code == "general") continue;
     const double seconds = ours.runs.seconds_at(error);
     if (std::isnan(seconds) || seconds >= cell.fastest_seconds) continue;
@@ -61,9 +61,9 @@ Mean mean_of(const std::vector<MethodComparison>& contests, const std::string& p
 }  // namespace
 
 std::vector<Line> equal_error_lines(const MethodComparison& contest) {
-  const std::vector<Curve> curves = curves_of(contest);
+  const std::vector<ErrorCurve> curves = curves_of(contest);
   std::vector<Line> lines;
-  for (const Curve& curve : curves) {
+  for (const ErrorCurve& curve : curves) {
     if (curve.runs.envelope().empty()) continue;
     Line line{curve.contender, {}, cell_at(curves, curve, curve.runs.best_error())};
     for (const double error : kErrorLevels) line.levels.push_back(cell_at(curves, curve, error));
@@ -73,14 +73,15 @@ std::vector<Line> equal_error_lines(const MethodComparison& contest) {
 }
 
 std::vector<CodeLine> code_lines(const MethodComparison& contest) {
-  const std::vector<Curve> curves = curves_of(contest);
+  const std::vector<ErrorCurve> curves = curves_of(contest);
   std::vector<CodeLine> lines;
-  for (const Curve& general : curves) {
+  for (const ErrorCurve& general : curves) {
     if (general.contender.code != "general") continue;
-    const auto specialised = std::find_if(curves.begin(), curves.end(), [&](const Curve& curve) {
-      return curve.contender.method == general.contender.method &&
-             curve.contender.code == "specialised";
-    });
+    const auto specialised =
+        std::find_if(curves.begin(), curves.end(), [&](const ErrorCurve& curve) {
+          return curve.contender.method == general.contender.method &&
+                 curve.contender.code == "specialised";
+        });
     if (specialised == curves.end()) continue;
     CodeLine line{general.contender.method, {}};
     for (const double error : kErrorLevels)

@@ -31,7 +31,7 @@ void append(std::vector<Formula>& list, const std::vector<Formula>& more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 
-void print_bracket(const Model& model, const SystemView& view) {
+void print_latex_bracket(const Model& model, const SystemView& view) {
   std::vector<Formula> lines;
   for (const VectorEntries& v : view.vectors)
     lines.push_back({v.shown, fmt::format("({})", fmt::join(v.entries, ", "))});
@@ -58,7 +58,7 @@ void print_bracket(const Model& model, const SystemView& view) {
 void show_latex(const Model& model) {
   Notation notation(model);
   const SystemView view = view_of(model, notation, Markup::latex);
-  if (model.poisson) print_bracket(model, view);
+  if (model.poisson) print_latex_bracket(model, view);
   std::vector<Formula> lines;
   if (!view.hamiltonian.empty()) lines.push_back({"H", view.hamiltonian});
   append(lines, view.vector_equations);

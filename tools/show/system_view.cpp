@@ -297,7 +297,7 @@ SystemView view_of(const Model& model, Notation& notation, Markup markup) {
 std::optional<RankView> rank_of(const Model& model) {
   if (!model.poisson) return std::nullopt;
   Candidates only;
-  only.only = "rank";
+  only.only = ClaimKind::rank;
   for (const Proof& proof : prove(model, only)) {
     RankView rank{proof.name, proof.evidence.empty() ? proof.reason : proof.evidence, {}};
     const std::size_t digits = proof.name.find_last_not_of("0123456789") + 1;

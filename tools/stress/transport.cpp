@@ -52,10 +52,10 @@ bool warned(const Json& answer) {
 
 /// The status of that name.
 Status status_named(const std::string& name) {
-  constexpr Status kAll[] = {
+  constexpr Status kStatuses[] = {
       Status::ok,        Status::singularity,    Status::non_finite,     Status::step_underflow,
       Status::max_steps, Status::no_convergence, Status::drift_exceeded, Status::stopped};
-  return *std::ranges::find(kAll, name, [](Status status) { return to_string(status); });
+  return *std::ranges::find(kStatuses, name, [](Status status) { return to_string(status); });
 }
 
 double largest_drift(const Json& invariants) {

@@ -12,7 +12,7 @@
 namespace casimir {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -49,8 +49,9 @@ PointResult Sections::cut(std::size_t point, int threads,
   const LevelSet level(problem);
   const OrbitCutter cutter(problem, {tolerance_, threads, give_up}, orbits_ * points_);
   const std::vector<OrbitReport> orbits = domain_orbits(level, cutter, orbits_, points_);
-  if (cutter.interrupted()) return {Status::stopped, std::vector<double>(columns().size(), kNone)};
-  double crossings = 0, regular = 0, chaotic = 0, exponent = kNone, off = 0;
+  if (cutter.interrupted())
+    return {Status::stopped, std::vector<double>(columns().size(), kUnknown)};
+  double crossings = 0, regular = 0, chaotic = 0, exponent = kUnknown, off = 0;
   Status status = Status::ok;
   for (const OrbitReport& orbit : orbits) {
     crossings += static_cast<double>(orbit.places.size());
@@ -66,8 +67,8 @@ PointResult Sections::cut(std::size_t point, int threads,
 
 std::vector<PointResult> Sections::run(const std::vector<std::size_t>& points, int threads,
                                        const std::function<bool()>& give_up) const {
-  std::vector<PointResult> results(points.size(),
-                                   {Status::stopped, std::vector<double>(columns().size(), kNone)});
+  std::vector<PointResult> results(
+      points.size(), {Status::stopped, std::vector<double>(columns().size(), kUnknown)});
   // The orbits of one section are what the threads share.
   for (std::size_t k = 0; k < points.size() && !(give_up && give_up()); ++k)
     results[k] = cut(points[k], threads, give_up);
