@@ -59,8 +59,8 @@ std::string emit_module(const Specialisation& specialisation, const std::string&
 
 /// The text of a module for ensembles: Taylor series, one trajectory in each lane of a register.
 /// Run-time parameters are those of a member. Quadratic systems have a better one, see
-/// lane_form.hpp. \param kernel_source  the text of runtime/kernels/lanes/lane_convolved.hpp with
-/// all it includes.
+/// lane_form.hpp.
+/// \param kernel_source  the text of runtime/kernels/lanes/lane_convolved.hpp with all it includes.
 std::string emit_series_lanes(const Specialisation& specialisation,
                               const std::string& kernel_source);
 

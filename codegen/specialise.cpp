@@ -1,5 +1,7 @@
 #include "codegen/specialise.hpp"
 
+#include <cln/exception.h>
+
 #include <algorithm>
 #include <exception>
 #include <set>
@@ -116,23 +118,27 @@ class Specialiser {
   auto within(const std::string& what, const Step& step) -> decltype(step()) {
     try {
       return step();
+    } catch (const GiNaC::pole_error&) {
+      throw failed(what, "division by zero");
+    } catch (const std::overflow_error&) {  // GiNaC's, of numbers
+      throw failed(what, "division by zero");
+    } catch (const cln::division_by_0_exception&) {
+      throw failed(what, "division by zero");
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {
-      std::string values;
-      for (const auto& [name, value] : result_.values) {
-        values += (values.empty() ? "" : ", ") + name + " = " + value;
-      }
-      throw ModelError("scene \"" + printable(scene_.name) + "\"" +
-                       (values.empty() ? "" : " (" + values + ")") + ": " + what +
-                       " cannot be computed: " + reason_of(e.what()));
+      throw failed(what, e.what());
     }
   }
 
-  static std::string reason_of(const std::string& text) {
-    const bool pole = text.find("division by zero") != std::string::npos ||
-                      text.find("pole") != std::string::npos;
-    return pole ? "division by zero" : text;
+  ModelError failed(const std::string& what, const std::string& reason) const {
+    std::string values;
+    for (const auto& [name, value] : result_.values) {
+      values += (values.empty() ? "" : ", ") + name + " = " + value;
+    }
+    return ModelError("scene \"" + printable(scene_.name) + "\"" +
+                      (values.empty() ? "" : " (" + values + ")") + ": " + what +
+                      " cannot be computed: " + reason);
   }
 
   GiNaC::ex bound(const std::string& what, const GiNaC::ex& expression) {

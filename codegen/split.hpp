@@ -27,7 +27,8 @@ struct SplitSource {
 };
 
 /// The system of a scene, or nothing and why there is none: no bracket, states left out, a
-/// dependence on time. \param states  the kept ones, as Specialisation::states
+/// dependence on time.
+/// \param states  the kept ones, as Specialisation::states
 std::optional<SplitSource> split_source(const Model& model, const Scene& scene,
                                         const std::vector<std::string>& states,
                                         const std::vector<std::string>& parameters,

@@ -45,8 +45,8 @@ struct EnsembleResult {
 /// threads. What becomes of a member depends on nothing but the member and the settings: not on
 /// the others, their order, or the number of threads.
 /// \param invariants  with the inputs of a right-hand side; outputs: values to compare.
-/// \param settings    no fixed step and no samples. `give_up` is asked from several threads.
-/// \param jobs        threads; 0: one for each processor.
+/// \param settings  no fixed step and no samples. `give_up` is asked from several threads.
+/// \param jobs  threads; 0: one for each processor.
 /// \throws std::invalid_argument  as `integrate` does.
 EnsembleResult integrate_in_lanes(const Ensemble& ensemble, const LaneKernel& kernel,
                                   const Program& invariants, const Settings& settings,

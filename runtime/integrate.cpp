@@ -54,7 +54,7 @@ int observe(void* data, const casimir_step* step) {
 }
 
 void project(void* data, double t, double* x, double* carry) {
-  static_cast<const Settings*>(data)->project(t, x, carry);
+  (*static_cast<decltype(Settings::project)*>(data))(t, x, carry);
 }
 
 [[noreturn]] void refuse(const std::string& text) { throw std::invalid_argument(text); }
@@ -82,9 +82,10 @@ void run_kernel(const Module& module, const Settings& s, const double* parameter
   run.factor = DenseSolver::factor;
   run.solve = DenseSolver::solve;
   run.solver = &solver;
-  if (s.project) {
+  auto projection = s.project;
+  if (projection) {
     run.project = project;
-    run.projector = const_cast<Settings*>(&s);
+    run.projector = &projection;
   }
   std::optional<StepLook> look;
   if (module.watch()) {
@@ -176,7 +177,9 @@ void check_settings(const Settings& s, const Method& method) {
     refuse("tolerances must be positive finite numbers");
   }
   if (s.rtol < kLeastTolerance && !(s.fixed_step > 0))
-    refuse("a relative tolerance below 1e-15 is more than double precision can give; use --digits");
+    refuse(
+        "a relative tolerance below 1e-15 is more than double precision can give: that takes a run "
+        "with more digits");
   if (!(s.fixed_step >= 0) || !std::isfinite(s.fixed_step))
     refuse("the step must be a positive finite number");
   if (s.fixed_step > 0 && !method.fixed_step_ok)

@@ -89,9 +89,9 @@ struct Trajectory {
 };
 
 /// Integrates.
-/// \param module      with the method's kernel, or with only the right-hand side for a method of
-///                    another library.
-/// \param initial     one number for each state.
+/// \param module  with the method's kernel, or with only the right-hand side for a method of
+///     another library.
+/// \param initial  one number for each state.
 /// \throws std::invalid_argument  for tolerances that are not positive or below what double
 ///                    precision can give, a duration that is not finite, wrong sizes.
 Trajectory integrate(const Module& module, const Method& method, const Settings& settings,

@@ -20,9 +20,9 @@ namespace casimir {
 class Projector {
  public:
   /// \param invariants  outputs over the states, the run-time parameters and the time.
-  /// \param chosen      which of them, by index.
-  /// \param gradients   over the same inputs; `entries` has the state and the invariant of each
-  ///                    output.
+  /// \param chosen  which of them, by index.
+  /// \param gradients  over the same inputs; `entries` has the state and the invariant of each
+  ///     output.
   Projector(Program invariants, std::vector<std::size_t> chosen, const Program& gradients,
             std::vector<std::pair<int, int>> entries, const std::vector<double>& initial,
             std::vector<double> parameters);

@@ -26,11 +26,11 @@ struct Reference {
 
 /// Integrates from time 0 by `agreed_run`: repeats the run with more digits until two of them agree
 /// to the digits asked for; if they never do, `error_bound` says so.
-/// \param initial   one number for each state; exact numbers stay exact until they are rounded to
-///                  the working precision.
+/// \param initial  one number for each state; exact numbers stay exact until they are rounded to
+///     the working precision.
 /// \param duration  may be negative or zero.
-/// \param digits    decimal digits asked for; at least 20.
-/// \param give_up   is asked now and then; true ends the computation (`reached` is false).
+/// \param digits  decimal digits asked for; at least 20.
+/// \param give_up  is asked now and then; true ends the computation (`reached` is false).
 Reference reference_solution(const Program& rhs, const std::vector<cln::cl_R>& initial,
                              const cln::cl_R& duration, int digits = 30,
                              const std::vector<cln::cl_R>& parameters = {},

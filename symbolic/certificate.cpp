@@ -42,25 +42,25 @@ struct Statement {
 };
 
 /// By the kind of claim, in the order in which `prove` reports them.
-using Statements = std::map<std::string, std::vector<Statement>>;
+using Statements = std::map<ClaimKind, std::vector<Statement>>;
 
 Statements statements_of(const Model& model, const Candidates& candidates) {
   Statements result;
-  const auto add = [&](const char* kind, const std::vector<NamedExpression>& functions,
+  const auto add = [&](ClaimKind kind, const std::vector<NamedExpression>& functions,
                        const std::vector<NamedExpression>& on) {
     for (const NamedExpression& f : functions) result[kind].push_back({f, on});
   };
   if (candidates.empty()) {
-    add("casimir", model.casimirs, {});
-    add("integral", model.integrals, {});
+    add(ClaimKind::casimir, model.casimirs, {});
+    add(ClaimKind::integral, model.integrals, {});
     for (const LevelClaim& claim : model.conditionals)
-      add("conditional", {claim.expression}, claim.on);
+      add(ClaimKind::conditional, {claim.expression}, claim.on);
     if (!model.constraints.empty()) {
-      add("invariant_relation", {model.constraints.back()},
+      add(ClaimKind::invariant_relation, {model.constraints.back()},
           {model.constraints.begin(), model.constraints.end() - 1});
     }
     for (const LevelClaim& claim : model.invariant_relations)
-      add("invariant_relation", {claim.expression}, claim.on);
+      add(ClaimKind::invariant_relation, {claim.expression}, claim.on);
     return result;
   }
   const auto read = [&](const std::vector<Text>& texts, const char* prefix) {
@@ -72,9 +72,9 @@ Statements statements_of(const Model& model, const Candidates& candidates) {
     return functions;
   };
   const std::vector<NamedExpression> on = read(candidates.on, "on");
-  add("casimir", read(candidates.casimirs, "C"), on);
-  add("integral", read(candidates.integrals, "F"), on);
-  add("invariant_relation", read(candidates.invariant_relations, "R"), on);
+  add(ClaimKind::casimir, read(candidates.casimirs, "C"), on);
+  add(ClaimKind::integral, read(candidates.integrals, "F"), on);
+  add(ClaimKind::invariant_relation, read(candidates.invariant_relations, "R"), on);
   return result;
 }
 
@@ -128,15 +128,15 @@ class Writer {
   const CoqFile& file() const { return file_; }
 
   /// \throws NotCovered, TooLarge  nothing is written then
-  void state(const std::string& kind, const Statement* statement, std::size_t number) {
-    if (kind == "skew") {
+  void state(ClaimKind kind, const Statement* statement, std::size_t number) {
+    if (kind == ClaimKind::skew) {
       file_.begin_part("skew: the bracket is skew symmetric");
       file_.state_skew_symmetry();
-    } else if (kind == "jacobi") {
+    } else if (kind == ClaimKind::jacobi) {
       check_jacobi();
       file_.begin_part("jacobi: the Jacobi identity");
       file_.state_jacobi();
-    } else if (kind == "casimir") {
+    } else if (kind == ClaimKind::casimir) {
       state_casimir(*statement, number);
     } else {
       state_rates(kind, *statement, number);
@@ -146,8 +146,8 @@ class Writer {
   /// Beside candidates: their statements do not need it.
   void state_bracket_if_poisson() {
     try {
-      state("skew", nullptr, 1);
-      state("jacobi", nullptr, 1);
+      state(ClaimKind::skew, nullptr, 1);
+      state(ClaimKind::jacobi, nullptr, 1);
     } catch (const NotCovered&) {  // the bracket is one of the case all the same
     }
   }
@@ -157,8 +157,8 @@ class Writer {
   }
 
   /// How the file speaks of a claim. Names that are no identifiers do not get into it.
-  static std::string title(const std::string& kind, const std::string& name, std::size_t number) {
-    const std::string place = fmt::format("{} no. {}", kind, number);
+  static std::string title(ClaimKind kind, const std::string& name, std::size_t number) {
+    const std::string place = fmt::format("{} no. {}", to_string(kind), number);
     return is_coq_name(name) ? fmt::format("{}, {}", place, name) : place;
   }
 
@@ -226,11 +226,11 @@ class Writer {
   }
 
   /// Where the name of the case is an identifier and names one claim, the claim is called that.
-  static std::string identifier(const std::string& kind, const Statement& statement,
-                                std::size_t number) {
-    const bool unique = kind == "casimir" || kind == "integral";
-    if (unique) return fmt::format("{}_{}", kind, coq_name(statement.function.name));
-    return fmt::format("{}_{}", kind == "conditional" ? "conditional" : "relation", number);
+  static std::string identifier(ClaimKind kind, const Statement& statement, std::size_t number) {
+    const bool unique = kind == ClaimKind::casimir || kind == ClaimKind::integral;
+    if (unique) return fmt::format("{}_{}", to_string(kind), coq_name(statement.function.name));
+    return fmt::format("{}_{}", kind == ClaimKind::conditional ? "conditional" : "relation",
+                       number);
   }
 
   std::vector<CoqFunction> define_level(const std::string& name,
@@ -246,8 +246,8 @@ class Writer {
     std::vector<std::vector<Polynomial>> all;
     for (std::size_t i = 0; i < dimension(); ++i)
       all.push_back(cofactors(flow(i, p.function), p.level));
-    file_.begin_part(title("casimir", statement.function.name, number));
-    const std::string name = identifier("casimir", statement, number);
+    file_.begin_part(title(ClaimKind::casimir, statement.function.name, number));
+    const std::string name = identifier(ClaimKind::casimir, statement, number);
     const CoqFunction f = file_.define(name, p.function);
     if (p.level.empty()) {
       file_.state_commutes_with_all(name + "_commutes_with_all", f);
@@ -260,8 +260,8 @@ class Writer {
 
   /// df/dt and the rates of the functions of its level lie in the ideal of the level; that of an
   /// invariant relation contains the function itself.
-  void state_rates(const std::string& kind, const Statement& statement, std::size_t number) {
-    const bool relation = kind == "invariant_relation";
+  void state_rates(ClaimKind kind, const Statement& statement, std::size_t number) {
+    const bool relation = kind == ClaimKind::invariant_relation;
     const Parts p = parts(statement);
     std::vector<Polynomial> zero = p.level;
     if (relation) zero.push_back(p.function);
@@ -344,7 +344,7 @@ Certificate coq_certificate(const Model& model, const Candidates& candidates,
   }
   Certificate certificate;
   if (!candidates.empty()) writer->state_bracket_if_poisson();
-  std::map<std::string, std::size_t> seen;
+  std::map<ClaimKind, std::size_t> seen;
   for (const Proof& proof : proofs) {
     if (!counts(model, proof)) continue;
     const std::size_t number = ++seen[proof.kind];
@@ -353,7 +353,7 @@ Certificate coq_certificate(const Model& model, const Candidates& candidates,
       const auto list = statements.find(proof.kind);
       if (list != statements.end() && number <= list->second.size())
         writer->state(proof.kind, &list->second[number - 1], number);
-      else if (proof.kind == "skew" || proof.kind == "jacobi")
+      else if (proof.kind == ClaimKind::skew || proof.kind == ClaimKind::jacobi)
         writer->state(proof.kind, nullptr, number);
       else
         reason = "claims of this kind have no theorem";

@@ -9,15 +9,15 @@
 namespace casimir {
 
 /// A claim that is proved, but has no theorem in a certificate.
-struct LeftOut {
-  std::string kind, name;
-  std::string reason;
+struct Uncertified {
+  ClaimKind kind;
+  std::string name, reason;
 };
 
 /// A proof that another program checks.
 struct Certificate {
   std::string text;  ///< of the file
-  std::vector<LeftOut> left_out;
+  std::vector<Uncertified> left_out;
 };
 
 /// A file for the proof assistant Coq (8.16) that defines the bracket, the Hamiltonian and the

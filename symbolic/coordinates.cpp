@@ -10,6 +10,7 @@
 #include <set>
 
 #include "symbolic/algebra/exact_constant.hpp"
+#include "symbolic/algebra/where_defined.hpp"
 #include "symbolic/case/decimal.hpp"
 #include "symbolic/case/expression_size.hpp"
 
@@ -60,25 +61,18 @@ enum class Truth { no, yes, unknown };
 /// Whether a condition holds at an exact point: exactly where that is decided, else by 60 digits.
 Truth holds(const Assumption& condition, const GiNaC::exmap& point) {
   if (condition.holds_at(point)) return Truth::yes;
-  try {
+  const auto decide = [&] {
     const ex value = substituted(condition.difference, point);
     if (const auto constant = exact_constant(value); constant && constant->zero)
-      return condition.relation.find('=') == std::string::npos || condition.relation == "!="
-                 ? Truth::no
-                 : Truth::yes;
+      return casimir::holds(condition.comparison, 0) ? Truth::yes : Truth::no;
     const std::optional<GiNaC::numeric> number = decimal(value);
     if (!number) return Truth::unknown;
     const GiNaC::numeric& x = *number;
     if (!x.is_real()) return Truth::no;
     if (GiNaC::abs(x) < GiNaC::pow(GiNaC::numeric(10), GiNaC::numeric(-12))) return Truth::no;
-    const bool positive = x.is_positive();
-    const char first = condition.relation[0];
-    return condition.relation == "!=" || (first == '>' && positive) || (first == '<' && !positive)
-               ? Truth::yes
-               : Truth::no;
-  } catch (const std::exception&) {
-    return Truth::no;  // a pole
-  }
+    return casimir::holds(condition.comparison, x.is_positive() ? 1 : -1) ? Truth::yes : Truth::no;
+  };
+  return where_defined(decide).value_or(Truth::no);
 }
 
 /// Whether a function that has to vanish does not, as far as can be told.
@@ -132,7 +126,7 @@ class Carrier {
     result.fixed = model_.fixed;
     for (const Assumption& assumption : model_.assumptions)
       result.assumptions.push_back(
-          {carried(assumption.difference), assumption.relation, assumption.text});
+          {carried(assumption.difference), assumption.comparison, assumption.text});
     for (const Assumption& assumption : set_.domain) result.assumptions.push_back(assumption);
     result.constraints = set_.constraints;
     result.linear_bracket = set_.linear_bracket;
@@ -300,7 +294,7 @@ void Atlas::add(const Model& model, bool canonical) {
       for (const ex& e : inverse.expressions)
         branch.expressions.push_back(renamed(e, target_names));
       for (const Assumption& a : inverse.domain)
-        branch.domain.push_back({renamed(a.difference, target_names), a.relation, a.text});
+        branch.domain.push_back({renamed(a.difference, target_names), a.comparison, a.text});
       backward.branches.push_back(std::move(branch));
     }
     for (const NamedExpression& f : map.image)
@@ -422,7 +416,7 @@ Model in_coordinates(const Model& model, const Atlas& atlas, const std::string& 
   if (maps.empty()) {
     throw ModelError(fmt::format(
         "no Poisson maps lead from the variables of '{0}' onto those of '{1}', so its equations "
-        "cannot be carried there; --as {0} answers in them",
+        "cannot be carried there; only the answer can be given in them",
         printable(set), printable(model.name)));
   }
   Model result = model;

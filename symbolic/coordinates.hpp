@@ -42,7 +42,8 @@ struct Atlas {
   /// Adds the variables of a case and its maps. Maps without an inverse are no change of variables.
   void add(const Model& model, bool canonical);
 
-  /// The set of that name. \throws ModelError  with the nearest name
+  /// The set of that name.
+  /// \throws ModelError  with the nearest name
   std::size_t named(const std::string& name) const;
 
   /// The set that a case is written in: that of its name, or the first with the same bracket in the

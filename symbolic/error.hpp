@@ -18,9 +18,9 @@ struct Location {
 /// with a mark below the place, and a hint where there is one.
 class CaseError : public std::runtime_error {
  public:
-  /// \param text     what is wrong and what was expected, without a full stop.
+  /// \param text  what is wrong and what was expected, without a full stop.
   /// \param excerpt  the source line in which `where.column` points, or empty.
-  /// \param hint     for instance "did you mean 'M3'?", or empty.
+  /// \param hint  for instance "did you mean 'M3'?", or empty.
   CaseError(Location where, std::string text, std::string excerpt = {}, std::string hint = {});
 
   /// The place.

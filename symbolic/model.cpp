@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "symbolic/algebra/exact_constant.hpp"
+#include "symbolic/algebra/where_defined.hpp"
 #include "symbolic/case/expression.hpp"
 #include "symbolic/case/expression_size.hpp"
 #include "symbolic/model/model_dynamics.hpp"
@@ -31,22 +32,35 @@ std::vector<ex> PoissonMap::composed_brackets() const {
 }
 
 bool Assumption::holds_at(const GiNaC::exmap& point) const {
-  try {
-    const ex value = substituted(difference, point);
-    const std::optional<int> sign = sign_of_constant(value);
-    return sign && allows(*sign);
-  } catch (const std::exception&) {
-    return false;  // a pole
-  }
+  return where_defined([&] {
+           const std::optional<int> sign = sign_of_constant(substituted(difference, point));
+           return sign && holds(comparison, *sign);
+         })
+      .value_or(false);
 }
 
-bool Assumption::allows(int sign) const {
-  if (relation == "!=") return sign != 0;
-  if (relation == "==") return sign == 0;
-  if (relation == "<") return sign < 0;
-  if (relation == "<=") return sign <= 0;
-  if (relation == ">") return sign > 0;
-  return sign >= 0;
+std::string to_string(Extreme extreme) {
+  switch (extreme) {
+    case Extreme::separatrix:
+      return "separatrix";
+    case Extreme::stiff:
+      return "stiff";
+    case Extreme::scale:
+      return "scale";
+    case Extreme::gimbal:
+      return "gimbal";
+    case Extreme::long_run:
+      return "long";
+    case Extreme::blowup:
+      return "blowup";
+  }
+  return {};
+}
+
+const std::vector<Extreme>& extremes() {
+  static const std::vector<Extreme> all{Extreme::separatrix, Extreme::stiff,    Extreme::scale,
+                                        Extreme::gimbal,     Extreme::long_run, Extreme::blowup};
+  return all;
 }
 
 const Scene& Model::scene(const std::string& scene_name) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "symbolic/case_file.hpp"
+#include "symbolic/comparison.hpp"
 #include "symbolic/error.hpp"
 #include "symbolic/frame.hpp"
 #include "symbolic/poisson.hpp"
@@ -27,18 +28,15 @@ struct NamedExpression {
 /// Their names, in order.
 std::vector<std::string> names_of(const std::vector<NamedExpression>& list);
 
-/// A condition from an `assume` or a `domain`: `difference RELATION 0`.
+/// A condition from an `assume` or a `domain`: `difference` compared with 0.
 struct Assumption {
   GiNaC::ex difference;
-  std::string relation;  ///< one of != == <= >= < >
-  std::string text;      ///< as the file has it
+  Comparison comparison = Comparison::unequal;
+  std::string text;  ///< as the file has it
 
   /// Whether it holds where `point` gives every symbol a rational value; false also where the
   /// difference has no value there or its sign is not decided by exact arithmetic.
   bool holds_at(const GiNaC::exmap& point) const;
-
-  /// Whether it holds where the difference has this sign.
-  bool allows(int sign) const;
 };
 
 /// A function whose zero level is invariant (`conditional`: that is a first integral there) on the
@@ -102,6 +100,15 @@ struct PoissonMap {
   std::vector<GiNaC::ex> composed_brackets() const;
 };
 
+/// Why a scene is hard to integrate, as its file says it.
+enum class Extreme { separatrix, stiff, scale, gimbal, long_run, blowup };
+
+/// "separatrix", "stiff", "scale", "gimbal", "long" or "blowup".
+std::string to_string(Extreme extreme);
+
+/// All of them, in that order.
+const std::vector<Extreme>& extremes();
+
 /// Initial data for a run. All values are exact constants (rational, or such as sqrt(2)).
 struct Scene {
   std::string name;
@@ -110,7 +117,7 @@ struct Scene {
   std::vector<GiNaC::ex> initial;     ///< one for each of Model::variables
   std::optional<GiNaC::ex> duration;  ///< none: only what needs no end of a run can use it
   std::vector<std::string> observe;   ///< empty: everything
-  std::string extreme;                ///< empty, "separatrix", "stiff", "scale", ..
+  std::optional<Extreme> extreme;     ///< none: an ordinary one
   std::vector<std::optional<GiNaC::ex>> reference;  ///< empty, or one for each variable
   std::string unusable;   ///< why it cannot be run although it was read; or empty
   bool singular = false;  ///< for that reason: its state has no image in the variables chosen
@@ -162,7 +169,8 @@ struct Model {
   const Scene& scene(const std::string& scene_name) const;
 
   /// Reads an expression over the variables, parameters, time, definitions, and the names of the
-  /// Casimirs and integrals. \throws CaseError
+  /// Casimirs and integrals.
+  /// \throws CaseError
   GiNaC::ex parse(const Text& text) const;
   /// The same, with its text for a name.
   NamedExpression parse_named(const Text& text) const;

@@ -13,7 +13,7 @@ namespace casimir {
 class PoissonStructure {
  public:
   /// \param coordinates  n distinct symbols.
-  /// \param upper        n(n-1)/2 brackets, row by row: {x1,x2}, {x1,x3}, .., {x2,x3}, ..
+  /// \param upper  n(n-1)/2 brackets, row by row: {x1,x2}, {x1,x3}, .., {x2,x3}, ..
   /// \throws ModelError  if a symbol repeats or the count is wrong; the text gives both counts.
   PoissonStructure(std::vector<GiNaC::symbol> coordinates, std::vector<GiNaC::ex> upper);
 

@@ -1,5 +1,8 @@
 #include "symbolic/prove.hpp"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <chrono>
 #include <new>
 #include <stdexcept>
@@ -10,8 +13,6 @@
 namespace casimir {
 namespace {
 
-constexpr const char* kOutOfMemory = "out of memory: --memory-limit GB allows more";
-
 std::vector<NamedExpression> read(const Model& model, const std::vector<Text>& texts) {
   std::vector<NamedExpression> result;
   for (const Text& text : texts) result.push_back(model.parse_named(text));
@@ -21,10 +22,9 @@ std::vector<NamedExpression> read(const Model& model, const std::vector<Text>& t
 std::vector<Claim> claims_of(const Model& model, const Candidates& candidates) {
   std::vector<Claim> claims;
   if (candidates.empty()) {
-    for (const ClaimKind& kind : kClaimKinds) {
-      for (Claim& claim : kind(model)) {
-        if (candidates.only.empty() || candidates.only == claim.kind)
-          claims.push_back(std::move(claim));
+    for (const ReadClaims& read_claims : kClaimReaders) {
+      for (Claim& claim : read_claims(model)) {
+        if (!candidates.only || candidates.only == claim.kind) claims.push_back(std::move(claim));
       }
     }
     return claims;
@@ -82,7 +82,7 @@ void decide(Prover& prover, const Claim& claim, Proof& proof) {
     proof.reason = "a function has no value that is certain at the points tried";
   } catch (const std::bad_alloc&) {
     proof.verdict = Verdict::undecided;
-    proof.reason = kOutOfMemory;
+    proof.reason = out_of_memory();
   }
   proof.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -99,6 +99,42 @@ std::string to_string(Verdict verdict) {
       break;
   }
   return "undecided";
+}
+
+namespace {
+
+constexpr std::array<std::pair<ClaimKind, const char*>, 15> kKindNames = {{
+    {ClaimKind::skew, "skew"},
+    {ClaimKind::jacobi, "jacobi"},
+    {ClaimKind::casimir, "casimir"},
+    {ClaimKind::integral, "integral"},
+    {ClaimKind::conditional, "conditional"},
+    {ClaimKind::invariant_relation, "invariant_relation"},
+    {ClaimKind::lax, "lax"},
+    {ClaimKind::map, "map"},
+    {ClaimKind::measure, "measure"},
+    {ClaimKind::identity, "identity"},
+    {ClaimKind::involution, "involution"},
+    {ClaimKind::independence, "independence"},
+    {ClaimKind::rank, "rank"},
+    {ClaimKind::liouville, "liouville"},
+    {ClaimKind::judgement, "judgement"},
+}};
+
+}  // namespace
+
+std::string to_string(ClaimKind kind) {
+  for (const auto& [known, name] : kKindNames) {
+    if (known == kind) return name;
+  }
+  return {};
+}
+
+std::optional<ClaimKind> claim_kind_of(const std::string& name) {
+  for (const auto& [kind, known] : kKindNames) {
+    if (name == known) return kind;
+  }
+  return std::nullopt;
 }
 
 std::vector<Proof> pending(const Model& model, const Candidates& candidates) {
@@ -140,7 +176,7 @@ class Provers {
     } catch (const TooLarge& limit) {
       proof.reason = limit.what();
     } catch (const std::bad_alloc&) {
-      proof.reason = kOutOfMemory;
+      proof.reason = out_of_memory();
     }
   }
 
@@ -150,6 +186,29 @@ class Provers {
 };
 
 }  // namespace
+
+Proof prove_claim(const Model& model, ClaimKind kind, const NamedExpression& f,
+                  const std::vector<NamedExpression>& on) {
+  const auto claim = [&]() -> Claim {
+    switch (kind) {
+      case ClaimKind::casimir:
+        if (!model.poisson)
+          throw ModelError("a Casimir function needs a bracket, which this case does not have");
+        return casimir_claim(f, on);
+      case ClaimKind::integral:
+      case ClaimKind::conditional:
+        return integral_claim(f, on);
+      case ClaimKind::invariant_relation:
+        return invariant_relation_claim(f, on);
+      default:
+        throw ModelError(
+            fmt::format("a claim of the kind '{}' is not about one function", to_string(kind)));
+    }
+  }();
+  Proof proof = undecided(claim);
+  Provers(model, {claim}).decide(claim, proof);
+  return proof;
+}
 
 std::vector<Proof> prove(const Model& model, const Candidates& candidates,
                          const std::function<bool(const Proof&)>& report) {

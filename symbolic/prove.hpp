@@ -17,6 +17,31 @@ enum class Verdict { proved, undecided, refuted };
 /// "proved", "undecided" or "refuted".
 std::string to_string(Verdict verdict);
 
+/// What a claim says; the names are those of the interface.
+enum class ClaimKind {
+  skew,
+  jacobi,
+  casimir,
+  integral,
+  conditional,         ///< an integral on a level
+  invariant_relation,  ///< a zero level that the flow keeps
+  lax,
+  map,
+  measure,
+  identity,
+  involution,
+  independence,
+  rank,
+  liouville,
+  judgement,  ///< what else is known of a candidate; its findings say
+};
+
+/// "casimir", "integral", ..
+std::string to_string(ClaimKind kind);
+
+/// The kind of that name, or nothing.
+std::optional<ClaimKind> claim_kind_of(const std::string& name);
+
 /// A point at which a claimed identity fails.
 struct Witness {
   std::vector<std::pair<std::string, std::string>> point;  ///< exact value of every symbol
@@ -25,7 +50,7 @@ struct Witness {
 
 /// What came of a claim.
 struct Proof {
-  std::string kind;  ///< "casimir", "integral", ..: the kinds of the interface
+  ClaimKind kind = ClaimKind::integral;
   std::string name;
   Verdict verdict = Verdict::undecided;
   bool fact = false;  ///< about the system; counts only where the file claims `integrable`
@@ -49,7 +74,7 @@ struct Candidates {
   std::vector<Text> integrals, casimirs, invariant_relations;
   std::vector<Text> identities;  ///< "LEFT = RIGHT"
   std::vector<Text> on;
-  std::string only{};  ///< without candidates: only claims and facts of this kind, or all if empty
+  std::optional<ClaimKind> only{};  ///< without candidates: only claims and facts of this kind
   /// Whether there is none, so that the claims of the file are what is asked for.
   bool empty() const {
     return integrals.empty() && casimirs.empty() && invariant_relations.empty() &&
@@ -64,6 +89,15 @@ struct Candidates {
 /// \throws ModelError  for a case that has no meaning, as a division by zero
 std::vector<Proof> prove(const Model& model, const Candidates& candidates = {},
                          const std::function<bool(const Proof&)>& report = {});
+
+/// Proves or refutes that an expression over the symbols of the model is of this kind: a Casimir
+/// function, an integral (`conditional` where a level is given), or an invariant relation.
+/// \param f  its name is for messages
+/// \param on  the common zero level that the claim is restricted to; empty for all of the phase
+///     space
+/// \throws ModelError  for other kinds, and for a Casimir function where there is no bracket
+Proof prove_claim(const Model& model, ClaimKind kind, const NamedExpression& f,
+                  const std::vector<NamedExpression>& on = {});
 
 /// What `prove` would decide, in its order, all still undecided.
 std::vector<Proof> pending(const Model& model, const Candidates& candidates = {});

@@ -89,7 +89,8 @@ CacheFolders cache_folders(const std::filesystem::path& wanted);
 /// BLAKE2b of the parts, each with its length, as 64 hexadecimal digits.
 std::string digest(const std::vector<std::string>& parts);
 
-/// Writes a whole file. \throws CacheUnusable
+/// Writes a whole file.
+/// \throws CacheUnusable
 void write_file(const std::filesystem::path& path, const std::string& content);
 
 }  // namespace casimir::codegen

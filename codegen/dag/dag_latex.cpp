@@ -7,6 +7,7 @@
 
 #include "codegen/dag/expression_dag.hpp"
 #include "codegen/emit/number_literal.hpp"
+#include "symbolic/algebra/number_text.hpp"
 
 namespace casimir::codegen {
 namespace {

@@ -3,9 +3,9 @@
 #include <cln/integer.h>
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/error.hpp"
 
 namespace casimir::codegen {
@@ -14,20 +14,14 @@ namespace {
 
 bool is_integer(const cln::cl_RA& value) { return cln::denominator(value) == 1; }
 
-std::string shown(const GiNaC::ex& expression) {
-  std::ostringstream out;
-  out << expression;
-  return out.str();
-}
-
 cln::cl_RA exact_value(const GiNaC::ex& expression) {
   const auto& number = GiNaC::ex_to<GiNaC::numeric>(expression);
   if (!number.is_real()) {
-    throw ModelError("the imaginary number " + shown(expression) +
+    throw ModelError("the imaginary number " + expression_text(expression) +
                      " appears: every expression must be real");
   }
   if (!number.is_rational()) {
-    throw ModelError("the number " + shown(expression) + " is not exact");
+    throw ModelError("the number " + expression_text(expression) + " is not exact");
   }
   return cln::the<cln::cl_RA>(number.to_cl_N());
 }
@@ -158,7 +152,7 @@ Scaled Dag::convert_new(const GiNaC::ex& e) {
   if (GiNaC::is_a<GiNaC::numeric>(e)) return {exact_value(e), kOne};
   if (GiNaC::is_a<GiNaC::symbol>(e)) {
     const auto rank = ranks_.find(e);
-    if (rank == ranks_.end()) throw ModelError("unknown symbol '" + shown(e) + "'");
+    if (rank == ranks_.end()) throw ModelError("unknown symbol '" + expression_text(e) + "'");
     return symbol(rank->second);
   }
   if (e.is_equal(GiNaC::Pi)) return pi();
@@ -173,7 +167,7 @@ Scaled Dag::convert_new(const GiNaC::ex& e) {
     return call(Op::exp, {product({convert(e.op(1)), call(Op::log, {convert(e.op(0))})})});
   }
   if (GiNaC::is_a<GiNaC::function>(e)) return convert_function(e);
-  throw ModelError("cannot compute '" + shown(e) + "'");
+  throw ModelError("cannot compute '" + expression_text(e) + "'");
 }
 
 Scaled Dag::convert_function(const GiNaC::ex& e) {

@@ -60,7 +60,7 @@ class Dag {
  public:
   static constexpr NodeId kOne = 0;
 
-  /// \param symbols      what expressions may contain; the order of terms and factors follows it.
+  /// \param symbols  what expressions may contain; the order of terms and factors follows it.
   /// \param coordinates  how many of them, from the first, count for the degree of a term.
   Dag(std::vector<GiNaC::symbol> symbols, std::size_t coordinates);
 

@@ -51,7 +51,7 @@ Pattern pattern_of(const SparseProgram& matrix, std::size_t columns);
 /// alone.)
 /// \param scope  what the header is called
 /// \param given  whether a person called it so: then `top` and `Top` are two headers
-/// \param end    "HPP" or "H"
+/// \param end  "HPP" or "H"
 std::string guard_of(const std::string& scope, bool given, const std::string& end);
 
 /// The texts as string literals with commas between them.

@@ -9,17 +9,11 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
-#include <sstream>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/error.hpp"
 
 namespace casimir::codegen {
-
-std::string rational_text(const cln::cl_RA& value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
 
 namespace {
 

@@ -14,9 +14,6 @@ enum class Scalar { real64, real32, long_double, float128, templated };
 
 namespace codegen {
 
-/// The number in decimal digits, "3" or "-1/3".
-std::string rational_text(const cln::cl_RA& value);
-
 /// The nearest number of the type, ties to even, also among the denormal numbers.
 /// \throws ModelError  if the value overflows, or is not zero and becomes zero.
 template <class Real>
@@ -30,7 +27,7 @@ struct NumberText {
 };
 
 /// Integers as they are, others as the shortest decimal that reads back as the nearest number.
-/// \param scalar   float128 and templated give exact quotients where possible.
+/// \param scalar  float128 and templated give exact quotients where possible.
 /// \param comment  what to say if the number is rounded; empty: the fraction.
 NumberText number_text(const cln::cl_RA& value, Scalar scalar, const std::string& comment = {});
 

@@ -27,7 +27,7 @@ struct StatementStyle {
 /// Values that are used once stand where they are used, with the parentheses that C++ needs to
 /// compute in the order of the program and no others. Lines have at most 100 columns.
 /// \param sources  for each input, the expression that holds it, e.g. "x[0]".
-/// \param names    for each input, the name of its local; equal to the source: no local.
+/// \param names  for each input, the name of its local; equal to the source: no local.
 /// \param targets  for each output, what is assigned, e.g. "dx[0]".
 std::string statements(const Program& program, const std::vector<std::string>& sources,
                        const std::vector<std::string>& names,

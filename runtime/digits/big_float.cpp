@@ -1,13 +1,11 @@
 #include "runtime/digits/big_float.hpp"
 
-#include <cln/integer_io.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace casimir {
 
@@ -25,17 +23,29 @@ struct Integer {
 };
 
 void assign(Integer& target, const cln::cl_I& value) {
-  std::ostringstream text;
-  cln::fprinthexadecimal(text, cln::abs(value));
-  fmpz_set_str(target.value, text.str().c_str(), 16);
+  constexpr std::size_t kWord = 32;
+  const cln::cl_I size = cln::abs(value);
+  std::vector<ulong> words;  // one at least
+  for (std::size_t at = 0; at == 0 || at < cln::integer_length(size); at += 2 * kWord) {
+    const auto half = [&](std::size_t from) {
+      return cln::cl_I_to_ulong(cln::ldb(size, cln::cl_byte(kWord, from)));
+    };
+    words.push_back(half(at) | half(at + kWord) << kWord);
+  }
+  fmpz_set_ui_array(target.value, words.data(), static_cast<slong>(words.size()));
   if (cln::minusp(value)) fmpz_neg(target.value, target.value);
 }
 
 cln::cl_I to_cln(const Integer& value) {
-  char* const text = fmpz_get_str(nullptr, 10, value.value);
-  const cln::cl_I result(static_cast<const char*>(text));
-  flint_free(text);
-  return result;
+  if (fmpz_is_zero(value.value)) return 0;
+  std::vector<ulong> words(fmpz_size(value.value));
+  Integer absolute;  // the words of negative numbers cannot be asked for
+  fmpz_abs(absolute.value, value.value);
+  fmpz_get_ui_array(words.data(), static_cast<slong>(words.size()), absolute.value);
+  cln::cl_I size = 0;
+  for (auto word = words.rbegin(); word != words.rend(); ++word)
+    size = cln::ash(size, FLINT_BITS) + cln::cl_I(*word);
+  return fmpz_sgn(value.value) < 0 ? -size : size;
 }
 
 /// A function of Arb's on a number that is exact; its error bound is below the last place.

@@ -127,7 +127,8 @@ struct Arithmetic<BigFloat> {
   static N convolution(const Series& u, const Series& v, int k, int from, int to);
   /// .. and of j u_j v_{k-j}.
   static N weighted(const Series& u, const Series& v, int k, int from, int to);
-  /// Sets the bits of coefficients of order k. \throws GivenUp
+  /// Sets the bits of coefficients of order k.
+  /// \throws GivenUp
   void begin_order(int k) const;
 
   slong bits = 0;  ///< of coefficients of order 0; 0: those of the thread, for all

@@ -24,7 +24,8 @@ struct LaneKernel {
   /// What its steps are watched for, or null: nothing in polynomials of degree two.
   std::shared_ptr<const StepWatch> watch = nullptr;
 
-  /// Has its steps watched for what may be stepped over. \param rhs  the right-hand side.
+  /// Has its steps watched for what may be stepped over.
+  /// \param rhs  the right-hand side.
   void watch_steps_of(const Program& rhs);
 };
 
@@ -37,7 +38,8 @@ std::vector<std::string> lane_targets();
 /// \throws std::invalid_argument  if this processor does not run it.
 LaneKernel table_driven_lanes(LaneForm form, const std::string& target = {});
 
-/// A compiled kernel for ensembles. \throws std::runtime_error  as Module::load does.
+/// A compiled kernel for ensembles.
+/// \throws std::runtime_error  as Module::load does.
 LaneKernel loaded_lanes(const std::string& path);
 
 }  // namespace casimir

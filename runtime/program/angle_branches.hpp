@@ -59,7 +59,7 @@ class AngleFollower {
   using Rates = std::function<void(double t, const double* x, double* rates)>;
   using StateAt = std::function<void(double t, double* x)>;
 
-  /// \param program     with the inputs of a right-hand side; must outlive the follower
+  /// \param program  with the inputs of a right-hand side; must outlive the follower
   /// \param parameters  its inputs after the states
   AngleFollower(const Program& program, std::vector<double> parameters, Rates rates, double t,
                 const std::vector<double>& x);
@@ -67,7 +67,8 @@ class AngleFollower {
   /// Whether there is an angle to follow.
   bool follows() const { return !angles_.empty(); }
 
-  /// To the end of a step. \param state_at  writes the state at a time in the step
+  /// To the end of a step.
+  /// \param state_at  writes the state at a time in the step
   void advance(double t, const double* x, const StateAt& state_at);
 
   /// Puts those outputs in that have angles, at a state near the last one.

@@ -12,7 +12,7 @@ class Interpreter {
  public:
   explicit Interpreter(const Program& program);
 
-  /// \param inputs   one number for each input of the program.
+  /// \param inputs  one number for each input of the program.
   /// \param outputs  one for each output.
   void operator()(const double* inputs, double* outputs) const;
 

@@ -15,9 +15,10 @@ struct Passage {
 /// Isolated by Descartes' rule of signs in Bernstein's basis, with bisection until each part has
 /// one change of sign or none (Lane and Riesenfeld, 1981), then found in its bracket by TOMS 748.
 /// Zeros so close together that their order is a matter of rounding do not count: nothing passes
-/// there. \param c      coefficients of s^0, s^1, .. \param above  the side from which it comes: on
-/// the joint of two steps what rounding says of the
-///               sign of c[0] does not count, else a passage there would be seen twice or never.
+/// there.
+/// \param c  coefficients of s^0, s^1, ..
+/// \param above  the side from which it comes: on the joint of two steps what rounding says of the
+///     sign of c[0] does not count, else a passage there would be seen twice or never.
 std::vector<Passage> passages(const std::vector<double>& c, double end, bool above);
 
 }  // namespace casimir

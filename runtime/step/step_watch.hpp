@@ -55,10 +55,12 @@ class StepWatch {
 /// Looks at the steps of one run: see casimir_run::look.
 class StepLook {
  public:
-  /// Borrows the watch. \param parameters  null if there are none.
+  /// Borrows the watch.
+  /// \param parameters  null if there are none.
   StepLook(const StepWatch& watch, std::size_t states, const double* parameters);
 
-  /// Another run begins. \param parameters  null if there are none.
+  /// Another run begins.
+  /// \param parameters  null if there are none.
   void begin(const double* parameters);
 
   /// 1 for a step that may be taken; or how much of it may be tried instead. A step that passes a

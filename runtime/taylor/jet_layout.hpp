@@ -21,7 +21,8 @@ struct JetLayout {
 /// \throws std::invalid_argument  if the function depends on more than the first `states` inputs.
 JetLayout jet_layout(const Program& program, std::size_t states);
 
-/// The function at a point. \param values  room for one number for each line.
+/// The function at a point.
+/// \param values  room for one number for each line.
 double value_of(const JetLayout& layout, const double* states, std::vector<double>& values);
 
 /// The kernel for registers of so many lanes: 2, 4 or 8.

@@ -30,7 +30,8 @@ class BallEvaluator {
   };
   BallEvaluator(Numbers numbers, long bits) : numbers_(numbers), bits_(bits) {}
 
-  /// A symbol's value: an exact constant. \throws NotCertified
+  /// A symbol's value: an exact constant.
+  /// \throws NotCertified
   void set(const GiNaC::symbol& symbol, const GiNaC::ex& value);
 
   /// A symbol's value that is only known to lie in a ball.
@@ -39,10 +40,12 @@ class BallEvaluator {
   /// \throws NotCertified
   const Ball& operator()(const GiNaC::ex& expression);
 
-  /// The value where it is rational and known exactly. \throws NotCertified
+  /// The value where it is rational and known exactly.
+  /// \throws NotCertified
   std::optional<cln::cl_RA> exact(const GiNaC::ex& expression);
 
-  /// -1, 0 or 1 for a real value; empty where it is not certain. \throws NotCertified
+  /// -1, 0 or 1 for a real value; empty where it is not certain.
+  /// \throws NotCertified
   std::optional<int> sign(const GiNaC::ex& expression);
 
   long bits() const { return bits_; }

@@ -7,10 +7,10 @@
 
 #include <map>
 #include <set>
-#include <sstream>
 #include <vector>
 
 #include "symbolic/algebra/integer_factors.hpp"
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/case/decimal.hpp"
 
 namespace casimir {
@@ -116,11 +116,7 @@ bool is_zero(const Sum& sum) {
   std::set<std::pair<std::string, std::string>> exponentials;
   for (const auto& [m, c] : sum) {
     logarithms.insert(m.logarithm);
-    std::ostringstream real;
-    std::ostringstream imaginary;
-    real << m.exponent_real;
-    imaginary << m.exponent_imaginary;
-    exponentials.emplace(real.str(), imaginary.str());
+    exponentials.emplace(rational_text(m.exponent_real), rational_text(m.exponent_imaginary));
   }
   const bool plain = logarithms.size() == 1;           // Lindemann and Weierstrass
   const bool linear_forms = exponentials.size() == 1;  // Baker; log p and I Pi are independent
@@ -270,11 +266,7 @@ Quotient evaluate(const ex& e) {
   throw Unknown{};
 }
 
-std::string text_of(const Rational& value) {
-  std::ostringstream stream;
-  stream << value;
-  return stream.str();
-}
+std::string text_of(const Rational& value) { return rational_text(value); }
 
 std::string text_of(const RadicalTerm& m) {
   std::string text;

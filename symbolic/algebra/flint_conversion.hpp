@@ -1,32 +1,45 @@
 #pragma once
 
-// CLN's numbers as FLINT's and back: for the files that implement Polynomial, and for no other.
+// CLN's numbers as FLINT's and back, word by word: for the files that hold FLINT's types, and for
+// no header of theirs.
 #include <cln/integer.h>
-#include <cln/integer_io.h>
 #include <cln/rational.h>
 #include <flint/fmpq.h>
 
-#include <sstream>
+#include <vector>
 
 namespace casimir {
 
 inline void to_fmpz(fmpz_t result, const cln::cl_I& value) {
-  constexpr std::size_t kWordBits = 62;
-  if (cln::integer_length(value) < kWordBits) {
+  constexpr std::size_t kWord = 62;  // fits into a long with its sign
+  const std::size_t length = cln::integer_length(value);
+  if (length < kWord) {
     fmpz_set_si(result, cln::cl_I_to_long(value));
     return;
   }
-  std::ostringstream text;
-  text << value;
-  fmpz_set_str(result, text.str().c_str(), 10);
+  const cln::cl_I size = cln::abs(value);
+  fmpz_zero(result);
+  for (std::size_t word = (length + kWord - 1) / kWord; word-- > 0;) {
+    const cln::cl_I part = cln::ldb(size, cln::cl_byte(kWord, word * kWord));
+    fmpz_mul_2exp(result, result, kWord);
+    fmpz_add_ui(result, result, cln::cl_I_to_ulong(part));
+  }
+  if (cln::minusp(value)) fmpz_neg(result, result);
 }
 
 inline cln::cl_I from_fmpz(const fmpz_t value) {
   if (!COEFF_IS_MPZ(*value)) return cln::cl_I(static_cast<long>(*value));
-  char* text = fmpz_get_str(nullptr, 10, value);
-  const cln::cl_I result = cln::cl_I(text);
-  flint_free(text);
-  return result;
+  constexpr int kWord = 64;
+  std::vector<ulong> words(fmpz_size(value));
+  fmpz_t absolute;  // the words of negative numbers cannot be asked for
+  fmpz_init(absolute);
+  fmpz_abs(absolute, value);
+  fmpz_get_ui_array(words.data(), static_cast<slong>(words.size()), absolute);
+  fmpz_clear(absolute);
+  cln::cl_I size = 0;
+  for (auto word = words.rbegin(); word != words.rend(); ++word)
+    size = cln::ash(size, kWord) + cln::cl_I(*word);
+  return fmpz_sgn(value) < 0 ? -size : size;
 }
 
 /// A scoped FLINT rational.

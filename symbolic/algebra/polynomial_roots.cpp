@@ -2,10 +2,10 @@
 
 #include <acb.h>
 #include <arb_fmpz_poly.h>
-#include <cln/integer_io.h>
 
 #include <algorithm>
-#include <sstream>
+
+#include "symbolic/algebra/flint_conversion.hpp"
 
 namespace casimir::search {
 
@@ -16,9 +16,7 @@ std::vector<std::pair<double, double>> complex_roots(const std::vector<cln::cl_I
   fmpz_t number;
   fmpz_init(number);
   for (std::size_t k = 0; k < coefficients.size(); ++k) {
-    std::ostringstream text;
-    text << coefficients[k];
-    fmpz_set_str(number, text.str().c_str(), 10);
+    to_fmpz(number, coefficients[k]);
     fmpz_poly_set_coeff_fmpz(polynomial, static_cast<slong>(k), number);
   }
   const auto degree = static_cast<slong>(coefficients.size()) - 1;

@@ -129,8 +129,8 @@ class Builder {
   }
 
   static Assumption assumption_of(const Text& text, Scope& names) {
-    const Relation relation = parse_relation(text, names);
-    return {relation.lhs - relation.rhs, relation.relation, text.value};
+    const Condition condition = parse_condition(text, names);
+    return {condition.left - condition.right, condition.comparison, text.value};
   }
 
   void read_equations() {

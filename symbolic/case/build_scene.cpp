@@ -76,10 +76,12 @@ class SceneReader {
     return scene;
   }
 
-  static std::string kind_of_extreme(const Text& text) {
-    const std::vector<std::string> kinds = {"separatrix", "stiff", "scale",
-                                            "gimbal",     "long",  "blowup"};
-    if (std::find(kinds.begin(), kinds.end(), text.value) != kinds.end()) return text.value;
+  static Extreme kind_of_extreme(const Text& text) {
+    std::vector<std::string> kinds;
+    for (const Extreme kind : extremes()) {
+      kinds.push_back(to_string(kind));
+      if (kinds.back() == text.value) return kind;
+    }
     throw text.error(fmt::format("unknown kind of extreme scene '{}'", printable(text.value)), 0,
                      suggest_or_list(text.value, kinds));
   }

@@ -24,7 +24,8 @@ class CaseNames : public Scope {
   }
 
   /// Names a function of the file that was just read, as an integral, for use in further
-  /// expressions. \throws CaseError  where the name already stands for something else.
+  /// expressions.
+  /// \throws CaseError  where the name already stands for something else.
   void name_function(const Text& name, const Quantity& quantity);
 
   const Quantity* find(const std::string& name) override;

@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "symbolic/algebra/where_defined.hpp"
 #include "symbolic/case/limits.hpp"
 
 namespace casimir {
@@ -93,14 +94,10 @@ numeric evaluate(const ex& e) {
 
 std::optional<numeric> decimal(const ex& value) {
   try {
-    return evaluate(value);
+    return where_defined([&] { return evaluate(value); });
   } catch (const NoValue&) {
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
-    // A pole, or an error of CLN: both mean that there is no number.
+    return std::nullopt;
   }
-  return std::nullopt;
 }
 
 std::optional<numeric> real_decimal(const ex& value) {

@@ -243,7 +243,9 @@ class Parser {
       fail_at(offset, "this has no value: division by zero or a pole of the function");
     } catch (const std::bad_alloc&) {
       throw;
-    } catch (const std::exception& problem) {
+    } catch (const CaseError&) {
+      throw;
+    } catch (const std::exception& problem) {  // GiNaC's own errors have no common type
       fail_at(offset, fmt::format("this has no value ({})", printable(problem.what(), 80)));
     }
   }
@@ -509,17 +511,16 @@ GiNaC::ex parse_real_constant(const Text& text) {
   return value;
 }
 
-Relation parse_relation(const Text& text, Scope& names) {
+Condition parse_condition(const Text& text, Scope& names) {
   const std::string& s = text.value;
   const std::size_t at = s.find_first_of("!=<>");
   if (at == std::string::npos) {
     throw text.error("expected a condition such as 'r != 0' or 'G > 0'");
   }
   const bool two = at + 1 < s.size() && s[at + 1] == '=';
-  std::string relation = s.substr(at, two ? 2 : 1);
-  if (relation == "=") relation = "==";
-  if (relation == "!") throw text.error("unexpected '!', expected '!='", at);
-  return {parse_range(text, names, 0, at).value, relation,
+  const auto comparison = comparison_of(s.substr(at, two ? 2 : 1));
+  if (!comparison) throw text.error("unexpected '!', expected '!='", at);
+  return {parse_range(text, names, 0, at).value, *comparison,
           parse_range(text, names, at + (two ? 2 : 1), s.size()).value};
 }
 

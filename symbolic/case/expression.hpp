@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "symbolic/case_file.hpp"
+#include "symbolic/comparison.hpp"
 
 namespace casimir {
 
@@ -84,20 +85,20 @@ GiNaC::ex parse_constant(const Text& text);
 /// The same, for an exact real number.
 GiNaC::ex parse_real_constant(const Text& text);
 
-/// Two sides and the relation between them, as in "r != 0".
-struct Relation {
-  GiNaC::ex lhs;
-  std::string relation;  ///< one of != == <= >= < >
-  GiNaC::ex rhs;
+/// A condition: two sides, and how they compare, as in "r != 0".
+struct Condition {
+  GiNaC::ex left;
+  Comparison comparison;
+  GiNaC::ex right;
 };
-Relation parse_relation(const Text& text, Scope& names);
+Condition parse_condition(const Text& text, Scope& names);
 
 /// The two sides of "LEFT = RIGHT"; the right one is 0 where there is no sign of equality.
 std::pair<Quantity, Quantity> parse_equation(const Text& text, Scope& names);
 
 /// The position of the symbol of that name.
-/// \param what    as in "'x' is not WHAT", for the error where there is none
-/// \param name    the part of `text` that starts at `offset`
+/// \param what  as in "'x' is not WHAT", for the error where there is none
+/// \param name  the part of `text` that starts at `offset`
 std::size_t symbol_position(const Text& text, const std::string& name, std::size_t offset,
                             const std::vector<GiNaC::symbol>& symbols, const std::string& what);
 

@@ -37,9 +37,14 @@ void set_limits(const Limits& limits) { g_limits = limits; }
 
 std::string limit_hint(double Limits::*limit) {
   for (const LimitName& name : limit_names()) {
-    if (name.value == limit) return fmt::format("--limit {}=N allows more", name.name);
+    if (name.value == limit) return fmt::format(fmt::runtime(g_limits.how_to_raise), name.name);
   }
   return {};
+}
+
+std::string out_of_memory() {
+  return g_limits.how_to_get_memory.empty() ? "out of memory"
+                                            : "out of memory: " + g_limits.how_to_get_memory;
 }
 
 WorkMeter::WorkMeter() : outer_(g_meter) { g_meter = this; }

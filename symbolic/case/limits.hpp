@@ -20,9 +20,14 @@ struct Limits {
   double size = 4e6;
   double terms = 1e6;
   double work = 1e9;
+
+  /// How whoever sets the limits lets others raise one: `{}` stands for its name. In messages.
+  std::string how_to_raise = "a larger limit '{}' allows more";
+  /// The same for memory, or empty.
+  std::string how_to_get_memory;
 };
 
-/// One limit, as `--limit NAME=VALUE` names it.
+/// One limit, by the name that people use.
 struct LimitName {
   const char* name;
   double Limits::*value;
@@ -39,8 +44,11 @@ const Limits& limits();
 /// To be called before anything is read: the limits are not for changing while threads run.
 void set_limits(const Limits& limits);
 
-/// "--limit variables=N allows more": a hint.
+/// What allows more than a limit, in the words of whoever set the limits.
 std::string limit_hint(double Limits::*limit);
+
+/// "out of memory", and what gives more.
+std::string out_of_memory();
 
 /// While it lives, `spend` counts products of terms in this thread, and throws TooLarge beyond the
 /// limit `work`. Without one, nothing is counted. An inner one counts on its own.

@@ -37,7 +37,7 @@ namespace casimir {
 /// for a witness to show.
 class FunctionRing {
  public:
-  /// \param symbols      independent symbols: variables, parameters, time, a spectral parameter.
+  /// \param symbols  independent symbols: variables, parameters, time, a spectral parameter.
   /// \param assumptions  decide the signs of square factors of roots.
   /// \param expressions  everything that will be converted later.
   /// \throws ModelError  for a denominator that is identically zero; TooLarge.
@@ -65,18 +65,20 @@ class FunctionRing {
   /// `p` by the relations of roots and cosines, denominators as they are: the same function.
   Polynomial reduced(Polynomial p) const;
 
-  /// a*b. \throws TooLarge
+  /// a*b.
+  /// \throws TooLarge
   Polynomial checked_product(const Polynomial& a, const Polynomial& b) const;
 
   /// A function that is constant identically in a spectral parameter has constant coefficients:
   /// those of its powers, and of the powers of roots that contain it, after clearing denominators
   /// that are free of the coordinates.
-  /// \param spectral     the parameter's place among the symbols
+  /// \param spectral  the parameter's place among the symbols
   /// \param coordinates  the first symbols are the coordinates
   std::vector<Polynomial> spectral_coefficients(const Polynomial& p, std::size_t spectral,
                                                 std::size_t coordinates) const;
 
-  /// With the functions themselves. \throws TooLarge  beyond the limit `size`
+  /// With the functions themselves.
+  /// \throws TooLarge  beyond the limit `size`
   GiNaC::ex expression(const Polynomial& p) const;
   /// p/q with both reduced by the relations and in lowest terms as polynomials.
   GiNaC::ex quotient(const Polynomial& p, const Polynomial& q) const;

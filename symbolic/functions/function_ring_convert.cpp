@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "symbolic/algebra/machine_word.hpp"
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/case/limits.hpp"
 #include "symbolic/functions/function_ring.hpp"
 
@@ -201,9 +202,7 @@ const std::string& FunctionRing::order_key(const ex& e) {
   if (known != order_keys_.end()) return known->second;
   std::string key;
   if (e.nops() == 0) {
-    std::ostringstream stream;
-    stream << e;
-    key = stream.str();
+    key = expression_text(e);
   } else if (GiNaC::is_exactly_a<GiNaC::add>(e)) {
     key = order_key_of_sum(e);
   } else {

@@ -36,8 +36,8 @@ void FunctionRing::read_all(Reading reading) {
 /// The first reading is of the inequalities that give the sign of a single factor, the second is of
 /// those that rest on signs already known.
 void FunctionRing::read_assumption(const Assumption& assumption, Reading reading) {
-  const std::string& relation = assumption.relation;
-  if (relation == "!=") {
+  const Comparison comparison = assumption.comparison;
+  if (comparison == Comparison::unequal) {
     const Polynomial difference = fraction(convert(assumption.difference)).first;
     if (difference.is_zero()) return;
     for (const auto& [f, exponent] : difference.factors()) {
@@ -45,9 +45,9 @@ void FunctionRing::read_assumption(const Assumption& assumption, Reading reading
     }
     return;
   }
-  const bool positive = relation == ">" || relation == ">=";
-  const bool negative = relation == "<" || relation == "<=";
-  const bool strict = relation == ">" || relation == "<";
+  const bool positive = comparison == Comparison::greater || comparison == Comparison::at_least;
+  const bool negative = comparison == Comparison::less || comparison == Comparison::at_most;
+  const bool strict = comparison == Comparison::greater || comparison == Comparison::less;
   if (positive || negative)
     read_sign(convert(assumption.difference), positive ? 1 : -1, reading, false, strict);
 }

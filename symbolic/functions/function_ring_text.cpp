@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include <numeric>
-#include <sstream>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/case/limits.hpp"
 #include "symbolic/functions/function_ring.hpp"
 
@@ -74,12 +74,7 @@ std::string FunctionRing::text(const Polynomial& p) const {
       factors += i < symbols_.size() ? symbols_[i].get_name() + power_text(exponents[i])
                                      : power_of(generators_[i - symbols_.size()], exponents[i]);
     }
-    std::ostringstream number;
-    number << cln::abs(coefficient);
-    const bool unit = cln::abs(coefficient) == 1 && !factors.empty();
-    const std::string sign =
-        cln::minusp(coefficient) ? (result.empty() ? "-" : " - ") : (result.empty() ? "" : " + ");
-    result += sign + (unit ? "" : number.str()) + (unit || factors.empty() ? "" : "*") + factors;
+    append_term(result, coefficient, factors);
   }
   return result.empty() ? "0" : result;
 }
@@ -128,12 +123,11 @@ std::string FunctionRing::name(const Generator& g) const {
     const Polynomial& other = generators_[g.partner->first - symbols_.size()].base;
     return "(sqrt(" + text(g.relation[0] + other) + ")*sin(" + text(g.base) + "))";
   }
-  std::ostringstream stream;
-  stream << g.value;
+  const std::string value = expression_text(g.value);
   return GiNaC::is_exactly_a<GiNaC::function>(g.value) ||
                  GiNaC::is_exactly_a<GiNaC::constant>(g.value)
-             ? stream.str()
-             : bracketed(stream.str());
+             ? value
+             : bracketed(value);
 }
 
 FunctionRing::Origin FunctionRing::origin(std::size_t place) const {

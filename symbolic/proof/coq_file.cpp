@@ -8,10 +8,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/case/expression.hpp"
 
 namespace casimir {
@@ -26,17 +26,11 @@ std::string numbered(const char* prefix, std::size_t count) {
   return result;
 }
 
-std::string digits(const cln::cl_I& value) {
-  std::ostringstream stream;
-  stream << value;
-  return stream.str();
-}
-
 /// Of a rational number that is not negative.
 std::string number(const cln::cl_RA& value) {
   const cln::cl_I denominator = cln::denominator(value);
-  if (denominator == 1) return digits(cln::numerator(value));
-  return fmt::format("({} # {})", digits(cln::numerator(value)), digits(denominator));
+  if (denominator == 1) return rational_text(cln::numerator(value));
+  return fmt::format("({} # {})", rational_text(cln::numerator(value)), rational_text(denominator));
 }
 
 void add(std::string& sum, const std::string& term) { sum += (sum.empty() ? "" : "\n  + ") + term; }

@@ -28,7 +28,7 @@ struct CoqFunction {
 /// called x_NAME, so that nothing of Coq can be meant.
 class CoqFile {
  public:
-  /// \param symbols    the ring's variables: first the coordinates, then the parameters
+  /// \param symbols  the ring's variables: first the coordinates, then the parameters
   /// \param dimension  how many coordinates
   CoqFile(const std::vector<GiNaC::symbol>& symbols, std::size_t dimension);
 

@@ -10,7 +10,8 @@
 #include <flint/nmod_mat.h>
 
 #include <algorithm>
-#include <sstream>
+
+#include "symbolic/algebra/number_text.hpp"
 
 namespace casimir {
 namespace {
@@ -209,13 +210,7 @@ class ModularRelation {
     std::string sum;
     for (std::size_t k = solved ? 1 : 0; k < relation.size(); ++k) {
       const cln::cl_RA coefficient = solved ? -relation[k].first : relation[k].first;
-      const std::string monomial = text_of(relation[k].second);
-      const bool minus = cln::minusp(coefficient);
-      sum += sum.empty() ? (minus ? "-" : "") : (minus ? " - " : " + ");
-      std::ostringstream number;
-      number << cln::abs(coefficient);
-      const bool unit = cln::abs(coefficient) == 1 && !monomial.empty();
-      sum += (unit ? "" : number.str() + (monomial.empty() ? "" : "*")) + monomial;
+      append_term(sum, coefficient, text_of(relation[k].second));
     }
     if (sum.empty()) sum = "0";
     return solved ? names_[0] + " = " + sum : sum + " = 0";

@@ -4,8 +4,8 @@
 #include <cln/rational_io.h>
 
 #include <optional>
-#include <sstream>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/case/expression_size.hpp"
 
 namespace casimir {
@@ -14,15 +14,9 @@ namespace {
 using GiNaC::ex;
 using GiNaC::numeric;
 
-std::string shown(const cln::cl_RA& value) {
-  std::ostringstream stream;
-  stream << value;
-  return stream.str();
-}
-
 /// "2*atan(1/3)", divided by the factor of the angle.
 std::string over(const std::string& text, const cln::cl_RA& factor) {
-  return factor == 1 ? text : "(" + text + ")/(" + shown(factor) + ")";
+  return factor == 1 ? text : "(" + text + ")/(" + rational_text(factor) + ")";
 }
 
 }  // namespace
@@ -77,7 +71,7 @@ ExactPoint::ExactPoint(const FunctionRing& ring, const std::vector<cln::cl_RA>& 
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < symbols.size(); ++i) {
     values_[symbols[i]] = numeric(point[i]);
-    texts.push_back(shown(point[i]));
+    texts.push_back(rational_text(point[i]));
   }
   for (const FunctionRing::PlainArgument& a : ring.plain_arguments(point)) {
     if (bare[a.symbol]) continue;
@@ -92,12 +86,12 @@ ExactPoint::ExactPoint(const FunctionRing& ring, const std::vector<cln::cl_RA>& 
       }
       const cln::cl_RA t = a.sine / (1 + a.cosine);
       values_[symbol] = 2 * GiNaC::atan(ex(numeric(t))) / factor;
-      texts[a.symbol] = t == 0 ? "0" : over("2*atan(" + shown(t) + ")", a.factor);
+      texts[a.symbol] = t == 0 ? "0" : over("2*atan(" + rational_text(t) + ")", a.factor);
     } else {
       exponents_.push_back({symbol, factor, numeric(a.exponential)});
       values_[symbol] = GiNaC::log(ex(numeric(a.exponential))) / factor;
       texts[a.symbol] =
-          a.exponential == 1 ? "0" : over("log(" + shown(a.exponential) + ")", a.factor);
+          a.exponential == 1 ? "0" : over("log(" + rational_text(a.exponential) + ")", a.factor);
     }
   }
   for (std::size_t i = 0; i < symbols.size(); ++i)

@@ -44,7 +44,7 @@ enum class Subject { functions, bracket, motion };
 class Prover {
  public:
   /// \param expressions  what will be asked about, beside the bracket and the flow.
-  /// \param subject      what of these; the others have no signs to give, and may not be asked for
+  /// \param subject  what of these; the others have no signs to give, and may not be asked for
   Prover(const Model& model, const std::vector<GiNaC::ex>& expressions,
          Subject subject = Subject::motion);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "symbolic/algebra/where_defined.hpp"
 #include "symbolic/case/expression_size.hpp"
 #include "symbolic/proof/prover.hpp"
 
@@ -200,14 +201,17 @@ bool Prover::vanishes_by_substitution(const Residual& residual, const Level& lev
     }
     return value;
   };
-  try {
+  const auto vanishes = [&] {
     const ex value = on_level(ring_.expression(ring_.lowest_terms(residual.value).first));
     std::vector<Assumption> assumptions = model_.assumptions;
     for (Assumption& a : assumptions) a.difference = on_level(a.difference);
     FunctionRing fresh(ring_.symbols(), assumptions, {value});
     return fresh.numerator(fresh.convert(value)).is_zero();
-  } catch (const std::exception&) {
-    return false;  // a pole on the level, or too large
+  };
+  try {
+    return where_defined(vanishes).value_or(false);
+  } catch (const ModelError&) {
+    return false;  // a division by what vanishes on the level, or too large
   }
 }
 
@@ -476,6 +480,8 @@ void Prover::say_conditions(Proof& proof) {
     if (divided_by_[k] && !ring_.is_nowhere_zero(denominators[k]))
       proof.nonzero.push_back(ring_.text(denominators[k]));
   }
+  // The ring meets them in an order that differs from one process to the next.
+  std::sort(proof.nonzero.begin(), proof.nonzero.end());
   for (const Polynomial& p : ring_.implied_positive()) proof.positive.push_back(ring_.text(p));
 }
 

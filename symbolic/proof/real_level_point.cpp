@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "symbolic/algebra/exact_constant.hpp"
+#include "symbolic/algebra/where_defined.hpp"
 #include "symbolic/case/expression_size.hpp"
 
 namespace casimir {
@@ -186,7 +187,7 @@ bool RealLevelPoints::at_simple_point(const Level& level, const std::vector<ex>&
 
 bool RealLevelPoints::is_on(std::vector<ex> coordinates, const Level& level,
                             const std::vector<ex>& expressions) {
-  try {
+  const auto lies_on_it = [&] {
     RealPoint point = real_.at(std::move(coordinates));
     const bool on_level =
         std::all_of(level.functions.begin(), level.functions.end(), [&](const ex& f) {
@@ -195,8 +196,13 @@ bool RealLevelPoints::is_on(std::vector<ex> coordinates, const Level& level,
           return value && value->zero;
         });
     return on_level && real_.admits(point, expressions);
-  } catch (const std::exception&) {
-    return false;  // a pole, or no certain value
+  };
+  try {
+    return where_defined(lies_on_it).value_or(false);
+  } catch (const NotCertified&) {
+    return false;
+  } catch (const TooLarge&) {
+    return false;
   }
 }
 

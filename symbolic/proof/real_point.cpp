@@ -155,7 +155,7 @@ bool RealPoints::admits(BallEvaluator& at, const std::vector<ex>& expressions) c
   try {
     for (const Assumption& assumption : model_.assumptions) {
       const std::optional<int> sign = at.sign(assumption.difference);
-      if (!sign || !assumption.allows(*sign)) return false;
+      if (!sign || !holds(assumption.comparison, *sign)) return false;
     }
     for (const ex& e : expressions) at(e);
     return true;

@@ -19,7 +19,8 @@ using PolynomialRows = std::vector<std::vector<Polynomial>>;
 class RealPoint {
  public:
   /// \param coordinates  exact constants, one for each symbol of the ring
-  /// \param shown        how many of the symbols `text` speaks of. \throws NotCertified
+  /// \param shown  how many of the symbols `text` speaks of.
+  /// \throws NotCertified
   RealPoint(const FunctionRing& ring, std::vector<GiNaC::ex> coordinates, long bits,
             std::size_t shown);
 
@@ -30,7 +31,8 @@ class RealPoint {
   /// \throws NotCertified
   std::size_t rank(const PolynomialRows& rows);
 
-  /// False where the product of the vectors is certainly not zero. \throws NotCertified
+  /// False where the product of the vectors is certainly not zero.
+  /// \throws NotCertified
   bool may_be_orthogonal(const std::vector<Polynomial>& a, const std::vector<Polynomial>& b);
 
   BallEvaluator& evaluator() { return evaluator_; }
@@ -65,11 +67,13 @@ class RealPoints {
   /// Borrows both.
   RealPoints(const Model& model, const FunctionRing& ring) : model_(model), ring_(ring) {}
 
-  /// A point of the ring. \throws NotCertified
+  /// A point of the ring.
+  /// \throws NotCertified
   RealPoint at(std::vector<GiNaC::ex> coordinates, long bits = kBits) const;
 
   /// A random point at which, too, every expression certainly has a value, a real one unless the
-  /// ring has complex numbers; empty if none was found. \param trials  how many points are tried
+  /// ring has complex numbers; empty if none was found.
+  /// \param trials  how many points are tried
   std::optional<RealPoint> random(const std::vector<GiNaC::ex>& expressions, int trials = 400);
 
   /// The same, the k-th of a sequence of points whose coordinates have a denominator of their own

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "symbolic/algebra/exact_constant.hpp"
+#include "symbolic/algebra/where_defined.hpp"
 #include "symbolic/proof/exact_point.hpp"
 
 namespace casimir {
@@ -44,7 +45,7 @@ std::optional<Witness> confirmed(const FunctionRing& ring, const RealPoints& rea
                                  const ExactPoint& point, const Suspect& suspect,
                                  const Level& level) {
   constexpr long kBits = 192;
-  try {
+  const auto examine = [&]() -> std::optional<Witness> {
     BallEvaluator balls(real_points.numbers(), kBits);
     for (const GiNaC::symbol& s : ring.symbols()) balls.set(s, point.value(s));
     if (!ring.is_polynomial() && !real_points.admits(balls, suspect.domain)) return std::nullopt;
@@ -60,8 +61,13 @@ std::optional<Witness> confirmed(const FunctionRing& ring, const RealPoints& rea
         });
     if (!on_level) return std::nullopt;
     return Witness{point.coordinates(), std::move(*value)};
-  } catch (const std::exception&) {
-    return std::nullopt;  // a pole at this point
+  };
+  try {
+    return where_defined(examine).value_or(std::nullopt);
+  } catch (const NotCertified&) {
+    return std::nullopt;
+  } catch (const TooLarge&) {
+    return std::nullopt;
   }
 }
 

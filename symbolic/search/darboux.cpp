@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "symbolic/algebra/short_text.hpp"
+#include "symbolic/functions/short_text.hpp"
 #include "symbolic/search/modular/monomials.hpp"
 #include "symbolic/search/polynomial_system.hpp"
 #include "symbolic/search/quasi_homogeneous.hpp"
@@ -167,15 +167,15 @@ void DarbouxSearch::add(const Branch& branch, const Polynomial& f, const Polynom
     report_.complete = false;
     report_.reason =
         "there are Darboux polynomials with coefficients that are algebraic numbers, or families "
-        "of "
-        "them; these are not shown";
+        "of them; these are not shown";
     return;
   }
   if (own->factors().size() != 2 || own->factors()[1].second != 1) {
     if (own->total_degree() > 1) return;  // a product of others
   }
-  result.text =
-      short_text(system_.prover().ring(), own->scaled(1 / own->content()), system_.is_constant());
+  const Polynomial primitive = own->scaled(1 / own->content());
+  result.value = system_.expression(primitive);
+  result.text = short_text(system_.prover().ring(), primitive, system_.is_constant());
   // The cofactor is read off the rate.
   Polynomial rate(system_.ring()), quotient(system_.ring());
   for (std::size_t i = 0; i < dimension_; ++i) rate += own->derivative(i) * system_.flow()[i];
@@ -183,10 +183,8 @@ void DarbouxSearch::add(const Branch& branch, const Polynomial& f, const Polynom
   result.cofactor = system_.prover().ring().text(quotient);
   const auto same = [&](const DarbouxPolynomial& other) { return other.text == result.text; };
   if (std::any_of(report_.found.begin(), report_.found.end(), same)) return;
-  Candidates candidates;
-  candidates.invariant_relations.push_back({result.text, {"found", 1, 1}, {}});
-  for (const Proof& proof : prove(model_, candidates, [](const Proof&) { return false; }))
-    result.verdict = proof.verdict;
+  result.verdict =
+      prove_claim(model_, ClaimKind::invariant_relation, {result.text, result.value, {}}).verdict;
   report_.found.push_back(std::move(result));
   found_.emplace_back(*own, quotient);
 }

@@ -11,7 +11,8 @@ namespace casimir::search {
 
 /// A polynomial whose rate is a multiple of it, so that its zero level is invariant.
 struct DarbouxPolynomial {
-  std::string text, cofactor;
+  GiNaC::ex value;                     ///< over the symbols of the model
+  std::string text, cofactor;          ///< in the notation of case files
   std::vector<std::string> relations;  ///< between coefficients that are left, as algebraic numbers
   int degree = 0;
   Verdict verdict = Verdict::undecided;

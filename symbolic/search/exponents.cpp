@@ -9,9 +9,9 @@
 #include <functional>
 #include <numeric>
 #include <set>
-#include <sstream>
 
 #include "symbolic/algebra/ideal.hpp"
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/algebra/polynomial_roots.hpp"
 #include "symbolic/case/expression.hpp"
 #include "symbolic/search/polynomial_system.hpp"
@@ -20,12 +20,6 @@
 
 namespace casimir::search {
 namespace {
-
-std::string text_of(const cln::cl_RA& number) {
-  std::ostringstream stream;
-  stream << number;
-  return stream.str();
-}
 
 class Analysis {
  public:
@@ -118,9 +112,7 @@ std::string Analysis::text(const Polynomial& p) const {
       else
         factors += exponents[i] > 1 ? fmt::format("rho^{}", exponents[i]) : "rho";
     }
-    const std::string size = text_of(cln::abs(number));
-    result += cln::minusp(number) ? (result.empty() ? "-" : " - ") : (result.empty() ? "" : " + ");
-    result += factors.empty() ? size : size == "1" ? factors : size + "*" + factors;
+    append_term(result, number, factors);
   }
   return result.empty() ? "0" : result;
 }
@@ -136,10 +128,7 @@ std::string Analysis::quotient(const Polynomial& top, const Polynomial& bottom) 
   const cln::cl_RA content = b.content();
   a = a.scaled(1 / content);
   b = b.scaled(1 / content);
-  const auto bracketed = [&](const Polynomial& p) {
-    return p.terms() > 1 ? "(" + text(p) + ")" : text(p);
-  };
-  return bracketed(a) + "/(" + text(b) + ")";
+  return quotient_text(text(a), a.terms() > 1, text(b));
 }
 
 void Analysis::read_weights(const std::vector<std::pair<Text, Text>>& weights) {
@@ -149,8 +138,8 @@ void Analysis::read_weights(const std::vector<std::pair<Text, Text>>& weights) {
     const std::optional<Weights> found = find_weights(field_, names);
     if (!found) {
       throw ModelError(
-          "no weights with small numbers make the equations of motion quasi-homogeneous: give them "
-          "with --weights");
+          "no weights with small numbers make the equations of motion quasi-homogeneous: give "
+          "some");
     }
     weights_ = *found;
   } else {
@@ -167,7 +156,7 @@ void Analysis::read_weights(const std::vector<std::pair<Text, Text>>& weights) {
     }
   }
   for (std::size_t i = 0; i < dimension_; ++i)
-    report_.weights.emplace_back(names[i], text_of(weight(i)));
+    report_.weights.emplace_back(names[i], rational_text(weight(i)));
 }
 
 void Analysis::keep_leading_terms() {
@@ -207,7 +196,7 @@ Exponent Analysis::exponent_of(const Polynomial& factor) const {
       result.kind =
           cln::denominator(value) == 1 ? Exponent::Kind::integer : Exponent::Kind::rational;
       result.value = value;
-      result.text = text_of(value);
+      result.text = rational_text(value);
     } else {
       result.kind = Exponent::Kind::parametric;
       result.text = quotient(-parts[0], parts[1]);

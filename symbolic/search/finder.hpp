@@ -14,6 +14,7 @@ class Finder {
   Report run();
 
   System& system() { return system_; }
+  const System& system() const { return system_; }
   /// The problem of the integrals, to be found beside the known ones.
   Problem integral_problem(std::vector<Generator> known);
 
@@ -21,8 +22,8 @@ class Finder {
   std::vector<int> weights() const;
   std::vector<Generator> casimirs_as_needed();
   std::vector<Found> described(const std::vector<Generator>& generators,
-                               const std::vector<Generator>& known, const std::string& kind);
-  void prove_all(std::vector<Found>& list, const std::string& kind) const;
+                               const std::vector<Generator>& known, ClaimKind kind);
+  void prove_all(std::vector<Found>& list, ClaimKind kind) const;
   void check_level();
   void take(const Solution& solution);
   void doubt();

@@ -303,7 +303,8 @@ std::optional<std::string> Independence::reason() {
       return named("has a denominator that is not understood");
   }
   for (const auto& assumption : system_.model().assumptions)
-    if (assumption.relation == "==") return "an assumption is an equation: " + assumption.text;
+    if (assumption.comparison == Comparison::equal)
+      return "an assumption is an equation: " + assumption.text;
   const std::string may = " may obey relations that are not known";
   for (const bool constant : {false, true}) {
     const std::string those = constant ? " of parameters" : "";

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "symbolic/algebra/short_text.hpp"
+#include "symbolic/functions/short_text.hpp"
 #include "symbolic/search/conditions/real_ideal.hpp"
 #include "symbolic/search/finder.hpp"
 #include "symbolic/search/independence.hpp"
@@ -39,7 +39,7 @@ Finder::Finder(const Model& model, const Request& request, const Watch& watch)
       request_(request),
       watch_(watch),
       on_(read(model, request.on)),
-      known_(read(model, request.known)),
+      known_(request.known),
       system_(model, read(model, request.functions), values_of(on_, known_)),
       weights_(weights()) {}
 
@@ -159,7 +159,7 @@ void Finder::check_level() {
   Proof proof;
   system_.prover().decide_invariance(proof, on_);
   if (proof.verdict == Verdict::refuted)
-    throw request_.on[0].error("the common zero level of --on is not invariant: " + proof.reason);
+    throw request_.on[0].error("the level that is searched is not invariant: " + proof.reason);
   if (proof.verdict == Verdict::undecided) {
     level_reason_ = "whether the level is invariant is undecided";
   } else if (!system_.relations().empty() ||
@@ -186,8 +186,7 @@ void Finder::drop_constants(std::vector<Generator>& found) {
   if (!unknown_relations(system_)) return;  // independent functions
   const FunctionRing& ring = system_.functions();
   std::erase_if(found, [&](const Generator& g) {
-    const std::string text = short_text(ring, ring.reduced(g.function), system_.is_constant());
-    return !is_certainly_not_constant(model_, model_.parse({text, {"found", 1, 1}, {}}));
+    return !is_certainly_not_constant(model_, system_.expression(ring.reduced(g.function)));
   });
 }
 
@@ -203,7 +202,7 @@ void Finder::take(const Solution& solution) {
 }
 
 std::vector<Found> Finder::described(const std::vector<Generator>& generators,
-                                     const std::vector<Generator>& known, const std::string& kind) {
+                                     const std::vector<Generator>& known, ClaimKind kind) {
   std::vector<Polynomial> functions;
   for (const Generator& g : known) functions.push_back(g.function);
   std::size_t rank = rank_of_gradients(system_, functions);
@@ -211,7 +210,9 @@ std::vector<Found> Finder::described(const std::vector<Generator>& generators,
   for (const Generator& g : generators) {
     Found found;
     const FunctionRing& ring = system_.prover().ring();
-    found.text = short_text(ring, ring.reduced(g.function), system_.is_constant());
+    const Polynomial function = ring.reduced(g.function);
+    found.value = system_.expression(function);
+    found.text = short_text(ring, function, system_.is_constant());
     found.degree = g.degree;
     functions.push_back(g.function);
     const std::size_t next = rank_of_gradients(system_, functions);
@@ -223,28 +224,25 @@ std::vector<Found> Finder::described(const std::vector<Generator>& generators,
   return list;
 }
 
-void Finder::prove_all(std::vector<Found>& list, const std::string& kind) const {
+void Finder::prove_all(std::vector<Found>& list, ClaimKind kind) const {
   for (Found& found : list) {
-    Candidates candidates;
-    const Text text{found.text, {"found", 1, 1}, {}};
-    (kind == "casimir" ? candidates.casimirs : candidates.integrals).push_back(text);
-    candidates.on = request_.on;
-    for (const Proof& proof : prove(model_, candidates, [](const Proof&) { return false; }))
-      found.verdict = proof.verdict;
+    found.verdict = prove_claim(model_, kind, {found.text, found.value, {}}, on_).verdict;
     watch_.tick(1);
   }
 }
 
 Report Finder::run() {
   check_level();
-  report_.kind = request_.casimirs ? "casimir" : on_.empty() ? "integral" : "conditional";
+  report_.kind = request_.casimirs ? ClaimKind::casimir
+                 : on_.empty()     ? ClaimKind::integral
+                                   : ClaimKind::conditional;
   for (const std::size_t place : system_.parameters())
     report_.generic.push_back(system_.name(place));
   std::vector<Generator> casimirs = casimirs_as_needed();
   if (request_.casimirs) {
-    report_.found = described(casimirs, {}, "casimir");
+    report_.found = described(casimirs, {}, ClaimKind::casimir);
   } else {
-    report_.casimirs = described(casimirs, {}, "casimir");
+    report_.casimirs = described(casimirs, {}, ClaimKind::casimir);
     std::vector<Generator> known = casimirs;
     if (const std::optional<Polynomial> h = system_.hamiltonian()) {
       known.push_back({*h, weighted_degree(*h, system_.atoms(), weights_)});

@@ -17,14 +17,15 @@ struct Request {
   std::vector<Text> on;                          ///< the common zero level of these
   std::vector<Text> functions;                   ///< that the ansatz may use besides the variables
   std::vector<std::pair<Text, Text>> weights{};  ///< name and weight; 1 for the others
-  std::vector<Text> known{};                     ///< integrals that are not to be found again
+  std::vector<NamedExpression> known{};          ///< integrals that are not to be found again
   /// Casimir functions are integrals like others: none are looked for first and taken as known.
   bool casimirs_are_integrals = false;
 };
 
 /// A function that was found.
 struct Found {
-  std::string text;  ///< in the notation of case files
+  GiNaC::ex value;   ///< over the symbols of the model
+  std::string text;  ///< the value or its negative, in the notation of case files
   int degree = 0;    ///< weighted
   Verdict verdict = Verdict::undecided;
   bool independent = true;  ///< functionally, of what stands before it
@@ -32,10 +33,10 @@ struct Found {
 
 /// What a search found, and whether that is all.
 struct Report {
-  std::string kind;                  ///< "casimir", "integral" or "conditional"
-  std::vector<Found> found;          ///< without what the known ones generate
-  std::vector<Found> casimirs;       ///< polynomial ones, found first and taken as known
-  bool hamiltonian = false;          ///< it was taken as known
+  ClaimKind kind = ClaimKind::integral;  ///< or `casimir`, `conditional`
+  std::vector<Found> found;              ///< without what the known ones generate
+  std::vector<Found> casimirs;           ///< polynomial ones, found first and taken as known
+  bool hamiltonian = false;              ///< it was taken as known
   std::size_t trivial = 0;           ///< dimension of what those generate up to the degree, with 1
   bool complete = false;             ///< proved: there are no others
   std::string reason;                ///< where not
@@ -53,6 +54,7 @@ Report find_integrals(const Model& model, const Request& request, const Watch& w
 /// Values of parameters for which there is an additional integral.
 struct Condition {
   std::vector<std::pair<std::string, std::string>> parameters;  ///< name and value, over the others
+  std::vector<GiNaC::ex> values;                                ///< the same values, in this order
   std::string relation;      ///< an irreducible polynomial that vanishes; empty for a point
   std::vector<Found> found;  ///< what is additional there; empty where this was not confirmed
   Verdict verdict = Verdict::undecided;  ///< whether all that was found there is proved
@@ -73,7 +75,8 @@ struct ConditionReport {
 /// count as well. For one parameter in which the equations are polynomials these are all values;
 /// for several, all hypersurfaces, and the sets of two and three conditions that a search among
 /// simple ones finds. Where a parameter is inside a function, simple values are tried.
-/// \param free  names of parameters \throws as find_integrals
+/// \param free  names of parameters
+/// \throws as find_integrals
 ConditionReport find_conditions(const Model& model, const Request& request,
                                 const std::vector<Text>& free, const Watch& watch = {});
 

@@ -200,6 +200,13 @@ std::vector<Polynomial> System::of_atoms(const std::vector<Polynomial>& rates) c
   return prover_.ring().common_numerators(std::move(result));
 }
 
+GiNaC::ex System::expression(const Polynomial& p) const {
+  const FunctionRing& own = prover_.ring();
+  GiNaC::exmap values;
+  for (const Defined& d : defined_) values.emplace(own.symbols()[d.place], own.expression(d.value));
+  return own.expression(p).subs(values, GiNaC::subs_options::no_pattern);
+}
+
 std::string System::text_of(const GiNaC::ex& expression) const {
   const FunctionRing& own = prover_.ring();
   FunctionRing fresh(own.symbols(), model().assumptions, {expression});

@@ -24,7 +24,7 @@ using Point = std::vector<Residue>;
 class System {
  public:
   /// \param functions  more functions of the variables that the ansatz may use.
-  /// \param others     further expressions that will be converted.
+  /// \param others  further expressions that will be converted.
   /// \throws CaseError, ModelError
   System(const Model& model, const std::vector<NamedExpression>& functions,
          const std::vector<GiNaC::ex>& others);
@@ -49,6 +49,8 @@ class System {
   /// Functions that vanish identically, such as s^2 + c^2 - 1, which generate all of the kind.
   const std::vector<Polynomial>& relations() const { return relations_; }
   std::string name(std::size_t place) const { return prover_.ring().text(ring().variable(place)); }
+  /// A polynomial of the ring over the symbols of the model: declared functions are put in.
+  GiNaC::ex expression(const Polynomial& p) const;
   /// An expression as the ring writes it; for comparison with names.
   std::string text_of(const GiNaC::ex& expression) const;
 

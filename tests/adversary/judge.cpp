@@ -21,7 +21,7 @@ constexpr std::uint64_t kOracleSeed = 0x5EED;
 const Proof* proof_of(const Case& claim, const std::vector<Proof>& proofs) {
   const Proof* last = nullptr;
   for (const Proof& p : proofs) {
-    if (p.note || p.kind != to_string(claim.kind)) continue;
+    if (p.note || to_string(p.kind) != to_string(claim.kind)) continue;
     if (!claim.name.empty() && p.name != claim.name) continue;
     last = &p;
     // Of several Lax pairs or measures the claim is all of them: the worst counts.
@@ -81,13 +81,13 @@ Outcome compare(const Case& claim, const Proof& proof, Random& random, std::stri
       return Outcome::undecided;
     case Verdict::proved:
       if (!fails(claim, proof, random)) return Outcome::proved;
-      what = "proved: " + proof.kind + " " + proof.name + " " + proof.evidence;
+      what = "proved: " + to_string(proof.kind) + " " + proof.name + " " + proof.evidence;
       return Outcome::false_proof;
     case Verdict::refuted:
       break;
   }
   if (claim.truth == Truth::yes && claim.kind != Kind::rank) {
-    what = "refuted: " + proof.kind + " " + proof.name + " " + proof.residual;
+    what = "refuted: " + to_string(proof.kind) + " " + proof.name + " " + proof.residual;
     return Outcome::false_refutation;
   }
   if (!proof.witness) return Outcome::refuted;
@@ -118,7 +118,7 @@ Outcome ask(Case& claim, Random& random, std::string& what) {
   if (const Outcome truth = confirm(claim, random, what); truth != Outcome::proved) return truth;
   const Model model = build_model(parse_case(claim.text(), "claim.toml"));
   Candidates candidates;
-  candidates.only = to_string(claim.kind);
+  candidates.only = claim_kind_of(to_string(claim.kind));
   const std::vector<Proof> proofs = prove(model, candidates);
   if (const Proof* proof = proof_of(claim, proofs)) return compare(claim, *proof, random, what);
   what = "the claim is not in the answer";

@@ -100,8 +100,8 @@ class Relations : public GiNaC::map_function {
   std::vector<std::pair<ex, ex>> relations_;  ///< unknown and polynomial
 };
 
-bool holds_by_ginac(const Model& model, const std::string& kind) {
-  if (kind == "jacobi") {
+bool holds_by_ginac(const Model& model, ClaimKind kind) {
+  if (kind == ClaimKind::jacobi) {
     const std::size_t n = model.variables.size();
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = i + 1; j < n; ++j) {
@@ -134,7 +134,7 @@ Model fresh_model(const std::string& toml, bool flat) {
 /// Terms of the integral when multiplied out, or non-zero brackets.
 std::size_t terms_of(const Problem& problem) {
   const Model model = fresh_model(problem.toml, false);
-  if (problem.kind == "integral") {
+  if (problem.kind == ClaimKind::integral) {
     const ex value = model.integrals[0].value;
     FunctionRing ring(symbols_of(model), {}, {value});
     return ring.convert(value).terms();
@@ -146,7 +146,7 @@ std::size_t terms_of(const Problem& problem) {
   return brackets;
 }
 
-Verdict verdict_of(const Model& model, const std::string& kind) {
+Verdict verdict_of(const Model& model, ClaimKind kind) {
   Candidates only;
   only.only = kind;
   return overall(model, prove(model, only));

@@ -43,7 +43,7 @@ struct Case {
 /// A problem and its twin, which has `extra` added to the integral.
 Problem integral_problem(const std::string& name, Case text, const std::string& extra, double limit,
                          Size size = Size::small) {
-  Problem problem{name, "integral", text.toml(), {}, size, limit};
+  Problem problem{name, ClaimKind::integral, text.toml(), {}, size, limit};
   text.integral += " + " + extra;
   problem.bent = text.toml();
   return problem;
@@ -205,7 +205,7 @@ Problem jacobi_problem(const std::string& name, int dimension, Constants constan
     }
     return text;
   };
-  Problem problem{name, "jacobi", toml(), {}, Size::small, 0.5};
+  Problem problem{name, ClaimKind::jacobi, toml(), {}, Size::small, 0.5};
   constants.begin()->second[0] += 1;
   problem.bent = toml();
   return problem;

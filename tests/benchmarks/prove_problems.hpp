@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "symbolic/prove.hpp"
+
 namespace casimir::test {
 
 /// How much of a problem the plain GiNaC computation may be asked to do.
@@ -15,7 +17,7 @@ enum class Size {
 /// One identity to prove, as a case file without anything that it does not need.
 struct Problem {
   std::string name;
-  std::string kind;  ///< of the claim: "integral" or "jacobi"
+  ClaimKind kind;  ///< `integral` or `jacobi`
   std::string toml;
   std::string bent;  ///< the same with one coefficient or sign changed: must be refuted
   Size size = Size::small;

@@ -64,7 +64,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const Text text{value, {"fuzz", 1, 1}, value};
   const bool read = attempt([&] { parse_equation(text, names); });
   if (!read && value.find_first_of("!<>") != std::string::npos)
-    attempt([&] { parse_relation(text, names); });
+    attempt([&] { parse_condition(text, names); });
   if (read) attempt([&] { parse_real_constant(text); });
   return 0;
 }

@@ -21,10 +21,10 @@ TEST_P(NamedAlgebra, SatisfiesJacobiAndHasItsRank) {
   const auto [name, dimension, rank] = GetParam();
   ASSERT_EQ(find_lie_algebra(name)->dimension, dimension);
   for (const Proof& proof : prove(model_of(space(name, dimension)))) {
-    if (proof.kind == "jacobi") {
+    if (proof.kind == ClaimKind::jacobi) {
       EXPECT_EQ(proof.verdict, Verdict::proved) << proof.reason;
     }
-    if (proof.kind == "rank") {
+    if (proof.kind == ClaimKind::rank) {
       EXPECT_EQ(proof.name, rank);
     }
   }

@@ -73,7 +73,7 @@ TEST(Prove, BentBracketFailsJacobi) {
       "[\"M1\",\"M2\",\"M3\"]\n[phase_space.brackets]\n"
       "\"M1,M2\" = \"M1^2 - M3\"\n\"M1,M3\" = \"M2\"\n\"M2,M3\" = \"-M1\"\n");
   const std::vector<Proof> proofs = prove(bent);
-  ASSERT_EQ(proofs.at(1).kind, "jacobi");
+  ASSERT_EQ(proofs.at(1).kind, ClaimKind::jacobi);
   EXPECT_EQ(proofs[1].verdict, Verdict::refuted);
   EXPECT_EQ(proofs[1].residual, "-2*M1*M2");
 }
@@ -81,7 +81,7 @@ TEST(Prove, BentBracketFailsJacobi) {
 /// The verdict on the Jacobi identity for brackets of x1, x2, x3.
 Verdict jacobi(const std::string& x12, const std::string& x13, const std::string& x23) {
   Candidates only;
-  only.only = "jacobi";
+  only.only = ClaimKind::jacobi;
   return prove(model_of("hamiltonian = \"x1\"\n[phase_space]\nvariables = [\"x1\",\"x2\",\"x3\"]\n"
                         "[phase_space.brackets]\n\"x1,x2\" = \"" +
                         x12 + "\"\n\"x1,x3\" = \"" + x13 + "\"\n\"x2,x3\" = \"" + x23 +
@@ -173,7 +173,8 @@ TEST(Prove, WitnessLiesInsideEveryAssumption) {
 TEST(Prove, GiantIsUndecidedNotWrong) {
   const Proof proof = test_integral(kovalevskaya(), "(M1 + M2 + M3 + g1 + g2 + g3)^200");
   EXPECT_EQ(proof.verdict, Verdict::undecided);
-  EXPECT_NE(proof.reason.find("--limit terms=N allows more"), std::string::npos) << proof.reason;
+  EXPECT_NE(proof.reason.find("a larger limit 'terms' allows more"), std::string::npos)
+      << proof.reason;
 }
 
 TEST(Prove, RankAndIndependenceCountForIntegrableSystems) {
@@ -183,13 +184,13 @@ TEST(Prove, RankAndIndependenceCountForIntegrableSystems) {
   const std::vector<Proof> proofs = prove(dependent);
   EXPECT_EQ(overall(dependent, proofs), Verdict::refuted);
   for (const Proof& proof : proofs) {
-    if (proof.kind == "independence") {
+    if (proof.kind == ClaimKind::independence) {
       EXPECT_EQ(proof.verdict, Verdict::refuted);
     }
-    if (proof.kind == "rank") {
+    if (proof.kind == ClaimKind::rank) {
       EXPECT_EQ(proof.name, "rank 2");
     }
-    if (proof.kind == "liouville") {
+    if (proof.kind == ClaimKind::liouville) {
       EXPECT_EQ(proof.verdict, Verdict::proved);
     }
   }
@@ -197,7 +198,7 @@ TEST(Prove, RankAndIndependenceCountForIntegrableSystems) {
 
 const Proof& of_kind(const std::vector<Proof>& proofs, const std::string& kind) {
   return *std::find_if(proofs.begin(), proofs.end(),
-                       [&](const Proof& proof) { return proof.kind == kind; });
+                       [&](const Proof& proof) { return to_string(proof.kind) == kind; });
 }
 
 TEST(Prove, RankIsNotBoundedByFunctionsThatAreNoCasimirs) {
@@ -234,7 +235,7 @@ TEST(Prove, SuperintegrableSystemHasDependentIntegrals) {
 
 TEST(Prove, LiouvilleSaysWhatIsMissing) {
   for (const Proof& proof : prove(kovalevskaya())) {
-    if (proof.kind != "liouville") continue;
+    if (proof.kind != ClaimKind::liouville) continue;
     EXPECT_EQ(proof.verdict, Verdict::undecided);
     EXPECT_EQ(proof.reason,
               "leaves of dimension 4 need 2 independent integrals in involution; 1 known");
@@ -247,7 +248,7 @@ TEST(Prove, SystemsWithoutABracket) {
       "1)\"\n[integrals]\nF = \"x + y - log(x*y)\"\n"
       "[[measure]]\ndensity = \"1/(x*y)\"\n");
   for (const Proof& proof : prove(lotka))
-    EXPECT_EQ(proof.verdict, Verdict::proved) << proof.kind << proof.residual;
+    EXPECT_EQ(proof.verdict, Verdict::proved) << to_string(proof.kind) << proof.residual;
   EXPECT_EQ(test_integral(lotka, "x + y").verdict, Verdict::refuted);
 }
 
@@ -281,7 +282,7 @@ TEST(Prove, DependentLogarithmsAreNotCalledIndependent) {
       "[phase_space]\nvariables = [\"x\",\"y\",\"z\"]\n[equations]\nx = \"0\"\ny = \"0\"\nz = "
       "\"0\"\n[integrals]\nF = \"x*log(x*y)\"\nG = \"x*log(x) + x*log(y)\"\n");
   for (const Proof& proof : prove(model)) {
-    if (proof.kind == "independence") {
+    if (proof.kind == ClaimKind::independence) {
       EXPECT_NE(proof.verdict, Verdict::proved);
     }
   }

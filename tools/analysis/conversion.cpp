@@ -50,15 +50,8 @@ const Assumption* failing(const Program& program, const std::vector<Assumption>&
                           const std::vector<double>& state) {
   const std::vector<double> values = evaluate(program, state);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const std::string& relation = domain[i].relation;
-    const double x = values[i];
-    const bool holds = relation == "!="   ? x != 0
-                       : relation == "==" ? x == 0
-                       : relation == ">"  ? x > 0
-                       : relation == ">=" ? x >= 0
-                       : relation == "<"  ? x < 0
-                                          : x <= 0;
-    if (!holds) return &domain[i];
+    const int sign = (values[i] > 0) - (values[i] < 0);
+    if (std::isnan(values[i]) || !holds(domain[i].comparison, sign)) return &domain[i];
   }
   return nullptr;
 }

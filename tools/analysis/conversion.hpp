@@ -12,7 +12,7 @@ namespace casimir {
 /// States of a case in other variables, in double.
 class Conversion {
  public:
-  /// \param atlas        sets of variables and the maps between them.
+  /// \param atlas  sets of variables and the maps between them.
   /// \throws ModelError  for an unknown set, or one that no maps lead to.
   Conversion(const Model& model, Atlas atlas, const std::string& set);
 
@@ -27,7 +27,8 @@ class Conversion {
   ///                        that does not come back when it is mapped back is refused
   std::vector<double> operator()(std::vector<double> state) const;
 
-  /// The initial state of a scene, exactly. \throws SingularPoint
+  /// The initial state of a scene, exactly.
+  /// \throws SingularPoint
   std::vector<GiNaC::ex> exact(const Scene& scene) const;
 
  private:

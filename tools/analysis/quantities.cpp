@@ -30,7 +30,8 @@ Quantities::Quantities(const Model& model, const Scene& scene,
     for (std::size_t i = 0; i < model.variables.size(); ++i) {
       if (bound.has(model.variables[i]) &&
           std::find(places_.begin(), places_.end(), i) == places_.end())
-        throw RequestError(fmt::format("{} is left out of this run; see --observe", names[i]));
+        throw RequestError(
+            fmt::format("{} is left out of this run, which observes other variables", names[i]));
     }
     outputs.push_back(dag.convert(bound));
     labels.push_back(fmt::format("f{}", labels.size()));

@@ -14,7 +14,7 @@ class Quantities {
  public:
   /// \param functions  over the variables of the model, its time, and parameters, which have the
   ///                   values of the scene.
-  /// \param states     those that a run has, in its order.
+  /// \param states  those that a run has, in its order.
   /// \throws RequestError  for a function of a state that the run does not have, which is named.
   Quantities(const Model& model, const Scene& scene, const std::vector<GiNaC::ex>& functions,
              const std::vector<std::string>& states);

@@ -12,8 +12,8 @@ namespace casimir {
 /// A Hamiltonian system in canonical coordinates, from expressions rather than from a case file:
 /// {q_i, p_i} = 1, and what is no coordinate is a parameter. Claims may be added to the model, as
 /// `model.integrals.push_back({"L", x*py - y*px, {}})`, before it is verified.
-/// \param q           the coordinates.
-/// \param p           the momenta, one for each.
+/// \param q  the coordinates.
+/// \param p  the momenta, one for each.
 /// \param parameters  the other symbols of the Hamiltonian.
 /// \throws ModelError  for expressions that exact algebra has no meaning for (`0.5` instead of
 ///                     `GiNaC::numeric(1, 2)`, I, functions that case files do not have), a symbol
@@ -24,7 +24,7 @@ Model hamiltonian_system(const std::string& name, const std::vector<GiNaC::symbo
                          const std::vector<GiNaC::symbol>& parameters = {});
 
 /// Initial data for a model: a scene, which is not added to it.
-/// \param initial     an exact constant for each of its variables, in their order.
+/// \param initial  an exact constant for each of its variables, in their order.
 /// \param parameters  the same for its parameters.
 /// \throws ModelError  for values that are not as many, not exact, not real or not constant.
 Scene scene_from(const Model& model, const std::vector<GiNaC::ex>& initial,

@@ -13,8 +13,8 @@ struct Verification {
 };
 
 /// Proves or refutes every claim of a model, and the facts about it.
-/// \param seconds     what is not reached by then is undecided and says so; 0: no limit. With a
-///                    limit the proofs run in a process of their own.
+/// \param seconds  what is not reached by then is undecided and says so; 0: no limit. With a limit
+///     the proofs run in a process of their own.
 /// \throws ModelError  for a system that has no meaning.
 Verification verify(const Model& model, double seconds = 0);
 

@@ -18,7 +18,8 @@ struct Common {
   bool scene_given = false;
   double time_limit = 0;  ///< seconds; 0: none
 
-  /// `--param NAME=VALUE`, split. \throws UsageError
+  /// `--param NAME=VALUE`, split.
+  /// \throws UsageError
   ParameterValues parameter_values() const;
 };
 

@@ -15,7 +15,8 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  /// Reads a command line, and runs nothing. \throws CLI::ParseError, also for --help
+  /// Reads a command line, and runs nothing.
+  /// \throws CLI::ParseError, also for --help
   Action read(int argc, const char* const* argv);
 
   /// What to say of a command line that could not be read.

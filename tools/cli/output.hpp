@@ -21,7 +21,8 @@ class OutputFile {
   /// What is written to until then.
   const std::filesystem::path& temporary() const { return temporary_; }
 
-  /// Makes it appear. \throws SystemError  if not everything could be written.
+  /// Makes it appear.
+  /// \throws SystemError  if not everything could be written.
   void commit();
 
  private:

@@ -76,6 +76,8 @@ void add_resources(CLI::App& command, Resources& resources) {
 
 Limits limits_of(const Resources& resources) {
   Limits result;
+  result.how_to_raise = "--limit {}=N allows more";
+  result.how_to_get_memory = "--memory-limit GB allows more";
   for (const std::string& text : resources.limits) set_limit(result, text);
   return result;
 }

@@ -18,10 +18,12 @@ struct Resources {
 /// Adds `--limit` and `--memory-limit` to a command.
 void add_resources(CLI::App& command, Resources& resources);
 
-/// The limits with those replaced that the command line names. \throws UsageError
+/// The limits with those replaced that the command line names.
+/// \throws UsageError
 Limits limits_of(const Resources& resources);
 
-/// Sets the limits of this process, and of those that it starts. \throws UsageError
+/// Sets the limits of this process, and of those that it starts.
+/// \throws UsageError
 void apply(const Resources& resources);
 
 /// The memory in bytes that the command line allows; empty where it says nothing.

@@ -39,7 +39,8 @@ class SearchWatch {
 };
 
 /// Runs a search; where it ends without an answer it says why, also as JSON, and returns
-/// kUndecided. \throws SystemError  with advice, where it would take too much memory.
+/// kUndecided.
+/// \throws SystemError  with advice, where it would take too much memory.
 int with_search_errors(const Common& common, const std::string& case_name,
                        const std::function<int()>& work);
 

@@ -6,8 +6,8 @@ namespace casimir::tools {
 /// gets their numbers and with it what is printed. Writing to a stream that was closed still fails.
 void open_standard_streams();
 
-/// Writes out what is left for standard output. \return  why not all that was printed has arrived,
-/// or null
+/// Writes out what is left for standard output.
+/// \return why not all that was printed has arrived, or null
 const char* standard_output_problem();
 
 }  // namespace casimir::tools

@@ -14,7 +14,7 @@ namespace casimir::tools {
 class WatchedRun {
  public:
   /// Adds its hooks to the settings; keeps a limit that is there. Lives as long as they are used.
-  /// \param show   whether a bar is wanted at all.
+  /// \param show  whether a bar is wanted at all.
   /// \param keeps  whether Ctrl-C shall end the run in order. A second one ends the program.
   WatchedRun(Settings& settings, bool show, bool keeps);
   ~WatchedRun();

@@ -161,12 +161,15 @@ class Stress {
     if (entries_.empty()) throw UsageError("there is no scene to run");
   }
 
-  static bool is_extreme(const Scene& scene) { return !scene.extreme.empty(); }
+  static bool is_extreme(const Scene& scene) { return scene.extreme.has_value(); }
 
   void add(std::size_t source, const Scene& scene) {
     require_duration(scene);
     entries_.push_back({&sources_[source], &models_[source], &models_[source].scene(scene.name)});
-    StressMatrix::Line line{models_[source].name, scene.name, scene.extreme, {}};
+    StressMatrix::Line line{models_[source].name,
+                            scene.name,
+                            scene.extreme ? to_string(*scene.extreme) : std::string{},
+                            {}};
     for (const StressMatrix::Column& column : matrix_.columns) {
       StressCell cell{.row = asked(entries_.back(), column), .outside = column.outside};
       cell.row.status = Status::stopped;

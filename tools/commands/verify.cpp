@@ -85,11 +85,12 @@ nlohmann::ordered_json write_certificate(const Model& model, const Options& opti
   file.stream() << certificate.text;
   file.commit();
   nlohmann::ordered_json left_out = nlohmann::ordered_json::array();
-  for (const LeftOut& claim : certificate.left_out) {
+  for (const Uncertified& claim : certificate.left_out) {
     std::cerr << fmt::format("casimir: proved, but not in the certificate: {} {} ({})\n",
-                             claim.kind, printable(claim.name), claim.reason);
-    left_out.push_back(
-        {{"kind", claim.kind}, {"name", printable(claim.name, 1000)}, {"reason", claim.reason}});
+                             to_string(claim.kind), printable(claim.name), claim.reason);
+    left_out.push_back({{"kind", to_string(claim.kind)},
+                        {"name", printable(claim.name, 1000)},
+                        {"reason", claim.reason}});
   }
   return {{"file", printable(options.certificate, 1000)}, {"left_out", left_out}};
 }

@@ -26,7 +26,8 @@ F1 = "M1^2 + M2^2 + M3^2"
 void show(const std::vector<casimir::Proof>& proofs) {
   for (const casimir::Proof& proof : proofs) {
     if (proof.note) continue;
-    std::cout << to_string(proof.verdict) << "  " << proof.kind << "  " << proof.name << '\n';
+    std::cout << to_string(proof.verdict) << "  " << to_string(proof.kind) << "  " << proof.name
+              << '\n';
     if (!proof.witness) continue;
     std::cout << "  its derivative is " << proof.witness->value << " at";
     for (const auto& [symbol, value] : proof.witness->point)

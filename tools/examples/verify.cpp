@@ -11,7 +11,7 @@ int main() {
       "central", {x, y}, {u, v}, (u * u + v * v) / 2 + k * r2 + r2 * r2 / 4, {k});
   model.integrals = {{"L", x * v - y * u, {}}, {"F", u * u + x * x, {}}};
   for (const casimir::Proof& proof : casimir::verify(model).proofs) {
-    if (proof.kind != "integral") continue;
+    if (proof.kind != casimir::ClaimKind::integral) continue;
     std::cout << proof.name << ": " << to_string(proof.verdict) << '\n';
     if (!proof.witness) continue;
     std::cout << "its rate is " << proof.witness->value << " at";

@@ -9,7 +9,8 @@ namespace casimir::tools {
 /// Text for gnuplot: plain characters only, so that nothing of a case file is a command there.
 std::string quoted(const std::string& text);
 
-/// A path in gnuplot's quotation marks. \throws UsageError
+/// A path in gnuplot's quotation marks.
+/// \throws UsageError
 std::string quoted_path(const std::string& path);
 
 /// Throws UsageError unless the name ends in .svg or .png: before any work is done for it.

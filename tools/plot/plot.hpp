@@ -54,12 +54,14 @@ std::string svg_element(const Plot& plot, const std::string& name, const std::st
 /// and --plot-1 to --plot-12 of the page.
 std::string page_svg(const Plot& plot, const std::string& name, const std::string& beside);
 
-/// The same for any script. \param script  called with the file that gnuplot shall write; its
-///                terminal is svg. Colours that are not those of `Plot` stay as they are.
+/// The same for any script.
+/// \param script  called with the file that gnuplot shall write; its terminal is svg. Colours that
+///     are not those of `Plot` stay as they are.
 std::string page_svg(const std::function<std::string(const std::string& output)>& script,
                      const std::string& name, const std::string& beside);
 
-/// Declarations of these variables. \param dark  for a dark page
+/// Declarations of these variables.
+/// \param dark  for a dark page
 std::string plot_variables(bool dark);
 
 }  // namespace casimir::tools

@@ -44,7 +44,7 @@ std::string claim(const Proof& proof) {
   return fmt::format(
       "<li class=\"claim {}\"><span class=\"verdict\">{}</span> <span class=\"kind\">{}</span> "
       "<span class=\"name\">{}{}</span> <span class=\"time\">{}</span>{}</li>\n",
-      to_string(proof.verdict), verdict_mark(proof.verdict), kind_words(proof.kind),
+      to_string(proof.verdict), verdict_mark(proof.verdict), kind_words(to_string(proof.kind)),
       html::text(proof.name), on, duration_text(proof.seconds), details(proof));
 }
 

@@ -51,7 +51,8 @@ struct Findings {
   int exit_status() const;
 };
 
-/// Proves, generates, integrates and measures. \throws CaseError  for an unknown scene
+/// Proves, generates, integrates and measures.
+/// \throws CaseError  for an unknown scene
 Findings investigate(const Model& model, const ReportOptions& options);
 
 }  // namespace casimir::tools

@@ -14,7 +14,8 @@ std::string lines(const std::string& stranger);
 
 std::string paragraph(const std::string& stranger);
 
-/// A table row of cells that are markup already. \param style  its class, or empty
+/// A table row of cells that are markup already.
+/// \param style  its class, or empty
 std::string row(const std::vector<std::string>& cells, const char* tag = "td",
                 const std::string& style = {});
 

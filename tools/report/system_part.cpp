@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "tools/report/html.hpp"
 #include "tools/report/mathml.hpp"
 #include "tools/report/page.hpp"
@@ -77,11 +77,7 @@ std::string conditions(const Model& model) {
 }
 
 std::string scene_values(const Model& model, const Scene& scene) {
-  const auto value = [](const GiNaC::ex& e) {
-    std::ostringstream text;
-    text << e;
-    return html::text(text.str(), 60);
-  };
+  const auto value = [](const GiNaC::ex& e) { return html::text(expression_text(e), 60); };
   std::string list;
   const auto add = [&](const GiNaC::symbol& symbol, const GiNaC::ex& e) {
     list += (list.empty() ? "" : ", ") + html::text(symbol.get_name()) + " = " + value(e);
@@ -98,7 +94,7 @@ std::string scenes(const Model& model) {
   std::string text = "<details><summary>Scenes</summary>\n<dl>\n";
   for (const Scene& scene : model.scenes) {
     text += "<dt>" + html::text(scene.name) +
-            (scene.extreme.empty() ? "" : " <small>" + html::text(scene.extreme) + "</small>") +
+            (scene.extreme ? " <small>" + html::text(to_string(*scene.extreme)) + "</small>" : "") +
             "</dt><dd>" +
             (scene.unusable.empty() ? scene_values(model, scene) : html::text(scene.unusable)) +
             "</dd>\n";

@@ -16,7 +16,8 @@ void add_in(CLI::App& command, std::string& set);
 /// `--as SET`: answers in the variables of SET.
 void add_as(CLI::App& command, std::string& set);
 
-/// The model itself where `set` is empty. \throws ModelError, SingularPoint: see in_coordinates
+/// The model itself where `set` is empty.
+/// \throws ModelError, SingularPoint: see in_coordinates
 Model in_variables(Model model, const std::string& set);
 
 }  // namespace casimir::tools

@@ -19,7 +19,8 @@ constexpr unsigned long long kMostStiffSteps = 200'000;
 /// Whether a scene may be refused: its motion ends, comes close to where the variables end, or
 /// takes another method.
 bool may_be_refused(const Scene& scene) {
-  return scene.extreme == "blowup" || scene.extreme == "gimbal" || scene.extreme == "stiff";
+  return scene.extreme == Extreme::blowup || scene.extreme == Extreme::gimbal ||
+         scene.extreme == Extreme::stiff;
 }
 
 /// Which invariant drifted most, for the table.
@@ -50,7 +51,8 @@ Row conserve_scene(const Model& model, const Scene& scene, const Method& method,
       if (++calls % kBetween == 0 && duration > 0) options.progress(std::abs(t) / duration);
     };
   }
-  if (scene.extreme == "stiff" && settings.max_steps == 0) settings.max_steps = kMostStiffSteps;
+  if (scene.extreme == Extreme::stiff && settings.max_steps == 0)
+    settings.max_steps = kMostStiffSteps;
   DriftRecord drift(std::string(method.name), run.specialisation.invariant_names,
                     settings.duration);
   if (drifts) drift.follow(settings);

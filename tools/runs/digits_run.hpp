@@ -24,7 +24,8 @@ struct DigitsRequest {
 /// Digits that double precision shows, and that a run can have in reasonable time and memory.
 inline constexpr int kLeastDigits = 17, kMostDigits = 5000;
 
-/// Integrates with that many decimal digits and reports those that are sure. \return exit status.
+/// Integrates with that many decimal digits and reports those that are sure.
+/// \return exit status.
 int integrate_with_digits(const DigitsRequest& request);
 
 }  // namespace casimir::tools

@@ -20,7 +20,8 @@ struct EnsembleRequest {
   int jobs = 0;
 };
 
-/// Integrates every member of the file and reports. \return the exit status.
+/// Integrates every member of the file and reports.
+/// \return the exit status.
 int integrate_ensemble(const EnsembleRequest& request);
 
 }  // namespace casimir::tools

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/model/invariant_forms.hpp"
 
 namespace casimir::tools {
@@ -15,12 +16,6 @@ namespace {
 
 cln::cl_RA ratio(long numerator, long denominator) {
   return cln::cl_RA(numerator) / cln::cl_RA(denominator);
-}
-
-std::string text_of(const cln::cl_RA& value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
 }
 
 /// Variables with one letter, such as M1, M2, M3.
@@ -205,8 +200,8 @@ cln::cl_RA value_of(const IntegerForm& form, const std::vector<NewQuantity>& var
 /// "F1 - 13/15", which vanishes where F1 has that value.
 std::string level(const std::string& name, const cln::cl_RA& value) {
   if (cln::zerop(value)) return name;
-  return cln::plusp(value) ? fmt::format("{} - {}", name, text_of(value))
-                           : fmt::format("{} + {}", name, text_of(-value));
+  return cln::plusp(value) ? fmt::format("{} - {}", name, rational_text(value))
+                           : fmt::format("{} + {}", name, rational_text(-value));
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 namespace casimir::tools {
 
 /// The grid of `--over NAME=FROM:TO:N` and `--over NAME=A,B,C`.
-/// \param lets         the texts of `--let`: names in an axis that the model does not have are free
-///                     only if these use them.
+/// \param lets  the texts of `--let`: names in an axis that the model does not have are free only
+///     if these use them.
 /// \throws CaseError   with the place in the option: an unknown or repeated name, a bad number, N
 /// \throws UsageError  for more points than a sweep can hold
 Grid read_grid(const std::vector<std::string>& over, const std::vector<std::string>& lets,

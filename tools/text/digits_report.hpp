@@ -34,7 +34,8 @@ std::string decimal_text(const cln::cl_F& value, int digits);
 nlohmann::ordered_json to_json(const DigitsReport& report);
 void print_text(const DigitsReport& report);
 
-/// Time and state of each sample. \throws SystemError
+/// Time and state of each sample.
+/// \throws SystemError
 void write_samples(const std::string& path, const DigitsReport& report);
 
 }  // namespace casimir::tools

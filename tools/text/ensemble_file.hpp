@@ -16,10 +16,11 @@ struct EnsembleFile {
 
 /// Reads a CSV file (RFC 4180: fields may be quoted; lines end in LF or CRLF). Every entry is an
 /// exact real constant such as `0.25`, `1/3`, `1e-3`, `75*10^(-152)` or `sqrt(2)/2`, and becomes
-/// the nearest double. \param known   what columns may be called. \param fixed   names that would
-/// be known were they not given on the command line. \throws CaseError    with the place: an
-/// unknown or repeated name, a row of another length, an
-///                      entry that is no such constant, nothing but a header.
+/// the nearest double.
+/// \param known  what columns may be called.
+/// \param fixed  names that would be known were they not given on the command line.
+/// \throws CaseError  with the place: an unknown or repeated name, a row of another length, an
+///     entry that is no such constant, nothing but a header.
 /// \throws UsageError   if the file cannot be read.
 EnsembleFile read_ensemble(const std::string& path, const std::vector<std::string>& known,
                            const std::vector<std::string>& fixed = {});

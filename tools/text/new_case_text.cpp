@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <sstream>
-
+#include "symbolic/algebra/number_text.hpp"
 #include "tools/runs/new_case.hpp"
 #include "tools/text/text_layout.hpp"
 
@@ -33,9 +32,7 @@ std::string list(const std::string& before, const std::vector<std::string>& item
 std::string names_and_values(const std::vector<NewQuantity>& quantities) {
   std::vector<std::string> items;
   for (const NewQuantity& quantity : quantities) {
-    std::ostringstream value;
-    value << quantity.value;
-    items.push_back(fmt::format("{} = \"{}\"", quantity.name, value.str()));
+    items.push_back(fmt::format("{} = \"{}\"", quantity.name, rational_text(quantity.value)));
   }
   return items.empty() ? "{}" : fmt::format("{{ {} }}", fmt::join(items, ", "));
 }

@@ -43,18 +43,18 @@ std::vector<std::string> judgement_lines(const Proof& note) {
     const bool proved = finding.verdict == Verdict::proved;
     const bool refuted = finding.verdict == Verdict::refuted;
     const std::string why = finding.evidence.empty() ? "" : " (" + finding.evidence + ")";
-    if (finding.kind == "integral") {
+    if (finding.kind == ClaimKind::integral) {
       lines.push_back(proved    ? "it is a first integral"
                       : refuted ? "it is no first integral: " + finding.reason
                                 : "whether it is a first integral is undecided");
-    } else if (finding.kind == "casimir") {
+    } else if (finding.kind == ClaimKind::casimir) {
       lines.push_back(proved    ? "it is a Casimir function"
                       : refuted ? "it is no Casimir function: " + finding.reason
                                 : "whether it is a Casimir function is undecided");
-    } else if (finding.kind == "conditional") {
+    } else if (finding.kind == ClaimKind::conditional) {
       lines.push_back(
           fmt::format("it is an integral where {} = 0{}", fmt::join(finding.on, " = "), why));
-    } else if (finding.kind == "invariant_relation") {
+    } else if (finding.kind == ClaimKind::invariant_relation) {
       lines.push_back("its zero level is invariant" + why);
     } else {
       lines.push_back(proved ? finding.evidence : finding.reason);

@@ -59,8 +59,8 @@ ProofTable::ProofTable(const std::vector<Proof>& rows, std::size_t width, bool c
                        std::size_t indent)
     : width_(width), indent_(indent), kind_width_(5), name_width_(4), colour_(colour) {
   for (const Proof& proof : rows) {
-    if (proof.kind == "judgement") continue;  // lines of findings, not a row
-    kind_width_ = std::max(kind_width_, display_width(proof.kind));
+    if (proof.kind == ClaimKind::judgement) continue;  // lines of findings, not a row
+    kind_width_ = std::max(kind_width_, display_width(to_string(proof.kind)));
     name_width_ = std::max(name_width_, display_width(name_of(proof)));
   }
   const std::size_t others = indent_ + kVerdictWidth + kind_width_ + kTimeWidth + 3 * kGap.size();
@@ -81,8 +81,8 @@ std::string ProofTable::heading() const {
 
 std::string ProofTable::row(const Proof& proof) const {
   const std::vector<std::string> name = wrapped(name_of(proof), name_width_);
-  std::string text = line(verdict_text(proof.verdict, colour_, kVerdictWidth), proof.kind, name[0],
-                          duration_text(proof.seconds));
+  std::string text = line(verdict_text(proof.verdict, colour_, kVerdictWidth),
+                          to_string(proof.kind), name[0], duration_text(proof.seconds));
   const std::size_t used =
       indent_ + kVerdictWidth + kind_width_ + name_width_ + kTimeWidth + 4 * kGap.size();
   const bool beside = used + display_width(proof.evidence) <= width_;

@@ -27,8 +27,8 @@ Tally tally_of(const Model& model, const std::vector<Proof>& proofs);
 /// printed one by one as they are decided, since the columns have their widths beforehand.
 class ProofTable {
  public:
-  /// \param rows    all that will be shown, as `pending` gives them: kinds and names are known.
-  /// \param width   columns of the whole table.
+  /// \param rows  all that will be shown, as `pending` gives them: kinds and names are known.
+  /// \param width  columns of the whole table.
   /// \param indent  columns to its left, of these.
   ProofTable(const std::vector<Proof>& rows, std::size_t width, bool colour,
              std::size_t indent = 0);

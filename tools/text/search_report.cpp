@@ -31,8 +31,8 @@ nlohmann::ordered_json details(const std::vector<Found>& list) {
 
 std::string noun(const Report& report, bool plural) {
   const std::string ending = plural ? "s" : "";
-  if (report.kind == "casimir") return "Casimir function" + ending;
-  if (report.kind == "conditional") return "integral" + ending + " on the level";
+  if (report.kind == ClaimKind::casimir) return "Casimir function" + ending;
+  if (report.kind == ClaimKind::conditional) return "integral" + ending + " on the level";
   return "integral" + ending;
 }
 
@@ -50,7 +50,7 @@ nlohmann::ordered_json to_json(const Model& model, int degree, const Report& rep
                                double seconds) {
   nlohmann::ordered_json json{{"case", model.name},
                               {"degree", degree},
-                              {"kind", report.kind},
+                              {"kind", to_string(report.kind)},
                               {"integrals", texts(report.found)},
                               {"details", details(report.found)},
                               {"casimirs", texts(report.casimirs)},
@@ -70,7 +70,7 @@ nlohmann::ordered_json to_json(const Model& model, int degree, const Report& rep
 void print(const Model& model, int degree, const Report& report, double seconds) {
   const bool colour = may_colour(1);
   fmt::print("{}: polynomial {} up to degree {}\n", model.name, noun(report, true), degree);
-  if (report.kind != "casimir" && (report.hamiltonian || !report.casimirs.empty())) {
+  if (report.kind != ClaimKind::casimir && (report.hamiltonian || !report.casimirs.empty())) {
     fmt::print("known: {}\n", report.hamiltonian ? "the Hamiltonian" : "Casimir functions");
     print_list(report.casimirs, colour);
   }

@@ -8,6 +8,7 @@
 #include "symbolic/error.hpp"
 #include "tools/show/book_order.hpp"
 #include "tools/text/generated_report.hpp"
+#include "tools/text/run_report.hpp"
 #include "tools/text/text_layout.hpp"
 
 namespace casimir::tools {
@@ -74,13 +75,6 @@ std::string markdown_cell(std::string text) {
   for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
     text.insert(at, 1, '\\');
   return text;
-}
-
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
 }
 
 std::string csv_counts(const OperationCount& count) {

@@ -21,9 +21,9 @@ struct Watch {
   double contraction;  // of the last sweeps; negative: unknown
   int sweep = 0, bad = 0;
 
-  /// \param part   the corrections may be this part of the tolerance; 0: rounding alone counts
+  /// \param part  the corrections may be this part of the tolerance; 0: rounding alone counts
   /// \param known  how an iteration with the same matrix contracted, or negative
-  /// \param most   corrections below it, relative to the state, may be rounding errors
+  /// \param most  corrections below it, relative to the state, may be rounding errors
   Watch(const casimir_run* asked, const double* start, double part, double known, double most)
       : share(part), noise(most), run(asked), x(start), contraction(known) {
     for (int i = 0; i < n; ++i) best[i] = __builtin_inf();

@@ -6,7 +6,7 @@
 namespace casimir {
 
 Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>& on) {
-  return {"casimir",
+  return {ClaimKind::casimir,
           f.name,
           false,
           [f, on](Prover& prover, Proof& proof) {

@@ -10,7 +10,7 @@ namespace casimir {
 
 /// A statement about a case and how to decide it.
 struct Claim {
-  std::string kind;
+  ClaimKind kind = ClaimKind::integral;
   std::string name;
   bool fact = false;
   std::function<void(Prover&, Proof&)> decide;
@@ -21,8 +21,8 @@ struct Claim {
 };
 
 /// Reads the claims of one kind off a case. A new kind is one new file with such a function, and
-/// one line in `kClaimKinds`.
-using ClaimKind = std::vector<Claim> (*)(const Model&);
+/// one line in `kClaimReaders`.
+using ReadClaims = std::vector<Claim> (*)(const Model&);
 
 std::vector<Claim> skew_claims(const Model& model);
 std::vector<Claim> jacobi_claims(const Model& model);
@@ -43,7 +43,7 @@ std::vector<Claim> level_liouville_notes(const Model& model);
 std::vector<Claim> unimodularity_notes(const Model& model);
 
 /// In the order in which they are reported.
-inline constexpr ClaimKind kClaimKinds[] = {
+inline constexpr ReadClaims kClaimReaders[] = {
     skew_claims,
     jacobi_claims,
     frame_claims,

@@ -19,7 +19,7 @@ struct Defect {
 
 Claim vanishing(const std::string& name, const std::vector<Defect>& defects) {
   Claim claim{
-      "identity", name, false, [defects](Prover& prover, Proof& proof) {
+      ClaimKind::identity, name, false, [defects](Prover& prover, Proof& proof) {
         std::vector<Residual> residuals;
         for (const Defect& defect : defects) {
           const ex value = defect.value;

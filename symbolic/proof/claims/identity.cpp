@@ -6,7 +6,7 @@
 namespace casimir {
 
 Claim identity_claim(const Identity& identity) {
-  Claim claim{"identity", identity.name, false, [identity](Prover& prover, Proof& proof) {
+  Claim claim{ClaimKind::identity, identity.name, false, [identity](Prover& prover, Proof& proof) {
                 const GiNaC::ex defect = identity.left - identity.right;
                 prover.decide(
                     proof, {{"left - right", prover.convert(defect), [defect] { return defect; }}},

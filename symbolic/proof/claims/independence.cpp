@@ -282,7 +282,7 @@ std::vector<Claim> independence_claims(const Model& model) {
   const std::vector<NamedExpression> functions = with_hamiltonian(model, model.casimirs);
   if (functions.size() < 2) return {};
   return {
-      {"independence",
+      {ClaimKind::independence,
        listed(functions),
        true,
        [functions](Prover& prover, Proof& proof) { decide_independence(prover, proof, functions); },
@@ -294,7 +294,7 @@ std::vector<Claim> independence_claims(const Model& model) {
 
 std::vector<Claim> rank_claims(const Model& model) {
   if (!model.poisson) return {};
-  return {{"rank",
+  return {{ClaimKind::rank,
            "rank",
            true,
            decide_rank,
@@ -306,7 +306,7 @@ std::vector<Claim> rank_claims(const Model& model) {
 
 std::vector<Claim> liouville_claims(const Model& model) {
   if (!model.poisson || model.time || !model.hamiltonian) return {};
-  return {{"liouville",
+  return {{ClaimKind::liouville,
            "Liouville integrability",
            true,
            decide_liouville,

@@ -47,7 +47,7 @@ void decide_on_invariant_level(Prover& prover, Proof& proof, const std::vector<R
 }  // namespace
 
 Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression>& on) {
-  return {"integral",
+  return {ClaimKind::integral,
           f.name,
           false,
           [f, on](Prover& prover, Proof& proof) {
@@ -58,7 +58,7 @@ Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression
 }
 
 Claim invariant_relation_claim(const NamedExpression& f, const std::vector<NamedExpression>& on) {
-  return {"invariant_relation",
+  return {ClaimKind::invariant_relation,
           f.name,
           false,
           [f, on](Prover& prover, Proof& proof) {
@@ -81,7 +81,7 @@ std::vector<Claim> conditional_claims(const Model& model) {
   std::vector<Claim> claims;
   for (const LevelClaim& claim : model.conditionals) {
     claims.push_back(integral_claim(claim.expression, claim.on));
-    claims.back().kind = "conditional";
+    claims.back().kind = ClaimKind::conditional;
   }
   return claims;
 }

@@ -15,7 +15,7 @@ std::vector<Claim> involution_claims(const Model& model) {
       const NamedExpression g = model.integrals[j];
       const std::string name = fmt::format("{{{}, {}}}", f.name, g.name);
       claims.push_back(
-          {"involution",
+          {ClaimKind::involution,
            name,
            true,
            [f, g, name](Prover& prover, Proof& proof) {

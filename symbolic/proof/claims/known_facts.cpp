@@ -14,7 +14,7 @@ namespace {
 
 using Functions = std::vector<NamedExpression>;
 
-Proof finding_of(Prover& prover, const Claim& claim, const std::string& kind) {
+Proof finding_of(Prover& prover, const Claim& claim, ClaimKind kind) {
   Proof proof;
   proof.kind = kind;
   proof.name = claim.name;
@@ -35,7 +35,7 @@ Functions known_integrals(const Model& model) {
 Proof independence_finding(Prover& prover, const NamedExpression& f) {
   const Functions known = known_integrals(prover.model());
   Proof proof;
-  proof.kind = "independence";
+  proof.kind = ClaimKind::independence;
   proof.name = f.name;
   const auto rank_of = [&](const Functions& functions) -> std::size_t {
     std::vector<Polynomial> values;
@@ -93,12 +93,12 @@ std::vector<Functions> known_levels(const Model& model) {
 }
 
 void judge(Prover& prover, Proof& note, const NamedExpression& f) {
-  const Proof integral = finding_of(prover, integral_claim(f, {}), "integral");
+  const Proof integral = finding_of(prover, integral_claim(f, {}), ClaimKind::integral);
   note.verdict = Verdict::proved;
   note.findings.push_back(integral);
   if (integral.verdict == Verdict::proved) {
     if (prover.model().poisson)
-      note.findings.push_back(finding_of(prover, casimir_claim(f, {}), "casimir"));
+      note.findings.push_back(finding_of(prover, casimir_claim(f, {}), ClaimKind::casimir));
     note.findings.push_back(independence_finding(prover, f));
     return;
   }
@@ -110,17 +110,18 @@ void judge(Prover& prover, Proof& note, const NamedExpression& f) {
     const Polynomial value = prover.convert(f.value);
     prover.decide(vanishing, {{f.name, value, [&f] { return f.value; }}}, points);
     if (vanishing.verdict == Verdict::proved) continue;
-    const Proof on_level = finding_of(prover, integral_claim(f, level), "conditional");
+    const Proof on_level = finding_of(prover, integral_claim(f, level), ClaimKind::conditional);
     if (on_level.verdict == Verdict::proved) note.findings.push_back(on_level);
   }
-  const Proof relation = finding_of(prover, invariant_relation_claim(f, {}), "invariant_relation");
+  const Proof relation =
+      finding_of(prover, invariant_relation_claim(f, {}), ClaimKind::invariant_relation);
   if (relation.verdict == Verdict::proved) note.findings.push_back(relation);
 }
 
 }  // namespace
 
 Claim judgement_note(const Model& model, const NamedExpression& f) {
-  Claim note{"judgement", f.name, false,
+  Claim note{ClaimKind::judgement, f.name, false,
              [f](Prover& prover, Proof& proof) { judge(prover, proof, f); }};
   note.note = true;
   note.expressions = values_of(known_integrals(model), f);

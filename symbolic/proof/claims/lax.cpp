@@ -155,7 +155,7 @@ std::vector<Claim> lax_claims(const Model& model) {
   for (std::size_t i = 0; i < model.lax_pairs.size(); ++i) {
     const std::string name =
         model.lax_pairs.size() == 1 ? "Lax pair" : fmt::format("Lax pair {}", i + 1);
-    claims.push_back({"lax", name, false, [i](Prover& prover, Proof& proof) {
+    claims.push_back({ClaimKind::lax, name, false, [i](Prover& prover, Proof& proof) {
                         decide_lax(prover, proof, prover.model().lax_pairs[i]);
                       }});
     // The known integrals too: are those of the spectrum among them?

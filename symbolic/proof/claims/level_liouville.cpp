@@ -121,9 +121,12 @@ std::vector<Claim> level_liouville_notes(const Model& model) {
     const bool known = std::any_of(notes.begin(), notes.end(),
                                    [&](const Claim& note) { return note.on == names_of(on); });
     if (known || !is_union_of_leaves(model, on)) continue;
-    Claim note{"liouville",  "Liouville integrability",
-               false,        [on](Prover& prover, Proof& proof) { decide(prover, proof, on); },
-               names_of(on), values_of(on)};
+    Claim note{ClaimKind::liouville,
+               "Liouville integrability",
+               false,
+               [on](Prover& prover, Proof& proof) { decide(prover, proof, on); },
+               names_of(on),
+               values_of(on)};
     for (const GiNaC::ex& value : values_of(integrals_on(model, on)))
       note.expressions.push_back(value);
     note.note = true;

@@ -74,7 +74,7 @@ std::vector<std::pair<std::string, GiNaC::ex>> inverse_defects(const Model& mode
 
 Claim inverse_claim(const Model& model, std::size_t index, std::size_t branch) {
   const PoissonMap& map = model.maps[index];
-  Claim claim{"map", map.name + ", right inverse", false, {}};
+  Claim claim{ClaimKind::map, map.name + ", right inverse", false, {}};
   claim.subject = Subject::functions;
   if (map.inverses.size() > 1) claim.name += fmt::format(" {}", branch + 1);
   for (const auto& [label, defect] : inverse_defects(model, map, map.inverses[branch]))
@@ -109,7 +109,7 @@ std::vector<Claim> map_claims(const Model& model) {
   std::vector<Claim> claims;
   for (std::size_t i = 0; i < model.maps.size(); ++i) {
     claims.push_back(
-        {"map", model.maps[i].name, false,
+        {ClaimKind::map, model.maps[i].name, false,
          [i](Prover& prover, Proof& proof) { decide_map(prover, proof, prover.model().maps[i]); },
          names_of(model.maps[i].on), expressions_of(model.maps[i]), false, Subject::bracket});
     for (std::size_t branch = 0; branch < model.maps[i].inverses.size(); ++branch)

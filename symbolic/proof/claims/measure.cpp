@@ -103,7 +103,7 @@ std::vector<Claim> measure_claims(const Model& model) {
   for (const Measure& measure : model.measures) {
     const NamedExpression density = measure.density;
     const bool every = measure.every_hamiltonian;
-    claims.push_back({"measure",
+    claims.push_back({ClaimKind::measure,
                       density.name + (every ? ", every Hamiltonian" : ""),
                       false,
                       [density, every](Prover& prover, Proof& proof) {
@@ -119,7 +119,7 @@ std::vector<Claim> measure_claims(const Model& model) {
 
 std::vector<Claim> unimodularity_notes(const Model& model) {
   if (!model.linear_bracket) return {};
-  Claim note{"measure", "unimodular algebra", false, [](Prover& prover, Proof& proof) {
+  Claim note{ClaimKind::measure, "unimodular algebra", false, [](Prover& prover, Proof& proof) {
                prover.decide(proof, modular_field(prover, {"1", 1, {}}), {});
                if (proof.verdict == Verdict::proved)
                  proof.evidence = "the flow of every Hamiltonian keeps the volume";

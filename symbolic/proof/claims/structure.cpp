@@ -13,7 +13,7 @@ namespace casimir {
 
 std::vector<Claim> skew_claims(const Model& model) {
   if (!model.poisson) return {};
-  return {{"skew",
+  return {{ClaimKind::skew,
            "bracket",
            false,
            [](Prover& prover, Proof& proof) {
@@ -168,7 +168,14 @@ void decide_jacobi(Prover& prover, Proof& proof) {
 
 std::vector<Claim> jacobi_claims(const Model& model) {
   if (!model.poisson) return {};
-  return {{"jacobi", "Jacobi identity", false, decide_jacobi, {}, {}, false, Subject::bracket}};
+  return {{ClaimKind::jacobi,
+           "Jacobi identity",
+           false,
+           decide_jacobi,
+           {},
+           {},
+           false,
+           Subject::bracket}};
 }
 
 }  // namespace casimir

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <functional>
 #include <set>
-#include <sstream>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/case/expression.hpp"
 #include "symbolic/error.hpp"
 #include "symbolic/search/conditions/rank_conditions.hpp"
@@ -143,10 +143,7 @@ void ConditionFinder::leave_open(const std::string& reason) {
 /// In lowest terms already, since the two make an irreducible polynomial.
 std::string ConditionFinder::quotient_text(const Polynomial& top, const Polynomial& bottom) {
   if (bottom.is_constant()) return text(top.scaled(1 / bottom.term_list()[0].first));
-  const auto bracketed = [&](const Polynomial& p) {
-    return p.terms() > 1 ? "(" + text(p) + ")" : text(p);
-  };
-  return bracketed(top) + "/(" + text(bottom) + ")";
+  return casimir::quotient_text(text(top), top.terms() > 1, text(bottom));
 }
 
 /// Whether the equations of motion cannot be read there, as a denominator vanishes.
@@ -176,6 +173,7 @@ bool ConditionFinder::is_known(const Place& place) const {
 /// What is found at special values beside what is found for generic ones, and on sets around them.
 ConditionFinder::Confirmed ConditionFinder::confirm(const Place& place, Condition condition) {
   condition.parameters = place.names;
+  for (const auto& [symbol, value] : place.values) condition.values.push_back(value);
   std::string where;
   for (const auto& [name, value] : place.names)
     where += fmt::format("{}{} = {}", where.empty() ? "" : ", ", name, value);
@@ -189,17 +187,19 @@ ConditionFinder::Confirmed ConditionFinder::confirm(const Place& place, Conditio
     if (meaningless(special)) return Confirmed::none;
     Request request = request_;
     request.casimirs_are_integrals = true;
+    GiNaC::exmap here;
+    for (const auto& [symbol, value] : place.values) here.emplace(symbol, value);
     const auto know = [&](const std::vector<Found>& list) {
-      for (const Found& found : list) request.known.push_back({found.text, {"found", 1, 1}, {}});
+      for (const Found& found : list)
+        request.known.push_back(
+            {found.text, found.value.subs(here, GiNaC::subs_options::no_pattern), {}});
     };
     know(report_.generic.casimirs);
     know(report_.generic.found);
     for (std::size_t i = 0; i < confirmed_.size(); ++i) {
       Place known = confirmed_[i];
-      GiNaC::exmap map;
-      for (const auto& [symbol, value] : place.values) map.emplace(symbol, value);
       const bool around = std::all_of(known.values.begin(), known.values.end(), [&](const auto& e) {
-        return vanishes_at(ex(e.first) - e.second, map);
+        return vanishes_at(ex(e.first) - e.second, here);
       });
       if (around) know(report_.conditions[i].found);
     }
@@ -284,7 +284,7 @@ void ConditionFinder::add_roots(const Polynomial& factor, std::size_t place) {
 }
 
 bool ConditionFinder::on_a_found_surface(const GiNaC::exmap& point) const {
-  const FunctionRing& ring = const_cast<Finder&>(finder_).system().functions();
+  const FunctionRing& ring = finder_.system().functions();
   return std::any_of(surfaces_.begin(), surfaces_.end(), [&](const Polynomial& surface) {
     return ring.expression(surface).subs(point).expand().is_zero();
   });
@@ -308,18 +308,16 @@ void ConditionFinder::add_points(const std::vector<ParametricBlock>& blocks,
     const GiNaC::symbol& second = parameter(free[1]);
     const ex number{GiNaC::numeric(value)};
     if (on_a_found_surface({{first, number}})) continue;
-    std::ostringstream number_text;
-    number_text << number;
     const std::optional<Model> special = with_value(model_, first, number);
     if (!special) continue;
     const ConditionReport inner =
         find_conditions(*special, request_, {{second.get_name(), {}, {}}}, watch_);
     for (const Condition& point : inner.conditions) {
       if (point.parameters.empty() || point.found.empty()) continue;
-      const ex other = special->parse({point.parameters[0].second, {"found", 1, 1}, {}});
+      const ex& other = point.values[0];
       if (on_a_found_surface({{first, number}, {second, other}})) continue;
       const Place place{{{first, number}, {second, other}},
-                        {{first.get_name(), number_text.str()}, point.parameters[0]}};
+                        {{first.get_name(), rational_text(value)}, point.parameters[0]}};
       if (!is_known(place)) confirm(place, {});
     }
   }
@@ -345,10 +343,8 @@ void ConditionFinder::add_sets(const std::vector<ParametricBlock>& blocks,
 void ConditionFinder::try_values(std::size_t place) {
   for (const cln::cl_RA& value : simple_values(model_)) {
     watch_.tick(0.5);
-    std::ostringstream number;
-    number << GiNaC::numeric(value);
     const Place own{{{parameter(place), GiNaC::numeric(value)}},
-                    {{parameter(place).get_name(), number.str()}}};
+                    {{parameter(place).get_name(), rational_text(value)}}};
     if (!is_known(own)) confirm(own, {});
   }
 }
@@ -381,7 +377,7 @@ ConditionReport ConditionFinder::run(const std::vector<std::size_t>& free) {
     if (!own.decided) {
       leave_open(
           "some block of equations is too large, or its conditions involve further parameters: "
-          "give numbers to other parameters (--param) or free them too");
+          "give numbers to other parameters, or free them too");
     }
     covered = covered && own.covered;
     for (const Polynomial& factor : own.factors) factors.push_back(factor);

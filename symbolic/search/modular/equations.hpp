@@ -25,7 +25,7 @@ struct Equations {
 /// Makes equations column by column; a row is named by a key.
 class EquationBuilder {
  public:
-  /// \param modulus   borrowed
+  /// \param modulus  borrowed
   /// \param expected  number of entries, roughly
   EquationBuilder(const Modulus& modulus, std::size_t columns, std::size_t expected);
 

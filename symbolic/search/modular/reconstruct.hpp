@@ -11,8 +11,8 @@ namespace casimir::search {
 
 /// The function with coefficients in Q[parameters] and the given monomials that the fields
 /// annihilate (up to cofactors): of least degree in the parameters, without common integer factor.
-/// \param support     monomials over `fields.places`, among which there is one such function up to
-///                    a factor, for generic parameters
+/// \param support  monomials over `fields.places`, among which there is one such function up to a
+///     factor, for generic parameters
 /// \param parameters  places of those that the coefficients may contain
 /// \return  empty where none of a moderate degree and with moderate numbers was found.
 std::optional<Polynomial> reconstruct(const System& system, const Fields& fields,

@@ -21,8 +21,8 @@ TEST_P(EveryCase, IsProved) {
   EXPECT_EQ(overall(model, proofs), Verdict::proved);
   for (const Proof& proof : proofs) {
     if (!counts(model, proof)) continue;
-    EXPECT_EQ(proof.verdict, Verdict::proved)
-        << proof.kind << ' ' << proof.name << ": " << proof.reason << ' ' << proof.residual;
+    EXPECT_EQ(proof.verdict, Verdict::proved) << to_string(proof.kind) << ' ' << proof.name << ": "
+                                              << proof.reason << ' ' << proof.residual;
   }
 }
 
@@ -35,7 +35,7 @@ TEST_P(EveryCase, BentIntegralIsRefutedByAWitness) {
     Model copy = model;
     for (NamedExpression& f : copy.integrals) f.value += x * x;
     for (const Proof& proof : prove(copy)) {
-      if (proof.kind != "integral" || model.field[i].expand().is_zero()) continue;
+      if (proof.kind != ClaimKind::integral || model.field[i].expand().is_zero()) continue;
       EXPECT_NE(proof.verdict, Verdict::proved) << proof.name << " + " << x << "^2";
       if (proof.verdict != Verdict::refuted) continue;
       ++bent;

@@ -14,7 +14,7 @@ Proof measure(const std::string& density, const std::string& more = {},
       model_of("hamiltonian = \"q^2 + p^2\"\n[[measure]]\ndensity = \"" + density + "\"\n" + more +
                "[phase_space]\nvariables = [\"q\", \"p\"]\ncanonical = true\n" + domain);
   for (const Proof& proof : prove(model)) {
-    if (proof.kind == "measure") return proof;
+    if (proof.kind == ClaimKind::measure) return proof;
   }
   ADD_FAILURE() << "no measure";
   return {};
@@ -38,7 +38,7 @@ TEST(Measure, OfDensityZeroUnderTheAssumptionsIsNone) {
       "[phase_space]\nvariables = [\"q\", \"p\"]\ncanonical = true\n";
   const Model fixed = build_model(parse_case(toml, "test.toml"), {{{"a", {}, {}}, {"1", {}, {}}}});
   for (const Proof& proof : prove(fixed)) {
-    if (proof.kind == "measure") {
+    if (proof.kind == ClaimKind::measure) {
       EXPECT_EQ(proof.verdict, Verdict::undecided);
     }
   }

@@ -49,7 +49,7 @@ TEST(NameH, IsTheDefinitionOfTheFileWhetherTheHamiltonianUsesItOrNot) {
 TEST(NameH, IsNotWhatFactsCallTheHamiltonianThen) {
   const auto independent = [](const Model& model) {
     for (const Proof& proof : prove(model)) {
-      if (proof.kind == "independence") return proof.name;
+      if (proof.kind == ClaimKind::independence) return proof.name;
     }
     return std::string();
   };
@@ -104,7 +104,7 @@ Model two_pairs() {
 TEST(SpectralParameters, WitnessesGiveThatOfTheirOwnPair) {
   const Model model = two_pairs();
   for (const Proof& proof : prove(model)) {
-    if (proof.kind != "lax") continue;
+    if (proof.kind != ClaimKind::lax) continue;
     if (proof.name == "Lax pair 1") {
       EXPECT_EQ(proof.verdict, Verdict::proved);
       continue;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "symbolic/algebra/short_text.hpp"
 #include "symbolic/functions/function_ring.hpp"
+#include "symbolic/functions/short_text.hpp"
 #include "tests/symbolic/cases.hpp"
 #include "tests/symbolic/search/search_cases.hpp"
 

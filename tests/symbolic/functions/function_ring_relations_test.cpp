@@ -16,7 +16,7 @@ using GiNaC::ex;
 class Relations : public testing::Test {
  protected:
   static Assumption assumption(const ex& value, const std::string& relation) {
-    return {value, relation, ""};
+    return {value, comparison_of(relation).value(), ""};
   }
   ex parsed(const std::string& text) {
     GiNaC::symtab names{{"x", x_}, {"y", y_}, {"t", t_}, {"I", GiNaC::I}, {"Pi", GiNaC::Pi}};

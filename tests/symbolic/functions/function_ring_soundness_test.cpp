@@ -154,7 +154,8 @@ class Identities {
 
   std::vector<Assumption> assumptions() {
     std::vector<Assumption> result;
-    static const std::vector<std::string> relations{">", ">=", "<", "<="};
+    constexpr std::array kComparisons{Comparison::greater, Comparison::at_least, Comparison::less,
+                                      Comparison::at_most};
     for (int count = random_(3); count > 0; --count) {
       const ex first = leaf(), second = leaf();
       const ex difference = random_(3) == 0   ? first
@@ -162,7 +163,7 @@ class Identities {
                             : random_(2) == 0 ? first / nonzero(second)
                                               : expression(2);
       if (!GiNaC::is_a<GiNaC::numeric>(difference))
-        result.push_back({difference, relations[static_cast<std::size_t>(random_(4))], ""});
+        result.push_back({difference, kComparisons[static_cast<std::size_t>(random_(4))], ""});
     }
     return result;
   }
@@ -317,8 +318,7 @@ class Identities {
 
 bool holds(const Assumption& assumption, const Point& point) {
   const long double value = value_of(assumption.difference, point);
-  if (assumption.relation.size() == 2 && value == 0) return true;
-  return assumption.relation[0] == '>' ? value > 0 : value < 0;
+  return !std::isnan(value) && casimir::holds(assumption.comparison, (value > 0) - (value < 0));
 }
 
 /// An expression, another form of it, and what is known where they are compared.
@@ -364,7 +364,8 @@ std::string text_of(const Claim& claim) {
   text << claim.left << "\n  taken for " << claim.right << "\n  where " << claim.context
        << " is real";
   for (const Assumption& assumption : claim.assumptions)
-    text << "\n  where " << assumption.difference << ' ' << assumption.relation << " 0";
+    text << "\n  where " << assumption.difference << ' ' << to_string(assumption.comparison)
+         << " 0";
   return text.str();
 }
 

@@ -18,7 +18,7 @@ const std::string kSo3 = "[phase_space]\nvariables = [\"M1\",\"M2\",\"M3\"]\nalg
 /// The proof of that kind and name; the first of the kind where no name is given.
 Proof proof_of(const Model& model, const std::string& kind, const std::string& name = "") {
   for (const Proof& proof : prove(model)) {
-    if (proof.kind == kind && (name.empty() || proof.name == name)) return proof;
+    if (to_string(proof.kind) == kind && (name.empty() || proof.name == name)) return proof;
   }
   ADD_FAILURE() << "no claim of the kind " << kind << ' ' << name;
   return {};
@@ -125,7 +125,7 @@ TEST(Claims, LiouvilleIsCountedOnALevelOfCasimirsToo) {
   };
   const auto on_level = [](const Model& model) {
     for (const Proof& proof : prove(model)) {
-      if (proof.kind == "liouville" && proof.note) return proof;
+      if (proof.kind == casimir::ClaimKind::liouville && proof.note) return proof;
     }
     return Proof{};
   };

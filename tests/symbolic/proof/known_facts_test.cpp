@@ -19,14 +19,14 @@ Proof judgement(const Model& model, const std::string& f) {
   candidates.integrals = {{f, {"--integral", 1, 1}, f}};
   const std::vector<Proof> proofs = prove(model, candidates);
   EXPECT_EQ(proofs.size(), 2U);
-  EXPECT_EQ(proofs.back().kind, "judgement");
+  EXPECT_EQ(proofs.back().kind, ClaimKind::judgement);
   EXPECT_TRUE(proofs.back().note);
   return proofs.back();
 }
 
 const Proof* finding(const Proof& judgement, const std::string& kind) {
   for (const Proof& proof : judgement.findings) {
-    if (proof.kind == kind) return &proof;
+    if (to_string(proof.kind) == kind) return &proof;
   }
   return nullptr;
 }

@@ -14,7 +14,7 @@ namespace {
 Proof proof_of(const std::string& kind, const std::string& text) {
   const Model model = model_of(text);
   for (Proof& proof : prove(model)) {
-    if (proof.kind == kind) return std::move(proof);
+    if (to_string(proof.kind) == kind) return std::move(proof);
   }
   ADD_FAILURE() << "no claim of the kind " << kind;
   return {};

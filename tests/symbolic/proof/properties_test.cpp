@@ -102,7 +102,7 @@ std::string toml(const Symbols& x, const PoissonStructure& structure, const ex& 
 
 Verdict verdict_of(const std::string& text, const std::string& kind = "integral") {
   for (const Proof& proof : prove(model_of(text))) {
-    if (proof.kind == kind) return proof.verdict;
+    if (to_string(proof.kind) == kind) return proof.verdict;
   }
   ADD_FAILURE() << "no claim of the kind " << kind;
   return Verdict::undecided;

@@ -159,7 +159,7 @@ Row row_of(const MethodComparison& contest, const Ready& ready, const Entrant& e
     row.reason = sample.refused;
   } else if (sample.too_slow) {
     row.end = RowEnd::too_slow;
-    row.reason = "a run takes too much of --budget";
+    row.reason = "a run takes too much of the time for all";
   } else if (sample.status == Status::ok) {
     const double explained = explained_error(entrant, sample, truth, contest.conditioning);
     if (!(sample.error <= explained)) {

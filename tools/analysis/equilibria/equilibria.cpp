@@ -32,7 +32,7 @@ std::vector<GiNaC::ex> linear_integrals(const Model& model, std::vector<std::str
   request.degree = 1;
   for (const search::Found& found : search::find_integrals(model, request).found) {
     if (found.verdict != Verdict::proved) continue;
-    result.push_back(model.parse({found.text, {"found", 1, 1}, {}}));
+    result.push_back(found.value);
     names.push_back(found.text);
   }
   return result;

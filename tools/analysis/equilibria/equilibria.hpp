@@ -39,7 +39,8 @@ struct EquilibriumReport {
 /// Equilibria of the equations of motion, and relative equilibria: critical points of H - sum v_k
 /// F_k for integrals F_k of degree 1, on the level of the Casimirs (and of the F_k) that the
 /// scene's initial state lies on. By Newton's iteration from random states: what it finds is there,
-/// but that is no proof that there are no others. \param tick  called with the share that is done
+/// but that is no proof that there are no others.
+/// \param tick  called with the share that is done
 EquilibriumReport find_equilibria(const Model& model, const Scene& scene,
                                   const std::function<void(double)>& tick);
 

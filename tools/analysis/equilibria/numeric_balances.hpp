@@ -19,7 +19,7 @@ struct NumericBalances {
 /// dF/dx(c) + diag(g): what it finds is there to rounding, but that is no proof, nor that there are
 /// no others. Of a family of balances with the same exponents one is kept.
 /// \param system  with numbers in place of parameters
-/// \param tick    called with the share that is done
+/// \param tick  called with the share that is done
 NumericBalances find_numeric_balances(const search::LeadingSystem& system,
                                       const std::function<void(double)>& tick);
 

@@ -4,10 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "codegen/quadratic.hpp"
-#include "runtime/taylor/quadratic_targets.hpp"
-#include "runtime/uncompiled.hpp"
 #include "tools/analysis/estimate/growth_of_changes.hpp"
+#include "tools/analysis/run/taylor_path.hpp"
 
 namespace casimir {
 namespace {
@@ -136,9 +134,7 @@ struct CrossCheck {
 CrossCheck cross_check(const PreparedScene& run, const Method& method, const Settings& settings,
                        const Trajectory& trajectory, const std::vector<double>& sizes,
                        double growth) {
-  auto form = quadratic_form(run.specialisation.rhs, run.parameters);
-  if (form && !has_quadratic_kernel(*form)) form.reset();
-  const Module module = uncompiled_module(run.specialisation.rhs, {}, form, run.parameters);
+  const Module module = taylor_module_without_compiler(run.specialisation.rhs, {}, run.parameters);
   Settings own;
   own.duration = trajectory.time;
   own.rtol = kCrossCheckTolerance;

@@ -4,9 +4,8 @@
 #include <cmath>
 
 #include "codegen/optimise/differentiate.hpp"
-#include "codegen/quadratic.hpp"
-#include "runtime/taylor/quadratic_targets.hpp"
 #include "runtime/uncompiled.hpp"
+#include "tools/analysis/run/taylor_path.hpp"
 
 namespace casimir {
 namespace {
@@ -86,15 +85,14 @@ class Follower {
   Follower(const PreparedScene& run, const Settings& settings, double duration,
            const std::vector<double>& sizes)
       : run_(run), sizes_(sizes), rhs_(codegen::variational(run.specialisation.rhs, sizes.size())) {
-    auto form = quadratic_form(rhs_, run.parameters);
-    if (form && !has_quadratic_kernel(*form)) form.reset();
-    module_.emplace(uncompiled_module(rhs_, {}, form, run.parameters));
+    const TaylorChoice choice = choose_taylor_path(rhs_, run.parameters, false);
+    module_.emplace(uncompiled_module(rhs_, {}, choice.form, run.parameters));
     settings_.duration = duration;
-    settings_.rtol = form ? std::clamp(settings.rtol, kTightest, kLoosest) : kLoosest;
+    settings_.rtol = choice.form ? std::clamp(settings.rtol, kTightest, kLoosest) : kLoosest;
     const double tighter = settings.rtol > 0 ? settings_.rtol / settings.rtol : 1;
     settings_.atol = settings.atol * tighter;
     settings_.give_up = settings.give_up;
-    steps_ = form ? kSteps : kInterpretedSteps;
+    steps_ = choice.form ? kSteps : kInterpretedSteps;
     result_.followed = std::abs(duration);
     result_.growth = {{0, 1}};
   }

@@ -124,7 +124,7 @@ std::optional<std::string> NearSingular::finding() const {
   return fmt::format(
       "the coordinates are nearly singular at t = {:.6g}, where {}: the equations divide by a "
       "quantity that comes down to {:.0e} of its largest value there, which costs digits; "
-      "variables without this singularity do better (--in)",
+      "variables without this singularity do better",
       worst->time, where, worst->least / worst->largest);
 }
 

@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <sstream>
 
 #include "runtime/evaluate.hpp"
 #include "runtime/methods.hpp"
 #include "runtime/reference.hpp"
+#include "symbolic/algebra/number_text.hpp"
 
 namespace casimir {
 namespace {
@@ -35,13 +35,11 @@ struct EndState {
 /// The significant decimal digits of a number that the file writes as a decimal; 0 for one that is
 /// exact in any other way.
 int decimal_digits(const cln::cl_RA& value) {
-  constexpr int kMost = 100;
+  constexpr int kMostPlaces = 100;
   cln::cl_RA scaled = value;
-  for (int places = 0; places < kMost; ++places, scaled = scaled * 10) {
+  for (int places = 0; places < kMostPlaces; ++places, scaled = scaled * 10) {
     if (cln::denominator(scaled) != 1) continue;
-    std::ostringstream text;
-    text << cln::abs(cln::numerator(scaled));
-    return static_cast<int>(text.str().size());
+    return static_cast<int>(rational_text(cln::abs(cln::numerator(scaled))).size());
   }
   return 0;
 }
@@ -96,9 +94,9 @@ EndState own_run(const PreparedScene& run, const ReferenceOptions& options) {
     result.failure = out_of_time ? NoReference::took_too_long : NoReference::not_reached;
     if (reference.singular) result.singular_time = cln::double_approx(reference.time);
   } else if (reference.error_bound > kGood) {
-    result.reason = fmt::format(
-        "two multiprecision runs differ by {:.1e}: more --digits are needed for a reference",
-        reference.error_bound);
+    result.reason =
+        fmt::format("two multiprecision runs differ by {:.1e}: a reference needs more digits",
+                    reference.error_bound);
     result.failure = NoReference::not_reached;
   } else {
     result.state = std::move(reference.state);

@@ -5,7 +5,7 @@ namespace casimir {
 using Json = nlohmann::ordered_json;
 
 Json to_json(const Proof& proof) {
-  Json json = {{"kind", proof.kind},
+  Json json = {{"kind", to_string(proof.kind)},
                {"name", proof.name},
                {"verdict", to_string(proof.verdict)},
                {"seconds", proof.seconds}};
@@ -29,7 +29,7 @@ Json to_json(const Proof& proof) {
 
 Proof proof_from_json(const Json& json) {
   Proof proof;
-  proof.kind = json.at("kind");
+  proof.kind = claim_kind_of(json.at("kind").get<std::string>()).value();
   proof.name = json.at("name");
   const std::string verdict = json.at("verdict");
   proof.verdict = verdict == "proved"    ? Verdict::proved

@@ -45,7 +45,7 @@ struct AssessmentOptions {
 /// no tolerance is given, and changes to Radau IIA of order 9 where the run shows that the
 /// equations are stiff. A proved invariant that drifts beyond what the tolerance allows makes the
 /// status `drift_exceeded`.
-/// \param run            must outlive the result.
+/// \param run  must outlive the result.
 /// \throws RequestError  for a method or settings that cannot be.
 AssessedRun integrate_assessed(const Model& model, const PreparedScene& run,
                                const AssessmentOptions& options);

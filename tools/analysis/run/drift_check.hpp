@@ -11,7 +11,8 @@ namespace casimir {
 
 /// Looks at the invariants that drifted by more than the tolerance allows. One that is proved to be
 /// an integral of the case turns an `ok` into `drift_exceeded`; one that is not proves nothing
-/// about the run. \param names  of the invariants of the trajectory, "H" and those of the file
+/// about the run.
+/// \param names  of the invariants of the trajectory, "H" and those of the file
 /// \return       a sentence about each that is no proved integral
 std::vector<std::string> check_drift(const Model& model, const std::vector<std::string>& names,
                                      Trajectory& trajectory);

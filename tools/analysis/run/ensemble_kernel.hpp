@@ -22,7 +22,7 @@ struct EnsembleKernel {
 
 /// \param members  how many there are: for a few nothing is compiled that need not be. That changes
 ///                 no result by a bit.
-/// \param lanes    false: member by member, whatever the method.
+/// \param lanes  false: member by member, whatever the method.
 EnsembleKernel ensemble_kernel(const PreparedScene& run, const Method& method, std::size_t members,
                                bool lanes);
 

@@ -29,7 +29,7 @@ std::vector<std::string> set_projection(const RunRequest& options, const Model& 
   for (const std::string& name : options.project_onto) {
     if (std::ranges::count(known, name)) continue;
     const std::string hint = suggest_or_list(name, known);
-    throw RequestError(fmt::format("--project-onto: no invariant of this run is called '{}'{}",
+    throw RequestError(fmt::format("cannot project: no invariant of this run is called '{}'{}",
                                    printable(name), hint.empty() ? "" : "; " + hint));
   }
   std::vector<std::string> names;
@@ -39,7 +39,7 @@ std::vector<std::string> set_projection(const RunRequest& options, const Model& 
     if (!options.project_onto.empty() && !named) continue;
     const Verdict verdict = verdict_on(model, known[k]);
     if (verdict != Verdict::proved) {
-      if (named) throw RequestError("--project-onto: " + said_of(known[k], verdict));
+      if (named) throw RequestError("cannot project: " + said_of(known[k], verdict));
       doubts.push_back("not projected onto: " + said_of(known[k], verdict));
       continue;
     }
@@ -47,7 +47,7 @@ std::vector<std::string> set_projection(const RunRequest& options, const Model& 
     chosen.push_back(k);
   }
   if (names.empty())
-    throw RequestError("--project: the run has no invariant that is proved to be an integral");
+    throw RequestError("cannot project: the run has no invariant that is proved to be an integral");
   const SparseProgram gradients = codegen::gradients(s.invariants, s.states.size());
   const auto projector = std::make_shared<Projector>(
       s.invariants, chosen, gradients.program, gradients.entries, run.initial, run.parameters);

@@ -11,12 +11,11 @@
 #include "codegen/compile.hpp"
 #include "codegen/emit/number_literal.hpp"
 #include "codegen/emit_cpp.hpp"
-#include "codegen/quadratic.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/methods.hpp"
 #include "runtime/program/term_size.hpp"
-#include "runtime/taylor/quadratic_targets.hpp"
 #include "runtime/uncompiled.hpp"
+#include "tools/analysis/run/taylor_path.hpp"
 
 namespace casimir {
 namespace {
@@ -29,8 +28,8 @@ double seconds_since(Clock::time_point start) {
 
 CaseError without_duration(const Location& where, const std::string& scene) {
   return CaseError(where, fmt::format("the scene '{}' has no duration", printable(scene)), {},
-                   "add a line such as duration = \"100\" to it, or give --duration T to a command "
-                   "that has it");
+                   "add a line such as duration = \"100\" to it, or give a duration to a command "
+                   "that takes one");
 }
 
 }  // namespace
@@ -123,7 +122,7 @@ CompiledModule compiled_module(const PreparedScene& run, const Method& method) {
     return result;
   } catch (const CompilerMissing& problem) {
     throw CompilerMissing(std::string(problem.what()) +
-                          ", or use --method taylor, which needs none");
+                          ", or use the method taylor, which needs none");
   }
 }
 
@@ -131,17 +130,18 @@ CompiledModule compiled_module(const PreparedScene& run, const Method& method) {
 /// and without one the program itself.
 CompiledModule taylor_module(const PreparedScene& run, const Method& method) {
   const Specialisation& s = run.specialisation;
-  auto form = quadratic_form(s.rhs, run.parameters);
-  if (form && !has_quadratic_kernel(*form)) form.reset();
-  if (!form) {
+  TaylorChoice choice = choose_taylor_path(s.rhs, run.parameters, true);
+  if (choice.path == TaylorPath::compiled) {
     try {
       return compiled_module(run, method);
     } catch (const CompilerMissing&) {
+      choice.path = TaylorPath::interpreted;
     }
   }
-  CompiledModule result{.module = uncompiled_module(s.rhs, s.invariants, form, run.parameters),
-                        .compiled = false};
-  if (!form) result.warning = kInterpretedWarning;
+  CompiledModule result{
+      .module = uncompiled_module(s.rhs, s.invariants, choice.form, run.parameters),
+      .compiled = false};
+  if (choice.path == TaylorPath::interpreted) result.warning = kInterpretedWarning;
   return result;
 }
 

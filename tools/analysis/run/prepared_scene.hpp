@@ -40,10 +40,12 @@ struct SceneOptions {
   std::optional<std::vector<std::string>> observe;
 };
 
-/// Specialises a scene and rounds its data. \throws ModelError  for data outside double's range.
+/// Specialises a scene and rounds its data.
+/// \throws ModelError  for data outside double's range.
 PreparedScene prepare(const Model& model, const Scene& scene, const SceneOptions& options = {});
 
-/// The duration of a scene. \throws CaseError  where the scene gives none.
+/// The duration of a scene.
+/// \throws CaseError  where the scene gives none.
 double duration_of(const PreparedScene& run);
 /// \throws CaseError  where the scene gives no duration.
 void require_duration(const Scene& scene);
@@ -64,7 +66,8 @@ CompiledModule compile_for(const PreparedScene& run, const Method& method);
 /// that splits.
 bool suits(const PreparedScene& run, const Method& method);
 
-/// What `load` loads of a compiled object. \throws EnvironmentError  where it cannot be loaded.
+/// What `load` loads of a compiled object.
+/// \throws EnvironmentError  where it cannot be loaded.
 template <class Load>
 auto loaded(const Load& load) {
   try {

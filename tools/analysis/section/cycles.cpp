@@ -11,7 +11,7 @@ namespace {
 using Vector = LevelSet::Vector;
 using Matrix = Eigen::MatrixXd;
 
-constexpr int kRounds = 25;
+constexpr int kNewtonRounds = 25;
 /// Newton's method has arrived where a return is so near, relative to the size of the state.
 constexpr double kArrived = 1e-9, kSame = 1e-6;
 /// Traces nearer to 2 belong to families of cycles.
@@ -34,8 +34,8 @@ class Newton {
       : level_(level), cutter_(cutter), length_(length) {}
 
   void run(std::vector<Attempt>& attempts, const std::function<void(double)>& progress) {
-    for (int round = 0; round < kRounds && !cutter_.interrupted(); ++round) {
-      progress(static_cast<double>(round) / kRounds);
+    for (int round = 0; round < kNewtonRounds && !cutter_.interrupted(); ++round) {
+      progress(static_cast<double>(round) / kNewtonRounds);
       std::vector<Attempt*> active;
       for (Attempt& attempt : attempts)
         if (!attempt.failed && !attempt.arrived) active.push_back(&attempt);

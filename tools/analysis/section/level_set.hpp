@@ -23,7 +23,7 @@ class LevelSet {
 
   /// Moves a point to the nearest one of the level set, about, by Newton's method with the shortest
   /// correction (Gauss and Newton). Whether it arrived, to rounding.
-  /// \param pair    these values of the plotted pair are to be met too.
+  /// \param pair  these values of the plotted pair are to be met too.
   /// \param energy  false: on any energy.
   bool project(Vector& x, const std::array<double, 2>* pair = nullptr, bool energy = true) const;
 

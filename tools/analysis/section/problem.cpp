@@ -211,7 +211,8 @@ class Maker {
     if (named < casimirs)
       throw RequestError(fmt::format(
           "'{}' has {} independent Casimir functions and names {}: without the others the level is "
-          "not fixed; name them in [casimirs] ('casimir search --casimirs' finds polynomial ones)",
+          "not fixed; name them in [casimirs] (a search for Casimir functions finds polynomial "
+          "ones)",
           model_.name, casimirs, named));
   }
 

@@ -42,7 +42,7 @@ struct StressAnswer {
 };
 
 /// Judges an answer.
-/// \param asked    the row as far as it is known beforehand.
+/// \param asked  the row as far as it is known beforehand.
 /// \param outside  it is a method of another library.
 StressCell cell_of(const Row& asked, bool outside, const SceneReference& truth,
                    const StressAnswer& answer);

@@ -11,7 +11,7 @@ SceneReference reference_state_of_scene(const Model& model, const Scene& scene, 
   SceneReference result{.states = run.specialisation.states};
   result.source = known.truth ? known.source : known.reason;
   result.singular_time = known.singular_time;
-  const bool called_so = scene.extreme == "blowup" && scene.reference.empty();
+  const bool called_so = scene.extreme == Extreme::blowup && scene.reference.empty();
   result.has_end = !called_so;
   if (known.singular_time || !result.has_end || !known.truth) return result;
   result.truth = known.truth;

@@ -65,8 +65,8 @@ class PointCheck {
     for (std::size_t i = 0; i < model_.constraints.size(); ++i) {
       if (!vanishes(values[i]))
         return fmt::format(
-            "the constraint {} is {:.3g} instead of 0\n  hint: --let can give a state as an "
-            "expression, as in --over theta=0:Pi:50 --let g1=sin(theta)",
+            "the constraint {} is {:.3g} instead of 0\n  hint: a state can be let be an "
+            "expression of what the sweep goes over, as g1=sin(theta)",
             model_.constraints[i].name, static_cast<double>(values[i].value));
     }
     for (std::size_t i = 0; i < model_.assumptions.size(); ++i) {
@@ -90,12 +90,8 @@ class PointCheck {
   }
 
   static bool holds(const Assumption& a, const SizedNumber& x) {
-    return a.relation == "!="   ? x.value != 0
-           : a.relation == "==" ? vanishes(x)
-           : a.relation == ">"  ? x.value > 0
-           : a.relation == ">=" ? x.value >= 0
-           : a.relation == "<"  ? x.value < 0
-                                : x.value <= 0;
+    if (a.comparison == Comparison::equal) return vanishes(x);
+    return !std::isnan(x.value) && casimir::holds(a.comparison, (x.value > 0) - (x.value < 0));
   }
 
   const Model& model_;

@@ -15,7 +15,7 @@ namespace casimir {
 /// and of the lets in their place.
 class GridPoints {
  public:
-  /// \param run   with the parameters of the axes and lets at run time
+  /// \param run  with the parameters of the axes and lets at run time
   /// \param lets  over the axes of the grid
   /// \throws RequestError  for a point that violates an assumption or leaves a constraint; the
   ///                     message names it

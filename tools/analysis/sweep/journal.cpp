@@ -112,7 +112,7 @@ void Journal::read(const std::string& fingerprint, std::size_t columns) {
   if (line != own)
     throw RequestError(fmt::format(
         "'{0}' holds the points of another sweep (another case, grid, method or version)\n  hint: "
-        "another --output, or --restart to throw them away",
+        "another file, or a restart that throws them away",
         printable(path_, 200)));
   bool torn = false;
   while (std::getline(stream, line)) {

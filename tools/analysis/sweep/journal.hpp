@@ -15,7 +15,7 @@ class Journal {
  public:
   /// Opens the journal of this output, or begins it.
   /// \param fingerprint  of the sweep
-  /// \param restart      what is there is thrown away
+  /// \param restart  what is there is thrown away
   /// \throws RequestError   if it belongs to another sweep
   /// \throws EnvironmentError  if it cannot be written, or another process writes it
   Journal(const std::string& output, const std::string& fingerprint, std::size_t columns,
@@ -29,7 +29,8 @@ class Journal {
   /// What is done, by point.
   const std::map<std::size_t, PointResult>& done() const { return done_; }
 
-  /// Adds results; they are on the disk when this returns. \throws EnvironmentError
+  /// Adds results; they are on the disk when this returns.
+  /// \throws EnvironmentError
   void append(const std::map<std::size_t, PointResult>& results);
 
   /// After the output has been written.

@@ -12,7 +12,8 @@ namespace casimir {
 /// across the plane there are no orbits.
 class Sections : public SweepTask {
  public:
-  /// Model, scene and places outlive it. \throws RequestError  as section_problem does
+  /// Model, scene and places outlive it.
+  /// \throws RequestError  as section_problem does
   Sections(const Model& model, const Scene& scene, const GridPoints& places, SectionRequest request,
            std::size_t orbits, std::size_t points, double tolerance);
 

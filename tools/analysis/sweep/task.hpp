@@ -28,8 +28,8 @@ class SweepTask {
   /// of the same text.
   virtual std::string fingerprint() const = 0;
 
-  /// Results for these points, in their order. \param give_up  true ends it: the points that are
-  /// not done are `stopped`
+  /// Results for these points, in their order.
+  /// \param give_up  true ends it: the points that are not done are `stopped`
   virtual std::vector<PointResult> run(const std::vector<std::size_t>& points, int threads,
                                        const std::function<bool()>& give_up) const = 0;
 };

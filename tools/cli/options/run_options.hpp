@@ -13,7 +13,8 @@ struct RunOptions {
   RunRequest asked = {};  ///< all but the duration
   std::optional<std::string> duration;
 
-  /// What is asked of a run. \throws UsageError  for a duration that is no number.
+  /// What is asked of a run.
+  /// \throws UsageError  for a duration that is no number.
   RunRequest request() const;
 };
 

@@ -12,7 +12,8 @@ namespace casimir::tools {
 /// `--weights NAME=W,..`
 void add_weights(CLI::App& command, std::vector<std::string>& weights);
 
-/// NAME=W,NAME=W split into names and weights, with their places. \throws UsageError
+/// NAME=W,NAME=W split into names and weights, with their places.
+/// \throws UsageError
 std::vector<std::pair<Text, Text>> weights_of(const std::vector<std::string>& values);
 
 /// What was typed after an option, with its place. Commas separate where `list` is set.

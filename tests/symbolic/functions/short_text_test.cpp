@@ -1,5 +1,5 @@
 // Polynomials as a person would write them.
-#include "symbolic/algebra/short_text.hpp"
+#include "symbolic/functions/short_text.hpp"
 
 #include <gtest/gtest.h>
 

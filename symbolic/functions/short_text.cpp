@@ -1,4 +1,4 @@
-#include "symbolic/algebra/short_text.hpp"
+#include "symbolic/functions/short_text.hpp"
 
 #include <cln/integer.h>
 #include <cln/rational.h>

@@ -1,0 +1,24 @@
+#include "tools/analysis/run/taylor_path.hpp"
+
+#include <utility>
+
+#include "codegen/quadratic.hpp"
+#include "runtime/taylor/quadratic_targets.hpp"
+#include "runtime/uncompiled.hpp"
+
+namespace casimir {
+
+TaylorChoice choose_taylor_path(const Program& rhs, const std::vector<double>& parameters,
+                                bool may_compile) {
+  if (auto form = quadratic_form(rhs, parameters); form && has_quadratic_kernel(*form))
+    return {TaylorPath::tables, std::move(form)};
+  return {may_compile ? TaylorPath::compiled : TaylorPath::interpreted, std::nullopt};
+}
+
+Module taylor_module_without_compiler(const Program& rhs, const Program& invariants,
+                                      const std::vector<double>& parameters) {
+  return uncompiled_module(rhs, invariants, choose_taylor_path(rhs, parameters, false).form,
+                           parameters);
+}
+
+}  // namespace casimir

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "runtime/module.hpp"
+#include "runtime/program.hpp"
+#include "runtime/taylor/quadratic_form.hpp"
+
+namespace casimir {
+
+/// Where the Taylor coefficients of one trajectory come from. runtime/README.md has the map of all
+/// kernels.
+enum class TaylorPath {
+  tables,       ///< a precompiled kernel, driven by the tables of a quadratic right-hand side
+  compiled,     ///< code written for this right-hand side
+  interpreted,  ///< its straight-line program, line by line
+};
+
+/// The path of a right-hand side at these parameters, and what it needs.
+struct TaylorChoice {
+  TaylorPath path = TaylorPath::interpreted;
+  std::optional<QuadraticForm> form;  ///< where `path` is `tables`
+};
+
+/// Tables where the right-hand side is quadratic and a precompiled kernel has room for it, else
+/// what the compiler makes if there may be one, else the interpreter.
+TaylorChoice choose_taylor_path(const Program& rhs, const std::vector<double>& parameters,
+                                bool may_compile);
+
+/// A module that needs no compiler: by tables, or interpreted. It serves one thread at a time, and
+/// by tables these parameters only.
+Module taylor_module_without_compiler(const Program& rhs, const Program& invariants,
+                                      const std::vector<double>& parameters);
+
+}  // namespace casimir
