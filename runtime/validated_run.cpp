@@ -41,6 +41,7 @@ StepSettings step_settings(const ValidatedSettings& settings, bool forwards) {
                  : settings.digits == 0 ? kDoubleOrder
                                         : static_cast<int>(0.35 * static_cast<double>(bits)) + 4;
   result.log2_error = settings.digits == 0 ? -58 : -static_cast<int>(bits) - 4;
+  if (settings.log2_error < 0) result.log2_error = settings.log2_error;
   result.integral_bits = bits + 80;
   result.forwards = forwards;
   result.without_remainder = settings.without_remainder;

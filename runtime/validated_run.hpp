@@ -40,8 +40,9 @@ struct ValidatedProblem {
 
 /// How an enclosure is made.
 struct ValidatedSettings {
-  int digits = 0;                    ///< 0: double precision; else decimal digits of the balls
-  int order = 0;                     ///< of the Taylor series; 0: by the digits
+  int digits = 0;      ///< 0: double precision; else decimal digits of the balls
+  int order = 0;       ///< of the Taylor series; 0: by the digits
+  int log2_error = 0;  ///< of a step in units of the state, negative; 0: by the digits
   unsigned long long max_steps = 0;  ///< 0: no limit
   cln::cl_RA sample_every = 0;       ///< > 0: boxes at its multiples
   /// Asked before each step with the share of the duration that is done; true ends the run.

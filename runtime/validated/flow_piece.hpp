@@ -55,17 +55,41 @@ class FlowPiece {
     all_ = &box_.expand(unit_ * elapsed, box, unit_);
   }
 
-  /// log2 of a step after which the last terms are `log2_error`, so far as the coefficients show;
-  /// infinite where they are zero.
-  double log2_step(double log2_error) const {
-    double log2_h = INFINITY;
-    for (const int k : {order_ - 1, order_}) {
-      for (const auto& series : *all_) {
-        const double size = log2_magnitude(series[static_cast<std::size_t>(k)]);
-        log2_h = std::min(log2_h, (log2_error - size) / k);
-      }
+  /// log2 of a step after which the last terms are 2^log2_error of the first ones, and of the size
+  /// of these: so far as the coefficients show, which proves nothing. The step is infinite where
+  /// the last terms are zero.
+  struct Reach {
+    double log2_step, log2_size;
+  };
+  Reach reach(double log2_error) const {
+    std::vector<double> sizes(static_cast<std::size_t>(order_) + 1, -INFINITY);
+    for (std::size_t i = 0; i < all_->size(); ++i) {
+      // What is zero but for a radius that covers underflow is zero.
+      if (log2_magnitude((*all_)[i][0]) > kNothing)
+        sizes[0] = std::max(sizes[0], log2_magnitude((*all_)[i][0]));
+      for (std::size_t k = 1; k < sizes.size(); ++k)
+        sizes[k] = std::max(sizes[k], log2_magnitude((*all_)[i][k]));
     }
-    return log2_h;
+    Reach result{-INFINITY, sizes[0]};
+    const auto order = static_cast<std::size_t>(order_);
+    for (std::size_t first = 0; first < 3; ++first) {
+      if (!(sizes[first] > kNothing)) continue;
+      double step = INFINITY;
+      for (const std::size_t k : {order - 1, order})
+        if (sizes[k] > kNothing)
+          step = std::min(step,
+                          (log2_error + sizes[first] - sizes[k]) / static_cast<double>(k - first));
+      result.log2_step = std::max(result.log2_step, step);
+    }
+    if (std::isinf(result.log2_step)) {
+      result.log2_step = INFINITY;  // the series ends, or all is at rest
+    } else {
+      for (std::size_t k = 1; k < 3; ++k)
+        result.log2_size =
+            std::max(result.log2_size, sizes[k] + static_cast<double>(k) * result.log2_step);
+    }
+    if (std::isinf(result.log2_size)) result.log2_size = 0;
+    return result;
   }
 
   /// Whether every solution that begins in the box exists on [0, h] and stays in the tube
@@ -134,6 +158,8 @@ class FlowPiece {
   Matrix<Ball> derivative(const Ball& t) const { return tangents_.at(t); }
 
  private:
+  /// log2 of what is taken for zero, where the length of a step is guessed.
+  static constexpr double kNothing = -950;
   /// Covers the rounding of logarithms.
   static constexpr double kSlack = 0x1p-20;
 

@@ -91,11 +91,9 @@ class Lohner {
     elapsed_ = elapsed;
     piece_.expand(elapsed, set_.middle, box_);
     tangents_known_ = false;
-    double log2_size = -INFINITY;
-    for (const Ball& x : box_) log2_size = std::max(log2_size, log2_magnitude(x));
-    if (std::isinf(log2_size)) log2_size = 0;
-    log2_size_ = log2_size;
-    return piece_.log2_step(settings_.log2_error + log2_size) + log2_factor_;
+    const auto reach = piece_.reach(settings_.log2_error);
+    log2_size_ = reach.log2_size;
+    return reach.log2_step + log2_factor_;
   }
 
   /// Tries whether a step of that length is enclosed; the next one that is proposed follows from
