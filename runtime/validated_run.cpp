@@ -48,6 +48,41 @@ StepSettings step_settings(const ValidatedSettings& settings, bool forwards) {
   return result;
 }
 
+void check(const ValidatedProblem& problem) {
+  const std::size_t n = problem.rates.outputs.size();
+  const bool fits = problem.rates.inputs.size() == n + 1 && problem.start.outputs.size() == n + 1 &&
+                    problem.jacobian.outputs.size() == problem.entries.size() &&
+                    (problem.radii.empty() || problem.radii.size() == n);
+  if (!fits) throw std::invalid_argument("the parts of the problem have different states");
+}
+
+/// The last output of a program without inputs, where it is rational.
+std::optional<cln::cl_RA> rational_end(const Program& program) {
+  std::vector<bool> needed(program.code.size());
+  needed[static_cast<std::size_t>(program.outputs.back())] = true;
+  for (std::size_t i = program.code.size(); i-- > 0;) {
+    const Instruction& line = program.code[i];
+    if (!needed[i] || is_literal(line)) continue;
+    for (const int operand : {line.a, line.b})
+      if (operand >= 0) needed[static_cast<std::size_t>(operand)] = true;
+  }
+  const Arithmetic<cln::cl_RA> exact;
+  std::vector<cln::cl_RA> values(program.code.size());
+  const auto at = [&](int i) { return values[static_cast<std::size_t>(i)]; };
+  try {
+    for (std::size_t i = 0; i < program.code.size(); ++i) {
+      const Instruction& line = program.code[i];
+      if (!needed[i]) continue;
+      values[i] = is_literal(line)
+                      ? literal_value(program, line, exact)
+                      : applied(line.op, at(line.a), at(line.b < 0 ? line.a : line.b), exact);
+    }
+  } catch (const std::domain_error&) {
+    return std::nullopt;
+  }
+  return at(program.outputs.back());
+}
+
 /// One run with balls of one kind.
 template <class Ball>
 class Runner {
@@ -62,6 +97,12 @@ class Runner {
         integrals_(integrals_of(problem)),
         lohner_(flow_, integrals_, step_settings(settings, forwards_)) {
     end_exact_ = forwards_ ? start.back() : -start.back();
+    if (const auto rational = rational_end(problem.start)) {
+      end_time_ = forwards_ ? *rational : -*rational;
+    } else {
+      const RationalInterval ends = validated::ends_of(end_exact_);
+      end_time_ = (ends.low + ends.high) / 2;
+    }
     start.pop_back();
     std::vector<Ball> wide(start.size());
     for (std::size_t i = 0; i < problem.radii.size(); ++i)
@@ -141,7 +182,7 @@ class Runner {
   }
 
   void advance(const Ball& h, bool last, double next) {
-    record_samples(h, last, next);
+    record_samples(last, next);
     const StepOutcome outcome = lohner_.advance(h);
     if (outcome == StepOutcome::contradiction)
       return stop(ValidatedStatus::contradiction,
@@ -179,26 +220,22 @@ class Runner {
   }
 
   /// Boxes at the samples within the step, and before the end.
-  void record_samples(const Ball& h, bool last, double next) {
+  void record_samples(bool last, double next) {
     if (!cln::plusp(settings_.sample_every)) return;
     const cln::cl_RA from = cln::rational(cln::cl_DF(elapsed_));
-    const cln::cl_RA to =
-        last ? validated::ends_of(end_exact_).low : cln::rational(cln::cl_DF(next));
+    // An irrational end is only known to be in a ball, but the step was enclosed for all of it.
+    const cln::cl_RA to = last ? end_time_ : cln::rational(cln::cl_DF(next));
     for (;; ++sample_) {
       const cln::cl_RA time = settings_.sample_every * sample_;
       if (time > to || (last && time == to)) return;
       const Ball after = Arithmetic<Ball>::from(time - from);
       run_.samples.push_back(box_of(lohner_.box_at(after), time));
     }
-    (void)h;
   }
 
   void finish() {
     cln::cl_RA time = cln::rational(cln::cl_DF(elapsed_));
-    if (done_) {
-      const RationalInterval ends = validated::ends_of(end_exact_);
-      time = ends.low == ends.high ? ends.low : (ends.low + ends.high) / 2;
-    }
+    if (done_) time = end_time_;
     run_.end = box_of(lohner_.box(), time);
     if (cln::plusp(settings_.sample_every) && !run_.samples.empty() &&
         (run_.samples.back().time != run_.end.time))
@@ -213,6 +250,7 @@ class Runner {
   std::vector<validated::Integral> integrals_;
   Lohner<Ball> lohner_;
   ArbBall end_exact_;
+  cln::cl_RA end_time_;  ///< the same, where it is rational
   Ball end_;
   double elapsed_ = 0;  ///< since the start, exactly
   double largest_ = 0;
@@ -231,6 +269,7 @@ double ValidatedRun::radius() const {
 }
 
 ValidatedRun validated_run(const ValidatedProblem& problem, const ValidatedSettings& settings) {
+  check(problem);
   std::vector<ArbBall> start;
   {
     const BallPrecision exact(bits_of(settings) + kDataBits);

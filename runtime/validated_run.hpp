@@ -85,6 +85,7 @@ struct ValidatedRun {
 
 /// Encloses the solutions of an initial value problem by Taylor series in balls and Lohner's
 /// method: see `runtime/validated`. \throws std::domain_error  where the data have no value.
+/// \throws std::invalid_argument  where the numbers of states of its parts differ.
 ValidatedRun validated_run(const ValidatedProblem& problem, const ValidatedSettings& settings);
 
 }  // namespace casimir

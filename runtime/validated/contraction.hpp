@@ -55,6 +55,42 @@ std::vector<Ball> corrected(std::vector<Ball> y, const Frame& frame) {
   return y;
 }
 
+/// A program that is evaluated again and again: its constants are made into balls once, at the
+/// precision of the thread that makes it.
+template <class Ball>
+class BallFunction {
+ public:
+  explicit BallFunction(const Program& program) : program_(program), values_(program.code.size()) {
+    for (std::size_t i = 0; i < values_.size(); ++i)
+      if (is_literal(program.code[i]))
+        values_[i] = literal_value(program, program.code[i], Arithmetic<Ball>{});
+  }
+
+  /// The outputs at the states and the time. \throws std::domain_error
+  const std::vector<Ball>& operator()(const std::vector<Ball>& states, const Ball& time) {
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      const Instruction& line = program_.code[i];
+      if (is_literal(line)) continue;
+      if (line.op == Op::input) {
+        const auto input = static_cast<std::size_t>(line.a);
+        values_[i] = input < states.size() ? states[input] : time;
+      } else {
+        values_[i] =
+            applied(line.op, at(line.a), at(line.b < 0 ? line.a : line.b), Arithmetic<Ball>{});
+      }
+    }
+    outputs_.clear();
+    for (const int output : program_.outputs) outputs_.push_back(at(output));
+    return outputs_;
+  }
+
+ private:
+  const Ball& at(int line) const { return values_[static_cast<std::size_t>(line)]; }
+
+  const Program& program_;
+  std::vector<Ball> values_, outputs_;
+};
+
 /// Whether the program is a polynomial in its inputs: analytic everywhere.
 inline bool is_polynomial(const Program& program) {
   std::vector<bool> constant;
@@ -88,10 +124,13 @@ inline bool is_polynomial(const Program& program) {
 template <class Ball>
 class Contractor {
  public:
-  /// \param start  the exact start, to many digits; \param box  what else may be the start.
-  Contractor(const Integral& integral, slong bits) : integral_(integral), bits_(bits) {
-    polynomial_ = is_polynomial(integral.value);
-  }
+  /// \param bits  of the values at points.
+  Contractor(const Integral& integral, slong bits)
+      : integral_(integral),
+        bits_(bits),
+        polynomial_(is_polynomial(integral.value)),
+        value_(integral.value),
+        gradient_(integral.gradient) {}
 
   const std::string& name() const { return integral_.name; }
   bool usable() const { return usable_; }
@@ -101,7 +140,8 @@ class Contractor {
   void begin(const std::vector<ArbBall>& point, const std::vector<Ball>& box, bool is_point) {
     try {
       const BallPrecision precision(bits_);
-      level_ = value_at(point, ArbBall());
+      exact_value_.emplace(integral_.value);
+      level_ = (*exact_value_)(point, ArbBall())[0];
       if (!is_point) first_gradient_ = gradient_over(box, Ball());
     } catch (const std::domain_error&) {
       usable_ = false;
@@ -119,7 +159,7 @@ class Contractor {
   }
 
   /// The direction that the set is to be thin along, at a point; empty where there is none.
-  std::vector<double> direction(const std::vector<Ball>& at, const Ball& time) const {
+  std::vector<double> direction(const std::vector<Ball>& at, const Ball& time) {
     std::vector<double> result;
     if (!usable_) return result;
     try {
@@ -166,24 +206,12 @@ class Contractor {
   }
 
  private:
-  template <class Number>
-  static std::vector<Number> inputs_of(const std::vector<Number>& states, const Number& time) {
-    std::vector<Number> inputs = states;
-    inputs.push_back(time);
-    return inputs;
+  void is_analytic_on(const std::vector<Ball>& box, const Ball& time) {
+    if (!is_usable(value_(box, time)[0])) throw std::domain_error("no value");
   }
 
-  template <class Number>
-  Number value_at(const std::vector<Number>& states, const Number& time) const {
-    return evaluate(integral_.value, inputs_of(states, time))[0];
-  }
-
-  void is_analytic_on(const std::vector<Ball>& box, const Ball& time) const {
-    if (!is_usable(value_at(box, time))) throw std::domain_error("no value");
-  }
-
-  std::vector<Ball> gradient_over(const std::vector<Ball>& box, const Ball& time) const {
-    const std::vector<Ball> entries = evaluate(integral_.gradient, inputs_of(box, time));
+  std::vector<Ball> gradient_over(const std::vector<Ball>& box, const Ball& time) {
+    const std::vector<Ball>& entries = gradient_(box, time);
     std::vector<Ball> gradient(box.size());
     for (std::size_t k = 0; k < entries.size(); ++k)
       gradient[static_cast<std::size_t>(integral_.states[k])] = entries[k];
@@ -191,17 +219,18 @@ class Contractor {
   }
 
   /// I(m_0) - I(m), to more digits than the balls have: the difference is a small one.
-  Ball offset(const std::vector<Ball>& middle, const Ball& time) const {
+  Ball offset(const std::vector<Ball>& middle, const Ball& time) {
     const BallPrecision precision(bits_);
-    std::vector<ArbBall> inputs;
-    for (const Ball& x : middle) inputs.emplace_back(x);
-    inputs.emplace_back(time);
-    return ball_from<Ball>(level_ - evaluate(integral_.value, inputs)[0]);
+    std::vector<ArbBall> states;
+    for (const Ball& x : middle) states.emplace_back(x);
+    return ball_from<Ball>(level_ - (*exact_value_)(states, ArbBall(time))[0]);
   }
 
   const Integral& integral_;
   slong bits_;
-  bool polynomial_ = false, usable_ = true, contracted_ = false;
+  bool polynomial_, usable_ = true, contracted_ = false;
+  BallFunction<Ball> value_, gradient_;
+  std::optional<BallFunction<ArbBall>> exact_value_;
   ArbBall level_;
   std::vector<Ball> first_gradient_;
 };

@@ -159,10 +159,11 @@ class Lohner {
       if (!is_usable(r)) return StepOutcome::no_enclosure;
     if (!contract(next, columns, end)) return StepOutcome::contradiction;
     recentre(next);
-    set_ = std::move(next);
-    box_ = set_.hull();
-    for (const Ball& x : box_)
+    Vector box = next.hull();
+    for (const Ball& x : box)
       if (!is_usable(x)) return StepOutcome::no_enclosure;
+    set_ = std::move(next);
+    box_ = std::move(box);
     return StepOutcome::taken;
   }
 
@@ -182,9 +183,9 @@ class Lohner {
   }
 
   Frame new_frame(const Matrix<Ball>& image, const Vector& middle, const Ball& time,
-                  std::vector<int>& columns) const {
+                  std::vector<int>& columns) {
     std::vector<std::vector<double>> gradients;
-    for (const Contractor<Ball>& contractor : contractors_)
+    for (Contractor<Ball>& contractor : contractors_)
       gradients.push_back(contractor.direction(middle, time));
     Matrix<double> others(image.rows, image.columns);
     for (std::size_t i = 0; i < image.entries.size(); ++i)

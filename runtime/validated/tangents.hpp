@@ -35,6 +35,18 @@ class Tangents {
   std::vector<Matrix<Ball>> coefficients_;
 };
 
+/// Some entries of a row side by side.
+inline constexpr std::size_t kTangentLanes = 4;
+struct alignas(32) TangentLanes {
+  double mid[kTangentLanes], rad[kTangentLanes], reach[kTangentLanes];  ///< reach: |mid| + rad
+};
+
+/// An entry of a row of the Jacobian: its column, and its series.
+struct TangentEntry {
+  std::size_t column;
+  const MidRad* series;
+};
+
 /// In doubles, with the columns side by side in the lanes of a register.
 template <>
 class Tangents<MidRad> {
@@ -45,27 +57,18 @@ class Tangents<MidRad> {
   Matrix<MidRad> at(const MidRad& h) const;
 
  private:
-  static constexpr std::size_t kLanes = 4;
-  struct Lanes {
-    double mid[kLanes], rad[kLanes], reach[kLanes];  ///< reach: |mid| + rad
-  };
-  /// Those of the columns from kLanes * block on.
-  Lanes& at(std::size_t block, std::size_t k, std::size_t row) {
+  /// Those of the columns from kTangentLanes * block on.
+  TangentLanes& at(std::size_t block, std::size_t k, std::size_t row) {
     return lanes_[(block * (order_ + 1) + k) * n_ + row];
   }
-  const Lanes& at(std::size_t block, std::size_t k, std::size_t row) const {
+  const TangentLanes& at(std::size_t block, std::size_t k, std::size_t row) const {
     return lanes_[(block * (order_ + 1) + k) * n_ + row];
   }
-  void next(std::size_t block, std::size_t k, std::size_t row, bool forwards);
 
-  struct Entry {
-    std::size_t column;
-    const Series* series;
-  };
   Entries entries_;
   std::size_t n_, order_, blocks_;
-  std::vector<std::vector<Entry>> rows_;
-  std::vector<Lanes> lanes_;
+  std::vector<std::vector<TangentEntry>> rows_;
+  std::vector<TangentLanes> lanes_;
 };
 
 template <class Ball>
