@@ -123,13 +123,17 @@ class FlowPiece {
     rest_.resize(n);
     try {
       const auto& series = tube_.expand(unit_ * (elapsed_ + some_time), tube, unit_);
-      const double bound = log2_magnitude(room) - 1 - kSlack;
+      // Logarithms say by how much, and only balls whether.
+      const Ball half = room * Ball(0.5);
+      const double bound = log2_magnitude(half);
       for (std::size_t i = 0; i < n; ++i) {
         rest_[i] = series[i].back();
         if (!is_usable(rest_[i])) return INFINITY;
-        const double excess = log2_magnitude(rest_[i] * power) - bound;
+        const Ball remainder = rest_[i] * power;
+        const double excess = log2_magnitude(remainder) - bound;
         if (std::isnan(excess)) return INFINITY;
-        worst = std::max(worst, excess);
+        worst = std::max(
+            worst, contains(half, remainder) ? std::min(excess, 0.) : std::max(excess, kBeyond));
       }
     } catch (const std::domain_error&) {
       return INFINITY;
@@ -160,8 +164,8 @@ class FlowPiece {
  private:
   /// log2 of what is taken for zero, where the length of a step is guessed.
   static constexpr double kNothing = -950;
-  /// Covers the rounding of logarithms.
-  static constexpr double kSlack = 0x1p-20;
+  /// log2 of the least excess that is told.
+  static constexpr double kBeyond = 0.01;
 
   int order_;
   bool forwards_;

@@ -33,6 +33,9 @@ namespace casimir::validated {
 // sums and products hand on. Quotients and functions refuse what is not usable, and so does
 // everything that decides: see `is_usable`, which a NaN fails.
 
+#ifdef __FAST_MATH__
+#error "balls of doubles are false with -ffast-math"
+#endif
 static_assert(FLT_EVAL_METHOD == 0, "doubles have to be rounded to double");
 
 inline constexpr double kUnit = 0x1p-53;         ///< u, the unit of rounding

@@ -21,6 +21,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Digits that are shown beyond those asked for, where an interval is as narrow.
+constexpr long kMore = 8;
+
 cln::cl_RA power_of_ten(long exponent) {
   if (exponent == 0) return 1;
   const cln::cl_I power = cln::expt_pos(cln::cl_I(10), cln::cl_I(std::abs(exponent)));
@@ -111,8 +114,9 @@ std::pair<std::string, std::string> decimal_ends(const RationalInterval& interva
   const cln::cl_RA width = interval.high - interval.low;
   const cln::cl_RA size = std::max(cln::abs(interval.low), cln::abs(interval.high));
   if (cln::zerop(size)) return {"0", "0"};
-  const long exponent =
-      cln::plusp(width) ? decimal_exponent(width) - 2 : decimal_exponent(size) - least + 1;
+  // Not finer than some digits more than those asked for, though the interval may be.
+  long exponent = decimal_exponent(size) - least + 1;
+  if (cln::plusp(width)) exponent = std::max(exponent - kMore, decimal_exponent(width) - 2);
   return {rounded_down(interval.low, exponent), rounded_up(interval.high, exponent)};
 }
 

@@ -21,7 +21,7 @@ struct EnclosureReport {
 };
 
 /// The ends of an interval as decimals, rounded outwards: as many digits as tell its width to about
-/// three; of an interval of one number `least`.
+/// three, but no more than some beyond `least`.
 std::pair<std::string, std::string> decimal_ends(const RationalInterval& interval, int least = 17);
 
 /// A number that is not negative as a decimal of three digits, not below it.

@@ -14,6 +14,9 @@
 namespace casimir {
 namespace {
 
+/// No further invariant is proved after so many seconds.
+constexpr double kProofSeconds = 20;
+
 /// An equation between parameters holds nowhere else: what was proved with it says nothing of a
 /// range. Inequalities are open, and an identity of analytic functions that holds in an open part
 /// of a connected set holds in all of it.
@@ -58,8 +61,14 @@ std::vector<KnownIntegral> known_integrals(const Model& model, const Specialisat
                                            std::size_t dimension,
                                            std::vector<std::string>& doubts) {
   std::vector<KnownIntegral> result;
+  const auto late = time_limit(kProofSeconds);
   for (std::size_t k = 0; k < s.invariant_names.size(); ++k) {
     const std::string& name = s.invariant_names[k];
+    if (late()) {
+      doubts.push_back(
+          fmt::format("{} does not make the box smaller: no time was left to prove it", name));
+      continue;
+    }
     const Proof proof = proof_of(model, name);
     if (proof.verdict != Verdict::proved || !proof.where.empty()) {
       doubts.push_back(fmt::format("{} does not make the box smaller: it is {} to be an integral",
