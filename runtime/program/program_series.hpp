@@ -67,6 +67,10 @@ class TaylorJet {
     return states_;
   }
 
+  /// The series of a line of the program, from the last expansion: all but its last coefficient.
+  /// The reference stays good as long as this object.
+  const std::vector<Number>& series_of(int line) const { return of(line); }
+
   /// The series of the last expansion that can end sooner than those of the states: of operations
   /// that have singularities of their own.
   std::vector<const std::vector<Number>*> singular_series() const {

@@ -21,6 +21,7 @@
 #include "tools/cli/watched_run.hpp"
 #include "tools/runs/atlas.hpp"
 #include "tools/runs/digits_run.hpp"
+#include "tools/runs/enclosed_run.hpp"
 #include "tools/runs/ensemble_run.hpp"
 #include "tools/runs/scene_values.hpp"
 #include "tools/text/generated_report.hpp"
@@ -43,7 +44,8 @@ struct Options {
   double every = 0;
   int jobs = 0;
   std::optional<int> digits;
-  bool general = false;
+  std::optional<std::string> initial_radius;
+  bool general = false, validated = false;
 };
 
 /// What is shown: the states themselves, or in the variables of `--as`.
@@ -227,8 +229,22 @@ void draw_motion(const Model& model, const Scene& scene, const PreparedScene& ru
     fmt::print("  drew {}\n", printable(options.picture.file(), 200));
 }
 
+int enclose_case(const Options& options) {
+  if (options.picture.wanted()) throw UsageError("--plot does not go with --validated");
+  if (!options.ensemble.empty()) throw UsageError("--ensemble does not go with --validated");
+  if (options.general) throw UsageError("--general does not go with --validated");
+  return integrate_validated({options.common, options.run, options.kept, options.start,
+                              options.case_name, options.in, options.as, options.method,
+                              options.output, options.every, options.digits, options.initial_radius,
+                              options.observe});
+}
+
 int integrate_case(const Options& options) {
   options.picture.check();
+  if (options.validated) return enclose_case(options);
+  if (options.initial_radius) throw UsageError("--initial-radius needs --validated");
+  for (const std::string& word : options.common.params)
+    if (is_range(word)) throw UsageError("--param with a range of values needs --validated");
   if (options.picture.wanted() && (options.digits || !options.ensemble.empty()))
     throw UsageError("--plot goes with a run in double precision, not with --digits or --ensemble");
   if (options.picture.wanted() && !options.as.empty())
@@ -317,6 +333,12 @@ void register_integrate(CLI::App& program, Action& action) {
       ->add_option("--digits", options->digits,
                    "Integrate with N decimal digits instead of double precision, by Taylor series")
       ->type_name("N");
+  command->add_flag("--validated", options->validated,
+                    "Prove where the state is: a box that contains it, for the exact data");
+  command
+      ->add_option("--initial-radius", options->initial_radius,
+                   "With --validated: every initial value may be off by so much")
+      ->type_name("X");
   command->add_option("--jobs", options->jobs, "Threads for an ensemble (default: all processors)")
       ->type_name("N")
       ->check(CLI::PositiveNumber);

@@ -20,7 +20,7 @@ bool declares(const Model& model, const std::string& name) {
 
 }  // namespace
 
-Verdict verdict_on(const Model& model, const std::string& invariant) {
+Proof proof_of(const Model& model, const std::string& invariant) {
   // Among the invariants H is the Hamiltonian, though the file may call a variable or a definition
   // that: here it gets a name that the file does not use.
   Model named = model;
@@ -32,7 +32,11 @@ Verdict verdict_on(const Model& model, const std::string& invariant) {
   Candidates candidates;
   candidates.integrals.push_back({name, {"--integral", 1, 1}, name});
   const std::vector<Proof> proofs = prove_within(kSeconds, named, candidates, {});
-  return proofs.empty() ? Verdict::undecided : proofs.front().verdict;
+  return proofs.empty() ? Proof{} : proofs.front();
+}
+
+Verdict verdict_on(const Model& model, const std::string& invariant) {
+  return proof_of(model, invariant).verdict;
 }
 
 std::vector<std::string> check_drift(const Model& model, const std::vector<std::string>& names,

@@ -17,6 +17,9 @@ namespace casimir {
 std::vector<std::string> check_drift(const Model& model, const std::vector<std::string>& names,
                                      Trajectory& trajectory);
 
+/// What can be proved of that invariant of the case, "H" or one of the file, as an integral.
+Proof proof_of(const Model& model, const std::string& invariant);
+
 /// Whether that invariant of the case, "H" or one of the file, is an integral.
 Verdict verdict_on(const Model& model, const std::string& invariant);
 

@@ -1,0 +1,236 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/validated/contraction.hpp"
+#include "runtime/validated/flow_piece.hpp"
+
+namespace casimir::validated {
+
+/// How a step ended.
+enum class StepOutcome {
+  taken,
+  no_value,       ///< the equations are not certain to have a value on the set
+  no_enclosure,   ///< no step of a length worth taking could be enclosed
+  contradiction,  ///< an integral has no level in the set: it is none, or there is a defect
+};
+
+/// What steps are made with.
+struct StepSettings {
+  int order = 20;
+  int log2_error = -60;  ///< of a step, in units of the state
+  slong integral_bits = 128;
+  bool forwards = true;
+  /// For tests that see an enclosure fail: leaves x_{N+1} out.
+  bool without_remainder = false;
+};
+
+/// The steps of a set along the flow, by Lohner's method.
+template <class Ball>
+class Lohner {
+ public:
+  using Vector = std::vector<Ball>;
+  /// Gets each step before it is made: the piece, and its length.
+  using Watch = std::function<void(const Lohner&, const Ball& h)>;
+
+  /// The flow and the integrals must outlive this.
+  Lohner(const FlowProgram& flow, const std::vector<Integral>& integrals,
+         const StepSettings& settings)
+      : settings_(settings), piece_(flow, settings.order, settings.forwards) {
+    for (const Integral& integral : integrals)
+      contractors_.emplace_back(integral, settings.integral_bits);
+  }
+
+  /// \param exact  the middle of the start, to more digits than balls have.
+  /// \param wide   for each state by how much the start may be off; all 0: a point.
+  void begin(const std::vector<ArbBall>& exact, const std::vector<Ball>& wide) {
+    const std::size_t n = exact.size();
+    bool is_point = true;
+    for (const Ball& w : wide) is_point = is_point && is_exact(w) && approximate(w) == 0;
+    set_.middle.clear();
+    Vector box, off;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Ball ball = ball_from<Ball>(exact[i]);
+      set_.middle.push_back(middle_of(ball));
+      off.push_back(symmetric(widened(deviation_of(ball), wide[i])));
+      box.push_back(widened(set_.middle[i], off[i]));
+    }
+    set_.frame = unit_frame(n);
+    set_.rest = is_point ? off : Vector(n);
+    set_.start = is_point ? Vector() : off;
+    set_.carried = Matrix<Ball>(n, set_.start.size());
+    for (std::size_t i = 0; i < set_.start.size(); ++i) set_.carried(i, i) = Ball(1.);
+    std::vector<ArbBall> from = exact;
+    if (!is_point)
+      for (std::size_t i = 0; i < n; ++i) from[i] = ArbBall(set_.middle[i]);
+    for (Contractor<Ball>& contractor : contractors_) contractor.begin(from, box, is_point);
+    box_ = set_.hull();
+  }
+
+  const Doubleton<Ball>& set() const { return set_; }
+  /// A box that contains the set.
+  const Vector& box() const { return box_; }
+  const FlowPiece<Ball>& piece() const { return piece_; }
+
+  /// The names of the integrals that have made the set smaller.
+  std::vector<std::string> contracted_by() const {
+    std::vector<std::string> names;
+    for (const Contractor<Ball>& contractor : contractors_)
+      if (contractor.has_contracted()) names.push_back(contractor.name());
+    return names;
+  }
+
+  /// Expands the flow from the set, and says how far a step might go: log2 of it.
+  /// \throws std::domain_error  where the equations have no certain value.
+  double prepare(const Ball& elapsed) {
+    elapsed_ = elapsed;
+    piece_.expand(elapsed, set_.middle, box_);
+    tangents_known_ = false;
+    const auto reach = piece_.reach(settings_.log2_error);
+    log2_size_ = reach.log2_size;
+    return reach.log2_step + log2_factor_;
+  }
+
+  /// Tries whether a step of that length is enclosed; the next one that is proposed follows from
+  /// how well. \return  by how much (log2) to shorten it; 0 if it is enclosed.
+  double shortened_by(const Ball& h, bool is_full) {
+    const int exponent = static_cast<int>(std::floor(settings_.log2_error + log2_size_));
+    const double excess = piece_.encloses(h, symmetric(power_of_two<Ball>(exponent)));
+    const double share =
+        std::isinf(excess) && excess > 0 ? 1 : (excess + kReserve) / (settings_.order + 1);
+    if (excess <= 0) {
+      if (is_full && std::isfinite(share)) log2_factor_ -= std::clamp(share, -0.1, 0.05);
+      return 0;
+    }
+    const double by = std::clamp(share, 0.05, 1.0);
+    if (is_full) log2_factor_ -= std::min(by, 0.3);
+    return by;
+  }
+
+  /// The set at a time within the step, as a box. What `shortened_by` has found enclosed counts.
+  Vector box_at(const Ball& t) {
+    know_tangents();
+    const Vector moved = displaced(t);
+    const Matrix<Ball> derivative = piece_.derivative(t);
+    const Vector start = product(product(derivative, set_.carried), set_.start);
+    const Vector rest = product(product(derivative, set_.frame.columns), set_.rest);
+    Vector box(moved.size());
+    for (std::size_t i = 0; i < box.size(); ++i)
+      box[i] = set_.middle[i] + (moved[i] + (start[i] + rest[i]));
+    return box;
+  }
+
+  /// Goes on by h, which was found to be enclosed.
+  StepOutcome advance(const Ball& h) {
+    know_tangents();
+    const Ball middle_time = elapsed_ + from_zero_to(h);
+    for (Contractor<Ball>& contractor : contractors_)
+      contractor.stays_on(piece_.tube(), time_of(middle_time));
+    const Vector moved = displaced(h);
+    const Matrix<Ball> derivative = piece_.derivative(h);
+    Doubleton<Ball> next;
+    next.start = set_.start;
+    Vector shift(moved.size());  // phi(m) - m', which is small
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      next.middle.push_back(middle_of(set_.middle[i] + moved[i]));
+      shift[i] = (set_.middle[i] - next.middle[i]) + moved[i];
+    }
+    next.carried = product(derivative, set_.carried);
+    for (std::size_t i = 0; i < next.carried.rows; ++i) {
+      for (std::size_t k = 0; k < next.carried.columns; ++k) {
+        shift[i] = shift[i] + deviation_of(next.carried(i, k)) * set_.start[k];
+        next.carried(i, k) = middle_of(next.carried(i, k));
+      }
+    }
+    const Matrix<Ball> image = product(derivative, set_.frame.columns);
+    const Ball end = time_of(elapsed_ + h);
+    std::vector<int> columns;
+    next.frame = new_frame(image, next.middle, end, columns);
+    if (next.frame.columns.rows == 0) return StepOutcome::no_enclosure;
+    next.rest = product(transposed_product(next.frame.columns, image), set_.rest);
+    next.rest =
+        corrected(sum(next.rest, transposed_product(next.frame.columns, shift)), next.frame);
+    for (const Ball& r : next.rest)
+      if (!is_usable(r)) return StepOutcome::no_enclosure;
+    if (!contract(next, columns, end)) return StepOutcome::contradiction;
+    recentre(next);
+    Vector box = next.hull();
+    for (const Ball& x : box)
+      if (!is_usable(x)) return StepOutcome::no_enclosure;
+    set_ = std::move(next);
+    box_ = std::move(box);
+    return StepOutcome::taken;
+  }
+
+ private:
+  /// Steps are meant to be enclosed at the first try: remainders are aimed at 2^-2 of their bound.
+  static constexpr double kReserve = 2;
+
+  Ball time_of(const Ball& elapsed) const { return settings_.forwards ? elapsed : -elapsed; }
+
+  void know_tangents() {
+    if (!tangents_known_) piece_.expand_tangents();
+    tangents_known_ = true;
+  }
+
+  Vector displaced(const Ball& t) const {
+    return piece_.displacement(t, settings_.without_remainder);
+  }
+
+  Frame new_frame(const Matrix<Ball>& image, const Vector& middle, const Ball& time,
+                  std::vector<int>& columns) {
+    std::vector<std::vector<double>> gradients;
+    for (Contractor<Ball>& contractor : contractors_)
+      gradients.push_back(contractor.direction(middle, time));
+    Matrix<double> others(image.rows, image.columns);
+    for (std::size_t i = 0; i < image.entries.size(); ++i)
+      others.entries[i] = approximate(image.entries[i]);
+    // Relative to the largest, since balls with many digits may be thinner than any double.
+    std::vector<double> sizes, weights;
+    for (const Ball& r : set_.rest) sizes.push_back(log2_magnitude(r));
+    const double largest = *std::ranges::max_element(sizes);
+    for (const double size : sizes)
+      weights.push_back(std::isinf(size) ? 0 : std::exp2(size - largest));
+    return frame_along(gradients, others, weights, columns);
+  }
+
+  bool contract(Doubleton<Ball>& next, const std::vector<int>& columns, const Ball& time) {
+    if (std::ranges::none_of(columns, [](int column) { return column >= 0; })) return true;
+    const Vector hull = next.hull();
+    for (std::size_t a = 0; a < contractors_.size(); ++a) {
+      if (columns[a] < 0 || !contractors_[a].usable()) continue;
+      if (!contractors_[a].contract(next, static_cast<std::size_t>(columns[a]), hull, time))
+        return false;
+    }
+    return true;
+  }
+
+  /// Moves the middle to where the middle of the rest is: m + B r = m'' + B (r + B^-1 (m - m'')).
+  static void recentre(Doubleton<Ball>& set) {
+    Vector middles, moved(set.middle.size());
+    for (const Ball& r : set.rest) middles.push_back(middle_of(r));
+    const Vector along = product(set.frame.columns, middles);
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      const Ball before = set.middle[i];
+      set.middle[i] = middle_of(before + along[i]);
+      moved[i] = before - set.middle[i];
+    }
+    set.rest = sum(set.rest, corrected(transposed_product(set.frame.columns, moved), set.frame));
+  }
+
+  StepSettings settings_;
+  FlowPiece<Ball> piece_;
+  std::vector<Contractor<Ball>> contractors_;
+  Doubleton<Ball> set_;
+  Vector box_;
+  Ball elapsed_;
+  double log2_factor_ = -0.5, log2_size_ = 0;
+  bool tangents_known_ = false;
+};
+
+}  // namespace casimir::validated

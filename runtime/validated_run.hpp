@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cln/rational.h>
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/program.hpp"
+
+namespace casimir {
+
+/// A closed interval with rational ends.
+struct RationalInterval {
+  cln::cl_RA low, high;
+};
+
+/// A function that is known to be constant along all solutions, as long as they stay where it is
+/// analytic. What is no such function makes the result of a run false.
+struct KnownIntegral {
+  std::string name;
+  Program value;            ///< of the states and the time; one output
+  Program gradient;         ///< of the same inputs; its nonzero entries ..
+  std::vector<int> states;  ///< .. and the state by which each of them is the derivative
+};
+
+/// An initial value problem to be enclosed. The programs must outlive the run.
+struct ValidatedProblem {
+  Program rates;     ///< of the states and the time, which comes last
+  Program jacobian;  ///< of the same inputs; its entries that are not identically zero ..
+  std::vector<std::pair<int, int>> entries;  ///< .. and the row and column of each
+  /// Without inputs; the exact initial value of each state, and then the duration, which is
+  /// negative for a run back in time.
+  Program start;
+  /// By how much each state may be off at the start, on both sides; empty: by nothing.
+  std::vector<cln::cl_RA> radii = {};
+  std::vector<KnownIntegral> integrals = {};
+};
+
+/// How an enclosure is made.
+struct ValidatedSettings {
+  int digits = 0;      ///< 0: double precision; else decimal digits of the balls
+  int order = 0;       ///< of the Taylor series; 0: by the digits
+  int log2_error = 0;  ///< of a step in units of the state, negative; 0: by the digits
+  unsigned long long max_steps = 0;  ///< 0: no limit
+  cln::cl_RA sample_every = 0;       ///< > 0: boxes at its multiples
+  /// Asked before each step with the share of the duration that is done; true ends the run.
+  std::function<bool(double share)> give_up = {};
+  /// Only for tests, which have to see that what is left out is missed: steps without their
+  /// remainder, which makes every statement of the run false.
+  bool without_remainder = false;
+};
+
+/// States at a time, all of them within the box.
+struct StateBox {
+  cln::cl_RA
+      time;  ///< of samples exact; of the end at most 2^-60 of it off, where it is irrational
+  std::vector<RationalInterval> states;
+};
+
+/// Why an enclosure ended before its time.
+enum class ValidatedStatus {
+  ok,
+  no_enclosure,   ///< beyond the time of `end` none could be found
+  contradiction,  ///< an integral excludes every state of the box: it is not one
+  max_steps,
+  stopped,
+};
+
+/// What was proved: the solution from each possible start exists up to the time of `end`, and its
+/// states there and at the samples are in their boxes.
+struct ValidatedRun {
+  ValidatedStatus status = ValidatedStatus::ok;
+  std::string reason;  ///< a sentence, where the status is not ok
+  StateBox end;        ///< at the duration, or where the run stopped
+  std::vector<StateBox> samples;
+  std::vector<std::string> contracted_by;  ///< the integrals that have made it smaller
+  unsigned long long steps = 0, rejected = 0;
+  double seconds = 0;
+
+  /// The largest half width of the box at the end.
+  double radius() const;
+};
+
+/// Encloses the solutions of an initial value problem by Taylor series in balls and Lohner's
+/// method: see `runtime/validated`. \throws std::domain_error  where the data have no value.
+/// \throws std::invalid_argument  where the numbers of states of its parts differ.
+ValidatedRun validated_run(const ValidatedProblem& problem, const ValidatedSettings& settings);
+
+}  // namespace casimir

@@ -1,0 +1,137 @@
+#include "tools/analysis/run/validated.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "codegen/optimise/differentiate.hpp"
+#include "codegen/optimise/lower.hpp"
+#include "tools/analysis/error.hpp"
+#include "tools/analysis/run/drift_check.hpp"
+#include "tools/analysis/run/prepared_scene.hpp"
+
+namespace casimir {
+namespace {
+
+/// No further invariant is proved after so many seconds.
+constexpr double kProofSeconds = 20;
+
+/// An equation between parameters holds nowhere else: what was proved with it says nothing of a
+/// range. Inequalities are open, and an identity of analytic functions that holds in an open part
+/// of a connected set holds in all of it.
+void check_ranges(const Model& model, const ValidatedOptions& options) {
+  for (const auto& [name, radius] : options.ranges) {
+    const auto symbol = std::ranges::find_if(
+        model.parameters, [&name = name](const auto& p) { return p.get_name() == name; });
+    if (symbol == model.parameters.end())
+      throw RequestError(fmt::format("'{}' is not a parameter of this case", printable(name)));
+    for (const Assumption& assumption : model.assumptions) {
+      const bool open =
+          assumption.relation == "!=" || assumption.relation == ">" || assumption.relation == "<";
+      if (!open && assumption.difference.has(*symbol))
+        throw RequestError(fmt::format("a range of {} leaves the assumption '{}'", printable(name),
+                                       printable(assumption.text)));
+    }
+  }
+}
+
+/// The rates, and zero for each parameter that takes part as a state.
+Program with_resting(Program rates, const std::vector<std::string>& resting) {
+  for (const std::string& name : resting) {
+    const auto zero = static_cast<int>(rates.constants.size());
+    rates.constants.push_back(0);
+    rates.code.push_back({Op::constant, zero});
+    rates.outputs.push_back(static_cast<int>(rates.code.size()) - 1);
+    rates.output_names.push_back("d" + name);
+  }
+  return rates;
+}
+
+Program one_output(const Program& program, std::size_t k) {
+  Program one = program;
+  one.outputs = {program.outputs[k]};
+  one.output_names = {program.output_names[k]};
+  return codegen::without_dead_code(one);
+}
+
+/// The integrals that are proved without further conditions. That of an invariant is the identity
+/// dI/dt = 0 of functions, on the assumptions of the case, in which every scene is.
+std::vector<KnownIntegral> known_integrals(const Model& model, const Specialisation& s,
+                                           std::size_t dimension,
+                                           std::vector<std::string>& doubts) {
+  std::vector<KnownIntegral> result;
+  const auto late = time_limit(kProofSeconds);
+  for (std::size_t k = 0; k < s.invariant_names.size(); ++k) {
+    const std::string& name = s.invariant_names[k];
+    if (late()) {
+      doubts.push_back(
+          fmt::format("{} does not make the box smaller: no time was left to prove it", name));
+      continue;
+    }
+    const Proof proof = proof_of(model, name);
+    if (proof.verdict != Verdict::proved || !proof.where.empty()) {
+      doubts.push_back(fmt::format("{} does not make the box smaller: it is {} to be an integral",
+                                   name,
+                                   proof.verdict == Verdict::refuted ? "refuted" : "not proved"));
+      continue;
+    }
+    KnownIntegral known{
+        .name = name, .value = one_output(s.invariants, k), .gradient = {}, .states = {}};
+    const SparseProgram gradient = codegen::gradients(known.value, dimension);
+    known.gradient = gradient.program;
+    for (const auto& [state, output] : gradient.entries) known.states.push_back(state);
+    result.push_back(std::move(known));
+  }
+  return result;
+}
+
+ValidatedProblem problem_of(const Model& model, const ValidatedOptions& options,
+                            ValidatedMotion& motion) {
+  const Specialisation& s = motion.specialisation;
+  ValidatedProblem problem;
+  problem.rates = with_resting(s.rhs, s.parameters);
+  const SparseProgram jacobian = codegen::jacobian(problem.rates, motion.names.size());
+  problem.jacobian = jacobian.program;
+  problem.entries = jacobian.entries;
+  problem.start = s.start;
+  const bool wide = cln::plusp(options.initial_radius) || !options.ranges.empty();
+  if (wide) {
+    problem.radii.assign(s.states.size(), options.initial_radius);
+    for (const std::string& name : s.parameters) {
+      const auto range =
+          std::ranges::find_if(options.ranges, [&](const auto& one) { return one.first == name; });
+      problem.radii.push_back(range == options.ranges.end() ? cln::cl_RA(0) : range->second);
+    }
+  }
+  if (options.contract)
+    problem.integrals = known_integrals(model, s, motion.names.size(), motion.doubts);
+  return problem;
+}
+
+}  // namespace
+
+ValidatedMotion enclose(const Model& model, const Scene& scene, const ValidatedOptions& options) {
+  check_ranges(model, options);
+  Scene exact = scene;
+  if (options.duration) exact.duration = options.duration;
+  require_duration(exact);
+  SpecialiseOptions what;
+  what.observe = options.observe;
+  what.jacobian = false;
+  for (const auto& [name, radius] : options.ranges) what.keep_parameters.push_back(name);
+  ValidatedMotion motion;
+  motion.specialisation = specialise(model, exact, what);
+  motion.names = motion.specialisation.states;
+  for (const std::string& name : motion.specialisation.parameters) motion.names.push_back(name);
+  const ValidatedProblem problem = problem_of(model, options, motion);
+  try {
+    motion.run = validated_run(problem, options.run);
+  } catch (const std::domain_error& problem_of_data) {
+    throw ModelError(fmt::format("scene \"{}\": its data have no certain value: {}",
+                                 printable(scene.name), problem_of_data.what()));
+  }
+  return motion;
+}
+
+}  // namespace casimir

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cln/rational.h>
+#include <ginac/ginac.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "codegen/specialise.hpp"
+#include "runtime/validated_run.hpp"
+#include "symbolic/model.hpp"
+
+namespace casimir {
+
+/// What is asked of `enclose`.
+struct ValidatedOptions {
+  std::optional<GiNaC::ex> duration;  ///< an exact constant; without it that of the scene
+  cln::cl_RA initial_radius = 0;      ///< by how much each initial value may be off, on both sides
+  /// Parameters that may have any value of an interval around that of the scene, and how far it
+  /// goes to both sides.
+  std::vector<std::pair<std::string, cln::cl_RA>> ranges = {};
+  std::optional<std::vector<std::string>> observe = {};  ///< see SpecialiseOptions
+  bool contract = true;                                  ///< by what is proved to be an integral
+  ValidatedSettings run = {};
+};
+
+/// An enclosure with what it is one of.
+struct ValidatedMotion {
+  Specialisation specialisation;
+  /// The states, and then the parameters of `ranges`: those of the boxes of `run`.
+  std::vector<std::string> names;
+  ValidatedRun run;
+  /// A sentence about each invariant that could not be used, since it is not proved.
+  std::vector<std::string> doubts;
+};
+
+/// Encloses the solutions of a scene: initial values, parameters and duration are the exact numbers
+/// of the model. What is proved is said at ValidatedRun. It rests on the arithmetic of
+/// runtime/validated, on Arb's functions and constants, on the exact algebra of the
+/// specialisation, and, for each integral of `contracted_by`, on its proof.
+/// \throws RequestError  for a range of a parameter that an assumption ties to others.
+/// \throws ModelError, CaseError  as `specialise`, and where there is no duration.
+ValidatedMotion enclose(const Model& model, const Scene& scene,
+                        const ValidatedOptions& options = {});
+
+}  // namespace casimir

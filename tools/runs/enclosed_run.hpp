@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/cli/cli.hpp"
+#include "tools/cli/options/kept_parameters.hpp"
+#include "tools/cli/options/run_options.hpp"
+#include "tools/runs/scene_values.hpp"
+
+namespace casimir::tools {
+
+/// What `integrate --validated` was asked.
+struct EnclosedRequest {
+  const Common& common;
+  const RunOptions& run;
+  const KeptParameters& kept;
+  const OtherStart& start;
+  std::string case_name, in, as, method, output;
+  double every = 0;
+  std::optional<int> digits;
+  std::optional<std::string> initial_radius;
+  std::vector<std::string> observe;
+};
+
+/// Whether a value of `--param` is a range, as in r=1..1.001.
+bool is_range(const std::string& word);
+
+/// Encloses the solutions of a scene and reports what was proved. \return exit status.
+int integrate_validated(const EnclosedRequest& request);
+
+}  // namespace casimir::tools
