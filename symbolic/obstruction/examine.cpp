@@ -65,7 +65,7 @@ std::string equation_text(const RationalFunction& p, const RationalFunction& q,
 
 Examined examine_equation(const NormalEquation& equation, const std::string& z,
                           const std::function<void()>& tick) {
-  const LiouvillianResult decision = decide_liouvillian(equation.reduced, tick);
+  const LiouvillianResult decision = decide_liouvillian(equation.reduced, tick, z);
   Examined result;
   result.nve = equation_text(equation.p, equation.q, z);
   result.reduced = fmt::format("y'' = ({})*y", equation.reduced.text(z));

@@ -50,6 +50,28 @@ std::size_t HamiltonianSystem::index(const GiNaC::ex& variable) const {
   throw std::logic_error("not a variable of the system");
 }
 
+namespace {
+
+/// The theorem is about symplectic manifolds: leaves of a bracket with the Jacobi identity.
+void check_jacobi(const HamiltonianSystem& system) {
+  const std::size_t n = system.variables.size();
+  const auto& bracket = system.poisson;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j)
+      for (std::size_t k = j + 1; k < n; ++k) {
+        GiNaC::ex defect = 0;
+        for (std::size_t l = 0; l < n; ++l) {
+          const GiNaC::symbol& x = system.variables[l];
+          defect += bracket[i][l] * bracket[j][k].diff(x) + bracket[j][l] * bracket[k][i].diff(x) +
+                    bracket[k][l] * bracket[i][j].diff(x);
+        }
+        if (!defect.normal().is_zero())
+          throw NotDecided("the bracket's Jacobi identity was not shown here");
+      }
+}
+
+}  // namespace
+
 HamiltonianSystem hamiltonian_system(const Model& model, const std::string& scene) {
   if (!model.poisson || !model.hamiltonian)
     throw NotDecided("the theorem is about Hamiltonian systems, and the case has no Hamiltonian");
@@ -58,12 +80,14 @@ HamiltonianSystem hamiltonian_system(const Model& model, const std::string& scen
   const GiNaC::exmap values = numbers(model, scene, result.parameters);
   result.variables = model.variables;
   result.hamiltonian = model.hamiltonian->subs(values);
-  for (const GiNaC::ex& rate : model.field) result.rates.push_back(rate.subs(values));
+  for (const GiNaC::ex& rate : model.poisson->flow(*model.hamiltonian))
+    result.rates.push_back(rate.subs(values));
   const std::size_t n = model.variables.size();
   result.poisson.resize(n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j)
       result.poisson[i].push_back((*model.poisson)(i, j).subs(values));
+  check_jacobi(result);
   for (const NamedExpression& casimir : model.casimirs)
     result.casimirs.emplace_back(casimir.name, casimir.value.subs(values));
   const auto place = std::find_if(model.scenes.begin(), model.scenes.end(),

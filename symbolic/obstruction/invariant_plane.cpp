@@ -142,7 +142,9 @@ std::vector<InvariantPlane> invariant_planes(const HamiltonianSystem& system) {
   std::vector<InvariantPlane> result;
   const std::size_t n = system.variables.size();
   if (n > kMostVariables) throw NotDecided("more than ten variables: give a plane with --along");
-  for (std::size_t size = 1; size + 2 <= n; ++size) {
+  // With one degree of freedom left there are two more variables than Casimir functions at most.
+  const std::size_t along = system.casimirs.size() + 2;
+  for (std::size_t size = n > along ? n - along : 1; size + 2 <= n; ++size) {
     for (unsigned set = 1; set < 1U << n; ++set) {
       if (static_cast<std::size_t>(__builtin_popcount(set)) != size) continue;
       GiNaC::exmap values;

@@ -47,10 +47,10 @@ void check(const LiouvillianResult& result, const RationalFunction& r) {
     throw std::logic_error("a Liouvillian solution does not solve its equation");
 }
 
-void decide(const RationalFunction& r, const std::function<void()>& tick,
+void decide(const RationalFunction& r, const std::function<void()>& tick, const std::string& z,
             LiouvillianResult& result) {
-  const std::string first = "case 1: w in Q(z)";
-  const RiccatiSearch riccati = rational_riccati(r, result.singular, tick);
+  const std::string first = fmt::format("case 1: w in Q({})", z);
+  const RiccatiSearch riccati = rational_riccati(r, result.singular, tick, z);
   if (riccati.solution) {
     result.galois = GaloisCase::reducible;
     result.solution = {-*riccati.solution, RationalFunction(1)};
@@ -60,7 +60,7 @@ void decide(const RationalFunction& r, const std::function<void()>& tick,
   }
   result.attempts.push_back({first, riccati.why_not});
   for (const Degree& degree : kDegrees) {
-    const InvariantSearch search = rational_invariant(r, result.singular, degree.m, tick);
+    const InvariantSearch search = rational_invariant(r, result.singular, degree.m, tick, z);
     if (!search.invariant) {
       result.attempts.push_back({degree.what, search.why_not});
       continue;
@@ -76,11 +76,12 @@ void decide(const RationalFunction& r, const std::function<void()>& tick,
 
 }  // namespace
 
-LiouvillianResult decide_liouvillian(const RationalFunction& r, const std::function<void()>& tick) {
+LiouvillianResult decide_liouvillian(const RationalFunction& r, const std::function<void()>& tick,
+                                     const std::string& z) {
   LiouvillianResult result;
   result.singular = singularities(r);
   try {
-    decide(r, tick, result);
+    decide(r, tick, z, result);
   } catch (const NotDecided& problem) {
     result.galois = GaloisCase::undecided;
     result.reason = problem.what();

@@ -55,8 +55,10 @@ struct LiouvillianResult {
 /// invariants of degree 6, 8 and 12. The rational solutions of a linear equation over Q(z) have a
 /// basis over Q.
 /// \param tick  is called now and then, and may throw
+/// \param z     the name of the variable, for the reasons
 LiouvillianResult decide_liouvillian(
-    const RationalFunction& r, const std::function<void()>& tick = [] {});
+    const RationalFunction& r, const std::function<void()>& tick = [] {},
+    const std::string& z = "z");
 
 /// r of the equation y'' + p y' + q y = 0 with y = exp(-integral of p/2) times the new unknown,
 /// which changes no quotient of solutions and so not whether G's identity component is solvable.
@@ -71,7 +73,7 @@ struct RiccatiSearch {
 /// Finds one, or shows that there is none. \throws NotDecided  where a pole of order 4 or more that
 /// is no rational number would need series over a number field
 RiccatiSearch rational_riccati(const RationalFunction& r, const std::vector<Singularity>& singular,
-                               const std::function<void()>& tick);
+                               const std::function<void()>& tick, const std::string& z);
 
 /// A combination in Q(z) of products of m solutions of y'' = r y.
 struct InvariantSearch {
@@ -83,7 +85,7 @@ struct InvariantSearch {
 /// decides. \throws NotDecided  where the bound is too large to be tried
 InvariantSearch rational_invariant(const RationalFunction& r,
                                    const std::vector<Singularity>& singular, long m,
-                                   const std::function<void()>& tick);
+                                   const std::function<void()>& tick, const std::string& z);
 
 /// The polynomial in w, of degree m and monic, whose roots are the y'/y of the factors y of the
 /// form of degree m with logarithmic derivative phi; empty where phi belongs to no such form.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "symbolic/obstruction/kovacic.hpp"
 
@@ -73,8 +74,18 @@ Matrix normal_matrix(const Linearisation& lines, std::size_t count) {
   return result;
 }
 
+/// The rank of the bracket along the curve. \throws NotDecided  where a function that the case calls
+/// a Casimir function has brackets there that do not vanish
 std::size_t bracket_rank(const HamiltonianSystem& system, const Linearisation& lines,
                          const CurveField& field) {
+  for (const auto& [name, casimir] : system.casimirs)
+    for (const auto& brackets : system.poisson) {
+      ex own = 0;
+      for (std::size_t j = 0; j < brackets.size(); ++j)
+        own += brackets[j] * casimir.diff(system.variables[j]);
+      if (!CurveField::is_zero(lines.value(own)))
+        throw NotDecided(fmt::format("{} is no Casimir function", name));
+    }
   Matrix rows;
   for (const auto& brackets : system.poisson) {
     Row row;
@@ -114,8 +125,12 @@ struct Reduced {
 };
 
 Reduced reduce(const CurveField& field, const Matrix& matrix, Matrix relations) {
+  // From the last unknown on: those of a list that come first are the momenta of bodies.
   std::vector<std::size_t> pivots;
+  for (Row& row : relations) std::reverse(row.begin(), row.end());
   reduce_rows(field, relations, &pivots);
+  for (Row& row : relations) std::reverse(row.begin(), row.end());
+  for (std::size_t& pivot : pivots) pivot = matrix.size() - 1 - pivot;
   Reduced result;
   for (std::size_t i = 0; i < matrix.size(); ++i)
     if (std::find(pivots.begin(), pivots.end(), i) == pivots.end()) result.free.push_back(i);
@@ -170,11 +185,24 @@ NormalEquation second_order(const CurveField& field, const CurveElement& a, cons
   return result;
 }
 
+/// Of the two unknowns the one whose equation is simpler. \throws NotDecided  where neither has one
+/// with coefficients in Q(z)
 NormalEquation equation_of(const CurveField& field, const Matrix& m, std::size_t i, std::size_t j) {
+  const auto of = [&](std::size_t own, std::size_t other) {
+    return second_order(field, m[own][own], m[own][other], m[other][own], m[other][other]);
+  };
+  std::optional<NormalEquation> first;
   try {
-    return second_order(field, m[i][i], m[i][j], m[j][i], m[j][j]);
+    first = of(i, j);
   } catch (const NotDecided&) {
-    return second_order(field, m[j][j], m[j][i], m[i][j], m[i][i]);
+    return of(j, i);
+  }
+  try {
+    NormalEquation second = of(j, i);
+    const auto size = [](const NormalEquation& e) { return e.reduced.denominator().degree(); };
+    return size(second) < size(*first) ? second : *first;
+  } catch (const NotDecided&) {
+    return *first;
   }
 }
 

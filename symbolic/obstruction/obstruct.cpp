@@ -5,6 +5,7 @@
 #include <functional>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 
 #include "symbolic/obstruction/examine.hpp"
 #include "symbolic/obstruction/hamiltonian_system.hpp"
@@ -44,17 +45,18 @@ class SurfaceSearch {
   void examine(const InvariantPlane& plane) {
     if (result_.proved) return;
     watch_.begin("along " + plane.text(system_));
-    std::size_t curves = 0;
     try {
       const std::string reason = for_each_curve(system_, plane, [&](const ParticularCurve& curve) {
         watch_.tick(0);
-        ++curves;
         along_curve(plane, curve);
         return !result_.proved;
       });
       if (!reason.empty()) leave_out(plane, reason);
     } catch (const NotDecided& problem) {
       leave_out(plane, problem.what());
+    } catch (const std::invalid_argument&) {
+      // GiNaC's, of a greatest common divisor.
+      leave_out(plane, "the equations are no rational functions");
     }
   }
 
@@ -151,6 +153,8 @@ Obstruction find_obstruction(const Model& model, const ObstructionRequest& reque
     decide(model, request, watch, result);
   } catch (const NotDecided& problem) {
     result.reason = problem.what();
+  } catch (const std::invalid_argument&) {
+    result.reason = "the equations are no rational functions";
   }
   return result;
 }

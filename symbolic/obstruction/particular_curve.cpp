@@ -159,6 +159,7 @@ ParticularCurve make_curve(const HamiltonianSystem& system, const InvariantPlane
       const RationalFunction square = CurveField::rational(value(step.radicand));
       const CurveElement root = curve.field.root_of(square);
       own = curve.field.sum(own, root);
+      curve.complexity += square.numerator().degree() + square.denominator().degree();
       if (step.base.is_zero())
         curve.equations += fmt::format("{}{}^2 = {}", curve.equations.empty() ? "" : ", ",
                                        step.variable.get_name(), square.text(curve.z));
@@ -210,13 +211,66 @@ std::vector<Levels> casimir_levels(const HamiltonianSystem& system, const Invari
   return result;
 }
 
+/// The relations of a level solved for all variables but one, for each of these; and energies to
+/// try.
+struct Solutions {
+  std::vector<std::pair<symbol, std::vector<Step>>> of;
+  std::vector<ex> energies;
+};
+
+Solutions solutions_on(const HamiltonianSystem& system, const InvariantPlane& plane,
+                       const std::vector<symbol>& along, const Levels& levels,
+                       const symbol& energy) {
+  std::vector<ex> relations{(plane.on(system.hamiltonian) - energy).normal().numer().expand()};
+  for (const Relation& r : levels.relations)
+    relations.push_back((r.function - r.value).normal().numer().expand());
+  Solutions result;
+  std::vector<ex> candidates;
+  for (const symbol& z : along) {
+    std::vector<symbol> unknown;
+    for (const symbol& x : along)
+      if (!x.is_equal(z)) unknown.push_back(x);
+    const auto steps = solve(relations, unknown);
+    if (!steps) continue;
+    add_special_energies(*steps, z, energy, candidates);
+    result.of.emplace_back(z, *steps);
+  }
+  for (const ex& further : {ex(0), ex(1), system.hamiltonian.subs(system.start).normal()})
+    candidates.push_back(further);
+  for (const ex& e : candidates) {
+    const bool known = std::any_of(result.energies.begin(), result.energies.end(),
+                                   [&](const ex& other) { return other.is_equal(e); });
+    if (!known && GiNaC::is_a<GiNaC::numeric>(e) && result.energies.size() < kMostEnergies)
+      result.energies.push_back(e);
+  }
+  return result;
+}
+
+/// The curves of an energy, one for each variable that may be z, the simplest first.
+std::vector<ParticularCurve> curves_at(const HamiltonianSystem& system, const InvariantPlane& plane,
+                                       const Solutions& solutions, const ex& is_energy,
+                                       std::string& reason) {
+  std::vector<ParticularCurve> result;
+  for (const auto& [z, steps] : solutions.of) {
+    try {
+      result.push_back(make_curve(system, plane, steps, z, is_energy));
+    } catch (const NotDecided& problem) {
+      reason = problem.what();
+    } catch (const std::domain_error&) {
+      reason = "the equations have no value on the level";
+    }
+  }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const auto& a, const auto& b) { return a.complexity < b.complexity; });
+  return result;
+}
+
 }  // namespace
 
 std::string for_each_curve(const HamiltonianSystem& system, const InvariantPlane& plane,
                            const std::function<bool(const ParticularCurve&)>& visit) {
   std::vector<symbol> along;
   for (const std::size_t i : plane.along) along.push_back(system.variables[i]);
-  const ex hamiltonian = plane.on(system.hamiltonian);
   const symbol energy("E");
   std::string reason = "the motion on the surface is not solved for one variable";
   bool visited = false;
@@ -225,40 +279,12 @@ std::string for_each_curve(const HamiltonianSystem& system, const InvariantPlane
       reason = "the motion on the surface has not one degree of freedom";
       continue;
     }
-    std::vector<std::pair<symbol, std::vector<Step>>> solutions;
-    std::vector<ex> energies;
-    for (const symbol& z : along) {
-      std::vector<symbol> unknown;
-      for (const symbol& x : along)
-        if (!x.is_equal(z)) unknown.push_back(x);
-      std::vector<ex> relations{(hamiltonian - energy).normal().numer().expand()};
-      for (const Relation& r : levels.relations)
-        relations.push_back((r.function - r.value).normal().numer().expand());
-      const auto steps = solve(relations, unknown);
-      if (!steps) continue;
-      add_special_energies(*steps, z, energy, energies);
-      solutions.emplace_back(z, *steps);
-    }
-    const ex start = system.hamiltonian.subs(system.start).normal();
-    for (const ex& further : {ex(0), ex(1), start})
-      if (GiNaC::is_a<GiNaC::numeric>(further)) energies.push_back(further);
-    std::vector<ex> tried;
-    for (const ex& e : energies) {
-      if (tried.size() >= kMostEnergies) break;
-      if (std::any_of(tried.begin(), tried.end(), [&](const ex& o) { return o.is_equal(e); }))
-        continue;
-      tried.push_back(e);
-      for (const auto& [z, steps] : solutions) {
-        try {
-          ParticularCurve curve = make_curve(system, plane, steps, z, energy == e);
-          curve.level = fmt::format("H = {}{}", printed(e), levels.text);
-          visited = true;
-          if (!visit(curve)) return {};
-        } catch (const NotDecided& problem) {
-          reason = problem.what();
-        } catch (const std::domain_error&) {
-          reason = "the equations have no value on the level";
-        }
+    const Solutions solutions = solutions_on(system, plane, along, levels, energy);
+    for (const ex& e : solutions.energies) {
+      for (ParticularCurve& curve : curves_at(system, plane, solutions, energy == e, reason)) {
+        curve.level = fmt::format("H = {}{}", printed(e), levels.text);
+        visited = true;
+        if (!visit(curve)) return {};
       }
     }
   }

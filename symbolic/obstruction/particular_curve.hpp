@@ -18,12 +18,14 @@ struct ParticularCurve {
   std::string equations;  ///< as "py^2 = 2*z + 1"
   CurveField field;
   std::vector<CurveElement> values;  ///< of each variable
+  long complexity = 0;               ///< the degrees of the functions whose roots are taken
   CurveElement speed;                ///< dz/dt, not zero
   GiNaC::exmap places;               ///< of each symbol, the number of its value
 };
 
 /// Levels of the energy and the Casimir functions and variables z for which the motion on a surface
-/// is such a curve: first the energies at which singular points fall together.
+/// is such a curve: first the energies at which singular points fall together,
+/// and of each the simplest curve first.
 /// \param visit  is given each, and says whether to go on
 /// \return  why there was none, or what stopped it; empty if one was visited
 std::string for_each_curve(const HamiltonianSystem& system, const InvariantPlane& plane,

@@ -221,10 +221,10 @@ class Choices {
 }  // namespace
 
 RiccatiSearch rational_riccati(const RationalFunction& r, const std::vector<Singularity>& singular,
-                               const std::function<void()>& tick) {
+                               const std::function<void()>& tick, const std::string& z) {
   for (const Singularity& s : singular)
     if (!s.regular() && s.order % 2 != 0)
-      return {{}, fmt::format("a pole of r of odd order, {}", s.text("z"))};
+      return {{}, fmt::format("a pole of r of odd order, {}", s.text(z))};
   std::vector<std::vector<Choice>> places;
   std::string unresolved;
   for (const Singularity& s : singular) {
@@ -236,8 +236,7 @@ RiccatiSearch rational_riccati(const RationalFunction& r, const std::vector<Sing
       unresolved = problem.what();
       continue;
     }
-    if (places.back().empty())
-      return {{}, fmt::format("no residue of w is in Q at {}", s.text("z"))};
+    if (places.back().empty()) return {{}, fmt::format("no residue of w is in Q at {}", s.text(z))};
   }
   if (!unresolved.empty()) throw NotDecided(unresolved);
   if (places.size() > kMostPlaces) throw NotDecided("more than 14 singular points in case 1");

@@ -124,13 +124,13 @@ std::optional<Univariate> kernel(const Recursion& map, long degree,
 
 InvariantSearch rational_invariant(const RationalFunction& r,
                                    const std::vector<Singularity>& singular, long m,
-                                   const std::function<void()>& tick) {
+                                   const std::function<void()>& tick, const std::string& z) {
   std::vector<long> orders;
   RationalFunction known(1);
   long degree = 0;
   for (const Singularity& s : singular) {
     const std::optional<long> order = extreme_order(s, m);
-    if (!order) return {{}, fmt::format("no order is an integer at {}", s.text("z"))};
+    if (!order) return {{}, fmt::format("no order is an integer at {}", s.text(z))};
     orders.push_back(*order);
     if (s.at_infinity()) {
       degree += *order;
