@@ -12,8 +12,8 @@ namespace casimir::obstruction {
 /// difference is the square root of a rational number, which may be negative.
 using SquaredDifferences = std::array<cln::cl_RA, 3>;
 
-/// Whether Riemann's P equation has a Galois group with a solvable identity component (Kimura 1969,
-/// Theorems I and II): a sum of the differences with signs is an odd integer (the group is
+/// Whether Riemann's P equation has a Galois group with a solvable identity component (Kimura
+/// 1969): a sum of the differences with signs is an odd integer (the group is
 /// reducible), or the differences, up to signs, order and integers, stand in Schwarz's list.
 /// Square roots of rational numbers whose quotients are irrational are linearly independent over
 /// the rational numbers, together with 1, so that sums are decided exactly.

@@ -125,7 +125,7 @@ void add_special_energies(const std::vector<Step>& steps, const symbol& z, const
     radical = GiNaC::is_a<GiNaC::power>(product) ? product.op(0) : product;
   }
   radical = radical.expand();
-  if (!radical.is_polynomial(z) || radical.degree(z) < 1 || radical.degree(z) > 12) return;
+  if (!radical.is_polynomial(z) || radical.degree(z) < 1 || radical.degree(z) > 6) return;
   const ex discriminant =
       radical.degree(z) == 1 ? radical.lcoeff(z) : GiNaC::resultant(radical, radical.diff(z), z);
   const auto p = univariate(discriminant, energy);

@@ -41,7 +41,7 @@ std::optional<long> extreme_order(const Singularity& s, long m) {
 }
 
 /// S = W P with W = product of f^v over the singular points f. The coefficients A_i of the form,
-/// A_m = -S, A_(i-1) = -A_i' - (m-i)(i+1) r A_(i+1) (Kovacic, Sec. 5.2), are W C_i/G^(m-i) with
+/// A_m = -S, A_(i-1) = -A_i' - (m-i)(i+1) r A_(i+1) (Kovacic 1986), are W C_i/G^(m-i) with
 /// polynomials C_i, where G^2 r and G W'/W are polynomials; S is an invariant where A_(-1) = 0.
 struct Recursion {
   long m;

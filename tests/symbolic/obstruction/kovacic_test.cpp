@@ -43,7 +43,7 @@ RationalFunction pulled_back(const RationalFunction& r, const RationalFunction& 
 GaloisCase group_of(const RationalFunction& r) { return decide_liouvillian(r).galois; }
 
 TEST(Kovacic, KovacicsFourExamples) {
-  // Kovacic (1986): Sec. 3.2 example 1, Sec. 4.2 example 1, Sec. 5.2 example 2, and Bessel's.
+  // Examples of cases 1, 2 and 3 of Kovacic (1986), and Airy's equation.
   const RationalFunction first(4 * z.pow(6) - 8 * z.pow(5) + 12 * z.pow(4) + 4 * z.pow(3) +
                                    7 * z.pow(2) - 20 * z + Univariate(4),
                                4 * z.pow(4));
