@@ -56,6 +56,10 @@ TEST(Kovacic, KovacicsFourExamples) {
                                  RationalFunction(Univariate(over(3, 16)), z * (z - 1));
   EXPECT_EQ(group_of(third), GaloisCase::finite);
   EXPECT_EQ(group_of(RationalFunction(z)), GaloisCase::sl2);
+  // The second one with its irregular point at zero.
+  EXPECT_EQ(group_of(RationalFunction(Univariate(1), z.pow(3)) -
+                     RationalFunction(Univariate(over(3, 16)), z * z)),
+            GaloisCase::imprimitive);
 }
 
 TEST(Kovacic, BesselsEquationHasSolutionsForHalvesOfOddIntegersOnly) {
