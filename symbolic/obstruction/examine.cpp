@@ -1,0 +1,208 @@
+#include "symbolic/obstruction/examine.hpp"
+
+#include <cln/integer.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+#include "symbolic/obstruction/darboux_points.hpp"
+#include "symbolic/obstruction/homogeneous_table.hpp"
+#include "symbolic/obstruction/kimura.hpp"
+#include "symbolic/obstruction/kovacic.hpp"
+
+namespace casimir::obstruction {
+namespace {
+
+const char* group_text(GaloisCase galois) {
+  switch (galois) {
+    case GaloisCase::reducible:
+      return "reducible: the identity component is solvable";
+    case GaloisCase::imprimitive:
+      return "imprimitive: the identity component is solvable";
+    case GaloisCase::finite:
+      return "finite: all solutions are algebraic";
+    case GaloisCase::sl2:
+      return "SL(2, C): no Liouvillian solution, the identity component is not solvable";
+    case GaloisCase::undecided:
+      break;
+  }
+  return "not decided";
+}
+
+/// The squares of the differences of Riemann's P equation whose three points are rational.
+std::optional<SquaredDifferences> riemann_differences(const std::vector<Singularity>& singular) {
+  if (singular.size() != 3) return std::nullopt;
+  SquaredDifferences result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!singular[i].regular() || singular[i].at.degree() > 1) return std::nullopt;
+    result[i] = singular[i].difference_squared.coefficient(0);
+  }
+  return result;
+}
+
+std::string polynomial_text(const std::vector<RationalFunction>& polynomial, const std::string& z) {
+  std::string result;
+  for (std::size_t i = polynomial.size(); i-- > 0;) {
+    if (polynomial[i].is_zero()) continue;
+    const std::string power = i == 0 ? "" : i == 1 ? "w" : fmt::format("w^{}", i);
+    const std::string factor = polynomial[i].text(z);
+    if (!result.empty()) result += " + ";
+    result += power.empty()   ? fmt::format("({})", factor)
+              : factor == "1" ? power
+                              : fmt::format("({})*{}", factor, power);
+  }
+  return result + " = 0";
+}
+
+std::string equation_text(const RationalFunction& p, const RationalFunction& q,
+                          const std::string& z) {
+  return fmt::format("y'' + ({})*y' + ({})*y = 0", p.text(z), q.text(z));
+}
+
+}  // namespace
+
+Examined examine_equation(const NormalEquation& equation, const std::string& z,
+                          const std::function<void()>& tick) {
+  const LiouvillianResult decision = decide_liouvillian(equation.reduced, tick, z);
+  Examined result;
+  result.nve = equation_text(equation.p, equation.q, z);
+  result.reduced = fmt::format("y'' = ({})*y", equation.reduced.text(z));
+  for (const Singularity& s : decision.singular) {
+    result.exponents.push_back(s.text(z));
+    result.regular = result.regular && s.regular();
+  }
+  for (const Attempt& attempt : decision.attempts)
+    result.cases.emplace_back(attempt.what, attempt.outcome);
+  if (const auto differences = riemann_differences(decision.singular)) {
+    const auto solvable = kimura(*differences);
+    result.cases.emplace_back("Kimura's theorem",
+                              solvable.value_or("none of its conditions holds"));
+    const bool is_sl2 = decision.galois == GaloisCase::sl2;
+    if (decision.galois != GaloisCase::undecided && is_sl2 == solvable.has_value())
+      throw std::logic_error("Kovacic's decision and Kimura's theorem contradict each other");
+  }
+  if (!decision.solution.empty()) result.solution = polynomial_text(decision.solution, z);
+  result.outcome = decision.galois == GaloisCase::undecided
+                       ? fmt::format("not decided: {}", decision.reason)
+                       : group_text(decision.galois);
+  result.decisive = decision.galois == GaloisCase::sl2;
+  return result;
+}
+
+namespace {
+
+std::optional<cln::cl_RA> rational_constant(const GiNaC::ex& value) {
+  if (!GiNaC::is_a<GiNaC::numeric>(value) || !GiNaC::ex_to<GiNaC::numeric>(value).is_rational())
+    return std::nullopt;
+  return cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(value).to_cl_N());
+}
+
+/// A power that is no integer makes more than one branch.
+bool has_roots(const GiNaC::ex& expression) {
+  if (GiNaC::is_a<GiNaC::power>(expression) && !expression.op(1).info(GiNaC::info_flags::integer))
+    return true;
+  for (const GiNaC::ex& part : expression)
+    if (has_roots(part)) return true;
+  return false;
+}
+
+bool is_canonical(const HamiltonianSystem& system) {
+  const std::size_t n = system.variables.size() / 2;
+  for (std::size_t i = 0; i < 2 * n; ++i)
+    for (std::size_t j = 0; j < 2 * n; ++j) {
+      const int expected = j == i + n ? 1 : i == j + n ? -1 : 0;
+      if (!system.poisson[i][j].is_equal(expected)) return false;
+    }
+  return true;
+}
+
+/// The system as a particle in a homogeneous potential, if it is one of two degrees of freedom.
+std::optional<HomogeneousPotential> homogeneous_potential(const HamiltonianSystem& system) {
+  if (system.variables.size() != 4 || !system.casimirs.empty() || !is_canonical(system))
+    return std::nullopt;
+  HomogeneousPotential result;
+  result.potential = system.hamiltonian;
+  for (std::size_t i = 0; i < 2; ++i) {
+    result.q[i] = system.variables[i];
+    const GiNaC::symbol& p = system.variables[i + 2];
+    const auto inverse = rational_constant(system.hamiltonian.diff(p, 2).normal());
+    if (!inverse || cln::zerop(*inverse)) return std::nullopt;
+    result.mass[i] = 1 / *inverse;
+    result.potential -= GiNaC::numeric(cln::cl_N(*inverse)) * p * p / 2;
+  }
+  result.potential = result.potential.expand();
+  if (result.potential.has(system.variables[2]) || result.potential.has(system.variables[3]) ||
+      has_roots(result.potential))
+    return std::nullopt;
+  const GiNaC::ex slope = result.q[0] * result.potential.diff(result.q[0]) +
+                          result.q[1] * result.potential.diff(result.q[1]);
+  if (result.potential.is_zero()) return std::nullopt;
+  const auto degree = rational_constant((slope / result.potential).normal());
+  if (!degree || cln::denominator(*degree) != 1) return std::nullopt;
+  result.degree = cln::cl_I_to_long(cln::numerator(*degree));
+  if (result.degree == 0 || result.degree == 2 || result.degree == -2) return std::nullopt;
+  return result;
+}
+
+/// What the theorem says of one Darboux point. A table's entry is rational for every degree.
+Examined examine_point(const HomogeneousPotential& system, const DarbouxPoint& point) {
+  const long k = system.degree;
+  Examined result;
+  result.along = "the straight line " + point.text(system);
+  result.level = fmt::format(
+      "(q1, q2) = phi(t)*c with V'(c) = M c and phi'^2/2 + phi^{0}/{0} = 1/{0}, "
+      "V homogeneous of degree {0}",
+      k);
+  result.nve =
+      fmt::format("y'' = -lambda*phi^({})*y with lambda = {}", k - 2, point.eigenvalue_text());
+  result.reduced = fmt::format(
+      "in z = phi^{0} Riemann's P equation with the differences 1/{0}, 1/2, "
+      "sqrt(({0} - 2)^2 + 8*{0}*lambda)/(2*{0})",
+      k);
+  if (!point.eigenvalue.is_constant()) {
+    result.cases.emplace_back("table of integrable eigenvalues", "lambda is not rational");
+    result.decisive = true;
+  } else {
+    const cln::cl_RA lambda = point.eigenvalue.coefficient(0);
+    const auto row = integrable_eigenvalue(k, lambda);
+    const auto solvable = kimura(straight_line_differences(k, lambda));
+    if (row.has_value() != solvable.has_value())
+      throw std::logic_error("the table of eigenvalues and Kimura's theorem contradict each other");
+    result.cases.emplace_back("table of integrable eigenvalues",
+                              row.value_or("lambda is not in it"));
+    result.cases.emplace_back("Kimura's theorem",
+                              solvable.value_or("none of its conditions holds"));
+    result.decisive = !row;
+  }
+  result.outcome = group_text(result.decisive ? GaloisCase::sl2 : GaloisCase::reducible);
+  if (!result.decisive) result.outcome = "the identity component is solvable";
+  return result;
+}
+
+}  // namespace
+
+void examine_straight_lines(const HamiltonianSystem& system, Obstruction& result) {
+  const auto potential = homogeneous_potential(system);
+  if (!potential) return;
+  DarbouxPoints points;
+  try {
+    points = darboux_points(*potential);
+  } catch (const NotDecided& problem) {
+    result.left_out.push_back(fmt::format("straight lines: {}", problem.what()));
+    return;
+  }
+  if (points.all_directions)
+    result.left_out.emplace_back("straight lines: every line is one, V depends on the radius only");
+  for (const std::string& line : points.improper)
+    result.left_out.push_back(fmt::format("straight line {}: V' vanishes on it", line));
+  for (const DarbouxPoint& point : points.points) {
+    result.examined.push_back(examine_point(*potential, point));
+    if (!result.examined.back().decisive) continue;
+    result.proved = true;
+    return;
+  }
+}
+
+}  // namespace casimir::obstruction

@@ -1,0 +1,101 @@
+#include "symbolic/obstruction/hamiltonian_system.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+#include "symbolic/obstruction/kovacic.hpp"
+
+namespace casimir::obstruction {
+namespace {
+
+bool is_rational(const GiNaC::ex& value) {
+  return GiNaC::is_a<GiNaC::numeric>(value) && GiNaC::ex_to<GiNaC::numeric>(value).is_rational();
+}
+
+/// The values of the parameters in the scene.
+GiNaC::exmap numbers(const Model& model, const std::string& scene_name,
+                     std::vector<std::pair<std::string, std::string>>& texts) {
+  GiNaC::exmap result;
+  for (const auto& [name, value] : model.fixed) {
+    std::ostringstream text;
+    text << value;
+    texts.emplace_back(name.value, text.str());
+  }
+  if (model.parameters.empty()) return result;
+  if (model.scenes.empty())
+    throw NotDecided(fmt::format("the parameter {} has no value: give one with --param",
+                                 model.parameters.front().get_name()));
+  const Scene& scene = model.scene(scene_name);
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    const std::string& name = model.parameters[i].get_name();
+    if (!is_rational(scene.parameters[i]))
+      throw NotDecided(
+          fmt::format("the parameter {} has no rational value: give one with --param", name));
+    std::ostringstream text;
+    text << scene.parameters[i];
+    texts.emplace_back(name, text.str());
+    result[model.parameters[i]] = scene.parameters[i];
+  }
+  return result;
+}
+
+}  // namespace
+
+std::size_t HamiltonianSystem::index(const GiNaC::ex& variable) const {
+  for (std::size_t i = 0; i < variables.size(); ++i)
+    if (variable.is_equal(variables[i])) return i;
+  throw std::logic_error("not a variable of the system");
+}
+
+namespace {
+
+/// The theorem is about symplectic manifolds: leaves of a bracket with the Jacobi identity.
+void check_jacobi(const HamiltonianSystem& system) {
+  const std::size_t n = system.variables.size();
+  const auto& bracket = system.poisson;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j)
+      for (std::size_t k = j + 1; k < n; ++k) {
+        GiNaC::ex defect = 0;
+        for (std::size_t l = 0; l < n; ++l) {
+          const GiNaC::symbol& x = system.variables[l];
+          defect += bracket[i][l] * bracket[j][k].diff(x) + bracket[j][l] * bracket[k][i].diff(x) +
+                    bracket[k][l] * bracket[i][j].diff(x);
+        }
+        if (!defect.normal().is_zero())
+          throw NotDecided("the bracket's Jacobi identity was not shown here");
+      }
+}
+
+}  // namespace
+
+HamiltonianSystem hamiltonian_system(const Model& model, const std::string& scene) {
+  if (!model.poisson || !model.hamiltonian)
+    throw NotDecided("the theorem is about Hamiltonian systems, and the case has no Hamiltonian");
+  if (model.time) throw NotDecided("the theorem is about systems that do not depend on time");
+  HamiltonianSystem result;
+  const GiNaC::exmap values = numbers(model, scene, result.parameters);
+  result.variables = model.variables;
+  result.hamiltonian = model.hamiltonian->subs(values);
+  for (const GiNaC::ex& rate : model.poisson->flow(*model.hamiltonian))
+    result.rates.push_back(rate.subs(values));
+  const std::size_t n = model.variables.size();
+  result.poisson.resize(n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      result.poisson[i].push_back((*model.poisson)(i, j).subs(values));
+  check_jacobi(result);
+  for (const NamedExpression& casimir : model.casimirs)
+    result.casimirs.emplace_back(casimir.name, casimir.value.subs(values));
+  const auto place = std::find_if(model.scenes.begin(), model.scenes.end(),
+                                  [&](const Scene& s) { return s.name == scene; });
+  if (place != model.scenes.end())
+    for (std::size_t i = 0; i < n && i < place->initial.size(); ++i)
+      if (is_rational(place->initial[i])) result.start[model.variables[i]] = place->initial[i];
+  return result;
+}
+
+}  // namespace casimir::obstruction

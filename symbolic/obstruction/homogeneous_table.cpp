@@ -1,0 +1,85 @@
+#include "symbolic/obstruction/homogeneous_table.hpp"
+
+#include <cln/integer_io.h>
+#include <cln/rational_io.h>
+
+#include <sstream>
+#include <vector>
+
+#include "symbolic/obstruction/univariate.hpp"
+
+namespace casimir::obstruction {
+namespace {
+
+using cln::cl_RA;
+
+/// lambda = constant + factor*(start + step*p)^2.
+struct Row {
+  cl_RA constant, factor, start;
+  int step;
+};
+
+cl_RA over(long numerator, long denominator) { return cl_RA(numerator) / denominator; }
+
+std::vector<Row> rows_of(long k) {
+  // p + p(p-1)k/2 and ((k-1)/k + p(p+1)k)/2 with completed squares.
+  std::vector<Row> rows{{-over((k - 2) * (k - 2), 8 * k), over(k, 2), over(2 - k, 2 * k), 1},
+                        {over(k - 1, 2 * k) - over(k, 8), over(k, 2), over(1, 2), 1}};
+  const long sign = k < 0 ? -1 : 1;
+  const auto add = [&](const cl_RA& constant, const cl_RA& factor, int start, int step) {
+    rows.push_back({constant, sign * factor, start, step});
+  };
+  switch (k) {
+    case 3:
+    case -3: {
+      const cl_RA constant = k > 0 ? over(-1, 24) : over(25, 24);
+      add(constant, over(1, 6), 1, 3);
+      add(constant, over(3, 32), 1, 4);
+      add(constant, over(3, 50), 1, 5);
+      add(constant, over(3, 50), 2, 5);
+      break;
+    }
+    case 4:
+    case -4:
+      add(k > 0 ? over(-1, 8) : over(9, 8), over(2, 9), 1, 3);
+      break;
+    case 5:
+    case -5:
+      add(k > 0 ? over(-9, 40) : over(49, 40), over(5, 18), 1, 3);
+      add(k > 0 ? over(-9, 40) : over(49, 40), over(1, 10), 2, 5);
+      break;
+    default:
+      break;
+  }
+  return rows;
+}
+
+std::string described(const Row& row, const cl_RA& p) {
+  std::ostringstream text;
+  text << row.constant << (cln::minusp(row.factor) ? " - " : " + ") << cln::abs(row.factor) << "*("
+       << row.start << " + " << row.step << "*p)^2 with p = " << p;
+  return text.str();
+}
+
+}  // namespace
+
+std::optional<std::string> integrable_eigenvalue(long k, const cl_RA& lambda) {
+  if (k == 2 || k == -2) return "any, for degree 2 and -2";
+  for (const Row& row : rows_of(k)) {
+    const auto root = square_root((lambda - row.constant) / row.factor);
+    if (!root) continue;
+    for (const int sign : {1, -1}) {
+      const cl_RA p = (sign * *root - row.start) / row.step;
+      if (cln::denominator(p) == 1) return described(row, p);
+    }
+  }
+  return std::nullopt;
+}
+
+std::array<cl_RA, 3> straight_line_differences(long k, const cl_RA& lambda) {
+  const cl_RA degree = k;
+  return {1 / (degree * degree), over(1, 4),
+          ((degree - 2) * (degree - 2) + 8 * degree * lambda) / (4 * degree * degree)};
+}
+
+}  // namespace casimir::obstruction

@@ -1,0 +1,242 @@
+#include "symbolic/obstruction/normal_variation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "symbolic/obstruction/kovacic.hpp"
+
+namespace casimir::obstruction {
+namespace {
+
+using GiNaC::ex;
+using Row = std::vector<CurveElement>;
+using Matrix = std::vector<Row>;
+
+/// Derivatives on the surface in the coordinates xi = x - value (normal) and x (along).
+class Linearisation {
+ public:
+  Linearisation(const HamiltonianSystem& system, const InvariantPlane& plane,
+                const ParticularCurve& curve)
+      : system_(system), plane_(plane), curve_(curve) {}
+
+  CurveElement value(const ex& f) const {
+    return curve_.field.value(plane_.on(f), curve_.places, curve_.values);
+  }
+
+  Row by_normal(const ex& f) const {
+    Row result;
+    for (const auto& [i, own] : plane_.normal)
+      result.push_back(value(f.diff(system_.variables[i])));
+    return result;
+  }
+
+  Row by_along(const ex& f) const {
+    Row result;
+    for (const std::size_t t : plane_.along) {
+      ex slope = f.diff(system_.variables[t]);
+      for (const auto& [i, own] : plane_.normal)
+        slope += f.diff(system_.variables[i]) * own.diff(system_.variables[t]);
+      result.push_back(value(slope));
+    }
+    return result;
+  }
+
+  /// d(xi)/dt for a normal variable, as a function of all variables.
+  ex normal_rate(std::size_t place) const {
+    const auto& [i, own] = plane_.normal[place];
+    ex rate = system_.rates[i];
+    for (const std::size_t t : plane_.along)
+      rate -= own.diff(system_.variables[t]) * system_.rates[t];
+    return rate;
+  }
+
+ private:
+  const HamiltonianSystem& system_;
+  const InvariantPlane& plane_;
+  const ParticularCurve& curve_;
+};
+
+bool all_zero(const Row& row) {
+  return std::all_of(row.begin(), row.end(), [](const auto& e) { return CurveField::is_zero(e); });
+}
+
+/// The matrix of the normal equations: the surface is invariant, so that nothing along it enters.
+Matrix normal_matrix(const Linearisation& lines, std::size_t count) {
+  Matrix result;
+  for (std::size_t i = 0; i < count; ++i) {
+    const ex rate = lines.normal_rate(i);
+    if (!CurveField::is_zero(lines.value(rate)) || !all_zero(lines.by_along(rate)))
+      throw NotDecided("the surface is not invariant");
+    result.push_back(lines.by_normal(rate));
+  }
+  return result;
+}
+
+/// The rank of the bracket along the curve. \throws NotDecided  where a function that the case calls
+/// a Casimir function has brackets there that do not vanish
+std::size_t bracket_rank(const HamiltonianSystem& system, const Linearisation& lines,
+                         const CurveField& field) {
+  for (const auto& [name, casimir] : system.casimirs)
+    for (const auto& brackets : system.poisson) {
+      ex own = 0;
+      for (std::size_t j = 0; j < brackets.size(); ++j)
+        own += brackets[j] * casimir.diff(system.variables[j]);
+      if (!CurveField::is_zero(lines.value(own)))
+        throw NotDecided(fmt::format("{} is no Casimir function", name));
+    }
+  Matrix rows;
+  for (const auto& brackets : system.poisson) {
+    Row row;
+    for (const ex& bracket : brackets) row.push_back(lines.value(bracket));
+    rows.push_back(std::move(row));
+  }
+  return reduce_rows(field, rows);
+}
+
+/// Linear relations between the normal unknowns of what is tangent to the level of the Casimir
+/// functions: combinations of their gradients that have no part along the surface.
+Matrix tangency(const HamiltonianSystem& system, const InvariantPlane& plane,
+                const Linearisation& lines, const CurveField& field) {
+  Matrix rows;
+  for (const auto& [name, casimir] : system.casimirs) {
+    Row row = lines.by_along(casimir);
+    const Row normal = lines.by_normal(casimir);
+    row.insert(row.end(), normal.begin(), normal.end());
+    rows.push_back(std::move(row));
+  }
+  const std::size_t rank = reduce_rows(field, rows);
+  const std::size_t leaf = bracket_rank(system, lines, field);
+  if (rank != rows.size() || rank + leaf != system.variables.size())
+    throw NotDecided("the Casimir functions of the case do not give the leaves along the curve");
+  const auto width = static_cast<std::ptrdiff_t>(plane.along.size());
+  Matrix result;
+  for (const Row& row : rows)
+    if (all_zero(Row(row.begin(), row.begin() + width)))
+      result.emplace_back(row.begin() + width, row.end());
+  return result;
+}
+
+/// The unknowns that the relations leave free, and the matrix for them alone.
+struct Reduced {
+  std::vector<std::size_t> free;
+  Matrix matrix;
+};
+
+Reduced reduce(const CurveField& field, const Matrix& matrix, Matrix relations) {
+  // From the last unknown on: those of a list that come first are the momenta of bodies.
+  std::vector<std::size_t> pivots;
+  for (Row& row : relations) std::reverse(row.begin(), row.end());
+  reduce_rows(field, relations, &pivots);
+  for (Row& row : relations) std::reverse(row.begin(), row.end());
+  for (std::size_t& pivot : pivots) pivot = matrix.size() - 1 - pivot;
+  Reduced result;
+  for (std::size_t i = 0; i < matrix.size(); ++i)
+    if (std::find(pivots.begin(), pivots.end(), i) == pivots.end()) result.free.push_back(i);
+  for (const std::size_t i : result.free) {
+    Row row;
+    for (const std::size_t j : result.free) {
+      CurveElement entry = matrix[i][j];
+      for (std::size_t k = 0; k < pivots.size(); ++k)
+        entry = field.difference(entry, field.product(matrix[i][pivots[k]], relations[k][j]));
+      row.push_back(entry);
+    }
+    result.matrix.push_back(std::move(row));
+  }
+  return result;
+}
+
+/// Sets of unknowns that depend on one another: the parts of a block triangular form.
+std::vector<std::vector<std::size_t>> parts(const Matrix& matrix) {
+  const std::size_t n = matrix.size();
+  std::vector<std::vector<bool>> reach(n, std::vector<bool>(n, false));
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) reach[i][j] = i == j || !CurveField::is_zero(matrix[i][j]);
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        if (reach[i][k] && reach[k][j]) reach[i][j] = true;
+  std::vector<std::vector<std::size_t>> result;
+  std::vector<bool> done(n, false);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (done[i]) continue;
+    result.emplace_back();
+    for (std::size_t j = i; j < n; ++j) {
+      if (!reach[i][j] || !reach[j][i]) continue;
+      result.back().push_back(j);
+      done[j] = true;
+    }
+  }
+  return result;
+}
+
+/// y' = a y + b x, x' = c y + d x, made one equation for y; a, .., d by z.
+NormalEquation second_order(const CurveField& field, const CurveElement& a, const CurveElement& b,
+                            const CurveElement& c, const CurveElement& d) {
+  const CurveElement ratio = field.product(field.derivative(b), field.inverse(b));
+  CurveElement q = field.difference(field.product(a, d), field.product(b, c));
+  q = field.sum(field.difference(q, field.derivative(a)), field.product(a, ratio));
+  const CurveElement p = field.difference({}, field.sum(field.sum(a, d), ratio));
+  NormalEquation result;
+  result.p = CurveField::rational(p);
+  result.q = CurveField::rational(q);
+  result.reduced = reduced_form(result.p, result.q);
+  return result;
+}
+
+/// Of the two unknowns the one whose equation is simpler. \throws NotDecided  where neither has one
+/// with coefficients in Q(z)
+NormalEquation equation_of(const CurveField& field, const Matrix& m, std::size_t i, std::size_t j) {
+  const auto of = [&](std::size_t own, std::size_t other) {
+    return second_order(field, m[own][own], m[own][other], m[other][own], m[other][other]);
+  };
+  std::optional<NormalEquation> first;
+  try {
+    first = of(i, j);
+  } catch (const NotDecided&) {
+    return of(j, i);
+  }
+  try {
+    NormalEquation second = of(j, i);
+    const auto size = [](const NormalEquation& e) { return e.reduced.denominator().degree(); };
+    return size(second) < size(*first) ? second : *first;
+  } catch (const NotDecided&) {
+    return *first;
+  }
+}
+
+}  // namespace
+
+NormalVariation normal_variation(const HamiltonianSystem& system, const InvariantPlane& plane,
+                                 const ParticularCurve& curve) {
+  const CurveField& field = curve.field;
+  const Linearisation lines(system, plane, curve);
+  Reduced reduced = reduce(field, normal_matrix(lines, plane.normal.size()),
+                           tangency(system, plane, lines, field));
+  const CurveElement slowness = field.inverse(curve.speed);
+  for (Row& row : reduced.matrix)
+    for (CurveElement& entry : row) entry = field.product(entry, slowness);
+  const auto name = [&](std::size_t i) {
+    return system.variables[plane.normal[reduced.free[i]].first].get_name();
+  };
+  NormalVariation result;
+  result.freedom = (system.variables.size() - system.casimirs.size()) / 2;
+  for (const std::vector<std::size_t>& part : parts(reduced.matrix)) {
+    if (part.size() == 1) continue;
+    if (part.size() > 2) {
+      result.left_out.push_back(fmt::format("{} unknowns that are not separated", part.size()));
+      continue;
+    }
+    try {
+      NormalEquation equation = equation_of(field, reduced.matrix, part[0], part[1]);
+      equation.unknowns = {name(part[0]), name(part[1])};
+      result.equations.push_back(std::move(equation));
+    } catch (const NotDecided& problem) {
+      result.left_out.emplace_back(problem.what());
+    }
+  }
+  return result;
+}
+
+}  // namespace casimir::obstruction

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "symbolic/model.hpp"
+#include "symbolic/search/watch.hpp"
+
+namespace casimir::obstruction {
+
+/// One question to the Galois group: a curve, an equation along it, and what is known of the group.
+struct Examined {
+  std::string along;                                       ///< the surface or the straight line
+  std::string level;                                       ///< of H and the Casimir functions
+  std::string curve;                                       ///< the equations of the curve on it
+  std::string nve;                                         ///< the normal variational equation
+  std::string reduced;                                     ///< y'' = r y
+  std::vector<std::string> exponents;                      ///< the singular points
+  std::vector<std::pair<std::string, std::string>> cases;  ///< what was tried, and what came of it
+  std::string solution;   ///< a polynomial for w = y'/y, where there is one
+  std::string outcome;    ///< as "SL(2, C)"
+  bool decisive = false;  ///< it proves that there is no further integral
+  bool regular = true;    ///< no irregular singular point
+};
+
+/// Whether a further integral is excluded, and by what.
+struct Obstruction {
+  bool proved = false;
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< name and value
+  std::string theorem;                                          ///< where proved: which
+  std::string excluded;               ///< where proved: which integrals, and where
+  std::string reason;                 ///< where not proved: why
+  std::vector<Examined> examined;     ///< the decisive one is the last
+  std::vector<std::string> left_out;  ///< surfaces and levels that gave nothing to examine
+};
+
+/// What is asked.
+struct ObstructionRequest {
+  std::string scene = "default";  ///< whose values the parameters have
+  std::vector<Text> along;        ///< equations of an invariant surface; none: it is sought
+};
+
+/// Looks for a curve along which the identity component of the Galois group of the variational
+/// equations is not solvable, and so not abelian: then there are not as many meromorphic integrals
+/// in involution as degrees of freedom (Morales-Ruiz and Ramis, Methods Appl. Anal. 8 (2001) 33 and
+/// 97).
+///
+/// The theorem is about n integrals that are meromorphic in a neighbourhood of the curve, in
+/// involution and functionally independent there; it says that the group's identity component, and
+/// so that of every equation which the variational ones are taken apart into, is abelian. Checked:
+/// that the curve is a solution and no point of rest (`make_curve`), that the surface is invariant
+/// and the level a symplectic leaf along the curve (`normal_variation`), that the group has no
+/// solvable identity component (`decide_liouvillian`). Where the equation has an irregular singular
+/// point, its coefficients are taken from the algebraic functions on the curve, and only integrals
+/// with algebraic coefficients there, such as rational ones, are excluded.
+/// \throws CaseError  for an equation of a surface that cannot be read
+Obstruction find_obstruction(const Model& model, const ObstructionRequest& request,
+                             const search::Watch& watch = {});
+
+}  // namespace casimir::obstruction

@@ -1,0 +1,294 @@
+#include "symbolic/obstruction/particular_curve.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <sstream>
+
+#include "symbolic/obstruction/kovacic.hpp"
+
+namespace casimir::obstruction {
+namespace {
+
+using GiNaC::ex;
+using GiNaC::symbol;
+
+constexpr std::size_t kMostEnergies = 7;
+
+/// A variable as base + factor*w with w^2 = radicand, functions of z and of variables found later.
+struct Step {
+  symbol variable;
+  ex base, factor, radicand;
+};
+
+/// A level of the integrals on the surface: each is a function with a value.
+struct Relation {
+  std::string name;
+  ex function, value;
+};
+
+/// Variables of an expression that are among those given.
+bool uses_any(const ex& expression, const std::vector<symbol>& variables) {
+  return std::any_of(variables.begin(), variables.end(),
+                     [&](const symbol& x) { return expression.has(x); });
+}
+
+/// One relation solved for one variable: of degree 1, else a square, else of degree 2.
+std::optional<Step> solve_one(const ex& relation, const symbol& u, int kind) {
+  if (!relation.is_polynomial(u)) return std::nullopt;
+  const int degree = relation.degree(u);
+  const ex c0 = relation.coeff(u, 0), c1 = relation.coeff(u, 1), c2 = relation.coeff(u, 2);
+  if (kind == 0 && degree == 1) return Step{u, -c0 / c1, 0, 0};
+  if (kind == 1 && degree == 2 && c1.is_zero()) return Step{u, 0, 1, -c0 / c2};
+  if (kind == 2 && degree == 2)
+    return Step{u, -c1 / (2 * c2), 1, (c1 * c1 - 4 * c0 * c2) / (4 * c2 * c2)};
+  return std::nullopt;
+}
+
+/// The relation without the variable of a step; empty where an odd power of a root remains.
+std::optional<ex> without(const ex& relation, const Step& step) {
+  if (!relation.has(step.variable)) return relation;
+  if (step.factor.is_zero()) return relation.subs(step.variable == step.base).numer().expand();
+  if (!step.base.is_zero() || !relation.is_polynomial(step.variable)) return std::nullopt;
+  ex result = 0;
+  for (int i = 0; i <= relation.degree(step.variable); ++i) {
+    const ex c = relation.coeff(step.variable, i);
+    if (i % 2 != 0 && !c.is_zero()) return std::nullopt;
+    if (i % 2 == 0) result += c * GiNaC::pow(step.radicand, i / 2);
+  }
+  return result.normal().numer().expand();
+}
+
+/// Solves the relations for all variables but z, one after the other.
+std::optional<std::vector<Step>> solve(std::vector<ex> relations, std::vector<symbol> unknown) {
+  std::vector<Step> steps;
+  while (!unknown.empty()) {
+    bool found = false;
+    for (int kind = 0; kind < 3 && !found; ++kind) {
+      for (std::size_t i = 0; i < relations.size() && !found; ++i) {
+        for (std::size_t j = 0; j < unknown.size() && !found; ++j) {
+          const auto step = solve_one(relations[i], unknown[j], kind);
+          if (!step) continue;
+          std::vector<ex> rest;
+          for (std::size_t k = 0; k < relations.size(); ++k) {
+            if (k == i) continue;
+            const auto own = without(relations[k], *step);
+            if (own) rest.push_back(*own);
+          }
+          if (rest.size() + 1 < relations.size()) continue;
+          relations = std::move(rest);
+          unknown.erase(unknown.begin() + static_cast<std::ptrdiff_t>(j));
+          steps.push_back(*step);
+          found = true;
+        }
+      }
+    }
+    if (!found) return std::nullopt;
+  }
+  std::reverse(steps.begin(), steps.end());
+  return steps;
+}
+
+/// A polynomial in one symbol with rational coefficients; empty for anything else.
+std::optional<Univariate> univariate(const ex& expression, const symbol& x) {
+  const ex p = expression.expand();
+  if (!p.is_polynomial(x)) return std::nullopt;
+  std::vector<cln::cl_RA> coefficients;
+  for (int i = 0; i <= p.degree(x); ++i) {
+    const ex c = p.coeff(x, i);
+    if (!GiNaC::is_a<GiNaC::numeric>(c) || !GiNaC::ex_to<GiNaC::numeric>(c).is_rational())
+      return std::nullopt;
+    coefficients.push_back(cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(c).to_cl_N()));
+  }
+  return Univariate(coefficients);
+}
+
+/// Rational energies at which two of the points z coincide where a radicand vanishes or is
+/// infinite.
+void add_special_energies(const std::vector<Step>& steps, const symbol& z, const symbol& energy,
+                          std::vector<ex>& result) {
+  ex product = 1;
+  for (const Step& step : steps) {
+    if (step.factor.is_zero()) continue;
+    const ex both = step.radicand.normal().numer_denom();
+    for (const ex& part : both)
+      if (part.has(z)) product *= part;
+  }
+  product = product.expand();
+  if (!product.is_polynomial(GiNaC::lst{z, energy})) return;
+  product = GiNaC::sqrfree(product, GiNaC::lst{z});
+  ex radical = 1;
+  if (GiNaC::is_a<GiNaC::mul>(product)) {
+    for (const ex& part : product) radical *= GiNaC::is_a<GiNaC::power>(part) ? part.op(0) : part;
+  } else {
+    radical = GiNaC::is_a<GiNaC::power>(product) ? product.op(0) : product;
+  }
+  radical = radical.expand();
+  if (!radical.is_polynomial(z) || radical.degree(z) < 1 || radical.degree(z) > 6) return;
+  const ex discriminant =
+      radical.degree(z) == 1 ? radical.lcoeff(z) : GiNaC::resultant(radical, radical.diff(z), z);
+  const auto p = univariate(discriminant, energy);
+  if (!p) return;
+  for (const auto& [factor, exponent] : p->factors())
+    if (factor.degree() == 1)
+      result.push_back(GiNaC::numeric(cln::cl_N(cln::cl_RA(-factor.coefficient(0)))));
+}
+
+std::string printed(const ex& expression) {
+  std::ostringstream text;
+  text << expression;
+  return text.str();
+}
+
+/// The curve at an energy. \throws NotDecided  where it is none
+ParticularCurve make_curve(const HamiltonianSystem& system, const InvariantPlane& plane,
+                           const std::vector<Step>& steps, const symbol& z, const ex& is_energy) {
+  ParticularCurve curve;
+  curve.z = z.get_name();
+  const std::size_t n = system.variables.size();
+  for (std::size_t i = 0; i < n; ++i) curve.places[system.variables[i]] = static_cast<int>(i);
+  curve.values.resize(n);
+  curve.values[system.index(z)] = CurveField::constant(Univariate::variable());
+  const auto value = [&](const ex& expression) {
+    return curve.field.value(plane.on(expression).subs(is_energy), curve.places, curve.values);
+  };
+  for (const Step& step : steps) {
+    CurveElement own = value(step.base);
+    if (!step.factor.is_zero()) {
+      const RationalFunction square = CurveField::rational(value(step.radicand));
+      const CurveElement root = curve.field.root_of(square);
+      own = curve.field.sum(own, root);
+      curve.complexity += square.numerator().degree() + square.denominator().degree();
+      if (step.base.is_zero())
+        curve.equations += fmt::format("{}{}^2 = {}", curve.equations.empty() ? "" : ", ",
+                                       step.variable.get_name(), square.text(curve.z));
+    }
+    curve.values[system.index(step.variable)] = own;
+  }
+  for (const auto& [i, normal] : plane.normal) curve.values[i] = value(normal);
+  // It is an integral curve: every variable has its rate.
+  curve.speed = value(system.rates[system.index(z)]);
+  if (CurveField::is_zero(curve.speed)) throw NotDecided("the motion on that level is at rest");
+  for (std::size_t i = 0; i < n; ++i) {
+    const CurveElement own =
+        curve.field.product(curve.speed, curve.field.derivative(curve.values[i]));
+    if (!CurveField::is_zero(curve.field.difference(own, value(system.rates[i]))))
+      throw NotDecided("the level has a part that is no motion");
+  }
+  return curve;
+}
+
+/// The values of the Casimir functions and of the energy that are tried.
+struct Levels {
+  std::vector<Relation> relations;  ///< those of the Casimir functions that vary on the surface
+  std::string text;                 ///< of all Casimir functions
+};
+
+std::vector<Levels> casimir_levels(const HamiltonianSystem& system, const InvariantPlane& plane,
+                                   const std::vector<symbol>& along) {
+  std::vector<Levels> result;
+  for (const bool of_scene : {false, true}) {
+    Levels levels;
+    bool differs = !of_scene, known = true;
+    for (const auto& [name, function] : system.casimirs) {
+      const ex own = plane.on(function).normal();
+      ex value = own;
+      if (uses_any(own, along)) {
+        value = 1;
+        if (of_scene) {
+          const ex start = function.subs(system.start).normal();
+          known = known && GiNaC::is_a<GiNaC::numeric>(start);
+          differs = differs || !start.is_equal(1);
+          value = start;
+        }
+        levels.relations.push_back({name, own, value});
+      }
+      levels.text += fmt::format(", {} = {}", name, printed(value));
+    }
+    if (differs && known) result.push_back(std::move(levels));
+  }
+  return result;
+}
+
+/// The relations of a level solved for all variables but one, for each of these; and energies to
+/// try.
+struct Solutions {
+  std::vector<std::pair<symbol, std::vector<Step>>> of;
+  std::vector<ex> energies;
+};
+
+Solutions solutions_on(const HamiltonianSystem& system, const InvariantPlane& plane,
+                       const std::vector<symbol>& along, const Levels& levels,
+                       const symbol& energy) {
+  std::vector<ex> relations{(plane.on(system.hamiltonian) - energy).normal().numer().expand()};
+  for (const Relation& r : levels.relations)
+    relations.push_back((r.function - r.value).normal().numer().expand());
+  Solutions result;
+  std::vector<ex> candidates;
+  for (const symbol& z : along) {
+    std::vector<symbol> unknown;
+    for (const symbol& x : along)
+      if (!x.is_equal(z)) unknown.push_back(x);
+    const auto steps = solve(relations, unknown);
+    if (!steps) continue;
+    add_special_energies(*steps, z, energy, candidates);
+    result.of.emplace_back(z, *steps);
+  }
+  for (const ex& further : {ex(0), ex(1), system.hamiltonian.subs(system.start).normal()})
+    candidates.push_back(further);
+  for (const ex& e : candidates) {
+    const bool known = std::any_of(result.energies.begin(), result.energies.end(),
+                                   [&](const ex& other) { return other.is_equal(e); });
+    if (!known && GiNaC::is_a<GiNaC::numeric>(e) && result.energies.size() < kMostEnergies)
+      result.energies.push_back(e);
+  }
+  return result;
+}
+
+/// The curves of an energy, one for each variable that may be z, the simplest first.
+std::vector<ParticularCurve> curves_at(const HamiltonianSystem& system, const InvariantPlane& plane,
+                                       const Solutions& solutions, const ex& is_energy,
+                                       std::string& reason) {
+  std::vector<ParticularCurve> result;
+  for (const auto& [z, steps] : solutions.of) {
+    try {
+      result.push_back(make_curve(system, plane, steps, z, is_energy));
+    } catch (const NotDecided& problem) {
+      reason = problem.what();
+    } catch (const std::domain_error&) {
+      reason = "the equations have no value on the level";
+    }
+  }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const auto& a, const auto& b) { return a.complexity < b.complexity; });
+  return result;
+}
+
+}  // namespace
+
+std::string for_each_curve(const HamiltonianSystem& system, const InvariantPlane& plane,
+                           const std::function<bool(const ParticularCurve&)>& visit) {
+  std::vector<symbol> along;
+  for (const std::size_t i : plane.along) along.push_back(system.variables[i]);
+  const symbol energy("E");
+  std::string reason = "the motion on the surface is not solved for one variable";
+  bool visited = false;
+  for (const Levels& levels : casimir_levels(system, plane, along)) {
+    if (levels.relations.size() + 2 != along.size()) {
+      reason = "the motion on the surface has not one degree of freedom";
+      continue;
+    }
+    const Solutions solutions = solutions_on(system, plane, along, levels, energy);
+    for (const ex& e : solutions.energies) {
+      for (ParticularCurve& curve : curves_at(system, plane, solutions, energy == e, reason)) {
+        curve.level = fmt::format("H = {}{}", printed(e), levels.text);
+        visited = true;
+        if (!visit(curve)) return {};
+      }
+    }
+  }
+  return visited ? std::string() : reason;
+}
+
+}  // namespace casimir::obstruction

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "symbolic/obstruction/curve_field.hpp"
+#include "symbolic/obstruction/hamiltonian_system.hpp"
+#include "symbolic/obstruction/invariant_plane.hpp"
+
+namespace casimir::obstruction {
+
+/// An integral curve of the equations: all variables as functions of one of them, z, in a field of
+/// functions on an algebraic curve. That it is one was checked by its equations.
+struct ParticularCurve {
+  std::string z;          ///< the name of the variable
+  std::string level;      ///< as "H = 1, F1 = 1"
+  std::string equations;  ///< as "py^2 = 2*z + 1"
+  CurveField field;
+  std::vector<CurveElement> values;  ///< of each variable
+  long complexity = 0;               ///< the degrees of the functions whose roots are taken
+  CurveElement speed;                ///< dz/dt, not zero
+  GiNaC::exmap places;               ///< of each symbol, the number of its value
+};
+
+/// Levels of the energy and the Casimir functions and variables z for which the motion on a surface
+/// is such a curve: first the energies at which singular points fall together,
+/// and of each the simplest curve first.
+/// \param visit  is given each, and says whether to go on
+/// \return  why there was none, or what stopped it; empty if one was visited
+std::string for_each_curve(const HamiltonianSystem& system, const InvariantPlane& plane,
+                           const std::function<bool(const ParticularCurve&)>& visit);
+
+}  // namespace casimir::obstruction
