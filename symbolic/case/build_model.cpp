@@ -405,6 +405,18 @@ class Builder {
     return result;
   }
 
+  /// A map leads into the target's domain, or says nothing: what has a real value only there.
+  static void restrict_to(const Assumption& condition, const GiNaC::exmap& image,
+                          std::vector<ex>& domain) {
+    const std::string& relation = condition.relation;
+    ex difference = substituted(condition.difference, image);
+    if (relation == "<" || relation == "<=") difference = -difference;
+    if (relation == "==" || GiNaC::is_a<GiNaC::numeric>(difference)) return;
+    domain.push_back(relation == "!="                     ? 1 / difference
+                     : relation == ">" || relation == "<" ? GiNaC::log(difference)
+                                                          : GiNaC::sqrt(difference));
+  }
+
   void read_map(const MapText& text) {
     const PhaseSpaceText target = target_of(text);
     const std::vector<GiNaC::symbol> coordinates = make_variables(target);
@@ -438,6 +450,8 @@ class Builder {
     GiNaC::exmap image;
     for (std::size_t i = 0; i < coordinates.size(); ++i) image[coordinates[i]] = map.expressions[i];
     for (const ex& part : target_domain) domain.push_back(substituted(part, image));
+    for (const Text& condition : target.domain)
+      restrict_to(assumption_of(condition, names), image, domain);
     map.domain = std::move(domain);
     for (const Text& function : text.image.empty() ? target.constraints : text.image)
       map.image.push_back({function.value, parse_expression(function, names).value, {}});

@@ -13,6 +13,7 @@
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/case/limits.hpp"
 #include "symbolic/functions/function_ring.hpp"
+#include "symbolic/functions/gaussian_argument.hpp"
 
 namespace casimir {
 namespace {
@@ -318,6 +319,15 @@ Polynomial FunctionRing::convert_function(const GiNaC::function& f) {
                      [&](const Polynomial& slope) { return slope * factor; });
   };
   if (name == "log") return logarithm(f, v);
+  if (name == "atan" && !complex_ && v.is_constant() && !v.is_zero()) {
+    // Between arctangents of rational numbers and Pi there are relations, as Machin's.
+    if (const auto known = gaussian_argument(v.term_list()[0].first)) {
+      Polynomial sum = convert(GiNaC::Pi).scaled(cln::cl_RA(known->quarters) / 4);
+      for (const auto& [part, times] : known->parts)
+        sum += convert(GiNaC::atan(ex(GiNaC::numeric(part)))).scaled(times);
+      return sum;
+    }
+  }
   if (name == "atan") return opaque(inverse(one + v * v), v, kArcTangent);
   if (name == "asin" || name == "acos") {
     imply_between(v);

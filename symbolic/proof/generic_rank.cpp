@@ -7,6 +7,8 @@
 #include <bit>
 #include <map>
 
+#include "symbolic/proof/special_parameters.hpp"
+
 namespace casimir {
 namespace {
 
@@ -202,36 +204,6 @@ std::size_t rank_of_constants(const PolynomialRows& rows, std::size_t variables)
     for (const Polynomial& p : row) values.back().push_back(p.evaluate(anywhere));
   }
   return rank(std::move(values));
-}
-
-/// Parameters whose value 0 lowers the rank at all points that are tried.
-std::vector<std::string> needed_parameters(Prover& prover, const PolynomialRows& rows,
-                                           std::size_t rank) {
-  std::vector<std::string> result;
-  const auto& symbols = prover.ring().symbols();
-  constexpr int kTrials = 3;
-  for (std::size_t i = 0; i < prover.model().parameters.size(); ++i) {
-    const std::size_t place = prover.dimension() + i;
-    const bool used = std::any_of(rows.begin(), rows.end(), [&](const auto& row) {
-      return std::any_of(row.begin(), row.end(),
-                         [&](const Polynomial& p) { return prover.ring().depends_on(p, place); });
-    });
-    int admitted = 0;
-    bool lower = used;
-    for (int k = 0; k < 2 * kTrials && lower && admitted < kTrials; ++k) {
-      std::vector<GiNaC::ex> coordinates = prover.real_points().draw();
-      coordinates[place] = 0;
-      RealPoint point = prover.real_points().at(std::move(coordinates));
-      static const std::vector<GiNaC::ex> kNothing;
-      if (!prover.real_points().admits(point,
-                                       prover.ring().is_polynomial() ? kNothing : prover.domain()))
-        continue;
-      ++admitted;
-      lower = point.rank(rows) < rank;
-    }
-    if (lower && admitted > 0) result.push_back(symbols[place].get_name() + " != 0");
-  }
-  return result;
 }
 
 constexpr std::size_t kPoints = 4;       // of a piece

@@ -21,8 +21,8 @@ struct GenericRank {
   std::vector<RealPoint> points;
   /// What the pieces are, where it is not shown that there are no others.
   std::string where;
-  /// Parameters at whose value 0 the rank seems to be smaller, as "a != 0". Other special values
-  /// are not looked for: the rank is that for almost all values.
+  /// Conditions on parameters without which the rank seems to be smaller, as "a != 0". What
+  /// `needed_parameters` does not find is left out: the rank is that for almost all values.
   std::vector<std::string> nonzero;
   std::string uneven;  ///< why the rank is not said: it seems to differ from piece to piece
 };

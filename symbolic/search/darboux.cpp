@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "symbolic/functions/short_text.hpp"
 #include "symbolic/search/modular/monomials.hpp"
@@ -161,7 +162,6 @@ void DarbouxSearch::add(const Branch& branch, const Polynomial& f, const Polynom
   }
   const std::optional<Polynomial> own = in_system_ring(function);
   DarbouxPolynomial result;
-  result.degree = static_cast<int>(f.total_degree());
   if (!own) {
     // Coefficients that are algebraic numbers, or free: complex conjugates, or a pencil.
     report_.complete = false;
@@ -172,6 +172,12 @@ void DarbouxSearch::add(const Branch& branch, const Polynomial& f, const Polynom
   }
   if (own->factors().size() != 2 || own->factors()[1].second != 1) {
     if (own->total_degree() > 1) return;  // a product of others
+  }
+  result.degree = 0;
+  for (const auto& [number, exponents] : own->term_list()) {
+    const auto end = exponents.begin() + static_cast<std::ptrdiff_t>(dimension_);
+    result.degree =
+        std::max(result.degree, static_cast<int>(std::accumulate(exponents.begin(), end, 0UL)));
   }
   const Polynomial primitive = own->scaled(1 / own->content());
   result.value = system_.expression(primitive);

@@ -170,6 +170,37 @@ void Finder::check_level() {
   }
 }
 
+namespace {
+
+/// What is said of generic values of the parameters says something only where the assumptions leave
+/// an open set of them: a >= 1 and a <= 1 leave a = 1 alone.
+std::optional<std::string> thin_assumptions(System& system) {
+  const std::vector<Assumption>& assumptions = system.model().assumptions;
+  if (assumptions.empty()) return std::nullopt;
+  RealPoints& points = system.prover().real_points();
+  const auto is_inside = [&](std::vector<GiNaC::ex> coordinates) {
+    try {
+      RealPoint point = points.at(std::move(coordinates));
+      return std::all_of(assumptions.begin(), assumptions.end(), [&](const Assumption& a) {
+        const auto sign = point.evaluator().sign(a.difference);
+        return sign && *sign != 0 && a.allows(*sign);
+      });
+    } catch (const NotCertified&) {
+      return false;
+    }
+  };
+  const auto states = points.scenes();
+  if (std::any_of(states.begin(), states.end(), is_inside)) return std::nullopt;
+  constexpr int kTries = 400;
+  for (int k = 0; k < kTries; ++k)
+    if (is_inside(points.draw())) return std::nullopt;
+  return "no point was found at which all assumptions hold and none of them with equality: they "
+         "may "
+         "leave special values only";
+}
+
+}  // namespace
+
 /// What else has to hold, for "no other" to be about functions.
 void Finder::doubt() {
   const auto undecided = [&](const std::optional<std::string>& reason) {
@@ -179,6 +210,7 @@ void Finder::doubt() {
   };
   undecided(level_reason_);
   undecided(unknown_relations(system_));
+  if (report_.complete) undecided(thin_assumptions(system_));
 }
 
 /// What is not zero in the ring may still be zero as a function: atan(-x) + atan(x).

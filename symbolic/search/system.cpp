@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "symbolic/error.hpp"
 #include "symbolic/search/modular/modular_roots.hpp"
@@ -263,6 +264,11 @@ std::optional<Residue> System::bound_value(std::size_t place, const Point& point
     if (*base == 0) return std::nullopt;
     return modulus.inverse(*base);
   }
+  if (bond.order == 2) return random_square_root(*base, modulus, random);
+  // Most numbers have no root, which a power tells faster than a search for roots.
+  const std::uint64_t units = modulus.prime() - 1;
+  if (*base != 0 && modulus.power(*base, units / std::gcd(units, bond.order)) != 1)
+    return std::nullopt;
   std::vector<Residue> equation(bond.order + 1, 0);
   equation[0] = modulus.negative(*base);
   equation[bond.order] = 1;

@@ -164,10 +164,10 @@ std::vector<Assumption> System::assumptions() const {
 }
 
 std::string to_string(Kind kind) {
-  static const std::array<const char*, 15> names{
-      "integral",           "casimir", "jacobi",    "identity", "conditional",
-      "invariant_relation", "lax",     "measure",   "map",      "involution",
-      "independence",       "rank",    "liouville", "search",   "search --free"};
+  static const std::array<const char*, 18> names{
+      "integral",  "casimir", "jacobi",        "identity",   "conditional",  "invariant_relation",
+      "lax",       "measure", "map",           "involution", "independence", "rank",
+      "liouville", "search",  "search --free", "exponents",  "darboux",      "certificate"};
   return names[static_cast<std::size_t>(kind)];
 }
 

@@ -95,7 +95,10 @@ enum class Kind {
   rank,
   liouville,
   search,
-  free_search
+  free_search,
+  exponents,
+  darboux,
+  certificate
 };
 
 /// As the library calls it.

@@ -7,6 +7,7 @@
 #include "symbolic/error.hpp"
 #include "symbolic/prove.hpp"
 #include "symbolic/search/watch.hpp"
+#include "tests/adversary/judge_planted.hpp"
 #include "tests/adversary/judge_search.hpp"
 #include "tests/adversary/oracle.hpp"
 #include "tests/adversary/parser.hpp"
@@ -129,7 +130,13 @@ Outcome ask(Case& claim, Random& random, std::string& what) {
 Outcome asked(AnyClaim& claim, Random& random, std::string& what) {
   try {
     if (auto* search = std::get_if<SearchCase>(&claim)) return judge_search(*search, random, what);
+    if (auto* planted = std::get_if<PlantedCase>(&claim))
+      return judge_planted(*planted, random, what);
     return ask(std::get<Case>(claim), random, what);
+  } catch (const Unknown&) {
+    return Outcome::unconfirmed;
+  } catch (const NotReal&) {
+    return Outcome::unconfirmed;
   } catch (const CaseError& e) {
     what = e.what();
     return Outcome::refused;
@@ -154,6 +161,12 @@ Judgement described(const AnyClaim& claim) {
     result.kind = search->is_free() ? Kind::free_search : Kind::search;
     result.family = search->base.family;
     result.file = search->text();
+    return result;
+  }
+  if (const auto* planted = std::get_if<PlantedCase>(&claim)) {
+    result.kind = planted->base.kind;
+    result.family = planted->base.family;
+    result.file = planted->text();
     return result;
   }
   const Case& c = std::get<Case>(claim);
@@ -181,8 +194,12 @@ Judgement unjudged(std::uint64_t seed, std::uint64_t index) {
 }
 
 Judgement judge(std::uint64_t seed, std::uint64_t index) {
-  Random generator(seed, index), oracle(seed ^ kOracleSeed, index);
-  AnyClaim claim = random_claim(generator);
+  Random generator(seed, index);
+  return judge(random_claim(generator), seed, index);
+}
+
+Judgement judge(AnyClaim claim, std::uint64_t seed, std::uint64_t index) {
+  Random oracle(seed ^ kOracleSeed, index);
   std::string what;
   const Outcome outcome = asked(claim, oracle, what);
   Judgement result = described(claim);

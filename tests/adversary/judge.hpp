@@ -4,6 +4,7 @@
 #include <string>
 
 #include "tests/adversary/case.hpp"
+#include "tests/adversary/templates.hpp"
 
 namespace casimir::adversary {
 
@@ -41,5 +42,7 @@ Judgement unjudged(std::uint64_t seed, std::uint64_t index);
 
 /// Makes the claim of that index, finds what the prover says of it, and judges that.
 Judgement judge(std::uint64_t seed, std::uint64_t index);
+/// The same for another claim in its place, with the same random numbers for the oracle.
+Judgement judge(AnyClaim claim, std::uint64_t seed, std::uint64_t index);
 
 }  // namespace casimir::adversary

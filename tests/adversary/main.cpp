@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", request.seconds, "allowed for one claim");
   app.add_option("--show", request.show, "how many failures of one sort are shown");
   app.add_option("--family", request.family, "only claims of this family are counted");
+  app.add_option("--shrink", request.shrink, "seconds for making a failing claim smaller");
   app.add_flag("--print", request.print, "prints the claims instead of judging them");
   app.add_option("--undecided", request.undecided,
                  "a file for the true claims that stay undecided");

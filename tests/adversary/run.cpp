@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "tests/adversary/shrink.hpp"
 #include "tests/adversary/worker.hpp"
 
 namespace casimir::adversary {
@@ -52,6 +53,9 @@ class Log {
     fmt::print("# {}: {}, {}, {}\n# --seed {} --first {} --count 1\n# {}\n{}\n",
                to_string(j.outcome), to_string(j.kind), j.family, truth, request_.seed, index,
                j.what, j.file);
+    if (request_.shrink > 0)
+      fmt::print("# the same, made smaller:\n{}\n",
+                 shrunk(request_.seed, index, j.outcome, request_.shrink));
     std::fflush(stdout);
   }
 

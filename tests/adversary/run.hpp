@@ -12,6 +12,7 @@ struct Request {
   int show = 1;
   std::string family{};
   bool print = false;
+  double shrink = 60;       ///< seconds for making a failing claim smaller; 0: it is shown as it is
   std::string undecided{};  ///< a file for the true claims that stay undecided, sorted by family
 };
 

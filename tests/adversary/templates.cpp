@@ -20,6 +20,9 @@ AnyClaim random_claim(Random& random) {
   const int choice = random(100);
   if (choice < 2) return random.of(search_templates())(random);
   if (choice < 5) return random.of(free_templates())(random);
+  if (choice == 97) return random.of(exponent_templates())(random);
+  if (choice == 98) return random.of(darboux_templates())(random);
+  if (choice == 99) return random.of(certificate_templates())(random);
   const Case claim = random_case(random);
   return random.one_in(3) ? sheared(claim, random) : claim;
 }

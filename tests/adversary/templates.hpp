@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tests/adversary/case.hpp"
+#include "tests/adversary/planted_case.hpp"
 #include "tests/adversary/random.hpp"
 #include "tests/adversary/search_case.hpp"
 
@@ -24,8 +25,8 @@ const std::vector<Template>& domain_templates();
 /// Names that mean something else elsewhere.
 const std::vector<Template>& name_templates();
 
-/// A claim about a case, or a search.
-using AnyClaim = std::variant<Case, SearchCase>;
+/// A claim about a case, a search, or a structure that is there.
+using AnyClaim = std::variant<Case, SearchCase, PlantedCase>;
 
 /// A claim from any of them.
 AnyClaim random_claim(Random& random);

@@ -8,6 +8,7 @@
 
 #include "symbolic/proof/claims/claim.hpp"
 #include "symbolic/proof/generic_rank.hpp"
+#include "symbolic/proof/special_parameters.hpp"
 
 namespace casimir {
 namespace {
@@ -272,7 +273,10 @@ void decide_liouville(Prover& prover, Proof& proof) {
           : fmt::format("{} are in involution and independent on leaves of dimension {} (at {})",
                         listed(chosen), leaf->rank, text_of(found.at));
   say_where(proof, leaf->where, leaf->nonzero);
-  if (found.where != leaf->where) say_where(proof, found.where);
+  PolynomialRows own;
+  for (const NamedExpression& f : chosen) own.push_back(prover.flow(f.value));
+  say_where(proof, found.where != leaf->where ? found.where : "",
+            needed_parameters(prover, own, needed));
   prover.check_inhabited(proof, {});
 }
 

@@ -1,11 +1,28 @@
 // Poisson and anti-Poisson maps y = phi(x): {phi_i, phi_j} = sign * {y_i, y_j} at y = phi(x).
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "symbolic/case/expression_size.hpp"
 #include "symbolic/proof/claims/claim.hpp"
 
 namespace casimir {
 namespace {
+
+/// What the target's domain asks of the image: real logarithms and roots stand for it.
+void say_where_it_leads(Prover& prover, Proof& proof, const PoissonMap& map) {
+  for (const GiNaC::ex& part : map.domain) {
+    const bool logarithm = GiNaC::is_a<GiNaC::function>(part) &&
+                           GiNaC::ex_to<GiNaC::function>(part).get_name() == "log";
+    const bool root = GiNaC::is_a<GiNaC::power>(part) && part.op(1).is_equal(GiNaC::ex(1) / 2);
+    if (!logarithm && !root) continue;
+    const Polynomial& inside = prover.convert(part.op(0));
+    if (prover.ring().is_assumed_positive(inside)) continue;
+    const std::string condition = prover.ring().text(inside) + (logarithm ? " > 0" : " >= 0");
+    if (std::find(proof.where.begin(), proof.where.end(), condition) == proof.where.end())
+      proof.where.push_back(condition);
+  }
+}
 
 void decide_map(Prover& prover, Proof& proof, const PoissonMap& map) {
   const std::vector<GiNaC::ex> target = map.composed_brackets();
@@ -27,7 +44,9 @@ void decide_map(Prover& prover, Proof& proof, const PoissonMap& map) {
   }
   const Level level = prover.level(map.on);
   prover.decide(proof, residuals, level);
-  if (proof.verdict != Verdict::proved || level.empty()) return;
+  if (proof.verdict != Verdict::proved) return;
+  say_where_it_leads(prover, proof, map);
+  if (level.empty()) return;
   std::vector<NamedExpression> functions;
   for (std::size_t i = 0; i < y.size(); ++i)
     functions.push_back({y[i].get_name(), map.expressions[i], {}});

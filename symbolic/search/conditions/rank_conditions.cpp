@@ -1,6 +1,12 @@
 #include "symbolic/search/conditions/rank_conditions.hpp"
 
+#include <cln/integer.h>
+#include <cln/rational.h>
+
 #include <algorithm>
+#include <functional>
+#include <map>
+#include <numeric>
 
 #include "symbolic/search/modular/nmod_poly.hpp"
 #include "symbolic/search/polynomial_system.hpp"
@@ -195,48 +201,102 @@ ModularPolynomial common_factor(const std::vector<ModularPolynomial>& list) {
   return result;
 }
 
+/// An upper bound, in bits, of the coefficients of any minor of that size in one parameter: the sum
+/// of their moduli is at most the product of those of the rows, and of the columns.
+double bits_of_minors(const ParametricBlock& block, std::size_t place, std::size_t rank,
+                      const std::vector<long>& others) {
+  const auto bits_of = [](const cln::cl_I& n) {
+    return static_cast<double>(cln::integer_length(n));
+  };
+  std::vector<double> rows;
+  std::map<std::uint32_t, cln::cl_RA> columns;
+  double denominators = 0;
+  for (const Row& row : block.rows) {
+    cln::cl_RA sum = 0;
+    cln::cl_I common = 1;
+    for (const auto& [column, p] : row) {
+      for (auto [number, exponents] : p.term_list()) {
+        cln::cl_RA size = cln::abs(number);
+        common = cln::lcm(common, cln::denominator(number));
+        for (std::size_t i = 0; i < exponents.size(); ++i)
+          if (i != place) size = size * cln::expt(cln::cl_RA(others[i]), cln::cl_I(exponents[i]));
+        sum = sum + size;
+        columns[column] = columns[column] + size;
+      }
+    }
+    rows.push_back(bits_of(cln::ceiling1(sum * common)));
+    denominators += bits_of(common) - 1;
+  }
+  std::vector<double> of_columns;
+  for (const auto& [column, size] : columns) of_columns.push_back(bits_of(cln::ceiling1(size)));
+  const auto product = [&](std::vector<double>& list) {
+    std::sort(list.begin(), list.end(), std::greater<>());
+    list.resize(std::min(list.size(), rank));
+    return std::accumulate(list.begin(), list.end(), 0.0);
+  };
+  return std::min(product(rows), product(of_columns) + denominators);
+}
+
+/// What was found modulo primes for common factors of one degree.
+struct FactorOfDegree {
+  std::vector<cln::cl_I> residues;
+  std::vector<cln::cl_RA> numbers;
+  cln::cl_I product = 1;
+  std::size_t primes = 0;
+  bool stable = false;  ///< one more prime did not change the numbers
+
+  void add(const ModularPolynomial& factor, const Modulus& modulus) {
+    ++primes;
+    residues.resize(static_cast<std::size_t>(std::max(factor.degree(), 0L)) + 1, 0);
+    std::vector<cln::cl_RA> fresh;
+    const cln::cl_I next = product * cln::cl_I(static_cast<unsigned long>(modulus.prime()));
+    for (std::size_t k = 0; k < residues.size() && !stable; ++k) {
+      residues[k] = chinese_remainder(residues[k], product,
+                                      factor.coefficient(static_cast<long>(k)), modulus);
+      if (const auto number = rational_from(residues[k], next)) fresh.push_back(*number);
+    }
+    product = next;
+    if (stable) return;
+    stable = fresh.size() == residues.size() && fresh == numbers;
+    numbers = fresh;
+  }
+};
+
 /// The same for one parameter, by values modulo primes; empty if it is not found.
+///
+/// Modulo a prime the common factor G of all minors divides what is computed, but may have a lower
+/// degree, if the prime divides its leading coefficient. That divides the leading coefficient of a
+/// minor, of which the size is known: so of so many primes that their product is larger, one does
+/// not, and what all of them agree in has the degree of G at least.
 std::optional<Polynomial> common_minor_factor(const System& system, const ParametricBlock& block,
                                               std::size_t place, std::size_t rank,
                                               const std::vector<long>& others_values,
                                               const Watch& watch) {
-  constexpr std::size_t kPrimes = 40;
-  std::vector<cln::cl_I> residues;
-  std::vector<cln::cl_RA> numbers;
-  cln::cl_I product = 1;
+  constexpr std::size_t kMorePrimes = 40;
+  constexpr double kBitsOfPrime = 28, kMostWork = 2e11;
   const Point others(others_values.begin(), others_values.end());
-  for (std::size_t i = 0; i < kPrimes; ++i) {
-    watch.tick(static_cast<double>(i) / kPrimes);
+  const std::size_t needed =
+      static_cast<std::size_t>(bits_of_minors(block, place, rank, others_values) / kBitsOfPrime) +
+      1;
+  std::map<long, FactorOfDegree> found;
+  double work = 0;
+  for (std::size_t i = 0; i < needed + kMorePrimes && work < kMostWork; ++i) {
+    watch.tick(static_cast<double>(i) / static_cast<double>(needed + kMorePrimes));
     const Modulus modulus = Modulus::nth(i);
     std::mt19937_64 random(41 + i);
-    const ModularPolynomial factor =
-        common_factor(OneParameter(block, place, others, modulus).determinants(rank, random));
-    if (factor.degree() <= 0) return system.ring().constant(1);
-    const auto size = static_cast<std::size_t>(factor.degree()) + 1;
-    if (residues.empty() || size < residues.size()) {
-      residues.assign(size, 0);
-      product = 1;
-      numbers.clear();
-    } else if (size > residues.size()) {
-      continue;  // this prime has accidental common factors
-    }
-    for (std::size_t k = 0; k < size; ++k) {
-      residues[k] = chinese_remainder(residues[k], product,
-                                      factor.coefficient(static_cast<long>(k)), modulus);
-    }
-    product = product * cln::cl_I(static_cast<unsigned long>(modulus.prime()));
-    std::vector<cln::cl_RA> fresh;
-    for (const cln::cl_I& residue : residues) {
-      const std::optional<cln::cl_RA> number = rational_from(residue, product);
-      if (number) fresh.push_back(*number);
-    }
-    if (fresh.size() == size && fresh == numbers) {
-      Polynomial result(system.ring());
-      for (std::size_t k = 0; k < size; ++k)
-        result += system.ring().variable(place).pow(k).scaled(numbers[k]);
-      return result;
-    }
-    numbers = fresh;
+    const OneParameter matrix(block, place, others, modulus);
+    const double size = static_cast<double>(rank);
+    work += (size * static_cast<double>(matrix.degree()) + 1) * size * size * size;
+    const ModularPolynomial factor = common_factor(matrix.determinants(rank, random));
+    if (factor.degree() < 0) continue;  // all are zero modulo this prime: it says nothing
+    FactorOfDegree& own = found[factor.degree()];
+    own.add(factor, modulus);
+    if (own.primes < needed || (factor.degree() > 0 && !own.stable)) continue;
+    if (factor.degree() == 0) return system.ring().constant(1);
+    Polynomial result(system.ring());
+    for (std::size_t k = 0; k < own.numbers.size(); ++k)
+      result += system.ring().variable(place).pow(k).scaled(own.numbers[k]);
+    return result;
   }
   return std::nullopt;
 }

@@ -12,4 +12,8 @@ namespace casimir::search {
 std::optional<Residue> random_root(const std::vector<Residue>& coefficients, const Modulus& modulus,
                                    std::mt19937_64& random);
 
+/// A number with that square, either of the two; empty where there is none.
+std::optional<Residue> random_square_root(Residue square, const Modulus& modulus,
+                                          std::mt19937_64& random);
+
 }  // namespace casimir::search

@@ -122,6 +122,23 @@ TEST_F(Relations, ArcTangentsOfQuotients) {
   EXPECT_TRUE(zero("atan2(y, x) + atan2(-y, x)", {x_is(">")}));
 }
 
+TEST_F(Relations, ArcTangentsOfRationalNumbers) {
+  for (const char* formula :
+       {"4*atan(1/5) - atan(1/239) - Pi/4", "12*atan(1/18) + 8*atan(1/57) - 5*atan(1/239) - Pi/4",
+        "atan(1) + atan(2) + atan(3) - Pi", "atan(1/2) + atan(1/3) - Pi/4",
+        "2*atan(-2) + atan(4/3) + Pi - 2*atan(4/3)", "atan(7) - 5*Pi/4 + 2*atan(3)"}) {
+    EXPECT_TRUE(zero(formula)) << formula;
+  }
+  for (const char* formula :
+       {"4*atan(1/5) - atan(1/238) - Pi/4", "4*atan(1/5) - atan(1/239) + 3*Pi/4",
+        "atan(2) + atan(3) - Pi/4", "atan(1/2) - atan(1/3) - Pi/4", "2*atan(1/2) + atan(4/3)",
+        "atan(7) + Pi/4 - 2*atan(3)"}) {
+    EXPECT_FALSE(zero(formula)) << formula;
+  }
+  EXPECT_TRUE(zero("sin(atan(3)) - 3/sqrt(10)"));
+  EXPECT_TRUE(zero("cos(atan(4/3)/2) - 2/sqrt(5)"));
+}
+
 TEST_F(Relations, PartsOfPi) {
   EXPECT_TRUE(zero("x*cos(Pi/7)*cos(2*Pi/7)*cos(3*Pi/7) - x/8"));
   EXPECT_FALSE(zero("x*cos(Pi/7)*cos(2*Pi/7)*cos(3*Pi/7) + x/8"));

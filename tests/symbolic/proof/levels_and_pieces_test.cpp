@@ -305,5 +305,60 @@ TEST(LowestTerms, CancelWhatNumeratorsKeep) {
   EXPECT_FALSE(ring.lowest_terms(second).second.is_constant());
 }
 
+/// The conditions of a fact about two free motions with the second integral F.
+std::set<std::string> conditions_of(const std::string& kind, const std::string& f,
+                                    const std::string& assume_a = "") {
+  const Proof proof = proof_of(kind,
+                               "integrable = true\nhamiltonian = \"p1^2 + p2^2\"\n[phase_space]\n"
+                               "variables = [\"q1\",\"q2\",\"p1\",\"p2\"]\ncanonical = "
+                               "true\n[parameters]\na = { assume = [" +
+                                   assume_a + "] }\nb = {}\n[integrals]\nF = \"" + f + "\"\n");
+  EXPECT_EQ(proof.verdict, Verdict::proved) << f << ": " << proof.reason;
+  return {proof.where.begin(), proof.where.end()};
+}
+
+TEST(SpecialParameters, AreConditionsOfIndependenceAndOfLiouvillesCount) {
+  using Set = std::set<std::string>;
+  for (const char* kind : {"independence", "liouville"}) {
+    EXPECT_EQ(conditions_of(kind, "p1"), Set{}) << kind;
+    EXPECT_EQ(conditions_of(kind, "a*p1"), Set{"a != 0"}) << kind;
+    EXPECT_EQ(conditions_of(kind, "(a - 1)*p1 + p1^2 + p2^2"), Set{"a - 1 != 0"}) << kind;
+    EXPECT_EQ(conditions_of(kind, "(a^2 - 2)*p1"), Set{"a^2 - 2 != 0"}) << kind;
+    EXPECT_EQ(conditions_of(kind, "a*p1^2 + b*p2^2"), Set{"a - b != 0"}) << kind;
+    EXPECT_EQ(conditions_of(kind, "a*p1 + b*p2"), Set{"a^2 + b^2 != 0"}) << kind;
+    EXPECT_EQ(conditions_of(kind, "(a - 1)*p1 + (b - 2)*p2"), Set{"(a - 1)^2 + (b - 2)^2 != 0"})
+        << kind;
+    // No such values, or none that the assumptions admit.
+    EXPECT_EQ(conditions_of(kind, "(a^2 + 1)*p1"), Set{}) << kind;
+    EXPECT_EQ(conditions_of(kind, "a*p1", "'a > 1'"), Set{}) << kind;
+    EXPECT_EQ(conditions_of(kind, "(a - 1)*p1", "'a > 1'"), Set{}) << kind;
+    EXPECT_EQ(conditions_of(kind, "a*p1^2 + b*p2^2", "'a > b'"), Set{}) << kind;
+  }
+}
+
+/// The identity, from a plane to a half of it: only where it leads there.
+TEST(Maps, LeadIntoTheDomainOfTheTarget) {
+  const auto map = [](const std::string& domain, const std::string& bracket,
+                      const std::string& image) {
+    return proof_of("map",
+                    "hamiltonian = \"p\"\n[phase_space]\nvariables = [\"q\",\"p\"]\n"
+                    "canonical = true\n[[map]]\nname = \"M\"\nto = { variables = "
+                    "[\"u\",\"v\"], domain = [\"" +
+                        domain + "\"], brackets = { \"u,v\" = \"" + bracket +
+                        "\" } }\nexpressions = { u = \"" + image + "\", v = \"p\" }\n");
+  };
+  for (const char* one : {"1", "sqrt(u^2)/u"}) {
+    const Proof half = map("u > 0", one, "q");
+    EXPECT_TRUE(half.verdict == Verdict::undecided ||
+                half.where == std::vector<std::string>{"q > 0"})
+        << one;
+  }
+  const Proof inside = map("u > 0", "u", "exp(q)");
+  EXPECT_EQ(inside.verdict, Verdict::proved);
+  EXPECT_TRUE(inside.where.empty());
+  EXPECT_NE(map("u > 0", "u", "-exp(q)").verdict, Verdict::proved);
+  EXPECT_EQ(map("u < 1", "2", "q").verdict, Verdict::refuted);
+}
+
 }  // namespace
 }  // namespace casimir::test

@@ -311,5 +311,35 @@ TEST(Proved, NoOtherDarbouxPolynomialOnlyWhereSumsOfDifferentWeightsAreNone) {
   EXPECT_FALSE(report_of("sqrt(2)*x*y", "x^2 + y^2").complete);
 }
 
+/// 536870909 is the first prime of the search; the other number is its product with the second.
+TEST(Proved, NoOtherValueThoughALeadingCoefficientVanishesModuloThePrimes) {
+  for (const char* number : {"536870909", "288229794183646379"}) {
+    const auto report = conditions(along_x("(" + std::string(number) + "*n - 1)*x*y"), 1, {"n"});
+    EXPECT_TRUE(!report.complete || places_of(report).contains("n = 1/" + std::string(number)))
+        << number;
+  }
+}
+
+TEST(Proved, NothingOfGenericValuesWhereTheAssumptionsLeaveNone) {
+  const auto is_complete = [](const std::string& assume) {
+    const Model model =
+        model_of("[phase_space]\nvariables = [\"x\", \"y\"]\n[parameters]\nn = { assume = [" +
+                 assume + "] }\n[equations]\nx = \"1\"\ny = \"(n - 1)*x\"\n");
+    return search::find_integrals(model, up_to(1)).complete;
+  };
+  EXPECT_TRUE(is_complete("'n >= 1'"));
+  EXPECT_FALSE(is_complete("'n >= 1', 'n <= 1'"));
+  EXPECT_FALSE(is_complete("'(n - 1)^2 <= 0'"));
+}
+
+TEST(Darboux, TheDegreeIsThatOfThePolynomial) {
+  const auto report = search::find_darboux(
+      model_of("[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"x*(1 - x - 2*y)\"\n"
+               "y = \"y*(2 - 3*x + y)\"\n"),
+      2);
+  ASSERT_EQ(report.found.size(), 2U);
+  for (const auto& found : report.found) EXPECT_EQ(found.degree, 1) << found.text;
+}
+
 }  // namespace
 }  // namespace casimir::test

@@ -1,0 +1,353 @@
+#include "symbolic/proof/special_parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <random>
+
+#include "symbolic/algebra/ideal.hpp"
+#include "symbolic/algebra/rational_matrix.hpp"
+
+namespace casimir {
+namespace {
+
+using Indices = std::vector<std::size_t>;
+
+/// Fraction-free elimination (Bareiss), up to the sign; empty where it grows long.
+std::optional<Polynomial> determinant(PolynomialRows m, const PolynomialRing& ring) {
+  constexpr std::size_t kMostTerms = 40;
+  Polynomial previous = ring.constant(1);
+  for (std::size_t k = 0; k + 1 < m.size(); ++k) {
+    std::size_t pivot = k;
+    while (pivot < m.size() && m[pivot][k].is_zero()) ++pivot;
+    if (pivot == m.size()) return Polynomial(ring);
+    std::swap(m[pivot], m[k]);
+    for (std::size_t i = k + 1; i < m.size(); ++i) {
+      for (std::size_t j = k + 1; j < m.size(); ++j) {
+        const Polynomial next = m[i][j] * m[k][k] - m[i][k] * m[k][j];
+        next.divide(previous, &m[i][j]);
+        if (m[i][j].terms() > kMostTerms) return std::nullopt;
+      }
+    }
+    previous = m[k][k];
+  }
+  return m.empty() ? ring.constant(1) : m.back().back();
+}
+
+/// Equations for parameters, each solved for one of them by the others.
+struct Equations {
+  std::vector<Polynomial> forms;
+  std::vector<std::pair<std::size_t, Polynomial>> values{};
+};
+
+class SpecialParameters {
+ public:
+  SpecialParameters(Prover& prover, const PolynomialRows& rows, std::size_t rank)
+      : prover_(prover), ring_(prover.ring()), rows_(rows), rank_(rank) {
+    for (std::size_t i = 0; i < prover.model().parameters.size(); ++i) {
+      const std::size_t place = prover.dimension() + i;
+      const bool used = std::any_of(rows.begin(), rows.end(), [&](const auto& row) {
+        return std::any_of(row.begin(), row.end(),
+                           [&](const Polynomial& p) { return ring_.depends_on(p, place); });
+      });
+      if (used) places_.push_back(place);
+    }
+  }
+
+  std::vector<std::string> run() {
+    if (places_.empty() || rank_ == 0) return {};
+    find_minors();
+    for (const Polynomial& f : common_factors()) look_at_factor(f);
+    if (minors_.empty() || !ring_.is_polynomial()) {
+      for (const std::size_t p : places_) look_at_factor(ring().variable(p));
+    }
+    if (ring_.is_polynomial() && places_.size() > 1) look_at_pairs();
+    return std::move(found_);
+  }
+
+ private:
+  const PolynomialRing& ring() const { return ring_.ring(); }
+  bool is_parameter(std::size_t place) const {
+    return std::find(places_.begin(), places_.end(), place) != places_.end();
+  }
+  Polynomial at_numbers(const Polynomial& p, const std::vector<cln::cl_RA>& numbers) const;
+  std::pair<Indices, Indices> regular_minor(const std::vector<cln::cl_RA>& point) const;
+  void find_minors();
+  std::vector<Polynomial> common_factors() const;
+  std::vector<Polynomial> simple_forms() const;
+  std::optional<Equations> solved(const std::vector<Polynomial>& forms) const;
+  static Polynomial reduced(Polynomial p, const Equations& set);
+  bool is_common_zero(const Equations& set) const;
+  bool lowers_rank(const std::function<bool(std::vector<GiNaC::ex>&)>& put, bool* tried);
+  bool put_zero(const Polynomial& f, std::vector<GiNaC::ex>& coordinates) const;
+  void look_at_factor(const Polynomial& f);
+  void look_at_pairs();
+  void look_at_set(const Equations& set);
+  void add(const std::string& condition) {
+    if (std::find(found_.begin(), found_.end(), condition) == found_.end())
+      found_.push_back(condition);
+  }
+
+  Prover& prover_;
+  const FunctionRing& ring_;
+  const PolynomialRows& rows_;
+  std::size_t rank_;
+  Indices places_;                   ///< of the parameters that the matrix depends on
+  std::vector<Polynomial> minors_;   ///< with numbers for everything else
+  std::vector<Polynomial> factors_;  ///< whose zeros were looked at
+  std::vector<Equations> sets_;
+  std::vector<std::string> found_;
+};
+
+Polynomial SpecialParameters::at_numbers(const Polynomial& p,
+                                         const std::vector<cln::cl_RA>& numbers) const {
+  TermCollector result(ring());
+  for (auto [number, exponents] : p.term_list()) {
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
+      if (exponents[i] == 0 || is_parameter(i)) continue;
+      number = number * cln::expt(numbers[i], cln::cl_I(exponents[i]));
+      exponents[i] = 0;
+    }
+    result.add(number, exponents);
+  }
+  return result.finish();
+}
+
+/// Rows and columns of a minor that is regular at a point.
+std::pair<Indices, Indices> SpecialParameters::regular_minor(
+    const std::vector<cln::cl_RA>& point) const {
+  RationalMatrix values, chosen, transposed;
+  for (const auto& row : rows_) {
+    values.emplace_back();
+    for (const Polynomial& p : row) values.back().push_back(p.is_zero() ? 0 : p.evaluate(point));
+  }
+  Indices own_rows, own_columns;
+  for (std::size_t i = 0; i < values.size() && own_rows.size() < rank_; ++i) {
+    chosen.push_back(values[i]);
+    if (casimir::rank(chosen) == chosen.size())
+      own_rows.push_back(i);
+    else
+      chosen.pop_back();
+  }
+  for (std::size_t j = 0; j < values[0].size() && own_columns.size() < own_rows.size(); ++j) {
+    transposed.emplace_back();
+    for (const std::size_t i : own_rows) transposed.back().push_back(values[i][j]);
+    if (casimir::rank(transposed) == transposed.size())
+      own_columns.push_back(j);
+    else
+      transposed.pop_back();
+  }
+  return {own_rows, own_columns};
+}
+
+/// A minor that is regular for other parameters, at some numbers for the coordinates.
+void SpecialParameters::find_minors() {
+  constexpr std::size_t kMinors = 3, kLargest = 8;
+  if (rank_ > kLargest) return;
+  std::mt19937 random(20190107);
+  std::pair<Indices, Indices> regular;
+  for (std::size_t k = 0; k < kMinors; ++k) {
+    std::vector<cln::cl_RA> numbers(ring().size());
+    for (cln::cl_RA& n : numbers) n = cln::cl_RA(static_cast<long>(random() % 997) - 498);
+    if (regular.first.size() < rank_) regular = regular_minor(numbers);
+    if (regular.first.size() < rank_) continue;
+    PolynomialRows minor;
+    for (const std::size_t i : regular.first) {
+      minor.emplace_back();
+      for (const std::size_t j : regular.second)
+        minor.back().push_back(at_numbers(rows_[i][j], numbers));
+    }
+    std::optional<Polynomial> value = determinant(std::move(minor), ring());
+    if (!value) return minors_.clear();
+    if (!value->is_zero()) minors_.push_back(std::move(*value));
+    if (!minors_.empty() && minors_.back().is_constant()) return;
+  }
+}
+
+std::vector<Polynomial> SpecialParameters::common_factors() const {
+  if (minors_.empty()) return {};
+  Polynomial common = minors_[0];
+  for (const Polynomial& m : minors_) common = Polynomial::gcd(common, m);
+  std::vector<Polynomial> result;
+  if (common.is_zero()) return result;
+  for (const auto& [f, exponent] : common.factors())
+    if (!f.is_constant()) result.push_back(f);
+  return result;
+}
+
+/// Parameters that are zero, or equal.
+std::vector<Polynomial> SpecialParameters::simple_forms() const {
+  std::vector<Polynomial> result;
+  for (const std::size_t p : places_) {
+    const Polynomial v = ring().variable(p);
+    result.push_back(v);
+    for (const std::size_t q : places_)
+      if (q < p) result.push_back(v - ring().variable(q));
+  }
+  return result;
+}
+
+Polynomial SpecialParameters::reduced(Polynomial p, const Equations& set) {
+  for (const auto& [place, value] : set.values) {
+    Polynomial sum(p.ring()), power = p.ring().constant(1);
+    for (const Polynomial& c : p.coefficients(place)) {
+      sum += c * power;
+      power *= value;
+    }
+    p = std::move(sum);
+  }
+  return p;
+}
+
+/// Linear equations, one after the other; empty where one contradicts the others.
+std::optional<Equations> SpecialParameters::solved(const std::vector<Polynomial>& forms) const {
+  Equations set{forms};
+  for (const Polynomial& form : forms) {
+    const Polynomial own = reduced(form, set);
+    if (own.is_zero()) continue;
+    if (own.total_degree() != 1) return std::nullopt;
+    const auto place = std::find_if(places_.begin(), places_.end(),
+                                    [&](std::size_t p) { return own.degree(p) == 1; });
+    if (place == places_.end()) return std::nullopt;
+    const std::vector<Polynomial> parts = own.coefficients(*place);
+    const Polynomial value = parts[0].scaled(-1 / parts[1].term_list()[0].first);
+    for (auto& [earlier, old] : set.values) old = reduced(old, {{}, {{*place, value}}});
+    set.values.emplace_back(*place, value);
+  }
+  return set;
+}
+
+bool SpecialParameters::is_common_zero(const Equations& set) const {
+  return !minors_.empty() && std::all_of(minors_.begin(), minors_.end(),
+                                         [&](const auto& m) { return reduced(m, set).is_zero(); });
+}
+
+/// Whether the rank is smaller at all points that `put` leads to; `tried` becomes whether there are
+/// any inside of all assumptions.
+bool SpecialParameters::lowers_rank(const std::function<bool(std::vector<GiNaC::ex>&)>& put,
+                                    bool* tried) {
+  constexpr int kTrials = 3;
+  static const std::vector<GiNaC::ex> kNothing;
+  const auto& domain = ring_.is_polynomial() ? kNothing : prover_.domain();
+  int admitted = 0;
+  for (int k = 0; k < 4 * kTrials && admitted < kTrials; ++k) {
+    std::vector<GiNaC::ex> coordinates = prover_.real_points().draw();
+    try {
+      if (!put(coordinates)) continue;
+      RealPoint point = prover_.real_points().at(std::move(coordinates));
+      if (!prover_.real_points().admits(point, domain)) continue;
+      ++admitted;
+      if (point.rank(rows_) >= rank_) return false;
+    } catch (const NotCertified&) {
+    }
+  }
+  *tried = admitted > 0;
+  return admitted > 0;
+}
+
+/// Gives a parameter the value at which f vanishes.
+bool SpecialParameters::put_zero(const Polynomial& f, std::vector<GiNaC::ex>& coordinates) const {
+  for (const long degree : {1L, 2L}) {
+    for (const std::size_t place : places_) {
+      if (f.degree(place) != degree) continue;
+      GiNaC::exmap others;
+      for (const std::size_t p : places_)
+        if (p != place) others.emplace(ring_.symbols()[p], coordinates[p]);
+      std::vector<GiNaC::ex> c;
+      for (const Polynomial& part : f.coefficients(place))
+        c.push_back(prover_.ring().expression(part).subs(others));
+      if (c.back().is_zero()) return false;
+      if (degree == 1) {
+        coordinates[place] = -c[0] / c[1];
+        return true;
+      }
+      const GiNaC::ex discriminant = (c[1] * c[1] - 4 * c[0] * c[2]).expand();
+      if (!discriminant.info(GiNaC::info_flags::nonnegative)) return false;
+      coordinates[place] = (GiNaC::sqrt(discriminant) - c[1]) / (2 * c[2]);
+      return true;
+    }
+  }
+  return false;
+}
+
+void SpecialParameters::look_at_factor(const Polynomial& factor) {
+  const Polynomial f = factor.scaled(1 / factor.content());
+  if (std::find(factors_.begin(), factors_.end(), f) != factors_.end()) return;
+  if (ring_.is_nowhere_zero(f)) return;
+  const bool solvable = std::any_of(places_.begin(), places_.end(), [&](std::size_t p) {
+    return f.degree(p) == 1 || f.degree(p) == 2;
+  });
+  bool tried = false;
+  const bool lower =
+      lowers_rank([&](std::vector<GiNaC::ex>& at) { return put_zero(f, at); }, &tried);
+  if (lower || !solvable) {
+    factors_.push_back(f);
+    add(ring_.text(f) + " != 0");
+  }
+}
+
+/// Two linear equations that make all minors vanish.
+void SpecialParameters::look_at_pairs() {
+  constexpr GroebnerLimits kLimits{.reductions = 100, .elements = 20, .terms = 100};
+  if (minors_.size() < 2 || minors_.back().is_constant()) return;
+  std::vector<Polynomial> simple;  // with the same zeros
+  for (const Polynomial& m : minors_) {
+    simple.push_back(ring().constant(1));
+    for (const auto& [f, exponent] : m.factors())
+      if (!f.is_constant()) simple.back() *= f;
+  }
+  const bool linear = std::all_of(simple.begin(), simple.end(),
+                                  [](const Polynomial& m) { return m.total_degree() == 1; });
+  if (linear) {
+    const std::vector<Polynomial> basis = groebner_basis(simple, kLimits);
+    if (basis.size() > 1) {
+      if (const auto set = solved(basis)) look_at_set(*set);
+    }
+  }
+  const std::vector<Polynomial> forms = simple_forms();
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto set = solved({forms[j], forms[i]});
+      if (set && is_common_zero(*set)) look_at_set(*set);
+    }
+  }
+}
+
+void SpecialParameters::look_at_set(const Equations& set) {
+  if (set.values.size() < 2) return;
+  const auto vanishes = [&](const Polynomial& f) { return reduced(f, set).is_zero(); };
+  if (std::any_of(factors_.begin(), factors_.end(), vanishes)) return;
+  for (const Equations& known : sets_)
+    if (std::all_of(known.forms.begin(), known.forms.end(), vanishes)) return;
+  Polynomial squares(ring());
+  std::string text;
+  for (const auto& [place, value] : set.values) {
+    const Polynomial f = ring().variable(place) - value;
+    squares += f * f;
+    text += (text.empty() ? "" : " + ") +
+            (f.terms() == 1 ? ring_.text(f * f) : fmt::format("({})^2", ring_.text(f)));
+  }
+  if (ring_.is_nowhere_zero(squares)) return;
+  bool tried = false;
+  const auto put = [&](std::vector<GiNaC::ex>& at) {
+    GiNaC::exmap others;
+    for (const std::size_t p : places_) others.emplace(ring_.symbols()[p], at[p]);
+    for (const auto& [place, value] : set.values)
+      at[place] = prover_.ring().expression(value).subs(others);
+    return true;
+  };
+  if (!lowers_rank(put, &tried)) return;
+  sets_.push_back(set);
+  add(text + " != 0");
+}
+
+}  // namespace
+
+std::vector<std::string> needed_parameters(Prover& prover, const PolynomialRows& rows,
+                                           std::size_t rank) {
+  return SpecialParameters(prover, rows, rank).run();
+}
+
+}  // namespace casimir
