@@ -146,7 +146,7 @@ class Judge {
 
   /// Whether the estimate of the error leaves room for digits that a small divisor took.
   bool costs_digits() const {
-    constexpr double kOfTolerance = 100, kSeen = 1e-12;
+    constexpr double kOfTolerance = 3, kSeen = 1e-12;
     const ErrorEstimate& trust = result_.trust;
     return !trust.known || trust.unconfirmed || trust.beyond_double ||
            !(trust.error_estimate < std::max(kSeen, kOfTolerance * result_.settings.rtol));
