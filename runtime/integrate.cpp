@@ -10,6 +10,7 @@
 #include "runtime/outside/arkode.hpp"
 #include "runtime/outside/cvode.hpp"
 #include "runtime/step/observer.hpp"
+#include "runtime/step/passage.hpp"
 #include "runtime/step/step_watch.hpp"
 #include "runtime/step/stiffness.hpp"
 
@@ -66,8 +67,54 @@ void check_sizes(const Module& module, std::size_t states, std::size_t parameter
     refuse("the wrong number of parameters");
 }
 
-void run_kernel(const Module& module, const Settings& s, const double* parameters,
-                Observer& observer, Trajectory& trajectory) {
+/// Whether a run by Taylor series ended where there may be none though the solution goes on. Not
+/// one that has made no headway in a million steps.
+bool may_be_passed(const casimir_run& run, const casimir_outcome& outcome) {
+  constexpr unsigned long long kMostTrials = 1ULL << 19;
+  const bool stuck = outcome.status == CASIMIR_NON_FINITE ||
+                     outcome.status == CASIMIR_SINGULARITY ||
+                     outcome.status == CASIMIR_STEP_UNDERFLOW;
+  return stuck && !(run.fixed_step > 0) && !run.project &&
+         outcome.steps + outcome.rejected < kMostTrials;
+}
+
+/// One run of the kernel, and where the method of Taylor series stops, over the places at which the
+/// equations have no derivative.
+void run_on(const Module& module, const Method& method, casimir_run run, double* x,
+            casimir_outcome& outcome) {
+  module.functions().integrate(&run, x, &outcome);
+  if (!method.series) return;
+  const double whole = run.t_end - run.t_begin;
+  constexpr int kMostPassages = 100;
+  // Behind the place a series reaches as far as the place is away: it need not be far.
+  constexpr double kPart = 0x1p-10;
+  for (int k = 0; k < kMostPassages && may_be_passed(run, outcome); ++k) {
+    Passage passage([&](double t, const double* at,
+                        double* rates) { module.functions().rhs(t, at, run.parameters, rates); },
+                    run, static_cast<std::size_t>(module.dimension()));
+    double t = outcome.t;
+    const double rest = run.t_end - t, part = kPart * whole;
+    if (!passage.pass(t, x, std::abs(rest) <= std::abs(part) ? run.t_end : t + part)) return;
+    casimir_outcome behind = {.status = passage.stopped() ? CASIMIR_STOPPED : CASIMIR_OK,
+                              .t = t,
+                              .steps = 0,
+                              .rejected = 0,
+                              .evaluations = 0,
+                              .jacobians = 0};
+    if (!passage.stopped() && t != run.t_end) {
+      run.t_begin = t;
+      module.functions().integrate(&run, x, &behind);
+    }
+    outcome.status = behind.status;
+    outcome.t = behind.t;
+    outcome.steps += behind.steps + 1;
+    outcome.rejected += behind.rejected;
+    outcome.evaluations += behind.evaluations + passage.evaluations();
+  }
+}
+
+void run_kernel(const Module& module, const Method& method, const Settings& s,
+                const double* parameters, Observer& observer, Trajectory& trajectory) {
   DenseSolver solver;
   casimir_run run = {};
   run.t_begin = s.begin;
@@ -99,12 +146,11 @@ void run_kernel(const Module& module, const Settings& s, const double* parameter
   const auto start = Clock::now();
   if (s.begin_anew > 0 && s.begin_anew < std::abs(s.duration)) {
     run.t_end = s.begin + std::copysign(s.begin_anew, s.duration);
-    module.functions().integrate(&run, trajectory.state.data(), &outcome);
+    run_on(module, method, run, trajectory.state.data(), outcome);
     run.t_begin = run.t_end;
     run.t_end = s.begin + s.duration;
   }
-  if (outcome.status == CASIMIR_OK)
-    module.functions().integrate(&run, trajectory.state.data(), &outcome);
+  if (outcome.status == CASIMIR_OK) run_on(module, method, run, trajectory.state.data(), outcome);
   trajectory.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   trajectory.status = status_of(outcome.status);
   trajectory.time = outcome.t;
@@ -228,7 +274,7 @@ Trajectory integrate(const Module& module, const Method& method, const Settings&
   } else if (module.functions().integrate == nullptr) {
     throw std::invalid_argument("the module was compiled without a kernel");
   } else {
-    run_kernel(module, settings, p, observer, trajectory);
+    run_kernel(module, method, settings, p, observer, trajectory);
   }
   trajectory.reason = reason_of(trajectory.status);
   name_stiffness(module, method, p, trajectory);

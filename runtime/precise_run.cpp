@@ -78,6 +78,11 @@ class Runner {
       integrate();
     } catch (const std::domain_error& problem) {
       stop(Status::singularity, std::string("the equations have no value here: ") + problem.what());
+    } catch (const UnknownBranch&) {
+      stop(Status::no_convergence,
+           "an argument of |.|, a sign or an angle comes to zero, and whether it passes it cannot "
+           "be "
+           "told: by which formula the equations go on is not known");
     } catch (const GivenUp&) {
       stop(Status::stopped, reason_of(Status::stopped));
     }

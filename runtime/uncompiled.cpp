@@ -1,6 +1,7 @@
 #include "runtime/uncompiled.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 
@@ -45,15 +46,75 @@ void integrate_scaled(const QuadraticForm& form, double scale, const casimir_run
   for (std::size_t i = 0; i < states; ++i) x[i] *= scale;
 }
 
+/// Ends a run whose state has grown out of the unit in which it is followed: of numbers beyond
+/// 1e150 there are no products. Shows all steps to whom they were to be shown, and looks at each
+/// sixteenth itself: no step of a series makes a state e^10 times as large.
+class Outgrowth {
+ public:
+  Outgrowth(const casimir_run& run, std::size_t states)
+      : observe_(run.observe), observer_(run.observer), states_(states) {}
+
+  /// Follows the run in this unit.
+  void begin(casimir_run& run, double unit) {
+    constexpr double kLarge = 0x1p250;
+    most_ = kLarge * unit;
+    outgrown_ = false;
+    run.observe = &see;
+    run.observer = this;
+  }
+  bool outgrown() const { return outgrown_; }
+
+ private:
+  static int see(void* self, const casimir_step* step) {
+    Outgrowth& own = *static_cast<Outgrowth*>(self);
+    constexpr unsigned kSeldom = 16;
+    if (++own.steps_ % kSeldom != 0) return own.observe_(own.observer_, step);
+    double size = 0;
+    for (std::size_t i = 0; i < own.states_; ++i) size = std::max(size, std::abs(step->x1[i]));
+    const int stop = own.observe_(own.observer_, step);
+    own.outgrown_ = size > own.most_ && stop == 0;
+    return own.outgrown_ ? 1 : stop;
+  }
+
+  int (*const observe_)(void*, const casimir_step*);
+  void* const observer_;
+  const std::size_t states_;
+  double most_ = 0;
+  unsigned steps_ = 0;
+  bool outgrown_ = false;
+};
+
+/// The power of two next below the largest state.
+double unit_of(const double* x, std::size_t states) {
+  double size = 0;
+  for (std::size_t i = 0; i < states; ++i) size = std::max(size, std::abs(x[i]));
+  return std::ldexp(1.0, std::ilogb(size));
+}
+
 std::function<ModuleFunctions::Integration> table_driven(const QuadraticForm& form,
                                                          const std::vector<double>& parameters) {
   return [form, kernel = QuadraticKernel(form), parameters](const casimir_run* run, double* x,
                                                             casimir_outcome* out) {
     if (!std::equal(parameters.begin(), parameters.end(), run->parameters))
       throw std::invalid_argument("the tables were made for other values of the parameters");
-    const double scale = ScaledRun::scale_for(x, static_cast<std::size_t>(form.states));
-    if (scale != 1) return integrate_scaled(form, scale, *run, x, out);
-    kernel.integrate(run, x, out);
+    const auto states = static_cast<std::size_t>(form.states);
+    casimir_run rest = *run;
+    Outgrowth growth(*run, states);
+    casimir_outcome before = {};
+    for (bool on = true; on;) {
+      const double scale = growth.outgrown() ? unit_of(x, states) : ScaledRun::scale_for(x, states);
+      if (run->observe && !(run->fixed_step > 0)) growth.begin(rest, scale);
+      if (scale != 1)
+        integrate_scaled(form, scale, rest, x, out);
+      else
+        kernel.integrate(&rest, x, out);
+      out->steps += before.steps;
+      out->rejected += before.rejected;
+      out->evaluations += before.evaluations;
+      on = growth.outgrown() && out->status == CASIMIR_STOPPED;
+      before = *out;
+      rest.t_begin = out->t;
+    }
   };
 }
 

@@ -59,11 +59,16 @@ BigFloat PreciseLook::branch(const PreciseStep& step, std::size_t place, BigFloa
   constexpr double kBefore = 0x1p-20, kFurther = 0x1p-50;
   BigFloat before = times(behind, 1 - kBefore), first = argument(step, place, before);
   BigFloat last = argument(step, place, behind);
-  for (double further = kFurther; first.sign() * last.sign() >= 0; further *= 4) {
-    if (further > kBefore) return behind;
+  const auto sides = [&] { return first.sign() * last.sign() < 0; };
+  for (double further = kFurther; !sides() && further <= kBefore; further *= 4) {
     behind = times(behind, 1 + further);
     last = argument(step, place, behind);
   }
+  if (!sides()) {  // so near to the start of the step that doubles say little of where
+    before = BigFloat();
+    first = argument(step, place, before);
+  }
+  if (!sides()) throw UnknownBranch();
   const double enough = behind.log2() - static_cast<double>(BigFloat::precision());
   int side = 0;
   constexpr int kMostRounds = 500;

@@ -17,6 +17,10 @@ struct PreciseStep {
   std::function<std::vector<BigFloat>(const BigFloat& h)> state;
 };
 
+/// Doubles showed that an argument of the equations passes zero within a step, and more digits do
+/// not: by which formula the motion goes on is not known.
+struct UnknownBranch {};
+
 /// Looks at the steps of a multiprecision run: see StepLook. In double precision, which shows
 /// whether there is a branch or a narrow pulse within a step; where a branch begins is then worked
 /// out to all digits.
@@ -28,6 +32,7 @@ class PreciseLook {
   /// The step that may be taken, or is to be tried, in the place of this one: the same size if it
   /// may be taken. One that ends where a branch begins is just so long that the argument has the
   /// sign of the other side.
+  /// \throws UnknownBranch
   BigFloat size(const PreciseStep& step);
 
  private:

@@ -80,12 +80,13 @@ Verdict of_answer(const Scene& scene, const std::optional<Truth>& truth, const J
   }
   if (!truth) return v;
   v.error = error_of(scene, *truth, json.at("state"));
-  const double allowed = std::max(
-      {kMargin * v.estimate, kUnminded, kOfTolerance * json.at("tolerance").get<double>()});
-  if (v.error <= allowed)
-    v.outcome = warning.empty() ? Outcome::right : Outcome::cautious;
-  else if (warning.empty())
-    v.outcome = Outcome::silent;
+  // What a warning goes with is right only where nobody minds the error.
+  const double unminded = std::max(kUnminded, kOfTolerance * json.at("tolerance").get<double>());
+  if (warning.empty())
+    v.outcome =
+        v.error <= std::max(kMargin * v.estimate, unminded) ? Outcome::right : Outcome::silent;
+  else if (v.error <= unminded)
+    v.outcome = Outcome::cautious;
   else
     v.outcome = v.estimate > 0 && v.estimate < kNoDigits && v.error > kUnderstated * v.estimate
                     ? Outcome::understated

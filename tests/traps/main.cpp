@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
   app.add_option("--method", request.methods, "methods, one after the other")->delimiter(',');
   app.add_option("--kind", request.kind, "only this kind, or shape");
   app.add_option("--keep", request.keep, "folder for the case files of what fails");
+  app.add_option("--show", request.show, "lists what is right, cautious, warned, .. as well");
   app.add_option("--fixed", request.fixed, "the scenes of this folder instead of generated ones");
   app.add_option("--program", request.program, "casimir");
   app.add_option("--option", request.options, "one more word for the program");

@@ -136,8 +136,9 @@ bool report(const Request& request, const std::vector<Numbered>& scenes,
       ++by_kind[fmt::format("{:<18} {}", "~ all", request.methods[m])][column];
       if (v.outcome != Outcome::right)
         ++by_shape[fmt::format("{:<26} {}", scene.shape, request.methods[m])][column];
-      if (!is_failure(v.outcome)) continue;
-      fails = true;
+      const bool wanted = to_string(v.outcome) == request.show;
+      if (!is_failure(v.outcome) && !wanted) continue;
+      fails = fails || is_failure(v.outcome);
       fmt::print("{:<32} {}\n", scenes[i].name, line(request.methods[m], v));
     }
     if (fails && !request.keep.empty()) keep(request, scenes[i], rows[i]);

@@ -14,6 +14,7 @@ struct Request {
   std::vector<std::string> methods{"auto"};
   std::string kind{};                  ///< only this one
   std::string keep{};                  ///< a folder for the files of what fails
+  std::string show{};                  ///< an outcome that is listed though it is no failure
   std::string program{};               ///< casimir
   std::string fixed{};                 ///< a folder of scenes to run instead of generated ones
   std::vector<std::string> options{};  ///< further words for the program

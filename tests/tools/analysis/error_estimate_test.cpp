@@ -32,10 +32,19 @@ TEST(ErrorEstimate, TheEstimateIsAboveTheErrorAndNotFarAbove) {
 }
 
 TEST(ErrorEstimate, GrowthOfChangesIsThatOfTheFlow) {
-  // In units of the largest state, which both of them are at the end of x = e^t.
-  const Model growing = one_equation("x", "10");
-  EXPECT_NEAR(solve(growing, growing.scene("default")).trust().conditioning / std::exp(10), 1,
-              0.01);
+  // In units of the state when the change is made: what grows no faster than x = e^t itself is
+  // lost in no digit, to the end of all doubles.
+  for (const char* duration : {"10", "300", "700"}) {
+    const Model growing = one_equation("x", duration);
+    const Solution growth = solve(growing, growing.scene("default"));
+    EXPECT_LT(growth.trust().conditioning, 10) << duration;
+    EXPECT_FALSE(growth.trust().beyond_double) << duration;
+    const double end = std::exp(std::stod(duration));
+    EXPECT_NEAR(growth.trajectory().state[0] / end, 1, 1e-12) << duration;
+    const double error = std::abs(growth.trajectory().state[0] / end - 1);
+    EXPECT_GT(growth.trust().error_estimate, error / 3) << duration;
+    EXPECT_LT(growth.trust().error_estimate, 1e-12) << duration;
+  }
   // Away from x = 1, which the motion does not leave: a change grows e^10 times.
   const Model unstable = one_equation("x - 1", "10");
   const Solution motion = solve(unstable, unstable.scene("default"));

@@ -83,8 +83,11 @@ struct Point {
 class Follower {
  public:
   Follower(const PreparedScene& run, const Settings& settings, double duration,
-           const std::vector<double>& sizes)
-      : run_(run), sizes_(sizes), rhs_(codegen::variational(run.specialisation.rhs, sizes.size())) {
+           const std::vector<double>& sizes, bool stiff)
+      : run_(run),
+        sizes_(sizes),
+        stiff_(stiff),
+        rhs_(codegen::variational(run.specialisation.rhs, sizes.size())) {
     const TaylorChoice choice = choose_taylor_path(rhs_, run.parameters, false);
     module_.emplace(uncompiled_module(rhs_, {}, choice.form, run.parameters));
     settings_.duration = duration;
@@ -100,13 +103,13 @@ class Follower {
   std::optional<Conditioning> conditioning() {
     const std::size_t n = sizes_.size();
     settings_.max_steps = steps_ / n;
-    if (rests()) unit_ = kUnitAtRest;
+    if (stiff_ || rests()) unit_ = kUnitAtRest;
     for (std::size_t j = 0; j < n; ++j) {
       std::vector<double> direction(n, 0.);
       direction[j] = 1;
       const auto deviation = follow({0, run_.initial}, direction, j == 0);
       if (!deviation) return std::nullopt;
-      result_.columns.push_back(deviation->now());
+      result_.columns.push_back(deviation->now() / part_of_sizes(run_.initial));
     }
     if (result_.followed >= 0.99 * std::abs(settings_.duration)) follow_from_later();
     return std::move(result_);
@@ -118,6 +121,7 @@ class Follower {
                                   bool keep) {
     const std::size_t n = sizes_.size();
     Deviation deviation(sizes_, unit_);
+    const double part = part_of_sizes(from.state);
     Settings settings = settings_;
     settings.begin = from.time;
     settings.duration -= from.time;
@@ -130,7 +134,7 @@ class Follower {
       return deviation.now() >= kMost || (settings_.give_up && settings_.give_up());
     };
     std::vector<double> start = from.state;
-    for (std::size_t i = 0; i < n; ++i) start.push_back(unit_ * sizes_[i] * direction[i]);
+    for (std::size_t i = 0; i < n; ++i) start.push_back(unit_ * sizes_[i] * part * direction[i]);
     const Trajectory run =
         integrate(*module_, *find_method("taylor"), settings, start, run_.parameters);
     const bool grown = run.status == Status::stopped && deviation.now() >= kMost;
@@ -139,6 +143,16 @@ class Follower {
     deviation.extrapolate(std::abs(settings.duration));
     include(deviation, std::abs(from.time));
     return deviation;
+  }
+
+  /// What part of its sizes a state has grown to: errors that are made there are relative to it,
+  /// but for the absolute tolerance. Where it is not small it is 1.
+  double part_of_sizes(const std::vector<double>& state) const {
+    constexpr double kSmallPart = 0.1, kUnitRoundoff = 0x1p-53;
+    double part = 0;
+    for (std::size_t i = 0; i < sizes_.size(); ++i)
+      part = std::max(part, (std::abs(state[i]) + settings_.atol / kUnitRoundoff) / sizes_[i]);
+    return part < kSmallPart ? part : 1;
   }
 
   /// Whether the motion is none, or next to none.
@@ -182,6 +196,7 @@ class Follower {
 
   const PreparedScene& run_;
   const std::vector<double>& sizes_;
+  const bool stiff_;
   Program rhs_;
   std::optional<Module> module_;
   Settings settings_;
@@ -209,8 +224,9 @@ std::vector<double> sizes_of(const Trajectory& trajectory) {
 }
 
 std::optional<Conditioning> conditioning(const PreparedScene& run, const Settings& settings,
-                                         double duration, const std::vector<double>& sizes) {
-  return Follower(run, settings, duration, sizes).conditioning();
+                                         double duration, const std::vector<double>& sizes,
+                                         bool stiff) {
+  return Follower(run, settings, duration, sizes, stiff).conditioning();
 }
 
 }  // namespace casimir

@@ -10,7 +10,9 @@ namespace casimir {
 
 /// How small changes of the state grow along a run, from the variational equations: the derivative
 /// of the flow from the start, column by column, and along one direction each from a few later
-/// times. Relative to the sizes of the states.
+/// times. Relative to the sizes of the states; where all states are less than a tenth of these at
+/// the time at which a change is made, to that part of them: rounding makes no larger ones, nor
+/// does the absolute tolerance.
 struct Conditioning {
   /// A change has grown so many times by then.
   struct Growth {
@@ -36,7 +38,10 @@ std::vector<double> sizes_of(const Trajectory& trajectory);
 /// compiler, at the tolerance of the run or a tighter one; in a limited number of steps. Beyond,
 /// growth is extrapolated: by the power of time, or exponentially, that fits its second half.
 /// Nothing where that run does not get anywhere.
+/// \param stiff  the steps heed the changes as well, which an explicit method makes explode in
+///               equations that are stiff.
 std::optional<Conditioning> conditioning(const PreparedScene& run, const Settings& settings,
-                                         double duration, const std::vector<double>& sizes);
+                                         double duration, const std::vector<double>& sizes,
+                                         bool stiff = false);
 
 }  // namespace casimir

@@ -96,6 +96,10 @@ void NearSingular::see(double t, const double* x) {
   }
 }
 
+bool NearSingular::crossed() const {
+  return std::ranges::any_of(ranges_, [](const Range& range) { return range.crossed.has_value(); });
+}
+
 std::optional<std::string> NearSingular::finding() const {
   for (const Range& range : ranges_) {
     if (range.crossed)

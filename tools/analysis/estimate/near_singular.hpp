@@ -23,6 +23,8 @@ class NearSingular {
   /// A sentence, if a divisor changed its sign, or came down to less than a thousandth of its
   /// largest value: when, and in which state.
   std::optional<std::string> finding() const;
+  /// Whether a divisor changed its sign.
+  bool crossed() const;
 
  private:
   struct Range {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -86,7 +87,23 @@ class Judge {
     } else {
       prepare(method_named(kStiffMethod), settings_for(options_.run, run_, kStiffTolerance));
       run_it();
+      if (!options_.run.tolerance && !options_.run.atol) try_small_states();
     }
+  }
+
+  /// A state of reacting matter may dwindle below the absolute tolerance and, once it is lost to
+  /// rounding and negative, explode.
+  void try_small_states() {
+    const Status status = result_.trajectory.status;
+    if (status == Status::ok || status == Status::stopped || status == Status::max_steps) return;
+    constexpr double kMuchLess = 1e-15;
+    const Trajectory first = result_.trajectory;
+    const double asked = result_.settings.atol;
+    result_.settings.atol *= kMuchLess;
+    run_it();
+    if (result_.trajectory.status == Status::ok) return;
+    result_.trajectory = first;
+    result_.settings.atol = asked;
   }
 
   /// One run; what `stiffness` finds ends it.
@@ -123,7 +140,16 @@ class Judge {
     for (std::string& doubt : check_drift(model_, run_.specialisation.invariant_names, trajectory))
       doubts.push_back(std::move(doubt));
     result_.trust = assess(run_, *result_.compiled, *result_.method, result_.settings, trajectory);
-    result_.near_singular = singular_->finding();
+    if (trajectory.status != Status::ok || singular_->crossed() || costs_digits())
+      result_.near_singular = singular_->finding();
+  }
+
+  /// Whether the estimate of the error leaves room for digits that a small divisor took.
+  bool costs_digits() const {
+    constexpr double kOfTolerance = 3, kSeen = 1e-12;
+    const ErrorEstimate& trust = result_.trust;
+    return !trust.known || trust.unconfirmed || trust.beyond_double ||
+           !(trust.error_estimate < std::max(kSeen, kOfTolerance * result_.settings.rtol));
   }
 
   const Model& model_;
