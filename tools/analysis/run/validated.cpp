@@ -27,8 +27,9 @@ void check_ranges(const Model& model, const ValidatedOptions& options) {
     if (symbol == model.parameters.end())
       throw RequestError(fmt::format("'{}' is not a parameter of this case", printable(name)));
     for (const Assumption& assumption : model.assumptions) {
-      const bool open =
-          assumption.relation == "!=" || assumption.relation == ">" || assumption.relation == "<";
+      const bool open = assumption.comparison == Comparison::unequal ||
+                        assumption.comparison == Comparison::greater ||
+                        assumption.comparison == Comparison::less;
       if (!open && assumption.difference.has(*symbol))
         throw RequestError(fmt::format("a range of {} leaves the assumption '{}'", printable(name),
                                        printable(assumption.text)));
