@@ -13,13 +13,14 @@ namespace casimir {
 
 /// A closed interval with rational ends.
 struct RationalInterval {
-  cln::cl_RA low, high;
+  cln::cl_RA low;   ///< its lower end
+  cln::cl_RA high;  ///< its upper end
 };
 
 /// A function that is known to be constant along all solutions, as long as they stay where it is
 /// analytic. What is no such function makes the result of a run false.
 struct KnownIntegral {
-  std::string name;
+  std::string name;         ///< by which the run refers to it
   Program value;            ///< of the states and the time; one output
   Program gradient;         ///< of the same inputs; its nonzero entries ..
   std::vector<int> states;  ///< .. and the state by which each of them is the derivative
@@ -35,7 +36,7 @@ struct ValidatedProblem {
   Program start;
   /// By how much each state may be off at the start, on both sides; empty: by nothing.
   std::vector<cln::cl_RA> radii = {};
-  std::vector<KnownIntegral> integrals = {};
+  std::vector<KnownIntegral> integrals = {};  ///< by which the box is made smaller
 };
 
 /// How an enclosure is made.
@@ -56,28 +57,29 @@ struct ValidatedSettings {
 struct StateBox {
   cln::cl_RA
       time;  ///< of samples exact; of the end at most 2^-60 of it off, where it is irrational
-  std::vector<RationalInterval> states;
+  std::vector<RationalInterval> states;  ///< one for each state, in their order
 };
 
 /// Why an enclosure ended before its time.
 enum class ValidatedStatus {
-  ok,
+  ok,             ///< it reached its time
   no_enclosure,   ///< beyond the time of `end` none could be found
   contradiction,  ///< an integral excludes every state of the box: it is not one
-  max_steps,
-  stopped,
+  max_steps,      ///< as many steps were made as were allowed
+  stopped,        ///< `give_up` said so
 };
 
 /// What was proved: the solution from each possible start exists up to the time of `end`, and its
 /// states there and at the samples are in their boxes.
 struct ValidatedRun {
-  ValidatedStatus status = ValidatedStatus::ok;
-  std::string reason;  ///< a sentence, where the status is not ok
-  StateBox end;        ///< at the duration, or where the run stopped
-  std::vector<StateBox> samples;
-  std::vector<std::string> contracted_by;  ///< the integrals that have made it smaller
-  unsigned long long steps = 0, rejected = 0;
-  double seconds = 0;
+  ValidatedStatus status = ValidatedStatus::ok;  ///< how it ended
+  std::string reason;                            ///< a sentence, where the status is not ok
+  StateBox end;                                  ///< at the duration, or where the run stopped
+  std::vector<StateBox> samples;                 ///< at the multiples asked for, and at the end
+  std::vector<std::string> contracted_by;        ///< the integrals that have made it smaller
+  unsigned long long steps = 0;                  ///< that were made
+  unsigned long long rejected = 0;               ///< that could not be enclosed at their length
+  double seconds = 0;                            ///< that the run took
 
   /// The largest half width of the box at the end.
   double radius() const;

@@ -23,15 +23,15 @@ struct ValidatedOptions {
   std::vector<std::pair<std::string, cln::cl_RA>> ranges = {};
   std::optional<std::vector<std::string>> observe = {};  ///< see SpecialiseOptions
   bool contract = true;                                  ///< by what is proved to be an integral
-  ValidatedSettings run = {};
+  ValidatedSettings run = {};                            ///< digits, samples, limits
 };
 
 /// An enclosure with what it is one of.
 struct ValidatedMotion {
-  Specialisation specialisation;
+  Specialisation specialisation;  ///< the programs that were enclosed
   /// The states, and then the parameters of `ranges`: those of the boxes of `run`.
   std::vector<std::string> names;
-  ValidatedRun run;
+  ValidatedRun run;  ///< what was proved
   /// A sentence about each invariant that could not be used, since it is not proved.
   std::vector<std::string> doubts;
 };
