@@ -104,7 +104,8 @@ std::string did_you_mean(const std::string& name) {
 CaseError::CaseError(Location where, std::string text, std::string excerpt, std::string hint)
     : std::runtime_error(message(where, text, excerpt, hint)),
       where_(std::move(where)),
-      text_(std::move(text)) {}
+      text_(std::move(text)),
+      hint_(std::move(hint)) {}
 
 std::string same_but_for_case(const std::string& name, const std::vector<std::string>& known) {
   const std::string wanted = folded(name);

@@ -27,10 +27,12 @@ class CaseError : public std::runtime_error {
   const Location& where() const { return where_; }
   /// What is wrong, without the place.
   const std::string& text() const { return text_; }
+  /// As it was given, or empty.
+  const std::string& hint() const { return hint_; }
 
  private:
   Location where_;
-  std::string text_;
+  std::string text_, hint_;
 };
 
 /// A mathematical object that cannot be made: brackets of the wrong number, a repeated coordinate.
