@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <new>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 #include "codegen/compile.hpp"
@@ -12,6 +14,7 @@
 #include "tools/cli/cli.hpp"
 #include "tools/cli/command_line.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/standard_streams.hpp"
 #include "tools/usage/helpers.hpp"
@@ -21,10 +24,19 @@ namespace {
 using namespace casimir;
 using namespace casimir::tools;
 
-int fail(Exit status, const std::string& message) {
+/// Whether errors are wanted as JSON too; to be known before the command line is read.
+bool g_json = false;
+
+/// Says on standard error why the command ends, and with `--json` on standard output as well.
+int fail(Exit status, const std::string& message, const nlohmann::ordered_json& json) {
+  if (g_json) print_json(json);
   std::cout.flush();
   std::cerr << message << '\n';
   return status;
+}
+
+int fail(Exit status, const std::string& text) {
+  return fail(status, "casimir: error: " + text, error_json(text));
 }
 
 int run(int argc, char** argv) {
@@ -38,7 +50,8 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return program.app().exit(help);
   } catch (const CLI::ParseError& problem) {
-    return fail(kBadInput, program.usage_message(problem, argc, argv));
+    const std::string message = program.usage_message(problem, argc, argv);
+    return fail(kBadInput, message, error_json(message));
   }
   return action();
 }
@@ -48,31 +61,31 @@ int run_guarded(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const CaseError& problem) {
-    return fail(kBadInput, problem.what());
+    return fail(kBadInput, problem.what(), error_json(problem));
   } catch (const RequestError& problem) {
-    return fail(kBadInput, fmt::format("casimir: error: {}", problem.what()));
+    return fail(kBadInput, problem.what());
   } catch (const SingularPoint& problem) {
-    return fail(kNotContinued, fmt::format("casimir: error: {}", problem.what()));
+    return fail(kNotContinued, problem.what());
   } catch (const ModelError& problem) {
-    return fail(kBadInput, fmt::format("casimir: error: {}", problem.what()));
+    return fail(kBadInput, problem.what());
   } catch (const EnvironmentError& problem) {
-    return fail(kEnvironment, fmt::format("casimir: error: {}", problem.what()));
+    return fail(kEnvironment, problem.what());
   } catch (const SystemError& problem) {
-    return fail(kEnvironment, fmt::format("casimir: error: {}", problem.what()));
+    return fail(kEnvironment, problem.what());
   } catch (const std::bad_alloc&) {
-    return fail(kEnvironment, "casimir: error: " + out_of_memory_text());
+    return fail(kEnvironment, out_of_memory_text());
   } catch (const std::domain_error& problem) {
     // Exact arithmetic at a point where an expression has no value.
-    return fail(kBadInput, fmt::format("casimir: error: an expression of the case has no value "
+    return fail(kBadInput, fmt::format("an expression of the case has no value "
                                        "where it is needed: {}",
                                        problem.what()));
   } catch (const std::system_error& problem) {
     // Standard output that takes no more is reported once, at the end.
     if (standard_output_problem()) return kEnvironment;
-    return fail(kEnvironment, fmt::format("casimir: error: {}", problem.what()));
+    return fail(kEnvironment, problem.what());
   } catch (const std::exception& problem) {
     // An error of a library that nobody thought of: still a message, and not a crash.
-    return fail(kEnvironment, fmt::format("casimir: error: {}", printable(problem.what(), 500)));
+    return fail(kEnvironment, printable(problem.what(), 500));
   }
 }
 
@@ -80,6 +93,8 @@ int run_guarded(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   open_standard_streams();
+  g_json = std::any_of(argv, argv + argc,
+                       [](const char* word) { return std::string_view(word) == "--json"; });
   install_interrupt_handler();
   const int status = run_guarded(argc, argv);
   if (const char* const problem = standard_output_problem())

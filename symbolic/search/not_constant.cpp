@@ -17,7 +17,7 @@ bool changes_at(BallEvaluator& at, const Model& model, const ex& function,
   try {
     for (const Assumption& assumption : model.assumptions) {
       const auto sign = at.sign(assumption.difference);
-      if (!sign || !assumption.allows(*sign)) return false;
+      if (!sign || !holds(assumption.comparison, *sign)) return false;
     }
     at(function);
   } catch (const NotCertified&) {

@@ -7,15 +7,15 @@
 namespace casimir::search {
 namespace {
 
-struct Term {
+struct WeightedTerm {
   std::size_t rate;
   std::vector<unsigned long> exponents;
 };
 
 /// How many terms are leading; -1 where one has too much weight or a rate has no leading term.
-int leading_terms(const Weights& weights, const std::vector<Term>& terms) {
+int leading_terms(const Weights& weights, const std::vector<WeightedTerm>& terms) {
   int count = 0;
-  for (const Term& term : terms) {
+  for (const WeightedTerm& term : terms) {
     const int more = excess(weights, term.rate, term.exponents);
     if (more > 0) return -1;
     if (more == 0) ++count;
@@ -24,7 +24,7 @@ int leading_terms(const Weights& weights, const std::vector<Term>& terms) {
 }
 
 /// Tries all weights that are equal within groups.
-void try_all(const std::vector<Term>& terms, const std::vector<std::size_t>& group_of,
+void try_all(const std::vector<WeightedTerm>& terms, const std::vector<std::size_t>& group_of,
              std::size_t groups, int largest, std::optional<Weights>& best, int& best_count) {
   constexpr int kDenominators = 3;
   for (int denominator = 1; denominator <= kDenominators; ++denominator) {
@@ -56,7 +56,7 @@ int excess(const Weights& weights, std::size_t i, const std::vector<unsigned lon
 
 std::optional<Weights> find_weights(const std::vector<Polynomial>& field,
                                     const std::vector<std::string>& names) {
-  std::vector<Term> terms;
+  std::vector<WeightedTerm> terms;
   for (std::size_t i = 0; i < field.size(); ++i)
     for (auto& [number, exponents] : field[i].term_list()) terms.push_back({i, exponents});
   std::map<std::string, std::size_t> groups;

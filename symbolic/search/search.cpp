@@ -183,7 +183,7 @@ std::optional<std::string> thin_assumptions(System& system) {
       RealPoint point = points.at(std::move(coordinates));
       return std::all_of(assumptions.begin(), assumptions.end(), [&](const Assumption& a) {
         const auto sign = point.evaluator().sign(a.difference);
-        return sign && *sign != 0 && a.allows(*sign);
+        return sign && *sign != 0 && holds(a.comparison, *sign);
       });
     } catch (const NotCertified&) {
       return false;

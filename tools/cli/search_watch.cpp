@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -19,13 +20,11 @@ std::string undecided_text(const Common& common, const std::string& case_name,
                            const std::string& reason, double seconds) {
   if (common.quiet && !common.json) return {};
   if (!common.json) return fmt::format("undecided: {}\n", reason);
-  return nlohmann::ordered_json{{"case", case_name},
-                                {"verdict", "undecided"},
-                                {"integrals", nlohmann::json::array()},
-                                {"reason", reason},
-                                {"seconds", seconds}}
-             .dump(2) +
-         '\n';
+  return json_text({{"case", case_name},
+                    {"verdict", "undecided"},
+                    {"integrals", nlohmann::json::array()},
+                    {"reason", reason},
+                    {"seconds", seconds}});
 }
 
 }  // namespace

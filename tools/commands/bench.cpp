@@ -11,6 +11,7 @@
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/options/choices.hpp"
 #include "tools/cli/options/kept_parameters.hpp"
 #include "tools/cli/options/run_options.hpp"
@@ -132,7 +133,7 @@ void write_page(const BenchReport& report, const std::string& path) {
 
 void print(const BenchReport& report, const Options& options) {
   if (options.common.json || options.format == "json") {
-    std::cout << to_json(report).dump(2) << '\n';
+    print_json(to_json(report));
   } else if (!options.common.quiet) {
     std::cout << (options.format == "markdown" ? to_markdown(report) : to_text(report));
   }

@@ -9,6 +9,7 @@
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/options/kept_parameters.hpp"
 #include "tools/cli/options/run_options.hpp"
 #include "tools/cli/output.hpp"
@@ -114,7 +115,7 @@ int conserve(const Options& options) {
   const auto failed =
       std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.failed; });
   if (options.common.json) {
-    std::cout << to_json(rows).dump(2) << '\n';
+    print_json(to_json(rows));
   } else if (!options.common.quiet) {
     const bool with_error = std::any_of(rows.begin(), rows.end(),
                                         [](const Row& row) { return !std::isnan(row.error); });

@@ -4,12 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "tools/analysis/equilibria/equilibria.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/search_watch.hpp"
 #include "tools/runs/atlas.hpp"
 
@@ -110,7 +110,7 @@ int equilibria(const Options& options) {
     const EquilibriumReport report = find_equilibria(model, scene, watch.watch().tick);
     const double seconds = watch.end();
     if (options.common.json)
-      std::cout << to_json(model, scene, report, seconds).dump(2) << '\n';
+      print_json(to_json(model, scene, report, seconds));
     else if (!options.common.quiet)
       print(model, scene, report, seconds);
     return kDone;

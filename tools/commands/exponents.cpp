@@ -4,13 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "symbolic/search/exponents.hpp"
 #include "tools/analysis/equilibria/numeric_balances.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/options/search_options.hpp"
 #include "tools/cli/search_watch.hpp"
 #include "tools/runs/atlas.hpp"
@@ -171,7 +171,7 @@ int exponents(const Options& options) {
     const std::size_t starts = report.complete ? 0 : complete_numerically(report, watch.watch());
     const double seconds = watch.end();
     if (options.common.json)
-      std::cout << to_json(model, report, starts, seconds).dump(2) << '\n';
+      print_json(to_json(model, report, starts, seconds));
     else if (!options.common.quiet)
       print(model, report, starts, seconds);
     return report.complete || starts > 0 ? kDone : kUndecided;

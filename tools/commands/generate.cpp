@@ -10,6 +10,7 @@
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/options/choices.hpp"
 #include "tools/cli/options/kept_parameters.hpp"
 #include "tools/cli/output.hpp"
@@ -90,16 +91,14 @@ int generate(const Options& options) {
   file.stream() << header;
   file.commit();
   if (options.common.json) {
-    std::cout << nlohmann::ordered_json{{"case", model.name},
-                                        {"scene", specialisation.scene},
-                                        {"file", options.output},
-                                        {"operations",
-                                         {{"general", to_json(specialisation.general)},
-                                          {"specialised", to_json(specialisation.specialised)}}},
-                                        {"functions", functions_json(specialisation)},
-                                        {"left_out", left_out_json(specialisation)}}
-                     .dump(2)
-              << '\n';
+    print_json(nlohmann::ordered_json{{"case", model.name},
+                                      {"scene", specialisation.scene},
+                                      {"file", options.output},
+                                      {"operations",
+                                       {{"general", to_json(specialisation.general)},
+                                        {"specialised", to_json(specialisation.specialised)}}},
+                                      {"functions", functions_json(specialisation)},
+                                      {"left_out", left_out_json(specialisation)}});
   } else if (!options.common.quiet) {
     fmt::print("wrote {}\n{}", printable(options.output, 200), generated_text(specialisation));
   }

@@ -14,6 +14,7 @@
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/options/kept_parameters.hpp"
 #include "tools/cli/options/motion_options.hpp"
 #include "tools/cli/options/run_options.hpp"
@@ -286,7 +287,7 @@ int integrate_case(const Options& options) {
   const RunWords words = words_of(judged, interrupted);
   if (!options.output.empty()) write_samples(options.output, answer, judged.trajectory);
   if (options.common.json) {
-    std::cout << to_json(model, run, answer, judged, words).dump(2) << '\n';
+    print_json(to_json(model, run, answer, judged, words));
   } else if (!options.common.quiet) {
     print_text(run, answer, judged, words);
     if (!options.output.empty())

@@ -3,12 +3,12 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/show/book_order.hpp"
 
 namespace casimir::tools {
@@ -59,7 +59,7 @@ int list(const Options& options) {
                  claims_of(model), "", fmt::join(scene_names(model), "; "));
     }
   }
-  if (options.common.json) std::cout << nlohmann::ordered_json{{"cases", cases}}.dump(2) << '\n';
+  if (options.common.json) print_json(nlohmann::ordered_json{{"cases", cases}});
   return kDone;
 }
 

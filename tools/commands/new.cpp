@@ -3,12 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "symbolic/error.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/runs/new_case.hpp"
 
@@ -51,7 +51,7 @@ int create(const Options& options) {
   file.stream() << to_toml(system, stem, path.filename().string());
   file.commit();
   if (options.common.json) {
-    std::cout << nlohmann::ordered_json{{"file", path.string()}}.dump(2) << '\n';
+    print_json(nlohmann::ordered_json{{"file", path.string()}});
   } else if (!options.common.quiet)
     fmt::print("wrote {0}; next: casimir verify {0}\n", printable(path.string(), 200));
   return kDone;

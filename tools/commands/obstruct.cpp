@@ -1,12 +1,12 @@
 // casimir obstruct: proofs that a case has no further integral.
 #include <CLI/CLI.hpp>
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "symbolic/obstruction/obstruct.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/options/search_options.hpp"
 #include "tools/cli/search_watch.hpp"
 #include "tools/runs/atlas.hpp"
@@ -32,7 +32,7 @@ int obstruct(const Options& options) {
         model, {options.common.scene, texts_of(options.along, "--along")}, watch.watch());
     const double seconds = watch.end();
     if (options.common.json)
-      std::cout << to_json(model, answer, seconds).dump(2) << '\n';
+      print_json(to_json(model, answer, seconds));
     else if (!options.common.quiet)
       print(model, answer, seconds, options.evidence);
     return answer.proved ? kDone : kUndecided;

@@ -12,6 +12,7 @@
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/report/index.hpp"
@@ -160,7 +161,7 @@ int report_one(const Options& options) {
       write_report(file, options, path, {options.case_name, repeated_options(options), {}, {}},
                    options.common.time_limit, progress);
   if (options.common.json) {
-    std::cout << written.json.dump(2) << '\n';
+    print_json(written.json);
   } else if (!options.common.quiet) {
     fmt::print("wrote {}: {}, {}\n", printable(path, 200), to_string(written.entry.verdict),
                written.entry.claims);
@@ -247,11 +248,8 @@ class Reports {
     index.stream() << index_page(entries_, machine_);
     index.commit();
     if (options_.common.json) {
-      std::cout << Json{{"cases", cases_},
-                        {"index", place_.index.string()},
-                        {"seconds", seconds_since(start_)}}
-                       .dump(2)
-                << '\n';
+      print_json(Json{
+          {"cases", cases_}, {"index", place_.index.string()}, {"seconds", seconds_since(start_)}});
     } else if (!options_.common.quiet) {
       fmt::print("wrote {}: {} cases\n", printable(place_.index.string(), 200), entries_.size());
     }

@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <iostream>
 
 #include "symbolic/search/darboux.hpp"
 #include "symbolic/search/search.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/options/search_options.hpp"
 #include "tools/cli/resources.hpp"
 #include "tools/cli/search_watch.hpp"
@@ -29,7 +29,7 @@ template <class Report>
 int answer(const Options& options, const Model& model, const Report& report, SearchWatch& watch) {
   const double seconds = watch.end();
   if (options.common.json)
-    std::cout << to_json(model, options.degree, report, seconds).dump(2) << '\n';
+    print_json(to_json(model, options.degree, report, seconds));
   else if (!options.common.quiet)
     print(model, options.degree, report, seconds);
   return report.complete ? kDone : kUndecided;

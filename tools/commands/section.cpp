@@ -9,6 +9,7 @@
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/options/choices.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/plot/gnuplot.hpp"
@@ -234,7 +235,7 @@ class Section {
       table = true;
     }
     if (options_.common.json)
-      std::cout << to_json(report, !table).dump(2) << '\n';
+      print_json(to_json(report, !table));
     else if (!options_.common.quiet)
       print_text(report);
     std::cout.flush();

@@ -3,13 +3,13 @@
 #include <fmt/ostream.h>
 
 #include <CLI/CLI.hpp>
-#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "tools/analysis/conversion.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/options/choices.hpp"
 #include "tools/runs/atlas.hpp"
 #include "tools/show/show.hpp"
@@ -49,11 +49,8 @@ int show_scenes_as(const Model& model, const Options& options) {
     scenes.push_back({{"scene", scene.name}, {"state", numbers}, {"exact", exact}});
   }
   if (options.common.json) {
-    std::cout << nlohmann::ordered_json{{"case", model.name},
-                                        {"as", options.as},
-                                        {"scenes", scenes}}
-                     .dump(2)
-              << '\n';
+    print_json(
+        nlohmann::ordered_json{{"case", model.name}, {"as", options.as}, {"scenes", scenes}});
   }
   return kDone;
 }
@@ -63,7 +60,7 @@ int show(const Options& options) {
       model_of(load_case(options.case_name), options.common.parameter_values()), options.in);
   if (!options.as.empty()) return show_scenes_as(model, options);
   if (options.common.json || options.format == "json") {
-    std::cout << show_json(model).dump(2) << '\n';
+    print_json(show_json(model));
   } else if (options.format == "latex") {
     show_latex(model);
   } else if (!options.common.quiet) {

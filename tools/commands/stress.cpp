@@ -14,6 +14,7 @@
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/options/run_options.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
@@ -298,7 +299,7 @@ int stress(const Options& options) {
     file.commit();
   }
   if (options.common.json)
-    std::cout << to_json(matrix).dump(2) << '\n';
+    print_json(to_json(matrix));
   else if (!options.common.quiet)
     print(matrix);
   if (!options.plot.empty()) draw_matrix(matrix, options.plot);

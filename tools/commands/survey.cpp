@@ -12,6 +12,7 @@
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/options/choices.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
@@ -125,7 +126,7 @@ int survey(const Options& options) {
     file.commit();
   }
   if (options.common.json) {
-    std::cout << to_json(rows).dump(2) << '\n';
+    print_json(to_json(rows));
   } else if (!options.common.quiet) {
     if (options.output.empty())
       std::cout << table;

@@ -17,6 +17,7 @@
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/options/choices.hpp"
 #include "tools/cli/options/run_options.hpp"
 #include "tools/cli/output.hpp"
@@ -243,7 +244,7 @@ int sweep_in(const Ranks& ranks, const Options& options) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
       integrations ? integrations->warning() : std::string{}};
   if (options.common.json)
-    std::cout << to_json(report).dump(2) << '\n';
+    print_json(to_json(report));
   else if (!options.common.quiet)
     print_text(report);
   return verdict(report, interrupted);

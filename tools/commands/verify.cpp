@@ -14,6 +14,7 @@
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/runs/atlas.hpp"
 #include "tools/text/proof_report.hpp"
@@ -140,11 +141,8 @@ int verify_all(const Options& options) {
   }
   if (report) report->end(worst, seconds_since(start));
   if (options.common.json) {
-    std::cout << nlohmann::ordered_json{{"cases", cases},
-                                        {"verdict", to_string(worst)},
-                                        {"seconds", seconds_since(start)}}
-                     .dump(2)
-              << '\n';
+    print_json(nlohmann::ordered_json{
+        {"cases", cases}, {"verdict", to_string(worst)}, {"seconds", seconds_since(start)}});
   }
   return exit_status(worst);
 }
@@ -166,7 +164,7 @@ int verify(const Options& options) {
   const bool lines = !options.common.json && !options.common.quiet;
   const Verified result =
       verify_one(load_case(options.case_name), options, options.common.time_limit, lines);
-  if (options.common.json) std::cout << result.json.dump(2) << '\n';
+  if (options.common.json) print_json(result.json);
   return exit_status(result.outcome.verdict);
 }
 

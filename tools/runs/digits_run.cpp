@@ -13,6 +13,7 @@
 #include "symbolic/case/expression.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/runs/atlas.hpp"
 #include "tools/text/digits_report.hpp"
@@ -140,7 +141,7 @@ int integrate_with_digits(const DigitsRequest& request) {
                             .seconds = seconds_since(begin)};
   if (!request.output.empty()) write_samples(request.output, report);
   if (request.common.json) {
-    std::cout << to_json(report).dump(2) << '\n';
+    print_json(to_json(report));
   } else if (!request.common.quiet) {
     print_text(report);
     for (const std::string& warning : report.warnings()) fmt::print("  warning: {}\n", warning);

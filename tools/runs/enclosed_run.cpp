@@ -12,6 +12,7 @@
 #include "tools/analysis/run/validated.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/runs/atlas.hpp"
 #include "tools/runs/digits_run.hpp"
@@ -159,7 +160,7 @@ int integrate_validated(const EnclosedRequest& request) {
       .seconds = std::chrono::duration<double>(Clock::now() - start).count()};
   if (!request.output.empty()) write_boxes(request.output, report);
   if (request.common.json) {
-    std::cout << to_json(report).dump(2) << '\n';
+    print_json(to_json(report));
   } else if (!request.common.quiet) {
     print_text(report);
     if (!request.output.empty())

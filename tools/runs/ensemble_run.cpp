@@ -12,6 +12,7 @@
 #include "tools/analysis/run/ensemble_kernel.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/text/ensemble_file.hpp"
 #include "tools/text/run_report.hpp"
@@ -249,7 +250,7 @@ int integrate_ensemble(const EnsembleRequest& request) {
   const Report report{run, method, settings, kernel, result};
   if (!request.output.empty()) write_members(request.output, report);
   if (request.common.json) {
-    std::cout << to_json(report).dump(2) << '\n';
+    print_json(to_json(report));
   } else if (!request.common.quiet) {
     print_text(report);
     if (!request.output.empty())

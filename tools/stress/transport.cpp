@@ -102,7 +102,7 @@ SceneReference unpacked(const Json& json) {
 StressAnswer answer_of(const Reply& reply) {
   using Kind = StressAnswer::Kind;
   const Json said = Json::parse(reply.out, nullptr, false);
-  if (said.is_discarded() || reply.killed)
+  if (said.is_discarded() || said.contains("error") || reply.killed)
     return {.kind = reply.killed      ? Kind::killed
                     : reply.exit >= 0 ? Kind::refused
                                       : Kind::crashed,

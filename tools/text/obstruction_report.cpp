@@ -57,8 +57,8 @@ std::string parameters_text(const Obstruction& answer) {
 }  // namespace
 
 nlohmann::ordered_json to_json(const Model& model, const Obstruction& answer, double seconds) {
-  nlohmann::ordered_json json{
-      {"schema", 1}, {"case", model.name}, {"verdict", answer.proved ? "proved" : "undecided"}};
+  nlohmann::ordered_json json{{"case", model.name},
+                              {"verdict", answer.proved ? "proved" : "undecided"}};
   json["parameters"] = nlohmann::json::object();
   for (const auto& [name, value] : answer.parameters) json["parameters"][name] = value;
   if (answer.proved) {
