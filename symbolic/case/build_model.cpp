@@ -408,13 +408,15 @@ class Builder {
   /// A map leads into the target's domain, or says nothing: what has a real value only there.
   static void restrict_to(const Assumption& condition, const GiNaC::exmap& image,
                           std::vector<ex>& domain) {
-    const std::string& relation = condition.relation;
+    const Comparison comparison = condition.comparison;
+    const bool below = comparison == Comparison::less || comparison == Comparison::at_most;
+    const bool strict = comparison == Comparison::less || comparison == Comparison::greater;
     ex difference = substituted(condition.difference, image);
-    if (relation == "<" || relation == "<=") difference = -difference;
-    if (relation == "==" || GiNaC::is_a<GiNaC::numeric>(difference)) return;
-    domain.push_back(relation == "!="                     ? 1 / difference
-                     : relation == ">" || relation == "<" ? GiNaC::log(difference)
-                                                          : GiNaC::sqrt(difference));
+    if (below) difference = -difference;
+    if (comparison == Comparison::equal || GiNaC::is_a<GiNaC::numeric>(difference)) return;
+    domain.push_back(comparison == Comparison::unequal ? 1 / difference
+                     : strict                          ? GiNaC::log(difference)
+                                                       : GiNaC::sqrt(difference));
   }
 
   void read_map(const MapText& text) {

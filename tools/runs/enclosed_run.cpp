@@ -25,22 +25,24 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kRangeMark = "..";
 
-[[noreturn]] void does_not_go(const std::string& option, const std::string& why) {
+[[noreturn]] void does_not_go_with_boxes(const std::string& option, const std::string& why) {
   throw UsageError(fmt::format("{} does not go with --validated: {}", option, why));
 }
 
-void check(const EnclosedRequest& request) {
+void check_enclosed(const EnclosedRequest& request) {
   if (request.digits && (*request.digits < kLeastDigits || *request.digits > kMostDigits))
     throw UsageError(fmt::format("--digits {}: expected {} to {}, or nothing for double precision",
                                  *request.digits, kLeastDigits, kMostDigits));
   if (request.method != "auto" && request.method != "taylor")
-    does_not_go("--method " + request.method, "enclosures are made by Taylor series");
+    does_not_go_with_boxes("--method " + request.method, "enclosures are made by Taylor series");
   const RunRequest& run = request.run.asked;
   if (run.rtol || run.atol || run.tolerance)
-    does_not_go("a tolerance", "the width of the box says what is known");
-  if (run.step) does_not_go("--step", "a step is as long as it can be enclosed");
-  if (run.projects()) does_not_go("--project", "every proved integral makes the box smaller");
-  if (!request.as.empty()) does_not_go("--as", "it converts states, not boxes; see --in");
+    does_not_go_with_boxes("a tolerance", "the width of the box says what is known");
+  if (run.step) does_not_go_with_boxes("--step", "a step is as long as it can be enclosed");
+  if (run.projects())
+    does_not_go_with_boxes("--project", "every proved integral makes the box smaller");
+  if (!request.as.empty())
+    does_not_go_with_boxes("--as", "it converts states, not boxes; see --in");
   if (request.every > 0 && request.output.empty())
     throw UsageError("--every needs --output FILE.csv");
 }
@@ -93,7 +95,7 @@ ParameterValues without_ranges(const ParameterValues& given, CaseFile& file,
 }
 
 /// The decimal that was written for a double: the shortest that reads back as it.
-cln::cl_RA as_written(double value) {
+cln::cl_RA exact_interval(double value) {
   std::string text = fmt::format("{}", value);
   if (const std::size_t e = text.find('e'); e != std::string::npos)
     text = fmt::format("{}*10^({})", text.substr(0, e), std::stoi(text.substr(e + 1)));
@@ -104,12 +106,12 @@ cln::cl_RA as_written(double value) {
 cln::cl_RA sampling(const EnclosedRequest& request, const ValidatedOptions& options,
                     const Scene& scene) {
   if (request.output.empty()) return 0;
-  if (request.every > 0) return as_written(request.every);
+  if (request.every > 0) return exact_interval(request.every);
   const GiNaC::ex duration = options.duration ? *options.duration : scene.duration.value_or(0);
   const GiNaC::ex value = duration.evalf();
   if (!GiNaC::is_a<GiNaC::numeric>(value) || value.is_zero()) return 0;
   const double size = std::abs(GiNaC::ex_to<GiNaC::numeric>(value).to_double());
-  return as_written(size / 1000);
+  return exact_interval(size / 1000);
 }
 
 int say_if_it_stopped(const EnclosureReport& report) {
@@ -126,7 +128,7 @@ int say_if_it_stopped(const EnclosureReport& report) {
 bool is_range(const std::string& word) { return word.find(kRangeMark) != std::string::npos; }
 
 int integrate_validated(const EnclosedRequest& request) {
-  check(request);
+  check_enclosed(request);
   const auto start = Clock::now();
   ValidatedOptions options;
   CaseFile file = request.start.in(load_case(request.case_name));
