@@ -8,6 +8,7 @@
 #include <chrono>
 #include <iostream>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/case/expression.hpp"
 #include "tools/analysis/run/validated.hpp"
 #include "tools/cli/case_library.hpp"
@@ -62,12 +63,6 @@ Text part_of(const Text& whole, std::size_t from, std::size_t length) {
   return part;
 }
 
-std::string text_of(const cln::cl_RA& value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
 /// Takes the ranges out of the values of parameters: scenes get their middles.
 ParameterValues without_ranges(const ParameterValues& given, CaseFile& file,
                                std::vector<std::pair<std::string, cln::cl_RA>>& ranges) {
@@ -87,7 +82,7 @@ ParameterValues without_ranges(const ParameterValues& given, CaseFile& file,
     const cln::cl_RA high = rational_value(part_of(value, mark + 2, std::string::npos));
     if (low > high) throw value.error("a range goes from the lower end to the higher one");
     Text middle = value;
-    middle.value = text_of((low + high) / 2);
+    middle.value = rational_text((low + high) / 2);
     set_in_scenes(file, &SceneText::parameters, name, middle);
     ranges.emplace_back(name.value, (high - low) / 2);
   }
