@@ -17,8 +17,8 @@ class RationalMatrices : public ::testing::Test {
     const auto word = [this] { return cln::cl_I(static_cast<unsigned long>(random_())); };
     if (random_() % 4 == 0) return 0;
     cln::cl_I top = word(), bottom = word() + 1;
-    for (unsigned more = random_() % 3; more > 0; --more) top = cln::ash(top, 64) + word();
-    for (unsigned more = random_() % 3; more > 0; --more) bottom = cln::ash(bottom, 64) + word();
+    for (auto more = random_() % 3; more > 0; --more) top = cln::ash(top, 64) + word();
+    for (auto more = random_() % 3; more > 0; --more) bottom = cln::ash(bottom, 64) + word();
     return (random_() % 2 == 0 ? top : -top) / bottom;
   }
 
@@ -67,7 +67,9 @@ TEST_F(RationalMatrices, GiveTheSolutionThatTheEquationsWereMadeFor) {
     ASSERT_TRUE(solution);
     for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ((*solution)[i], x[i][0]);
     equations[5][4] = equations[5][4] + 1;
-    if (rank(equations) == 5) EXPECT_FALSE(solve_unique(equations));
+    if (rank(equations) == 5) {
+      EXPECT_FALSE(solve_unique(equations));
+    }
   }
 }
 
