@@ -117,8 +117,9 @@ Outcome judge_certificate(const Case& claim, const Model& model, Random& random,
   const Certificate certificate = coq_certificate(model, {}, proofs);
   const Reading reading(claim, certificate.text, random);
   const auto is_left_out = [&](const std::string& kind, const std::string& name) {
-    return std::any_of(certificate.left_out.begin(), certificate.left_out.end(),
-                       [&](const LeftOut& l) { return l.kind == kind && l.name == name; });
+    return std::any_of(
+        certificate.left_out.begin(), certificate.left_out.end(),
+        [&](const Uncertified& l) { return to_string(l.kind) == kind && l.name == name; });
   };
   what = reading.wrong_dynamics();
   const auto read = [&](const std::string& kind, const std::vector<Named>& functions,
