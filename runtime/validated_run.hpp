@@ -22,15 +22,15 @@ struct RationalInterval {
 struct KnownIntegral {
   std::string name;         ///< by which the run refers to it
   Program value;            ///< of the states and the time; one output
-  Program gradient;         ///< of the same inputs; its nonzero entries ..
-  std::vector<int> states;  ///< .. and the state by which each of them is the derivative
+  Program gradient;         ///< of the same inputs: its nonzero entries
+  std::vector<int> states;  ///< the state by which each of them is the derivative
 };
 
 /// An initial value problem to be enclosed. The programs must outlive the run.
 struct ValidatedProblem {
   Program rates;     ///< of the states and the time, which comes last
-  Program jacobian;  ///< of the same inputs; its entries that are not identically zero ..
-  std::vector<std::pair<int, int>> entries;  ///< .. and the row and column of each
+  Program jacobian;  ///< of the same inputs: the entries that are not identically zero
+  std::vector<std::pair<int, int>> entries;  ///< the row and column of each of them
   /// Without inputs; the exact initial value of each state, and then the duration, which is
   /// negative for a run back in time.
   Program start;

@@ -97,8 +97,9 @@ int main(int argc, char** argv) {
                        [](const char* word) { return std::string_view(word) == "--json"; });
   install_interrupt_handler();
   const int status = run_guarded(argc, argv);
-  if (const char* const problem = standard_output_problem())
-    return fail(kEnvironment,
-                fmt::format("casimir: error: cannot write to standard output: {}", problem));
+  if (const char* const problem = standard_output_problem()) {
+    std::cerr << "casimir: error: cannot write to standard output: " << problem << '\n';
+    return kEnvironment;
+  }
   return status;
 }

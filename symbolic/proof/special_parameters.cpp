@@ -36,6 +36,13 @@ std::optional<Polynomial> determinant(PolynomialRows m, const PolynomialRing& ri
   return m.empty() ? ring.constant(1) : m.back().back();
 }
 
+/// A parameter that is zero, or equal to another one.
+struct SimpleForm {
+  Polynomial form;
+  std::size_t place;
+  std::optional<std::size_t> equal_to;
+};
+
 /// Equations for parameters, each solved for one of them by the others.
 struct Equations {
   std::vector<Polynomial> forms;
@@ -76,7 +83,8 @@ class SpecialParameters {
   std::pair<Indices, Indices> regular_minor(const std::vector<cln::cl_RA>& point) const;
   void find_minors();
   std::vector<Polynomial> common_factors() const;
-  std::vector<Polynomial> simple_forms() const;
+  std::vector<SimpleForm> simple_forms() const;
+  bool may_vanish(const SimpleForm& a, const SimpleForm& b) const;
   std::optional<Equations> solved(const std::vector<Polynomial>& forms) const;
   static Polynomial reduced(Polynomial p, const Equations& set);
   bool is_common_zero(const Equations& set) const;
@@ -118,28 +126,20 @@ Polynomial SpecialParameters::at_numbers(const Polynomial& p,
 /// Rows and columns of a minor that is regular at a point.
 std::pair<Indices, Indices> SpecialParameters::regular_minor(
     const std::vector<cln::cl_RA>& point) const {
-  RationalMatrix values, chosen, transposed;
+  if (rows_.empty() || rows_[0].empty()) return {};
+  RationalMatrix transposed(rows_[0].size());
   for (const auto& row : rows_) {
-    values.emplace_back();
-    for (const Polynomial& p : row) values.back().push_back(p.is_zero() ? 0 : p.evaluate(point));
+    for (std::size_t j = 0; j < row.size(); ++j)
+      transposed[j].push_back(row[j].is_zero() ? 0 : row[j].evaluate(point));
   }
-  Indices own_rows, own_columns;
-  for (std::size_t i = 0; i < values.size() && own_rows.size() < rank_; ++i) {
-    chosen.push_back(values[i]);
-    if (casimir::rank(chosen) == chosen.size())
-      own_rows.push_back(i);
-    else
-      chosen.pop_back();
+  Indices own_rows = independent_columns(transposed);
+  own_rows.resize(std::min(own_rows.size(), rank_));
+  RationalMatrix chosen;
+  for (const std::size_t i : own_rows) {
+    chosen.emplace_back();
+    for (const auto& column : transposed) chosen.back().push_back(column[i]);
   }
-  for (std::size_t j = 0; j < values[0].size() && own_columns.size() < own_rows.size(); ++j) {
-    transposed.emplace_back();
-    for (const std::size_t i : own_rows) transposed.back().push_back(values[i][j]);
-    if (casimir::rank(transposed) == transposed.size())
-      own_columns.push_back(j);
-    else
-      transposed.pop_back();
-  }
-  return {own_rows, own_columns};
+  return {own_rows, independent_columns(chosen)};
 }
 
 /// A minor that is regular for other parameters, at some numbers for the coordinates.
@@ -177,16 +177,32 @@ std::vector<Polynomial> SpecialParameters::common_factors() const {
   return result;
 }
 
-/// Parameters that are zero, or equal.
-std::vector<Polynomial> SpecialParameters::simple_forms() const {
-  std::vector<Polynomial> result;
+std::vector<SimpleForm> SpecialParameters::simple_forms() const {
+  std::vector<SimpleForm> result;
   for (const std::size_t p : places_) {
     const Polynomial v = ring().variable(p);
-    result.push_back(v);
+    result.push_back({v, p, std::nullopt});
     for (const std::size_t q : places_)
-      if (q < p) result.push_back(v - ring().variable(q));
+      if (q < p) result.push_back({v - ring().variable(q), p, q});
   }
   return result;
+}
+
+/// False where some minor is not zero at a point at which both forms are.
+bool SpecialParameters::may_vanish(const SimpleForm& a, const SimpleForm& b) const {
+  std::vector<cln::cl_RA> point(ring().size());
+  for (std::size_t i = 0; i < point.size(); ++i)
+    point[i] = cln::cl_RA(static_cast<long>(7 * i + 3));
+  // Twice, since the second form may change what the first one has set.
+  for (const SimpleForm* form : {&a, &b, &a, &b}) {
+    const cln::cl_RA value = form->equal_to ? point[*form->equal_to] : cln::cl_RA(0);
+    const cln::cl_RA known = point[form->place];
+    for (const std::size_t p : places_)
+      if (p == form->place || (cln::zerop(value) && point[p] == known)) point[p] = value;
+  }
+  if (!cln::zerop(a.form.evaluate(point)) || !cln::zerop(b.form.evaluate(point))) return true;
+  return std::all_of(minors_.begin(), minors_.end(),
+                     [&](const Polynomial& m) { return cln::zerop(m.evaluate(point)); });
 }
 
 Polynomial SpecialParameters::reduced(Polynomial p, const Equations& set) {
@@ -306,10 +322,11 @@ void SpecialParameters::look_at_pairs() {
       if (const auto set = solved(basis)) look_at_set(*set);
     }
   }
-  const std::vector<Polynomial> forms = simple_forms();
+  const std::vector<SimpleForm> forms = simple_forms();
   for (std::size_t i = 0; i < forms.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const auto set = solved({forms[j], forms[i]});
+      if (!may_vanish(forms[j], forms[i])) continue;
+      const auto set = solved({forms[j].form, forms[i].form});
       if (set && is_common_zero(*set)) look_at_set(*set);
     }
   }

@@ -1,6 +1,9 @@
 // Bad input: exit status 2, the place, the text, a hint; nothing crashes and nothing is written.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
 #include "tests/tools/program.hpp"
 
 namespace casimir::test {
@@ -21,7 +24,10 @@ TEST_P(BadCommandLine, IsRefused) {
   const Outcome outcome = run_in(folder, GetParam().arguments);
   EXPECT_EQ(outcome.status, 2) << outcome.err;
   EXPECT_NE(outcome.err.find(GetParam().expected), std::string::npos) << outcome.err;
-  EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+  if (std::ranges::count(GetParam().arguments, "--json") == 0)
+    EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+  else
+    EXPECT_TRUE(nlohmann::json::parse(outcome.out).contains("error")) << outcome.out;
   EXPECT_EQ(folder.files(), 0U);
 }
 
@@ -138,6 +144,26 @@ INSTANTIATE_TEST_SUITE_P(
 std::string case_with(const std::string& hamiltonian) {
   return "hamiltonian = \"" + hamiltonian +
          "\"\n[phase_space]\nvariables = [\"q\", \"p\"]\ncanonical = true\n";
+}
+
+TEST(BadFile, ErrorsAreJsonToo) {
+  const Outcome outcome = run({"verify", "-", "--json"}, case_with("p^2/2 + qq"));
+  EXPECT_EQ(outcome.status, 2);
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json.at("schema"), 1);
+  const auto& error = json.at("error");
+  EXPECT_EQ(error.at("file"), "<standard input>");
+  EXPECT_EQ(error.at("line"), 1);
+  EXPECT_EQ(error.at("column"), 24);
+  EXPECT_EQ(error.at("text"), "'qq' is not declared");
+  EXPECT_EQ(error.at("hint"), "did you mean 'q*q'?");
+  EXPECT_NE(outcome.err.find("<standard input>:1:24: error: 'qq'"), std::string::npos);
+  // Before a command line is understood as well, and where there is no place.
+  const Outcome option = run({"verify", "euler", "--json", "--nosuch"});
+  EXPECT_NE(
+      nlohmann::json::parse(option.out).at("error").at("text").get<std::string>().find("--nosuch"),
+      std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(run({"verify", "euler", "--json"}).out).at("schema"), 1);
 }
 
 TEST(BadFile, LargerThanTheStatedLimitIsRefused) {
