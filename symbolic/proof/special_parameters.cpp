@@ -1,11 +1,15 @@
 #include "symbolic/proof/special_parameters.hpp"
 
+#include <cln/integer.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <random>
+#include <stdexcept>
+#include <utility>
 
 #include "symbolic/algebra/ideal.hpp"
 #include "symbolic/algebra/rational_matrix.hpp"
@@ -35,6 +39,53 @@ std::optional<Polynomial> determinant(PolynomialRows m, const PolynomialRing& ri
   }
   return m.empty() ? ring.constant(1) : m.back().back();
 }
+
+/// A polynomial modulo a prime, for many evaluations: what is not zero there is not zero.
+class MinorModulo {
+ public:
+  /// \throws std::domain_error  where a coefficient has no value modulo the prime
+  explicit MinorModulo(const Polynomial& p) {
+    for (const auto& [number, exponents] : p.term_list()) {
+      const Word below = residue(cln::denominator(number));
+      if (below == 0) throw std::domain_error("a denominator is a multiple of the prime");
+      Term term{residue(cln::numerator(number)) * power(below, kPrime - 2) % kPrime, {}};
+      for (std::size_t i = 0; i < exponents.size(); ++i)
+        if (exponents[i] > 0) term.powers.emplace_back(i, exponents[i]);
+      terms_.push_back(std::move(term));
+    }
+  }
+
+  bool is_nonzero_at(const std::vector<std::uint64_t>& point) const {
+    Word sum = 0;
+    for (const Term& term : terms_) {
+      Word product = term.number;
+      for (const auto& [place, exponent] : term.powers)
+        product = product * power(point[place], exponent) % kPrime;
+      sum = (sum + product) % kPrime;
+    }
+    return sum != 0;
+  }
+
+ private:
+  using Word = std::uint64_t;
+  static constexpr Word kPrime = 2147483629;  // products of two residues fit into a word
+  struct Term {
+    Word number;
+    std::vector<std::pair<std::size_t, unsigned long>> powers;
+  };
+
+  static Word residue(const cln::cl_I& n) {
+    return cln::cl_I_to_ulong(cln::mod(n, cln::cl_I(static_cast<unsigned long>(kPrime))));
+  }
+  static Word power(Word base, Word exponent) {
+    Word result = 1;
+    for (; exponent > 0; exponent /= 2, base = base * base % kPrime)
+      if (exponent % 2 == 1) result = result * base % kPrime;
+    return result;
+  }
+
+  std::vector<Term> terms_;
+};
 
 /// A parameter that is zero, or equal to another one.
 struct SimpleForm {
@@ -84,7 +135,8 @@ class SpecialParameters {
   void find_minors();
   std::vector<Polynomial> common_factors() const;
   std::vector<SimpleForm> simple_forms() const;
-  bool may_vanish(const SimpleForm& a, const SimpleForm& b) const;
+  bool may_vanish(const SimpleForm& a, const SimpleForm& b,
+                  const std::vector<MinorModulo>& minors) const;
   std::optional<Equations> solved(const std::vector<Polynomial>& forms) const;
   static Polynomial reduced(Polynomial p, const Equations& set);
   bool is_common_zero(const Equations& set) const;
@@ -189,20 +241,22 @@ std::vector<SimpleForm> SpecialParameters::simple_forms() const {
 }
 
 /// False where some minor is not zero at a point at which both forms are.
-bool SpecialParameters::may_vanish(const SimpleForm& a, const SimpleForm& b) const {
-  std::vector<cln::cl_RA> point(ring().size());
-  for (std::size_t i = 0; i < point.size(); ++i)
-    point[i] = cln::cl_RA(static_cast<long>(7 * i + 3));
+bool SpecialParameters::may_vanish(const SimpleForm& a, const SimpleForm& b,
+                                   const std::vector<MinorModulo>& minors) const {
+  std::vector<std::uint64_t> point(ring().size());
+  for (std::size_t i = 0; i < point.size(); ++i) point[i] = 7 * i + 3;
+  const auto wanted = [&](const SimpleForm& form) {
+    return form.equal_to ? point[*form.equal_to] : 0;
+  };
   // Twice, since the second form may change what the first one has set.
   for (const SimpleForm* form : {&a, &b, &a, &b}) {
-    const cln::cl_RA value = form->equal_to ? point[*form->equal_to] : cln::cl_RA(0);
-    const cln::cl_RA known = point[form->place];
+    const std::uint64_t value = wanted(*form), known = point[form->place];
     for (const std::size_t p : places_)
-      if (p == form->place || (cln::zerop(value) && point[p] == known)) point[p] = value;
+      if (p == form->place || (value == 0 && point[p] == known)) point[p] = value;
   }
-  if (!cln::zerop(a.form.evaluate(point)) || !cln::zerop(b.form.evaluate(point))) return true;
-  return std::all_of(minors_.begin(), minors_.end(),
-                     [&](const Polynomial& m) { return cln::zerop(m.evaluate(point)); });
+  if (point[a.place] != wanted(a) || point[b.place] != wanted(b)) return true;
+  return std::none_of(minors.begin(), minors.end(),
+                      [&](const MinorModulo& minor) { return minor.is_nonzero_at(point); });
 }
 
 Polynomial SpecialParameters::reduced(Polynomial p, const Equations& set) {
@@ -323,9 +377,16 @@ void SpecialParameters::look_at_pairs() {
     }
   }
   const std::vector<SimpleForm> forms = simple_forms();
+  std::vector<MinorModulo> modular;
+  for (const Polynomial& m : minors_) {
+    try {
+      modular.emplace_back(m);
+    } catch (const std::domain_error&) {  // it excludes nothing, then
+    }
+  }
   for (std::size_t i = 0; i < forms.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (!may_vanish(forms[j], forms[i])) continue;
+      if (!may_vanish(forms[j], forms[i], modular)) continue;
       const auto set = solved({forms[j].form, forms[i].form});
       if (set && is_common_zero(*set)) look_at_set(*set);
     }
