@@ -136,6 +136,7 @@ struct SceneText {
   std::optional<Text> duration;
   std::vector<Text> on;
   bool altered = false;  ///< values were given from outside: it may be off its levels
+  bool rounded = false;  ///< and by doubles: rounding alone takes it off a level
   std::vector<Text> observe;
   std::optional<Text> extreme;
   std::vector<Entry> reference;

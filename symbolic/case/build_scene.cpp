@@ -114,6 +114,7 @@ class SceneReader {
       const ex value = normal_form(substituted(relation.value, point));
       const auto constant = exact_constant(value);
       if (constant && constant->zero) continue;
+      if (text.rounded && zero_but_for_rounding(relation.value, point)) continue;
       std::string what = fmt::format("the scene '{}' is not on the level {} = 0",
                                      printable(scene.name), printable(relation.name));
       what += constant ? fmt::format(": the value there is {}", printable(constant->text))
@@ -122,6 +123,21 @@ class SceneReader {
       scene.unusable = what + ", with the values given";
       return;
     }
+  }
+
+  /// Whether a sum is as small beside its terms as rounding the point to doubles can leave a zero.
+  static bool zero_but_for_rounding(const ex& sum, const GiNaC::exmap& point) {
+    const auto size = [&](const ex& e) {
+      const ex value = substituted(e, point).evalf();
+      return GiNaC::is_a<GiNaC::numeric>(value)
+                 ? GiNaC::abs(GiNaC::ex_to<GiNaC::numeric>(value)).to_double()
+                 : std::numeric_limits<double>::infinity();
+    };
+    double terms = size(sum);
+    if (GiNaC::is_a<GiNaC::add>(sum))
+      for (const ex& term : sum) terms = std::max(terms, size(term));
+    constexpr double kRounding = 1e-12;
+    return size(sum) <= kRounding * terms;
   }
 
   GiNaC::exmap point_of(const Scene& scene) const {

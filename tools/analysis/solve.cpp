@@ -16,16 +16,21 @@ Solution solve(const Model& model, const Scene& scene, const SolveOptions& optio
                         .run = options.run,
                         .time_limit = options.time_limit,
                         .sample_every = options.sample_every};
-  if (options.dense)
-    how.around = [&](Settings& settings, const std::function<void()>& run) {
+  how.around = [&](Settings& settings, const std::function<void()>& run) {
+    if (options.give_up)
+      settings.give_up = [first = settings.give_up, &options] {
+        return options.give_up() || (first && first());
+      };
+    if (options.dense) {
       // `auto` may begin anew with another method.
       solution.steps_ = {{settings.begin, solution.scene_->initial}};
       settings.watch = [&solution, see = settings.watch](double t, const double* x) {
         if (see) see(t, x);
         solution.steps_.push_back({t, {x, x + solution.scene_->initial.size()}});
       };
-      run();
-    };
+    }
+    run();
+  };
   solution.run_ = integrate_assessed(model, *solution.scene_, how);
   return solution;
 }
@@ -35,8 +40,8 @@ std::vector<double> Solution::operator()(double t) const {
   const double end = run_.trajectory.time;
   if (!(std::min(0., end) <= t && t <= std::max(0., end)))
     throw RequestError(fmt::format("the run goes from 0 to {:g}, and not to {:g}", end, t));
-  const auto after = std::ranges::find_if(
-      steps_, [&](const Step& step) { return end >= 0 ? step.time > t : step.time < t; });
+  const auto after = std::ranges::partition_point(
+      steps_, [&](const Step& step) { return end >= 0 ? step.time <= t : step.time >= t; });
   const Step& from = *(after == steps_.begin() ? after : after - 1);
   if (from.time == t) return from.state;
   const bool own = run_.method->outside.empty();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,11 +17,18 @@ struct SolveOptions {
   double time_limit = 0;        ///< in seconds; 0: none
   double sample_every = 0;      ///< time between `trajectory().samples`; 0: none
   bool dense = false;           ///< keep what the state at any time follows from
+  std::function<bool()> give_up = {};  ///< asked after each step; true ends the run as `stopped`
 };
 
 /// A motion with all that is known of how far it can be believed.
 class Solution {
  public:
+  /// Where a step of the run began, or the run ended.
+  struct Step {
+    double time;
+    std::vector<double> state;
+  };
+
   /// The names of the states, in their order.
   const std::vector<std::string>& names() const { return scene_->specialisation.states; }
   /// How the run ended, with which state, and how the invariants fared.
@@ -40,16 +48,15 @@ class Solution {
   ///                       the method of another library for equations that depend on the time.
   std::vector<double> operator()(double t) const;
 
+  /// The start and the end of each step, in the order of the run; of a dense solution.
+  const std::vector<Step>& steps() const { return steps_; }
+
  private:
   friend Solution solve(const Model& model, const Scene& scene, const SolveOptions& options);
 
-  struct Step {
-    double time;
-    std::vector<double> state;
-  };
   std::unique_ptr<const PreparedScene> scene_;  ///< which the run refers to
   AssessedRun run_;
-  std::vector<Step> steps_;  ///< where each of them began, in the order of the run
+  std::vector<Step> steps_;
 };
 
 /// Integrates a scene of a model: specialises and compiles the equations, chooses the method where

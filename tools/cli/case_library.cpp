@@ -13,6 +13,17 @@
 namespace casimir::tools {
 namespace fs = std::filesystem;
 
+namespace {
+
+std::vector<fs::path>& added_folders() {
+  static std::vector<fs::path> folders;
+  return folders;
+}
+
+}  // namespace
+
+void add_case_folder(const fs::path& folder) { added_folders().push_back(folder); }
+
 std::vector<fs::path> case_folders() {
   std::vector<fs::path> folders;
   if (const char* list = std::getenv("CASIMIR_CASES")) {
@@ -21,6 +32,7 @@ std::vector<fs::path> case_folders() {
       if (!folder.empty()) folders.emplace_back(folder);
     }
   }
+  folders.insert(folders.end(), added_folders().begin(), added_folders().end());
   std::error_code problem;
   const fs::path program = fs::read_symlink("/proc/self/exe", problem);
   if (!problem) {

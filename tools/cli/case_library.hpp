@@ -9,6 +9,9 @@
 
 namespace casimir::tools {
 
+/// Has bundled cases looked for in this folder too, after those of CASIMIR_CASES.
+void add_case_folder(const std::filesystem::path& folder);
+
 /// The folders that hold bundled cases: those of CASIMIR_CASES (a list like PATH), the installed
 /// ones and those of the build tree, both found from where this program is.
 std::vector<std::filesystem::path> case_folders();

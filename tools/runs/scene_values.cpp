@@ -5,18 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "symbolic/case/expression.hpp"
+#include "symbolic/error.hpp"
 #include "tools/cli/errors.hpp"
 
 namespace casimir::tools {
-namespace {
-
-bool differ(const Text& a, const Text& b) {
-  return !(parse_real_constant(a) - parse_real_constant(b)).expand().is_zero();
-}
-
-}  // namespace
-
 std::vector<Entry> named_values(const std::string& option, const std::vector<std::string>& words) {
   std::vector<Entry> result;
   for (const std::string& word : words) {
@@ -37,21 +29,6 @@ std::vector<Entry> named_values(const std::string& option, const std::vector<std
   return result;
 }
 
-void set_in_scenes(CaseFile& file, std::vector<Entry> SceneText::*table, const Text& name,
-                   const Text& value) {
-  for (SceneText& scene : file.scenes) {
-    std::vector<Entry>& entries = scene.*table;
-    const auto own = std::ranges::find_if(
-        entries, [&](const Entry& entry) { return entry.first.value == name.value; });
-    if (own == entries.end() || differ(own->second, value)) {
-      scene.reference.clear();
-      scene.altered = true;
-    }
-    if (own != entries.end()) entries.erase(own);
-    entries.emplace_back(name, value);
-  }
-}
-
 void OtherStart::add_to(CLI::App& command) {
   command
       .add_option("--initial", words_,
@@ -61,16 +38,7 @@ void OtherStart::add_to(CLI::App& command) {
 }
 
 CaseFile OtherStart::in(CaseFile file) const {
-  std::vector<std::string> known;
-  for (const Text& variable : file.phase_space.variables) known.push_back(variable.value);
-  for (const auto& [name, value] : named_values("--initial", words_)) {
-    if (std::ranges::count(known, name.value) == 0) {
-      throw name.error(fmt::format("'{}' is not a variable of this case", printable(name.value)), 0,
-                       suggest_or_list(name.value, known, "variables"));
-    }
-    set_in_scenes(file, &SceneText::initial, name, value);
-  }
-  return file;
+  return with_initial_values(std::move(file), named_values("--initial", words_));
 }
 
 }  // namespace casimir::tools

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "symbolic/case_file.hpp"
+#include "tools/analysis/scene_values.hpp"
 #include "tools/cli/cli_names.hpp"
 
 namespace casimir::tools {
@@ -11,12 +12,6 @@ namespace casimir::tools {
 /// Words of the command line such as "r=1/2", split at the sign; `option` names it in messages.
 /// \throws UsageError  for one without a sign, and for a name that is given twice.
 std::vector<Entry> named_values(const std::string& option, const std::vector<std::string>& words);
-
-/// Gives a name this value in every scene: a parameter (`table` is &SceneText::parameters) or an
-/// initial value (&SceneText::initial). The reference state of a scene that had another value
-/// belongs to another motion, and such a scene may be off the levels that it names.
-void set_in_scenes(CaseFile& file, std::vector<Entry> SceneText::*table, const Text& name,
-                   const Text& value);
 
 /// `--initial NAME=VALUE`: another start than that of the scenes.
 class OtherStart {

@@ -1,0 +1,268 @@
+"""The Python package as its users see it. Run by CTest with PYTHONPATH set to the build tree."""
+
+import doctest
+import math
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import time
+import unittest
+from fractions import Fraction
+
+import numpy as np
+
+import casimir
+
+
+class Cases(unittest.TestCase):
+    def test_bundled_ones_are_found_by_name(self):
+        self.assertIn("kovalevskaya", casimir.cases())
+        top = casimir.load("kovalevskaya")
+        self.assertEqual(top.variables, ["M1", "M2", "M3", "g1", "g2", "g3"])
+        self.assertIn("default", top.scenes)
+
+    def test_an_unknown_name_gets_the_nearest(self):
+        with self.assertRaises(casimir.CaseError) as caught:
+            casimir.load("kovalevskya")
+        self.assertIn("kovalevskaya", caught.exception.hint)
+
+    def test_an_error_has_its_place(self):
+        with self.assertRaises(casimir.CaseError) as caught:
+            casimir.Case('title = "x"\nhamiltonian = "p^2/2 + z"\n[phase_space]\nvariables = ["q", "p"]\n'
+                         "canonical = true\n", name="broken")
+        error = caught.exception
+        self.assertEqual((error.file, error.line, error.column), ("broken.toml", 2, 24))
+        self.assertIn("z", error.text)
+        again = pickle.loads(pickle.dumps(error))
+        self.assertEqual((again.line, str(again)), (2, str(error)))
+
+    def test_from_parts(self):
+        oscillator = casimir.Case(hamiltonian="(p^2 + w^2*q^2)/2", variables=["q", "p"], canonical=True,
+                                  parameters={"w": Fraction(3, 2)}, initial={"q": 1, "p": 0}, duration=10)
+        motion = oscillator.integrate([0, 10])
+        self.assertAlmostEqual(motion.y[0, 1], math.cos(15), delta=1e-12)
+
+    def test_text_of_strangers_stays_text(self):
+        for text in ('a"\nhamiltonian = "1', "\\", "\x7f", "]]"):
+            with self.assertRaises(casimir.CaseError):
+                casimir.Case(hamiltonian=text, algebra="so(3)")
+
+    def test_pickles_by_text(self):
+        top = casimir.load("kovalevskaya").with_values({"r": 2}, {"M1": "1/3"})
+        again = pickle.loads(pickle.dumps(top))
+        self.assertEqual(again.parameters, [])
+        np.testing.assert_array_equal(again.integrate(duration=1).y, top.integrate(duration=1).y)
+
+    def test_numbers_are_exact(self):
+        top = casimir.load("kovalevskaya")
+        for start in (0.1, np.float64(0.1), Fraction(0.1)):
+            motion = top.integrate(duration=1, initial={"M1": start})
+            self.assertEqual(motion.y[0, 0], 0.1)
+        with self.assertRaises(casimir.RequestError):
+            top.integrate(duration=1, initial={"M1": math.nan})
+        with self.assertRaises(casimir.RequestError):
+            top.integrate(duration=1, initial={"M1": True})
+
+
+class Proofs(unittest.TestCase):
+    def test_a_case_is_proved(self):
+        verification = casimir.load("kovalevskaya").verify()
+        self.assertTrue(verification)
+        self.assertEqual(verification["K"].verdict, "proved")
+        self.assertIn("<table>", verification._repr_html_())
+
+    def test_a_false_candidate_has_an_exact_witness(self):
+        verification = casimir.load("euler").verify(integral="M1^2 + 2*M2^2 - M3^2")
+        self.assertFalse(verification)
+        witness = verification.witness
+        self.assertIsInstance(witness.value, Fraction)
+        self.assertNotEqual(witness.value, 0)
+        # The derivative at the witness, by hand: dM/dt = M x A M with the values that it gives.
+        m = [witness.point[name] for name in ("M1", "M2", "M3")]
+        a = [witness.point[name] for name in ("a1", "a2", "a3")]
+        rate = [m[1] * a[2] * m[2] - m[2] * a[1] * m[1], m[2] * a[0] * m[0] - m[0] * a[2] * m[2],
+                m[0] * a[1] * m[1] - m[1] * a[0] * m[0]]
+        self.assertEqual(2 * m[0] * rate[0] + 4 * m[1] * rate[1] - 2 * m[2] * rate[2], witness.value)
+
+    def test_undecided_is_neither_true_nor_false(self):
+        undecided = casimir.load("kovalevskaya").verify(time_limit=1e-9)
+        self.assertEqual(undecided.verdict, "undecided")
+        with self.assertRaises(casimir.UndecidedError):
+            bool(undecided)
+
+    def test_search_finds_the_integral(self):
+        bare = casimir.Case(hamiltonian="(M1^2 + M2^2 + 2*M3^2)/2 - g1", algebra="e(3)")
+        found = bare.search(4)
+        self.assertEqual(found.verdict, "proved")
+        quartic = [one for one in found if one.degree == 4]
+        self.assertEqual(len(quartic), 1)
+        self.assertTrue(bare.verify(integral=quartic[0].text))
+
+    def test_free_parameters(self):
+        family = casimir.Case(hamiltonian="(px^2 + py^2 + x^2 + y^2)/2 + x^2*y + c*y^3/3",
+                              variables=["x", "y", "px", "py"], canonical=True, parameters=["c"])
+        found = family.search(2, free="c")
+        self.assertIn("1", [one.parameters["c"] for one in found])
+
+    def test_exponents_darboux_and_obstruction(self):
+        top = casimir.load("euler")
+        self.assertTrue(top.exponents().balances)
+        henon = casimir.load("henon-heiles")
+        self.assertTrue(henon.obstruct())
+        volterra = casimir.Case(equations={"x": "x*(1 - y)", "y": "y*(x - 1)"}, variables=["x", "y"])
+        self.assertEqual(sorted(one.text for one in volterra.darboux(1)), ["x", "y"])
+
+    def test_latex_for_notebooks(self):
+        self.assertIn("\\dot", casimir.load("kovalevskaya")._repr_latex_().replace("\\frac{d", "\\dot"))
+
+    def test_two_threads_may_prove_at_once(self):
+        verdicts = []
+
+        def prove():
+            for _ in range(5):
+                verdicts.append(casimir.load("clebsch").verify().verdict)
+
+        threads = [threading.Thread(target=prove) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(verdicts, ["proved"] * 15)
+
+
+class Runs(unittest.TestCase):
+    def test_the_shape_is_that_of_scipy(self):
+        motion = casimir.load("kovalevskaya").integrate(np.linspace(0, 10, 101))
+        self.assertEqual(motion.y.shape, (6, 101))
+        self.assertTrue(motion.success and motion["status"] == 0)
+        self.assertEqual(motion.sol(2.5).shape, (6,))
+        self.assertEqual(motion.sol([1, 2]).shape, (6, 2))
+        np.testing.assert_allclose(motion.sol(motion.t), motion.y, rtol=0, atol=0)
+        self.assertLess(max(motion.drift.values()), 1e-12)
+        self.assertLess(motion.trust["error_estimate"], 1e-9)
+
+    def test_steps_without_times(self):
+        motion = casimir.load("kovalevskaya").integrate(duration=10)
+        self.assertEqual(motion.t[0], 0)
+        self.assertEqual(motion.t[-1], 10)
+        self.assertTrue((np.diff(motion.t) > 0).all())
+
+    def test_backwards_comes_back(self):
+        top = casimir.load("kovalevskaya")
+        there = top.integrate([3])
+        with self.assertRaises(casimir.CaseError):
+            top.integrate([1], initial={"g1": 0.7})
+        start = {name: float(value) for name, value in zip(top.variables, there.y[:, -1])}
+        back = top.integrate([-1, -3], initial=start)
+        np.testing.assert_allclose(back.y[:, -1], top.system().initial, atol=1e-13)
+
+    def test_a_singularity_is_no_success(self):
+        blowup = casimir.Case(equations={"x": "x^2"}, variables=["x"], initial={"x": 1}, duration=2)
+        motion = blowup.integrate([0.5, 0.9, 1.5])
+        self.assertFalse(motion.success)
+        self.assertEqual(motion.reason, "singularity")
+        self.assertEqual(list(motion.t), [0.5, 0.9])
+        np.testing.assert_allclose(motion.y[0], [2, 10], rtol=1e-12)
+
+    def test_what_the_command_line_warns_of_is_here(self):
+        lorenz = casimir.Case(equations={"x": "10*(y - x)", "y": "x*(28 - z) - y", "z": "x*y - 8*z/3"},
+                              variables=["x", "y", "z"], initial={"x": 1, "y": 1, "z": 1}, duration=100)
+        self.assertTrue(lorenz.integrate().warnings)
+
+    def test_parameters_by_name(self):
+        top = casimir.load("kovalevskaya")
+        self.assertNotEqual(top.integrate([1], r=2).y[0, 0], top.integrate([1], r=1).y[0, 0])
+        with self.assertRaises(casimir.CaseError):
+            top.integrate([1], R=2)
+
+    def test_an_unknown_method_gets_the_nearest(self):
+        with self.assertRaises(casimir.RequestError) as caught:
+            casimir.load("euler").integrate(method="dop835")
+        self.assertIn("dop853", str(caught.exception))
+
+    def test_an_ensemble_is_its_members(self):
+        top = casimir.load("kovalevskaya")
+        start = top.system().initial
+        rng = np.random.default_rng(1)
+        many = start + 0.01 * rng.standard_normal((20, 6))
+        ends = top.ensemble(many, duration=5, tolerance=1e-12)
+        self.assertTrue(ends.success)
+        flow = top.system(method="taylor")
+        for row, end in zip(many, ends.y):
+            np.testing.assert_allclose(end, flow.flow(row, 5, 1e-12), atol=1e-10)
+
+    def test_an_ensemble_over_a_parameter(self):
+        top = casimir.load("kovalevskaya")
+        start = np.tile(top.system().initial, (3, 1))
+        ends = top.ensemble(start, parameters={"r": [1, 2, 3]}, duration=2, tolerance=1e-12)
+        for r, end in zip((1, 2, 3), ends.y):
+            np.testing.assert_allclose(end, top.integrate([2], r=r).y[:, 0], atol=1e-9)
+
+    def test_the_right_hand_side_is_that_of_the_equations(self):
+        system = casimir.load("kovalevskaya").system(method="radau5")
+        m1, m2, m3, g1, g2, g3 = y = np.array([0.3, -0.2, 0.5, 0.1, 0.7, -0.4])
+        m, g = y[:3], y[3:]
+        dh = np.array([m1, m2, 2 * m3])
+        expected = np.concatenate([np.cross(m, dh) + np.cross(g, [-1, 0, 0]), np.cross(g, dh)])
+        np.testing.assert_allclose(system.rhs(0, y), expected, atol=1e-15)
+        h = 1e-6
+        numeric = np.stack([(system.rhs(0, y + h * e) - system.rhs(0, y - h * e)) / (2 * h) for e in np.eye(6)], 1)
+        np.testing.assert_allclose(system.jacobian(0, y), numeric, atol=1e-8)
+        with self.assertRaises(casimir.RequestError):
+            system.rhs(0, y[:5])
+
+    def test_sections(self):
+        henon = casimir.Case(hamiltonian="(u^2 + v^2 + x^2 + y^2)/2 + x^2*y - y^3/3", canonical=True,
+                             variables=["x", "y", "u", "v"], duration=1,
+                             initial={"x": 0, "y": "1/10", "u": "1/2", "v": 0})
+        section = henon.section(plane="x", plot=["y", "v"], energy=1 / 8, orbits=5, points=50)
+        self.assertEqual(len(section), 5)
+        orbit = max(section, key=lambda one: len(one.points))
+        x, y, u, v = orbit.states.T
+        np.testing.assert_allclose((u**2 + v**2 + x**2 + y**2) / 2 + x**2 * y - y**3 / 3, 1 / 8, atol=1e-10)
+
+    def test_equilibria(self):
+        pendulum = casimir.Case(hamiltonian="p^2/2 - cos(q)", variables=["q", "p"], canonical=True,
+                                initial={"q": 1, "p": 0}, duration=1)
+        for one in pendulum.equilibria():
+            self.assertAlmostEqual(math.sin(one.state[0]), 0, places=9)
+
+    def test_generated_code(self):
+        self.assertIn("namespace", casimir.load("euler").generate())
+        self.assertIn("euler_rhs", casimir.load("euler").generate(language="c"))
+
+
+class Process(unittest.TestCase):
+    def test_control_c_ends_a_long_run(self):
+        script = ("import casimir\n"
+                  "top = casimir.load('kovalevskaya')\n"
+                  "top.integrate(duration=1)\n"
+                  "print('ready', flush=True)\n"
+                  "top.integrate(duration=1e9, tolerance=1e-14)\n")
+        child = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        child.stdout.readline()
+        time.sleep(0.3)
+        child.send_signal(signal.SIGINT)
+        _, errors = child.communicate(timeout=20)
+        self.assertIn(b"KeyboardInterrupt", errors)
+
+    def test_numpy_is_not_needed_to_prove(self):
+        script = ("import sys, casimir\n"
+                  "assert casimir.load('euler').verify()\n"
+                  "assert 'numpy' not in sys.modules\n")
+        subprocess.run([sys.executable, "-c", script], check=True)
+
+
+def load_tests(loader, tests, ignore):
+    tests.addTests(doctest.DocTestSuite(casimir))
+    for name in ("_case", "_exact"):
+        tests.addTests(doctest.DocTestSuite(sys.modules[f"casimir.{name}"], optionflags=doctest.ELLIPSIS,
+                                            extraglobs={"casimir": casimir}))
+    return tests
+
+
+if __name__ == "__main__":
+    unittest.main()

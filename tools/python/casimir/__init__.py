@@ -1,0 +1,58 @@
+"""casimir: an integrability workbench for Hamiltonian systems.
+
+>>> import casimir
+>>> top = casimir.load("kovalevskaya")
+>>> top.verify().verdict
+'proved'
+>>> motion = top.integrate(duration=10)
+>>> motion.success
+True
+"""
+
+from pathlib import Path as _Path
+
+from . import _core
+from ._case import Case, System, cases, load
+from ._errors import (
+    CaseError,
+    EnvironmentProblem,
+    Error,
+    ModelError,
+    NoAnswer,
+    RequestError,
+    SingularPoint,
+    UndecidedError,
+)
+from ._results import (
+    Balance,
+    Condition,
+    Conditions,
+    DarbouxPolynomial,
+    Ensemble,
+    Equilibrium,
+    Exponent,
+    Exponents,
+    Found,
+    Obstruction,
+    Orbit,
+    Proof,
+    Search,
+    Section,
+    Solution,
+    Verification,
+    Witness,
+)
+
+__version__ = _core.__version__
+methods = _core.methods
+
+# The bundled cases: beside the package in a build tree, and below the prefix where it is installed.
+for _folder in ("cases", "../../../../share/casimir/cases"):
+    _core.add_case_folder(str(_Path(__file__).parent / _folder))
+
+__all__ = [
+    "Balance", "Case", "CaseError", "Condition", "Conditions", "DarbouxPolynomial", "Ensemble",
+    "EnvironmentProblem", "Equilibrium", "Error", "Exponent", "Exponents", "Found", "ModelError", "NoAnswer",
+    "Obstruction", "Orbit", "Proof", "RequestError", "Search", "Section", "SingularPoint", "Solution", "System",
+    "UndecidedError", "Verification", "Witness", "cases", "load", "methods",
+]

@@ -1,0 +1,495 @@
+"""Cases: what `casimir.load` and `casimir.Case` give."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from . import _core
+from ._errors import RequestError
+from ._exact import Expression, is_float, pairs_of, text_of, texts_of
+from ._results import (
+    Condition,
+    Conditions,
+    DarbouxPolynomial,
+    Ensemble,
+    Equilibrium,
+    Exponents,
+    Found,
+    Obstruction,
+    Orbit,
+    Search,
+    Section,
+    Solution,
+    Verification,
+    exponents_of,
+    proof_of,
+    search_of,
+)
+
+#: The variables of algebras that have usual names for them.
+_USUAL = {
+    "so(3)": ["M1", "M2", "M3"],
+    "e(3)": ["M1", "M2", "M3", "g1", "g2", "g3"],
+}
+
+
+def cases() -> list[str]:
+    """The names of the bundled cases."""
+    return _core.bundled()
+
+
+def load(case: str) -> Case:
+    """A bundled case by its name, or a case file by its path (with '/' or ending in '.toml').
+
+    >>> load("kovalevskaya").variables
+    ['M1', 'M2', 'M3', 'g1', 'g2', 'g3']
+    """
+    return Case._of(_core.Case.load(str(case)))
+
+
+class Case:
+    """A system with its claims and scenes. Cases do not change: methods that change one return another.
+
+    :param text: a case file; or, instead of it, what follows.
+    :param hamiltonian: text, or a SymPy expression over symbols with the names of the variables.
+    :param equations: the rate of each variable, for a system without a Hamiltonian.
+    :param variables: their names; those of so(3) and e(3) need not be said.
+    :param algebra: the name of a Lie algebra, as 'e(3)'.
+    :param brackets: the nonzero brackets, as {'M1,M2': '-M3'}.
+    :param canonical: whether the variables are q1 .. qn, p1 .. pn.
+    :param parameters: names, or names with values for the scene; None leaves a value open.
+    :param assume: what is assumed of a parameter, as {'a': 'a > 0'}.
+    :param integrals, casimirs, definitions: expressions by name.
+    :param initial: a start, for numbers: one scene called 'default'.
+    :param duration: of that scene.
+
+    >>> top = Case(hamiltonian="(M1^2 + M2^2 + 2*M3^2)/2 - r*g1", algebra="e(3)", parameters=["r"])
+    >>> bool(top.verify(integral="(M1^2 - M2^2 + 2*r*g1)^2 + (2*M1*M2 + 2*r*g2)^2"))
+    True
+    """
+
+    def __init__(
+        self,
+        text: str | None = None,
+        *,
+        name: str = "case",
+        title: str | None = None,
+        hamiltonian: Expression | None = None,
+        equations: Mapping[str, Expression] | None = None,
+        variables: Sequence[str] | None = None,
+        algebra: str | None = None,
+        brackets: Mapping[str, Expression] | None = None,
+        canonical: bool = False,
+        time: str | None = None,
+        domain: Iterable[str] = (),
+        parameters: Iterable[str] | Mapping[str, Expression | None] = (),
+        assume: Mapping[str, str] | None = None,
+        definitions: Mapping[str, Expression] | None = None,
+        casimirs: Mapping[str, Expression] | None = None,
+        integrals: Mapping[str, Expression] | None = None,
+        integrable: bool = False,
+        initial: Mapping[str, Expression] | None = None,
+        duration: Expression | None = None,
+    ):
+        if text is None:
+            space = {
+                "variables": [str(one) for one in variables or _USUAL.get(algebra or "", [])],
+                "algebra": algebra,
+                "canonical": canonical or None,
+                "time": time,
+                "domain": list(domain) or None,
+                "brackets": brackets,
+            }
+            values = parameters if isinstance(parameters, Mapping) else {str(one): None for one in parameters}
+            text = _toml(
+                title or name, hamiltonian, equations, space, values, assume or {},
+                {"definitions": definitions, "casimirs": casimirs, "integrals": integrals},
+                integrable, initial, duration,
+            )
+        self._core = _core.Case.from_text(text, f"{name}.toml")
+
+    @classmethod
+    def _of(cls, core: _core.Case) -> Case:
+        self = cls.__new__(cls)
+        self._core = core
+        return self
+
+    def __reduce__(self):
+        core = self._core
+        return _restored, (core.text, core.file, core.changed_parameters, core.changed_initial, core.rounded)
+
+    def __repr__(self) -> str:
+        return f"<casimir.Case {self.name}: {self.title}>"
+
+    @property
+    def name(self) -> str:
+        """The name of the file, without its ending."""
+        return self._core.name
+
+    @property
+    def title(self) -> str:
+        """As the case has it."""
+        return self._core.title
+
+    @property
+    def text(self) -> str:
+        """The case file, without what `with_values` changed."""
+        return self._core.text
+
+    @property
+    def variables(self) -> list[str]:
+        """The names of the entries of a state, in order."""
+        return self._core.variables
+
+    @property
+    def parameters(self) -> list[str]:
+        """The parameters that are symbols."""
+        return self._core.parameters
+
+    @property
+    def scenes(self) -> list[str]:
+        """The names of the scenes, for `scene=..`."""
+        return self._core.scenes
+
+    @property
+    def casimirs(self) -> dict[str, str]:
+        """The Casimir functions that the case claims."""
+        return dict(self._core.casimirs)
+
+    @property
+    def integrals(self) -> dict[str, str]:
+        """The integrals that the case claims."""
+        return dict(self._core.integrals)
+
+    def with_values(self, parameters: Mapping[str, Expression] | None = None,
+                    initial: Mapping[str, Expression] | None = None) -> Case:
+        """The case with numbers in the place of parameters, and other starts in its scenes.
+
+        A start of floats may be off the levels of the case by their rounding; exact numbers may not.
+        """
+        rounded = any(is_float(value) for value in (initial or {}).values())
+        return Case._of(self._core.with_values(pairs_of(parameters), pairs_of(initial), rounded))
+
+    def show(self, format: str = "text") -> dict[str, Any]:
+        """The system as formulas: 'text' in the notation of case files, or 'latex'."""
+        return self._core.show(format)
+
+    def sympy(self, expression: Expression):
+        """An expression over the names of the case as one of SymPy, exactly."""
+        import sympy
+
+        text = self._core.expression(text_of(expression))[0]
+        names = {name: sympy.Symbol(name) for name in self.variables + self.parameters}
+        return sympy.sympify(text.replace("^", "**").replace("Pi", "pi"), locals=names, rational=True)
+
+    def _repr_latex_(self) -> str:
+        shown = self.show("latex")
+        lines = [rf"H &= {shown['hamiltonian']}"] if shown["hamiltonian"] else []
+        lines += [rf"{left} &= {right}" for left, right in shown["equations"]]
+        return "$$\\begin{aligned}" + r"\\ ".join(lines) + "\\end{aligned}$$"
+
+    # Proofs and searches.
+
+    def verify(self, integral=None, *, casimir=None, invariant_relation=None, identity=None, on=None,
+               time_limit: float = 0) -> Verification:
+        """Proves or refutes every claim of the case, or these candidates instead.
+
+        :param integral, casimir, invariant_relation, identity: an expression, or a list of them.
+        :param on: functions whose common zero level a candidate is restricted to.
+        :param time_limit: in seconds; what is not reached by then is undecided.
+
+        >>> load("kovalevskaya").verify().verdict
+        'proved'
+        >>> load("euler").verify(integral="M1").witness.value
+        Fraction(...)
+        """
+        answer = self._core.verify(texts_of(integral), texts_of(casimir), texts_of(invariant_relation),
+                                   texts_of(identity), texts_of(on), time_limit)
+        proofs = answer["proofs"]
+        return Verification(
+            answer["verdict"],
+            [proof_of(one) for one in proofs if not one["note"]],
+            [proof_of(one) for one in proofs if one["note"]],
+        )
+
+    def search(self, degree: int, *, casimirs: bool = False, on=None, functions=None,
+               weights: Mapping[str, Expression] | None = None, free=None, time_limit: float = 0,
+               memory: float = 0) -> Search | Conditions:
+        """All polynomial integrals up to a degree, less those that follow from the known ones.
+
+        :param casimirs: Casimir functions instead.
+        :param functions: that the integrals may be polynomials in besides the variables.
+        :param free: parameters: their values at which there are further integrals.
+        :param memory: bytes that may be used.
+        :raises NoAnswer: where the time or the memory does not suffice.
+
+        >>> [str(one) for one in load("euler").search(2)]
+        []
+        """
+        if free is not None:
+            if casimirs or on is not None:
+                raise RequestError("free parameters go with neither casimirs nor a level")
+            facts = self._core.conditions(degree, texts_of(free), texts_of(functions), pairs_of(weights),
+                                          time_limit, memory)
+            return Conditions(
+                search_of(facts["generic"]),
+                [Condition(**{**one, "found": [Found(**f) for f in one["found"]]}) for one in facts["conditions"]],
+                facts["complete"],
+                facts["reason"],
+            )
+        return search_of(self._core.search(degree, casimirs, texts_of(on), texts_of(functions),
+                                           pairs_of(weights), time_limit, memory))
+
+    def darboux(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> list[DarbouxPolynomial]:
+        """Irreducible polynomials whose zero level is invariant, up to a degree."""
+        return [DarbouxPolynomial(**one) for one in self._core.darboux(degree, time_limit, memory)["found"]]
+
+    def exponents(self, weights: Mapping[str, Expression] | None = None, *, time_limit: float = 0,
+                  memory: float = 0) -> Exponents:
+        """Balances and Kovalevskaya exponents."""
+        return exponents_of(self._core.exponents(pairs_of(weights), time_limit, memory))
+
+    def obstruct(self, *, along=None, scene: str = "default", time_limit: float = 0,
+                 memory: float = 0) -> Obstruction:
+        """Whether the variational equations along a particular solution exclude a further integral."""
+        facts = self._core.obstruct(scene, texts_of(along), time_limit, memory)
+        verdict = "proved" if facts.pop("proved") else "undecided"
+        return Obstruction(verdict=verdict, **{**facts, "parameters": dict(facts["parameters"])})
+
+    # Numbers.
+
+    def generate(self, *, scene: str = "default", keep=(), observe=None, jacobian: bool = True,
+                 variational: bool = False, taylor: bool = False, language: str = "c++",
+                 name: str | None = None) -> str:
+        """The equations of a scene as a header in C++20 or C99 that needs nothing else.
+
+        :param keep: parameters that stay arguments.
+        :param observe: states that are wanted; what they do not need is left out.
+        :param language: 'c++' or 'c'.
+        """
+        if language not in ("c++", "c"):
+            raise RequestError(f"{language!r} is no language of headers: 'c++' and 'c' are")
+        return self._core.generate(scene, list(keep), None if observe is None else list(observe), jacobian,
+                                   variational, taylor, language, name)
+
+    def integrate(self, t_eval=None, *, initial: Mapping[str, Expression] | None = None,
+                  duration: float | None = None, scene: str = "default", method: str = "auto",
+                  tolerance: float | None = None, rtol: float | None = None, atol: float | None = None,
+                  observe: Sequence[str] | None = None, project: bool = False, time_limit: float = 0,
+                  **parameters: Expression) -> Solution:
+        """Integrates a scene from time 0.
+
+        :param t_eval: times of the states wanted, shape (m,); without it those of the steps.
+        :param initial: other starts than those of the scene, by name.
+        :param duration: without it the last of `t_eval`, or that of the scene; negative: backwards.
+        :param method: 'auto', or one of `casimir.methods()`.
+        :param tolerance: sets `rtol` and `atol`.
+        :param project: onto every invariant that is proved.
+        :param parameters: other values than those of the scene, as r=2.
+        :returns: t (m,), y (n, m), sol, success, .., drift, trust, warnings.
+
+        >>> motion = load("kovalevskaya").integrate([0, 1, 2], r=1)
+        >>> motion.y.shape, motion.success
+        ((6, 3), True)
+        """
+        import numpy
+
+        case = self.with_values(parameters, initial) if parameters or initial else self
+        times = None if t_eval is None else numpy.atleast_1d(numpy.asarray(t_eval, dtype=float))
+        if times is not None and (times.ndim != 1 or times.size == 0 or not numpy.isfinite(times).all()):
+            raise RequestError("t_eval is a list of times")
+        if times is not None and duration is None:
+            duration = float(times[numpy.abs(times).argmax()])
+        motion = _core.integrate(case._core, scene, method, duration, tolerance, rtol, atol, observe, project,
+                                 time_limit)
+        return _solution(motion, times)
+
+    def ensemble(self, initial, *, variables: Sequence[str] | None = None, parameters: Mapping[str, Any] | None = None,
+                 duration: float | None = None, scene: str = "default", method: str = "taylor",
+                 tolerance: float | None = None, rtol: float | None = None, atol: float | None = None,
+                 jobs: int = 0, time_limit: float = 0) -> Ensemble:
+        """Integrates many initial states at once, several in the lanes of a register, on all cores.
+
+        :param initial: array (members, n), with a column for each variable.
+        :param variables: the names of the columns, where these are only some of the variables.
+        :param parameters: arrays (members,) by name.
+        :param jobs: threads; 0: one for each processor.
+        """
+        import numpy
+
+        initial = numpy.ascontiguousarray(initial, dtype=float)
+        names = list(parameters or {})
+        values = numpy.empty((len(initial), len(names)))
+        for column, name in enumerate(names):
+            values[:, column] = parameters[name]
+        answer = _core.ensemble(self._core, scene, method, initial, list(variables or self.variables), values,
+                                names, duration, tolerance, rtol, atol, jobs, time_limit)
+        drift = answer["drift"]
+        return Ensemble(
+            y=answer["states"], t=answer["t"], status=answer["status"],
+            drift={name: drift[:, k] for k, name in enumerate(answer["invariant_names"])},
+            steps=answer["steps"], names=answer["names"], seconds=answer["seconds"], jobs=answer["jobs"],
+        )
+
+    def system(self, *, scene: str = "default", method: str = "dop853", keep: Sequence[str] = ()) -> System:
+        """A scene compiled for repeated use: its right-hand side and its flow as functions of arrays.
+
+        :param method: of the flow; 'radau5' has a Jacobian too.
+        :param keep: parameters that stay arguments.
+        """
+        return System(_core.System(self._core, scene, method, list(keep)))
+
+    @property
+    def rhs(self):
+        """The right-hand side of the scene 'default' as a function f(t, y), for SciPy's solvers."""
+        return self.system().rhs
+
+    def section(self, *, plane: Expression | None = None, direction: str | None = None,
+                plot: Sequence[Expression] = (), energy: float | None = None,
+                casimirs: Mapping[str, float] | None = None, orbits: int = 40, points: int = 500,
+                tolerance: float = 1e-14, scene: str = "default", jobs: int = 0) -> Section:
+        """A Poincare section on one level of energy and Casimir functions.
+
+        :param plane: a function that vanishes there; without it that of the case.
+        :param direction: 'up' or 'down'.
+        :param plot: two functions of the state.
+        :param energy, casimirs: the level; without them that of the scene.
+        """
+        if direction not in (None, "up", "down"):
+            raise RequestError(f"{direction!r} is no direction: 'up' and 'down' are")
+        facts = _core.section(self._core, scene, None if plane is None else text_of(plane),
+                              None if direction is None else direction == "up", [text_of(one) for one in plot],
+                              energy, list((casimirs or {}).items()), orbits, points, tolerance, jobs)
+        return Section(**{**facts, "orbits": [Orbit(**one) for one in facts["orbits"]]})
+
+    def equilibria(self, scene: str = "default") -> list[Equilibrium]:
+        """Equilibria and relative equilibria on the level of a scene. There may be others."""
+        return [Equilibrium(**one) for one in _core.equilibria(self._core, scene)["equilibria"]]
+
+
+class System:
+    """A compiled scene. States are arrays (n,) in the order of `names`."""
+
+    def __init__(self, core: _core.System):
+        self._core = core
+
+    @property
+    def names(self) -> list[str]:
+        """Of the entries of a state."""
+        return self._core.names
+
+    @property
+    def parameter_names(self) -> list[str]:
+        """Of the parameters that stay arguments."""
+        return self._core.parameter_names
+
+    @property
+    def invariant_names(self) -> list[str]:
+        """Of the entries of `invariants`."""
+        return self._core.invariant_names
+
+    @property
+    def initial(self):
+        """The start of the scene."""
+        import numpy
+
+        return numpy.array(self._core.initial)
+
+    def rhs(self, t: float, y, parameters=None):
+        """dy/dt."""
+        return self._core.rhs(t, y, parameters)
+
+    def jacobian(self, t: float, y, parameters=None):
+        """The derivatives of `rhs` by the state, shape (n, n)."""
+        return self._core.jacobian(t, y, parameters)
+
+    def invariants(self, t: float, y, parameters=None):
+        """The Hamiltonian, the Casimir functions and the integrals at a state."""
+        return self._core.invariants(t, y, parameters)
+
+    def flow(self, y, duration: float, tolerance: float | None = None, parameters=None):
+        """The state after a time, by the method of the system at this tolerance (1e-12).
+
+        :raises RequestError: where the motion does not go on so long.
+        """
+        return self._core.flow(y, duration, tolerance, parameters)
+
+
+def _restored(text: str, file: str, parameters, initial, rounded: bool) -> Case:
+    core = _core.Case.from_text(text, file)
+    return Case._of(core.with_values(parameters, initial, rounded) if parameters or initial else core)
+
+
+def _solution(motion: _core.Motion, times) -> Solution:
+    import numpy
+
+    facts = motion.facts()
+
+    def sol(t):
+        """The state at a time, shape (n,), or at times (k,), shape (n, k)."""
+        asked = numpy.asarray(t, dtype=float)
+        states = motion.at(asked.ravel())
+        return states[:, 0] if asked.ndim == 0 else states
+
+    if times is None:
+        t, y = motion.steps()
+    else:
+        reached = facts["time"]
+        t = times[(times <= reached) if reached >= 0 else (times >= reached)]
+        y = motion.at(t)
+    invariants = motion.invariants()
+    ok = motion.ok
+    return Solution(
+        t=t, y=y, sol=sol, success=ok, status=0 if ok else -1, reason=facts["status"],
+        message="The end of the run was reached." if ok else facts["reason"],
+        nfev=facts["evaluations"], njev=facts["jacobians"], nlu=0, t_events=None, y_events=None,
+        names=motion.names, method=facts["method"], rtol=facts["rtol"], atol=facts["atol"],
+        steps=facts["steps"], rejected=facts["rejected"], seconds=facts["seconds"],
+        drift={name: record["drift"] for name, record in invariants.items()}, invariants=invariants,
+        trust=motion.trust(), warnings=facts["warnings"], advice=facts["advice"], left_out=facts["left_out"],
+    )
+
+
+def _quoted(value: str) -> str:
+    return json.dumps(value, ensure_ascii=False)
+
+
+def _table(head: str, entries: Mapping[str, Any]) -> list[str]:
+    return [f"\n[{head}]"] + [f"{_quoted(str(name))} = {_quoted(text_of(value))}" for name, value in entries.items()]
+
+
+def _toml(title, hamiltonian, equations, space, parameters, assume, named, integrable, initial, duration) -> str:
+    lines = [f"title = {_quoted(title)}"]
+    if integrable:
+        lines.append("integrable = true")
+    if hamiltonian is not None:
+        lines.append(f"hamiltonian = {_quoted(text_of(hamiltonian))}")
+    lines.append("\n[phase_space]")
+    brackets = space.pop("brackets")
+    for key, value in space.items():
+        if value is not None:
+            lines.append(f"{key} = {'true' if value is True else json.dumps(value, ensure_ascii=False)}")
+    if brackets is not None:
+        lines += _table("phase_space.brackets", brackets)
+    if parameters:
+        lines.append("\n[parameters]")
+        for name in parameters:
+            condition = f" assume = {_quoted(assume[name])} " if name in assume else ""
+            lines.append(f"{_quoted(name)} = {{{condition}}}")
+    for head, entries in {**named, "equations": equations}.items():
+        if entries:
+            lines += _table(head, entries)
+    if initial is not None:
+        values = {name: value for name, value in parameters.items() if value is not None}
+
+        def inline(entries):
+            return "{ " + ", ".join(f"{_quoted(n)} = {_quoted(text_of(v))}" for n, v in entries.items()) + " }"
+
+        lines += ["\n[[scene]]", 'name = "default"', f"initial = {inline(initial)}"]
+        if values:
+            lines.append(f"parameters = {inline(values)}")
+        if duration is not None:
+            lines.append(f"duration = {_quoted(text_of(duration))}")
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,70 @@
+"""Numbers and expressions on their way between Python and the exact language of case files."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+from numbers import Rational
+from typing import Any, Union
+
+from ._errors import RequestError
+
+#: What stands for an exact number or an expression: text in the notation of case files, an integer,
+#: a fraction, a float (which is exactly the number that it is: 0.1 is not 1/10), or a SymPy expression.
+Expression = Union[str, int, float, Fraction, Any]
+
+
+def text_of(value: Expression) -> str:
+    """The expression in the notation of case files.
+
+    >>> text_of("sqrt(2)/2"), text_of(Fraction(1, 3)), text_of(0.5)
+    ('sqrt(2)/2', '1/3', '1/2')
+    """
+    if isinstance(value, str):
+        return value
+    if isinstance(value, bool):
+        raise RequestError(f"{value} is not a number")
+    if isinstance(value, Rational):
+        value = Fraction(value)
+        return str(value.numerator) if value.denominator == 1 else f"{value.numerator}/{value.denominator}"
+    if isinstance(value, float):
+        if not math.isfinite(value):
+            raise RequestError(f"{value} is not a number")
+        return text_of(Fraction(value))
+    if hasattr(value, "free_symbols"):  # SymPy
+        return str(value).replace("**", "^").replace("pi", "Pi")
+    if hasattr(value, "item"):  # a scalar of NumPy
+        return text_of(value.item())
+    raise RequestError(f"{value!r} is no expression: text, a number or a SymPy expression is")
+
+
+def is_float(value: Expression) -> bool:
+    """Whether the number was rounded to binary digits: a float, or one of NumPy's.
+
+    >>> is_float(0.5), is_float("0.5"), is_float(1)
+    (True, False, False)
+    """
+    return isinstance(getattr(value, "item", lambda: value)(), float)
+
+
+def texts_of(values: Expression | Iterable[Expression] | None) -> list[str]:
+    """A list of expressions; one alone is a list of one."""
+    if values is None:
+        return []
+    if isinstance(values, (list, tuple, set, frozenset)):
+        return [text_of(value) for value in values]
+    return [text_of(values)]
+
+
+def pairs_of(values: Mapping[str, Expression] | None) -> list[tuple[str, str]]:
+    """Names with expressions."""
+    return [(str(name), text_of(value)) for name, value in (values or {}).items()]
+
+
+def number_of(text: str) -> Fraction | str:
+    """A fraction where the text is one, and otherwise the text, as of '2*atan(1/3)'."""
+    try:
+        return Fraction(text)
+    except ValueError:
+        return text

@@ -1,0 +1,366 @@
+"""What the commands answer."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any, overload
+
+from ._errors import UndecidedError
+from ._exact import number_of
+
+
+def _truth(verdict: str, what: str) -> bool:
+    if verdict == "undecided":
+        raise UndecidedError(f"{what} is undecided, which is neither true nor false: ask for .verdict")
+    return verdict == "proved"
+
+
+@dataclass(frozen=True)
+class Witness:
+    """A point at which a claimed identity fails."""
+
+    #: The exact value of every symbol; text where it is no fraction, as '2*atan(1/3)'.
+    point: dict[str, Fraction | str]
+    #: Of the residual there; not zero.
+    value: Fraction | str
+
+
+@dataclass(frozen=True)
+class Proof:
+    """The outcome of one claim. True where it is proved; taking an undecided one for a truth value raises."""
+
+    kind: str  #: 'integral', 'casimir', 'jacobi', 'rank', ..
+    name: str
+    verdict: str  #: 'proved', 'refuted' or 'undecided'
+    witness: Witness | None  #: of what is refuted
+    where: list[str]  #: conditions that a proof depends on, as 'a != 0'
+    on: list[str]  #: functions whose common zero level the claim is about
+    evidence: str  #: what was found, in words
+    residual: str  #: what should have been zero
+    reason: str  #: of what is not proved
+    fact: bool  #: about the system; counts only where the case claims to be integrable
+    integrals: list[str]  #: that a Lax pair gives
+    findings: list[Proof]  #: what else is known of a candidate
+    seconds: float
+
+    def __bool__(self) -> bool:
+        return _truth(self.verdict, f"the {self.kind} {self.name}")
+
+    def __str__(self) -> str:
+        where = f" where {', '.join(self.where)}" if self.where else ""
+        return f"{self.verdict}{where}: {self.kind} {self.name}"
+
+
+def proof_of(facts: dict[str, Any]) -> Proof:
+    """The object for what the C++ side says of a proof."""
+    witness = facts["witness"]
+    if witness is not None:
+        point = {name: number_of(value) for name, value in witness["point"].items()}
+        witness = Witness(point, number_of(witness["value"]))
+    kept = {key: value for key, value in facts.items() if key not in ("note", "witness", "findings")}
+    return Proof(witness=witness, findings=[proof_of(one) for one in facts["findings"]], **kept)
+
+
+class Verification(Sequence[Proof]):
+    """The proofs of a case's claims, or of candidates, in order. True where all that counts is proved."""
+
+    def __init__(self, verdict: str, proofs: list[Proof], notes: list[Proof]):
+        self.verdict = verdict  #: the worst among the claims
+        self.proofs = proofs
+        self.notes = notes  #: what is said beside the claims, and never counts
+
+    @overload
+    def __getitem__(self, index: int) -> Proof: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[Proof]: ...
+    @overload
+    def __getitem__(self, index: str) -> Proof: ...
+    def __getitem__(self, index):
+        if not isinstance(index, str):
+            return self.proofs[index]
+        for proof in self.proofs:
+            if proof.name == index:
+                return proof
+        raise KeyError(index)
+
+    def __len__(self) -> int:
+        return len(self.proofs)
+
+    def __iter__(self) -> Iterator[Proof]:
+        return iter(self.proofs)
+
+    def __bool__(self) -> bool:
+        return _truth(self.verdict, "the case")
+
+    @property
+    def witness(self) -> Witness | None:
+        """That of the first claim that is refuted."""
+        return next((proof.witness for proof in self.proofs if proof.witness is not None), None)
+
+    def __repr__(self) -> str:
+        return "\n".join([f"<{self.verdict}>"] + [f"  {proof}" for proof in self.proofs])
+
+    def _repr_html_(self) -> str:
+        rows = []
+        for proof in self.proofs:
+            note = proof.evidence if proof.verdict == "proved" else proof.reason
+            if proof.witness is not None:
+                point = ", ".join(f"{name} = {value}" for name, value in proof.witness.point.items())
+                note = f"{proof.witness.value} at {point}"
+            where = f" where {', '.join(proof.where)}" if proof.where else ""
+            cells = (proof.verdict + where, proof.kind, proof.name, note)
+            rows.append("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in cells) + "</tr>")
+        head = "<tr><th>verdict</th><th>claim</th><th></th><th>evidence</th></tr>"
+        return f"<table>{head}{''.join(rows)}</table>"
+
+
+@dataclass(frozen=True)
+class Found:
+    """A function that a search found."""
+
+    text: str  #: in the notation of case files
+    latex: str
+    degree: int
+    verdict: str
+    independent: bool  #: functionally, of what stands before it
+
+    def __str__(self) -> str:
+        return self.text
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.latex}$"
+
+
+@dataclass(frozen=True)
+class Search(Sequence[Found]):
+    """The integrals that a search found, less those that follow from the known ones."""
+
+    found: list[Found]
+    casimirs: list[Found]  #: found first, and taken as known
+    trivial: int  #: dimension of what the known ones generate up to the degree, with 1
+    complete: bool  #: proved: there are no others up to the degree
+    reason: str  #: where not
+    generic: list[str]  #: parameters that the answer is about generic values of
+
+    def __getitem__(self, index):
+        return self.found[index]
+
+    def __len__(self) -> int:
+        return len(self.found)
+
+    @property
+    def verdict(self) -> str:
+        """'proved' where what was found is all there is, else 'undecided'."""
+        return "proved" if self.complete else "undecided"
+
+
+def search_of(facts: dict[str, Any]) -> Search:
+    """The object for what the C++ side says of a search."""
+    lists = {key: [Found(**one) for one in facts[key]] for key in ("found", "casimirs")}
+    return Search(**{**facts, **lists})
+
+
+@dataclass(frozen=True)
+class Condition:
+    """Values of parameters at which there are further integrals."""
+
+    parameters: dict[str, str]
+    relation: str  #: an irreducible polynomial that vanishes; empty for a point
+    found: list[Found]
+    verdict: str
+
+
+@dataclass(frozen=True)
+class Conditions(Sequence[Condition]):
+    """All of them that a search with free parameters found."""
+
+    generic: Search  #: for generic values
+    conditions: list[Condition]
+    complete: bool  #: proved: there is no other value, curve or set
+    reason: str
+
+    def __getitem__(self, index):
+        return self.conditions[index]
+
+    def __len__(self) -> int:
+        return len(self.conditions)
+
+    @property
+    def verdict(self) -> str:
+        """'proved' where there is no other, else 'undecided'."""
+        return "proved" if self.complete else "undecided"
+
+
+@dataclass(frozen=True)
+class DarbouxPolynomial:
+    """A polynomial whose rate is a multiple of it."""
+
+    text: str
+    cofactor: str
+    relations: list[str]
+    degree: int
+    verdict: str
+
+
+@dataclass(frozen=True)
+class Exponent:
+    """A Kovalevskaya exponent, or all roots of one irreducible polynomial."""
+
+    text: str  #: the number, or the polynomial in `rho` that has it as a root
+    is_root: bool  #: whether the text is a polynomial
+    multiplicity: int
+    values: list[tuple[float, float]]  #: of algebraic numbers: real and imaginary parts
+
+
+@dataclass(frozen=True)
+class Balance:
+    """Leading terms x_i = c_i (t - t0)^(-g_i), with their exponents."""
+
+    coefficients: dict[str, str]
+    relations: list[str]
+    free: list[str]
+    exponents: list[Exponent]
+    decided: bool
+
+
+@dataclass(frozen=True)
+class Exponents:
+    """A Kovalevskaya-Painleve analysis."""
+
+    weights: dict[str, str]
+    left_out: list[str]
+    balances: list[Balance]
+    complete: bool
+    reason: str
+    generic: list[str]
+    conclusions: list[str]  #: with the theorem used
+
+
+def exponents_of(facts: dict[str, Any]) -> Exponents:
+    """The object for what the C++ side says of the analysis."""
+    balances = []
+    for one in facts["balances"]:
+        exponents = [Exponent(**exponent) for exponent in one["exponents"]]
+        balances.append(Balance(**{**one, "coefficients": dict(one["coefficients"]), "exponents": exponents}))
+    return Exponents(**{**facts, "weights": dict(facts["weights"]), "balances": balances})
+
+
+@dataclass(frozen=True)
+class Obstruction:
+    """Whether a further meromorphic integral is excluded."""
+
+    verdict: str  #: 'proved' where it is, else 'undecided'
+    theorem: str
+    excluded: str  #: which integrals, and where
+    reason: str  #: where nothing is excluded: why
+    parameters: dict[str, str]
+    examined: list[dict[str, Any]]  #: the curves with their normal variational equations
+
+    def __bool__(self) -> bool:
+        return _truth(self.verdict, "the obstruction")
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """A state that rests, or that moves with a symmetry only."""
+
+    state: Any  #: array of n numbers
+    velocities: list[float]  #: of the symmetries; empty at rest
+    eigenvalues: list[complex]  #: of the linearised equations
+    growth: float  #: the largest real part among them, or 0
+    family: int  #: dimension of the family on the level; 0: isolated
+    degenerate: bool
+    residual: float  #: the largest rate that is left
+
+
+@dataclass(frozen=True)
+class Orbit:
+    """The crossings of one orbit with the plane of a section."""
+
+    points: Any  #: array (count, 2): the plotted pair
+    times: Any  #: array (count,)
+    states: Any  #: array (count, n)
+    seed: Any  #: array (n,): where it began
+    exponent: float | None  #: growth of deviations per unit of time; None where it is too short to tell
+    chaotic: bool | None
+    leaves_level: bool  #: a crossing was further off the level than a section allows, and dropped
+    returns: bool
+    status: str
+
+
+@dataclass(frozen=True)
+class Section(Sequence[Orbit]):
+    """A Poincare section: orbits on one level of energy and Casimir functions, cut with a plane."""
+
+    orbits: list[Orbit]
+    plane: str
+    level: str  #: 'H = 1.5, F1 = 1'
+    labels: tuple[str, str]  #: of the axes
+    names: list[str] = field(default_factory=list)  #: of the entries of a state
+
+    def __getitem__(self, index):
+        return self.orbits[index]
+
+    def __len__(self) -> int:
+        return len(self.orbits)
+
+    def plot(self, ax=None, **style):
+        """Draws the crossings on axes of matplotlib, chaotic orbits in grey, and returns the axes."""
+        if ax is None:
+            from matplotlib import pyplot
+
+            ax = pyplot.gca()
+        style = {"markersize": 1, "linestyle": "none", "marker": ".", **style}
+        for orbit in self.orbits:
+            colour = {"color": "0.6"} if orbit.chaotic and "color" not in style else {}
+            ax.plot(orbit.points[:, 0], orbit.points[:, 1], **{**style, **colour})
+        ax.set_xlabel(self.labels[0])
+        ax.set_ylabel(self.labels[1])
+        ax.set_title(self.level)
+        return ax
+
+
+class Solution(dict):
+    """A motion, in the shape of SciPy's OdeResult: `t` (m,), `y` (n, m), `sol`, `status`, `message`,
+    `success`, `nfev`, `njev`, and what is known of how far it can be believed.
+
+    `status` is 0 at the end and -1 where the run stopped early, which `reason` ('singularity', ..)
+    and `message` explain; `y` then ends at the last good state. `drift` is that of every invariant,
+    `trust` a dictionary with the estimated error, `warnings` a list of sentences. Keys are
+    attributes too.
+    """
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError(name) from None
+
+    def __dir__(self):
+        return list(self)
+
+    def __repr__(self) -> str:
+        lines = [f"{key:>12}: {self[key]!r}" for key in ("success", "message", "method", "t", "y", "drift", "trust")]
+        return "\n".join(lines + [f"{'warning':>12}: {warning}" for warning in self.warnings])
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """The ends of many motions."""
+
+    y: Any  #: array (members, n): the states
+    t: Any  #: array (members,): the times
+    status: list[str]  #: 'ok', 'singularity', .. of each member
+    drift: dict[str, Any]  #: array (members,) for each invariant
+    steps: Any  #: array (members,)
+    names: list[str]  #: of the columns of y
+    seconds: float  #: of the integration alone
+    jobs: int  #: threads that took part
+
+    @property
+    def success(self) -> bool:
+        """Whether every member reached its end."""
+        return all(status == "ok" for status in self.status)

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace casimir::python {
+
+/// The exceptions of the libraries as those of the Python package, which it has made by then.
+void bind_errors(pybind11::module_& module);
+/// Cases: reading, proofs, searches, code.
+void bind_case(pybind11::module_& module);
+/// Runs of one initial state and of many.
+void bind_motion(pybind11::module_& module);
+/// Poincare sections and equilibria.
+void bind_section(pybind11::module_& module);
+
+}  // namespace casimir::python

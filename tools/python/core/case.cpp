@@ -1,0 +1,99 @@
+#include "tools/python/core/case.hpp"
+
+#include <fmt/format.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "tools/analysis/scene_values.hpp"
+#include "tools/cli/case_library.hpp"
+#include "tools/python/core/guard.hpp"
+
+namespace casimir::python {
+
+namespace {
+
+/// The text of a file that was just read as a case.
+std::string contents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<Entry> entries(const Values& values, const std::string& where) {
+  std::vector<Entry> result;
+  for (const auto& [name, value] : values)
+    result.emplace_back(typed(name, where), typed(value, where));
+  return result;
+}
+
+}  // namespace
+
+Text typed(const std::string& text, const std::string& where) {
+  return {text, {where, 1, 1}, text};
+}
+
+std::vector<Text> typed(const Names& texts, const std::string& where) {
+  std::vector<Text> result;
+  for (const std::string& text : texts) result.push_back(typed(text, where));
+  return result;
+}
+
+std::shared_ptr<Case> Case::load(const std::string& name) {
+  const ExactAlgebra guard;
+  const std::shared_ptr<Case> result(new Case);
+  result->source_ = tools::load_case(name);
+  result->text_ = contents(result->source_.file);
+  result->build();
+  return result;
+}
+
+std::shared_ptr<Case> Case::from_text(const std::string& text, const std::string& file) {
+  const ExactAlgebra guard;
+  const std::shared_ptr<Case> result(new Case);
+  result->source_ = parse_case(text, file);
+  result->text_ = text;
+  result->build();
+  return result;
+}
+
+Case::~Case() {
+  const ExactAlgebra guard;
+  notation_.reset();
+  model_.reset();
+}
+
+std::shared_ptr<Case> Case::with(const Values& parameters, const Values& initial,
+                                 bool rounded) const {
+  const ExactAlgebra guard;
+  const std::shared_ptr<Case> result(new Case);
+  result->text_ = text_;
+  result->source_ = source_;
+  result->parameters_ = parameters_;
+  result->initial_ = initial_;
+  result->rounded_ = rounded_ || rounded;
+  const auto put = [](Values& into, const Values& values) {
+    for (const auto& value : values) {
+      std::erase_if(into, [&](const auto& other) { return other.first == value.first; });
+      into.push_back(value);
+    }
+  };
+  put(result->parameters_, parameters);
+  put(result->initial_, initial);
+  result->build();
+  return result;
+}
+
+void Case::build() {
+  const CaseFile changed = with_initial_values(source_, entries(initial_, "initial"), rounded_);
+  model_ = std::make_unique<Model>(tools::model_of(changed, entries(parameters_, "parameters")));
+}
+
+std::string Case::shown(const GiNaC::ex& e, tools::Markup markup) const {
+  if (!notation_) notation_ = std::make_unique<tools::Notation>(*model_);
+  return notation_->components(e, markup);
+}
+
+}  // namespace casimir::python

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "symbolic/model.hpp"
+#include "tools/show/notation.hpp"
+
+namespace casimir::python {
+
+using Names = std::vector<std::string>;
+/// Names with exact numbers as case files have them.
+using Values = std::vector<std::pair<std::string, std::string>>;
+
+/// A case as Python holds it: its text, what was changed in it, and the model of that.
+class Case {
+ public:
+  /// \throws CaseError
+  static std::shared_ptr<Case> load(const std::string& name);
+  /// \param file  names the text in messages, and without its ending the case.
+  /// \throws CaseError
+  static std::shared_ptr<Case> from_text(const std::string& text, const std::string& file);
+  /// Ends the model where no other thread computes.
+  ~Case();
+
+  /// The same case with numbers in the place of parameters, and other starts of variables.
+  /// \param rounded  some start is a double: it may be off a level by rounding.
+  /// \throws CaseError  with the nearest name for one that is none.
+  std::shared_ptr<Case> with(const Values& parameters, const Values& initial, bool rounded) const;
+
+  /// The text that it was read from, without the changes.
+  const std::string& text() const { return text_; }
+  /// What names it in messages.
+  const std::string& file() const { return source_.file; }
+  /// As they were given to `with`.
+  const Values& parameters() const { return parameters_; }
+  /// The same.
+  const Values& initial() const { return initial_; }
+  /// Whether one of these is a double.
+  bool rounded() const { return rounded_; }
+  /// With the changes.
+  const Model& model() const { return *model_; }
+  /// An expression as case files or LaTeX have it. The caller may use exact algebra.
+  std::string shown(const GiNaC::ex& e, tools::Markup markup) const;
+
+ private:
+  Case() = default;
+  void build();
+
+  std::string text_;
+  CaseFile source_;
+  Values parameters_, initial_;
+  bool rounded_ = false;
+  std::unique_ptr<Model> model_;
+  mutable std::unique_ptr<tools::Notation> notation_;  ///< made where it is asked for
+};
+
+/// What Python typed, with a place for messages.
+Text typed(const std::string& text, const std::string& where);
+/// The same for a list.
+std::vector<Text> typed(const Names& texts, const std::string& where);
+
+}  // namespace casimir::python

@@ -1,0 +1,11 @@
+// The module casimir._core: the libraries as they are. What is comfortable is in Python, beside it.
+#include "tools/python/core/bindings.hpp"
+
+PYBIND11_MODULE(_core, module) {
+  module.doc() = "The C++ libraries behind the package casimir";
+  module.attr("__version__") = CASIMIR_VERSION;
+  casimir::python::bind_errors(module);
+  casimir::python::bind_case(module);
+  casimir::python::bind_motion(module);
+  casimir::python::bind_section(module);
+}

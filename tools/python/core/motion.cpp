@@ -1,0 +1,379 @@
+// Runs of one initial state and of many, and the right-hand side as a function.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/analysis/error.hpp"
+#include "tools/analysis/run/ensemble_kernel.hpp"
+#include "tools/analysis/solve.hpp"
+#include "tools/python/core/bindings.hpp"
+#include "tools/python/core/case.hpp"
+#include "tools/python/core/guard.hpp"
+#include "tools/text/run_report.hpp"
+#include "tools/text/trust_report.hpp"
+
+namespace casimir::python {
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace {
+
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Choice = std::optional<double>;
+
+/// What is asked of a run. \param tolerance, rtol, atol  none: as `RunRequest` says.
+RunRequest request(Choice duration, Choice tolerance, Choice rtol, Choice atol) {
+  RunRequest result;
+  result.duration = duration;
+  result.tolerance = tolerance;
+  result.rtol = rtol;
+  result.atol = atol;
+  return result;
+}
+
+/// `work` with what the libraries say of impossible settings as an error of the package.
+template <class Work>
+auto settled(const Work& work) {
+  try {
+    return work();
+  } catch (const std::invalid_argument& problem) {
+    throw RequestError(problem.what());
+  }
+}
+
+/// States as columns: the shape that SciPy gives them.
+template <class State>
+Doubles columns(std::size_t rows, std::size_t count, const State& state) {
+  Doubles result({rows, count});
+  auto values = result.mutable_unchecked<2>();
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto& x = state(k);
+    for (std::size_t i = 0; i < rows; ++i)
+      values(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(k)) = x[i];
+  }
+  return result;
+}
+
+/// A finished run.
+class Motion {
+ public:
+  Motion(std::shared_ptr<const Case> of, Solution solution)
+      : case_(std::move(of)), solution_(std::make_unique<Solution>(std::move(solution))) {}
+  Motion(Motion&&) = default;
+  ~Motion() {
+    const ExactAlgebra guard;
+    solution_.reset();
+  }
+
+  const Solution& solution() const { return *solution_; }
+  const Trajectory& trajectory() const { return solution_->trajectory(); }
+  std::size_t size() const { return solution_->names().size(); }
+
+  /// The times of the steps and the states there.
+  py::tuple steps() const {
+    const auto& steps = solution_->steps();
+    Doubles times(static_cast<py::ssize_t>(steps.size()));
+    for (std::size_t k = 0; k < steps.size(); ++k) times.mutable_data()[k] = steps[k].time;
+    return py::make_tuple(
+        times, columns(size(), steps.size(), [&](std::size_t k) { return steps[k].state; }));
+  }
+
+  /// The states at these times.
+  Doubles at(const Doubles& times) const {
+    std::vector<std::vector<double>> states(static_cast<std::size_t>(times.size()));
+    {
+      const double* t = times.data();
+      const py::gil_scoped_release python;
+      for (std::size_t k = 0; k < states.size(); ++k) states[k] = (*solution_)(t[k]);
+    }
+    return columns(size(), states.size(), [&](std::size_t k) { return states[k]; });
+  }
+
+  py::dict invariants() const {
+    py::dict result;
+    const Names& names = solution_->scene().specialisation.invariant_names;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const InvariantRecord& record = trajectory().invariants[i];
+      result[py::str(names[i])] =
+          py::dict("initial"_a = static_cast<double>(record.initial),
+                   "final"_a = static_cast<double>(record.final), "drift"_a = record.drift);
+    }
+    return result;
+  }
+
+  py::dict trust() const {
+    const ErrorEstimate& trust = solution_->trust();
+    const auto known = [&](double value) -> py::object {
+      if (!trust.known) return py::none();
+      return py::float_(value);
+    };
+    return py::dict("conditioning"_a = known(trust.conditioning),
+                    "input_rounding"_a = known(trust.input_rounding),
+                    "error_estimate"_a = trust.unconfirmed ? py::none() : known(trust.error_estimate),
+                    "beyond_double"_a = trust.beyond_double);
+  }
+
+  /// Facts about the run by name.
+  py::dict facts() const {
+    const AssessedRun& run = solution_->run();
+    const Trajectory& motion = trajectory();
+    const tools::RunWords words = tools::words_of(run);
+    Names left_out;
+    for (const LeftOut& item : solution_->scene().specialisation.left_out)
+      left_out.push_back(item.kind + " " + item.name + ": " + item.reason);
+    return py::dict("status"_a = to_string(motion.status), "reason"_a = motion.reason,
+                    "advice"_a = words.advice, "warnings"_a = words.warnings,
+                    "method"_a = std::string(run.method->name), "chosen"_a = run.chosen,
+                    "rtol"_a = run.settings.rtol, "atol"_a = run.settings.atol,
+                    "time"_a = motion.time, "steps"_a = motion.steps,
+                    "rejected"_a = motion.rejected, "evaluations"_a = motion.evaluations,
+                    "jacobians"_a = motion.jacobians, "seconds"_a = motion.seconds,
+                    "compile_seconds"_a = run.compiled->seconds, "left_out"_a = left_out);
+  }
+
+ private:
+  std::shared_ptr<const Case> case_;
+  std::unique_ptr<Solution> solution_;
+};
+
+Motion integrate(const std::shared_ptr<Case>& self, const std::string& scene,
+                 const std::string& method, Choice duration, Choice tolerance, Choice rtol,
+                 Choice atol, const std::optional<Names>& observe, bool project,
+                 double time_limit) {
+  Interrupt interrupt;
+  SolveOptions options;
+  options.method = method;
+  options.run = request(duration, tolerance, rtol, atol);
+  options.run.project = project;
+  options.code.observe = observe;
+  options.dense = true;
+  options.time_limit = time_limit;
+  options.give_up = [&] { return interrupt(); };
+  std::optional<Motion> motion;
+  {
+    const ExactAlgebra guard;
+    const Model& model = self->model();
+    motion.emplace(self, settled([&] { return solve(model, model.scene(scene), options); }));
+  }
+  interrupt.raise();
+  return std::move(*motion);
+}
+
+/// A scene compiled for repeated use: its right-hand side, and the flow by one method.
+class System {
+ public:
+  System(const Case& of, const std::string& scene, const std::string& method, const Names& keep) {
+    const ExactAlgebra guard;
+    const Model& model = of.model();
+    SceneOptions how;
+    how.keep_parameters = keep;
+    how.observe = Names{};
+    run_ = std::make_unique<PreparedScene>(prepare(model, model.scene(scene), how));
+    method_ = &method_named(method);
+    compiled_ = std::make_unique<CompiledModule>(compile_for(*run_, *method_));
+  }
+  ~System() {
+    const ExactAlgebra guard;
+    compiled_.reset();
+    run_.reset();
+  }
+
+  const Names& names() const { return run_->specialisation.states; }
+  const Names& parameter_names() const { return run_->specialisation.parameters; }
+  const Names& invariant_names() const { return run_->specialisation.invariant_names; }
+  const std::vector<double>& initial() const { return run_->initial; }
+  const std::vector<double>& parameters() const { return run_->parameters; }
+
+  /// dx/dt at a state. \param p  values of the kept parameters; none: those of the scene.
+  Doubles rhs(double t, const Doubles& x, const std::optional<Doubles>& p) const {
+    return evaluated(compiled_->module.functions().rhs, names().size(), t, x, p);
+  }
+  /// Values of the invariants at a state.
+  Doubles invariants(double t, const Doubles& x, const std::optional<Doubles>& p) const {
+    return evaluated(compiled_->module.functions().invariants, invariant_names().size(), t, x, p);
+  }
+  /// The Jacobian of the right-hand side, n by n.
+  py::array jacobian(double t, const Doubles& x, const std::optional<Doubles>& p) const {
+    if (!compiled_->module.has_jacobian())
+      throw RequestError("the module of this method has no Jacobian: ask for 'radau5'");
+    const std::size_t n = names().size();
+    const Doubles by_columns =
+        evaluated(compiled_->module.functions().jacobian, n * n, t, x, p);
+    return by_columns.attr("reshape")(n, n).attr("T");
+  }
+
+  /// The state after a time.
+  Doubles flow(const Doubles& x, double duration, Choice tolerance, const std::optional<Doubles>& p) {
+    check(x, p);
+    const std::vector<double> start(x.data(), x.data() + x.size());
+    const std::vector<double> values =
+        p ? std::vector<double>(p->data(), p->data() + p->size()) : run_->parameters;
+    Settings settings;
+    settings.rtol = settings.atol = tolerance.value_or(1e-12);
+    settings.duration = duration;
+    settings.monitor = false;
+    Interrupt interrupt;
+    settings.give_up = [&] { return interrupt(); };
+    Trajectory end;
+    {
+      const py::gil_scoped_release python;
+      end = settled([&] {
+        return casimir::integrate(compiled_->module, *method_, settings, start, values);
+      });
+    }
+    interrupt.raise();
+    if (end.status != Status::ok)
+      throw RequestError("the flow ends at t = " + std::to_string(end.time) + ": " + end.reason);
+    return Doubles(static_cast<py::ssize_t>(end.state.size()), end.state.data());
+  }
+
+ private:
+  void check(const Doubles& x, const std::optional<Doubles>& p) const {
+    const auto differs = [](const Doubles& given, std::size_t size) {
+      return given.ndim() != 1 || static_cast<std::size_t>(given.size()) != size;
+    };
+    if (differs(x, names().size()))
+      throw RequestError("a state has " + std::to_string(names().size()) + " numbers");
+    if (p && differs(*p, run_->parameters.size()))
+      throw RequestError("there are " + std::to_string(run_->parameters.size()) +
+                         " parameters that were kept");
+  }
+
+  Doubles evaluated(const std::function<ModuleFunctions::Evaluation>& function, std::size_t size,
+                    double t, const Doubles& x, const std::optional<Doubles>& p) const {
+    check(x, p);
+    Doubles result(static_cast<py::ssize_t>(size));
+    function(t, x.data(), p ? p->data() : run_->parameters.data(), result.mutable_data());
+    return result;
+  }
+
+  std::unique_ptr<PreparedScene> run_;
+  const Method* method_ = nullptr;
+  std::unique_ptr<CompiledModule> compiled_;
+};
+
+/// Where each column of `names` goes among `known`.
+/// \throws RequestError  with the nearest name.
+std::vector<std::size_t> places_of(const Names& names, const Names& known, const char* what) {
+  std::vector<std::size_t> places;
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(known, name);
+    if (found == known.end())
+      throw RequestError("'" + printable(name) + "' is not " + what + ": " +
+                         suggest_or_list(name, known));
+    places.push_back(static_cast<std::size_t>(found - known.begin()));
+  }
+  return places;
+}
+
+/// Puts each column of an array into its place in the rows of `into`.
+void fill(std::vector<double>& into, std::size_t width, const Doubles& values,
+          const std::vector<std::size_t>& places) {
+  const auto from = values.unchecked<2>();
+  for (py::ssize_t row = 0; row < from.shape(0); ++row)
+    for (std::size_t column = 0; column < places.size(); ++column)
+      into[static_cast<std::size_t>(row) * width + places[column]] =
+          from(row, static_cast<py::ssize_t>(column));
+}
+
+/// Many members at once. \param initial  a row for each, with a column for each of `variables`.
+/// \param values  likewise for `parameters`.
+py::dict ensemble(const Case& self, const std::string& scene, const std::string& method,
+                  const Doubles& initial, const Names& variables, const Doubles& values,
+                  const Names& parameters, Choice duration, Choice tolerance, Choice rtol,
+                  Choice atol, int jobs, double seconds) {
+  if (initial.ndim() != 2 || values.ndim() != 2 || initial.shape(0) != values.shape(0) ||
+      static_cast<std::size_t>(initial.shape(1)) != variables.size() ||
+      static_cast<std::size_t>(values.shape(1)) != parameters.size())
+    throw RequestError("an ensemble is a row for each member and a column for each name");
+  Interrupt interrupt;
+  const auto count = static_cast<std::size_t>(initial.shape(0));
+  Ensemble members;
+  EnsembleResult result;
+  Names states, invariants;
+  {
+    const ExactAlgebra guard;
+    const Model& model = self.model();
+    SceneOptions how;
+    how.keep_parameters = parameters;
+    how.observe = Names{};
+    const PreparedScene run = prepare(model, model.scene(scene), how);
+    const Specialisation& s = run.specialisation;
+    states = s.states;
+    invariants = s.invariant_names;
+    members.states = states.size();
+    members.parameters = run.parameters.size();
+    members.initial.reserve(count * members.states);
+    members.values.reserve(count * members.parameters);
+    for (std::size_t row = 0; row < count; ++row) {
+      members.initial.insert(members.initial.end(), run.initial.begin(), run.initial.end());
+      members.values.insert(members.values.end(), run.parameters.begin(), run.parameters.end());
+    }
+    fill(members.initial, members.states, initial, places_of(variables, states, "a variable"));
+    fill(members.values, members.parameters, values,
+         places_of(parameters, s.parameters, "a parameter"));
+    const Method& by = method_named(method);
+    Settings settings = settings_for(request(duration, tolerance, rtol, atol), run);
+    settings.give_up = [&, late = time_limit(seconds)] { return interrupt() || (late && late()); };
+    settings.invariant_terms = nullptr;
+    const EnsembleKernel kernel = ensemble_kernel(run, by, count, true);
+    result = settled([&] {
+      return kernel.lanes
+                 ? integrate_in_lanes(members, *kernel.lanes, s.invariants, settings, jobs)
+                 : integrate_members(members, kernel.module_for_thread, by, s.invariants, settings,
+                                     jobs);
+    });
+  }
+  interrupt.raise();
+  Doubles ends({count, members.states}), drift({count, invariants.size()});
+  Doubles times(static_cast<py::ssize_t>(count));
+  py::list status;
+  py::array_t<unsigned long long> steps(static_cast<py::ssize_t>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const MemberResult& member = result.members[i];
+    // A member whose turn never came has no state.
+    std::fill_n(ends.mutable_data() + i * members.states, members.states, std::nan(""));
+    std::ranges::copy(member.state, ends.mutable_data() + i * members.states);
+    double* const drifts = drift.mutable_data() + i * invariants.size();
+    std::fill_n(drifts, invariants.size(), std::nan(""));
+    for (std::size_t k = 0; k < member.invariants.size(); ++k) drifts[k] = member.invariants[k].drift;
+    times.mutable_data()[i] = member.time;
+    steps.mutable_data()[i] = member.steps;
+    status.append(to_string(member.status));
+  }
+  return py::dict("names"_a = states, "invariant_names"_a = invariants, "states"_a = ends,
+                  "t"_a = times, "drift"_a = drift, "status"_a = status, "steps"_a = steps,
+                  "seconds"_a = result.seconds, "jobs"_a = result.jobs);
+}
+
+}  // namespace
+
+void bind_motion(py::module_& module) {
+  py::class_<Motion>(module, "Motion")
+      .def_property_readonly("names", [](const Motion& self) { return self.solution().names(); })
+      .def_property_readonly("ok", [](const Motion& self) { return self.solution().ok(); })
+      .def("steps", &Motion::steps)
+      .def("at", &Motion::at)
+      .def("invariants", &Motion::invariants)
+      .def("trust", &Motion::trust)
+      .def("facts", &Motion::facts);
+  py::class_<System>(module, "System")
+      .def(py::init<const Case&, const std::string&, const std::string&, const Names&>())
+      .def_property_readonly("names", &System::names)
+      .def_property_readonly("parameter_names", &System::parameter_names)
+      .def_property_readonly("invariant_names", &System::invariant_names)
+      .def_property_readonly("initial", &System::initial)
+      .def_property_readonly("parameters", &System::parameters)
+      .def("rhs", &System::rhs)
+      .def("jacobian", &System::jacobian)
+      .def("invariants", &System::invariants)
+      .def("flow", &System::flow);
+  module.def("integrate", &integrate);
+  module.def("ensemble", &ensemble);
+  module.def("methods", &method_names);
+}
+
+}  // namespace casimir::python

@@ -1,0 +1,331 @@
+// Cases: reading, proofs, searches, code.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "codegen/emit_cpp.hpp"
+#include "symbolic/obstruction/obstruct.hpp"
+#include "symbolic/prove.hpp"
+#include "symbolic/search/darboux.hpp"
+#include "symbolic/search/exponents.hpp"
+#include "symbolic/search/search.hpp"
+#include "tools/analysis/proof/prove_in_process.hpp"
+#include "tools/analysis/run/prepared_scene.hpp"
+#include "tools/cli/case_library.hpp"
+#include "tools/python/core/bindings.hpp"
+#include "tools/python/core/case.hpp"
+#include "tools/python/core/guard.hpp"
+#include "tools/show/system_view.hpp"
+
+namespace casimir::python {
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace {
+
+/// Thrown to leave a computation after Ctrl-C.
+struct Interrupted {};
+
+/// Watches a search: the time that it may take, and Ctrl-C.
+search::Watch watched(Interrupt& interrupt, double seconds, double memory) {
+  search::Watch watch;
+  const std::function<bool()> late = time_limit(seconds);
+  watch.tick = [&interrupt, late](double) {
+    if (interrupt()) throw Interrupted();
+    if (late && late()) throw search::TimeUp();
+  };
+  if (memory > 0) watch.memory_limit = memory;
+  return watch;
+}
+
+/// Does exact work without Python's lock, where no other thread does any; Ctrl-C ends it where it looks
+/// for that.
+/// \param convert  makes what Python sees of the outcome, with Python's lock.
+template <class Work, class Convert>
+py::object exactly(Interrupt& interrupt, const Work& work, const Convert& convert) {
+  py::object result;
+  try {
+    const ExactAlgebra guard;
+    const auto outcome = work();
+    const py::gil_scoped_acquire python;
+    result = convert(outcome);
+  } catch (const Interrupted&) {
+  }
+  interrupt.raise();
+  return result;
+}
+
+py::dict to_python(const Proof& proof) {
+  py::object witness = py::none();
+  if (proof.witness) {
+    py::dict point;
+    for (const auto& [name, value] : proof.witness->point) point[py::str(name)] = value;
+    witness = py::dict("point"_a = point, "value"_a = proof.witness->value);
+  }
+  py::list findings;
+  for (const Proof& finding : proof.findings) findings.append(to_python(finding));
+  return py::dict("kind"_a = to_string(proof.kind), "name"_a = proof.name,
+                  "verdict"_a = to_string(proof.verdict), "fact"_a = proof.fact,
+                  "note"_a = proof.note, "seconds"_a = proof.seconds, "on"_a = proof.on,
+                  "evidence"_a = proof.evidence, "residual"_a = proof.residual,
+                  "reason"_a = proof.reason, "witness"_a = witness, "where"_a = proof.where,
+                  "integrals"_a = proof.integrals, "findings"_a = findings);
+}
+
+py::object verify(const Case& self, const Names& integrals, const Names& casimirs,
+                const Names& relations, const Names& identities, const Names& on, double seconds) {
+  Candidates candidates;
+  candidates.integrals = typed(integrals, "integral");
+  candidates.casimirs = typed(casimirs, "casimir");
+  candidates.invariant_relations = typed(relations, "invariant_relation");
+  candidates.identities = typed(identities, "identity");
+  candidates.on = typed(on, "on");
+  Interrupt interrupt;
+  const Model& model = self.model();
+  const auto prove_all = [&] {
+    if (seconds > 0) return prove_within(seconds, model, candidates, [](const Proof&) {});
+    return prove(model, candidates, [&](const Proof&) { return !interrupt(); });
+  };
+  return exactly(interrupt, prove_all, [&](const std::vector<Proof>& outcome) {
+    py::list proofs;
+    for (const Proof& proof : outcome) proofs.append(to_python(proof));
+    return py::dict("verdict"_a = to_string(overall(model, outcome)), "proofs"_a = proofs);
+  });
+}
+
+py::dict to_python(const Case& self, const search::Found& found) {
+  return py::dict("text"_a = found.text, "latex"_a = self.shown(found.value, tools::Markup::latex),
+                  "degree"_a = found.degree, "verdict"_a = to_string(found.verdict),
+                  "independent"_a = found.independent);
+}
+
+py::list to_python(const Case& self, const std::vector<search::Found>& list) {
+  py::list result;
+  for (const search::Found& found : list) result.append(to_python(self, found));
+  return result;
+}
+
+py::dict to_python(const Case& self, const search::Report& report) {
+  return py::dict("found"_a = to_python(self, report.found),
+                  "casimirs"_a = to_python(self, report.casimirs), "trivial"_a = report.trivial,
+                  "complete"_a = report.complete, "reason"_a = report.reason,
+                  "generic"_a = report.generic);
+}
+
+std::vector<std::pair<Text, Text>> weights_of(const Values& weights) {
+  std::vector<std::pair<Text, Text>> result;
+  for (const auto& [name, weight] : weights)
+    result.emplace_back(typed(name, "weights"), typed(weight, "weights"));
+  return result;
+}
+
+py::object find_integrals(const Case& self, int degree, bool casimirs, const Names& on,
+                        const Names& functions, const Values& weights, double seconds,
+                        double memory) {
+  const search::Request request{degree, casimirs, typed(on, "on"), typed(functions, "functions"),
+                                weights_of(weights)};
+  Interrupt interrupt;
+  return exactly(
+      interrupt,
+      [&] {
+        return search::find_integrals(self.model(), request, watched(interrupt, seconds, memory));
+      },
+      [&](const search::Report& report) { return to_python(self, report); });
+}
+
+py::object find_conditions(const Case& self, int degree, const Names& free, const Names& functions,
+                         const Values& weights, double seconds, double memory) {
+  const search::Request request{degree, false, {}, typed(functions, "functions"),
+                                weights_of(weights)};
+  Interrupt interrupt;
+  const auto find = [&] {
+    return search::find_conditions(self.model(), request, typed(free, "free"),
+                                   watched(interrupt, seconds, memory));
+  };
+  return exactly(interrupt, find, [&](const search::ConditionReport& report) {
+  py::list conditions;
+  for (const search::Condition& condition : report.conditions) {
+    py::dict parameters;
+    for (const auto& [name, value] : condition.parameters) parameters[py::str(name)] = value;
+    conditions.append(py::dict("parameters"_a = parameters, "relation"_a = condition.relation,
+                               "found"_a = to_python(self, condition.found),
+                               "verdict"_a = to_string(condition.verdict)));
+  }
+  return py::dict("generic"_a = to_python(self, report.generic), "conditions"_a = conditions,
+                  "complete"_a = report.complete, "reason"_a = report.reason);
+  });
+}
+
+py::object find_darboux(const Case& self, int degree, double seconds, double memory) {
+  Interrupt interrupt;
+  const auto find = [&] {
+    return search::find_darboux(self.model(), degree, watched(interrupt, seconds, memory));
+  };
+  return exactly(interrupt, find, [&](const search::DarbouxReport& report) {
+  py::list found;
+  for (const search::DarbouxPolynomial& polynomial : report.found)
+    found.append(py::dict("text"_a = polynomial.text, "cofactor"_a = polynomial.cofactor,
+                          "relations"_a = polynomial.relations, "degree"_a = polynomial.degree,
+                          "verdict"_a = to_string(polynomial.verdict)));
+  return py::dict("found"_a = found, "complete"_a = report.complete, "reason"_a = report.reason,
+                  "generic"_a = report.generic);
+  });
+}
+
+py::dict to_python(const search::Exponent& exponent) {
+  return py::dict("text"_a = exponent.text, "is_root"_a = exponent.is_root,
+                  "multiplicity"_a = exponent.multiplicity, "values"_a = exponent.values);
+}
+
+py::object exponents(const Case& self, const Values& weights, double seconds, double memory) {
+  Interrupt interrupt;
+  const auto find = [&] {
+    return search::kovalevskaya_exponents(self.model(), weights_of(weights),
+                                          watched(interrupt, seconds, memory));
+  };
+  return exactly(interrupt, find, [&](const search::ExponentReport& report) {
+  py::list balances;
+  for (const search::Balance& balance : report.balances) {
+    py::list list;
+    for (const search::Exponent& exponent : balance.exponents) list.append(to_python(exponent));
+    balances.append(py::dict("coefficients"_a = balance.coefficients,
+                             "relations"_a = balance.relations, "free"_a = balance.free,
+                             "exponents"_a = list, "decided"_a = balance.decided));
+  }
+  return py::dict("weights"_a = report.weights, "left_out"_a = report.left_out,
+                  "balances"_a = balances, "complete"_a = report.complete,
+                  "reason"_a = report.reason, "generic"_a = report.generic,
+                  "conclusions"_a = report.conclusions);
+  });
+}
+
+py::object obstruct(const Case& self, const std::string& scene, const Names& along, double seconds,
+                  double memory) {
+  Interrupt interrupt;
+  const auto find = [&] {
+    return obstruction::find_obstruction(self.model(), {scene, typed(along, "along")},
+                                         watched(interrupt, seconds, memory));
+  };
+  return exactly(interrupt, find, [&](const obstruction::Obstruction& result) {
+  py::list examined;
+  for (const obstruction::Examined& one : result.examined)
+    examined.append(py::dict("along"_a = one.along, "level"_a = one.level, "curve"_a = one.curve,
+                             "nve"_a = one.nve, "exponents"_a = one.exponents,
+                             "cases"_a = one.cases, "solution"_a = one.solution,
+                             "outcome"_a = one.outcome, "decisive"_a = one.decisive));
+  return py::dict("proved"_a = result.proved, "parameters"_a = result.parameters,
+                  "theorem"_a = result.theorem, "excluded"_a = result.excluded,
+                  "reason"_a = result.reason, "examined"_a = examined);
+  });
+}
+
+/// A system as `show` tells it, in one markup.
+py::dict show(const Case& self, const std::string& format) {
+  const ExactAlgebra guard;
+  const tools::Markup markup = format == "latex" ? tools::Markup::latex : tools::Markup::text;
+  tools::Notation notation(self.model());
+  const tools::SystemView view = view_of(self.model(), notation, markup);
+  const py::gil_scoped_acquire python;
+  const auto pairs = [](const std::vector<tools::Formula>& formulas) {
+    py::list list;
+    for (const tools::Formula& formula : formulas)
+      list.append(py::make_tuple(formula.left, formula.right));
+    return list;
+  };
+  py::list claims;
+  for (const tools::FormulaGroup& group : view.claims)
+    claims.append(py::make_tuple(group.title, pairs(group.formulas)));
+  return py::dict("variables"_a = view.variables, "structure_matrix"_a = view.structure_matrix,
+                  "brackets"_a = pairs(view.brackets), "hamiltonian"_a = view.hamiltonian,
+                  "equations"_a = pairs(view.equations), "claims"_a = claims);
+}
+
+std::string generate(const Case& self, const std::string& scene, const Names& keep,
+                     const std::optional<Names>& observe, bool jacobian, bool variational,
+                     bool taylor, const std::string& language,
+                     const std::optional<std::string>& name) {
+  const ExactAlgebra guard;
+  SpecialiseOptions what;
+  what.keep_parameters = keep;
+  what.observe = observe;
+  what.jacobian = jacobian;
+  what.variational = variational;
+  what.taylor = taylor;
+  HeaderOptions how;
+  how.language = language == "c" ? Language::c : Language::cpp;
+  how.name = name;
+  const Model& model = self.model();
+  return emit_header(specialise(model, model.scene(scene), what), how);
+}
+
+Names names(const std::vector<GiNaC::symbol>& symbols) {
+  Names result;
+  for (const GiNaC::symbol& symbol : symbols) result.push_back(symbol.get_name());
+  return result;
+}
+
+Names scenes(const Case& self) {
+  Names result;
+  for (const Scene& scene : self.model().scenes) result.push_back(scene.name);
+  return result;
+}
+
+/// An expression over the names of a case: as case files have it, and in LaTeX.
+std::pair<std::string, std::string> expression(const Case& self, const std::string& text) {
+  const ExactAlgebra guard;
+  const GiNaC::ex value = self.model().parse(typed(text, "expression"));
+  return {self.shown(value, tools::Markup::text), self.shown(value, tools::Markup::latex)};
+}
+
+Values named(const Case& self, const std::vector<NamedExpression>& list) {
+  const ExactAlgebra guard;
+  Values result;
+  for (const NamedExpression& f : list)
+    result.emplace_back(f.name, self.shown(f.value, tools::Markup::text));
+  return result;
+}
+
+}  // namespace
+
+void bind_case(py::module_& module) {
+  module.def("add_case_folder", [](const std::string& folder) { tools::add_case_folder(folder); });
+  module.def("bundled", [] {
+    Names names;
+    for (const std::filesystem::path& path : tools::bundled_cases())
+      names.push_back(path.stem().string());
+    return names;
+  });
+  py::class_<Case, std::shared_ptr<Case>>(module, "Case")
+      .def_static("load", &Case::load)
+      .def_static("from_text", &Case::from_text)
+      .def("with_values", &Case::with)
+      .def_property_readonly("text", &Case::text)
+      .def_property_readonly("file", &Case::file)
+      .def_property_readonly("changed_parameters", &Case::parameters)
+      .def_property_readonly("changed_initial", &Case::initial)
+      .def_property_readonly("rounded", &Case::rounded)
+      .def_property_readonly("name", [](const Case& self) { return self.model().name; })
+      .def_property_readonly("title", [](const Case& self) { return self.model().title; })
+      .def_property_readonly("source", [](const Case& self) { return self.model().source; })
+      .def_property_readonly("phase_space",
+                             [](const Case& self) { return self.model().phase_space; })
+      .def_property_readonly("variables",
+                             [](const Case& self) { return names(self.model().variables); })
+      .def_property_readonly("parameters",
+                             [](const Case& self) { return names(self.model().parameters); })
+      .def_property_readonly("scenes", &scenes)
+      .def_property_readonly(
+          "casimirs", [](const Case& self) { return named(self, self.model().casimirs); })
+      .def_property_readonly(
+          "integrals", [](const Case& self) { return named(self, self.model().integrals); })
+      .def("expression", &expression)
+      .def("show", &show)
+      .def("verify", &verify)
+      .def("search", &find_integrals)
+      .def("conditions", &find_conditions)
+      .def("darboux", &find_darboux)
+      .def("exponents", &exponents)
+      .def("obstruct", &obstruct)
+      .def("generate", &generate);
+}
+
+}  // namespace casimir::python
