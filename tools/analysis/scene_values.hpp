@@ -15,7 +15,6 @@ void set_in_scenes(CaseFile& file, std::vector<Entry> SceneText::*table, const T
 /// The case with these initial values in every scene.
 /// \param rounded  they are doubles, so a scene may be off its levels by rounding.
 /// \throws CaseError  with the nearest variable for a name that is none of the case.
-CaseFile with_initial_values(CaseFile file, const std::vector<Entry>& values,
-                             bool rounded = false);
+CaseFile with_initial_values(CaseFile file, const std::vector<Entry>& values, bool rounded = false);
 
 }  // namespace casimir

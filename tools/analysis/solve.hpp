@@ -11,12 +11,12 @@ namespace casimir {
 
 /// What is asked of `solve`.
 struct SolveOptions {
-  std::string method = "auto";  ///< or one of `method_names`
-  RunRequest run = {};          ///< tolerances, duration, projection
-  SceneOptions code = {};       ///< what the equations are specialised for
-  double time_limit = 0;        ///< in seconds; 0: none
-  double sample_every = 0;      ///< time between `trajectory().samples`; 0: none
-  bool dense = false;           ///< keep what the state at any time follows from
+  std::string method = "auto";         ///< or one of `method_names`
+  RunRequest run = {};                 ///< tolerances, duration, projection
+  SceneOptions code = {};              ///< what the equations are specialised for
+  double time_limit = 0;               ///< in seconds; 0: none
+  double sample_every = 0;             ///< time between `trajectory().samples`; 0: none
+  bool dense = false;                  ///< keep what the state at any time follows from
   std::function<bool()> give_up = {};  ///< asked after each step; true ends the run as `stopped`
 };
 

@@ -3,15 +3,18 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tools/analysis/equilibria/equilibria.hpp"
+#include "tools/analysis/equilibria/validated_equilibria.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/search_watch.hpp"
 #include "tools/runs/atlas.hpp"
+#include "tools/text/enclosure_report.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -19,6 +22,20 @@ namespace {
 struct Options {
   Common common;
   std::string case_name, in;
+  bool validated = false;
+};
+
+/// What was found, and with `--validated` what is proved of each.
+struct Answer {
+  EquilibriumReport report;
+  std::vector<ProvedEquilibrium> proofs;  ///< one for each, or none
+
+  const ProvedEquilibrium* proof(std::size_t k) const {
+    return proofs.empty() ? nullptr : &proofs[k];
+  }
+  std::size_t proved() const {
+    return static_cast<std::size_t>(std::ranges::count_if(proofs, &ProvedEquilibrium::proved));
+  }
 };
 
 std::string stability(const Equilibrium& e) {
@@ -27,8 +44,28 @@ std::string stability(const Equilibrium& e) {
 
 std::string number(double value) { return fmt::format("{:.17g}", value); }
 
-nlohmann::ordered_json to_json(const Model& model, const Scene& scene,
-                               const EquilibriumReport& report, double seconds) {
+nlohmann::ordered_json ends(const RationalInterval& interval) {
+  const auto [low, high] = decimal_ends(interval);
+  return {low, high};
+}
+
+nlohmann::ordered_json to_json(const Model& model, const ProvedEquilibrium& proof) {
+  if (!proof.proved) return {{"verdict", "undecided"}, {"reason", proof.reason}};
+  nlohmann::ordered_json json{{"verdict", "proved"},
+                              {"radius", decimal_above(proof.radius)},
+                              {"enclosure", nlohmann::json::object()},
+                              {"velocities", nlohmann::json::array()},
+                              {"stability", to_string(proof.stability)}};
+  for (std::size_t i = 0; i < proof.state.size(); ++i)
+    json["enclosure"][model.variables[i].get_name()] = ends(proof.state[i]);
+  for (const RationalInterval& velocity : proof.velocities)
+    json["velocities"].push_back(ends(velocity));
+  return json;
+}
+
+nlohmann::ordered_json to_json(const Model& model, const Scene& scene, const Answer& answer,
+                               double seconds) {
+  const EquilibriumReport& report = answer.report;
   nlohmann::ordered_json json{{"case", model.name},
                               {"scene", scene.name},
                               {"symmetries", report.symmetries},
@@ -36,7 +73,8 @@ nlohmann::ordered_json to_json(const Model& model, const Scene& scene,
                               {"equilibria", nlohmann::json::array()},
                               {"starts", report.starts},
                               {"seconds", seconds}};
-  for (const Equilibrium& e : report.equilibria) {
+  for (std::size_t k = 0; k < report.equilibria.size(); ++k) {
+    const Equilibrium& e = report.equilibria[k];
     nlohmann::ordered_json own{{"kind", e.velocities.empty() ? "equilibrium" : "relative"},
                                {"state", nlohmann::json::object()}};
     for (std::size_t i = 0; i < e.state.size(); ++i)
@@ -51,6 +89,7 @@ nlohmann::ordered_json to_json(const Model& model, const Scene& scene,
     own["family"] = e.family;
     own["degenerate"] = e.degenerate;
     own["residual"] = number(e.residual);
+    if (const ProvedEquilibrium* proof = answer.proof(k)) own["validated"] = to_json(model, *proof);
     json["equilibria"].push_back(own);
   }
   return json;
@@ -61,8 +100,19 @@ std::string rounded(double value, double scale) {
   return std::abs(value) <= 1e-7 * scale ? "0" : fmt::format("{:.6g}", value);
 }
 
-void print(const Model& model, const Scene& scene, const EquilibriumReport& report,
-           double seconds) {
+void print(const ProvedEquilibrium& proof) {
+  if (!proof.proved) {
+    fmt::print("  not proved: {}\n", proof.reason);
+    return;
+  }
+  fmt::print("  proved: exactly one within {} of a point{}\n", decimal_above(proof.radius),
+             proof.stability == ProvedStability::undecided
+                 ? "; its stability is not decided"
+                 : "; " + to_string(proof.stability) + ", proved");
+}
+
+void print(const Model& model, const Scene& scene, const Answer& answer, double seconds) {
+  const EquilibriumReport& report = answer.report;
   constexpr std::size_t kMost = 12;
   fmt::print("{}, scene '{}'{}{}\n", model.name, scene.name,
              report.level.empty() ? "" : ": on the level of ", fmt::join(report.level, ", "));
@@ -71,7 +121,8 @@ void print(const Model& model, const Scene& scene, const EquilibriumReport& repo
                fmt::join(report.symmetries, ", "));
   std::size_t shown = 0;
   for (const Equilibrium& e : report.equilibria) {
-    if (shown++ == kMost) break;
+    if (shown == kMost) break;
+    const ProvedEquilibrium* proof = answer.proof(shown++);
     double scale = 0;
     for (const auto& value : e.eigenvalues) scale = std::max(scale, std::abs(value));
     std::string state, values;
@@ -93,11 +144,13 @@ void print(const Model& model, const Scene& scene, const EquilibriumReport& repo
                state);
     if (!e.velocities.empty()) fmt::print("  velocity {:.6g}\n", fmt::join(e.velocities, ", "));
     fmt::print("  eigenvalues {}: {}\n", values, stability(e));
+    if (proof != nullptr) print(*proof);
   }
   if (report.equilibria.size() > kMost)
     fmt::print("... and {} more; --json has them all\n", report.equilibria.size() - kMost);
   fmt::print("{} found from {} random starts, which does not exclude others; {:.3f} s\n",
              report.equilibria.size(), report.starts, seconds);
+  if (!answer.proofs.empty()) fmt::print("{} of them proved to exist\n", answer.proved());
 }
 
 int equilibria(const Options& options) {
@@ -107,13 +160,14 @@ int equilibria(const Options& options) {
   return with_search_errors(options.common, options.case_name, [&] {
     SearchWatch watch(options.common, model.name);
     watch.watch().begin("equilibria");
-    const EquilibriumReport report = find_equilibria(model, scene, watch.watch().tick);
+    Answer answer{find_equilibria(model, scene, watch.watch().tick), {}};
+    if (options.validated) answer.proofs = enclose_equilibria(model, scene, answer.report);
     const double seconds = watch.end();
     if (options.common.json)
-      print_json(to_json(model, scene, report, seconds));
+      print_json(to_json(model, scene, answer, seconds));
     else if (!options.common.quiet)
-      print(model, scene, report, seconds);
-    return kDone;
+      print(model, scene, answer, seconds);
+    return answer.proofs.empty() || answer.proved() > 0 ? kDone : kNotContinued;
   });
 }
 
@@ -126,6 +180,8 @@ void register_equilibria(CLI::App& program, Action& action) {
   add_common(*command, options->common);
   add_in(*command, options->in);
   add_case(*command, options->case_name);
+  command->add_flag("--validated", options->validated,
+                    "Prove that each exists, that it is the only one nearby, and its stability");
   command->callback([options, &action] { action = [options] { return equilibria(*options); }; });
 }
 

@@ -435,7 +435,8 @@ double Equilibrium::growth() const {
 EquilibriumReport find_equilibria(const Model& model, const Scene& scene,
                                   const std::function<void(double)>& tick) {
   EquilibriumReport report;
-  const std::vector<GiNaC::ex> integrals = linear_integrals(model, report.symmetries);
+  report.symmetry_functions = linear_integrals(model, report.symmetries);
+  const std::vector<GiNaC::ex>& integrals = report.symmetry_functions;
   Scene own = scene;
   SpecialiseOptions options;
   options.observe.emplace();

@@ -10,8 +10,8 @@
 
 namespace casimir::python {
 
-/// While it lives, its thread may use exact algebra, and other threads may run Python. GiNaC and CLN
-/// count references without locks, so one thread at a time does, and that includes the end of
+/// While it lives, its thread may use exact algebra, and other threads may run Python. GiNaC and
+/// CLN count references without locks, so one thread at a time does, and that includes the end of
 /// whatever holds an expression.
 class ExactAlgebra {
  public:

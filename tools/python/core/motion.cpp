@@ -110,10 +110,11 @@ class Motion {
       if (!trust.known) return py::none();
       return py::float_(value);
     };
-    return py::dict("conditioning"_a = known(trust.conditioning),
-                    "input_rounding"_a = known(trust.input_rounding),
-                    "error_estimate"_a = trust.unconfirmed ? py::none() : known(trust.error_estimate),
-                    "beyond_double"_a = trust.beyond_double);
+    return py::dict(
+        "conditioning"_a = known(trust.conditioning),
+        "input_rounding"_a = known(trust.input_rounding),
+        "error_estimate"_a = trust.unconfirmed ? py::none() : known(trust.error_estimate),
+        "beyond_double"_a = trust.beyond_double);
   }
 
   /// Facts about the run by name.
@@ -200,13 +201,13 @@ class System {
     if (!compiled_->module.has_jacobian())
       throw RequestError("the module of this method has no Jacobian: ask for 'radau5'");
     const std::size_t n = names().size();
-    const Doubles by_columns =
-        evaluated(compiled_->module.functions().jacobian, n * n, t, x, p);
+    const Doubles by_columns = evaluated(compiled_->module.functions().jacobian, n * n, t, x, p);
     return by_columns.attr("reshape")(n, n).attr("T");
   }
 
   /// The state after a time.
-  Doubles flow(const Doubles& x, double duration, Choice tolerance, const std::optional<Doubles>& p) {
+  Doubles flow(const Doubles& x, double duration, Choice tolerance,
+               const std::optional<Doubles>& p) {
     check(x, p);
     const std::vector<double> start(x.data(), x.data() + x.size());
     const std::vector<double> values =
@@ -220,9 +221,8 @@ class System {
     Trajectory end;
     {
       const py::gil_scoped_release python;
-      end = settled([&] {
-        return casimir::integrate(compiled_->module, *method_, settings, start, values);
-      });
+      end = settled(
+          [&] { return casimir::integrate(compiled_->module, *method_, settings, start, values); });
     }
     interrupt.raise();
     if (end.status != Status::ok)
@@ -321,10 +321,9 @@ py::dict ensemble(const Case& self, const std::string& scene, const std::string&
     settings.invariant_terms = nullptr;
     const EnsembleKernel kernel = ensemble_kernel(run, by, count, true);
     result = settled([&] {
-      return kernel.lanes
-                 ? integrate_in_lanes(members, *kernel.lanes, s.invariants, settings, jobs)
-                 : integrate_members(members, kernel.module_for_thread, by, s.invariants, settings,
-                                     jobs);
+      return kernel.lanes ? integrate_in_lanes(members, *kernel.lanes, s.invariants, settings, jobs)
+                          : integrate_members(members, kernel.module_for_thread, by, s.invariants,
+                                              settings, jobs);
     });
   }
   interrupt.raise();
@@ -339,7 +338,8 @@ py::dict ensemble(const Case& self, const std::string& scene, const std::string&
     std::ranges::copy(member.state, ends.mutable_data() + i * members.states);
     double* const drifts = drift.mutable_data() + i * invariants.size();
     std::fill_n(drifts, invariants.size(), std::nan(""));
-    for (std::size_t k = 0; k < member.invariants.size(); ++k) drifts[k] = member.invariants[k].drift;
+    for (std::size_t k = 0; k < member.invariants.size(); ++k)
+      drifts[k] = member.invariants[k].drift;
     times.mutable_data()[i] = member.time;
     steps.mutable_data()[i] = member.steps;
     status.append(to_string(member.status));

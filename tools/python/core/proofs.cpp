@@ -37,8 +37,8 @@ search::Watch watched(Interrupt& interrupt, double seconds, double memory) {
   return watch;
 }
 
-/// Does exact work without Python's lock, where no other thread does any; Ctrl-C ends it where it looks
-/// for that.
+/// Does exact work without Python's lock, where no other thread does any; Ctrl-C ends it where it
+/// looks for that.
 /// \param convert  makes what Python sees of the outcome, with Python's lock.
 template <class Work, class Convert>
 py::object exactly(Interrupt& interrupt, const Work& work, const Convert& convert) {
@@ -72,7 +72,8 @@ py::dict to_python(const Proof& proof) {
 }
 
 py::object verify(const Case& self, const Names& integrals, const Names& casimirs,
-                const Names& relations, const Names& identities, const Names& on, double seconds) {
+                  const Names& relations, const Names& identities, const Names& on,
+                  double seconds) {
   Candidates candidates;
   candidates.integrals = typed(integrals, "integral");
   candidates.casimirs = typed(casimirs, "casimir");
@@ -119,8 +120,8 @@ std::vector<std::pair<Text, Text>> weights_of(const Values& weights) {
 }
 
 py::object find_integrals(const Case& self, int degree, bool casimirs, const Names& on,
-                        const Names& functions, const Values& weights, double seconds,
-                        double memory) {
+                          const Names& functions, const Values& weights, double seconds,
+                          double memory) {
   const search::Request request{degree, casimirs, typed(on, "on"), typed(functions, "functions"),
                                 weights_of(weights)};
   Interrupt interrupt;
@@ -133,25 +134,25 @@ py::object find_integrals(const Case& self, int degree, bool casimirs, const Nam
 }
 
 py::object find_conditions(const Case& self, int degree, const Names& free, const Names& functions,
-                         const Values& weights, double seconds, double memory) {
-  const search::Request request{degree, false, {}, typed(functions, "functions"),
-                                weights_of(weights)};
+                           const Values& weights, double seconds, double memory) {
+  const search::Request request{
+      degree, false, {}, typed(functions, "functions"), weights_of(weights)};
   Interrupt interrupt;
   const auto find = [&] {
     return search::find_conditions(self.model(), request, typed(free, "free"),
                                    watched(interrupt, seconds, memory));
   };
   return exactly(interrupt, find, [&](const search::ConditionReport& report) {
-  py::list conditions;
-  for (const search::Condition& condition : report.conditions) {
-    py::dict parameters;
-    for (const auto& [name, value] : condition.parameters) parameters[py::str(name)] = value;
-    conditions.append(py::dict("parameters"_a = parameters, "relation"_a = condition.relation,
-                               "found"_a = to_python(self, condition.found),
-                               "verdict"_a = to_string(condition.verdict)));
-  }
-  return py::dict("generic"_a = to_python(self, report.generic), "conditions"_a = conditions,
-                  "complete"_a = report.complete, "reason"_a = report.reason);
+    py::list conditions;
+    for (const search::Condition& condition : report.conditions) {
+      py::dict parameters;
+      for (const auto& [name, value] : condition.parameters) parameters[py::str(name)] = value;
+      conditions.append(py::dict("parameters"_a = parameters, "relation"_a = condition.relation,
+                                 "found"_a = to_python(self, condition.found),
+                                 "verdict"_a = to_string(condition.verdict)));
+    }
+    return py::dict("generic"_a = to_python(self, report.generic), "conditions"_a = conditions,
+                    "complete"_a = report.complete, "reason"_a = report.reason);
   });
 }
 
@@ -161,13 +162,13 @@ py::object find_darboux(const Case& self, int degree, double seconds, double mem
     return search::find_darboux(self.model(), degree, watched(interrupt, seconds, memory));
   };
   return exactly(interrupt, find, [&](const search::DarbouxReport& report) {
-  py::list found;
-  for (const search::DarbouxPolynomial& polynomial : report.found)
-    found.append(py::dict("text"_a = polynomial.text, "cofactor"_a = polynomial.cofactor,
-                          "relations"_a = polynomial.relations, "degree"_a = polynomial.degree,
-                          "verdict"_a = to_string(polynomial.verdict)));
-  return py::dict("found"_a = found, "complete"_a = report.complete, "reason"_a = report.reason,
-                  "generic"_a = report.generic);
+    py::list found;
+    for (const search::DarbouxPolynomial& polynomial : report.found)
+      found.append(py::dict("text"_a = polynomial.text, "cofactor"_a = polynomial.cofactor,
+                            "relations"_a = polynomial.relations, "degree"_a = polynomial.degree,
+                            "verdict"_a = to_string(polynomial.verdict)));
+    return py::dict("found"_a = found, "complete"_a = report.complete, "reason"_a = report.reason,
+                    "generic"_a = report.generic);
   });
 }
 
@@ -183,38 +184,38 @@ py::object exponents(const Case& self, const Values& weights, double seconds, do
                                           watched(interrupt, seconds, memory));
   };
   return exactly(interrupt, find, [&](const search::ExponentReport& report) {
-  py::list balances;
-  for (const search::Balance& balance : report.balances) {
-    py::list list;
-    for (const search::Exponent& exponent : balance.exponents) list.append(to_python(exponent));
-    balances.append(py::dict("coefficients"_a = balance.coefficients,
-                             "relations"_a = balance.relations, "free"_a = balance.free,
-                             "exponents"_a = list, "decided"_a = balance.decided));
-  }
-  return py::dict("weights"_a = report.weights, "left_out"_a = report.left_out,
-                  "balances"_a = balances, "complete"_a = report.complete,
-                  "reason"_a = report.reason, "generic"_a = report.generic,
-                  "conclusions"_a = report.conclusions);
+    py::list balances;
+    for (const search::Balance& balance : report.balances) {
+      py::list list;
+      for (const search::Exponent& exponent : balance.exponents) list.append(to_python(exponent));
+      balances.append(py::dict("coefficients"_a = balance.coefficients,
+                               "relations"_a = balance.relations, "free"_a = balance.free,
+                               "exponents"_a = list, "decided"_a = balance.decided));
+    }
+    return py::dict("weights"_a = report.weights, "left_out"_a = report.left_out,
+                    "balances"_a = balances, "complete"_a = report.complete,
+                    "reason"_a = report.reason, "generic"_a = report.generic,
+                    "conclusions"_a = report.conclusions);
   });
 }
 
 py::object obstruct(const Case& self, const std::string& scene, const Names& along, double seconds,
-                  double memory) {
+                    double memory) {
   Interrupt interrupt;
   const auto find = [&] {
     return obstruction::find_obstruction(self.model(), {scene, typed(along, "along")},
                                          watched(interrupt, seconds, memory));
   };
   return exactly(interrupt, find, [&](const obstruction::Obstruction& result) {
-  py::list examined;
-  for (const obstruction::Examined& one : result.examined)
-    examined.append(py::dict("along"_a = one.along, "level"_a = one.level, "curve"_a = one.curve,
-                             "nve"_a = one.nve, "exponents"_a = one.exponents,
-                             "cases"_a = one.cases, "solution"_a = one.solution,
-                             "outcome"_a = one.outcome, "decisive"_a = one.decisive));
-  return py::dict("proved"_a = result.proved, "parameters"_a = result.parameters,
-                  "theorem"_a = result.theorem, "excluded"_a = result.excluded,
-                  "reason"_a = result.reason, "examined"_a = examined);
+    py::list examined;
+    for (const obstruction::Examined& one : result.examined)
+      examined.append(py::dict("along"_a = one.along, "level"_a = one.level, "curve"_a = one.curve,
+                               "nve"_a = one.nve, "exponents"_a = one.exponents,
+                               "cases"_a = one.cases, "solution"_a = one.solution,
+                               "outcome"_a = one.outcome, "decisive"_a = one.decisive));
+    return py::dict("proved"_a = result.proved, "parameters"_a = result.parameters,
+                    "theorem"_a = result.theorem, "excluded"_a = result.excluded,
+                    "reason"_a = result.reason, "examined"_a = examined);
   });
 }
 
@@ -313,10 +314,10 @@ void bind_case(py::module_& module) {
       .def_property_readonly("parameters",
                              [](const Case& self) { return names(self.model().parameters); })
       .def_property_readonly("scenes", &scenes)
-      .def_property_readonly(
-          "casimirs", [](const Case& self) { return named(self, self.model().casimirs); })
-      .def_property_readonly(
-          "integrals", [](const Case& self) { return named(self, self.model().integrals); })
+      .def_property_readonly("casimirs",
+                             [](const Case& self) { return named(self, self.model().casimirs); })
+      .def_property_readonly("integrals",
+                             [](const Case& self) { return named(self, self.model().integrals); })
       .def("expression", &expression)
       .def("show", &show)
       .def("verify", &verify)

@@ -88,11 +88,10 @@ py::dict equilibria(const Case& self, const std::string& scene) {
   py::list list;
   for (const Equilibrium& one : report.equilibria)
     list.append(py::dict(
-        "state"_a = py::array_t<double>(static_cast<py::ssize_t>(one.state.size()),
-                                        one.state.data()),
-        "velocities"_a = one.velocities, "eigenvalues"_a = one.eigenvalues,
-        "family"_a = one.family, "degenerate"_a = one.degenerate, "growth"_a = one.growth(),
-        "residual"_a = one.residual));
+        "state"_a =
+            py::array_t<double>(static_cast<py::ssize_t>(one.state.size()), one.state.data()),
+        "velocities"_a = one.velocities, "eigenvalues"_a = one.eigenvalues, "family"_a = one.family,
+        "degenerate"_a = one.degenerate, "growth"_a = one.growth(), "residual"_a = one.residual));
   return py::dict("symmetries"_a = report.symmetries, "level"_a = report.level,
                   "equilibria"_a = list, "starts"_a = report.starts);
 }

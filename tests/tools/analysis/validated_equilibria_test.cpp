@@ -1,0 +1,123 @@
+// Equilibria whose existence and stability are proved.
+#include "tools/analysis/equilibria/validated_equilibria.hpp"
+
+#include <cln/real.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/tools/analysis/systems.hpp"
+
+namespace casimir::test {
+namespace {
+
+struct Both {
+  EquilibriumReport report;
+  std::vector<ProvedEquilibrium> proofs;
+};
+
+Both both(const Model& model, const Scene& scene) {
+  Both result{find_equilibria(model, scene, [](double) {}), {}};
+  result.proofs = enclose_equilibria(model, scene, result.report);
+  return result;
+}
+
+bool contains(const RationalInterval& interval, const cln::cl_RA& value) {
+  return interval.low <= value && value <= interval.high;
+}
+
+TEST(ValidatedEquilibria, OfADoubleWellAreInTheirBoxesWithTheirStability) {
+  const GiNaC::symbol q("q"), p("p");
+  const Model model =
+      hamiltonian_system("well", {q}, {p}, p * p / 2 + GiNaC::pow(q, 4) / 4 - q * q / 2);
+  const auto [report, proofs] = both(model, scene_from(model, {1, 1}, 1));
+  ASSERT_EQ(proofs.size(), 3U);
+  for (std::size_t k = 0; k < proofs.size(); ++k) {
+    ASSERT_TRUE(proofs[k].proved) << proofs[k].reason;
+    const double at = std::round(report.equilibria[k].state[0]);
+    EXPECT_TRUE(contains(proofs[k].state[0], static_cast<long>(at)));
+    EXPECT_TRUE(contains(proofs[k].state[1], 0));
+    EXPECT_LT(cln::double_approx(proofs[k].radius), 1e-30);
+    EXPECT_EQ(proofs[k].stability, at == 0 ? ProvedStability::unstable : ProvedStability::stable);
+  }
+}
+
+/// On a sphere: the axes of an ellipsoid of inertia, of which the middle one is unstable (Euler).
+TEST(ValidatedEquilibria, OfAFreeTopAreTheAxesOnTheExactLevel) {
+  const Model model = model_of(
+      "title = \"t\"\nhamiltonian = \"M1^2/2 + M2^2 + 3*M3^2/2\"\n[phase_space]\nvariables = "
+      "[\"M1\", "
+      "\"M2\", \"M3\"]\nalgebra = \"so(3)\"\n[casimirs]\nF = \"M1^2 + M2^2 + "
+      "M3^2\"\n[[scene]]\nname = "
+      "\"default\"\ninitial = { M1 = \"1\", M2 = \"1\", M3 = \"0\" }\nduration = \"1\"\n");
+  const auto [report, proofs] = both(model, model.scene("default"));
+  ASSERT_EQ(proofs.size(), 6U);
+  for (const ProvedEquilibrium& proof : proofs) {
+    ASSERT_TRUE(proof.proved) << proof.reason;
+    int axis = 0;
+    for (int i = 0; i < 3; ++i) {
+      const cln::cl_RA low = cln::square(proof.state[i].low),
+                       high = cln::square(proof.state[i].high);
+      if (cln::double_approx(low) < 0.5) continue;
+      axis = i + 1;
+      EXPECT_TRUE(std::min(low, high) <= 2 && 2 <= std::max(low, high));
+    }
+    EXPECT_EQ(proof.stability, axis == 2 ? ProvedStability::unstable : ProvedStability::stable);
+  }
+}
+
+/// x^2 + y^2 has a family on the valley and no isolated point: Newton's matrix is singular.
+TEST(ValidatedEquilibria, AFamilyIsNotProved) {
+  const GiNaC::symbol x("x"), y("y"), u("u"), v("v");
+  const Model model =
+      hamiltonian_system("valley", {x, y}, {u, v}, (u * u + v * v + (x - y) * (x - y)) / 2);
+  for (const ProvedEquilibrium& proof : both(model, scene_from(model, {1, 0, 0, 1}, 1)).proofs)
+    EXPECT_FALSE(proof.proved);
+}
+
+/// The hypothesis of Krawczyk's theorem that is easiest to forget: |x| has a derivative on both
+/// sides of 0 and none there, so its zero is no theorem here, and neither is that of a double root.
+TEST(ValidatedEquilibria, CornersAndDoubleRootsAreNotProved) {
+  for (const char* rate : {"sqrt(x^2) - x/2", "x^2", "x^3"}) {
+    const Model model = one_equation(rate, "1");
+    for (const ProvedEquilibrium& proof : both(model, model.scene("default")).proofs)
+      EXPECT_FALSE(proof.proved) << rate;
+  }
+}
+
+/// H has its minimum at 0, but the function that is called a Casimir function is none.
+TEST(ValidatedEquilibria, NothingIsProvedWithAFalseCasimirFunction) {
+  const Model model = model_of(
+      "title = \"t\"\nhamiltonian = \"M1^2/2 + M2^2 + 3*M3^2/2\"\n[phase_space]\nvariables = "
+      "[\"M1\", "
+      "\"M2\", \"M3\"]\nalgebra = \"so(3)\"\n[casimirs]\nF = \"M1^2 + M2^2 + "
+      "2*M3^2\"\n[[scene]]\nname = "
+      "\"default\"\ninitial = { M1 = \"1\", M2 = \"1\", M3 = \"0\" }\nduration = \"1\"\n");
+  for (const ProvedEquilibrium& proof : both(model, model.scene("default")).proofs)
+    EXPECT_FALSE(proof.proved);
+}
+
+TEST(ValidatedEquilibria, WithoutABracketSinksAreStable) {
+  const Model model = one_equation("1 - x^2", "1");
+  const auto [report, proofs] = both(model, model.scene("default"));
+  ASSERT_EQ(proofs.size(), 2U);
+  for (std::size_t k = 0; k < 2; ++k) {
+    ASSERT_TRUE(proofs[k].proved);
+    EXPECT_EQ(proofs[k].stability, report.equilibria[k].state[0] > 0 ? ProvedStability::stable
+                                                                     : ProvedStability::unstable);
+  }
+}
+
+/// The second variation is indefinite and no eigenvalue is off the axis: neither is claimed.
+TEST(ValidatedEquilibria, OppositeOscillatorsAreNotDecided) {
+  const GiNaC::symbol x("x"), y("y"), u("u"), v("v");
+  const Model model = hamiltonian_system("opposite", {x, y}, {u, v},
+                                         (u * u + x * x) / 2 - (v * v + 2 * y * y) / 2 + x * x * y);
+  for (const ProvedEquilibrium& proof : both(model, scene_from(model, {1, 0, 0, 1}, 1)).proofs) {
+    if (!proof.proved || !contains(proof.state[0], 0) || !contains(proof.state[1], 0)) continue;
+    EXPECT_EQ(proof.stability, ProvedStability::undecided);
+  }
+}
+
+}  // namespace
+}  // namespace casimir::test

@@ -1,0 +1,456 @@
+#include "tools/analysis/equilibria/validated_equilibria.hpp"
+
+#include <acb_mat.h>
+#include <arb_mat.h>
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+
+#include "runtime/validated/rational_ends.hpp"
+#include "symbolic/algebra/ball_evaluator.hpp"
+#include "symbolic/prove.hpp"
+
+namespace casimir {
+namespace {
+
+constexpr slong kBits = 192;
+
+/// A matrix of Arb's, with value semantics.
+class BallMatrix {
+ public:
+  BallMatrix(std::size_t rows, std::size_t columns) {
+    arb_mat_init(value_, static_cast<slong>(rows), static_cast<slong>(columns));
+  }
+  BallMatrix(const BallMatrix& other) : BallMatrix(other.rows(), other.columns()) {
+    arb_mat_set(value_, other.value_);
+  }
+  BallMatrix& operator=(const BallMatrix& other) {
+    arb_mat_set(value_, other.value_);  // of the same size wherever this is used
+    return *this;
+  }
+  ~BallMatrix() { arb_mat_clear(value_); }
+
+  std::size_t rows() const { return static_cast<std::size_t>(arb_mat_nrows(value_)); }
+  std::size_t columns() const { return static_cast<std::size_t>(arb_mat_ncols(value_)); }
+  arb_ptr at(std::size_t i, std::size_t j = 0) {
+    return arb_mat_entry(value_, static_cast<slong>(i), static_cast<slong>(j));
+  }
+  arb_srcptr at(std::size_t i, std::size_t j = 0) const {
+    return arb_mat_entry(value_, static_cast<slong>(i), static_cast<slong>(j));
+  }
+  arb_mat_struct* raw() { return value_; }
+  const arb_mat_struct* raw() const { return value_; }
+
+  friend BallMatrix operator*(const BallMatrix& a, const BallMatrix& b) {
+    BallMatrix result(a.rows(), b.columns());
+    arb_mat_mul(result.value_, a.value_, b.value_, kBits);
+    return result;
+  }
+  friend BallMatrix operator-(const BallMatrix& a, const BallMatrix& b) {
+    BallMatrix result(a.rows(), a.columns());
+    arb_mat_sub(result.value_, a.value_, b.value_, kBits);
+    return result;
+  }
+  friend BallMatrix operator+(const BallMatrix& a, const BallMatrix& b) {
+    BallMatrix result(a.rows(), a.columns());
+    arb_mat_add(result.value_, a.value_, b.value_, kBits);
+    return result;
+  }
+  BallMatrix transposed() const {
+    BallMatrix result(columns(), rows());
+    arb_mat_transpose(result.value_, value_);
+    return result;
+  }
+  /// The midpoints, as exact numbers.
+  BallMatrix middle() const {
+    BallMatrix result(rows(), columns());
+    arb_mat_get_mid(result.value_, value_);
+    return result;
+  }
+
+ private:
+  arb_mat_t value_;
+};
+
+/// Expressions over some symbols, in balls. What has no certain or no smooth value throws
+/// NotCertified.
+class Functions {
+ public:
+  Functions(std::vector<GiNaC::symbol> unknowns, std::vector<GiNaC::ex> values, std::size_t columns)
+      : unknowns_(std::move(unknowns)), values_(std::move(values)), columns_(columns) {}
+
+  BallMatrix operator()(const BallMatrix& z) const {
+    BallEvaluator evaluate(BallEvaluator::Numbers::real, kBits);
+    for (std::size_t i = 0; i < unknowns_.size(); ++i) {
+      Ball ball;
+      acb_set_arb(ball.raw(), z.at(i));
+      evaluate.set(unknowns_[i], ball);
+    }
+    BallMatrix result(values_.size() / columns_, columns_);
+    for (std::size_t k = 0; k < values_.size(); ++k) {
+      const Ball& value = evaluate(values_[k]);
+      if (!value.is_real() || !value.is_finite() || !evaluate.smooth()) throw NotCertified();
+      arb_set(result.at(k / columns_, k % columns_), acb_realref(value.raw()));
+    }
+    return result;
+  }
+
+  /// The matrix of derivatives by the unknowns; of a column of values.
+  Functions derivatives() const {
+    std::vector<GiNaC::ex> result;
+    for (const GiNaC::ex& value : values_)
+      for (const GiNaC::symbol& unknown : unknowns_) result.push_back(value.diff(unknown));
+    return {unknowns_, result, unknowns_.size()};
+  }
+
+ private:
+  std::vector<GiNaC::symbol> unknowns_;
+  std::vector<GiNaC::ex> values_;
+  std::size_t columns_;
+};
+
+/// Whether every entry of `inner` lies in the inside of that of `outer`.
+bool inside(const BallMatrix& inner, const BallMatrix& outer) {
+  for (std::size_t i = 0; i < inner.rows(); ++i)
+    if (arb_contains_interior(outer.at(i), inner.at(i)) == 0) return false;
+  return true;
+}
+
+/// The box with this share of the size of each number added to both sides, and as much of `unit`.
+BallMatrix widened(const BallMatrix& z, slong log2_share, double unit) {
+  BallMatrix result = z;
+  for (std::size_t i = 0; i < z.rows(); ++i) {
+    arb_t size;
+    arb_init(size);
+    arb_set_d(size, unit);
+    arb_t own;
+    arb_init(own);
+    arb_abs(own, z.at(i));
+    arb_max(size, size, own, kBits);
+    arb_mul_2exp_si(size, size, log2_share);
+    arb_add_error(result.at(i), size);
+    arb_clear(own);
+    arb_clear(size);
+  }
+  return result;
+}
+
+/// The only zero of f near z, in a box; empty where none is proved.
+std::optional<BallMatrix> only_zero(const Functions& f, BallMatrix z, double unit) {
+  const Functions derivatives = f.derivatives();
+  const std::size_t n = z.rows();
+  BallMatrix inverse(n, n), identity(n, n);
+  arb_mat_one(identity.raw());
+  constexpr int kRounds = 8;
+  for (int round = 0; round < kRounds; ++round) {
+    if (arb_mat_approx_inv(inverse.raw(), derivatives(z).middle().raw(), kBits) == 0)
+      return std::nullopt;
+    z = (z - inverse.middle() * f(z)).middle();
+  }
+  const BallMatrix y = inverse.middle();
+  const BallMatrix step = y * f(z);
+  // A box that is too small for rounding is too large for the derivatives nowhere before the last.
+  for (const slong log2_share : {-120, -90, -60, -40, -25}) {
+    const BallMatrix box = widened(z, log2_share, unit);
+    const BallMatrix image = z - step + (identity - y * derivatives(box)) * (box - z);
+    if (inside(image, box)) return image;
+  }
+  return std::nullopt;
+}
+
+RationalInterval interval(arb_srcptr ball) {
+  validated::ArbBall own;
+  arb_set(own.raw(), ball);
+  return validated::ends_of(own);
+}
+
+bool definite(const BallMatrix& matrix) {
+  BallMatrix factor(matrix.rows(), matrix.rows());
+  if (arb_mat_cho(factor.raw(), matrix.raw(), kBits) != 0) return true;
+  BallMatrix opposite = matrix;
+  arb_mat_neg(opposite.raw(), matrix.raw());
+  return arb_mat_cho(factor.raw(), opposite.raw(), kBits) != 0;
+}
+
+/// Vectors that span a kernel: each is 1 in one of the `free` entries, and 0 in the others of
+/// these.
+struct Kernel {
+  BallMatrix columns;
+  std::vector<std::size_t> free;
+
+  /// What a matrix that maps the kernel into itself does there.
+  BallMatrix restriction(const BallMatrix& matrix) const {
+    const BallMatrix image = matrix * columns;
+    BallMatrix result(free.size(), free.size());
+    for (std::size_t i = 0; i < free.size(); ++i)
+      for (std::size_t j = 0; j < free.size(); ++j) arb_set(result.at(i, j), image.at(free[i], j));
+    return result;
+  }
+};
+
+/// The kernel of `rows`, which have full rank; empty where that is not certain.
+std::optional<Kernel> kernel(const BallMatrix& rows) {
+  const std::size_t m = rows.rows(), n = rows.columns();
+  Eigen::MatrixXd middle(m, n);
+  for (std::size_t i = 0; i < m; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      middle(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          arf_get_d(arb_midref(rows.at(i, j)), ARF_RND_NEAR);
+  std::vector<std::size_t> order(n);
+  for (std::size_t j = 0; j < n; ++j) order[j] = j;
+  if (m > 0) {
+    const Eigen::FullPivLU<Eigen::MatrixXd> lu(middle);
+    for (std::size_t j = 0; j < n; ++j)
+      order[j] =
+          static_cast<std::size_t>(lu.permutationQ().indices()(static_cast<Eigen::Index>(j)));
+  }
+  BallMatrix pivots(m, m), others(m, n - m), solved(m, n - m);
+  Kernel result{BallMatrix(n, n - m), {}};
+  for (std::size_t i = 0; i < m; ++i) {
+    for (std::size_t j = 0; j < m; ++j) arb_set(pivots.at(i, j), rows.at(i, order[j]));
+    for (std::size_t j = m; j < n; ++j) arb_neg(others.at(i, j - m), rows.at(i, order[j]));
+  }
+  if (m > 0 && m < n && arb_mat_solve(solved.raw(), pivots.raw(), others.raw(), kBits) == 0)
+    return std::nullopt;
+  for (std::size_t j = 0; j < n - m; ++j) {
+    for (std::size_t i = 0; i < m; ++i) arb_set(result.columns.at(order[i], j), solved.at(i, j));
+    arb_one(result.columns.at(order[m + j], j));
+    result.free.push_back(order[m + j]);
+  }
+  return result;
+}
+
+/// What is certain of the eigenvalues of every matrix in these balls.
+struct Sides {
+  bool some_right = false;  ///< one has a positive real part
+  bool all_left = false;    ///< all have a negative one
+};
+
+Sides sides_of(const BallMatrix& a) {
+  const auto n = static_cast<slong>(a.rows());
+  acb_mat_t matrix, vectors;
+  acb_mat_init(matrix, n, n);
+  acb_mat_init(vectors, n, n);
+  acb_mat_set_arb_mat(matrix, a.raw());
+  acb_ptr approximate = _acb_vec_init(n), values = _acb_vec_init(n);
+  acb_mat_approx_eig_qr(approximate, nullptr, vectors, matrix, nullptr, 0, kBits);
+  Sides result;
+  if (acb_mat_eig_multiple(values, matrix, approximate, vectors, kBits) != 0) {
+    result.all_left = true;
+    for (slong k = 0; k < n; ++k) {
+      result.some_right = result.some_right || arb_is_positive(acb_realref(values + k)) != 0;
+      result.all_left = result.all_left && arb_is_negative(acb_realref(values + k)) != 0;
+    }
+  }
+  _acb_vec_clear(values, n);
+  _acb_vec_clear(approximate, n);
+  acb_mat_clear(vectors);
+  acb_mat_clear(matrix);
+  return result;
+}
+
+/// The equations of a scene's equilibria, with multipliers, and what stability is read off.
+class Prover {
+ public:
+  Prover(const Model& model, const Scene& scene, const EquilibriumReport& report)
+      : model_(model), scene_(scene), report_(report), unknowns_(model.variables) {
+    if (!model.poisson) {
+      for (const GiNaC::ex& rate : model.field) equations_.push_back(at_scene(rate));
+      return;
+    }
+    lagrangian_ = at_scene(*model.hamiltonian);
+    for (std::size_t k = 0; k < report.symmetry_functions.size(); ++k) {
+      const NamedExpression symmetry{report.symmetries[k], report.symmetry_functions[k], {}};
+      require(ClaimKind::integral, symmetry);
+      constrain(symmetry.value, fmt::format("velocity_{}", k + 1));
+    }
+    moving_ = lagrangian_;
+    for (const NamedExpression& casimir : model.casimirs) {
+      require(ClaimKind::casimir, casimir);
+      constrain(casimir.value, fmt::format("multiplier_{}", casimir.name));
+    }
+    for (const GiNaC::symbol& x : model.variables) equations_.push_back(lagrangian_.diff(x));
+    equations_.insert(equations_.end(), levels_.begin(), levels_.end());
+  }
+
+  ProvedEquilibrium proved(const Equilibrium& found) const {
+    ProvedEquilibrium result;
+    if (!unproved_.empty()) {
+      result.reason = unproved_;
+    } else if (found.degenerate) {
+      result.reason = found.family > 0
+                          ? "it belongs to a family"
+                          : "it is degenerate: the equations do not change to first order";
+    } else {
+      try {
+        enclose(found, result);
+      } catch (const NotCertified&) {
+        result.reason = "the equations are not certain to be smooth there";
+      }
+    }
+    return result;
+  }
+
+ private:
+  GiNaC::ex at_scene(const GiNaC::ex& e) const { return model_.at_parameters(e, scene_); }
+
+  void require(ClaimKind kind, const NamedExpression& f) {
+    const Proof proof = prove_claim(model_, kind, f);
+    if (proof.verdict != Verdict::proved || !proof.where.empty())
+      unproved_ = fmt::format("{} is not proved to be {}", f.name,
+                              kind == ClaimKind::casimir ? "a Casimir function" : "an integral");
+  }
+
+  /// One more function that keeps its value, with a multiplier.
+  void constrain(const GiNaC::ex& function, const std::string& multiplier) {
+    GiNaC::exmap start;
+    for (std::size_t i = 0; i < model_.variables.size(); ++i)
+      start[model_.variables[i]] = scene_.initial[i];
+    const GiNaC::ex value = at_scene(function);
+    unknowns_.emplace_back(multiplier);
+    lagrangian_ -= unknowns_.back() * value;
+    levels_.push_back(value - value.subs(start));
+  }
+
+  std::size_t states() const { return model_.variables.size(); }
+  std::size_t symmetries() const { return report_.symmetry_functions.size(); }
+
+  /// The state that was found, with the multipliers that fit it best.
+  BallMatrix start(const Equilibrium& found) const {
+    BallMatrix z(unknowns_.size(), 1);
+    for (std::size_t i = 0; i < states(); ++i) arb_set_d(z.at(i), found.state[i]);
+    const std::size_t m = levels_.size();
+    if (m == 0) return z;
+    // The gradient of L is affine in the multipliers.
+    const Functions gradient(
+        unknowns_, {equations_.begin(), equations_.begin() + static_cast<std::ptrdiff_t>(states())},
+        1);
+    const auto column = [&](const BallMatrix& values) {
+      Eigen::VectorXd result(states());
+      for (std::size_t i = 0; i < states(); ++i)
+        result(static_cast<Eigen::Index>(i)) = arf_get_d(arb_midref(values.at(i)), ARF_RND_NEAR);
+      return result;
+    };
+    const Eigen::VectorXd base = column(gradient(z));
+    Eigen::MatrixXd by(states(), m);
+    for (std::size_t k = 0; k < m; ++k) {
+      BallMatrix other = z;
+      arb_one(other.at(states() + k));
+      by.col(static_cast<Eigen::Index>(k)) = column(gradient(other)) - base;
+    }
+    const Eigen::VectorXd fitted = by.colPivHouseholderQr().solve(-base);
+    for (std::size_t k = 0; k < m; ++k)
+      arb_set_d(z.at(states() + k), fitted(static_cast<Eigen::Index>(k)));
+    return z;
+  }
+
+  /// \throws NotCertified  where the box is not certain to be where the case is defined
+  void check_domain(const BallMatrix& z) const {
+    for (const std::vector<GiNaC::ex>* parts : {&model_.domain, &model_.bracket_domain})
+      for (const GiNaC::ex& part : *parts) Functions(unknowns_, {at_scene(part)}, 1)(z);
+    for (const Assumption& assumption : model_.assumptions) {
+      const BallMatrix value = Functions(unknowns_, {at_scene(assumption.difference)}, 1)(z);
+      Ball ball;
+      acb_set_arb(ball.raw(), value.at(0));
+      const std::optional<int> sign = ball.sign();
+      if (!sign || !holds(assumption.comparison, *sign)) throw NotCertified();
+    }
+  }
+
+  void enclose(const Equilibrium& found, ProvedEquilibrium& result) const {
+    const Functions f(unknowns_, equations_, 1);
+    const auto zero = only_zero(f, start(found), report_.size);
+    if (!zero) {
+      result.reason = "Krawczyk's test fails: the equations are nearly singular there";
+      return;
+    }
+    check_domain(*zero);
+    const std::size_t shown = states() + symmetries();
+    for (std::size_t i = 0; i < shown; ++i) {
+      const RationalInterval one = interval(zero->at(i));
+      result.radius = std::max(result.radius, cln::cl_RA((one.high - one.low) / 2));
+      (i < states() ? result.state : result.velocities).push_back(one);
+    }
+    result.proved = true;
+    result.stability = stability(*zero);
+  }
+
+  ProvedStability stability(const BallMatrix& z) const {
+    // Several symmetries need not be integrals of the flow in which it rests.
+    if (symmetries() > 1) return ProvedStability::undecided;
+    try {
+      const auto tangent = kernel(gradients(z));
+      if (!tangent) return ProvedStability::undecided;
+      // Along the level: beside it the eigenvalues are zero, and zeros are hard to tell apart.
+      const Sides sides = sides_of(tangent->restriction(linearised(z)));
+      if (sides.some_right) return ProvedStability::unstable;
+      if (levels_.empty() && sides.all_left) return ProvedStability::stable;
+      if (model_.poisson &&
+          definite(tangent->columns.transposed() * second_variation(z) * tangent->columns))
+        return ProvedStability::stable;
+    } catch (const NotCertified&) {
+      // A function without a second derivative there: nothing is said.
+    }
+    return ProvedStability::undecided;
+  }
+
+  /// Of the functions whose level it is on.
+  BallMatrix gradients(const BallMatrix& z) const {
+    std::vector<GiNaC::ex> entries;
+    for (const GiNaC::ex& level : levels_)
+      for (const GiNaC::symbol& x : model_.variables) entries.push_back(level.diff(x));
+    if (entries.empty()) return BallMatrix(0, states());
+    return Functions(unknowns_, entries, states())(z);
+  }
+
+  /// Of the flow in which it rests.
+  BallMatrix linearised(const BallMatrix& z) const {
+    std::vector<GiNaC::ex> entries;
+    const std::vector<GiNaC::ex> field =
+        model_.poisson ? model_.poisson->flow(moving_) : model_.field;
+    for (const GiNaC::ex& rate : field)
+      for (const GiNaC::symbol& x : model_.variables) entries.push_back(at_scene(rate).diff(x));
+    return Functions(unknowns_, entries, states())(z);
+  }
+
+  BallMatrix second_variation(const BallMatrix& z) const {
+    std::vector<GiNaC::ex> entries;
+    for (const GiNaC::symbol& x : model_.variables)
+      for (const GiNaC::symbol& y : model_.variables)
+        entries.push_back(lagrangian_.diff(x).diff(y));
+    return Functions(unknowns_, entries, states())(z);
+  }
+
+  const Model& model_;
+  const Scene& scene_;
+  const EquilibriumReport& report_;
+  std::vector<GiNaC::symbol> unknowns_;  ///< variables, velocities, multipliers
+  GiNaC::ex lagrangian_, moving_;        ///< L; without the Casimir functions
+  std::vector<GiNaC::ex> levels_, equations_;
+  std::string unproved_;
+};
+
+}  // namespace
+
+std::string to_string(ProvedStability stability) {
+  switch (stability) {
+    case ProvedStability::stable:
+      return "stable";
+    case ProvedStability::unstable:
+      return "unstable";
+    default:
+      return "undecided";
+  }
+}
+
+std::vector<ProvedEquilibrium> enclose_equilibria(const Model& model, const Scene& scene,
+                                                  const EquilibriumReport& report) {
+  const Prover prover(model, scene, report);
+  std::vector<ProvedEquilibrium> result;
+  for (const Equilibrium& found : report.equilibria) result.push_back(prover.proved(found));
+  return result;
+}
+
+}  // namespace casimir
