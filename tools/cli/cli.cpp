@@ -1,6 +1,9 @@
 #include "tools/cli/cli.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
 #include "tools/runs/scene_values.hpp"
 
@@ -37,6 +40,16 @@ void add_case(CLI::App& command, std::string& name) {
 void add_all(CLI::App& command, bool& all, std::string& tag, const std::string& text) {
   command.add_flag("--all", all, text);
   command.add_option("--tag", tag, "With --all: only cases with this tag")->type_name("TAG");
+}
+
+void add_csv_output(CLI::App& command, std::string& path, const std::string& text) {
+  const auto check = [](const std::string& name) -> std::string {
+    const std::string ending = std::filesystem::path(name).extension().string();
+    if (ending.empty() || ending == ".csv") return {};
+    return fmt::format("'{}' is no name for what is written, which is CSV: FILE.csv is",
+                       printable(name, 200));
+  };
+  command.add_option("--output", path, text)->type_name("FILE.csv")->check(check);
 }
 
 }  // namespace casimir::tools

@@ -156,8 +156,7 @@ void register_conserve(CLI::App& program, Action& action) {
       ->type_name("A,B");
   add_run_options(*command, options->run);
   options->kept.add_to(*command);
-  command->add_option("--output", options->output, "Write the rows to this CSV file")
-      ->type_name("FILE.csv");
+  add_csv_output(*command, options->output, "Write the rows to this CSV file");
   command
       ->add_option("--plot", options->plot,
                    "Draw drift against time, of the default scene or that of --scene: a curve an "

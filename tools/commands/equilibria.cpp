@@ -105,10 +105,11 @@ void print(const ProvedEquilibrium& proof) {
     fmt::print("  not proved: {}\n", proof.reason);
     return;
   }
-  fmt::print("  proved: exactly one within {} of a point{}\n", decimal_above(proof.radius),
+  fmt::print("  proved: there is one, and no other in a box of radius {} around it; {}\n",
+             decimal_above(proof.radius),
              proof.stability == ProvedStability::undecided
-                 ? "; its stability is not decided"
-                 : "; " + to_string(proof.stability) + ", proved");
+                 ? "its stability is not decided"
+                 : fmt::format("proved to be {}", to_string(proof.stability)));
 }
 
 void print(const Model& model, const Scene& scene, const Answer& answer, double seconds) {

@@ -317,8 +317,7 @@ void register_integrate(CLI::App& program, Action& action) {
   add_projection(*command, options->run);
   add_as(*command, options->as);
   options->kept.add_to(*command);
-  command->add_option("--output", options->output, "Write states to this CSV file")
-      ->type_name("FILE.csv");
+  add_csv_output(*command, options->output, "Write states to this CSV file");
   command
       ->add_option("--every", options->every,
                    "Time between the states written (default: a thousandth of the duration) or "

@@ -361,8 +361,7 @@ void register_stress(CLI::App& program, Action& action) {
   command->add_option("--jobs", options->jobs, "Runs at a time (default: all processors)")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
-  command->add_option("--output", options->output, "Write a row for each cell to this CSV file")
-      ->type_name("FILE.csv");
+  add_csv_output(*command, options->output, "Write a row for each cell to this CSV file");
   command->add_option("--plot", options->plot, "Draw the matrix")->type_name("FILE.svg|png");
   command->callback([options, &action] { action = [options] { return stress(*options); }; });
 }

@@ -1,5 +1,7 @@
 #include "tools/usage/helpers.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
@@ -10,10 +12,49 @@
 #include "tools/usage/manual.hpp"
 
 namespace casimir::tools {
+namespace {
+
+constexpr const char* kFirstSteps = R"(casimir: an integrability workbench for Hamiltonian systems
+
+  casimir list                       the bundled cases
+  casimir verify kovalevskaya        prove or refute every claim of a case
+  casimir integrate kovalevskaya     integrate it, with an estimate of the error
+  casimir new my-case                start a case file of your own
+
+  casimir help [COMMAND]             all commands, or the options of one
+)";
+
+/// The help of the program, or of one command; nothing where there is no such command.
+std::optional<std::string> help_of(const CLI::App& program, const std::vector<std::string>& words) {
+  if (words.empty()) return program.help();
+  if (words.size() > 1) return std::nullopt;
+  for (const CLI::App* command : program.get_subcommands(nullptr))
+    if (command->get_name() == words[0]) return command->help();
+  return std::nullopt;
+}
+
+}  // namespace
 
 std::optional<int> run_helper(const CLI::App& program, const std::vector<std::string>& words,
                               const std::string& version) {
-  if (!words.empty() && words[0] == "complete") {
+  if (words.empty()) {
+    std::cout << kFirstSteps;
+    return kDone;
+  }
+  if (words[0] == "help") {
+    const std::vector<std::string> asked(words.begin() + 1, words.end());
+    const std::optional<std::string> text = help_of(program, asked);
+    if (!text) {
+      std::vector<std::string> names;
+      for (const CLI::App* command : program.get_subcommands(nullptr))
+        names.push_back(command->get_name());
+      throw UsageError(fmt::format("there is no command '{}' to help with; {}",
+                                   printable(asked.back()), suggest_or_list(asked.back(), names)));
+    }
+    std::cout << *text;
+    return kDone;
+  }
+  if (words[0] == "complete") {
     for (const std::string& line : completions(program, {words.begin() + 1, words.end()}))
       std::cout << line << '\n';
     return kDone;

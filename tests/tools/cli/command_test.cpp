@@ -14,6 +14,47 @@
 namespace casimir::test {
 namespace {
 
+TEST(Help, IsThereWithoutAnOption) {
+  const Outcome first = run({});
+  EXPECT_EQ(first.status, 0) << first.err;
+  EXPECT_NE(first.out.find("casimir help [COMMAND]"), std::string::npos) << first.out;
+  EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
+  EXPECT_EQ(run({"help", "verify"}).out, run({"verify", "--help"}).out);
+  const Outcome unknown = run({"help", "verfy"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_NE(unknown.err.find("'verify'"), std::string::npos) << unknown.err;
+}
+
+/// What is written is CSV, whatever the name says.
+TEST(Output, OtherEndingsAreRefused) {
+  const Folder folder;
+  for (const char* command : {"integrate", "conserve"}) {
+    const std::string path = (folder.path() / "x.json").string();
+    const Outcome outcome = run({command, "euler", "--output", path});
+    EXPECT_EQ(outcome.status, 2) << command;
+    EXPECT_NE(outcome.err.find("FILE.csv"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(path));
+  }
+}
+
+TEST(Equilibria, AreProvedWhereThatIsAskedFor) {
+  const Outcome outcome = run({"equilibria", "kovalevskaya", "--validated", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = outcome.json();
+  std::set<std::string> stability;
+  for (const auto& entry : json.at("equilibria")) {
+    const auto& validated = entry.at("validated");
+    EXPECT_EQ(validated.at("verdict"), "proved");
+    EXPECT_LT(std::stod(validated.at("radius").get<std::string>()), 1e-30);
+    const auto& ends = validated.at("enclosure").at("g1");
+    const double at = std::stod(entry.at("state").at("g1").get<std::string>());
+    EXPECT_LE(std::stod(ends.at(0).get<std::string>()), at);
+    EXPECT_GE(std::stod(ends.at(1).get<std::string>()), at);
+    stability.insert(validated.at("stability"));
+  }
+  EXPECT_EQ(stability, (std::set<std::string>{"stable", "unstable"}));
+}
+
 TEST(List, NamesEveryCaseAndItsScenes) {
   const Outcome outcome = run({"list", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;

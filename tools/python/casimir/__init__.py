@@ -9,7 +9,7 @@
 True
 """
 
-from pathlib import Path as _Path
+import os.path as _path
 
 from . import _core
 from ._case import Case, System, cases, load
@@ -48,7 +48,7 @@ methods = _core.methods
 
 # The bundled cases: beside the package in a build tree, and below the prefix where it is installed.
 for _folder in ("cases", "../../../../share/casimir/cases"):
-    _core.add_case_folder(str(_Path(__file__).parent / _folder))
+    _core.add_case_folder(_path.join(_path.dirname(__file__), _folder))
 
 __all__ = [
     "Balance", "Case", "CaseError", "Condition", "Conditions", "DarbouxPolynomial", "Ensemble",

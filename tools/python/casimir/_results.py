@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -104,6 +103,8 @@ class Verification(Sequence[Proof]):
         return "\n".join([f"<{self.verdict}>"] + [f"  {proof}" for proof in self.proofs])
 
     def _repr_html_(self) -> str:
+        import html
+
         rows = []
         for proof in self.proofs:
             note = proof.evidence if proof.verdict == "proved" else proof.reason
