@@ -30,7 +30,7 @@ struct Options {
   SectionOptions request;
   std::vector<std::string> outputs;
   std::size_t orbits = 40, points = 500, cycles = 0;
-  bool fixed_points = false;
+  bool fixed_points = false, validated = false;
   double tolerance = 1e-14;
   int jobs = 0;
 
@@ -53,6 +53,8 @@ void check_usage(const Options& options) {
     if (!is_picture(path) && !path.ends_with(".csv"))
       throw UsageError(fmt::format("'{}': an output's name must end in .csv, .svg or .png",
                                    printable(path, 200)));
+  if (options.validated && options.longest_cycle() == 0)
+    throw UsageError("--validated proves cycles: it needs --cycles N or --fixed-points");
 }
 
 /// What is kept of all crossings: the state, the pair, time and growth.
@@ -98,6 +100,9 @@ class Section {
       report.cycles = find_cycles(level_, cutter_, starts(report), options_.longest_cycle(),
                                   [this](double share) { progress_.show(share); });
       cut_short_ = cut_short_ || cutter_.interrupted();
+      if (options_.validated)
+        report.proofs = enclose_cycles(model_, model_.scene(options_.common.scene), problem_,
+                                       report.cycles.cycles);
     }
     deliver(report);
     return verdict(report);
@@ -277,6 +282,10 @@ class Section {
       std::cerr << "casimir: error: the time limit was reached before all was done\n";
       return kEnvironment;
     }
+    if (!report.proofs.empty() && report.proved() == 0) {
+      std::cerr << "casimir: error: no cycle could be proved\n";
+      return kNotContinued;
+    }
     if (report.crossings() > 0) return kDone;
     std::cerr << "casimir: error: no orbit crosses the plane\n";
     return kNotContinued;
@@ -380,6 +389,8 @@ void register_section(CLI::App& program, Action& action) {
       ->type_name("N")
       ->check(CLI::Range(1, 64));
   command->add_flag("--fixed-points", options->fixed_points, "The same as --cycles 1");
+  command->add_flag("--validated", options->validated,
+                    "Prove each cycle: it exists, is alone nearby, and how it is stable");
   command->add_option("--tolerance", options->tolerance, "Tolerance of a step (default 1e-14)")
       ->type_name("X")
       ->check(CLI::Range(1e-15, 1e-3));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tools/cli/output.hpp"
+#include "tools/text/enclosure_report.hpp"
 #include "tools/text/run_report.hpp"
 
 namespace casimir::tools {
@@ -71,11 +72,43 @@ Json to_json(const SectionReport& report, const Cycle& cycle) {
   return json;
 }
 
+Json ends_json(const RationalInterval& interval) {
+  const auto [low, high] = decimal_ends(interval);
+  return {low, high};
+}
+
+Json to_json(const SectionReport& report, const ProvedCycle& proof) {
+  if (!proof.proved) return {{"verdict", "undecided"}, {"reason", proof.reason}};
+  Json json = {{"verdict", "proved"},
+               {"radius", decimal_above(proof.radius)},
+               {"enclosure", Json::object()},
+               {"period", ends_json(proof.period)},
+               {"trace", ends_json(proof.trace)},
+               {"kind", proof.kind()}};
+  for (std::size_t i = 0; i < proof.state.size(); ++i)
+    json["enclosure"][spec_of(report).states[i]] = ends_json(proof.state[i]);
+  return json;
+}
+
 Json level_json(const SectionProblem& problem) {
   Json json = Json::object();
   for (std::size_t i = 0; i < problem.levels.size(); ++i)
     json[problem.level_names[i]] = exact_text(problem.levels[i]);
   return json;
+}
+
+void print(const ProvedCycle& proof) {
+  if (!proof.proved) {
+    fmt::print("         not proved: {}\n", proof.reason);
+    return;
+  }
+  const auto [low, high] = decimal_ends(proof.period, 13);
+  const auto [least, most] = decimal_ends(proof.trace, 7);
+  fmt::print(
+      "         proved: one periodic orbit in a box of radius {}, and no other of this period "
+      "near it\n"
+      "         period in [{}, {}], trace in [{}, {}]: {}\n",
+      decimal_above(proof.radius), low, high, least, most, proof.kind());
 }
 
 void print_cycles(const SectionReport& report) {
@@ -84,12 +117,13 @@ void print_cycles(const SectionReport& report) {
   fmt::print("\n  cycle  {:>14}  {:>14}  {:>12}  {:>12}  kind\n",
              problem.plotted[0].period > 0 ? "u/pi" : "u",
              problem.plotted[1].period > 0 ? "v/pi" : "v", "period", "trace");
-  for (const Cycle& cycle : report.cycles.cycles) {
+  for (std::size_t k = 0; k < report.cycles.cycles.size(); ++k) {
+    const Cycle& cycle = report.cycles.cycles[k];
     for (std::size_t i = 0; i < cycle.length(); ++i) {
       std::array<double, 2> place = cycle.points[i].place;
-      for (std::size_t k = 0; k < 2; ++k) {
-        if (problem.plotted[k].period > 0) place[k] /= std::acos(-1.);
-        if (std::abs(place[k]) < 5e-9) place[k] = 0;  // not -0.00000000
+      for (std::size_t j = 0; j < 2; ++j) {
+        if (problem.plotted[j].period > 0) place[j] /= std::acos(-1.);
+        if (std::abs(place[j]) < 5e-9) place[j] = 0;  // not -0.00000000
       }
       fmt::print("  {:>5}  {:>14.8f}  {:>14.8f}", i == 0 ? fmt::format("{}", cycle.length()) : "",
                  place[0], place[1]);
@@ -98,6 +132,7 @@ void print_cycles(const SectionReport& report) {
                    cycle.stable() ? "stable" : "unstable");
       fmt::print("\n");
     }
+    if (!report.proofs.empty()) print(report.proofs[k]);
   }
   if (report.cycles.degenerate > 0)
     fmt::print("  {} more were left out: they belong to families, as in integrable systems\n",
@@ -126,6 +161,10 @@ unsigned long long SectionReport::steps() const {
   unsigned long long count = 0;
   for (const OrbitReport& orbit : orbits) count += orbit.orbit.steps;
   return count;
+}
+
+std::size_t SectionReport::proved() const {
+  return static_cast<std::size_t>(std::ranges::count(proofs, true, &ProvedCycle::proved));
 }
 
 void write_csv(const SectionReport& report, const std::string& path) {
@@ -174,7 +213,11 @@ Json to_json(const SectionReport& report, bool points) {
                {"warnings", report.warnings}};
   for (std::size_t i = 0; i < report.orbits.size(); ++i)
     json["orbits"].push_back(to_json(report, report.orbits[i], i + 1, points));
-  for (const Cycle& cycle : report.cycles.cycles) json["cycles"].push_back(to_json(report, cycle));
+  for (std::size_t k = 0; k < report.cycles.cycles.size(); ++k) {
+    json["cycles"].push_back(to_json(report, report.cycles.cycles[k]));
+    if (!report.proofs.empty())
+      json["cycles"].back()["validated"] = to_json(report, report.proofs[k]);
+  }
   return json;
 }
 

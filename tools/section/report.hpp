@@ -6,6 +6,7 @@
 
 #include "tools/analysis/section/cycles.hpp"
 #include "tools/analysis/section/orbits.hpp"
+#include "tools/analysis/section/validated_cycles.hpp"
 
 namespace casimir::tools {
 
@@ -20,11 +21,14 @@ struct SectionReport {
   int jobs = 1, lanes = 1;
   std::string instruction_set = {};
   bool from_cache = false;
+  std::vector<ProvedCycle> proofs = {};  ///< one for each cycle, or none
 
   std::size_t crossings() const;
   std::size_t chaotic() const;
   double off_level() const;
   unsigned long long steps() const;
+  /// How many cycles are proved.
+  std::size_t proved() const;
 };
 
 /// orbit,n,t,u,v and the variables.

@@ -1,6 +1,8 @@
 // casimir section: other systems than those of the book's figures, files, and what is refused.
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include <cmath>
 
 #include "tests/tools/program.hpp"
@@ -71,6 +73,34 @@ TEST(Section, HenonAndHeiles) {
   int stable = 0;
   for (const json& cycle : cycles) stable += cycle.at("stable") ? 1 : 0;
   EXPECT_GE(stable, 3);
+}
+
+/// The fixed points of Fig. 1.5 of the book, with the periods and traces that CAPD encloses.
+TEST(Section, TheFixedPointsOfTheHeavyTopAreProved) {
+  const Outcome outcome = run({"section", "euler-poisson", "--scene", "chaotic", "--orbits", "8",
+                               "--points", "50", "--fixed-points", "--validated", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::map<std::string, std::pair<double, double>> known = {
+      {"3.8550", {3.85504982, 6.530}},
+      {"5.2186", {5.21863364, 11.795}},
+      {"3.8563", {3.85632298, -2.01298}},
+      {"4.9540", {4.95405306, -1.97774}}};
+  const auto json = outcome.json();
+  std::size_t proved = 0;
+  for (const auto& cycle : json.at("cycles")) {
+    const auto& validated = cycle.at("validated");
+    ASSERT_EQ(validated.at("verdict"), "proved") << validated;
+    const std::string low = validated.at("period").at(0), high = validated.at("period").at(1);
+    const auto found = known.find(low.substr(0, 6));
+    ASSERT_NE(found, known.end()) << low;
+    EXPECT_NEAR(std::stod(low), found->second.first, 1e-8);
+    EXPECT_NEAR(std::stod(high), found->second.first, 1e-8);
+    EXPECT_NEAR(std::stod(validated.at("trace").at(0).get<std::string>()), found->second.second,
+                1e-3);
+    ++proved;
+  }
+  EXPECT_GE(proved, 4U);
+  EXPECT_EQ(run({"section", "euler-poisson", "--validated"}).status, 2);
 }
 
 TEST(Section, TheOtherDirectionIsTheMirrorImage) {

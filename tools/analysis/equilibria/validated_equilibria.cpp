@@ -1,122 +1,18 @@
 #include "tools/analysis/equilibria/validated_equilibria.hpp"
 
 #include <acb_mat.h>
-#include <arb_mat.h>
 #include <fmt/format.h>
 
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 
-#include "runtime/validated/rational_ends.hpp"
 #include "symbolic/algebra/ball_evaluator.hpp"
 #include "symbolic/prove.hpp"
+#include "tools/analysis/proof/ball_matrix.hpp"
 
 namespace casimir {
 namespace {
-
-constexpr slong kBits = 192;
-
-/// A matrix of Arb's, with value semantics.
-class BallMatrix {
- public:
-  BallMatrix(std::size_t rows, std::size_t columns) {
-    arb_mat_init(value_, static_cast<slong>(rows), static_cast<slong>(columns));
-  }
-  BallMatrix(const BallMatrix& other) : BallMatrix(other.rows(), other.columns()) {
-    arb_mat_set(value_, other.value_);
-  }
-  BallMatrix& operator=(const BallMatrix& other) {
-    arb_mat_set(value_, other.value_);  // of the same size wherever this is used
-    return *this;
-  }
-  ~BallMatrix() { arb_mat_clear(value_); }
-
-  std::size_t rows() const { return static_cast<std::size_t>(arb_mat_nrows(value_)); }
-  std::size_t columns() const { return static_cast<std::size_t>(arb_mat_ncols(value_)); }
-  arb_ptr at(std::size_t i, std::size_t j = 0) {
-    return arb_mat_entry(value_, static_cast<slong>(i), static_cast<slong>(j));
-  }
-  arb_srcptr at(std::size_t i, std::size_t j = 0) const {
-    return arb_mat_entry(value_, static_cast<slong>(i), static_cast<slong>(j));
-  }
-  arb_mat_struct* raw() { return value_; }
-  const arb_mat_struct* raw() const { return value_; }
-
-  friend BallMatrix operator*(const BallMatrix& a, const BallMatrix& b) {
-    BallMatrix result(a.rows(), b.columns());
-    arb_mat_mul(result.value_, a.value_, b.value_, kBits);
-    return result;
-  }
-  friend BallMatrix operator-(const BallMatrix& a, const BallMatrix& b) {
-    BallMatrix result(a.rows(), a.columns());
-    arb_mat_sub(result.value_, a.value_, b.value_, kBits);
-    return result;
-  }
-  friend BallMatrix operator+(const BallMatrix& a, const BallMatrix& b) {
-    BallMatrix result(a.rows(), a.columns());
-    arb_mat_add(result.value_, a.value_, b.value_, kBits);
-    return result;
-  }
-  BallMatrix transposed() const {
-    BallMatrix result(columns(), rows());
-    arb_mat_transpose(result.value_, value_);
-    return result;
-  }
-  /// The midpoints, as exact numbers.
-  BallMatrix middle() const {
-    BallMatrix result(rows(), columns());
-    arb_mat_get_mid(result.value_, value_);
-    return result;
-  }
-
- private:
-  arb_mat_t value_;
-};
-
-/// Expressions over some symbols, in balls. What has no certain or no smooth value throws
-/// NotCertified.
-class Functions {
- public:
-  Functions(std::vector<GiNaC::symbol> unknowns, std::vector<GiNaC::ex> values, std::size_t columns)
-      : unknowns_(std::move(unknowns)), values_(std::move(values)), columns_(columns) {}
-
-  BallMatrix operator()(const BallMatrix& z) const {
-    BallEvaluator evaluate(BallEvaluator::Numbers::real, kBits);
-    for (std::size_t i = 0; i < unknowns_.size(); ++i) {
-      Ball ball;
-      acb_set_arb(ball.raw(), z.at(i));
-      evaluate.set(unknowns_[i], ball);
-    }
-    BallMatrix result(values_.size() / columns_, columns_);
-    for (std::size_t k = 0; k < values_.size(); ++k) {
-      const Ball& value = evaluate(values_[k]);
-      if (!value.is_real() || !value.is_finite() || !evaluate.smooth()) throw NotCertified();
-      arb_set(result.at(k / columns_, k % columns_), acb_realref(value.raw()));
-    }
-    return result;
-  }
-
-  /// The matrix of derivatives by the unknowns; of a column of values.
-  Functions derivatives() const {
-    std::vector<GiNaC::ex> result;
-    for (const GiNaC::ex& value : values_)
-      for (const GiNaC::symbol& unknown : unknowns_) result.push_back(value.diff(unknown));
-    return {unknowns_, result, unknowns_.size()};
-  }
-
- private:
-  std::vector<GiNaC::symbol> unknowns_;
-  std::vector<GiNaC::ex> values_;
-  std::size_t columns_;
-};
-
-/// Whether every entry of `inner` lies in the inside of that of `outer`.
-bool inside(const BallMatrix& inner, const BallMatrix& outer) {
-  for (std::size_t i = 0; i < inner.rows(); ++i)
-    if (arb_contains_interior(outer.at(i), inner.at(i)) == 0) return false;
-  return true;
-}
 
 /// The box with this share of the size of each number added to both sides, and as much of `unit`.
 BallMatrix widened(const BallMatrix& z, slong log2_share, double unit) {
@@ -128,7 +24,7 @@ BallMatrix widened(const BallMatrix& z, slong log2_share, double unit) {
     arb_t own;
     arb_init(own);
     arb_abs(own, z.at(i));
-    arb_max(size, size, own, kBits);
+    arb_max(size, size, own, kBallBits);
     arb_mul_2exp_si(size, size, log2_share);
     arb_add_error(result.at(i), size);
     arb_clear(own);
@@ -138,40 +34,32 @@ BallMatrix widened(const BallMatrix& z, slong log2_share, double unit) {
 }
 
 /// The only zero of f near z, in a box; empty where none is proved.
-std::optional<BallMatrix> only_zero(const Functions& f, BallMatrix z, double unit) {
-  const Functions derivatives = f.derivatives();
-  const std::size_t n = z.rows();
-  BallMatrix inverse(n, n), identity(n, n);
-  arb_mat_one(identity.raw());
+std::optional<BallMatrix> only_zero(const BallFunctions& f, BallMatrix z, double unit) {
+  const BallFunctions derivatives = f.derivatives();
+  BallMatrix inverse(z.rows(), z.rows());
   constexpr int kRounds = 8;
   for (int round = 0; round < kRounds; ++round) {
-    if (arb_mat_approx_inv(inverse.raw(), derivatives(z).middle().raw(), kBits) == 0)
+    if (arb_mat_approx_inv(inverse.raw(), derivatives(z).middle().raw(), kBallBits) == 0)
       return std::nullopt;
     z = (z - inverse.middle() * f(z)).middle();
   }
   const BallMatrix y = inverse.middle();
-  const BallMatrix step = y * f(z);
+  const BallMatrix value = f(z);
   // A box that is too small for rounding is too large for the derivatives nowhere before the last.
   for (const slong log2_share : {-120, -90, -60, -40, -25}) {
     const BallMatrix box = widened(z, log2_share, unit);
-    const BallMatrix image = z - step + (identity - y * derivatives(box)) * (box - z);
+    const BallMatrix image = krawczyk(z, y, value, derivatives(box), box);
     if (inside(image, box)) return image;
   }
   return std::nullopt;
 }
 
-RationalInterval interval(arb_srcptr ball) {
-  validated::ArbBall own;
-  arb_set(own.raw(), ball);
-  return validated::ends_of(own);
-}
-
 bool definite(const BallMatrix& matrix) {
   BallMatrix factor(matrix.rows(), matrix.rows());
-  if (arb_mat_cho(factor.raw(), matrix.raw(), kBits) != 0) return true;
+  if (arb_mat_cho(factor.raw(), matrix.raw(), kBallBits) != 0) return true;
   BallMatrix opposite = matrix;
   arb_mat_neg(opposite.raw(), matrix.raw());
-  return arb_mat_cho(factor.raw(), opposite.raw(), kBits) != 0;
+  return arb_mat_cho(factor.raw(), opposite.raw(), kBallBits) != 0;
 }
 
 /// Vectors that span a kernel: each is 1 in one of the `free` entries, and 0 in the others of
@@ -196,8 +84,7 @@ std::optional<Kernel> kernel(const BallMatrix& rows) {
   Eigen::MatrixXd middle(m, n);
   for (std::size_t i = 0; i < m; ++i)
     for (std::size_t j = 0; j < n; ++j)
-      middle(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          arf_get_d(arb_midref(rows.at(i, j)), ARF_RND_NEAR);
+      middle(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = rows.near(i, j);
   std::vector<std::size_t> order(n);
   for (std::size_t j = 0; j < n; ++j) order[j] = j;
   if (m > 0) {
@@ -212,7 +99,7 @@ std::optional<Kernel> kernel(const BallMatrix& rows) {
     for (std::size_t j = 0; j < m; ++j) arb_set(pivots.at(i, j), rows.at(i, order[j]));
     for (std::size_t j = m; j < n; ++j) arb_neg(others.at(i, j - m), rows.at(i, order[j]));
   }
-  if (m > 0 && m < n && arb_mat_solve(solved.raw(), pivots.raw(), others.raw(), kBits) == 0)
+  if (m > 0 && m < n && arb_mat_solve(solved.raw(), pivots.raw(), others.raw(), kBallBits) == 0)
     return std::nullopt;
   for (std::size_t j = 0; j < n - m; ++j) {
     for (std::size_t i = 0; i < m; ++i) arb_set(result.columns.at(order[i], j), solved.at(i, j));
@@ -235,9 +122,9 @@ Sides sides_of(const BallMatrix& a) {
   acb_mat_init(vectors, n, n);
   acb_mat_set_arb_mat(matrix, a.raw());
   acb_ptr approximate = _acb_vec_init(n), values = _acb_vec_init(n);
-  acb_mat_approx_eig_qr(approximate, nullptr, vectors, matrix, nullptr, 0, kBits);
+  acb_mat_approx_eig_qr(approximate, nullptr, vectors, matrix, nullptr, 0, kBallBits);
   Sides result;
-  if (acb_mat_eig_multiple(values, matrix, approximate, vectors, kBits) != 0) {
+  if (acb_mat_eig_multiple(values, matrix, approximate, vectors, kBallBits) != 0) {
     result.all_left = true;
     for (slong k = 0; k < n; ++k) {
       result.some_right = result.some_right || arb_is_positive(acb_realref(values + k)) != 0;
@@ -324,13 +211,13 @@ class Prover {
     const std::size_t m = levels_.size();
     if (m == 0) return z;
     // The gradient of L is affine in the multipliers.
-    const Functions gradient(
+    const BallFunctions gradient(
         unknowns_, {equations_.begin(), equations_.begin() + static_cast<std::ptrdiff_t>(states())},
         1);
     const auto column = [&](const BallMatrix& values) {
       Eigen::VectorXd result(states());
       for (std::size_t i = 0; i < states(); ++i)
-        result(static_cast<Eigen::Index>(i)) = arf_get_d(arb_midref(values.at(i)), ARF_RND_NEAR);
+        result(static_cast<Eigen::Index>(i)) = values.near(i);
       return result;
     };
     const Eigen::VectorXd base = column(gradient(z));
@@ -349,9 +236,9 @@ class Prover {
   /// \throws NotCertified  where the box is not certain to be where the case is defined
   void check_domain(const BallMatrix& z) const {
     for (const std::vector<GiNaC::ex>* parts : {&model_.domain, &model_.bracket_domain})
-      for (const GiNaC::ex& part : *parts) Functions(unknowns_, {at_scene(part)}, 1)(z);
+      for (const GiNaC::ex& part : *parts) BallFunctions(unknowns_, {at_scene(part)}, 1)(z);
     for (const Assumption& assumption : model_.assumptions) {
-      const BallMatrix value = Functions(unknowns_, {at_scene(assumption.difference)}, 1)(z);
+      const BallMatrix value = BallFunctions(unknowns_, {at_scene(assumption.difference)}, 1)(z);
       Ball ball;
       acb_set_arb(ball.raw(), value.at(0));
       const std::optional<int> sign = ball.sign();
@@ -360,7 +247,7 @@ class Prover {
   }
 
   void enclose(const Equilibrium& found, ProvedEquilibrium& result) const {
-    const Functions f(unknowns_, equations_, 1);
+    const BallFunctions f(unknowns_, equations_, 1);
     const auto zero = only_zero(f, start(found), report_.size);
     if (!zero) {
       result.reason = "Krawczyk's test fails: the equations are nearly singular there";
@@ -369,7 +256,7 @@ class Prover {
     check_domain(*zero);
     const std::size_t shown = states() + symmetries();
     for (std::size_t i = 0; i < shown; ++i) {
-      const RationalInterval one = interval(zero->at(i));
+      const RationalInterval one = ends_of(zero->at(i));
       result.radius = std::max(result.radius, cln::cl_RA((one.high - one.low) / 2));
       (i < states() ? result.state : result.velocities).push_back(one);
     }
@@ -402,7 +289,7 @@ class Prover {
     for (const GiNaC::ex& level : levels_)
       for (const GiNaC::symbol& x : model_.variables) entries.push_back(level.diff(x));
     if (entries.empty()) return BallMatrix(0, states());
-    return Functions(unknowns_, entries, states())(z);
+    return BallFunctions(unknowns_, entries, states())(z);
   }
 
   /// Of the flow in which it rests.
@@ -412,7 +299,7 @@ class Prover {
         model_.poisson ? model_.poisson->flow(moving_) : model_.field;
     for (const GiNaC::ex& rate : field)
       for (const GiNaC::symbol& x : model_.variables) entries.push_back(at_scene(rate).diff(x));
-    return Functions(unknowns_, entries, states())(z);
+    return BallFunctions(unknowns_, entries, states())(z);
   }
 
   BallMatrix second_variation(const BallMatrix& z) const {
@@ -420,7 +307,7 @@ class Prover {
     for (const GiNaC::symbol& x : model_.variables)
       for (const GiNaC::symbol& y : model_.variables)
         entries.push_back(lagrangian_.diff(x).diff(y));
-    return Functions(unknowns_, entries, states())(z);
+    return BallFunctions(unknowns_, entries, states())(z);
   }
 
   const Model& model_;

@@ -34,9 +34,9 @@ struct ProvedEquilibrium {
 /// Proves each of the equilibria that `find_equilibria` found of this scene, for the exact numbers
 /// of the model.
 ///
-/// Theorem (Krawczyk 1969; Neumaier, Interval Methods for Systems of Equations, 5.1.8): where f is
-/// continuously differentiable on a box Z around z, and z - Y f(z) + (I - Y f'(Z)) (Z - z) lies in
-/// the inside of Z for some matrix Y, f has exactly one zero in Z. Values and derivatives are
+/// Theorem (Krawczyk 1969; Neumaier, Interval Methods for Systems of Equations, chapter 5): where f
+/// is continuously differentiable on a box Z around z, and z - Y f(z) + (I - Y f'(Z)) (Z - z) lies
+/// in the inside of Z for some matrix Y, f has exactly one zero in Z. Values and derivatives are
 /// computed in balls (Arb); that they are continuous on Z is checked by `BallEvaluator::smooth`.
 /// With a bracket, f is the gradient of L = H - sum v_k F_k - sum l_c C_c with the differences of
 /// C_c and F_k to their values at the scene: since J dC = 0, a zero of it rests under H - sum v_k

@@ -52,6 +52,7 @@ class Maker {
     problem_.plane_text = plane.text;
     problem_.plane.upwards = request_.upwards.value_or(request_.plane || model_.section->upwards);
     plane_ = model_.at_parameters(plane.function, scene_);
+    problem_.plane_function = plane_;
     if (std::ranges::none_of(model_.variables, [&](const auto& x) { return plane_.has(x); }))
       throw RequestError(fmt::format("the plane '{}' is the same everywhere in phase space",
                                      printable(problem_.plane_text)));

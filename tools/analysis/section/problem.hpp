@@ -41,6 +41,7 @@ struct SectionProblem {
   PreparedScene deviating;  ///< the same system with one deviation, by the variational equations
   SectionPlane plane;
   std::string plane_text;
+  GiNaC::ex plane_function;  ///< for the values of the parameters
   std::array<PlottedFunction, 2> plotted;
   std::vector<std::string> level_names;  ///< "H" and the Casimirs
   std::vector<double> levels;            ///< the value of each

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/validated_run.hpp"
+#include "tools/analysis/section/cycles.hpp"
+
+namespace casimir {
+
+/// A periodic orbit whose existence is a theorem, or why it is not.
+struct ProvedCycle {
+  bool proved = false;
+  std::string reason;                   ///< where not
+  std::vector<RationalInterval> state;  ///< where it crosses the plane
+  RationalInterval period{0, 0};        ///< after which it is there again
+  /// The sum of the two Floquet multipliers that are not 1 by the motion along the orbit and across
+  /// the levels.
+  RationalInterval trace{0, 0};
+  cln::cl_RA radius = 0;  ///< the largest half width of the state and the period
+
+  /// "elliptic", "hyperbolic" or "inverse hyperbolic" where the trace is certain to lie within,
+  /// above or below (-2, 2); else "undecided".
+  std::string kind() const;
+};
+
+/// Proves that there is a periodic orbit near each cycle that a search found, and no other near it
+/// on the level and the plane.
+///
+/// With the flow phi, the unknowns are a point x of the plane and a time T; the equations are
+/// s(x) = 0, I_a(x) = c_a for H and the Casimir functions, and (phi_T(x) - x)_i = 0 for as many i
+/// as are missing. Krawczyk's operator maps a box of (x, T) into its inside, so that they have
+/// exactly one solution there. phi_T(x) and its derivatives by x and T are enclosed over the box by
+/// `validated_run`, as the solution of x' = T f(x), with the variational equations, over a unit of
+/// time. The other differences are zero as well: both points lie on one level, and the derivatives
+/// of the I_a by the other coordinates are a regular matrix over the hull of both boxes (mean value
+/// theorem). This needs that the I_a are constant along the flow, which is proved first for the
+/// Casimir functions and holds for H.
+///
+/// The levels are those numbers and all others within 2^-52 of them, of their size.
+/// The trace is that of the derivative of phi_T less one for each I_a and one for the direction of
+/// the flow: these are eigenvalues 1, by the symplectic structure on a leaf of dimension 4 with all
+/// Casimir functions named. What is proved is a period; it need not be the least.
+/// \param longest  seconds for each of them, about.
+std::vector<ProvedCycle> enclose_cycles(const Model& model, const Scene& scene,
+                                        const SectionProblem& problem,
+                                        const std::vector<Cycle>& cycles, double longest = 60);
+
+}  // namespace casimir
