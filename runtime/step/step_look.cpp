@@ -296,6 +296,14 @@ double StepLook::up_to_branch(const casimir_step& trial, const StepWatch::Watche
     // The cut of an angle is where the other argument is negative.
     if (turns && !(sampled_[i][watched.place + 1] < 0 || sampled_[i + 1][watched.place + 1] < 0))
       continue;
+    if (i == 0 && at(0) == 0) {
+      // Rounding has put the end of the last step on the zero: it may come back soon.
+      constexpr double kLeastAside = 0x1p-40, kWider = 64;
+      for (double aside = kLeastAside; aside < places_[1]; aside *= kWider) {
+        if (value(trial, watched, aside) * at(1) < 0)
+          return landing(trial, watched, aside, places_[1], size);
+      }
+    }
     const double zero = relative * size;
     if (at(i) * at(i + 1) < 0 && std::abs(at(i)) > zero && std::abs(at(i + 1)) > zero)
       return landing(trial, watched, places_[i], places_[i + 1], size);
