@@ -174,6 +174,7 @@ class Runner {
       arf_mul_2exp_si(h.mid(), h.mid(), static_cast<slong>(whole));
     }
     const double least = h.log2() - kMostHalvings;
+    largest_tried_ = -std::numeric_limits<double>::infinity();
     for (bool taken = false; !taken;) {
       const BigFloat tried = h;
       h = look_->size({time_, tried, [&](const BigFloat& after) {
@@ -214,7 +215,7 @@ class Runner {
     return follows_at(series, h * within) && (look_->ends_behind_jump() || follows_at(series, h));
   }
 
-  bool follows_at(const std::vector<LongSeries>& series, const BigFloat& h) const {
+  bool follows_at(const std::vector<LongSeries>& series, const BigFloat& h) {
     std::vector<BigFloat> inputs;
     for (const LongSeries& s : series) inputs.push_back(value_at(s, h));
     inputs.insert(inputs.end(), parameters_.begin(), parameters_.end());
@@ -229,8 +230,10 @@ class Runner {
     std::vector<double> sizes;
     for (std::size_t i = 0; i < rates.size(); ++i)
       sizes.push_back(std::max({state_[i].log2(), inputs[i].log2(), (rates[i] * h).log2()}));
-    // What is that far below the others may be their rounding.
-    const double least = *std::ranges::max_element(sizes) - kSmallPart * bits;
+    // What is that far below the others may be their rounding; and where a state rests at zero, it
+    // is nothing beside what it comes to in the steps that were too long.
+    largest_tried_ = std::max(largest_tried_, *std::ranges::max_element(sizes));
+    const double least = largest_tried_ - kSmallPart * bits;
     for (std::size_t i = 0; i < rates.size(); ++i) {
       const double off = ((rates[i] - slope_at(series[i], h)) * h).log2();
       if (off > std::max(sizes[i], least) - kFollowed * bits) return false;
@@ -344,7 +347,8 @@ class Runner {
   BigFloat time_, end_;
   std::optional<BigFloat> mark_, predicted_;
   const BigFloat half_{cln::cl_RA(1) / 2};
-  double place_ = 0.5;  ///< within a step, where it was looked at last
+  double place_ = 0.5;        ///< within a step, where it was looked at last
+  double largest_tried_ = 0;  ///< log2 of the largest state within any trial of a step
   cln::cl_I sample_ = 0;
   PreciseRun run_;
 };
