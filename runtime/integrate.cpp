@@ -11,7 +11,7 @@
 #include "runtime/outside/cvode.hpp"
 #include "runtime/step/observer.hpp"
 #include "runtime/step/passage.hpp"
-#include "runtime/step/step_watch.hpp"
+#include "runtime/step/step_look.hpp"
 #include "runtime/step/stiffness.hpp"
 
 namespace casimir {

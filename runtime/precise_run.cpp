@@ -21,6 +21,9 @@ constexpr double kOrderPerDigit = 1.15;  // ln(10) / 2
 constexpr double kSlack = 10;
 /// Bits that every coefficient has beyond those that the envelope of terms needs.
 constexpr slong kSpareBits = 40;
+/// What part of the bits of a step the equations have to confirm, and how often it is halved for
+/// that: an error of one step has half of the digits to grow.
+constexpr double kFollowed = 0.5, kSmallPart = 0.4, kMostHalvings = 200;
 /// A singularity is believed when predictions from different steps and orders agree to all but
 /// these digits, ..
 constexpr int kUncertainDigits = 8;
@@ -34,6 +37,14 @@ slong bits_for(int digits) {
 BigFloat value_at(const LongSeries& series, const BigFloat& h) {
   BigFloat value = series.back();
   for (std::size_t k = series.size() - 1; k-- > 0;) value = value * h + series[k];
+  return value;
+}
+
+/// The derivative of the series.
+BigFloat slope_at(const LongSeries& series, const BigFloat& h) {
+  BigFloat value;
+  for (std::size_t k = series.size() - 1; k > 0; --k)
+    value = value * h + BigFloat(cln::cl_I(k)) * series[k];
   return value;
 }
 
@@ -162,6 +173,8 @@ class Runner {
       arf_set_d(h.mid(), end_.sign() < 0 ? -digits : digits);
       arf_mul_2exp_si(h.mid(), h.mid(), static_cast<slong>(whole));
     }
+    const double least = h.log2() - kMostHalvings;
+    largest_tried_ = -std::numeric_limits<double>::infinity();
     for (bool taken = false; !taken;) {
       const BigFloat tried = h;
       h = look_->size({time_, tried, [&](const BigFloat& after) {
@@ -170,6 +183,12 @@ class Runner {
                          return state;
                        }});
       taken = h == tried;
+      if (taken && !follows(series, h)) {
+        h = tried * half_;
+        taken = false;
+        if (h.log2() < least)
+          return stop(Status::no_convergence, reason_of(Status::no_convergence));
+      }
       last = last && h == tried;
     }
     const BigFloat next = last ? end_ : time_ + h;
@@ -182,6 +201,44 @@ class Runner {
     ++run_.steps;
     record_sizes();
     follow_invariants();
+  }
+
+  /// Whether the series has the derivative that the equations ask for: at the end of the step, and
+  /// at a place within it that is another one each time. Coefficients that are zero up to the last
+  /// do not say what follows them.
+  bool follows(const std::vector<LongSeries>& series, const BigFloat& h) {
+    constexpr double kGoldenSection = 0.6180339887498949;
+    place_ += kGoldenSection;
+    if (place_ >= 1) place_ -= 1;
+    BigFloat within;
+    arf_set_d(within.mid(), place_);
+    return follows_at(series, h * within) && (look_->ends_behind_jump() || follows_at(series, h));
+  }
+
+  bool follows_at(const std::vector<LongSeries>& series, const BigFloat& h) {
+    std::vector<BigFloat> inputs;
+    for (const LongSeries& s : series) inputs.push_back(value_at(s, h));
+    inputs.insert(inputs.end(), parameters_.begin(), parameters_.end());
+    inputs.push_back(time_ + h);
+    std::vector<BigFloat> rates;
+    try {
+      rates = evaluate(*problem_.rhs, inputs);
+    } catch (const std::domain_error&) {
+      return true;  // the next step has something to say of that
+    }
+    const auto bits = static_cast<double>(bits_);
+    std::vector<double> sizes;
+    for (std::size_t i = 0; i < rates.size(); ++i)
+      sizes.push_back(std::max({state_[i].log2(), inputs[i].log2(), (rates[i] * h).log2()}));
+    // What is that far below the others may be their rounding; and where a state rests at zero, it
+    // is nothing beside what it comes to in the steps that were too long.
+    largest_tried_ = std::max(largest_tried_, *std::ranges::max_element(sizes));
+    const double least = largest_tried_ - kSmallPart * bits;
+    for (std::size_t i = 0; i < rates.size(); ++i) {
+      const double off = ((rates[i] - slope_at(series[i], h)) * h).log2();
+      if (off > std::max(sizes[i], least) - kFollowed * bits) return false;
+    }
+    return true;
   }
 
   /// Whether a is beyond b in the direction of the run.
@@ -289,6 +346,9 @@ class Runner {
   std::optional<AngleFollower> angles_;  ///< of the invariants, if they have any
   BigFloat time_, end_;
   std::optional<BigFloat> mark_, predicted_;
+  const BigFloat half_{cln::cl_RA(1) / 2};
+  double place_ = 0.5;        ///< within a step, where it was looked at last
+  double largest_tried_ = 0;  ///< log2 of the largest state within any trial of a step
   cln::cl_I sample_ = 0;
   PreciseRun run_;
 };

@@ -32,6 +32,8 @@ PreciseLook::PreciseLook(const Program& rhs, std::vector<BigFloat> parameters)
 
 BigFloat PreciseLook::size(const PreciseStep& step) {
   if (!look_) return step.size;
+  jumps_ = landing_ && *landing_ == step.size;
+  landing_.reset();
   std::vector<double> x0, x1;
   for (const BigFloat& value : step.state(BigFloat())) x0.push_back(double_of(value));
   for (const BigFloat& value : step.state(step.size)) x1.push_back(double_of(value));
@@ -41,7 +43,11 @@ BigFloat PreciseLook::size(const PreciseStep& step) {
   if (part >= 1) return step.size;
   const BigFloat shorter = times(step.size, part);
   const StepWatch::Watched* const met = look_->met();
-  return met ? branch(step, met->place, shorter) : shorter;
+  jumps_ = false;
+  if (!met) return shorter;
+  BigFloat behind = branch(step, met->place, shorter);
+  if (met->kind != StepWatch::Kind::side) landing_ = behind;
+  return behind;
 }
 
 BigFloat PreciseLook::argument(const PreciseStep& step, std::size_t place,

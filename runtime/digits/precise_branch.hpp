@@ -2,10 +2,11 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "runtime/digits/big_float.hpp"
-#include "runtime/step/step_watch.hpp"
+#include "runtime/step/step_look.hpp"
 
 namespace casimir {
 
@@ -35,13 +36,18 @@ class PreciseLook {
   /// \throws UnknownBranch
   BigFloat size(const PreciseStep& step);
 
+  /// Whether the step that may be taken ends behind a jump of the equations.
+  bool ends_behind_jump() const { return jumps_; }
+
  private:
   BigFloat argument(const PreciseStep& step, std::size_t place, const BigFloat& h) const;
   BigFloat branch(const PreciseStep& step, std::size_t place, BigFloat behind) const;
 
   StepWatch watch_;
   std::vector<BigFloat> parameters_;
-  std::unique_ptr<StepLook> look_;  ///< none where there is nothing to be watched
+  std::unique_ptr<StepLook> look_;   ///< none where there is nothing to be watched
+  std::optional<BigFloat> landing_;  ///< the size of a step that is to end behind a jump
+  bool jumps_ = false;
 };
 
 }  // namespace casimir

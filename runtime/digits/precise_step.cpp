@@ -46,12 +46,16 @@ double log2_step(const std::vector<LongSeries>& states,
     step = std::min(step, by_the_tail(other, envelope.bits));
   }
   if (std::isinf(step) || std::isnan(step)) return step;
-  // The size of the solution on such a step: its value alone may happen to be near zero.
+  // The size of the solution on such a step: its value alone may happen to be near zero, and where
+  // it rests at zero the first terms are zero too.
   constexpr std::size_t kFew = 4;
+  std::size_t few = kFew;
+  while (few < order && std::isinf(sizes[few - kFew])) ++few;
   double size = -kInfinity;
-  for (std::size_t k = 0; k <= std::min(kFew, order); ++k)
+  for (std::size_t k = 0; k <= std::min(few, order); ++k)
     size = std::max(size, sizes[k] + static_cast<double>(k) * step);
-  for (std::size_t k = kFew + 1; k <= order; ++k) {
+  if (std::isinf(size)) return step;
+  for (std::size_t k = few + 1; k <= order; ++k) {
     const double share = envelope.bits * static_cast<double>(k) / static_cast<double>(order);
     step = std::min(step, (size + envelope.slack - share - sizes[k]) / static_cast<double>(k));
   }

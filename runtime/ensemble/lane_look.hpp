@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "runtime/step/step_watch.hpp"
+#include "runtime/step/step_look.hpp"
 
 namespace casimir {
 

@@ -1,19 +1,16 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
-#include "runtime/module_abi.h"
 #include "runtime/program.hpp"
-#include "runtime/program/interpreter.hpp"
 
 namespace casimir {
 
 /// What there is in equations of motion that a step of a numerical method may not see, because the
 /// step knows them at the points alone at which it evaluates them: functions that are anything but
-/// negligible only where their argument is in a narrow range, and those that go on by another
-/// formula where it passes zero.
+/// negligible only where their argument is in a narrow range, those that go on by another formula
+/// where it passes zero, and quotients that are large only where what they divide by is small.
 ///
 /// A method is exact where the solution is a smooth function that its step resolves. The arguments
 /// of the functions are such functions long before their values are: that of exp(-(x/w)^2) changes
@@ -29,12 +26,14 @@ class StepWatch {
     positive,  ///< sqrt(u), log(u), a broken power: no value where u < 0
     unit,      ///< asin(u), acos(u): no value where |u| > 1
     exponent,  ///< exp(u): to be resolved where it is not negligible
-    power      ///< u^n with n of ten and more: the same for n log|u|
+    power,     ///< u^n with n of ten and more: the same for n log|u|
+    divisor,   ///< 1/u^n: no dip of u within a step that its places do not show
+    phase      ///< sin(u), cos(u), tan(u) in an argument that is watched: no turn within a step
   };
   struct Watched {
     Kind kind;
     std::size_t place;  ///< of u among the outputs of `arguments`; v, if there is one, is the next
-    int exponent;       ///< of a power
+    double exponent;    ///< of a power or a divisor
   };
 
   /// \param rhs  a right-hand side, with the inputs of one.
@@ -44,75 +43,23 @@ class StepWatch {
   const std::vector<Watched>& watched() const { return watched_; }
   /// The arguments, as functions of the inputs of the right-hand side.
   const Program& arguments() const { return arguments_; }
+  /// The logarithm of all large numbers in the equations together: what is multiplied by them is
+  /// not negligible for being small.
+  double log_of_factors() const { return log_of_factors_; }
 
  private:
-  void watch(Kind kind, const std::vector<int>& lines, int exponent = 1);
+  void watch(Kind kind, const std::vector<int>& lines, double exponent = 1);
+  void watch_branches(const Program& rhs, const std::vector<bool>& varies);
+  void watch_powers(const Program& rhs, const std::vector<bool>& varies);
+  void watch_divisors(const Program& rhs, const std::vector<bool>& varies,
+                      const std::vector<bool>& watched);
+  void watch_phases(const Program& rhs, const std::vector<bool>& varies,
+                    const std::vector<bool>& watched);
+  std::vector<bool> within_arguments() const;
 
   std::vector<Watched> watched_;
   Program arguments_;
-};
-
-/// Looks at the steps of one run: see casimir_run::look.
-class StepLook {
- public:
-  /// Borrows the watch.
-  /// \param parameters  null if there are none.
-  StepLook(const StepWatch& watch, std::size_t states, const double* parameters);
-
-  /// Another run begins.
-  /// \param parameters  null if there are none.
-  void begin(const double* parameters);
-
-  /// 1 for a step that may be taken; or how much of it may be tried instead. A step that passes a
-  /// branch is to end just behind it, at a distance that is 1e-12 of what the argument is in the
-  /// step: what the wrong branch does on that way is its square. Behind a jump it ends at once; 2
-  /// for a step that does.
-  /// \param middle  the state at `place_within`, if that is known.
-  double operator()(const casimir_step& trial, const double* middle = nullptr);
-
-  /// The part of the next step at which it is looked at first. It follows the golden section, as no
-  /// motion does.
-  double place_within() const;
-
-  /// Whose branch the last step was to end behind; null if that was not why it was cut.
-  const StepWatch::Watched* met() const { return met_; }
-
- private:
-  /// At the ends and between them.
-  static constexpr std::size_t kPlaces = 6;
-
-  /// The arguments at an end of a step, which is the beginning of the next.
-  struct End {
-    double t = 0;
-    std::vector<double> x, values;
-  };
-
-  const double* arguments(double t, const double* x);
-  const double* arguments_within(const casimir_step& trial, double part, bool exactly);
-  double value(const casimir_step& trial, const StepWatch::Watched& watched, double part);
-  void take_ends(const casimir_step& trial);
-  void take(End& end, double t, const double* x);
-  bool is_calm(const casimir_step& trial, double part, const double* middle);
-  bool ends_behind_jump(const casimir_step& trial) const;
-  bool is_calm(const StepWatch::Watched& watched, std::size_t index, const double* middle);
-  void sample(const casimir_step& trial);
-  double resolved(const StepWatch::Watched& watched, std::size_t index);
-  double up_to_branch(const casimir_step& trial, const StepWatch::Watched& watched);
-  double defined(const casimir_step& trial, const StepWatch::Watched& watched);
-  double landing(const casimir_step& trial, const StepWatch::Watched& watched, double before,
-                 double behind, double size);
-
-  const StepWatch& watch_;
-  const std::size_t states_;
-  Interpreter evaluate_;
-  std::vector<double> inputs_, outputs_;
-  End first_, last_;
-  std::vector<double> sampled_[kPlaces];
-  std::vector<double> highest_;  ///< of the exponents of powers, so far
-  double places_[kPlaces] = {};
-  double shift_ = 0.5;
-  const StepWatch::Watched* met_ = nullptr;
-  std::optional<double> jump_;  ///< when a step that was cut is to end behind a jump
+  double log_of_factors_ = 0;
 };
 
 }  // namespace casimir

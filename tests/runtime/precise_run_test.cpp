@@ -279,5 +279,63 @@ TEST(PreciseRun, PulsesAreNotPassedOver) {
   EXPECT_EQ(agreed_digits(agreed.run.state[0], 1 + cln::sqrt(cln::pi(format)) / 1000, 40), 40);
 }
 
+/// x' = -x + t^4 from 0, whose first five terms are zero.
+TEST(PreciseRun, WhatRestsAtZeroBegins) {
+  Builder b({"x"});
+  const int square = b.op(Op::mul, b.time(), b.time());
+  b.output(b.op(Op::sub, b.op(Op::mul, square, square), 0));
+  const Program program = b.program();
+  const AgreedRun agreed = agreed_run(problem(program, {0, 3}), 40);
+  ASSERT_EQ(agreed.run.status, Status::ok) << agreed.run.reason;
+  // t^4 - 4 t^3 + 12 t^2 - 24 t + 24 - 24 exp(-t)
+  const cln::float_format_t format = cln::float_format(70);
+  const cln::cl_F truth = cln::cl_float(33 - 24 * cln::exp(cln::cl_float(-3, format)), format);
+  EXPECT_EQ(agreed_digits(agreed.run.state[0], truth, 40), 40);
+}
+
+/// x' = ((1 - cos t)(t - sin t))^9 = t^45/6^9/2^9 .. from 0: all terms up to the last are zero.
+TEST(PreciseRun, TermsBeyondTheLastAreSeenInTheEquations) {
+  Builder b({"x"});
+  const int t = b.time();
+  const int u = b.op(Op::mul, b.op(Op::sub, b.number(1), b.op(Op::cos, t)),
+                     b.op(Op::sub, t, b.op(Op::sin, t)));
+  const int third = b.op(Op::mul, b.op(Op::mul, u, u), u);
+  b.output(b.op(Op::mul, b.op(Op::mul, third, third), third));
+  const Program program = b.program();
+  const PreciseRun coarse = precise_run(problem(program, {0, 3}), 17);
+  const PreciseRun fine = precise_run(problem(program, {0, 3}), 60);
+  ASSERT_EQ(coarse.status, Status::ok) << coarse.reason;
+  ASSERT_EQ(fine.status, Status::ok) << fine.reason;
+  EXPECT_TRUE(cln::plusp(fine.state[0]));
+  EXPECT_GE(agreed_digits(coarse.state[0], fine.state[0], 17), 15);
+}
+
+/// sign((t - 1)^2 + a - b + c) with a - b + c > 0, which is below zero in double precision: there
+/// is a branch for doubles, and none for more digits.
+TEST(PreciseRun, ABranchThatMoreDigitsDoNotShowIsRefused) {
+  Builder b({"x"});
+  const cln::cl_RA half_unit = cln::expt(cln::cl_RA(2), -53);
+  const int z = b.op(Op::sub, b.time(), b.number(1));
+  const int little = b.op(Op::sub, b.number(1 + half_unit * cln::cl_RA("99/100")),
+                          b.number(1 + half_unit * cln::cl_RA("101/100")));
+  const int more = b.op(Op::add, little, b.number(half_unit / 10));
+  b.output(b.op(Op::sign, b.op(Op::add, b.op(Op::mul, z, z), more)));
+  const Program program = b.program();
+  const PreciseRun run = precise_run(problem(program, {0, 3}), 30);
+  EXPECT_EQ(run.status, Status::no_convergence);
+  EXPECT_NE(run.reason.find("cannot be told"), std::string::npos) << run.reason;
+  EXPECT_LT(cln::double_approx(run.time), 1);
+
+  // The twin: it goes below zero for all digits.
+  Builder twin({"x"});
+  const int y = twin.op(Op::sub, twin.time(), twin.number(1));
+  const int u = twin.op(Op::sub, twin.op(Op::mul, y, y), twin.number(cln::cl_RA("1/4")));
+  twin.output(twin.op(Op::sign, u));
+  const Program crossing = twin.program();
+  const AgreedRun agreed = agreed_run(problem(crossing, {0, 3}), 30);
+  ASSERT_EQ(agreed.run.status, Status::ok) << agreed.run.reason;
+  EXPECT_EQ(agreed_digits(agreed.run.state[0], cln::cl_float(1, cln::float_format(40)), 30), 30);
+}
+
 }  // namespace
 }  // namespace casimir::test

@@ -58,6 +58,18 @@ TEST_P(Outcome, BranchPointWithFiniteStateIsASingularity) {
   EXPECT_LT(std::abs(orbit.state[0]), 1e-2);
 }
 
+TEST_P(Outcome, RestAtZeroWhereNothingMovesIsLeft) {
+  for (const double power : {0., 1., 2., 3., 4., 5., 8., 13., 2.5}) {
+    const Trajectory orbit = run<Pushed>(GetParam(), settings_for(2, 1e-8), {0, 0}, {power});
+    ASSERT_EQ(orbit.status, Status::ok) << power << ' ' << orbit.reason;
+    const double speed = std::pow(2, power + 1) / (power + 1), way = speed * 2 / (power + 2);
+    const double allowed = GetParam() == "midpoint" ? 1e-4 : 1e-5;
+    EXPECT_NEAR(orbit.state[0] / way, 1, allowed) << power;
+    EXPECT_NEAR(orbit.state[1] / speed, 1, allowed) << power;
+    EXPECT_LT(orbit.steps, 100000U) << power;
+  }
+}
+
 TEST_P(Outcome, EndOfTheDomainIsNotPassed) {
   const Trajectory orbit = run<Edge>(GetParam(), settings_for(2), {0.25});
   EXPECT_NE(orbit.status, Status::ok);

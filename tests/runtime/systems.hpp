@@ -105,6 +105,19 @@ struct Stiff {
   static void jacobian(double, const double*, const double* p, double* J) { J[0] = -p[0]; }
 };
 
+/// x'' = t^p, from rest at zero: t^(p+2) / ((p+1)(p+2)). Nothing moves at the start.
+struct Pushed {
+  static constexpr int n = 2;
+  static void rhs(double t, const double* x, const double* p, double* d) {
+    d[0] = x[1];
+    d[1] = std::pow(t, p[0]);
+  }
+  static void jacobian(double, const double*, const double*, double* J) {
+    J[0] = J[1] = J[3] = 0;
+    J[2] = 1;
+  }
+};
+
 template <class System>
 void no_invariants(double, const double*, const double*, double*) {}
 

@@ -1,6 +1,7 @@
 #include "runtime/step/step_watch.hpp"
 
 #include <cln/dfloat.h>
+#include <cln/integer.h>
 #include <cln/rational.h>
 #include <gtest/gtest.h>
 
@@ -62,6 +63,83 @@ TEST(StepWatch, HighPowersAreWatchedOnceEach) {
   ASSERT_EQ(watch.watched().size(), 1U);
   EXPECT_EQ(watch.watched()[0].kind, StepWatch::Kind::power);
   EXPECT_EQ(watch.watched()[0].exponent, 16);
+}
+
+TEST(StepWatch, QuotientsAreWatchedThatNoTailAnnounces) {
+  const auto watched = [](int sum_of_squares, int power, bool root) {
+    Builder lines({"x", "y"});
+    int below = lines.op(Op::mul, 0, 0);
+    if (sum_of_squares) below = lines.op(Op::add, below, lines.op(Op::mul, 1, 1));
+    if (root) below = lines.op(Op::sqrt, below);
+    int product = below;
+    for (int i = 1; i < power; ++i) product = lines.op(Op::mul, product, below);
+    const int rate = lines.op(Op::div, 1, product);
+    lines.output(rate);
+    lines.output(rate);
+    const StepWatch watch(lines.program());
+    return watch.empty() ? 0 : watch.watched()[0].exponent;
+  };
+  EXPECT_EQ(watched(true, 3, true), 0);  // of Kepler's problem
+  EXPECT_EQ(watched(true, 1, false), 0);
+  EXPECT_EQ(watched(true, 2, false), 2);
+  EXPECT_EQ(watched(true, 7, true), 3.5);
+  EXPECT_EQ(watched(false, 1, false), 0);
+  EXPECT_EQ(watched(false, 2, false), 4);  // 1/x^4
+
+  Builder cubed({"x"});  // (1/x)^3
+  const int one = cubed.op(Op::div, cubed.number(1), 0);
+  cubed.output(cubed.op(Op::mul, cubed.op(Op::mul, one, one), one));
+  ASSERT_EQ(StepWatch(cubed.program()).watched().size(), 1U);
+  EXPECT_EQ(StepWatch(cubed.program()).watched()[0].exponent, 3);
+}
+
+/// x' = 1 + 1/w/(1 + ((t - 3)/w)^2)^4: 5 pi/16 more than the time.
+TEST(Steps, DoNotPassAPeakOfAQuotientOver) {
+  for (const int inverse_width : {100, 10000, 1000000}) {
+    Builder lines({"x"});
+    const int w = lines.number(inverse_width);
+    const int z = lines.op(Op::mul, lines.op(Op::sub, lines.time(), lines.number(3)), w);
+    const int q = lines.op(Op::add, lines.number(1), lines.op(Op::mul, z, z));
+    const int q2 = lines.op(Op::mul, q, q);
+    const int peak = lines.op(Op::div, w, lines.op(Op::mul, q2, q2));
+    lines.output(lines.op(Op::add, lines.number(1), peak));
+    const Program rhs = lines.program();
+    const Trajectory orbit = run(rhs, {0}, 20);
+    ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
+    EXPECT_NEAR(orbit.state[0], 20 + 5 * std::acos(-1) / 16, 1e-10) << inverse_width;
+    EXPECT_LT(orbit.steps, 300U) << inverse_width;
+    if (inverse_width >= 10000) {
+      EXPECT_LT(run(rhs, {0}, 20, false).state[0], 20.1);
+    }
+  }
+}
+
+/// x' = (1 + sign(sin(t) - c))/2 is 1 for a short while in each turn, and all that moves.
+TEST(Steps, DoNotPassAShortSignOver) {
+  Builder lines({"x"});
+  const cln::cl_RA threshold = cln::cl_RA(99) / 100;
+  const int u = lines.op(Op::sub, lines.op(Op::sin, lines.time()), lines.number(threshold));
+  const int sum = lines.op(Op::add, lines.number(1), lines.op(Op::sign, u));
+  lines.output(lines.op(Op::div, sum, lines.number(2)));
+  const Program rhs = lines.program();
+  const Trajectory orbit = run(rhs, {0}, 60);
+  ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
+  EXPECT_NEAR(orbit.state[0], 10 * 2 * std::acos(0.99), 1e-11);  // ten times
+  EXPECT_EQ(run(rhs, {0}, 60, false).state[0], 0);
+}
+
+/// x' = 10^60 exp(-130 - (100 (t - 3))^2), whose exponential is never above e^-130.
+TEST(Steps, DoNotPassAPulseOverThatALargeFactorMakes) {
+  Builder lines({"x"});
+  const int z =
+      lines.op(Op::mul, lines.op(Op::sub, lines.time(), lines.number(3)), lines.number(100));
+  const int u = lines.op(Op::neg, lines.op(Op::add, lines.number(130), lines.op(Op::mul, z, z)));
+  const cln::cl_RA factor = cln::expt(cln::cl_I(10), 60);
+  lines.output(lines.op(Op::mul, lines.number(factor), lines.op(Op::exp, u)));
+  const Trajectory orbit = run(lines.program(), {0}, 20);
+  ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
+  const double truth = std::sqrt(std::acos(-1)) / 100 * 1e60 * std::exp(-130);
+  EXPECT_NEAR(orbit.state[0] / truth, 1, 1e-12);
 }
 
 TEST(Steps, EndWhereAModulusTurns) {

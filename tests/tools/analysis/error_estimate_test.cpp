@@ -74,6 +74,26 @@ TEST(ErrorEstimate, RoundingOfTheDataIsCounted) {
   EXPECT_LT(input(GiNaC::numeric(1, 3)), 1e-15);
 }
 
+/// x' = 2 (1 - cos(t/10^8)) 10^16 is t^2, and 0 or 2.2 in double precision, whatever the method.
+TEST(ErrorEstimate, DigitsThatTheEquationsLoseAreCounted) {
+  for (const char* method : {"dop853", "gauss8", "radau5"}) {
+    const Model cancels = driven_equation("2*(1 - cos(t/10^8))*10^16");
+    SolveOptions options;
+    options.method = method;
+    options.run.tolerance = 1e-8;
+    const Solution motion = solve(cancels, cancels.scene("default"), options);
+    ASSERT_TRUE(motion.ok()) << method;
+    const double error = std::abs(motion.trajectory().state[0] / (64. / 3) - 1);
+    EXPECT_GT(error, 1e-6) << method;
+    EXPECT_GT(motion.trust().error_estimate, error / 3) << method;
+  }
+  // The twin keeps all of them.
+  const Model keeps = driven_equation("4*10^16*sin(t/(2*10^8))^2");
+  const Solution motion = solve(keeps, keeps.scene("default"));
+  EXPECT_NEAR(motion.trajectory().state[0] / (64. / 3), 1, 1e-14);
+  EXPECT_LT(motion.trust().error_estimate, 1e-13);
+}
+
 TEST(ErrorEstimate, ChangesThatDiedOutAreToldFromThoseThatAreThere) {
   ErrorEstimate trust;
   trust.conditioning = 1;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "tools/analysis/estimate/growth_of_changes.hpp"
+#include "tools/analysis/estimate/rounding_of_rates.hpp"
 #include "tools/analysis/run/taylor_path.hpp"
 
 namespace casimir {
@@ -18,6 +19,8 @@ constexpr double kSmall = 0.05;
 /// Rounding errors that grow to this size leave no digits to speak of.
 constexpr double kSpoiled = 1e-3;
 constexpr double kSixDigits = 1e-6;
+/// Of the run that is repeated: no whole number of periods of anything between them.
+constexpr double kSamples = 61.8;
 /// Seconds of a run that is repeated though it takes long, since it may have passed something over.
 constexpr double kLongestToRepeat = 10;
 constexpr double kCrossCheckTolerance = 1e-10;
@@ -43,7 +46,7 @@ class Neighbours {
     // Only a run that is watched goes on where products of states are beyond all numbers.
     constexpr double kHuge = 1e130;
     tight_.monitor = std::ranges::max(sizes) > kHuge;
-    tight_.sample_every = 0;
+    tight_.sample_every = std::abs(settings.duration) / kSamples;
     tight_.invariant_changes = nullptr;
     tight_.rtol = std::max(settings.rtol / 100, 2 * kLeastTolerance);
     tight_.atol = settings.atol / 100;
@@ -68,7 +71,7 @@ class Neighbours {
     }
     return better_.status == Status::ok;
   }
-  const std::vector<double>& better() const { return better_.state; }
+  const Trajectory& better() const { return better_; }
 
   /// How many times a relative change of a state has grown at the end; nothing if a run fails.
   std::optional<double> growth_of_state(std::size_t j) const {
@@ -235,10 +238,15 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
     trust.input_rounding += own * std::abs(run.parameter_rounding[j] / run.parameters[j]);
   }
   trust.error_estimate =
-      trust.input_rounding +
-      (repeated ? distance(neighbours.better(), trajectory.state, end_sizes(run, trajectory)) +
-                      growth * kUnitRoundoff
-                : estimate_without_repeat(growth, settings, trajectory));
+      trust.input_rounding + (repeated ? distance(neighbours.better().state, trajectory.state,
+                                                  end_sizes(run, trajectory)) +
+                                             growth * kUnitRoundoff
+                                       : estimate_without_repeat(growth, settings, trajectory));
+  if (repeated) {
+    const double rounding =
+        rounding_of_rates(run, compiled.module, neighbours.better(), end_sizes(run, trajectory));
+    trust.error_estimate += std::min(rounding * growth, std::max(rounding, 1.));
+  }
   if (grows(run, sizes))
     trust.error_estimate += kUnitRoundoff * static_cast<double>(trajectory.steps);
   if (!method.series || may_hide) {

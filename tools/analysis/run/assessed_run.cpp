@@ -10,6 +10,7 @@
 #include "runtime/step/stiffness.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/estimate/near_singular.hpp"
+#include "tools/analysis/estimate/rounding_of_rates.hpp"
 #include "tools/analysis/run/drift_check.hpp"
 #include "tools/analysis/run/invariant_projection.hpp"
 
@@ -23,10 +24,16 @@ constexpr double kSmoothTolerance = 1e-15, kStiffTolerance = 1e-13;
 /// twice as many, and so on.
 constexpr unsigned long long kFirstLook = 300;
 
-/// Looks for stiffness while an explicit method runs.
-class StiffnessWatch {
+/// A run of so many steps may be one that follows the rounding of the equations, which is as rough
+/// as can be, if it is more than this part of the state.
+constexpr unsigned long long kManySteps = 9600;
+constexpr double kRough = 1e-9;
+
+/// Looks while Taylor series run for what they are not made for: stiff equations, and such as are
+/// no smooth functions in double precision.
+class SmoothnessWatch {
  public:
-  StiffnessWatch(const CompiledModule& compiled, const PreparedScene& run, double duration)
+  SmoothnessWatch(const CompiledModule& compiled, const PreparedScene& run, double duration)
       : compiled_(compiled), run_(run), duration_(duration) {}
 
   void see(double t, const double* x) {
@@ -34,8 +41,12 @@ class StiffnessWatch {
     next_look_ *= 2;
     const std::vector<double> state(x, x + run_.initial.size());
     const double* const p = run_.parameters.empty() ? nullptr : run_.parameters.data();
-    if (!is_stiff(compiled_.module, t, state, p, std::abs(duration_ - t))) return;
-    finding_ = fmt::format("the equations are stiff at t = {:.3g}", t);
+    const double left = std::abs(duration_ - t);
+    if (is_stiff(compiled_.module, t, state, p, left))
+      finding_ = fmt::format("the equations are stiff at t = {:.3g}", t);
+    else if (steps_ >= kManySteps &&
+             rounding_of_rates_at(run_, compiled_.module, t, state, left) > kRough)
+      finding_ = fmt::format("the equations lose their digits to rounding at t = {:.3g}", t);
   }
   const std::string& finding() const { return finding_; }
 
@@ -79,9 +90,9 @@ class Judge {
 
   void run_chosen_method() {
     prepare(method_named(kSmooth), settings_for(options_.run, run_, kSmoothTolerance));
-    StiffnessWatch stiffness(*result_.compiled, run_, result_.settings.duration);
-    run_it(&stiffness);
-    result_.chosen = stiffness.finding();
+    SmoothnessWatch smoothness(*result_.compiled, run_, result_.settings.duration);
+    run_it(&smoothness);
+    result_.chosen = smoothness.finding();
     if (result_.chosen.empty()) {
       result_.chosen = "the equations are not stiff";
     } else {
@@ -106,18 +117,18 @@ class Judge {
     result_.settings.atol = asked;
   }
 
-  /// One run; what `stiffness` finds ends it.
-  void run_it(StiffnessWatch* stiffness = nullptr) {
+  /// One run; what `smoothness` finds ends it.
+  void run_it(SmoothnessWatch* smoothness = nullptr) {
     singular_.emplace(run_);
     Settings settings = result_.settings;
-    if (singular_->divides() || stiffness)
-      settings.watch = [&, stiffness](double t, const double* x) {
+    if (singular_->divides() || smoothness)
+      settings.watch = [&, smoothness](double t, const double* x) {
         singular_->see(t, x);
-        if (stiffness) stiffness->see(t, x);
+        if (smoothness) smoothness->see(t, x);
       };
-    if (stiffness)
-      settings.give_up = [stiffness, limit = settings.give_up] {
-        return !stiffness->finding().empty() || (limit && limit());
+    if (smoothness)
+      settings.give_up = [smoothness, limit = settings.give_up] {
+        return !smoothness->finding().empty() || (limit && limit());
       };
     const auto run = [&] {
       try {

@@ -1,0 +1,384 @@
+#include "runtime/step/step_look.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace casimir {
+namespace {
+
+/// By how much an exponent may change from one place to the next: a series of order 24 resolves
+/// several times as much in one step.
+constexpr double kResolved = 8;
+/// e to this power is nothing.
+constexpr double kNegligible = -80;
+/// The same for powers, beside the largest that was seen.
+constexpr double kNegligiblePower = -40, kLeastPower = -60;
+/// By how much the argument of an oscillation may change in a step.
+constexpr double kTurn = 2;
+/// Of the largest argument in a step: what counts as zero, and where a step behind a branch ends.
+constexpr double kZero = 1e-11, kBehind = 1e-12, kRounding = 2e-15;
+constexpr double kShorter = 0.4;
+
+/// The next of numbers between 0 and 1 that no motion follows.
+double next(double shift) {
+  constexpr double kGoldenSection = 0.6180339887498949;
+  return shift + kGoldenSection - (shift + kGoldenSection >= 1 ? 1 : 0);
+}
+
+double in_the_middle(double shift) { return 0.3 + 0.4 * shift; }
+
+}  // namespace
+
+StepLook::StepLook(const StepWatch& watch, std::size_t states, const double* parameters)
+    : watch_(watch),
+      states_(states),
+      evaluate_(watch.arguments()),
+      inputs_(watch.arguments().inputs.size()),
+      outputs_(watch.arguments().outputs.size()) {
+  begin(parameters);
+}
+
+void StepLook::begin(const double* parameters) {
+  if (parameters)
+    std::copy_n(parameters, inputs_.size() - states_ - 1,
+                inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
+  negligible_ = kNegligible - watch_.log_of_factors();
+  for (std::size_t i = states_; i + 1 < inputs_.size(); ++i)
+    negligible_ -= std::log(std::max(std::abs(inputs_[i]), 1.));
+  highest_.assign(watch_.watched().size(), -std::numeric_limits<double>::infinity());
+  first_.x.clear();
+  last_.x.clear();
+  jump_.reset();
+  shift_ = 0.5;
+}
+
+const double* StepLook::arguments(double t, const double* x) {
+  if (x != inputs_.data()) std::copy_n(x, states_, inputs_.begin());
+  inputs_.back() = t;
+  evaluate_(inputs_.data(), outputs_.data());
+  return outputs_.data();
+}
+
+/// \param exactly  by the dense output, though cubic interpolation may be to be had, which costs a
+///                 Runge-Kutta method less.
+const double* StepLook::arguments_within(const casimir_step& trial, double part, bool exactly) {
+  if (part <= 0) return arguments(trial.t0, trial.x0);
+  if (part >= 1) return arguments(trial.t1, trial.x1);
+  const double h = trial.t1 - trial.t0, t = trial.t0 + part * h;
+  double* const x = inputs_.data();
+  if (trial.f0 && trial.f1 && !exactly) {
+    const double rest = 1 - part;
+    const double a0 = rest * rest * (1 + 2 * part), a1 = part * part * (1 + 2 * rest);
+    const double b0 = h * part * rest * rest, b1 = -h * part * part * rest;
+    for (std::size_t i = 0; i < states_; ++i)
+      x[i] = a0 * trial.x0[i] + a1 * trial.x1[i] + b0 * trial.f0[i] + b1 * trial.f1[i];
+  } else {
+    trial.dense(&trial, t, x);
+  }
+  return arguments(t, x);
+}
+
+double StepLook::value(const casimir_step& trial, const StepWatch::Watched& watched, double part) {
+  return arguments_within(trial, part, true)[watched.place];
+}
+
+void StepLook::take(End& end, double t, const double* x) {
+  if (!end.x.empty() && end.t == t && std::equal(end.x.begin(), end.x.end(), x, x + states_))
+    return;
+  const double* const values = arguments(t, x);
+  end.t = t;
+  end.x.assign(x, x + states_);
+  end.values.assign(values, values + outputs_.size());
+}
+
+void StepLook::take_ends(const casimir_step& trial) {
+  if (last_.t == trial.t0) std::swap(first_, last_);
+  take(first_, trial.t0, trial.x0);
+  take(last_, trial.t1, trial.x1);
+}
+
+double StepLook::place_within() const { return in_the_middle(next(shift_)); }
+
+void StepLook::sample(const casimir_step& trial) {
+  for (std::size_t i = 0; i < kPlaces; ++i) {
+    const double between = (static_cast<double>(i) - 0.75 + 0.5 * shift_) / (kPlaces - 2);
+    places_[i] = i == 0 ? 0 : i + 1 == kPlaces ? 1 : between;
+    if (i == 0 || i + 1 == kPlaces) {
+      sampled_[i] = i == 0 ? first_.values : last_.values;
+    } else {
+      const double* const values = arguments_within(trial, places_[i], false);
+      sampled_[i].assign(values, values + outputs_.size());
+    }
+  }
+}
+
+/// Whether the ends and one place between them show that nothing is near.
+bool StepLook::is_calm(const casimir_step& trial, double part, const double* middle) {
+  const double* const values = middle ? arguments(trial.t0 + part * (trial.t1 - trial.t0), middle)
+                                      : arguments_within(trial, part, false);
+  bool all = true;
+  for (std::size_t i = 0; i < watch_.watched().size(); ++i)
+    all = is_calm(watch_.watched()[i], i, values) && all;
+  return all;
+}
+
+bool StepLook::is_calm(const StepWatch::Watched& watched, std::size_t which, const double* middle) {
+  std::array<double, 3> u = {first_.values[watched.place], middle[watched.place],
+                             last_.values[watched.place]};
+  if (watched.kind == StepWatch::Kind::power) {
+    double& highest = highest_[which];
+    for (double& value : u) value = watched.exponent * std::log(std::abs(value));
+    highest = std::max(highest, *std::ranges::max_element(u));
+    for (double& value : u) value = std::max(value, highest + kLeastPower);
+  }
+  if (std::ranges::any_of(u, [](double value) { return std::isnan(value); })) return false;
+  const auto [least, most] = std::ranges::minmax(u);
+  const double change = most - least;
+  switch (watched.kind) {
+    case StepWatch::Kind::unit:
+      return std::max(std::abs(least), std::abs(most)) + change < 1;
+    case StepWatch::Kind::exponent:
+      return change < kResolved || most + change < negligible_;
+    case StepWatch::Kind::power:
+      return change < kResolved;
+    case StepWatch::Kind::phase:
+      return change < kTurn;
+    case StepWatch::Kind::divisor:
+      return least * most > 0 && change < std::min(std::abs(least), std::abs(most)) &&
+             watched.exponent * std::abs(std::log(most / least)) < kResolved;
+    default:
+      return change < std::min(std::abs(least), std::abs(most));
+  }
+}
+
+double StepLook::operator()(const casimir_step& trial, const double* middle) {
+  const double h = std::abs(trial.t1 - trial.t0);
+  const double least = 64 * std::numeric_limits<double>::epsilon() * std::abs(trial.t0);
+  if (h <= least) return 1;
+  shift_ = next(shift_);
+  const double within = in_the_middle(shift_);
+  met_ = nullptr;
+  take_ends(trial);
+  if (is_calm(trial, within, middle)) return ends_behind_jump(trial) ? 2 : 1;
+  sample(trial);
+  double part = 1;
+  for (std::size_t i = 0; i < watch_.watched().size(); ++i) {
+    const StepWatch::Watched& watched = watch_.watched()[i];
+    double own = 1;
+    switch (watched.kind) {
+      case StepWatch::Kind::side:
+      case StepWatch::Kind::jump:
+      case StepWatch::Kind::turn:
+        own = up_to_branch(trial, watched);
+        break;
+      case StepWatch::Kind::positive:
+      case StepWatch::Kind::unit:
+        own = defined(trial, watched);
+        break;
+      case StepWatch::Kind::exponent:
+      case StepWatch::Kind::power:
+        own = resolved(watched, i);
+        break;
+      case StepWatch::Kind::divisor:
+        own = std::min(up_to_dip(watched), resolved(watched, i));
+        break;
+      case StepWatch::Kind::phase:
+        own = part_of_turn(watched);
+        break;
+    }
+    if (!(own < part)) continue;
+    part = own;
+    const bool branches = watched.kind == StepWatch::Kind::side ||
+                          watched.kind == StepWatch::Kind::jump ||
+                          watched.kind == StepWatch::Kind::turn;
+    met_ = branches ? &watched : nullptr;
+  }
+  if (part == 1) return ends_behind_jump(trial) ? 2 : 1;
+  part = std::max(part, std::min(0.9, least / h));
+  jump_ = met_ && met_->kind != StepWatch::Kind::side
+              ? std::optional(trial.t0 + part * (trial.t1 - trial.t0))
+              : std::nullopt;
+  return part;
+}
+
+/// As it was cut to do when it was longer.
+bool StepLook::ends_behind_jump(const casimir_step& trial) const {
+  constexpr double kSame = 8 * std::numeric_limits<double>::epsilon();
+  return jump_ && std::abs(trial.t1 - *jump_) <= kSame * (std::abs(*jump_) + std::abs(trial.t0));
+}
+
+/// Between two places the exponent is not above the larger of its values there by more than it
+/// changes from place to place around them.
+double StepLook::resolved(const StepWatch::Watched& watched, std::size_t which) {
+  const bool is_divisor = watched.kind == StepWatch::Kind::divisor;
+  const bool is_power = is_divisor || watched.kind == StepWatch::Kind::power;
+  const double exponent = is_divisor ? -watched.exponent : watched.exponent;
+  std::array<double, kPlaces> u;
+  for (std::size_t i = 0; i < kPlaces; ++i) {
+    const double value = sampled_[i][watched.place];
+    u[i] = is_power ? exponent * std::log(std::abs(value)) : value;
+    if (std::isnan(u[i]) || u[i] == std::numeric_limits<double>::infinity()) return 1;
+  }
+  double negligible = negligible_;
+  if (is_power) {
+    double& highest = highest_[which];
+    highest = std::max(highest, *std::ranges::max_element(u));
+    if (std::isinf(highest)) return 1;
+    negligible = highest + kNegligiblePower;
+    for (double& value : u) value = std::max(value, highest + kLeastPower);
+  }
+  std::array<double, kPlaces - 1> change;
+  for (std::size_t i = 0; i + 1 < kPlaces; ++i) change[i] = std::abs(u[i + 1] - u[i]);
+  for (std::size_t i = 0; i + 1 < kPlaces; ++i) {
+    double most = change[i];
+    if (i > 0) most = std::max(most, change[i - 1]);
+    if (i + 2 < kPlaces) most = std::max(most, change[i + 1]);
+    if (most > kResolved && std::max(u[i], u[i + 1]) + most > negligible) return kShorter;
+  }
+  return 1;
+}
+
+/// What is divided by is about that parabola through three places which comes nearest to zero: a
+/// quotient that becomes far larger than at these places is not resolved.
+double StepLook::up_to_dip(const StepWatch::Watched& watched) const {
+  const auto at = [&](std::size_t i) { return sampled_[i][watched.place]; };
+  for (std::size_t i = 0; i + 1 < kPlaces; ++i) {
+    if (at(i) * at(i + 1) < 0) return kShorter;
+  }
+  for (std::size_t i = 0; i + 2 < kPlaces; ++i) {
+    const double a = places_[i], b = places_[i + 1], c = places_[i + 2];
+    const double left = (at(i + 1) - at(i)) / (b - a), right = (at(i + 2) - at(i + 1)) / (c - b);
+    const double bend = (right - left) / (c - a);
+    if (!(bend * at(i + 1) > 0)) continue;  // not towards zero between them
+    const double vertex = (a + b) / 2 - left / (2 * bend);
+    if (!(vertex > a && vertex < c)) continue;
+    const double least = at(i) + left * (vertex - a) + bend * (vertex - a) * (vertex - b);
+    const double near = std::min({std::abs(at(i)), std::abs(at(i + 1)), std::abs(at(i + 2))});
+    const bool vanishes = !(least * at(i + 1) > 0);
+    if (vanishes || watched.exponent * std::log(near / std::abs(least)) > kResolved)
+      return kShorter;
+  }
+  return 1;
+}
+
+double StepLook::part_of_turn(const StepWatch::Watched& watched) const {
+  constexpr double kLeast = 1e-3;
+  double least = sampled_[0][watched.place], most = least;
+  for (const std::vector<double>& values : sampled_) {
+    least = std::min(least, values[watched.place]);
+    most = std::max(most, values[watched.place]);
+  }
+  const double change = most - least;
+  return change < kTurn ? 1 : std::max(0.9 * kTurn / change, kLeast);
+}
+
+double StepLook::defined(const casimir_step& trial, const StepWatch::Watched& watched) {
+  const auto is_defined = [&](double u) {
+    return watched.kind == StepWatch::Kind::unit ? std::abs(u) <= 1 : u >= 0;
+  };
+  for (std::size_t i = 1; i + 1 < kPlaces; ++i) {
+    if (!is_defined(sampled_[i][watched.place]) && !is_defined(value(trial, watched, places_[i])))
+      return kShorter;
+  }
+  return 1;
+}
+
+double StepLook::up_to_branch(const casimir_step& trial, const StepWatch::Watched& watched) {
+  const bool turns = watched.kind == StepWatch::Kind::turn;
+  // A jump on whose wrong side rounding has put the start comes at once.
+  const double relative = watched.kind == StepWatch::Kind::side ? kZero : 0;
+  const auto at = [&](std::size_t i) { return sampled_[i][watched.place]; };
+  double size = 0;
+  for (std::size_t i = 0; i + 1 < kPlaces; ++i) {
+    size = std::max({size, std::abs(at(i)), std::abs(at(i + 1))});
+    // The cut of an angle is where the other argument is negative.
+    if (turns && !(sampled_[i][watched.place + 1] < 0 || sampled_[i + 1][watched.place + 1] < 0))
+      continue;
+    if (i == 0 && at(0) == 0) {
+      // Rounding has put the end of the last step on the zero: it may come back soon.
+      constexpr double kLeastAside = 0x1p-40, kWider = 64;
+      for (double aside = kLeastAside; aside < places_[1]; aside *= kWider) {
+        if (value(trial, watched, aside) * at(1) < 0)
+          return landing(trial, watched, aside, places_[1], size);
+      }
+    }
+    const double zero = relative * size;
+    if (at(i) * at(i + 1) < 0 && std::abs(at(i)) > zero && std::abs(at(i + 1)) > zero)
+      return landing(trial, watched, places_[i], places_[i + 1], size);
+    // One that is zero to rounding at the start, and passes zero behind it, is seen at the next
+    // place.
+    if (i + 2 >= kPlaces || std::abs(at(i + 1)) <= zero) continue;
+    const double a = places_[i], b = places_[i + 1], c = places_[i + 2];
+    const double left = (at(i + 1) - at(i)) / (b - a), right = (at(i + 2) - at(i + 1)) / (c - b);
+    const double bend = (right - left) / (c - a);
+    if (!(bend * at(i + 1) > 0)) continue;  // not towards zero between them
+    // The least of the parabola through three places, if it comes close to zero.
+    const double vertex = (a + b) / 2 - left / (2 * bend);
+    if (!(vertex > a && vertex < c)) continue;
+    const double least = at(i) + left * (vertex - a) + bend * (vertex - a) * (vertex - b);
+    // Near zero for what is one of the places may be next to it already.
+    constexpr double kFar = 0.5, kNear = 0.05;
+    const double around = std::max(std::abs(at(i)), std::abs(at(i + 2)));
+    if (least * at(i + 1) > 0 && std::abs(least) > kFar * std::abs(at(i + 1)) &&
+        std::abs(least) > kNear * around)
+      continue;
+    double reached = vertex, u = value(trial, watched, vertex);
+    for (int round = 0; round < 3 && u * at(i + 1) > 0; ++round) {
+      constexpr double kAside = 0.05;
+      const double aside = kAside * (c - a);
+      const double low = value(trial, watched, reached - aside);
+      const double high = value(trial, watched, reached + aside);
+      const double curve = low - 2 * u + high;
+      if (!(curve * u > 0)) break;
+      reached = std::clamp(reached + aside * (low - high) / (2 * curve), a, c);
+      u = value(trial, watched, reached);
+    }
+    if (u * at(i + 1) < 0 && std::abs(u) > zero)
+      return landing(trial, watched, reached > b ? b : a, reached, size);
+  }
+  return 1;
+}
+
+/// Just behind the zero between two parts of the step, at which the signs are different.
+double StepLook::landing(const casimir_step& trial, const StepWatch::Watched& watched,
+                         double before, double behind, double size) {
+  double first = value(trial, watched, before), last = value(trial, watched, behind);
+  if (!(first * last < 0)) return 1;  // cubic interpolation said so, and was wrong
+  const double sign = last > 0 ? 1 : -1;
+  // What rounding makes of it: in its own terms, and in the time.
+  const double slope = std::abs((last - first) / ((behind - before) * (trial.t1 - trial.t0)));
+  double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(trial.t0) * slope;
+  for (std::size_t i = 0; i < kPlaces && places_[i] <= before; ++i)
+    rounding = std::max(rounding, kRounding * std::abs(sampled_[i][watched.place]));
+  const double far = behind;
+  constexpr int kMostRounds = 60;
+  int side = 0;
+  for (int round = 0; round < kMostRounds && behind - before > 1e-15 * behind; ++round) {
+    // Regula falsi, which halves the value at an end that stays (the Illinois rule), and bisection.
+    double middle = (before * last - behind * first) / (last - first);
+    if (round % 4 == 3 || !(middle > before && middle < behind)) middle = (before + behind) / 2;
+    const double u = value(trial, watched, middle);
+    if (u * sign > 0) {
+      behind = middle;
+      last = u;
+      if (side == 1) first /= 2;
+      side = 1;
+    } else {
+      before = middle;
+      first = u;
+      if (side == -1) last /= 2;
+      side = -1;
+    }
+  }
+  // Far enough for rounding not to undo it; where there is no jump, that may be farther.
+  const double enough = watched.kind == StepWatch::Kind::side ? kBehind * size : rounding;
+  double beyond = 4 * std::numeric_limits<double>::epsilon() * behind;
+  for (; behind + beyond < far; beyond *= 4) {
+    if (value(trial, watched, behind + beyond) * sign > enough) return behind + beyond;
+  }
+  return far < 1 ? far : 1;
+}
+
+}  // namespace casimir

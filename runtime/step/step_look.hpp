@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "runtime/module_abi.h"
+#include "runtime/program/interpreter.hpp"
+#include "runtime/step/step_watch.hpp"
+
+namespace casimir {
+
+/// Looks at the steps of one run: see casimir_run::look.
+class StepLook {
+ public:
+  /// Borrows the watch.
+  /// \param parameters  null if there are none.
+  StepLook(const StepWatch& watch, std::size_t states, const double* parameters);
+
+  /// Another run begins.
+  /// \param parameters  null if there are none.
+  void begin(const double* parameters);
+
+  /// 1 for a step that may be taken; or how much of it may be tried instead. A step that passes a
+  /// branch is to end just behind it, at a distance that is 1e-12 of what the argument is in the
+  /// step: what the wrong branch does on that way is its square. Behind a jump it ends at once; 2
+  /// for a step that does.
+  /// \param middle  the state at `place_within`, if that is known.
+  double operator()(const casimir_step& trial, const double* middle = nullptr);
+
+  /// The part of the next step at which it is looked at first. It follows the golden section, as no
+  /// motion does.
+  double place_within() const;
+
+  /// Whose branch the last step was to end behind; null if that was not why it was cut.
+  const StepWatch::Watched* met() const { return met_; }
+
+ private:
+  /// At the ends and between them.
+  static constexpr std::size_t kPlaces = 6;
+
+  /// The arguments at an end of a step, which is the beginning of the next.
+  struct End {
+    double t = 0;
+    std::vector<double> x, values;
+  };
+
+  const double* arguments(double t, const double* x);
+  const double* arguments_within(const casimir_step& trial, double part, bool exactly);
+  double value(const casimir_step& trial, const StepWatch::Watched& watched, double part);
+  void take_ends(const casimir_step& trial);
+  void take(End& end, double t, const double* x);
+  bool is_calm(const casimir_step& trial, double part, const double* middle);
+  bool ends_behind_jump(const casimir_step& trial) const;
+  bool is_calm(const StepWatch::Watched& watched, std::size_t index, const double* middle);
+  void sample(const casimir_step& trial);
+  double resolved(const StepWatch::Watched& watched, std::size_t index);
+  double up_to_branch(const casimir_step& trial, const StepWatch::Watched& watched);
+  double up_to_dip(const StepWatch::Watched& watched) const;
+  double part_of_turn(const StepWatch::Watched& watched) const;
+  double defined(const casimir_step& trial, const StepWatch::Watched& watched);
+  double landing(const casimir_step& trial, const StepWatch::Watched& watched, double before,
+                 double behind, double size);
+
+  const StepWatch& watch_;
+  const std::size_t states_;
+  Interpreter evaluate_;
+  std::vector<double> inputs_, outputs_;
+  End first_, last_;
+  std::vector<double> sampled_[kPlaces];
+  std::vector<double> highest_;  ///< of the exponents of powers, so far
+  double negligible_ = 0;        ///< what an exponent has to be above
+  double places_[kPlaces] = {};
+  double shift_ = 0.5;
+  const StepWatch::Watched* met_ = nullptr;
+  std::optional<double> jump_;  ///< when a step that was cut is to end behind a jump
+};
+
+}  // namespace casimir

@@ -1,0 +1,96 @@
+#include "tools/analysis/estimate/rounding_of_rates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "runtime/digits/big_float.hpp"
+#include "runtime/evaluate.hpp"
+
+namespace casimir {
+namespace {
+
+/// Enough for a cancellation of all digits of a double, and for many more.
+constexpr slong kBits = 512;
+/// Of the largest rate on the way, the least difference that counts.
+constexpr double kKept = 1e-9;
+
+BigFloat exactly(double value) {
+  BigFloat result;
+  arf_set_d(result.mid(), value);
+  return result;
+}
+
+/// Sums and products of states alone: their rounding is that of the state itself.
+bool only_sums_and_products(const Program& program) {
+  return std::ranges::all_of(program.code, [](const Instruction& line) {
+    return line.op == Op::input || is_literal(line) || line.op == Op::add || line.op == Op::sub ||
+           line.op == Op::mul || line.op == Op::neg;
+  });
+}
+
+/// The rates in double less the true ones, at a state; nothing where these have no value.
+std::optional<std::vector<double>> differences(const PreparedScene& run,
+                                               const std::vector<double>& rates, double t,
+                                               const std::vector<double>& x) {
+  std::vector<BigFloat> inputs;
+  for (const double value : x) inputs.push_back(exactly(value));
+  for (const double value : run.parameters) inputs.push_back(exactly(value));
+  inputs.push_back(exactly(t));
+  try {
+    const std::vector<BigFloat> truth = evaluate(run.specialisation.rhs, inputs);
+    std::vector<double> result;
+    for (std::size_t i = 0; i < rates.size(); ++i)
+      result.push_back(arf_get_d((exactly(rates[i]) - truth[i]).mid(), ARF_RND_NEAR));
+    return result;
+  } catch (const std::domain_error&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+double rounding_of_rates(const PreparedScene& run, const Module& module,
+                         const Trajectory& trajectory, const std::vector<double>& sizes) {
+  if (only_sums_and_products(run.specialisation.rhs)) return 0;
+  const Precision precision(kBits);
+  const double* const parameters = run.parameters.empty() ? nullptr : run.parameters.data();
+  const std::size_t n = sizes.size();
+  std::vector<double> rates(n), largest(n), worst(n), sum(n);
+  for (std::size_t k = 0; k + 1 < trajectory.samples.size(); ++k) {
+    const double t = trajectory.sample_times[k], step = trajectory.sample_times[k + 1] - t;
+    const std::vector<double>& x = trajectory.samples[k];
+    module.functions().rhs(t, x.data(), parameters, rates.data());
+    const auto off = differences(run, rates, t, x);
+    if (!off) continue;
+    for (std::size_t i = 0; i < n; ++i) {
+      largest[i] = std::max({largest[i], std::abs(rates[i]), std::abs(rates[i] - (*off)[i])});
+      worst[i] = std::max(worst[i], std::abs((*off)[i]));
+      sum[i] += (*off)[i] * step;
+    }
+  }
+  double error = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    if (worst[i] > kKept * largest[i]) error = std::max(error, std::abs(sum[i]) / sizes[i]);
+  return error;
+}
+
+double rounding_of_rates_at(const PreparedScene& run, const Module& module, double t,
+                            const std::vector<double>& x, double left) {
+  if (only_sums_and_products(run.specialisation.rhs)) return 0;
+  const Precision precision(kBits);
+  const double* const parameters = run.parameters.empty() ? nullptr : run.parameters.data();
+  std::vector<double> rates(x.size());
+  module.functions().rhs(t, x.data(), parameters, rates.data());
+  const auto off = differences(run, rates, t, x);
+  if (!off) return 0;
+  double size = 0, most = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    size = std::max(size, std::abs(x[i]) + std::abs(rates[i]) * left);
+    most = std::max(most, std::abs((*off)[i]) * left);
+  }
+  return most == 0 ? 0 : most / size;
+}
+
+}  // namespace casimir

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "runtime/integrate.hpp"
+#include "tools/analysis/run/prepared_scene.hpp"
+
+namespace casimir {
+
+/// What the end state of a run owes to rounding within the equations, as in (1 - cos(x))/x for
+/// small x or cos(t + 10^16): relative to `sizes`, and 0 where the rates keep nine digits. No step
+/// size and no other method shows it, since all evaluate the equations with the same digits.
+///
+/// The rates are compared with those in many digits, at the samples of the trajectory; what they
+/// differ by is summed up along it.
+double rounding_of_rates(const PreparedScene& run, const Module& module,
+                         const Trajectory& trajectory, const std::vector<double>& sizes);
+
+/// What rounding within the equations at one state would do to the largest of the states in
+/// the time `left`, relative to it.
+double rounding_of_rates_at(const PreparedScene& run, const Module& module, double t,
+                            const std::vector<double>& x, double left);
+
+}  // namespace casimir
