@@ -14,6 +14,8 @@
 
 #include "symbolic/algebra/ideal.hpp"
 #include "symbolic/algebra/rational_matrix.hpp"
+#include "symbolic/algebra/where_defined.hpp"
+#include "symbolic/case/expression_size.hpp"
 #include "symbolic/proof/parameter_minors.hpp"
 
 namespace casimir {
@@ -77,6 +79,12 @@ class SpecialParameters {
     return std::find(places_.begin(), places_.end(), place) != places_.end() ||
            std::find(constants_.begin(), constants_.end(), place) != constants_.end();
   }
+  /// A function 1/d of parameters, which vanishes nowhere.
+  bool uses_inverse(const Polynomial& p) const {
+    return std::any_of(constants_.begin(), constants_.end(), [&](std::size_t g) {
+      return p.uses(g) && ring_.origin(g).kind == FunctionRing::Origin::Kind::inverse;
+    });
+  }
   bool depends_on_parameters(const Polynomial& p) const {
     return std::any_of(places_.begin(), places_.end(),
                        [&](std::size_t place) { return ring_.depends_on(p, place); });
@@ -94,6 +102,7 @@ class SpecialParameters {
   std::pair<Indices, Indices> regular_minor(const std::vector<cln::cl_RA>& point) const;
   void find_minors();
   bool has_lasting_minor() const;
+  bool is_certainly_nonzero(const Polynomial& p) const;
   bool is_never_identically_zero(const Polynomial& f) const;
   void say_that_others_are_open();
   std::vector<Polynomial> common_factors() const;
@@ -106,6 +115,7 @@ class SpecialParameters {
   bool lowers_rank(const std::function<bool(std::vector<GiNaC::ex>&)>& put, bool* tried);
   bool is_solvable(const Polynomial& f, std::size_t place) const;
   bool put_zero(const Polynomial& f, std::vector<GiNaC::ex>& coordinates, bool larger) const;
+  bool is_excluded_at_zero(const Polynomial& parameter) const;
   void look_at_factor(const Polynomial& f, Zeros zeros);
   void look_at_pairs();
   void look_at_set(const Equations& set);
@@ -180,7 +190,7 @@ void SpecialParameters::find_minors() {
     }
     std::optional<Polynomial> value = short_determinant(std::move(minor), ring());
     if (!value) return minors_.clear();
-    if (!constants_.empty()) value = ring_.lowest_terms(*value).first;
+    if (uses_inverse(*value)) value = ring_.lowest_terms(*value).first;
     if (!value->is_zero()) minors_.push_back(std::move(*value));
     if (!minors_.empty() && minors_.back().is_constant()) return;
   }
@@ -320,10 +330,20 @@ bool SpecialParameters::put_zero(const Polynomial& f, std::vector<GiNaC::ex>& co
   return false;
 }
 
+/// Whether some condition does not hold where the parameter is zero, as sin(a) != 0.
+bool SpecialParameters::is_excluded_at_zero(const Polynomial& parameter) const {
+  const GiNaC::exmap zero{{prover_.ring().expression(parameter), 0}};
+  return std::any_of(excluded_.begin(), excluded_.end(), [&](const Polynomial& f) {
+    const auto value =
+        where_defined([&] { return substituted(prover_.ring().expression(f), zero); });
+    return value && value->is_zero();
+  });
+}
+
 void SpecialParameters::look_at_factor(const Polynomial& factor, Zeros zeros) {
   const Polynomial f = factor.scaled(1 / factor.content());
   if (std::find(factors_.begin(), factors_.end(), f) != factors_.end()) return;
-  if (ring_.is_nowhere_zero(f)) return;
+  if (ring_.is_nowhere_zero(f) || (zeros == Zeros::candidates && is_excluded_at_zero(f))) return;
   const bool solvable =
       std::any_of(places_.begin(), places_.end(), [&](std::size_t p) { return is_solvable(f, p); });
   bool tried = false, larger = false;
@@ -353,14 +373,28 @@ bool SpecialParameters::has_lasting_minor() const {
   const std::optional<Polynomial> value = short_determinant(std::move(minor), ring());
   if (!value) return false;
   const Polynomial top = ring_.lowest_terms(*value).first;
-  if (top.is_zero()) return false;
-  const auto factors = top.factors();
-  return std::all_of(factors.begin(), factors.end(), [&](const auto& factor) {
-    const Polynomial& f = factor.first;
-    return f.is_constant() || !depends_on_parameters(f) || ring_.is_nowhere_zero(f) ||
-           is_never_identically_zero(f) ||
-           std::find(factors_.begin(), factors_.end(), f.scaled(1 / f.content())) != factors_.end();
-  });
+  if (top.is_zero() || !is_certainly_nonzero(*value)) return false;
+  const auto lasts = [&](const Polynomial& product) {
+    const auto factors = product.factors();
+    return std::all_of(factors.begin(), factors.end(), [&](const auto& factor) {
+      const Polynomial& f = factor.first;
+      return f.is_constant() || !depends_on_parameters(f) || ring_.is_nowhere_zero(f) ||
+             is_never_identically_zero(f) ||
+             std::find(factors_.begin(), factors_.end(), f.scaled(1 / f.content())) !=
+                 factors_.end();
+    });
+  };
+  return lasts(top) || lasts(*value);
+}
+
+/// At some point of the domain, by balls: the ring need not know all relations of its functions.
+bool SpecialParameters::is_certainly_nonzero(const Polynomial& p) const {
+  try {
+    auto point = prover_.real_points().random(prover_.domain());
+    return point && !point->value(p).contains_zero();
+  } catch (const NotCertified&) {
+    return false;
+  }
 }
 
 /// A polynomial in the coordinates of which one coefficient is not zero, whatever the parameters.
