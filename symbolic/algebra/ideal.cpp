@@ -5,6 +5,8 @@
 #include <set>
 #include <tuple>
 
+#include "symbolic/case/limits.hpp"
+
 namespace casimir {
 namespace {
 
@@ -67,7 +69,7 @@ class Buchberger {
       if (superfluous(i, j, multiple)) continue;
       const Polynomial rest = reduced(lifted(elements_[i], leading_[i], multiple) -
                                       lifted(elements_[j], leading_[j], multiple));
-      if (rest.terms() > limits_.terms) return elements_;
+      if (rest.terms() > limits_.terms || rest.bits() > limits_.bits) return elements_;
       if (!rest.is_zero()) insert(rest);
     }
     std::vector<Polynomial> result;
@@ -78,9 +80,19 @@ class Buchberger {
   }
 
  private:
+  /// Products of terms with long numbers count as often as these have words.
   Polynomial reduced(const Polynomial& p) const {
+    constexpr double kWord = 64;
+    if (elements_.empty()) return p;
     std::vector<Polynomial> quotients;
-    return elements_.empty() ? p : p.remainder(elements_, &quotients);
+    Polynomial rest = p.remainder(elements_, &quotients);
+    double products = 0;
+    for (std::size_t i = 0; i < elements_.size(); ++i)
+      products +=
+          static_cast<double>(quotients[i].terms()) * static_cast<double>(elements_[i].terms());
+    WorkMeter::spend(products * static_cast<double>(p.ring().size()) *
+                     (1 + (rest.is_zero() ? 0 : rest.bits()) / kWord));
+    return rest;
   }
 
   void insert(const Polynomial& p) {

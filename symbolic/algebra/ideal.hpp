@@ -11,11 +11,13 @@ namespace casimir {
 struct GroebnerLimits {
   std::size_t reductions = 2000, elements = 200;
   std::size_t terms = 20000;  ///< of an element
+  double bits = 20000;        ///< of a coefficient of an element
 };
 
 /// A Groebner basis of the ideal of `generators` in the ring's order, by Buchberger's algorithm
 /// with his two criteria. Stops early on ideals that grow too large; what it returns always
 /// generates the same ideal, so that remainder zero modulo it always proves membership.
+/// \throws TooLarge  beyond the limit `work`, while it is counted
 std::vector<Polynomial> groebner_basis(const std::vector<Polynomial>& generators,
                                        const GroebnerLimits& limits = {});
 

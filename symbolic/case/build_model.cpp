@@ -12,6 +12,7 @@
 #include "symbolic/case/expression.hpp"
 #include "symbolic/case/expression_size.hpp"
 #include "symbolic/case/limits.hpp"
+#include "symbolic/case/real_values.hpp"
 #include "symbolic/case/toml_keys.hpp"
 #include "symbolic/lie_algebra.hpp"
 #include "symbolic/model.hpp"
@@ -121,15 +122,27 @@ class Builder {
   }
 
   void read_assumption(const Text& text) {
-    const Assumption assumption = assumption_of(text, names_);
+    std::vector<ex> lost;
+    const Assumption assumption = assumption_of(text, names_, lost);
+    // That has to have values all the same: x/x is 1 where x is not 0.
+    for (const ex& part : lost) {
+      for (const Assumption& own : conditions_for_values(part, file_.complex_numbers))
+        add_assumption(own, text);
+    }
+    add_assumption(assumption, text);
+  }
+
+  void add_assumption(const Assumption& assumption, const Text& text) {
     if (GiNaC::is_a<GiNaC::numeric>(assumption.difference) && !assumption.holds_at({})) {
       throw text.error(fmt::format("the assumption '{}' does not hold", printable(text.value)));
     }
     model_.assumptions.push_back(assumption);
   }
 
-  static Assumption assumption_of(const Text& text, Scope& names) {
+  /// \param lost  gets what GiNaC simplified away
+  static Assumption assumption_of(const Text& text, Scope& names, std::vector<ex>& lost) {
     const Condition condition = parse_condition(text, names);
+    lost.insert(lost.end(), condition.lost.begin(), condition.lost.end());
     return {condition.left - condition.right, condition.comparison, text.value};
   }
 
@@ -405,20 +418,6 @@ class Builder {
     return result;
   }
 
-  /// A map leads into the target's domain, or says nothing: what has a real value only there.
-  static void restrict_to(const Assumption& condition, const GiNaC::exmap& image,
-                          std::vector<ex>& domain) {
-    const Comparison comparison = condition.comparison;
-    const bool below = comparison == Comparison::less || comparison == Comparison::at_most;
-    const bool strict = comparison == Comparison::less || comparison == Comparison::greater;
-    ex difference = substituted(condition.difference, image);
-    if (below) difference = -difference;
-    if (comparison == Comparison::equal || GiNaC::is_a<GiNaC::numeric>(difference)) return;
-    domain.push_back(comparison == Comparison::unequal ? 1 / difference
-                     : strict                          ? GiNaC::log(difference)
-                                                       : GiNaC::sqrt(difference));
-  }
-
   void read_map(const MapText& text) {
     const PhaseSpaceText target = target_of(text);
     const std::vector<GiNaC::symbol> coordinates = make_variables(target);
@@ -452,8 +451,14 @@ class Builder {
     GiNaC::exmap image;
     for (std::size_t i = 0; i < coordinates.size(); ++i) image[coordinates[i]] = map.expressions[i];
     for (const ex& part : target_domain) domain.push_back(substituted(part, image));
-    for (const Text& condition : target.domain)
-      restrict_to(assumption_of(condition, names), image, domain);
+    for (const Text& condition : target.domain) {
+      std::vector<ex> lost;
+      // A map leads into the target's domain, or says nothing.
+      Assumption inside = assumption_of(condition, names, lost);
+      inside.difference = substituted(inside.difference, image);
+      if (const auto part = real_only_where(inside)) domain.push_back(*part);
+      for (const ex& part : lost) domain.push_back(substituted(part, image));
+    }
     map.domain = std::move(domain);
     for (const Text& function : text.image.empty() ? target.constraints : text.image)
       map.image.push_back({function.value, parse_expression(function, names).value, {}});
@@ -462,7 +467,7 @@ class Builder {
       branch.expressions = all_components(text.name, inverse.expressions, model_.variables, names,
                                           "a variable of this case", branch.defined_by);
       for (const Text& condition : inverse.domain)
-        branch.domain.push_back(assumption_of(condition, names));
+        branch.domain.push_back(assumption_of(condition, names, branch.defined_by));
     }
     for (const Text& relation : text.on) map.on.push_back(anonymous(relation));
     if (text.sign && text.sign->value == "-")

@@ -426,6 +426,9 @@ class Parser {
     }
     q.degree = std::max(1.0, q.degree);
     checked(q, start);
+    // GiNaC says 0, but no direction leads to the origin.
+    if (function.name == "atan2" && first.value.is_zero() && last.value.is_zero())
+      fail_at(start, "this has no value: atan2(0, 0)");
     q.value = evaluated(start, [&] {
       return function.name == "sqrt" ? principal_power(first.value, GiNaC::numeric(1, 2))
                                      : function.apply(first.value, last.value);
@@ -520,8 +523,14 @@ Condition parse_condition(const Text& text, Scope& names) {
   const bool two = at + 1 < s.size() && s[at + 1] == '=';
   const auto comparison = comparison_of(s.substr(at, two ? 2 : 1));
   if (!comparison) throw text.error("unexpected '!', expected '!='", at);
-  return {parse_range(text, names, 0, at).value, *comparison,
-          parse_range(text, names, at + (two ? 2 : 1), s.size()).value};
+  const Quantity left = parse_range(text, names, 0, at);
+  const Quantity right = parse_range(text, names, at + (two ? 2 : 1), s.size());
+  std::vector<ex> parts;
+  for (const Quantity* side : {&left, &right})
+    if (side->parts) parts.insert(parts.end(), side->parts->begin(), side->parts->end());
+  Quantity difference{left.value - right.value};
+  difference.parts = std::make_shared<const std::vector<ex>>(std::move(parts));
+  return {left.value, *comparison, right.value, lost_parts(difference)};
 }
 
 std::pair<Quantity, Quantity> parse_equation(const Text& text, Scope& names) {

@@ -90,6 +90,7 @@ struct Condition {
   GiNaC::ex left;
   Comparison comparison;
   GiNaC::ex right;
+  std::vector<GiNaC::ex> lost;  ///< as of `lost_parts`: it does not hold where one has no value
 };
 Condition parse_condition(const Text& text, Scope& names);
 

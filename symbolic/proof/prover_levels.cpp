@@ -435,7 +435,9 @@ void Prover::say_where_motion_is_unique(Proof& proof, const NamedExpression& f) 
   }
 }
 
-/// A claim about nothing says so: for all points of the empty set everything is true.
+/// A claim about nothing says so: for all points of the empty set everything is true. So does one
+/// that differentiates functions which have real values on the edge of their domain alone, as
+/// sqrt(-x^2) has.
 void Prover::check_inhabited(Proof& proof, const Level& own) {
   if (proof.verdict != Verdict::proved) return;
   const bool everywhere = ring_.is_polynomial() && model_.assumptions.empty();
@@ -444,9 +446,10 @@ void Prover::check_inhabited(Proof& proof, const Level& own) {
   if (own.empty()) {
     if (everywhere) return;
     if (!all_inhabited_)
-      all_inhabited_ = real_points_.any(ring_.is_polynomial() ? kNothing : all_).has_value();
+      all_inhabited_ = real_points_.any(ring_.is_polynomial() ? kNothing : all_, true).has_value();
     if (*all_inhabited_) return;
-    if (!claim_inhabited_) claim_inhabited_ = real_points_.any(domain).has_value();
+    if (!claim_inhabited_)
+      claim_inhabited_ = real_points_.any(domain, subject_ != Subject::functions).has_value();
     if (*claim_inhabited_) return;
   } else if (RealLevelPoints(ring_, real_points_, points_).exists(own, domain)) {
     return;

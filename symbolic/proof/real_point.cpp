@@ -218,10 +218,12 @@ std::vector<ex> RealPoints::draw_generic() {
   return point;
 }
 
-std::optional<RealPoint> RealPoints::random(const std::vector<ex>& expressions, int trials) {
-  for (int trial = 0; trial < trials; ++trial) {
+std::optional<RealPoint> RealPoints::random(const std::vector<ex>& expressions,
+                                            bool differentiable) {
+  constexpr int kTrials = 400;
+  for (int trial = 0; trial < kTrials; ++trial) {
     RealPoint point = at(draw());
-    if (admits(point, expressions)) return point;
+    if (admits(point, expressions) && (!differentiable || point.evaluator().smooth())) return point;
   }
   return std::nullopt;
 }
@@ -251,16 +253,17 @@ std::vector<std::vector<ex>> RealPoints::scenes() {
   return result;
 }
 
-std::optional<RealPoint> RealPoints::any(const std::vector<ex>& expressions) {
+std::optional<RealPoint> RealPoints::any(const std::vector<ex>& expressions, bool differentiable) {
   for (std::vector<ex>& coordinates : scenes()) {
     try {
       RealPoint point = at(std::move(coordinates), kMoreBits);
-      if (admits(point, expressions)) return point;
+      if (admits(point, expressions) && (!differentiable || point.evaluator().smooth()))
+        return point;
     } catch (const NotCertified&) {
       continue;
     }
   }
-  return random(expressions);
+  return random(expressions, differentiable);
 }
 
 }  // namespace casimir

@@ -73,8 +73,9 @@ class RealPoints {
 
   /// A random point at which, too, every expression certainly has a value, a real one unless the
   /// ring has complex numbers; empty if none was found.
-  /// \param trials  how many points are tried
-  std::optional<RealPoint> random(const std::vector<GiNaC::ex>& expressions, int trials = 400);
+  /// \param differentiable  so that the expressions are, too, at the point
+  std::optional<RealPoint> random(const std::vector<GiNaC::ex>& expressions,
+                                  bool differentiable = false);
 
   /// The same, the k-th of a sequence of points whose coordinates have a denominator of their own
   /// each: small fractions are zero or equal to each other more often than chance points of a
@@ -82,7 +83,9 @@ class RealPoints {
   std::optional<RealPoint> generic(const std::vector<GiNaC::ex>& expressions, std::size_t k);
 
   /// The same; the initial states of the case's scenes are tried first.
-  std::optional<RealPoint> any(const std::vector<GiNaC::ex>& expressions);
+  /// \param differentiable  so that the expressions are, too, at the point
+  std::optional<RealPoint> any(const std::vector<GiNaC::ex>& expressions,
+                               bool differentiable = false);
 
   /// Whether the point is inside every assumption, and the expressions have values there.
   bool admits(RealPoint& point, const std::vector<GiNaC::ex>& expressions) const;

@@ -1,11 +1,12 @@
 #include "symbolic/proof/special_parameters.hpp"
 
-#include <cln/integer.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <random>
 #include <stdexcept>
@@ -13,79 +14,14 @@
 
 #include "symbolic/algebra/ideal.hpp"
 #include "symbolic/algebra/rational_matrix.hpp"
+#include "symbolic/algebra/where_defined.hpp"
+#include "symbolic/case/expression_size.hpp"
+#include "symbolic/proof/parameter_minors.hpp"
 
 namespace casimir {
 namespace {
 
 using Indices = std::vector<std::size_t>;
-
-/// Fraction-free elimination (Bareiss), up to the sign; empty where it grows long.
-std::optional<Polynomial> determinant(PolynomialRows m, const PolynomialRing& ring) {
-  constexpr std::size_t kMostTerms = 40;
-  Polynomial previous = ring.constant(1);
-  for (std::size_t k = 0; k + 1 < m.size(); ++k) {
-    std::size_t pivot = k;
-    while (pivot < m.size() && m[pivot][k].is_zero()) ++pivot;
-    if (pivot == m.size()) return Polynomial(ring);
-    std::swap(m[pivot], m[k]);
-    for (std::size_t i = k + 1; i < m.size(); ++i) {
-      for (std::size_t j = k + 1; j < m.size(); ++j) {
-        const Polynomial next = m[i][j] * m[k][k] - m[i][k] * m[k][j];
-        next.divide(previous, &m[i][j]);
-        if (m[i][j].terms() > kMostTerms) return std::nullopt;
-      }
-    }
-    previous = m[k][k];
-  }
-  return m.empty() ? ring.constant(1) : m.back().back();
-}
-
-/// A polynomial modulo a prime, for many evaluations: what is not zero there is not zero.
-class MinorModulo {
- public:
-  /// \throws std::domain_error  where a coefficient has no value modulo the prime
-  explicit MinorModulo(const Polynomial& p) {
-    for (const auto& [number, exponents] : p.term_list()) {
-      const Word below = residue(cln::denominator(number));
-      if (below == 0) throw std::domain_error("a denominator is a multiple of the prime");
-      Term term{residue(cln::numerator(number)) * power(below, kPrime - 2) % kPrime, {}};
-      for (std::size_t i = 0; i < exponents.size(); ++i)
-        if (exponents[i] > 0) term.powers.emplace_back(i, exponents[i]);
-      terms_.push_back(std::move(term));
-    }
-  }
-
-  bool is_nonzero_at(const std::vector<std::uint64_t>& point) const {
-    Word sum = 0;
-    for (const Term& term : terms_) {
-      Word product = term.number;
-      for (const auto& [place, exponent] : term.powers)
-        product = product * power(point[place], exponent) % kPrime;
-      sum = (sum + product) % kPrime;
-    }
-    return sum != 0;
-  }
-
- private:
-  using Word = std::uint64_t;
-  static constexpr Word kPrime = 2147483629;  // products of two residues fit into a word
-  struct Term {
-    Word number;
-    std::vector<std::pair<std::size_t, unsigned long>> powers;
-  };
-
-  static Word residue(const cln::cl_I& n) {
-    return cln::cl_I_to_ulong(cln::mod(n, cln::cl_I(static_cast<unsigned long>(kPrime))));
-  }
-  static Word power(Word base, Word exponent) {
-    Word result = 1;
-    for (; exponent > 0; exponent /= 2, base = base * base % kPrime)
-      if (exponent % 2 == 1) result = result * base % kPrime;
-    return result;
-  }
-
-  std::vector<Term> terms_;
-};
 
 /// A parameter that is zero, or equal to another one.
 struct SimpleForm {
@@ -104,35 +40,71 @@ class SpecialParameters {
  public:
   SpecialParameters(Prover& prover, const PolynomialRows& rows, std::size_t rank)
       : prover_(prover), ring_(prover.ring()), rows_(rows), rank_(rank) {
+    const auto used = [&](const auto& property) {
+      return std::any_of(rows.begin(), rows.end(), [&](const auto& row) {
+        return std::any_of(row.begin(), row.end(), property);
+      });
+    };
     for (std::size_t i = 0; i < prover.model().parameters.size(); ++i) {
       const std::size_t place = prover.dimension() + i;
-      const bool used = std::any_of(rows.begin(), rows.end(), [&](const auto& row) {
-        return std::any_of(row.begin(), row.end(),
-                           [&](const Polynomial& p) { return ring_.depends_on(p, place); });
-      });
-      if (used) places_.push_back(place);
+      if (used([&](const Polynomial& p) { return ring_.depends_on(p, place); }))
+        places_.push_back(place);
+    }
+    // Functions of parameters, such as sin(a), have special values as well.
+    for (std::size_t g = ring_.symbols().size(); g < ring_.end_of_generators(); ++g) {
+      const Polynomial own = ring().variable(g);
+      if (!depends_on_parameters(own) || !used([&](const auto& p) { return p.uses(g); })) continue;
+      if (!depends_on_others(own)) constants_.push_back(g);
+      if (ring_.origin(g).kind != FunctionRing::Origin::Kind::inverse) with_functions_ = true;
     }
   }
 
   std::vector<std::string> run() {
     if (places_.empty() || rank_ == 0) return {};
     find_minors();
-    for (const Polynomial& f : common_factors()) look_at_factor(f);
+    for (const Polynomial& f : common_factors()) look_at_factor(f, Zeros::all_minors);
+    const bool open = with_functions_ && !has_lasting_minor();
     if (minors_.empty() || !ring_.is_polynomial()) {
-      for (const std::size_t p : places_) look_at_factor(ring().variable(p));
+      for (const std::size_t p : places_) look_at_factor(ring().variable(p), Zeros::candidates);
     }
     if (ring_.is_polynomial() && places_.size() > 1) look_at_pairs();
+    if (open) say_that_others_are_open();
     return std::move(found_);
   }
 
  private:
   const PolynomialRing& ring() const { return ring_.ring(); }
+  /// Or a function of parameters alone.
   bool is_parameter(std::size_t place) const {
-    return std::find(places_.begin(), places_.end(), place) != places_.end();
+    return std::find(places_.begin(), places_.end(), place) != places_.end() ||
+           std::find(constants_.begin(), constants_.end(), place) != constants_.end();
   }
+  /// A function 1/d of parameters, which vanishes nowhere.
+  bool uses_inverse(const Polynomial& p) const {
+    return std::any_of(constants_.begin(), constants_.end(), [&](std::size_t g) {
+      return p.uses(g) && ring_.origin(g).kind == FunctionRing::Origin::Kind::inverse;
+    });
+  }
+  bool depends_on_parameters(const Polynomial& p) const {
+    return std::any_of(places_.begin(), places_.end(),
+                       [&](std::size_t place) { return ring_.depends_on(p, place); });
+  }
+  bool depends_on_others(const Polynomial& p) const {
+    const std::size_t first = prover_.dimension();
+    const std::size_t end = first + prover_.model().parameters.size();
+    for (std::size_t i = 0; i < ring_.symbols().size(); ++i)
+      if ((i < first || i >= end) && ring_.depends_on(p, i)) return true;
+    return false;
+  }
+  /// What is known of the zeros of a factor: all minors vanish there, or nothing.
+  enum class Zeros { all_minors, candidates };
   Polynomial at_numbers(const Polynomial& p, const std::vector<cln::cl_RA>& numbers) const;
   std::pair<Indices, Indices> regular_minor(const std::vector<cln::cl_RA>& point) const;
   void find_minors();
+  bool has_lasting_minor() const;
+  bool is_certainly_nonzero(const Polynomial& p) const;
+  bool is_never_identically_zero(const Polynomial& f) const;
+  void say_that_others_are_open();
   std::vector<Polynomial> common_factors() const;
   std::vector<SimpleForm> simple_forms() const;
   bool may_vanish(const SimpleForm& a, const SimpleForm& b,
@@ -141,8 +113,10 @@ class SpecialParameters {
   static Polynomial reduced(Polynomial p, const Equations& set);
   bool is_common_zero(const Equations& set) const;
   bool lowers_rank(const std::function<bool(std::vector<GiNaC::ex>&)>& put, bool* tried);
-  bool put_zero(const Polynomial& f, std::vector<GiNaC::ex>& coordinates) const;
-  void look_at_factor(const Polynomial& f);
+  bool is_solvable(const Polynomial& f, std::size_t place) const;
+  bool put_zero(const Polynomial& f, std::vector<GiNaC::ex>& coordinates, bool larger) const;
+  bool is_excluded_at_zero(const Polynomial& parameter) const;
+  void look_at_factor(const Polynomial& f, Zeros zeros);
   void look_at_pairs();
   void look_at_set(const Equations& set);
   void add(const std::string& condition) {
@@ -154,9 +128,13 @@ class SpecialParameters {
   const FunctionRing& ring_;
   const PolynomialRows& rows_;
   std::size_t rank_;
-  Indices places_;                   ///< of the parameters that the matrix depends on
-  std::vector<Polynomial> minors_;   ///< with numbers for everything else
-  std::vector<Polynomial> factors_;  ///< whose zeros were looked at
+  Indices places_;                       ///< of the parameters that the matrix depends on
+  Indices constants_;                    ///< of the functions of these alone, such as sin(a)
+  bool with_functions_ = false;          ///< of parameters that are not rational, such as sin(a*q)
+  std::pair<Indices, Indices> regular_;  ///< rows and columns of the minors
+  std::vector<Polynomial> minors_;       ///< with numbers for everything else
+  std::vector<Polynomial> factors_;      ///< whose zeros were looked at
+  std::vector<Polynomial> excluded_;     ///< those of them that are conditions
   std::vector<Equations> sets_;
   std::vector<std::string> found_;
 };
@@ -199,20 +177,20 @@ void SpecialParameters::find_minors() {
   constexpr std::size_t kMinors = 3, kLargest = 8;
   if (rank_ > kLargest) return;
   std::mt19937 random(20190107);
-  std::pair<Indices, Indices> regular;
   for (std::size_t k = 0; k < kMinors; ++k) {
     std::vector<cln::cl_RA> numbers(ring().size());
     for (cln::cl_RA& n : numbers) n = cln::cl_RA(static_cast<long>(random() % 997) - 498);
-    if (regular.first.size() < rank_) regular = regular_minor(numbers);
-    if (regular.first.size() < rank_) continue;
+    if (regular_.first.size() < rank_) regular_ = regular_minor(numbers);
+    if (regular_.first.size() < rank_) continue;
     PolynomialRows minor;
-    for (const std::size_t i : regular.first) {
+    for (const std::size_t i : regular_.first) {
       minor.emplace_back();
-      for (const std::size_t j : regular.second)
+      for (const std::size_t j : regular_.second)
         minor.back().push_back(at_numbers(rows_[i][j], numbers));
     }
-    std::optional<Polynomial> value = determinant(std::move(minor), ring());
+    std::optional<Polynomial> value = short_determinant(std::move(minor), ring());
     if (!value) return minors_.clear();
+    if (uses_inverse(*value)) value = ring_.lowest_terms(*value).first;
     if (!value->is_zero()) minors_.push_back(std::move(*value));
     if (!minors_.empty() && minors_.back().is_constant()) return;
   }
@@ -298,30 +276,39 @@ bool SpecialParameters::is_common_zero(const Equations& set) const {
 /// any inside of all assumptions.
 bool SpecialParameters::lowers_rank(const std::function<bool(std::vector<GiNaC::ex>&)>& put,
                                     bool* tried) {
-  constexpr int kTrials = 3;
+  constexpr int kTrials = 3, kDraws = 200;
   static const std::vector<GiNaC::ex> kNothing;
   const auto& domain = ring_.is_polynomial() ? kNothing : prover_.domain();
   int admitted = 0;
-  for (int k = 0; k < 4 * kTrials && admitted < kTrials; ++k) {
+  for (int k = 0; k < kDraws && admitted < kTrials; ++k) {
     std::vector<GiNaC::ex> coordinates = prover_.real_points().draw();
     try {
       if (!put(coordinates)) continue;
       RealPoint point = prover_.real_points().at(std::move(coordinates));
       if (!prover_.real_points().admits(point, domain)) continue;
       ++admitted;
+      *tried = true;
       if (point.rank(rows_) >= rank_) return false;
     } catch (const NotCertified&) {
     }
   }
-  *tried = admitted > 0;
   return admitted > 0;
 }
 
+/// Whether f = 0 is an equation of degree 1 or 2 for the parameter.
+bool SpecialParameters::is_solvable(const Polynomial& f, std::size_t place) const {
+  if (f.degree(place) != 1 && f.degree(place) != 2) return false;
+  for (const Polynomial& part : f.coefficients(place))
+    if (ring_.depends_on(part, place)) return false;
+  return true;
+}
+
 /// Gives a parameter the value at which f vanishes.
-bool SpecialParameters::put_zero(const Polynomial& f, std::vector<GiNaC::ex>& coordinates) const {
+bool SpecialParameters::put_zero(const Polynomial& f, std::vector<GiNaC::ex>& coordinates,
+                                 bool larger) const {
   for (const long degree : {1L, 2L}) {
     for (const std::size_t place : places_) {
-      if (f.degree(place) != degree) continue;
+      if (f.degree(place) != degree || !is_solvable(f, place)) continue;
       GiNaC::exmap others;
       for (const std::size_t p : places_)
         if (p != place) others.emplace(ring_.symbols()[p], coordinates[p]);
@@ -335,27 +322,105 @@ bool SpecialParameters::put_zero(const Polynomial& f, std::vector<GiNaC::ex>& co
       }
       const GiNaC::ex discriminant = (c[1] * c[1] - 4 * c[0] * c[2]).expand();
       if (!discriminant.info(GiNaC::info_flags::nonnegative)) return false;
-      coordinates[place] = (GiNaC::sqrt(discriminant) - c[1]) / (2 * c[2]);
+      const GiNaC::ex root = GiNaC::sqrt(discriminant);
+      coordinates[place] = ((larger ? root : -root) - c[1]) / (2 * c[2]);
       return true;
     }
   }
   return false;
 }
 
-void SpecialParameters::look_at_factor(const Polynomial& factor) {
+/// Whether some condition does not hold where the parameter is zero, as sin(a) != 0.
+bool SpecialParameters::is_excluded_at_zero(const Polynomial& parameter) const {
+  const GiNaC::exmap zero{{prover_.ring().expression(parameter), 0}};
+  return std::any_of(excluded_.begin(), excluded_.end(), [&](const Polynomial& f) {
+    const auto value =
+        where_defined([&] { return substituted(prover_.ring().expression(f), zero); });
+    return value && value->is_zero();
+  });
+}
+
+void SpecialParameters::look_at_factor(const Polynomial& factor, Zeros zeros) {
   const Polynomial f = factor.scaled(1 / factor.content());
   if (std::find(factors_.begin(), factors_.end(), f) != factors_.end()) return;
-  if (ring_.is_nowhere_zero(f)) return;
-  const bool solvable = std::any_of(places_.begin(), places_.end(), [&](std::size_t p) {
-    return f.degree(p) == 1 || f.degree(p) == 2;
-  });
-  bool tried = false;
-  const bool lower =
-      lowers_rank([&](std::vector<GiNaC::ex>& at) { return put_zero(f, at); }, &tried);
-  if (lower || !solvable) {
-    factors_.push_back(f);
-    add(ring_.text(f) + " != 0");
+  if (ring_.is_nowhere_zero(f) || (zeros == Zeros::candidates && is_excluded_at_zero(f))) return;
+  const bool solvable =
+      std::any_of(places_.begin(), places_.end(), [&](std::size_t p) { return is_solvable(f, p); });
+  bool tried = false, larger = false;
+  const auto put = [&](std::vector<GiNaC::ex>& at) {
+    larger = !larger;
+    return put_zero(f, at, larger);
+  };
+  const bool lower = solvable && lowers_rank(put, &tried);
+  // Where no point of its zeros was found inside of the assumptions there may be some all the same.
+  const bool needed = lower || (zeros == Zeros::all_minors && !tried);
+  if (needed || zeros == Zeros::all_minors) factors_.push_back(f);
+  if (!needed) return;
+  excluded_.push_back(f);
+  add(ring_.text(f) + " != 0");
+}
+
+/// Whether some minor is not zero at almost all points, for all parameters at which none of the
+/// factors vanishes that were looked at: each of its factors is one of these, or vanishes nowhere,
+/// or has no parameters and so is the same function for all of them.
+bool SpecialParameters::has_lasting_minor() const {
+  if (regular_.first.size() < rank_) return false;
+  PolynomialRows minor;
+  for (const std::size_t i : regular_.first) {
+    minor.emplace_back();
+    for (const std::size_t j : regular_.second) minor.back().push_back(rows_[i][j]);
   }
+  const std::optional<Polynomial> value = short_determinant(std::move(minor), ring());
+  if (!value) return false;
+  const Polynomial top = ring_.lowest_terms(*value).first;
+  if (top.is_zero() || !is_certainly_nonzero(*value)) return false;
+  const auto lasts = [&](const Polynomial& product) {
+    const auto factors = product.factors();
+    return std::all_of(factors.begin(), factors.end(), [&](const auto& factor) {
+      const Polynomial& f = factor.first;
+      return f.is_constant() || !depends_on_parameters(f) || ring_.is_nowhere_zero(f) ||
+             is_never_identically_zero(f) ||
+             std::find(factors_.begin(), factors_.end(), f.scaled(1 / f.content())) !=
+                 factors_.end();
+    });
+  };
+  return lasts(top) || lasts(*value);
+}
+
+/// At some point of the domain, by balls: the ring need not know all relations of its functions.
+bool SpecialParameters::is_certainly_nonzero(const Polynomial& p) const {
+  try {
+    auto point = prover_.real_points().random(prover_.domain());
+    return point && !point->value(p).contains_zero();
+  } catch (const NotCertified&) {
+    return false;
+  }
+}
+
+/// A polynomial in the coordinates of which one coefficient is not zero, whatever the parameters.
+bool SpecialParameters::is_never_identically_zero(const Polynomial& f) const {
+  std::map<std::vector<unsigned long>, Polynomial> coefficients;
+  for (const auto& [number, exponents] : f.term_list()) {
+    std::vector<unsigned long> others(exponents.size()), own(exponents.size());
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
+      if (exponents[i] > 0 && i >= ring_.symbols().size()) return false;
+      (is_parameter(i) ? own : others)[i] = exponents[i];
+    }
+    TermCollector term(ring());
+    term.add(number, own);
+    coefficients.try_emplace(others, ring()).first->second += term.finish();
+  }
+  return std::any_of(coefficients.begin(), coefficients.end(), [&](const auto& coefficient) {
+    return ring_.is_nowhere_zero(coefficient.second);
+  });
+}
+
+/// Functions such as sin(a*q) and sin(b*q) may become dependent, and functions such as sin(a) and
+/// cos(a) - 1 vanish together, at values that no factor shows.
+void SpecialParameters::say_that_others_are_open() {
+  std::vector<std::string> names;
+  for (const std::size_t p : places_) names.push_back(ring_.symbols()[p].get_name());
+  add(fmt::format("{} {} generic", fmt::join(names, ", "), names.size() == 1 ? "is" : "are"));
 }
 
 /// Two linear equations that make all minors vanish.
@@ -396,7 +461,7 @@ void SpecialParameters::look_at_pairs() {
 void SpecialParameters::look_at_set(const Equations& set) {
   if (set.values.size() < 2) return;
   const auto vanishes = [&](const Polynomial& f) { return reduced(f, set).is_zero(); };
-  if (std::any_of(factors_.begin(), factors_.end(), vanishes)) return;
+  if (std::any_of(excluded_.begin(), excluded_.end(), vanishes)) return;
   for (const Equations& known : sets_)
     if (std::all_of(known.forms.begin(), known.forms.end(), vanishes)) return;
   Polynomial squares(ring());

@@ -51,7 +51,7 @@ Monomials without_multiples(const Monomials& monomials,
   return result;
 }
 
-/// Of one relation: more take minutes to be written down alone.
+/// Of all relations: more take minutes to be written down alone.
 constexpr double kMostCofactors = 2e6;
 
 /// No problem of this size is begun.
@@ -244,14 +244,16 @@ Ansatz make_ansatz(const System& system, const Problem& problem, const Watch& wa
                 {}};
   if (!system.defined().empty()) choose_independent(system, problem, ansatz);
   const int highest = highest_degree(system, problem, ansatz.monomials, weights);
+  double cofactors = 0;
   for (std::size_t f = 0; f < level.size(); ++f) {
     const int left = highest - weighted_degree(level[f], places, weights);
     const auto own = leading.begin() + static_cast<std::ptrdiff_t>(f);
-    if (left >= 0 && count_monomials(weights, left) > kMostCofactors)
+    cofactors += left >= 0 ? count_monomials(weights, left) : 0;
+    if (cofactors > kMostCofactors)
       throw TooMuchWork(fmt::format(
-          "the cofactors of a relation between the functions would have {:.3g} unknowns, more than "
+          "the cofactors of relations between the functions would have {:.3g} unknowns, more than "
           "{:.3g}",
-          count_monomials(weights, left), kMostCofactors));
+          cofactors, kMostCofactors));
     // A multiple of an earlier relation need not be a cofactor: that one's takes it over.
     if (left >= 0) {
       ansatz.relations.push_back(

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/functions/short_text.hpp"
 #include "symbolic/search/modular/monomials.hpp"
 #include "symbolic/search/polynomial_system.hpp"
@@ -254,9 +255,14 @@ void DarbouxSearch::search_from(std::size_t leading) {
 DarbouxReport DarbouxSearch::run() {
   report_.complete = true;
   watch_.begin("Darboux polynomials");
+  const WorkMeter meter;  // of all systems of equations together
   for (std::size_t leading = 1; leading < monomials_.size(); ++leading) {
     watch_.tick(static_cast<double>(leading) / static_cast<double>(monomials_.size()));
-    search_from(leading);
+    try {
+      search_from(leading);
+    } catch (const TooLarge& limit) {
+      leave_open(limit.what());
+    }
   }
   if (weights_) look_for_pencils();
   // Roots and functions of parameters are taken as free of relations.

@@ -14,6 +14,7 @@
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/algebra/polynomial_roots.hpp"
 #include "symbolic/case/expression.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/search/polynomial_system.hpp"
 #include "symbolic/search/quasi_homogeneous.hpp"
 #include "symbolic/search/system.hpp"
@@ -29,6 +30,7 @@ class Analysis {
   ExponentReport without_balances() const { return report_; }
 
  private:
+  void find_balances();
   void read_weights(const std::vector<std::pair<Text, Text>>& weights);
   void keep_leading_terms();
   std::optional<Balance> balance_of(const Branch& branch);
@@ -442,7 +444,20 @@ void Analysis::describe_leading() {
   if (parameters.empty()) report_.leading = std::move(leading);
 }
 
+/// No balance is known where the equations are too large.
 ExponentReport Analysis::run() {
+  try {
+    const WorkMeter meter;
+    find_balances();
+  } catch (const TooLarge& limit) {
+    report_.complete = false;
+    report_.reason = limit.what();
+  }
+  conclude();
+  return report_;
+}
+
+void Analysis::find_balances() {
   std::vector<Polynomial> equations;
   for (std::size_t i = 0; i < dimension_; ++i)
     equations.push_back(field_[i] + factor_.scaled(weight(i)) * ring_.variable(i));
@@ -466,8 +481,6 @@ ExponentReport Analysis::run() {
     }
     if (balance->decided) report_.balances.push_back(*balance);
   }
-  conclude();
-  return report_;
 }
 
 }  // namespace

@@ -40,6 +40,7 @@ class Run {
   void take_ansatz();
   void eliminate();
   bool only_trivial();
+  void check_memory() const;
   void draw_points(std::size_t count);
   std::vector<Residue> column_values(std::size_t column) const;
   std::vector<Residue> values_of(const Polynomial& f) const;
@@ -82,6 +83,8 @@ void Run::eliminate() {
   const Equations equations =
       make_equations(problem_.fields, ansatz_, relations_, constants_, modulus_);
   blocks_ = split(equations);
+  // Cofactors alone say only what holds between the relations.
+  std::erase_if(blocks_, [&](const Block& block) { return block.columns.back() < multipliers_; });
   solution_.unknowns = equations.columns;
   solution_.equations = equations.rows();
   solution_.blocks = blocks_.size();
@@ -114,6 +117,21 @@ bool Run::only_trivial() {
   if (products_up_to(degrees, problem_.degree, 0).size() != nullity_) return false;
   solution_.trivial = nullity_;
   return true;
+}
+
+/// Relations between the relations may make a large null space, of which nothing is new.
+void Run::check_memory() const {
+  const auto all = static_cast<double>(nullity_);
+  double kept = all * all, largest = 0;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const auto own = static_cast<double>(echelons_[b].nullity());
+    const auto columns = own == 0 ? 0 : static_cast<double>(blocks_[b].columns.size());
+    kept += columns * own;
+    largest = std::max(largest, columns * (all + own));
+  }
+  if ((kept + largest) * sizeof(Residue) > watch_.memory_limit)
+    throw TooMuchWork(fmt::format(
+        "the equations have {} solutions, more than can be looked at one by one", nullity_));
 }
 
 void Run::draw_points(std::size_t count) {
@@ -272,6 +290,7 @@ Solution Run::run() {
     solution_.complete = true;
     return solution_;
   }
+  check_memory();
   draw_points(nullity_ + 16);
   add_products(0);
   solution_.trivial = span_.dimension();

@@ -69,6 +69,7 @@ TEST_F(Expression, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(error_of("x ** 2"), "4: unexpected '**'");
   EXPECT_EQ(error_of("\xCE\xB8"), "1: unexpected '\xCE\xB8', expected a number, a name or '('");
   EXPECT_EQ(error_of("log(0)"), "1: this has no value: division by zero or a pole of the function");
+  EXPECT_EQ(error_of("x + atan2(x - x, 0)"), "5: this has no value: atan2(0, 0)");
 }
 
 TEST_F(Expression, RefusesGiantsByAStatedLimit) {

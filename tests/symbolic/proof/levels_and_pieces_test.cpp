@@ -237,6 +237,34 @@ TEST(Domain, AClaimAboutNothingIsNotProved) {
   EXPECT_EQ(identity("x", "sqrt(x^2)"), Verdict::refuted);
 }
 
+/// What an assumption says where GiNaC has simplified it.
+TEST(Domain, AnAssumptionHoldsOnlyWhereItHasAValue) {
+  const auto verdict = [](const std::string& assumption, const std::string& f) {
+    return proof_of("integral", equations("domain = [\"" + assumption +
+                                          "\"]\n[equations]\nx = \"0\"\ny = \"0\"\nz = "
+                                          "\"1\"\n[integrals]\nF = \"" +
+                                          f + "\"\n"))
+        .verdict;
+  };
+  EXPECT_EQ(verdict("z*0 + 1 > 0", "(sqrt(x^2) - x)*z"), Verdict::refuted);
+  EXPECT_EQ(verdict("exp(log(x)) > -1", "(sqrt(x^2) - x)*z"), Verdict::proved);
+  EXPECT_EQ(verdict("sqrt(x) < sqrt(x) + 1", "(sqrt(x^2) - x)*z"), Verdict::proved);
+  EXPECT_EQ(verdict("0*asin(2 + x^2) > -1", "x"), Verdict::undecided);
+  EXPECT_EQ(verdict("0*log(-1 - x^2) > -1", "x"), Verdict::undecided);
+}
+
+/// sqrt(-x^2) has a value at x = 0, and no derivative.
+TEST(Domain, WithoutAnInsideIsNothingToDifferentiateOn) {
+  const auto integral = [](const std::string& f) {
+    return proof_of("integral", equations("[equations]\nx = \"0\"\ny = \"0\"\nz = \"1\"\n"
+                                          "[integrals]\nF = \"" +
+                                          f + "\"\n"))
+        .verdict;
+  };
+  EXPECT_EQ(integral("x + sqrt(-x^2)^2"), Verdict::undecided);
+  EXPECT_EQ(integral("x + sqrt(x^2)^2"), Verdict::proved);
+}
+
 std::string canonical(const std::string& integral) {
   return "integrable = true\nhamiltonian = \"p1^2\"\n[phase_space]\n"
          "variables = [\"q1\",\"q2\",\"p1\",\"p2\"]\ncanonical = true\n[integrals]\nF = \"" +
@@ -334,6 +362,34 @@ TEST(SpecialParameters, AreConditionsOfIndependenceAndOfLiouvillesCount) {
     EXPECT_EQ(conditions_of(kind, "(a - 1)*p1", "'a > 1'"), Set{}) << kind;
     EXPECT_EQ(conditions_of(kind, "a*p1^2 + b*p2^2", "'a > b'"), Set{}) << kind;
   }
+}
+
+TEST(SpecialParameters, InFunctionsAreConditionsToo) {
+  using Set = std::set<std::string>;
+  const Set generic{"a, b are generic"};
+  for (const char* kind : {"independence", "liouville"}) {
+    EXPECT_EQ(conditions_of(kind, "(sin(a) - 1/2)*p1"), Set{"2*sin(a) - 1 != 0"}) << kind;
+    EXPECT_EQ(conditions_of(kind, "p1*cos(a*b)"), Set{"cos(a*b) != 0"}) << kind;
+    EXPECT_EQ(conditions_of(kind, "(sqrt(a) - 2)*p1", "'a > 0'"), Set{"sqrt(a) - 2 != 0"}) << kind;
+    EXPECT_EQ(conditions_of(kind, "tan(a)*p1").count("sin(a) != 0"), 1U) << kind;
+    for (const auto& [f, condition] :
+         {std::pair("(2^a - 4)*p1", "exp(a*log(2)) - 4 != 0"),
+          std::pair("log(a)*p1", "log(a) != 0"), std::pair("p1*acos(a)", "acos(a) != 0")})
+      EXPECT_EQ(conditions_of(kind, f, "'a > 0'").count(condition), 1U) << f;
+    // Dependent at a = b, and at a = Pi/2: no factor shows that.
+    EXPECT_EQ(conditions_of(kind, "sin(a*p1) - sin(b*p1)"), generic) << kind;
+    EXPECT_EQ(conditions_of(kind, "(sin(a) - 1)*p1 + cos(a)*p2"), Set{"a is generic"}) << kind;
+    // A factor without a zero is no condition.
+    EXPECT_EQ(conditions_of(kind, "exp(a)*p1"), Set{}) << kind;
+    EXPECT_EQ(conditions_of(kind, "p1/sqrt(a^2 + 1)"), Set{}) << kind;
+    EXPECT_EQ(conditions_of(kind, "p1*exp(a*p1)"), Set{}) << kind;
+  }
+}
+
+TEST(SpecialParameters, OfWhichTheAssumptionsAdmitOneRoot) {
+  using Set = std::set<std::string>;
+  for (const char* sign : {"'a > 0'", "'a < 0'"})
+    EXPECT_EQ(conditions_of("independence", "(a^2 - 2)*p1", sign), Set{"a^2 - 2 != 0"}) << sign;
 }
 
 /// The identity, from a plane to a half of it: only where it leads there.

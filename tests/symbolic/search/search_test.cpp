@@ -5,7 +5,9 @@
 #include <random>
 #include <set>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/search/darboux.hpp"
+#include "symbolic/search/exponents.hpp"
 #include "symbolic/search/modular/echelon.hpp"
 #include "symbolic/search/search.hpp"
 #include "tests/bundled_cases.hpp"
@@ -353,6 +355,49 @@ TEST(Darboux, FindsHessAndNothingElse) {
       search::find_darboux(model_of(euler_poisson("(M1^2 + M2^2 + 2*M3^2)/2 - g1")), 1);
   EXPECT_TRUE(none.complete);
   EXPECT_TRUE(none.found.empty());
+}
+
+/// Jouanolou's system, which has no Darboux polynomial, in linear coordinates: its Groebner bases
+/// have numbers that grow by a factor in each step.
+TEST(Darboux, EndsWhereTheNumbersGrow) {
+  const auto report = search::find_darboux(
+      model_of("[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n[equations]\n"
+               "x = \"(y + z)^2\"\ny = \"(z - x)^2\"\nz = \"(x + 2*y)^2\"\n"),
+      2);
+  EXPECT_FALSE(report.complete);
+  EXPECT_FALSE(report.reason.empty());
+  EXPECT_TRUE(report.found.empty());
+}
+
+TEST(Darboux, EndsAtTheLimitOfWork) {
+  const Limits before = limits();
+  Limits small = before;
+  small.work = 100;
+  set_limits(small);
+  const Model model = model_of(
+      "[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n[equations]\n"
+      "x = \"(y + z)^2\"\ny = \"(z - x)^2\"\nz = \"(x + 2*y)^2\"\n");
+  const auto darboux = search::find_darboux(model, 2);
+  const auto exponents = search::kovalevskaya_exponents(model, {});
+  set_limits(before);
+  for (const auto& [complete, reason] : {std::pair(darboux.complete, darboux.reason),
+                                         std::pair(exponents.complete, exponents.reason)}) {
+    EXPECT_FALSE(complete);
+    EXPECT_NE(reason.find("'work'"), std::string::npos) << reason;
+  }
+}
+
+/// Roots of one another: of the solutions of the equations all but a few say how the relations
+/// between the roots hang together.
+TEST(Search, OfNestedRootsLooksAtNoRelationsAlone) {
+  const std::string root = "sqrt((q2 - q2^2)^2 + q2^2)";
+  const auto report = search::find_integrals(
+      model_of("hamiltonian = \"(p1^2 + p2^2)/2 + q1^2*(2*sqrt((q2^2 - q2)^2) - sqrt(2*" + root +
+               " + 2*q2)*sqrt(2*" + root +
+               " - 2*q2))\"\n[phase_space]\nvariables = [\"q1\", \"q2\", \"p1\", \"p2\"]\n"
+               "canonical = true\n"),
+      up_to(1));
+  EXPECT_FALSE(report.complete);
 }
 
 }  // namespace

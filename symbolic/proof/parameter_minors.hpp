@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "symbolic/algebra/polynomial.hpp"
+
+namespace casimir {
+
+/// Fraction-free elimination (Bareiss), up to the sign; empty where it grows long.
+std::optional<Polynomial> short_determinant(std::vector<std::vector<Polynomial>> matrix,
+                                            const PolynomialRing& ring);
+
+/// A polynomial modulo a prime, for many evaluations: what is not zero there is not zero.
+class MinorModulo {
+ public:
+  /// \throws std::domain_error  where a coefficient has no value modulo the prime
+  explicit MinorModulo(const Polynomial& p);
+
+  /// \param point  a value for each variable of the ring
+  bool is_nonzero_at(const std::vector<std::uint64_t>& point) const;
+
+ private:
+  struct Term {
+    std::uint64_t number;
+    std::vector<std::pair<std::size_t, unsigned long>> powers;
+  };
+  std::vector<Term> terms_;
+};
+
+}  // namespace casimir
