@@ -2,6 +2,7 @@
 
 #include "runtime/kernels/lanes/lanes.hpp"
 #include "runtime/kernels/one_step/control.hpp"
+#include "runtime/kernels/taylor/step_policy.hpp"
 
 namespace casimir_kernel {
 
@@ -139,13 +140,9 @@ class March {
   using V = typename Series::V;
   static constexpr int width = sizeof(V) / sizeof(double);
   static constexpr int most_blocks = Series::room, room = most_blocks * width;
-  /// How far the derivative at the end of a step may be from the series, in allowed errors: far
-  /// more than a step of the right size ever gives, far less than a wrong one.
-  static constexpr double kDefect = 100, kRounding = 0x1p-40;
+  using Policy = StepPolicy;
   /// Of the time at the start, the least first guess of a step.
   static constexpr double kLeastGuess = 0x1p-40;
-  /// No step is longer than this many units: what a step may grow by.
-  static constexpr double kLongest = 16;
 
  public:
   March(const casimir_run* run, Series& series, double* x, casimir_outcome* out)
@@ -264,10 +261,10 @@ class March {
       last += absolute(series_.c[order][b]) * weight_[b];
     }
     const double a = lane_sum(before), z = lane_sum(last);
-    if (!(a + z < 1e300)) return 0;
+    if (!(a + z < Policy::kNoNumber)) return 0;
     if (pieces_ > 0) return fixed_step(z);
     const double rate = larger(rough_log2(a) / (order - 1), rough_log2(z) / order);
-    const double s = rate < -4 ? kLongest : rough_exp2(-rate);
+    const double s = rate < Policy::kSteepest ? Policy::kLongest : rough_exp2(-rate);
     return s;
   }
 
@@ -293,7 +290,8 @@ class March {
       if (there_) {
         h = rest;
         s = h / unit_;
-      } else if (magnitude(h) <= larger(16 * kEpsilon * magnitude(t_), 16 * kSmallest)) {
+      } else if (magnitude(h) <= larger(Policy::kLeastRoundings * kEpsilon * magnitude(t_),
+                                        Policy::kLeastRoundings * kSmallest)) {
         fail(CASIMIR_STEP_UNDERFLOW);
         return true;
       }
@@ -323,13 +321,14 @@ class March {
     if (__builtin_expect(run_->look != nullptr, 0) && pieces_ == 0) {
       if (!looks_right(t1, next)) return false;
     }
-    if (!series_.smooth || __builtin_expect(fresh_ || s > 3, 0)) {
+    if (!series_.smooth || __builtin_expect(fresh_ || s > Policy::kUnseen, 0)) {
       if (!follows(s, t1, next)) return false;
     }
     accept(t1, t1_carry, next, next_carry);
     cut_ = false;
     // A step that was cut short says nothing about the next one.
-    if (!(magnitude(s - 1.2) < 0.8) && pieces_ == 0 && !was_cut) set_unit(magnitude(h));
+    if (!(magnitude(s - Policy::kUsual) < Policy::kAround) && pieces_ == 0 && !was_cut)
+      set_unit(magnitude(h));
     return true;
   }
 
@@ -376,16 +375,12 @@ class March {
   /// Whether the series has the derivative that the equations ask for, within the step and at its
   /// end. The last coefficients alone do not show a kink of the right-hand side, nor terms that are
   /// missing only from them, and a pulse may have passed before the end.
-  ///
-  /// The places within the step follow the golden section, so that no motion of whatever period has
-  /// the same ones in each step.
   __attribute__((noinline)) bool follows(double s, double t1, const V* next) {
-    const int places = fresh_ || s > 3 ? 4 : 1;
+    const int places = fresh_ || s > Policy::kUnseen ? Policy::kPlacesAtFirst : Policy::kPlaces;
     for (int i = 0; i < places; ++i) {
-      constexpr double kGoldenSection = 0.6180339887498949;
-      place_ += kGoldenSection;
+      place_ += Policy::kGoldenSection;
       if (place_ >= 1) place_ -= 1;
-      const double within = s * ((static_cast<double>(i) + 0.1 + 0.8 * place_) / places);
+      const double within = s * Policy::place(i, places, place_);
       V x[most_blocks];
       increment(series_, within, x);
       CASIMIR_UNROLL
@@ -406,12 +401,12 @@ class March {
     CASIMIR_UNROLL
     for (int b = 0; b < series_.blocks; ++b) {
       const V size = absolute(state_[b]) + absolute(next[b]) + absolute(told[b]);
-      const V w = 1 / (kDefect / weight_[b] + size * kRounding);
+      const V w = 1 / (Policy::kDefect / weight_[b] + size * Policy::kRounding);
       defect += absolute(series_.rate[b] * (s * unit_) - told[b]) * w;
     }
     const double sum = lane_sum(defect);
-    failure_ = sum < 1e300 ? CASIMIR_STEP_UNDERFLOW : CASIMIR_NON_FINITE;
-    return sum < 1 || (pieces_ > 0 && sum < 1e300);
+    failure_ = sum < Policy::kNoNumber ? CASIMIR_STEP_UNDERFLOW : CASIMIR_NON_FINITE;
+    return sum < 1 || (pieces_ > 0 && sum < Policy::kNoNumber);
   }
 
   CASIMIR_INLINE void accept(double t1, double t1_carry, const V* next, const V* next_carry) {
@@ -464,7 +459,7 @@ class March {
     }
     const double rest = magnitude((run_->t_end - t_) - t_carry_) / magnitude(unit_);
     s = (s < rest ? s : rest) * part_;
-    part_ = 0.5;
+    part_ = Policy::kShorter;
     return true;
   }
 
@@ -472,7 +467,7 @@ class March {
   __attribute__((cold, noinline)) void shrink_unit() {
     if (status_ != CASIMIR_OK) return;
     ++rejected_;
-    unit_ *= 0x1p-8;
+    unit_ *= Policy::kSmallerUnit;
     failure_ = CASIMIR_NON_FINITE;
     const bool vanished =
         magnitude(unit_) <= larger(kEpsilon * magnitude(t_), 0x1p-1000) || pieces_ > 0;
@@ -514,14 +509,13 @@ class March {
   unsigned long long steps_ = 0, rejected_ = 0, expansions_ = 0, evaluations_ = 0;
   int status_ = CASIMIR_OK, failure_ = CASIMIR_OK;
   bool there_ = false, fresh_ = false, cut_ = false, jumps_ = false;
-  double part_ = 0.5;   // of a step that did not hold, what is tried next
-  double place_ = 0.5;  // within a step, where it was looked at last
+  double part_ = Policy::kShorter;  // of a step that did not hold, what is tried next
+  double place_ = 0.5;              // within a step, where it was looked at last
 };
 
-/// The order at which a tolerance costs least, as measured.
+/// The order at which the tolerance of a run costs least.
 inline int order_for(const casimir_run* run) {
-  const double tolerance = run->fixed_step > 0 ? 0 : run->rtol;
-  return tolerance > 3e-5 ? 8 : tolerance > 1e-8 ? 16 : 24;
+  return order_of_one(run->fixed_step > 0 ? 0 : run->rtol);
 }
 
 }  // namespace taylor
