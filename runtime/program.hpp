@@ -23,13 +23,16 @@ enum class Op {
   sin,
   cos,
   tan,
+  sinh,
+  cosh,
+  tanh,
   exp,
   log,
   asin,
   acos,
   atan2,  ///< atan2(a, b)
   abs,    ///< |a|
-  sign,   ///< -1, 0 or 1: the derivative of |a|
+  sign,   ///< -1, 0 or 1: the derivative of |a|; the last
 };
 
 /// One line of a straight-line program: the value `op(a, b)`. For all but `input` and `constant`,

@@ -7,35 +7,11 @@
 
 #include "codegen/dag/expression_dag.hpp"
 #include "codegen/emit/number_literal.hpp"
+#include "runtime/program/function_table.hpp"
 #include "symbolic/algebra/number_text.hpp"
 
 namespace casimir::codegen {
 namespace {
-
-const char* latex_name_of(Op op) {
-  switch (op) {
-    case Op::sin:
-      return "\\sin";
-    case Op::cos:
-      return "\\cos";
-    case Op::tan:
-      return "\\tan";
-    case Op::exp:
-      return "\\exp";
-    case Op::log:
-      return "\\ln";
-    case Op::asin:
-      return "\\arcsin";
-    case Op::acos:
-      return "\\arccos";
-    case Op::abs:
-      return "\\operatorname{abs}";
-    case Op::sign:
-      return "\\operatorname{sign}";
-    default:
-      return "\\operatorname{atan2}";
-  }
-}
 
 class Typesetter {
  public:
@@ -138,7 +114,7 @@ class Typesetter {
     std::string inside;
     for (const Scaled& argument : node.terms)
       inside += (inside.empty() ? "" : ", ") + scaled(argument);
-    return std::string(latex_name_of(node.function)) + bracketed(inside);
+    return std::string(function_row(node.function).latex) + bracketed(inside);
   }
 
   const Dag& dag_;

@@ -4,6 +4,7 @@
 
 #include "codegen/dag/expression_dag.hpp"
 #include "codegen/emit/number_literal.hpp"
+#include "runtime/program/function_table.hpp"
 #include "symbolic/algebra/number_text.hpp"
 
 namespace casimir::codegen {
@@ -20,31 +21,6 @@ struct Text {
 
 std::string at_least(Binding needed, const Text& part) {
   return part.binding < needed ? "(" + part.text + ")" : part.text;
-}
-
-const char* name_in_case_files(Op op) {
-  switch (op) {
-    case Op::sin:
-      return "sin";
-    case Op::cos:
-      return "cos";
-    case Op::tan:
-      return "tan";
-    case Op::exp:
-      return "exp";
-    case Op::log:
-      return "log";
-    case Op::asin:
-      return "asin";
-    case Op::acos:
-      return "acos";
-    case Op::abs:
-      return "abs";
-    case Op::sign:
-      return "sign";
-    default:
-      return "atan2";
-  }
 }
 
 class Printer {
@@ -99,7 +75,7 @@ class Printer {
     for (const Scaled& argument : n.terms) {
       inside += (inside.empty() ? "" : ", ") + scaled(argument).text;
     }
-    return {std::string(name_in_case_files(n.function)) + "(" + inside + ")", kAtom};
+    return {std::string(function_row(n.function).name) + "(" + inside + ")", kAtom};
   }
 
   Text sum(const std::vector<Scaled>& terms, const cln::cl_RA& factor) const {

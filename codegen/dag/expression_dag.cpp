@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "runtime/program/function_table.hpp"
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/error.hpp"
 
@@ -171,17 +172,17 @@ Scaled Dag::convert_new(const GiNaC::ex& e) {
 }
 
 Scaled Dag::convert_function(const GiNaC::ex& e) {
-  static const std::map<std::string, Op> kKnown{
-      {"sin", Op::sin},   {"cos", Op::cos},     {"tan", Op::tan},
-      {"exp", Op::exp},   {"log", Op::log},     {"asin", Op::asin},
-      {"acos", Op::acos}, {"atan2", Op::atan2}, {"atan", Op::atan2}};
+  // Powers, roots and |x| are no functions of GiNaC here; atan(y) is atan2(y, 1).
   const std::string name = GiNaC::ex_to<GiNaC::function>(e).get_name();
-  const auto known = kKnown.find(name);
-  if (known == kKnown.end()) throw ModelError("unknown function '" + name + "'");
+  const auto row = std::ranges::find_if(function_table(), [&](const FunctionRow& known) {
+    return known.name == (name == "atan" ? "atan2" : name) && known.op != Op::pow &&
+           known.op != Op::sqrt && known.op != Op::abs && known.op != Op::sign;
+  });
+  if (row == function_table().end()) throw ModelError("unknown function '" + name + "'");
   std::vector<Scaled> arguments;
   for (const GiNaC::ex& argument : e) arguments.push_back(convert(argument));
   if (name == "atan") arguments.push_back({1, kOne});
-  return call(known->second, std::move(arguments));
+  return call(row->op, std::move(arguments));
 }
 
 // ---------------------------------------------------------------------------------- construction
@@ -376,10 +377,10 @@ Scaled Dag::assemble(cln::cl_RA coefficient, std::vector<Factor> factors) {
 
 Scaled Dag::call(Op function, std::vector<Scaled> arguments) {
   cln::cl_RA sign = 1;
-  const bool odd = function == Op::sin || function == Op::tan || function == Op::asin;
-  if ((odd || function == Op::cos) && cln::minusp(arguments[0].coefficient)) {
+  const Parity parity = function_row(function).parity;
+  if (parity != Parity::none && cln::minusp(arguments[0].coefficient)) {
     arguments[0].coefficient = -arguments[0].coefficient;
-    if (odd) sign = -1;
+    if (parity == Parity::odd) sign = -1;
   }
   Node node;
   node.kind = NodeKind::function;

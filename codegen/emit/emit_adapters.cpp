@@ -1,9 +1,10 @@
 // The parts of a header that fit it to Boost.Odeint and CVODE.
 #include <algorithm>
-#include <utility>
+#include <string_view>
 
 #include "codegen/emit/header_context.hpp"
 #include "codegen/emit/identifiers.hpp"
+#include "runtime/program/function_table.hpp"
 
 namespace casimir::codegen {
 
@@ -89,17 +90,16 @@ std::string sundials(const HeaderContext& c) {
 }  // namespace
 
 std::string using_declarations(const Program& program) {
-  static constexpr std::pair<Op, const char*> kFunctions[] = {
-      {Op::pow, "pow"},      {Op::sqrt, "sqrt"}, {Op::sin, "sin"},     {Op::cos, "cos"},
-      {Op::tan, "tan"},      {Op::exp, "exp"},   {Op::log, "log"},     {Op::asin, "asin"},
-      {Op::acos, "acos"},    {Op::pi, "acos"},   {Op::atan2, "atan2"}, {Op::abs, "fabs"},
-      {Op::sign, "copysign"}};
   std::string text;
-  for (const auto& [op, name] : kFunctions) {
+  const auto add = [&](Op op, std::string_view name) {
     const bool called =
-        std::ranges::any_of(program.code, [op = op](const Instruction& c) { return c.op == op; });
-    const std::string line = std::string("  using std::") + name + ";\n";
+        std::ranges::any_of(program.code, [op](const Instruction& c) { return c.op == op; });
+    const std::string line = "  using std::" + std::string(name) + ";\n";
     if (called && text.find(line) == std::string::npos) text += line;
+  };
+  for (const FunctionRow& row : function_table()) {
+    if (row.op == Op::atan2) add(Op::pi, "acos");
+    add(row.op, row.c_name);
   }
   return text;
 }

@@ -8,6 +8,7 @@
 #include "codegen/emit/statements.hpp"
 #include "codegen/emit_cpp.hpp"
 #include "codegen/prepare.hpp"
+#include "runtime/program/function_table.hpp"
 
 namespace casimir {
 
@@ -186,7 +187,9 @@ class HeaderWriter {
   /// In a template these are computed where they are used.
   bool has_irrational_constants() const {
     if (!is_template_) return false;
-    const auto is_function = [](const Instruction& c) { return c.op >= Op::pow || c.op == Op::pi; };
+    const auto is_function = [](const Instruction& c) {
+      return casimir::is_function(c.op) || c.op == Op::pi;
+    };
     return std::ranges::any_of(spec_.rhs.code, is_function) ||
            std::ranges::any_of(spec_.invariants.code, is_function) ||
            std::ranges::any_of(spec_.gradients.program.code, is_function) ||

@@ -6,6 +6,7 @@
 #include "codegen/emit/header_context.hpp"
 #include "codegen/emit/identifiers.hpp"
 #include "codegen/optimise/lower.hpp"
+#include "runtime/program/function_table.hpp"
 
 namespace casimir::codegen {
 
@@ -199,14 +200,14 @@ class TaylorWriter {
     return series_[index(i)];
   }
 
-  std::string first_value(const std::string& function, const std::string& arguments) const {
-    return context_.style.call_prefix + function + context_.style.call_suffix + "(" + arguments +
-           ")";
+  std::string first_value(std::string_view function, const std::string& arguments) const {
+    return context_.style.call_prefix + std::string(function) + context_.style.call_suffix + "(" +
+           arguments + ")";
   }
 
   void write(std::size_t i) {
     const Instruction& c = code(i);
-    if (c.op == Op::sin || c.op == Op::cos) return write_sine_and_cosine(i);
+    if (is_function(c.op) && function_row(c.op).partner != c.op) return write_pair(i);
     const std::string y = new_array("series_" + std::to_string(++count_));
     series_[i] = y;
     switch (c.op) {
@@ -235,38 +236,22 @@ class TaylorWriter {
 
   void write_function(const Instruction& c, const std::string& y) {
     const std::string a = series(c.a);
-    const std::string both = a + ", " + y;
-    switch (c.op) {
-      case Op::sqrt:
-        return assign_from(y, first_value("sqrt", a + "[0]"), call("taylor_sqrt", both));
-      case Op::exp:
-        return assign_from(y, first_value("exp", a + "[0]"), call("taylor_integral", both));
-      case Op::log:
-        return assign_from(y, first_value("log", a + "[0]"), call("taylor_ratio", a + ", " + both));
-      case Op::pow: {
+    switch (function_row(c.op).step[0].rule) {
+      case SeriesRule::power: {
         const std::string exponent = fixed(c.b);
         return assign_from(y, first_value("pow", a + "[0], " + exponent),
                            call("taylor_pow", a + ", " + exponent + ", " + y));
       }
-      case Op::tan: {  // y' = a' * (1 + y*y)
-        const std::string slope = new_array(y + "_slope");
-        assign_from(y, first_value("tan", a + "[0]"), call("taylor_integral", a + ", " + slope));
-        return assign(slope, call("taylor_product", y + ", " + y) + " + static_cast<" + real() +
-                                 ">(degree == 0 ? 1 : 0)");
-      }
-      case Op::asin:
-      case Op::acos:
-        return write_arc(c, a, y);
-      case Op::abs: {  // where it begins at zero, the first term that is not says on which side
+      case SeriesRule::side: {  // where it begins at zero, the first term that is not says where
         const std::string side = unique_.unique(y + "_side");
         arrays_ += "  " + real() + " " + side + " = 0;\n";
         loop_ += "    if (" + side + " == 0) " + side + " = " + a + "[degree] > 0 ? 1 : " + a +
                  "[degree] < 0 ? -1 : 0;\n";
         return assign(y, side + " * " + a + "[degree]");
       }
-      case Op::sign:
+      case SeriesRule::constant:
         return assign(y, "degree > 0 || " + a + "[0] == 0 ? 0 : " + a + "[0] > 0 ? 1 : -1");
-      default: {
+      case SeriesRule::angle: {
         const std::string b = series(c.b);
         const std::string squares = new_array(y + "_squares");
         assign(squares,
@@ -274,39 +259,63 @@ class TaylorWriter {
         return assign_from(y, first_value("atan2", a + "[0], " + b + "[0]"),
                            call("taylor_atan2", a + ", " + b + ", " + squares + ", " + y));
       }
+      default:
+        return write_steps(c.op, a, y);
     }
   }
 
-  /// asin and acos: y' = a' / root or -a' / root with root = sqrt(1 - a*a).
-  void write_arc(const Instruction& c, const std::string& a, const std::string& y) {
-    const std::string rest = new_array(y + "_rest");
-    const std::string root = new_array(y + "_root");
-    assign(rest, "static_cast<" + real() + ">(degree == 0 ? 1 : 0) - " +
-                     call("taylor_product", a + ", " + a));
-    assign_from(root, first_value("sqrt", rest + "[0]"), call("taylor_sqrt", rest + ", " + root));
-    if (c.op == Op::asin) {
-      return assign_from(y, first_value("asin", a + "[0]"),
-                         call("taylor_ratio", a + ", " + root + ", " + y));
+  /// The recurrence of a function of one argument.
+  void write_steps(Op op, const std::string& a, const std::string& y) {
+    std::map<Slot, std::string> array{{Slot::argument, a}, {Slot::value, y}};
+    for (const SeriesStep& step : series_steps(op)) {
+      std::string& name = array[step.target];
+      if (!name.empty()) continue;
+      const std::string_view wanted = step.target == Slot::inner ? "rest" : function_row(op).helper;
+      name = new_array(y + "_" + std::string(wanted));
     }
-    const std::string minus = new_array(y + "_minus");
-    assign(minus, "-" + a + "[degree]");
-    assign_from(y, first_value("acos", a + "[0]"),
-                call("taylor_ratio", minus + ", " + root + ", " + y));
+    for (const SeriesStep& step : series_steps(op)) write_step(op, step, array);
+  }
+
+  void write_step(Op op, const SeriesStep& step, const std::map<Slot, std::string>& array) {
+    const std::string &y = array.at(step.target), &a = array.at(step.of);
+    const bool negative = step.sign < 0;
+    if (step.rule == SeriesRule::squares) {
+      const std::string one = "static_cast<" + real() + ">(degree == 0 ? 1 : 0)";
+      const std::string square = call("taylor_product", a + ", " + a);
+      return assign(y, negative ? one + " - " + square : square + " + " + one);
+    }
+    if (step.rule == SeriesRule::root)
+      return assign_from(y, first_value("sqrt", a + "[0]"), call("taylor_sqrt", a + ", " + y));
+    const Op own = step.target == Slot::value ? op : function_row(op).partner;
+    const std::string start =
+        first_value(function_row(own).c_name, array.at(Slot::argument) + "[0]");
+    const std::string& f = array.at(step.by);
+    if (step.rule == SeriesRule::integral)
+      return assign_from(y, start, (negative ? "-" : "") + call("taylor_integral", a + ", " + f));
+    std::string numerator = a;
+    if (negative) {
+      numerator = new_array(y + "_minus");
+      assign(numerator, "-" + a + "[degree]");
+    }
+    assign_from(y, start, call("taylor_ratio", numerator + ", " + f + ", " + y));
   }
 
   /// Each of the two needs the other.
-  void write_sine_and_cosine(std::size_t i) {
+  void write_pair(std::size_t i) {
     const Instruction& c = code(i);
-    if (!pairs_.contains(c.a)) {
+    const FunctionRow& row = function_row(c.op);
+    auto& [first, second] = pairs_[{row.first, c.a}];
+    if (first.empty()) {
       const std::string a = series(c.a);
-      const std::string number = std::to_string(++count_);
-      const std::string s = new_array("sin_" + number);
-      const std::string t = new_array("cos_" + number);
-      assign_from(s, first_value("sin", a + "[0]"), call("taylor_integral", a + ", " + t));
-      assign_from(t, first_value("cos", a + "[0]"), "-" + call("taylor_integral", a + ", " + s));
-      pairs_[c.a] = {s, t};
+      const FunctionRow& other = function_row(function_row(row.first).partner);
+      const std::string number = "_" + std::to_string(++count_);
+      first = new_array(std::string(function_row(row.first).name) + number);
+      second = new_array(std::string(other.name) + number);
+      const std::map<Slot, std::string> array{
+          {Slot::argument, a}, {Slot::value, first}, {Slot::helper, second}};
+      for (const SeriesStep& step : series_steps(c.op)) write_step(row.first, step, array);
     }
-    series_[i] = c.op == Op::sin ? pairs_[c.a].first : pairs_[c.a].second;
+    series_[i] = row.first == c.op ? first : second;
   }
 
   std::string signature() const {
@@ -326,19 +335,20 @@ class TaylorWriter {
            "\n" + (context_.is_template ? using_declarations(program_) + extra_using() : "");
   }
 
-  /// sin needs cos and the other way round; asin and acos need sqrt.
+  /// Sines need cosines and the other way round; asin and acos need sqrt.
   std::string extra_using() const {
     const std::string present = using_declarations(program_);
     std::string text;
-    const auto add = [&](const char* name) {
-      const std::string line = std::string("  using std::") + name + ";\n";
+    const auto add = [&](std::string_view name) {
+      const std::string line = "  using std::" + std::string(name) + ";\n";
       if (present.find(line) == std::string::npos && text.find(line) == std::string::npos)
         text += line;
     };
     for (const Instruction& c : program_.code) {
-      if (c.op == Op::sin) add("cos");
-      if (c.op == Op::cos) add("sin");
-      if (c.op == Op::asin || c.op == Op::acos) add("sqrt");
+      if (!is_function(c.op)) continue;
+      if (function_row(c.op).partner != c.op) add(function_row(function_row(c.op).partner).c_name);
+      for (const SeriesStep& step : series_steps(c.op))
+        if (step.rule == SeriesRule::root) add("sqrt");
     }
     return text;
   }
@@ -391,7 +401,7 @@ class TaylorWriter {
   std::vector<std::string> fixed_;
   std::vector<int> fixed_order_;
   std::vector<std::string> inlined_;
-  std::map<int, std::pair<std::string, std::string>> pairs_;
+  std::map<std::pair<Op, int>, std::pair<std::string, std::string>> pairs_;
   std::set<std::string> used_;
   std::string arrays_;
   std::string loop_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "codegen/emit/identifiers.hpp"
+#include "runtime/program/function_table.hpp"
 
 namespace casimir::codegen {
 
@@ -12,8 +13,8 @@ namespace {
 std::vector<std::string> taken_names(Language language) {
   std::vector<std::string> names{"state_names", "invariant_names", "initial_state"};
   if (language == Language::cpp) return names;
-  for (const char* function : kFunctionNames) {
-    for (const char* suffix : {"f", "l"}) names.push_back(function + std::string(suffix));
+  for (const FunctionRow& function : function_table()) {
+    for (const char* suffix : {"f", "l"}) names.push_back(std::string(function.c_name) + suffix);
   }
   return names;
 }

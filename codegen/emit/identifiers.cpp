@@ -7,6 +7,7 @@
 #include <cctype>
 #include <string_view>
 
+#include "runtime/program/function_table.hpp"
 #include "symbolic/error.hpp"
 
 namespace casimir::codegen {
@@ -96,6 +97,7 @@ bool is_numbered(const std::string& name) {
 Names::Names(std::vector<std::string> taken) : taken_(taken.begin(), taken.end()) {
   taken_.insert(kKeywords.begin(), kKeywords.end());
   taken_.insert(kReserved.begin(), kReserved.end());
+  for (const FunctionRow& function : function_table()) taken_.emplace(function.c_name);
 }
 
 std::string Names::unique(const std::string& wanted) {
@@ -120,7 +122,8 @@ void check_header_name(const std::string& name) {
   if (name.size() > kMaxNameLength)
     refuse(fmt::format("it is longer than {} characters", kMaxNameLength));
   if (std::ranges::count(kKeywords, name) != 0) refuse("it is a keyword");
-  if (std::ranges::count(kReserved, name) != 0)
+  const auto named_so = [&](const FunctionRow& function) { return function.c_name == name; };
+  if (std::ranges::count(kReserved, name) != 0 || std::ranges::any_of(function_table(), named_so))
     refuse("it is a macro of common headers, or a name that the code itself uses");
 }
 

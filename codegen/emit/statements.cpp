@@ -6,6 +6,7 @@
 
 #include "codegen/emit/identifiers.hpp"
 #include "codegen/optimise/lower.hpp"
+#include "runtime/program/function_table.hpp"
 
 namespace casimir::codegen {
 
@@ -18,12 +19,6 @@ constexpr std::size_t kNamesInNote = 6;
 enum Binding { kAny, kSum, kProduct, kUnary, kPrimary };
 
 bool is_leaf(Op op) { return op == Op::input || op == Op::constant || op == Op::pi; }
-
-bool is_call(Op op) { return op >= Op::pow; }
-
-const char* c_name_of(Op op) {
-  return kFunctionNames[static_cast<int>(op) - static_cast<int>(Op::pow)];
-}
 
 class StatementWriter {
  public:
@@ -119,7 +114,7 @@ class StatementWriter {
     const auto b = static_cast<std::size_t>(c.b);
     if (c.op == Op::pi) {
       out += style_.call_prefix + "acos" + style_.call_suffix + "(" + converted("-1") + ")";
-    } else if (is_call(c.op)) {
+    } else if (is_function(c.op)) {
       append_call(c, out);
     } else if (c.op == Op::neg) {
       append_negation(a, context, out);
@@ -138,7 +133,9 @@ class StatementWriter {
   }
 
   void append_call(const Instruction& c, std::string& out) {
-    out += style_.call_prefix + c_name_of(c.op) + style_.call_suffix + "(";
+    out += style_.call_prefix;
+    out += function_row(c.op).c_name;
+    out += style_.call_suffix + "(";
     if (c.op == Op::sign) out += converted("1") + ", ";
     append_argument(c.a, out);
     if (c.b >= 0) {
@@ -270,7 +267,7 @@ std::vector<bool> used_inputs(const Program& program) {
 bool calls_functions(const Program& program) {
   const std::vector<bool> constant = constant_instructions(program);
   for (std::size_t i = 0; i < program.code.size(); ++i) {
-    if (!constant[i] && is_call(program.code[i].op)) return true;
+    if (!constant[i] && is_function(program.code[i].op)) return true;
   }
   return false;
 }

@@ -8,10 +8,6 @@
 
 namespace casimir::codegen {
 
-/// The functions that programs call, in the order of Op from Op::pow on.
-inline constexpr const char* kFunctionNames[] = {
-    "pow", "sqrt", "sin", "cos", "tan", "exp", "log", "asin", "acos", "atan2", "fabs", "copysign"};
-
 /// How a program is written as the body of a function.
 struct StatementStyle {
   Scalar scalar = Scalar::real64;

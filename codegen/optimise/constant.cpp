@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "codegen/emit/number_literal.hpp"
+#include "runtime/program/function_table.hpp"
 #include "symbolic/case/limits.hpp"
 #include "symbolic/error.hpp"
 
@@ -90,6 +91,12 @@ cln::cl_R approximate(const Program& program, int i, const cln::float_format_t& 
       return cln::cos(a);
     case Op::tan:
       return cln::tan(a);
+    case Op::sinh:
+      return cln::sinh(a);
+    case Op::cosh:
+      return cln::cosh(a);
+    case Op::tanh:
+      return cln::tanh(a);
     case Op::exp:
       return cln::exp(a);
     case Op::log:
@@ -154,8 +161,6 @@ cln::cl_RA constant_value(const Program& program, int i) {
 }
 
 std::string constant_text(const Program& program, int i) {
-  static constexpr const char* kNames[] = {"sqrt", "sin", "cos",  "tan",
-                                           "exp",  "log", "asin", "acos"};
   const Instruction& code = at(program, i);
   switch (code.op) {
     case Op::constant: {
@@ -181,13 +186,9 @@ std::string constant_text(const Program& program, int i) {
       return "atan2" + binary(program, code, ", ");
     case Op::abs:
       return "|" + constant_text(program, code.a) + "|";
-    case Op::sign:
-      return "sign(" + constant_text(program, code.a) + ")";
     default:
-      break;
+      return std::string(function_row(code.op).name) + "(" + constant_text(program, code.a) + ")";
   }
-  const auto index = static_cast<int>(code.op) - static_cast<int>(Op::sqrt);
-  return std::string(kNames[index]) + "(" + constant_text(program, code.a) + ")";
 }
 
 }  // namespace casimir::codegen

@@ -8,6 +8,7 @@
 
 #include "codegen/optimise/lower.hpp"
 #include "codegen/optimise/program_writer.hpp"
+#include "runtime/program/function_table.hpp"
 
 namespace casimir::codegen {
 
@@ -55,30 +56,16 @@ class Derivation {
         const cln::cl_RA exponent = *writer_.constant(b);
         return {writer_.product(b, power(a, exponent - 1)), -1};
       }
-      case Op::sqrt:
-        return {writer_.quotient(writer_.number(cln::cl_RA(1) / 2), own), -1};
-      case Op::sin:
-        return {writer_.emit(Op::cos, a), -1};
-      case Op::cos:
-        return {writer_.negation(writer_.emit(Op::sin, a)), -1};
-      case Op::tan:
-        return {writer_.sum(one, square(own)), -1};
-      case Op::exp:
-        return {own, -1};
-      case Op::log:
-        return {inverse(a), -1};
-      case Op::asin:
-        return {inverse(cathetus(a)), -1};
-      case Op::acos:
-        return {writer_.negation(inverse(cathetus(a))), -1};
       case Op::abs:
         return {writer_.emit(Op::sign, a), -1};
       case Op::sign:
         return {writer_.number(0), -1};
-      default: {  // atan2(a, b), the angle of the point (b, a)
+      case Op::atan2: {  // the angle of the point (b, a)
         const int unit = inverse(writer_.sum(square(a), square(b)));
         return {writer_.product(b, unit), writer_.negation(writer_.product(a, unit))};
       }
+      default:
+        return {slope(code.op, a, own), -1};
     }
   }
 
@@ -129,9 +116,36 @@ class Derivation {
  private:
   int inverse(int a) { return writer_.quotient(writer_.number(1), a); }
   int square(int a) { return writer_.product(a, a); }
-  /// sqrt(1 - a^2)
-  int cathetus(int a) {
-    return writer_.emit(Op::sqrt, writer_.difference(writer_.number(1), square(a)));
+
+  /// The derivative of a function of one argument, from its recurrence.
+  int slope(Op op, int a, int own) {
+    const SeriesStep* step = step_of(op, Slot::value);
+    if (step->rule == SeriesRule::root)
+      return writer_.quotient(writer_.number(cln::cl_RA(1) / 2), own);
+    const int factor = in_slot(op, step->by, a, own);
+    const int size = step->rule == SeriesRule::quotient ? inverse(factor) : factor;
+    return step->sign < 0 ? writer_.negation(size) : size;
+  }
+
+  /// The step of the recurrence of a function that is about a slot.
+  static const SeriesStep* step_of(Op op, Slot slot) {
+    const SeriesStep* found = nullptr;
+    for (const SeriesStep& step : series_steps(op))
+      if (own_slot(op, step.target) == slot) found = &step;
+    return found;
+  }
+
+  /// What a slot of the recurrence of a function is, as a function of the argument.
+  int in_slot(Op op, Slot slot, int a, int own) {
+    slot = own_slot(op, slot);
+    if (slot == Slot::argument) return a;
+    if (slot == Slot::value) return own;
+    const SeriesStep* step = step_of(op, slot);
+    if (step->rule == SeriesRule::integral) return writer_.emit(function_row(op).partner, a);
+    const int of = in_slot(op, step->of, a, own);
+    if (step->rule == SeriesRule::root) return writer_.emit(Op::sqrt, of);
+    const int one = writer_.number(1);
+    return step->sign < 0 ? writer_.difference(one, square(of)) : writer_.sum(one, square(of));
   }
 
   int power(int base, const cln::cl_RA& exponent) {

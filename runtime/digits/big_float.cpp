@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "runtime/program/arb_function.hpp"
+
 namespace casimir {
 
 thread_local slong BigFloat::bits = 64;
@@ -108,10 +110,10 @@ BigFloat A::power(const N& a, const N& e) {
   return applied_to(arb_pow, a, e);
 }
 
-BigFloat A::sin(const N& a) { return applied_to(arb_sin, a); }
-BigFloat A::cos(const N& a) { return applied_to(arb_cos, a); }
-BigFloat A::tan(const N& a) { return divide(sin(a), cos(a)); }
-BigFloat A::exp(const N& a) { return applied_to(arb_exp, a); }
+BigFloat A::function(Op op, const N& a) {
+  if (op == Op::tan) return divide(function(Op::sin, a), function(Op::cos, a));
+  return applied_to(arb_function(op), a);
+}
 
 BigFloat A::log(const N& a) {
   if (a.sign() <= 0) throw std::domain_error("logarithm of a number that is not positive");

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "runtime/program/function_table.hpp"
+
 namespace casimir {
 namespace {
 
@@ -39,13 +41,10 @@ struct Arithmetic<Moving> {
   static N power(N a, N e) {  // of a constant exponent, see Op::pow
     return {std::pow(a.value, e.value), e.value * std::pow(a.value, e.value - 1) * a.rate};
   }
-  static N sin(N a) { return {std::sin(a.value), std::cos(a.value) * a.rate}; }
-  static N cos(N a) { return {std::cos(a.value), -std::sin(a.value) * a.rate}; }
-  static N tan(N a) {
-    const double tangent = std::tan(a.value);
-    return {tangent, (1 + tangent * tangent) * a.rate};
+  static N function(Op op, N a) {
+    const double value = Real::function(op, a.value);
+    return {value, slope(op, a.value, value) * a.rate};
   }
-  static N exp(N a) { return {std::exp(a.value), std::exp(a.value) * a.rate}; }
   static N log(N a) { return {std::log(a.value), a.rate / a.value}; }
   static N asin(N a) { return {std::asin(a.value), a.rate / std::sqrt(1 - a.value * a.value)}; }
   static N acos(N a) { return {std::acos(a.value), -a.rate / std::sqrt(1 - a.value * a.value)}; }
@@ -55,6 +54,19 @@ struct Arithmetic<Moving> {
     return {std::atan2(y.value, x.value), (c * y.rate - s * x.rate) / length};
   }
   static int sign(N a) { return Real::sign(a.value); }
+
+ private:
+  /// The derivative of a function that is an integral by its recurrence, at a place with its value.
+  static double slope(Op op, double a, double value) {
+    for (const SeriesStep& step : series_steps(op)) {
+      if (own_slot(op, step.target) != Slot::value) continue;
+      if (own_slot(op, step.by) == Slot::value) return step.sign * value;
+      if (function_row(op).partner != op)
+        return step.sign * Real::function(function_row(op).partner, a);
+      return 1 + series_steps(op)[1].sign * (value * value);  // of tan and tanh
+    }
+    return 0;
+  }
 };
 
 namespace {

@@ -8,10 +8,14 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "runtime/program.hpp"
+
 namespace casimir {
 
 /// What generic code needs of a number type: exact constants, the elementary functions and the
 /// sign, with a refusal (std::domain_error) where the result would not be a number of that type.
+/// `function` is that of an operation which has a value at every number of which the result is one:
+/// sin, cos, tan, sinh, cosh, tanh, exp.
 template <class Number>
 struct Arithmetic;
 
@@ -30,10 +34,24 @@ struct IeeeArithmetic {
   static Real divide(Real a, Real b) { return a / b; }
   static Real sqrt(Real a) { return std::sqrt(a); }
   static Real power(Real a, Real e) { return std::pow(a, e); }
-  static Real sin(Real a) { return std::sin(a); }
-  static Real cos(Real a) { return std::cos(a); }
-  static Real tan(Real a) { return std::tan(a); }
-  static Real exp(Real a) { return std::exp(a); }
+  static Real function(Op op, Real a) {
+    switch (op) {
+      case Op::sin:
+        return std::sin(a);
+      case Op::cos:
+        return std::cos(a);
+      case Op::tan:
+        return std::tan(a);
+      case Op::sinh:
+        return std::sinh(a);
+      case Op::cosh:
+        return std::cosh(a);
+      case Op::tanh:
+        return std::tanh(a);
+      default:
+        return std::exp(a);
+    }
+  }
   static Real log(Real a) { return std::log(a); }
   static Real asin(Real a) { return std::asin(a); }
   static Real acos(Real a) { return std::acos(a); }
@@ -62,10 +80,7 @@ struct Arithmetic<cln::cl_RA> {
     return root;
   }
   static N power(const N&, const N&) { return none(); }
-  static N sin(const N&) { return none(); }
-  static N cos(const N&) { return none(); }
-  static N tan(const N&) { return none(); }
-  static N exp(const N&) { return none(); }
+  static N function(Op, const N&) { return none(); }
   static N log(const N&) { return none(); }
   static N asin(const N&) { return none(); }
   static N acos(const N&) { return none(); }
@@ -97,10 +112,24 @@ struct Arithmetic<cln::cl_F> {
     if (!cln::plusp(a)) throw std::domain_error("broken power of a number that is not positive");
     return cln::exp(cln::ln(a) * e);
   }
-  N sin(const N& a) const { return cln::cl_float(cln::sin(a), format); }
-  N cos(const N& a) const { return cln::cl_float(cln::cos(a), format); }
-  N tan(const N& a) const { return divide(sin(a), cos(a)); }
-  N exp(const N& a) const { return cln::cl_float(cln::exp(a), format); }
+  N function(Op op, const N& a) const {
+    switch (op) {
+      case Op::sin:
+        return from(cln::sin(a));
+      case Op::cos:
+        return from(cln::cos(a));
+      case Op::tan:
+        return divide(from(cln::sin(a)), from(cln::cos(a)));
+      case Op::sinh:
+        return from(cln::sinh(a));
+      case Op::cosh:
+        return from(cln::cosh(a));
+      case Op::tanh:
+        return from(cln::tanh(a));
+      default:
+        return from(cln::exp(a));
+    }
+  }
   N log(const N& a) const {
     if (!cln::plusp(a)) throw std::domain_error("logarithm of a number that is not positive");
     return cln::cl_float(cln::ln(a), format);

@@ -29,13 +29,13 @@ Number applied(Op op, const Number& a, const Number& b, const Arithmetic<Number>
     case Op::sqrt:
       return arithmetic.sqrt(a);
     case Op::sin:
-      return arithmetic.sin(a);
     case Op::cos:
-      return arithmetic.cos(a);
     case Op::tan:
-      return arithmetic.tan(a);
+    case Op::sinh:
+    case Op::cosh:
+    case Op::tanh:
     case Op::exp:
-      return arithmetic.exp(a);
+      return arithmetic.function(op, a);
     case Op::log:
       return arithmetic.log(a);
     case Op::asin:

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/program/function_table.hpp"
 #include "runtime/program/operation.hpp"
 
 namespace casimir {
@@ -34,8 +35,9 @@ class TaylorJet {
     series_.assign(program.code.size(), empty);
     for (const Instruction& line : program.code) {
       constant_.push_back(is_constant(line));
-      helpers_.push_back(has_helpers(line.op) ? static_cast<int>(helper_series_.size()) : -1);
-      if (has_helpers(line.op)) helper_series_.insert(helper_series_.end(), 2, empty);
+      const bool helped = is_function(line.op) && has_helpers(line.op);
+      helpers_.push_back(helped ? static_cast<int>(helper_series_.size()) : -1);
+      if (helped) helper_series_.insert(helper_series_.end(), 2, empty);
     }
   }
 
@@ -95,31 +97,14 @@ class TaylorJet {
   }
 
   bool may_be_singular(const Instruction& line) const {
-    switch (line.op) {
-      case Op::div:
-        return !constant_[index(line.b)];
-      case Op::pow:
-      case Op::sqrt:
-      case Op::log:
-      case Op::tan:
-      case Op::asin:
-      case Op::acos:
-      case Op::atan2:
-        return true;
-      default:
-        return false;
-    }
+    if (line.op == Op::div) return !constant_[index(line.b)];
+    return is_function(line.op) && function_row(line.op).singular;
   }
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   const Number& integer(int k) const { return integers_[index(k)]; }
   const Series& of(int line) const { return series_[index(line)]; }
 
-  /// Whether the recurrence of the operation needs series of its own beside the result.
-  static bool has_helpers(Op op) {
-    return op == Op::sin || op == Op::cos || op == Op::tan || op == Op::asin || op == Op::acos ||
-           op == Op::atan2 || op == Op::abs;
-  }
   Series& helper(std::size_t line, int which) {
     return helper_series_[index(helpers_[line] + which)];
   }
@@ -201,28 +186,45 @@ class TaylorJet {
     }
     series_[i][0] = value_of(line);
     if (helpers_[i] < 0) return;
+    for (const SeriesStep& step : series_steps(line.op)) begin_helper(i, line, step);
+  }
+
+  /// The value of the helper that a step of the recurrence of instruction i is about.
+  void begin_helper(std::size_t i, const Instruction& line, const SeriesStep& step) {
     const Arithmetic<Number>& m = arithmetic_;
-    const Number &a = of(line.a)[0], &one = integer(1);
-    Number &u = helper(i, 0)[0], &w = helper(i, 1)[0];
-    switch (line.op) {
-      case Op::sin:
-        u = m.cos(a);
-        break;
-      case Op::cos:
-        u = m.sin(a);
-        break;
-      case Op::tan:
-        u = one + series_[i][0] * series_[i][0];
-        break;
-      case Op::abs:
-        u = side_of(a);
-        break;
-      case Op::atan2:
-        u = of(line.b)[0] * of(line.b)[0] + a * a;
-        break;
-      default:  // asin, acos
-        w = one - a * a;
-        u = m.sqrt(w);
+    const Number& a = of(line.a)[0];
+    if (step.rule == SeriesRule::angle) {
+      helper(i, 0)[0] = of(line.b)[0] * of(line.b)[0] + a * a;
+      return;
+    }
+    if (step.rule == SeriesRule::side) {
+      helper(i, 0)[0] = side_of(a);
+      return;
+    }
+    Series& target = at(i, line, step.target);
+    if (&target == &series_[i]) return;
+    const Number &of_it = at(i, line, step.of)[0], &one = integer(1);
+    if (step.rule == SeriesRule::squares)
+      target[0] = step.sign < 0 ? one - of_it * of_it : one + of_it * of_it;
+    else if (step.rule == SeriesRule::root)
+      target[0] = m.sqrt(of_it);
+    else
+      target[0] = m.function(function_row(line.op).partner, a);
+  }
+
+  /// The series in a slot of the recurrence of instruction i.
+  Series& at(std::size_t i, const Instruction& line, Slot slot) {
+    switch (own_slot(line.op, slot)) {
+      case Slot::argument:
+        return series_[index(line.a)];
+      case Slot::second:
+        return series_[index(line.b)];
+      case Slot::value:
+        return series_[i];
+      case Slot::helper:
+        return helper(i, 0);
+      default:
+        return helper(i, 1);
     }
   }
 
@@ -258,71 +260,61 @@ class TaylorJet {
                    : arithmetic_.divide(a[n] - convolution(b, series_[i], k, 1, k), b[0]);
         break;
       default:
-        next = next_of_function(i, line, a, b, k);
+        for (const SeriesStep& step : series_steps(line.op)) extend(i, line, step, k);
     }
   }
 
-  /// Coefficient k > 0 of a function of the series a (and, for atan2, of x = b).
-  Number next_of_function(std::size_t i, const Instruction& line, const Series& a, const Series& b,
-                          int k) {
-    const Series& s = series_[i];
+  /// Coefficient k > 0 of the series that a step of a recurrence is about.
+  void extend(std::size_t i, const Instruction& line, const SeriesStep& step, int k) {
     const std::size_t n = index(k);
+    Series& y = at(i, line, step.target);
+    const Series &a = at(i, line, step.of), &f = at(i, line, step.by);
     const Number &at_k = integer(k), &two = integer(2);
-    switch (line.op) {
-      case Op::sqrt:
-        return arithmetic_.divide(a[n] - convolution(s, s, k, 1, k - 1), two * s[0]);
-      case Op::pow:  // a s' = e a' s
-        return arithmetic_.divide(b[0] * weighted(a, s, k, 1, k) - weighted(s, a, k, 1, k - 1),
-                                  at_k * a[0]);
-      case Op::exp:
-        return weighted(a, s, k, 1, k) / at_k;
-      case Op::sign:
-        return integer(0);
-      case Op::log:
-        return arithmetic_.divide(at_k * a[n] - weighted(s, a, k, 1, k - 1), at_k * a[0]);
+    const auto with_sign = [&](const Number& value) { return step.sign < 0 ? -value : value; };
+    switch (step.rule) {
+      case SeriesRule::integral:
+        y[n] = with_sign(weighted(a, f, k, 1, k) / at_k);
+        break;
+      case SeriesRule::quotient:
+        y[n] =
+            arithmetic_.divide(at_k * with_sign(a[n]) - weighted(y, f, k, 1, k - 1), at_k * f[0]);
+        break;
+      case SeriesRule::root:
+        y[n] = arithmetic_.divide(a[n] - convolution(y, y, k, 1, k - 1), two * y[0]);
+        break;
+      case SeriesRule::squares:
+        // Of the function's own series, whose last coefficient is new, in the order of a
+        // recurrence that has all others already.
+        y[n] = with_sign(step.of == Slot::value ? convolution(a, a, k, 1, k - 1) + two * a[0] * a[n]
+                                                : convolution(a, a, k, 0, k));
+        break;
       default:
-        return next_with_helpers(i, line, a, b, k);
+        extend_alone(i, line, step.rule, k);
     }
   }
 
-  Number next_with_helpers(std::size_t i, const Instruction& line, const Series& a, const Series& b,
-                           int k) {
-    const Series& s = series_[i];
-    Series &u = helper(i, 0), &w = helper(i, 1);
+  /// The same by a rule of one function.
+  void extend_alone(std::size_t i, const Instruction& line, SeriesRule rule, int k) {
+    const Series &a = of(line.a), &b = of(line.b < 0 ? line.a : line.b);
+    Series& y = series_[i];
     const std::size_t n = index(k);
-    const Number &at_k = integer(k), &two = integer(2);
-    switch (line.op) {
-      case Op::sin: {
-        const Number next = weighted(a, u, k, 1, k) / at_k;
-        u[n] = -(weighted(a, s, k, 1, k) / at_k);
-        return next;
-      }
-      case Op::cos: {
-        const Number next = -(weighted(a, u, k, 1, k) / at_k);
-        u[n] = weighted(a, s, k, 1, k) / at_k;
-        return next;
-      }
-      case Op::tan: {
-        // s' = (1 + s^2) a', and u = 1 + s^2 needs the new coefficient of s
-        const Number next = weighted(a, u, k, 1, k) / at_k;
-        u[n] = convolution(s, s, k, 1, k - 1) + two * s[0] * next;
-        return next;
-      }
-      case Op::abs:  // where it begins at zero, the first term that is not says on which side
-        if (arithmetic_.sign(u[0]) == 0) u[0] = side_of(a[n]);
-        return u[0] * a[n];
-      case Op::atan2:
-        // r s' = x y' - y x', r = x^2 + y^2
-        u[n] = convolution(b, b, k, 0, k) + convolution(a, a, k, 0, k);
-        return arithmetic_.divide(
-            weighted(a, b, k, 1, k) - weighted(b, a, k, 1, k) - weighted(s, u, k, 1, k - 1),
-            at_k * u[0]);
-      default: {  // asin, acos: u = sqrt(1 - a^2), u s' = +-a'
-        w[n] = -convolution(a, a, k, 0, k);
-        u[n] = arithmetic_.divide(w[n] - convolution(u, u, k, 1, k - 1), two * u[0]);
-        const Number slope = line.op == Op::asin ? a[n] : -a[n];
-        return arithmetic_.divide(at_k * slope - weighted(s, u, k, 1, k - 1), at_k * u[0]);
-      }
+    const Number& at_k = integer(k);
+    if (rule == SeriesRule::power) {
+      y[n] = arithmetic_.divide(b[0] * weighted(a, y, k, 1, k) - weighted(y, a, k, 1, k - 1),
+                                at_k * a[0]);
+    } else if (rule == SeriesRule::constant) {
+      y[n] = integer(0);
+    } else if (rule == SeriesRule::side) {
+      // Where it begins at zero, the first term that is not says on which side.
+      Series& u = helper(i, 0);
+      if (arithmetic_.sign(u[0]) == 0) u[0] = side_of(a[n]);
+      y[n] = u[0] * a[n];
+    } else {
+      Series& r = helper(i, 0);
+      r[n] = convolution(b, b, k, 0, k) + convolution(a, a, k, 0, k);
+      y[n] = arithmetic_.divide(
+          weighted(a, b, k, 1, k) - weighted(b, a, k, 1, k) - weighted(y, r, k, 1, k - 1),
+          at_k * r[0]);
     }
   }
 

@@ -37,10 +37,7 @@ struct Arithmetic<SizedNumber> {
   static N power(N a, N e) {
     return {std::pow(a.value, e.value), std::pow(std::max(a.size, std::abs(a.value)), e.value)};
   }
-  static N sin(N a) { return plain(std::sin(a.value)); }
-  static N cos(N a) { return plain(std::cos(a.value)); }
-  static N tan(N a) { return plain(std::tan(a.value)); }
-  static N exp(N a) { return plain(std::exp(a.value)); }
+  static N function(Op op, N a) { return plain(Arithmetic<long double>::function(op, a.value)); }
   static N log(N a) { return plain(std::log(a.value)); }
   static N asin(N a) { return plain(std::asin(a.value)); }
   static N acos(N a) { return plain(std::acos(a.value)); }

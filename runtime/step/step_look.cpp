@@ -141,8 +141,12 @@ bool StepLook::is_calm(const StepWatch::Watched& watched, std::size_t which, con
       return std::max(std::abs(least), std::abs(most)) + change < 1;
     case StepWatch::Kind::exponent:
       return change < kResolved || most + change < negligible_;
+    case StepWatch::Kind::both:
     case StepWatch::Kind::power:
       return change < kResolved;
+    case StepWatch::Kind::front:
+      return 2 * change < kResolved ||
+             2 * (change - std::min(std::abs(least), std::abs(most))) < negligible_;
     case StepWatch::Kind::phase:
       return change < kTurn;
     case StepWatch::Kind::divisor:
@@ -178,6 +182,8 @@ double StepLook::operator()(const casimir_step& trial, const double* middle) {
         own = defined(trial, watched);
         break;
       case StepWatch::Kind::exponent:
+      case StepWatch::Kind::both:
+      case StepWatch::Kind::front:
       case StepWatch::Kind::power:
         own = resolved(watched, i);
         break;
@@ -212,13 +218,15 @@ bool StepLook::ends_behind_jump(const casimir_step& trial) const {
 /// Between two places the exponent is not above the larger of its values there by more than it
 /// changes from place to place around them.
 double StepLook::resolved(const StepWatch::Watched& watched, std::size_t which) {
-  const bool is_divisor = watched.kind == StepWatch::Kind::divisor;
-  const bool is_power = is_divisor || watched.kind == StepWatch::Kind::power;
+  using Kind = StepWatch::Kind;
+  const bool is_divisor = watched.kind == Kind::divisor;
+  const bool is_power = is_divisor || watched.kind == Kind::power;
   const double exponent = is_divisor ? -watched.exponent : watched.exponent;
+  const double times = watched.kind == Kind::front ? 2 : 1;
   std::array<double, kPlaces> u;
   for (std::size_t i = 0; i < kPlaces; ++i) {
     const double value = sampled_[i][watched.place];
-    u[i] = is_power ? exponent * std::log(std::abs(value)) : value;
+    u[i] = is_power ? exponent * std::log(std::abs(value)) : times * value;
     if (std::isnan(u[i]) || u[i] == std::numeric_limits<double>::infinity()) return 1;
   }
   double negligible = negligible_;
@@ -231,6 +239,9 @@ double StepLook::resolved(const StepWatch::Watched& watched, std::size_t which) 
   }
   std::array<double, kPlaces - 1> change;
   for (std::size_t i = 0; i + 1 < kPlaces; ++i) change[i] = std::abs(u[i + 1] - u[i]);
+  // The exponents of what is to be resolved are not above these.
+  if (watched.kind == Kind::front || watched.kind == Kind::both)
+    for (double& value : u) value = watched.kind == Kind::both ? std::abs(value) : -std::abs(value);
   for (std::size_t i = 0; i + 1 < kPlaces; ++i) {
     double most = change[i];
     if (i > 0) most = std::max(most, change[i - 1]);

@@ -66,6 +66,7 @@ std::vector<bool> nowhere_negative(const Program& rhs) {
       case Op::sign:
         break;
       case Op::abs:
+      case Op::cosh:
       case Op::exp:
       case Op::sqrt:
       case Op::acos:
@@ -193,6 +194,7 @@ void split_divisor(const Program& rhs, std::vector<double>& powers) {
         left = n * std::max(exponent_of(rhs, line), 0.);
         break;
       case Op::exp:  // watched as what it is
+      case Op::cosh:
         break;
       default:
         continue;
@@ -267,6 +269,13 @@ void StepWatch::watch_branches(const Program& rhs, const std::vector<bool>& vari
         break;
       case Op::exp:
         watch(Kind::exponent, {line.a});
+        break;
+      case Op::sinh:
+      case Op::cosh:
+        watch(Kind::both, {line.a});
+        break;
+      case Op::tanh:
+        watch(Kind::front, {line.a});
         break;
       default:
         break;

@@ -26,6 +26,8 @@ class StepWatch {
     positive,  ///< sqrt(u), log(u), a broken power: no value where u < 0
     unit,      ///< asin(u), acos(u): no value where |u| > 1
     exponent,  ///< exp(u): to be resolved where it is not negligible
+    both,      ///< sinh(u), cosh(u): the same for exp(u) and exp(-u)
+    front,     ///< tanh(u): the same for its slope, of the size exp(-2|u|)
     power,     ///< u^n with n of ten and more: the same for n log|u|
     divisor,   ///< 1/u^n: no dip of u within a step that its places do not show
     phase      ///< sin(u), cos(u), tan(u) in an argument that is watched: no turn within a step

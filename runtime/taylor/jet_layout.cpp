@@ -1,8 +1,12 @@
 #include "runtime/taylor/jet_layout.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
+#include "runtime/program/function_table.hpp"
 #include "runtime/program/operation.hpp"
 
 extern "C" {
@@ -30,43 +34,71 @@ casimir_jet_op operation(Op op) {
       return CASIMIR_JET_NEG;
     case Op::pow:
       return CASIMIR_JET_POW;
-    case Op::sqrt:
-      return CASIMIR_JET_SQRT;
-    case Op::sin:
-      return CASIMIR_JET_SIN;
-    case Op::cos:
-      return CASIMIR_JET_COS;
-    case Op::tan:
-      return CASIMIR_JET_TAN;
-    case Op::exp:
-      return CASIMIR_JET_EXP;
-    case Op::log:
-      return CASIMIR_JET_LOG;
-    case Op::asin:
-      return CASIMIR_JET_ASIN;
-    case Op::acos:
-      return CASIMIR_JET_ACOS;
     case Op::atan2:
       return CASIMIR_JET_ATAN2;
-    default:
+    case Op::input:
       throw std::invalid_argument("a section function cannot depend on the time");
+    default:
+      return CASIMIR_JET_FUNCTION;
   }
 }
 
-/// Rows of a line: its series and what its recurrence needs.
-int rows_of(int op) {
-  switch (op) {
-    case CASIMIR_JET_SIN:
-    case CASIMIR_JET_COS:
-    case CASIMIR_JET_TAN:
-    case CASIMIR_JET_ATAN2:
-      return 2;
-    case CASIMIR_JET_ASIN:
-    case CASIMIR_JET_ACOS:
-      return 3;
+template <Op op>
+double value_at(double a) {
+  return applied(op, a, 0., Arithmetic<double>{});
+}
+
+using FunctionOfOne = double (*)(double);
+
+template <std::size_t... i>
+constexpr std::array<FunctionOfOne, sizeof...(i)> functions_of_one(std::index_sequence<i...>) {
+  return {value_at<function_table()[i].op>...};
+}
+
+/// The function of one argument that an operation is.
+FunctionOfOne function_of(Op op) {
+  static constexpr auto all = functions_of_one(std::make_index_sequence<function_table().size()>());
+  return all[static_cast<std::size_t>(&function_row(op) - function_table().data())];
+}
+
+casimir_jet_rule rule_of(SeriesRule rule) {
+  switch (rule) {
+    case SeriesRule::integral:
+      return CASIMIR_JET_INTEGRAL;
+    case SeriesRule::quotient:
+      return CASIMIR_JET_QUOTIENT;
+    case SeriesRule::root:
+      return CASIMIR_JET_ROOT;
     default:
-      return 1;
+      return CASIMIR_JET_SQUARES;
   }
+}
+
+/// Writes the recurrence of a function down for a line whose rows begin at `row`.
+/// \return  how many rows that are.
+int add_recurrence(Op op, int argument, int row, casimir_jet_line& line) {
+  int rows = 1;
+  const auto place = [&](Slot slot) {
+    const Slot own = own_slot(op, slot);
+    if (own == Slot::argument) return argument;
+    const int behind = own == Slot::value ? 0 : own == Slot::helper ? 1 : 2;
+    rows = std::max(rows, behind + 1);
+    return row + behind;
+  };
+  for (const SeriesStep& step : series_steps(op)) {
+    FunctionOfOne first = nullptr;
+    if (step.rule != SeriesRule::root && own_slot(op, step.target) == Slot::value)
+      first = function_of(op);
+    else if (step.rule == SeriesRule::integral)
+      first = function_of(function_row(op).partner);
+    line.step[line.steps++] = {rule_of(step.rule),
+                               place(step.target),
+                               place(step.of),
+                               place(step.by),
+                               static_cast<double>(step.sign),
+                               first};
+  }
+  return rows;
 }
 
 double value_of_line(const casimir_jet_line& line, double a, double b) {
@@ -83,27 +115,15 @@ double value_of_line(const casimir_jet_line& line, double a, double b) {
       return -a;
     case CASIMIR_JET_POW:
       return std::pow(a, line.value);
-    case CASIMIR_JET_SQRT:
-      return std::sqrt(a);
-    case CASIMIR_JET_SIN:
-      return std::sin(a);
-    case CASIMIR_JET_COS:
-      return std::cos(a);
-    case CASIMIR_JET_TAN:
-      return std::tan(a);
-    case CASIMIR_JET_EXP:
-      return std::exp(a);
-    case CASIMIR_JET_LOG:
-      return std::log(a);
-    case CASIMIR_JET_ASIN:
-      return std::asin(a);
-    case CASIMIR_JET_ACOS:
-      return std::acos(a);
     case CASIMIR_JET_ATAN2:
       return std::atan2(a, b);
     default:
-      return line.value;
+      break;
   }
+  for (int i = 0; i < line.steps; ++i)
+    if (line.step[i].row == line.row)
+      return line.step[i].first ? line.step[i].first(a) : std::sqrt(a);
+  return line.value;
 }
 
 }  // namespace
@@ -127,8 +147,15 @@ JetLayout jet_layout(const Program& program, std::size_t states) {
   std::vector<int> place;  // of each line of the program
   const auto at = [&](int i) { return i < 0 ? i : place[static_cast<std::size_t>(i)]; };
   const auto add = [&](int op, int a, int b, double value) {
-    layout.lines.push_back({op, a, b, layout.rows, value});
-    layout.rows += rows_of(op);
+    layout.lines.push_back({op, a, b, layout.rows, value, 0, {}});
+    layout.rows += op == CASIMIR_JET_ATAN2 ? 2 : 1;
+    return static_cast<int>(layout.lines.size()) - 1;
+  };
+  const auto add_function = [&](Op op, int a) {
+    casimir_jet_line line{CASIMIR_JET_FUNCTION, a, -1, layout.rows, 0, 0, {}};
+    const int argument = layout.lines[static_cast<std::size_t>(a)].row;
+    layout.rows += add_recurrence(op, argument, layout.rows, line);
+    layout.lines.push_back(line);
     return static_cast<int>(layout.lines.size()) - 1;
   };
   for (std::size_t i = 0; i < count; ++i) {
@@ -137,16 +164,17 @@ JetLayout jet_layout(const Program& program, std::size_t states) {
     const int a = has_operands ? at(line.a) : line.a, b = at(line.b);
     int made = -1;
     if (line.op == Op::abs || line.op == Op::sign) {
-      made = add(CASIMIR_JET_SQRT, add(CASIMIR_JET_MUL, a, a, 0), -1, 0);
+      made = add_function(Op::sqrt, add(CASIMIR_JET_MUL, a, a, 0));
       if (line.op == Op::sign) made = add(CASIMIR_JET_DIV, a, made, 0);
     } else if (is_literal(line)) {
       made = add(CASIMIR_JET_CONSTANT, -1, -1, literal_value(program, line, arithmetic));
     } else if (line.op == Op::input && static_cast<std::size_t>(line.a) < states) {
       made = add(CASIMIR_JET_STATE, a, b, 0);
+    } else if (const casimir_jet_op op = operation(line.op); op == CASIMIR_JET_FUNCTION) {
+      made = add_function(line.op, a);
     } else {
       const bool power = line.op == Op::pow;
-      made = add(operation(line.op), a, b,
-                 power ? layout.lines[static_cast<std::size_t>(b)].value : 0);
+      made = add(op, a, b, power ? layout.lines[static_cast<std::size_t>(b)].value : 0);
     }
     place.push_back(made);
   }

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "runtime/program/arb_function.hpp"
+
 namespace casimir::validated {
 
 thread_local slong ArbBall::bits = 128;
@@ -198,10 +200,7 @@ ArbBall A::power(const N& a, const N& e) {
   return result;
 }
 
-ArbBall A::sin(const N& a) { return validated::applied_to(arb_sin, a); }
-ArbBall A::cos(const N& a) { return validated::applied_to(arb_cos, a); }
-ArbBall A::tan(const N& a) { return validated::applied_to(arb_tan, a); }
-ArbBall A::exp(const N& a) { return validated::applied_to(arb_exp, a); }
+ArbBall A::function(Op op, const N& a) { return validated::applied_to(arb_function(op), a); }
 
 ArbBall A::log(const N& a) {
   check_positive(a, "logarithm of a number that may not be positive");

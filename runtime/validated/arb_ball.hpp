@@ -126,10 +126,7 @@ struct Arithmetic<validated::ArbBall> {
   static N divide(const N& a, const N& b) { return a / b; }
   static N sqrt(const N& a);
   static N power(const N& a, const N& e);
-  static N sin(const N& a);
-  static N cos(const N& a);
-  static N tan(const N& a);
-  static N exp(const N& a);
+  static N function(Op op, const N& a);
   static N log(const N& a);
   static N asin(const N& a);
   static N acos(const N& a);

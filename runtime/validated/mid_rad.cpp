@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "runtime/program/arb_function.hpp"
 #include "runtime/validated/arb_ball.hpp"
 
 namespace casimir::validated {
@@ -43,8 +44,6 @@ namespace {
 
 /// Enough that Arb's own error is far below the rounding to double.
 constexpr slong kBits = 80;
-
-using ArbFunction = void (*)(arb_t, const arb_t, slong);
 
 /// An Arb function on all of a ball.
 MidRad applied_to(ArbFunction function, const MidRad& a) {
@@ -100,10 +99,7 @@ MidRad A::power(const N& a, const N& e) {
   return validated::outwards(base);
 }
 
-MidRad A::sin(const N& a) { return applied_to(arb_sin, a); }
-MidRad A::cos(const N& a) { return applied_to(arb_cos, a); }
-MidRad A::tan(const N& a) { return applied_to(arb_tan, a); }
-MidRad A::exp(const N& a) { return applied_to(arb_exp, a); }
+MidRad A::function(Op op, const N& a) { return applied_to(arb_function(op), a); }
 
 MidRad A::log(const N& a) {
   if (!(a.mid > 0) || contains_zero(a))

@@ -210,6 +210,17 @@ BallEvaluator::Value BallEvaluator::function(const GiNaC::function& f) {
   } else if (name == "exp") {
     if (zero) return number(1);
     acb_exp(result.raw(), v.ball.raw(), bits_);
+  } else if (name == "sinh") {
+    if (zero) return number(0);
+    acb_sinh(result.raw(), v.ball.raw(), bits_);
+  } else if (name == "cosh") {
+    if (zero) return number(1);
+    acb_cosh(result.raw(), v.ball.raw(), bits_);
+  } else if (name == "tanh") {
+    if (zero) return number(0);
+    acb_cosh(result.raw(), v.ball.raw(), bits_);
+    if (result.contains_zero()) throw NotCertified{};
+    acb_tanh(result.raw(), v.ball.raw(), bits_);
   } else if (name == "log") {
     if (v.exact && *v.exact == 1) return number(0);
     if (numbers_ == Numbers::real && certain_sign(v) <= 0) throw NotCertified{};

@@ -12,6 +12,7 @@
 #include "symbolic/algebra/integer_factors.hpp"
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/case/decimal.hpp"
+#include "symbolic/case/elementary.hpp"
 
 namespace casimir {
 namespace {
@@ -222,10 +223,13 @@ Quotient logarithm(const Rational& argument) {
   return {sum, constant(1)};
 }
 
+Quotient evaluate(const ex& e);
+
 Quotient function_value(const GiNaC::function& f) {
   const std::string name = f.get_name();
   if (name == "log") return logarithm(rational_argument(f.op(0)));
   if (name == "exp") return exponential(rational_argument(f.op(0)), 0);
+  if (const auto exponentials = by_exponentials(f)) return evaluate(*exponentials);
   if (name != "sin" && name != "cos" && name != "tan") throw Unknown{};
   const Rational angle = rational_argument(f.op(0));
   const Quotient forward = exponential(0, angle);

@@ -82,7 +82,7 @@ class Parser {
              "'domain'";
     if (c == '(' || is_name_part(c)) return "write products with '*'";
     if (c == '[' || c == ']') return "only round parentheses group, as in 2*(x + y)";
-    if (c == '|') return "|x| is written sqrt(x^2)";
+    if (c == '|') return "|x| is written abs(x)";
     if (static_cast<unsigned char>(c) < 0x80) return {};
     const std::string spelling = spelling_of_character(character());
     return spelling.empty() ? "names consist of the ASCII letters, digits and '_'" : spelling;
@@ -418,7 +418,12 @@ class Parser {
     const std::vector<Quantity> arguments = this->arguments(function.name, function.arity, start);
     const Quantity& first = arguments.front();
     const Quantity& last = arguments.back();
-    Quantity q{0, first.bits, first.degree, 1 + first.nodes, 1 + std::max(first.depth, last.depth)};
+    if (function.real && names_.complex_numbers())
+      fail_at(start, fmt::format("'{}' is for real numbers, and this case has complex ones",
+                                 function.name));
+    const double uses = function.uses;
+    Quantity q{0, uses * first.bits, uses * first.degree, uses * (1 + first.nodes),
+               (uses > 1 ? 3 : 1) + std::max(first.depth, last.depth)};
     if (arguments.size() > 1) {
       q.bits += last.bits;
       q.degree += last.degree;
@@ -433,8 +438,7 @@ class Parser {
       return function.name == "sqrt" ? principal_power(first.value, GiNaC::numeric(1, 2))
                                      : function.apply(first.value, last.value);
     });
-    if (function.name != "sin" && function.name != "cos" && function.name != "exp")
-      add_part(q.value);
+    if (!function.everywhere) add_part(q.value);
     return checked(q, start);
   }
 
@@ -461,57 +465,10 @@ Quantity parse_range(const Text& text, Scope& names, std::size_t begin, std::siz
   return Parser(text, names, begin, end).parse();
 }
 
-/// The functions and the powers in an expression.
-std::unordered_set<ex> visible_parts(const ex& value) {
-  std::unordered_set<ex> parts;
-  for (auto part = value.preorder_begin(); part != value.preorder_end(); ++part) {
-    if (GiNaC::is_a<GiNaC::power>(*part) || GiNaC::is_a<GiNaC::function>(*part))
-      parts.insert(*part);
-  }
-  return parts;
-}
-
 }  // namespace
-
-std::vector<ex> lost_parts(const Quantity& quantity) {
-  std::vector<ex> lost;
-  if (!quantity.parts) return lost;
-  const std::unordered_set<ex> visible = visible_parts(quantity.value);
-  for (const ex& part : *quantity.parts) {
-    // A sum of what is visible has values where that has.
-    if (!visible.contains(part) &&
-        (GiNaC::is_a<GiNaC::power>(part) || GiNaC::is_a<GiNaC::function>(part) ||
-         GiNaC::is_a<GiNaC::mul>(part)))
-      lost.push_back(part);
-  }
-  return lost;
-}
-
-Quantity with_parts(Quantity quantity, const std::vector<ex>& lost) {
-  std::vector<ex> parts = lost;
-  for (const ex& part : visible_parts(quantity.value)) parts.push_back(part);
-  if (!parts.empty()) quantity.parts = std::make_shared<const std::vector<ex>>(std::move(parts));
-  return quantity;
-}
 
 Quantity parse_expression(const Text& text, Scope& names) {
   return parse_range(text, names, 0, text.value.size());
-}
-
-GiNaC::ex parse_constant(const Text& text) {
-  NameTable empty;
-  return parse_expression(text, empty).value;
-}
-
-GiNaC::ex parse_real_constant(const Text& text) {
-  const ex value = parse_constant(text);
-  if (!real_decimal(value)) {
-    throw text.error(fmt::format(
-        "expected a real constant, such as 3/5 or sqrt(2)/2, with numbers of up to {:.0f} "
-        "bits",
-        limits().bits));
-  }
-  return value;
 }
 
 Condition parse_condition(const Text& text, Scope& names) {

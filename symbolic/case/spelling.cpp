@@ -20,26 +20,27 @@ struct Spelling {
 
 /// One name for another.
 constexpr Spelling kNames[] = {
-    {"ln", "log"},        {"Log", "log"},     {"pi", "Pi"},       {"PI", "Pi"},      {"M_PI", "Pi"},
-    {"arcsin", "asin"},   {"arccos", "acos"}, {"arctan", "atan"}, {"arctg", "atan"}, {"tg", "tan"},
-    {"arctan2", "atan2"}, {"Sqrt", "sqrt"},   {"root", "sqrt"},   {"D", "diff"},     {"dt", "rate"},
+    {"ln", "log"},     {"Log", "log"},     {"pi", "Pi"},         {"PI", "Pi"},
+    {"M_PI", "Pi"},    {"arcsin", "asin"}, {"arccos", "acos"},   {"arctan", "atan"},
+    {"arctg", "atan"}, {"tg", "tan"},      {"sh", "sinh"},       {"ch", "cosh"},
+    {"th", "tanh"},    {"ctg", "cot"},     {"sgn", "sign"},      {"fabs", "abs"},
+    {"Abs", "abs"},    {"signum", "sign"}, {"arctan2", "atan2"}, {"Sqrt", "sqrt"},
+    {"root", "sqrt"},  {"D", "diff"},      {"dt", "rate"},
 };
 
 /// What has no name here.
 constexpr Spelling kForms[] = {
     {"e", "e is written exp(1)"},
-    {"abs", "abs(x) is written sqrt(x^2)"},
     {"pow", "pow(x, y) is written x^y"},
     {"sqr", "sqr(x) is written x^2"},
     {"cbrt", "cbrt(x) is written x^(1/3) for x > 0"},
-    {"sinh", "sinh(x) is written (exp(x) - exp(-x))/2"},
-    {"sh", "sh(x) is written (exp(x) - exp(-x))/2"},
-    {"cosh", "cosh(x) is written (exp(x) + exp(-x))/2"},
-    {"ch", "ch(x) is written (exp(x) + exp(-x))/2"},
-    {"tanh", "tanh(x) is written (exp(2*x) - 1)/(exp(2*x) + 1)"},
-    {"th", "th(x) is written (exp(2*x) - 1)/(exp(2*x) + 1)"},
-    {"cot", "cot(x) is written 1/tan(x)"},
-    {"ctg", "ctg(x) is written 1/tan(x)"},
+    {"coth", "coth(x) is written 1/tanh(x)"},
+    {"asinh", "asinh(x) is written log(x + sqrt(x^2 + 1))"},
+    {"arsinh", "arsinh(x) is written log(x + sqrt(x^2 + 1))"},
+    {"acosh", "acosh(x) is written log(x + sqrt(x^2 - 1))"},
+    {"arcosh", "arcosh(x) is written log(x + sqrt(x^2 - 1))"},
+    {"atanh", "atanh(x) is written log((1 + x)/(1 - x))/2"},
+    {"artanh", "artanh(x) is written log((1 + x)/(1 - x))/2"},
     {"sec", "sec(x) is written 1/cos(x)"},
     {"csc", "csc(x) is written 1/sin(x)"},
     {"log10", "log10(x) is written log(x)/log(10)"},

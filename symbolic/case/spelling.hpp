@@ -11,7 +11,7 @@
 namespace casimir {
 
 /// A function or constant under a name that it has elsewhere, as "did you mean 'log'?" for `ln`
-/// and "abs(x) is written sqrt(x^2)" for `abs`; empty for a name that no other notation has.
+/// and "sec(x) is written 1/cos(x)" for `sec`; empty for a name that no other notation has.
 std::string spelling_of_name(std::string_view name);
 
 /// A character that stands for something in print, as "'·' is written *"; empty for one that does

@@ -11,6 +11,7 @@
 
 #include "symbolic/algebra/machine_word.hpp"
 #include "symbolic/algebra/number_text.hpp"
+#include "symbolic/case/elementary.hpp"
 #include "symbolic/case/limits.hpp"
 #include "symbolic/functions/function_ring.hpp"
 #include "symbolic/functions/gaussian_argument.hpp"
@@ -308,6 +309,10 @@ Polynomial FunctionRing::convert_function(const GiNaC::function& f) {
     return checked_product(s, inverse(c));
   }
   if (name == "exp") return exponential(convert(f.op(0)));
+  // So what holds among exponentials, of equal arguments and of multiples of each other, holds for
+  // these too. The sum that tanh is divided by vanishes nowhere over the real numbers, and over the
+  // complex ones tanh has no value where it does.
+  if (const auto exponentials = by_exponentials(f)) return convert(*exponentials);
   const Polynomial v = convert(f.op(0));
   const Polynomial one = ring_->constant(1);
   const auto opaque = [&](const Polynomial& factor, const Polynomial& key, unsigned long tag) {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "symbolic/algebra/number_text.hpp"
+#include "symbolic/case/elementary.hpp"
 #include "symbolic/case/expression_size.hpp"
 
 namespace casimir {
@@ -30,6 +31,8 @@ struct ExactPoint::Functions : public GiNaC::map_function {
     const ex inner = e.map(*this);
     if (!GiNaC::is_a<GiNaC::function>(inner)) return inner;
     const std::string name = GiNaC::ex_to<GiNaC::function>(inner).get_name();
+    if (const auto exponentials = by_exponentials(GiNaC::ex_to<GiNaC::function>(inner)))
+      return (*this)(*exponentials);
     if (name == "exp") {
       const std::optional<numeric> value =
           product(inner.op(0), point_.exponents_, &Exponent::value);

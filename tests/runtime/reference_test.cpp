@@ -152,6 +152,15 @@ const Rule kRules[] = {
     // x' = tan t * x, x = 1/cos t
     {"tan", [](Builder& b) { return b.op(Op::mul, 0, b.op(Op::tan, b.time())); }, 1,
      [](const cln::cl_F& t) { return real(1, t) / cln::cl_float(cln::cos(t), t); }},
+    // x' = x tanh t, x = cosh t
+    {"tanh", [](Builder& b) { return b.op(Op::mul, 0, b.op(Op::tanh, b.time())); }, 1,
+     [](const cln::cl_F& t) { return cln::cl_float(cln::cosh(t), t); }},
+    // x' = sinh t, x = cosh t from 1
+    {"sinh", [](Builder& b) { return b.op(Op::sinh, b.time()); }, 1,
+     [](const cln::cl_F& t) { return cln::cl_float(cln::cosh(t), t); }},
+    // x' = 1/cosh x, x = log(t + sqrt(1 + t^2))
+    {"cosh", [](Builder& b) { return b.op(Op::div, b.number(1), b.op(Op::cosh, 0)); }, 0,
+     [](const cln::cl_F& t) { return cln::ln(t + cln::sqrt(real(1, t) + t * t)); }},
     // x' = asin(t/2): x = t asin(t/2) + sqrt(4 - t^2) - 2
     {"asin", [](Builder& b) { return b.op(Op::asin, b.op(Op::div, b.time(), b.number(2))); }, 0,
      [](const cln::cl_F& t) {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <map>
 
+#include "runtime/program/function_table.hpp"
 #include "tools/report/html.hpp"
 
 namespace casimir::tools {
@@ -37,10 +38,18 @@ const std::map<std::string, std::string>& letters() {
   return kLetters;
 }
 
+/// Commands that are names of functions, each with the name as it is printed.
 const std::map<std::string, std::string>& functions() {
-  static const std::map<std::string, std::string> kFunctions = {
-      {"sin", "sin"}, {"cos", "cos"},       {"tan", "tan"},       {"exp", "exp"},      {"ln", "ln"},
-      {"log", "log"}, {"arcsin", "arcsin"}, {"arccos", "arccos"}, {"arctan", "arctan"}};
+  static const std::map<std::string, std::string> kFunctions = [] {
+    std::map<std::string, std::string> names = {{"log", "log"}, {"arctan", "arctan"}};
+    for (const FunctionRow& row : function_table()) {
+      if (row.latex.find('{') != std::string_view::npos || row.op == Op::sqrt || row.latex.empty())
+        continue;
+      const std::string name(row.latex.substr(1));
+      names.emplace(name, name);
+    }
+    return names;
+  }();
   return kFunctions;
 }
 

@@ -48,8 +48,9 @@ std::string heading(const std::string& name, const std::string& file) {
       R"(# A case file: a system, what is claimed about it, and scenes to integrate.
 #   casimir verify {1}      proves or refutes every claim
 #   casimir conserve {1}    integrates every scene and watches what has to stay constant
-# Expressions are strings: + - * / ^, exact numbers (0.5 is 1/2), sqrt sin cos tan exp log atan
-# atan2 asin acos, Pi; {{F, G}} is the Poisson bracket, rate(F) is dF/dt, diff(F, x) a derivative.
+# Expressions are strings: + - * / ^, exact numbers (0.5 is 1/2), sqrt sin cos tan cot sinh
+# cosh tanh exp log atan atan2 asin acos abs sign, Pi; {{F, G}} is the Poisson bracket, rate(F) is
+# dF/dt, diff(F, x) a derivative.
 # Keys that are commented out show how they are written.
 title = "{0}"
 source = "where the formulas come from"

@@ -12,23 +12,38 @@ enum casimir_jet_op {
   CASIMIR_JET_MUL,
   CASIMIR_JET_DIV,
   CASIMIR_JET_NEG,
-  CASIMIR_JET_POW, /* a ^ value */
-  CASIMIR_JET_SQRT,
-  CASIMIR_JET_SIN,
-  CASIMIR_JET_COS,
-  CASIMIR_JET_TAN,
-  CASIMIR_JET_EXP,
-  CASIMIR_JET_LOG,
-  CASIMIR_JET_ASIN,
-  CASIMIR_JET_ACOS,
-  CASIMIR_JET_ATAN2 /* atan2(a, b) */
+  CASIMIR_JET_POW,     /* a ^ value */
+  CASIMIR_JET_ATAN2,   /* atan2(a, b); its recurrence has one row more */
+  CASIMIR_JET_FUNCTION /* by its recurrence */
 };
+
+/* The rules of recurrences, for coefficient k > 0 of a row y from those of the rows a and f and the
+ * sign s. */
+enum casimir_jet_rule {
+  CASIMIR_JET_INTEGRAL, /* y' = s f a' */
+  CASIMIR_JET_QUOTIENT, /* f y' = s a' */
+  CASIMIR_JET_ROOT,     /* y y = a */
+  CASIMIR_JET_SQUARES   /* y = 1 + s a a */
+};
+
+/* A line of a recurrence. The first coefficient of the row is that of a function of the argument,
+ * or where that is null follows from those of the row `of`: 1 + s a a, or the root. */
+struct casimir_jet_step {
+  int rule;      /* enum casimir_jet_rule */
+  int row, a, f; /* rows */
+  double sign;
+  double (*first)(double);
+};
+
+enum { CASIMIR_MOST_JET_STEPS = 3 };
 
 struct casimir_jet_line {
   int op;   /* enum casimir_jet_op */
   int a, b; /* earlier lines; -1 where there is none */
   int row;  /* the first of the line's rows: its series, then those of its recurrence */
   double value;
+  int steps; /* of a function */
+  struct casimir_jet_step step[CASIMIR_MOST_JET_STEPS];
 };
 
 enum { CASIMIR_MOST_JET_ORDER = 24 };

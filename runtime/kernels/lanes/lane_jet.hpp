@@ -9,8 +9,7 @@ namespace casimir_kernel::lanes {
 /// of the function is done for all orders before the next: unlike a right-hand side, nothing here
 /// waits for a coefficient to come.
 ///
-/// The recurrences are those of automatic differentiation: Griewank & Walther, Evaluating
-/// Derivatives, 2008, Table 13.1 and 13.2.
+/// The recurrences of functions come with their lines.
 template <class V>
 class Jet {
   static constexpr int width = static_cast<int>(sizeof(V) / sizeof(double));
@@ -111,60 +110,50 @@ class Jet {
   }
 
   void work_out_function(const casimir_jet_line& line, V* s, const V* a, const V* b) {
-    const int n = order_;
-    switch (line.op) {
-      case CASIMIR_JET_POW:  // a s' = e a' s
-        s[0] = each(a[0], [&](double x) { return __builtin_pow(x, line.value); });
-        for (int k = 1; k <= n; ++k)
-          s[k] = (line.value * weighted(a, s, k, 1, k) - weighted(s, a, k, 1, k - 1)) /
-                 (static_cast<double>(k) * a[0]);
-        break;
-      case CASIMIR_JET_SQRT:
-        s[0] = each(a[0], [](double x) { return __builtin_sqrt(x); });
-        for (int k = 1; k <= n; ++k) s[k] = (a[k] - convolution(s, s, k, 1, k - 1)) / (2 * s[0]);
-        break;
-      case CASIMIR_JET_EXP:
-        s[0] = each(a[0], [](double x) { return __builtin_exp(x); });
-        for (int k = 1; k <= n; ++k) s[k] = weighted(a, s, k, 1, k) / static_cast<double>(k);
-        break;
-      case CASIMIR_JET_LOG:
-        s[0] = each(a[0], [](double x) { return __builtin_log(x); });
-        for (int k = 1; k <= n; ++k)
-          s[k] = (a[k] - weighted(s, a, k, 1, k - 1) / static_cast<double>(k)) / a[0];
-        break;
-      default:
-        work_out_with_helpers(line, s, a, b);
-    }
+    if (line.op == CASIMIR_JET_ATAN2) return angle(a, b, s, row(line, 1));
+    if (line.op == CASIMIR_JET_FUNCTION) return follow(line, a);
+    s[0] = each(a[0], [&](double x) { return __builtin_pow(x, line.value); });
+    for (int k = 1; k <= order_; ++k)  // a s' = e a' s
+      s[k] = (line.value * weighted(a, s, k, 1, k) - weighted(s, a, k, 1, k - 1)) /
+             (static_cast<double>(k) * a[0]);
   }
 
-  void work_out_with_helpers(const casimir_jet_line& line, V* s, const V* a, const V* b) {
-    V *const u = row(line, 1), *const w = row(line, 2);
-    switch (line.op) {
-      case CASIMIR_JET_SIN:
-        return sine_and_cosine(a, s, u);
-      case CASIMIR_JET_COS:
-        return sine_and_cosine(a, u, s);
-      case CASIMIR_JET_TAN:  // s' = u a', u = 1 + s^2
-        s[0] = each(a[0], [](double x) { return __builtin_tan(x); });
-        u[0] = 1 + s[0] * s[0];
-        for (int k = 1; k <= order_; ++k) {
-          s[k] = weighted(a, u, k, 1, k) / static_cast<double>(k);
-          u[k] = convolution(s, s, k, 0, k);
-        }
+  V* numbered(int row) { return memory_ + row * stride; }
+
+  /// A function of a, by its recurrence. First the values that are functions of a: the others
+  /// follow from them.
+  void follow(const casimir_jet_line& line, const V* a) {
+    for (int i = 0; i < line.steps; ++i)
+      if (line.step[i].first) numbered(line.step[i].row)[0] = each(a[0], line.step[i].first);
+    for (int i = 0; i < line.steps; ++i)
+      if (!line.step[i].first) begin(line.step[i]);
+    for (int k = 1; k <= order_; ++k)
+      for (int i = 0; i < line.steps; ++i) extend(line.step[i], k);
+  }
+
+  void begin(const casimir_jet_step& step) {
+    V* const y = numbered(step.row);
+    const V* const a = numbered(step.a);
+    y[0] = step.rule == CASIMIR_JET_ROOT ? each(a[0], [](double x) { return __builtin_sqrt(x); })
+                                         : 1 + step.sign * a[0] * a[0];
+  }
+
+  void extend(const casimir_jet_step& step, int k) {
+    V* const y = numbered(step.row);
+    const V *const a = numbered(step.a), *const f = numbered(step.f);
+    const double at_k = static_cast<double>(k);
+    switch (step.rule) {
+      case CASIMIR_JET_INTEGRAL:
+        y[k] = step.sign * weighted(a, f, k, 1, k) / at_k;
         return;
-      case CASIMIR_JET_ATAN2:
-        return angle(a, b, s, u);
+      case CASIMIR_JET_QUOTIENT:
+        y[k] = (step.sign * at_k * a[k] - weighted(y, f, k, 1, k - 1)) / (at_k * f[0]);
+        return;
+      case CASIMIR_JET_ROOT:
+        y[k] = (a[k] - convolution(y, y, k, 1, k - 1)) / (2 * y[0]);
+        return;
       default:
-        return inverse(line.op == CASIMIR_JET_ASIN, a, s, u, w);
-    }
-  }
-
-  void sine_and_cosine(const V* a, V* sine, V* cosine) {
-    sine[0] = each(a[0], [](double x) { return __builtin_sin(x); });
-    cosine[0] = each(a[0], [](double x) { return __builtin_cos(x); });
-    for (int k = 1; k <= order_; ++k) {
-      sine[k] = weighted(a, cosine, k, 1, k) / static_cast<double>(k);
-      cosine[k] = -weighted(a, sine, k, 1, k) / static_cast<double>(k);
+        y[k] = step.sign * convolution(a, a, k, 0, k);
     }
   }
 
@@ -176,20 +165,6 @@ class Jet {
       r[k] = convolution(x, x, k, 0, k) + convolution(y, y, k, 0, k);
       s[k] = (weighted(y, x, k, 1, k) - weighted(x, y, k, 1, k) - weighted(s, r, k, 1, k - 1)) /
              (static_cast<double>(k) * r[0]);
-    }
-  }
-
-  /// u s' = +-a', u = sqrt(w), w = 1 - a^2
-  void inverse(bool sine, const V* a, V* s, V* u, V* w) {
-    s[0] = each(a[0], [&](double x) { return sine ? __builtin_asin(x) : __builtin_acos(x); });
-    w[0] = 1 - a[0] * a[0];
-    u[0] = each(w[0], [](double x) { return __builtin_sqrt(x); });
-    const double sign = sine ? 1 : -1;
-    for (int k = 1; k <= order_; ++k) {
-      w[k] = -convolution(a, a, k, 0, k);
-      u[k] = (w[k] - convolution(u, u, k, 1, k - 1)) / (2 * u[0]);
-      s[k] = (sign * static_cast<double>(k) * a[k] - weighted(s, u, k, 1, k - 1)) /
-             (static_cast<double>(k) * u[0]);
     }
   }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "runtime/kernels/lanes/lane_estimates.hpp"
 #include "runtime/kernels/taylor/taylor.hpp"
 
 namespace casimir_kernel {
@@ -26,63 +27,12 @@ namespace casimir_kernel {
 ///   };                                  `begin` there (where it is smooth that may be left out)
 namespace lanes {
 
-template <class V>
-inline constexpr int width_of = sizeof(V) / sizeof(double);
-template <class V>
-using Mask = Indices<width_of<V>>;
-
-template <class V>
-CASIMIR_INLINE Mask<V> bits_of(V v) {
-  return (Mask<V>)v;
-}
-
-template <class V>
-CASIMIR_INLINE V larger_of(V a, V b) {
-  return a > b ? a : b;
-}
-
-/// log2 of positive numbers to within 0.01; -1023 for 0. No conversion of integers, which not every
-/// instruction set has.
-template <class V>
-CASIMIR_INLINE V rough_log2(V a) {
-  using Bits = Unsigned<width_of<V>>;
-  const Bits bits = (Bits)a;
-  const V exponent = (V)((bits >> 52) | 0x4330000000000000ULL) - (0x1p52 + 1023);
-  const V m = (V)((bits & 0xfffffffffffffULL) | 0x3ff0000000000000ULL);
-  return exponent + (m * (2 - m * (1. / 3)) - 5. / 3);
-}
-
-/// 2^a to within 1 %, for |a| < 1000.
-template <class V>
-CASIMIR_INLINE V rough_exp2(V a) {
-  const V shifted = (a - 0.5) + 0x1.8p52;
-  const V part = a - (shifted - 0x1.8p52);  // 0 .. 1
-  const V power = (V)((bits_of(shifted) + 1023) << 52);
-  return power * (1 + part * (0.6565 + 0.3435 * part));
-}
-
-/// 1/a to within 1 %, for normal positive a whose inverse is normal.
-template <class V>
-CASIMIR_INLINE V rough_inverse(V a) {
-  const V guess = (V)(0x7fde623822fc16e6LL - bits_of(a));
-  return guess * (2 - a * guess);
-}
-
-/// The power of two next to each positive number.
-template <class V>
-CASIMIR_INLINE V power_of_two_near(V a) {
-  a = a > 0x1p-1020 ? a : all_lanes<V>(0x1p-1020);
-  a = a < 0x1p1019 ? a : all_lanes<V>(0x1p1019);
-  return (V)((bits_of(a) + 0x8000000000000LL) & 0x7ff0000000000000LL);
-}
-
 template <class Series>
 class March {
   using V = typename Series::V;
   using M = Mask<V>;
   static constexpr int width = width_of<V>, room = Series::room;
-  // As for one trajectory.
-  static constexpr double kDefect = 1000, kRounding = 0x1p-40, kLongest = 16, kHalf = 0.5;
+  using Policy = taylor::StepPolicy;
 
  public:
   March(const casimir_ensemble* run, Series& series)
@@ -164,7 +114,7 @@ class March {
     }
     time_[lane] = run_->t_begin;
     time_carry_[lane] = steps_[lane] = rejected_[lane] = 0;
-    part_[lane] = kHalf;
+    part_[lane] = Policy::kShorter;
     cut_[lane] = jumps_[lane] = 0;
     status_[lane] = failure_[lane] = CASIMIR_OK;
     return true;
@@ -266,8 +216,9 @@ class March {
     });
     const V rate =
         larger_of(lanes::rough_log2(a) * (1. / (order - 1)), lanes::rough_log2(z) * (1. / order));
-    const V s = rate < -4 ? all_lanes<V>(kLongest) : lanes::rough_exp2(-rate);
-    return a + z < 1e300 ? s : V{};
+    const V s =
+        rate < Policy::kSteepest ? all_lanes<V>(Policy::kLongest) : lanes::rough_exp2(-rate);
+    return a + z < Policy::kNoNumber ? s : V{};
   }
 
   /// A trial step in all lanes.
@@ -283,7 +234,8 @@ class March {
     trial.there = absolute(rest) <= absolute(h);
     trial.t1 = time_;
     trial.t1_carry = time_carry_;
-    const V least = larger_of(16 * kEpsilon * absolute(time_), all_lanes<V>(16 * kSmallest));
+    const V least = larger_of(Policy::kLeastRoundings * kEpsilon * absolute(time_),
+                              all_lanes<V>(Policy::kLeastRoundings * kSmallest));
     trial.vanished = ~trial.there & (absolute(h) <= least);
     if (__builtin_expect(any(trial.there), 0)) {
       h = trial.there ? rest : h;
@@ -302,8 +254,8 @@ class March {
   CASIMIR_INLINE bool attempt(V s, M& trying) {
     const Trial trial = tried(s);
     if constexpr (Series::smooth) {
-      const M plain =
-          trying & trial.good & checked_ & ~(trial.s > 3) & ~trial.there & ~trial.vanished;
+      const M plain = trying & trial.good & checked_ & ~(trial.s > Policy::kUnseen) & ~trial.there &
+                      ~trial.vanished;
       if (__builtin_expect(!any(active_ & ~plain), 1)) {
         accept(plain, trial);
         trying = M{};
@@ -325,7 +277,7 @@ class March {
     if constexpr (!Series::smooth)
       if (run_->look) look(held, trial);
     M unsure = held;
-    if constexpr (Series::smooth) unsure &= ~checked_ | (trial.s > 3);
+    if constexpr (Series::smooth) unsure &= ~checked_ | (trial.s > Policy::kUnseen);
     if (any(unsure)) {
       const M good = follows(unsure, trial);
       checked_ |= unsure & good;
@@ -408,7 +360,7 @@ class March {
     time_ = held ? trial.t1 : time_;
     time_carry_ = held ? trial.t1_carry : time_carry_;
     steps_ += held ? all_lanes<V>(1) : V{};
-    M resize = held & ~(absolute(trial.s - 1.2) < 0.8);
+    M resize = held & ~(absolute(trial.s - Policy::kUsual) < Policy::kAround);
     if constexpr (!Series::smooth) {
       resize &= ~cut_;  // a step that was cut short says nothing about the next one
       cut_ &= ~held;
@@ -435,15 +387,14 @@ class March {
   /// passed before the end. The places within are those of a member's own count of steps, so that
   /// no motion has the same ones in each and no neighbour matters.
   __attribute__((noinline)) M follows(M which, const Trial& trial) {
-    constexpr double kGoldenSection = 0.6180339887498949;
-    const int places = Series::smooth ? 4 : 1;
+    const int places = Series::smooth ? Policy::kPlacesAtFirst : Policy::kPlaces;
     M good = which;
     for (int i = 0; i < places; ++i) {
       V within;
       for (int lane = 0; lane < width; ++lane) {
-        const double place = kGoldenSection * (steps_[lane] + rejected_[lane]);
+        const double place = Policy::kGoldenSection * (steps_[lane] + rejected_[lane]);
         const double part = place - static_cast<double>(static_cast<long long>(place));
-        within[lane] = trial.s[lane] * ((i + 0.1 + 0.8 * part) / places);
+        within[lane] = trial.s[lane] * Policy::place(i, places, part);
       }
       V x[room];
       each_state([&](int j) CASIMIR_INLINE_LAMBDA {
@@ -466,12 +417,12 @@ class March {
       V told = V{};
       for (int k = series_.order; k > 0; --k) told = (told + c[k] * k) * s;
       const V size = absolute(c[0]) + absolute(x[i]) + absolute(told);
-      const V most = kDefect * allowed(i) + size * kRounding;
+      const V most = Policy::kDefect * allowed(i) + size * Policy::kRounding;
       defect += absolute(rate_[i] * (s * unit_) - told) / most;
     }
-    failure_ = (which & (defect < 1e300))    ? all_lanes<V>(CASIMIR_STEP_UNDERFLOW)
-               : (which & ~(defect < 1e300)) ? all_lanes<V>(CASIMIR_NON_FINITE)
-                                             : failure_;
+    failure_ = (which & (defect < Policy::kNoNumber))    ? all_lanes<V>(CASIMIR_STEP_UNDERFLOW)
+               : (which & ~(defect < Policy::kNoNumber)) ? all_lanes<V>(CASIMIR_NON_FINITE)
+                                                         : failure_;
     return defect < 1;
   }
 
@@ -486,13 +437,13 @@ class March {
     }
     const V rest = absolute((run_->t_end - time_) - time_carry_) / absolute(unit_);
     s = trying ? (s < rest ? s : rest) * part_ : s;
-    part_ = trying ? all_lanes<V>(kHalf) : part_;
+    part_ = trying ? all_lanes<V>(Policy::kShorter) : part_;
   }
 
   /// The coefficients left the range of numbers: a smaller unit, or the end.
   __attribute__((cold, noinline)) void shrink_units(M lost) {
     rejected_ += lost ? all_lanes<V>(1) : V{};
-    unit_ = lost ? unit_ * 0x1p-8 : unit_;
+    unit_ = lost ? unit_ * Policy::kSmallerUnit : unit_;
     failure_ = lost ? all_lanes<V>(CASIMIR_NON_FINITE) : failure_;
     const V least = larger_of(kEpsilon * absolute(time_), all_lanes<V>(0x1p-1000));
     const M vanished = lost & (absolute(unit_) <= least);
@@ -524,7 +475,7 @@ class March {
   const double span_;
   V carry_[room], next_[room], next_carry_[room], rate_[room], here_[room];
   V time_ = {}, time_carry_ = {}, unit_ = {}, steps_ = {}, rejected_ = {}, status_ = {},
-    failure_ = {}, part_ = all_lanes<V>(kHalf);
+    failure_ = {}, part_ = all_lanes<V>(Policy::kShorter);
   M active_ = {}, ended_ = {}, checked_ = {}, seen_enough_ = {}, cut_ = {}, jumps_ = {};
   long long member_[width];
   const double* rows_[room];
@@ -532,14 +483,9 @@ class March {
   bool empty_ = false, ready_ = false;
 };
 
-/// The order at which a tolerance costs least, as measured: lower than for one trajectory, whose
-/// step has more to wait for.
+/// The order that a run asks for, or the one at which its tolerance costs least.
 inline int order_of(const casimir_ensemble* run) {
-  const int order = run->order > 0      ? run->order
-                    : run->rtol > 3e-5  ? 8
-                    : run->rtol > 1e-8  ? 12
-                    : run->rtol > 7e-13 ? 16
-                                        : 20;
+  const int order = run->order > 0 ? run->order : taylor::order_of_many(run->rtol);
   return order < 24 ? order : 24;
 }
 

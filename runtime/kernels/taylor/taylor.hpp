@@ -2,6 +2,8 @@
 
 #include "runtime/kernels/lanes/lanes.hpp"
 #include "runtime/kernels/one_step/control.hpp"
+#include "runtime/kernels/taylor/step_policy.hpp"
+#include "runtime/kernels/taylor/sums.hpp"
 
 namespace casimir_kernel {
 
@@ -29,40 +31,6 @@ namespace casimir_kernel {
 /// size of the state whatever the scales of state and time are.
 namespace taylor {
 
-/// log2 of a positive number to within 0.01; -1023 for 0.
-CASIMIR_INLINE double rough_log2(double a) {
-  long long bits;
-  __builtin_memcpy(&bits, &a, sizeof bits);
-  const double exponent = static_cast<double>((bits >> 52) - 1023);
-  bits = (bits & 0xfffffffffffffLL) | 0x3ff0000000000000LL;
-  double m;
-  __builtin_memcpy(&m, &bits, sizeof m);
-  return exponent + (m * (2 - m / 3) - 5. / 3);
-}
-
-/// 2^a to within 1 %, for |a| < 1000.
-CASIMIR_INLINE double rough_exp2(double a) {
-  const long long whole = static_cast<long long>(a + 2048) - 2048;
-  const double part = a - static_cast<double>(whole);
-  const long long bits = (whole + 1023) << 52;
-  double power;
-  __builtin_memcpy(&power, &bits, sizeof power);
-  return power * (1 + part * (0.6565 + 0.3435 * part));
-}
-
-/// The power of two next to a positive number.
-inline double power_of_two_near(double a) {
-  double power = 1;
-  long long bits;
-  __builtin_memcpy(&bits, &a, sizeof bits);
-  bits = (bits + 0x8000000000000LL) & 0x7ff0000000000000LL;
-  if (bits > 0x0030000000000000LL && bits < 0x7fd0000000000000LL)
-    __builtin_memcpy(&power, &bits, sizeof power);
-  else
-    power = bits > 0x3ff0000000000000LL ? 0x1p1020 : 0x1p-1020;
-  return power;
-}
-
 /// The part of the tolerance that a step aims at. Truncation errors add up in one direction,
 /// rounding errors in all: at the least tolerances truncation shall not be what millions of steps
 /// show.
@@ -73,79 +41,14 @@ inline double aim(const casimir_run* run) {
   return run->rtol > 0 && run->rtol < kFine ? run->rtol / kFine : 1;
 }
 
-/// sum of c[k] s^k, k = 1 .. order: four chains, so that the processor need not wait for each.
-template <class Series, class V>
-CASIMIR_INLINE void increment(const Series& series, double s, V* sum) {
-  const int blocks = series.blocks;
-  const V s1 = all_lanes<V>(s), s2 = s1 * s1, s4 = s2 * s2;
-  CASIMIR_UNROLL
-  for (int b = 0; b < blocks; ++b) {
-    const auto* c = &series.c[series.order - 3][b];
-    V p0 = c[0], p1 = c[blocks], p2 = c[2 * blocks], p3 = c[3 * blocks];
-    CASIMIR_UNROLL
-    for (int k = series.order - 4; k > 0; k -= 4) {
-      c -= 4 * blocks;
-      p0 = p0 * s4 + c[0];
-      p1 = p1 * s4 + c[blocks];
-      p2 = p2 * s4 + c[2 * blocks];
-      p3 = p3 * s4 + c[3 * blocks];
-    }
-    sum[b] = ((p0 + p1 * s1) + (p2 + p3 * s1) * s2) * s1;
-  }
-}
-
-/// sum of c[k] s^(k - first), k = first .. order, where first = CASIMIR_LEADING + 1.
-template <class Series, class V>
-CASIMIR_INLINE void tail(const Series& series, double s, V* sum) {
-  static_assert(CASIMIR_LEADING == 2);
-  const int blocks = series.blocks;
-  const V s1 = all_lanes<V>(s), s2 = s1 * s1, s4 = s2 * s2;
-  CASIMIR_UNROLL
-  for (int b = 0; b < blocks; ++b) {
-    V p0 = V{}, p1 = V{}, p2 = V{}, p3 = V{};
-    for (int k = series.order - 3; k > 4; k -= 4) {
-      const auto* c = &series.c[k][b];
-      p0 = p0 * s4 + c[0];
-      p1 = p1 * s4 + c[blocks];
-      p2 = p2 * s4 + c[2 * blocks];
-      p3 = p3 * s4 + c[3 * blocks];
-    }
-    const V from_5 = (p0 + p1 * s1) + (p2 + p3 * s1) * s2;
-    sum[b] = series.c[3][b] + (series.c[4][b] + from_5 * s1) * s1;
-  }
-}
-
-/// sum of k c[k] s^k: the derivative of the series, times s.
-template <class Series, class V>
-CASIMIR_INLINE void slope(const Series& series, double s, V* sum) {
-  const int blocks = series.blocks;
-  const V s1 = all_lanes<V>(s), s2 = s1 * s1, s4 = s2 * s2;
-  CASIMIR_UNROLL
-  for (int b = 0; b < blocks; ++b) {
-    V p0 = V{}, p1 = V{}, p2 = V{}, p3 = V{};
-    for (int k = series.order - 3; k > 0; k -= 4) {
-      const auto* c = &series.c[k][b];
-      p0 = p0 * s4 + c[0] * k;
-      p1 = p1 * s4 + c[blocks] * (k + 1);
-      p2 = p2 * s4 + c[2 * blocks] * (k + 2);
-      p3 = p3 * s4 + c[3 * blocks] * (k + 3);
-    }
-    sum[b] = ((p0 + p1 * s1) + (p2 + p3 * s1) * s2) * s1;
-  }
-}
-
 template <class Series>
 class March {
   using V = typename Series::V;
   static constexpr int width = sizeof(V) / sizeof(double);
   static constexpr int most_blocks = Series::room, room = most_blocks * width;
-  /// How far the derivative at the end of a step may be from the series, in allowed errors: far
-  /// more than a step of the right size ever gives, far less than a wrong one.
-  static constexpr double kDefect = 100, kRounding = 0x1p-40;
+  using Policy = StepPolicy;
   /// Of the time at the start, the least first guess of a step.
   static constexpr double kLeastGuess = 0x1p-40;
-  /// No step is longer than this many units: what a step may grow by.
-  static constexpr double kLongest = 16;
 
  public:
   March(const casimir_run* run, Series& series, double* x, casimir_outcome* out)
@@ -264,10 +167,10 @@ class March {
       last += absolute(series_.c[order][b]) * weight_[b];
     }
     const double a = lane_sum(before), z = lane_sum(last);
-    if (!(a + z < 1e300)) return 0;
+    if (!(a + z < Policy::kNoNumber)) return 0;
     if (pieces_ > 0) return fixed_step(z);
     const double rate = larger(rough_log2(a) / (order - 1), rough_log2(z) / order);
-    const double s = rate < -4 ? kLongest : rough_exp2(-rate);
+    const double s = rate < Policy::kSteepest ? Policy::kLongest : rough_exp2(-rate);
     return s;
   }
 
@@ -293,7 +196,8 @@ class March {
       if (there_) {
         h = rest;
         s = h / unit_;
-      } else if (magnitude(h) <= larger(16 * kEpsilon * magnitude(t_), 16 * kSmallest)) {
+      } else if (magnitude(h) <= larger(Policy::kLeastRoundings * kEpsilon * magnitude(t_),
+                                        Policy::kLeastRoundings * kSmallest)) {
         fail(CASIMIR_STEP_UNDERFLOW);
         return true;
       }
@@ -323,13 +227,14 @@ class March {
     if (__builtin_expect(run_->look != nullptr, 0) && pieces_ == 0) {
       if (!looks_right(t1, next)) return false;
     }
-    if (!series_.smooth || __builtin_expect(fresh_ || s > 3, 0)) {
+    if (!series_.smooth || __builtin_expect(fresh_ || s > Policy::kUnseen, 0)) {
       if (!follows(s, t1, next)) return false;
     }
     accept(t1, t1_carry, next, next_carry);
     cut_ = false;
     // A step that was cut short says nothing about the next one.
-    if (!(magnitude(s - 1.2) < 0.8) && pieces_ == 0 && !was_cut) set_unit(magnitude(h));
+    if (!(magnitude(s - Policy::kUsual) < Policy::kAround) && pieces_ == 0 && !was_cut)
+      set_unit(magnitude(h));
     return true;
   }
 
@@ -376,16 +281,12 @@ class March {
   /// Whether the series has the derivative that the equations ask for, within the step and at its
   /// end. The last coefficients alone do not show a kink of the right-hand side, nor terms that are
   /// missing only from them, and a pulse may have passed before the end.
-  ///
-  /// The places within the step follow the golden section, so that no motion of whatever period has
-  /// the same ones in each step.
   __attribute__((noinline)) bool follows(double s, double t1, const V* next) {
-    const int places = fresh_ || s > 3 ? 4 : 1;
+    const int places = fresh_ || s > Policy::kUnseen ? Policy::kPlacesAtFirst : Policy::kPlaces;
     for (int i = 0; i < places; ++i) {
-      constexpr double kGoldenSection = 0.6180339887498949;
-      place_ += kGoldenSection;
+      place_ += Policy::kGoldenSection;
       if (place_ >= 1) place_ -= 1;
-      const double within = s * ((static_cast<double>(i) + 0.1 + 0.8 * place_) / places);
+      const double within = s * Policy::place(i, places, place_);
       V x[most_blocks];
       increment(series_, within, x);
       CASIMIR_UNROLL
@@ -406,12 +307,12 @@ class March {
     CASIMIR_UNROLL
     for (int b = 0; b < series_.blocks; ++b) {
       const V size = absolute(state_[b]) + absolute(next[b]) + absolute(told[b]);
-      const V w = 1 / (kDefect / weight_[b] + size * kRounding);
+      const V w = 1 / (Policy::kDefect / weight_[b] + size * Policy::kRounding);
       defect += absolute(series_.rate[b] * (s * unit_) - told[b]) * w;
     }
     const double sum = lane_sum(defect);
-    failure_ = sum < 1e300 ? CASIMIR_STEP_UNDERFLOW : CASIMIR_NON_FINITE;
-    return sum < 1 || (pieces_ > 0 && sum < 1e300);
+    failure_ = sum < Policy::kNoNumber ? CASIMIR_STEP_UNDERFLOW : CASIMIR_NON_FINITE;
+    return sum < 1 || (pieces_ > 0 && sum < Policy::kNoNumber);
   }
 
   CASIMIR_INLINE void accept(double t1, double t1_carry, const V* next, const V* next_carry) {
@@ -464,7 +365,7 @@ class March {
     }
     const double rest = magnitude((run_->t_end - t_) - t_carry_) / magnitude(unit_);
     s = (s < rest ? s : rest) * part_;
-    part_ = 0.5;
+    part_ = Policy::kShorter;
     return true;
   }
 
@@ -472,7 +373,7 @@ class March {
   __attribute__((cold, noinline)) void shrink_unit() {
     if (status_ != CASIMIR_OK) return;
     ++rejected_;
-    unit_ *= 0x1p-8;
+    unit_ *= Policy::kSmallerUnit;
     failure_ = CASIMIR_NON_FINITE;
     const bool vanished =
         magnitude(unit_) <= larger(kEpsilon * magnitude(t_), 0x1p-1000) || pieces_ > 0;
@@ -514,14 +415,13 @@ class March {
   unsigned long long steps_ = 0, rejected_ = 0, expansions_ = 0, evaluations_ = 0;
   int status_ = CASIMIR_OK, failure_ = CASIMIR_OK;
   bool there_ = false, fresh_ = false, cut_ = false, jumps_ = false;
-  double part_ = 0.5;   // of a step that did not hold, what is tried next
-  double place_ = 0.5;  // within a step, where it was looked at last
+  double part_ = Policy::kShorter;  // of a step that did not hold, what is tried next
+  double place_ = 0.5;              // within a step, where it was looked at last
 };
 
-/// The order at which a tolerance costs least, as measured.
+/// The order at which the tolerance of a run costs least.
 inline int order_for(const casimir_run* run) {
-  const double tolerance = run->fixed_step > 0 ? 0 : run->rtol;
-  return tolerance > 3e-5 ? 8 : tolerance > 1e-8 ? 16 : 24;
+  return order_of_one(run->fixed_step > 0 ? 0 : run->rtol);
 }
 
 }  // namespace taylor

@@ -82,7 +82,7 @@ class Writer {
   }
 
   std::string call(unsigned depth) {
-    switch (random_.below(12)) {
+    switch (random_.below(15)) {
       case 0:
         return "sin(" + expression(depth) + ")";
       case 1:
@@ -106,6 +106,12 @@ class Writer {
       case 10:
         return positive(depth) + "^(" + (random_.one_in(2) ? "-" : "") +
                random_.of<std::string>({"1/2", "3/2", "1/3", "2/3", "5/2", "1/4", "7/3"}) + ")";
+      case 11:
+        return "sinh(" + small(depth) + ")";
+      case 12:
+        return "cosh(" + small(depth) + ")";
+      case 13:
+        return "tanh(" + expression(depth) + ")";
       default:
         return random_.one_in(2) ? "exp(-" + expression(0) + ")" : "cos(2*" + expression(0) + ")";
     }

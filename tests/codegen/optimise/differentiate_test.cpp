@@ -94,6 +94,12 @@ ex line(const Program& program, const Instruction& c, const std::vector<ex>& val
       return cos(at(c.a));
     case Op::tan:
       return tan(at(c.a));
+    case Op::sinh:
+      return sinh(at(c.a));
+    case Op::cosh:
+      return cosh(at(c.a));
+    case Op::tanh:
+      return tanh(at(c.a));
     case Op::exp:
       return exp(at(c.a));
     case Op::log:
@@ -251,8 +257,8 @@ TEST(Differentiate, EveryFunctionToThirtyDigits) {
   constexpr int kDigits = 45;
   GiNaC::Digits = kDigits;
   const Arithmetic<cln::cl_F> arithmetic(kDigits);
-  for (const Op op : {Op::pow, Op::sqrt, Op::sin, Op::cos, Op::tan, Op::exp, Op::log, Op::asin,
-                      Op::acos, Op::atan2, Op::div}) {
+  for (const Op op : {Op::pow, Op::sqrt, Op::sin, Op::cos, Op::tan, Op::sinh, Op::cosh, Op::tanh,
+                      Op::exp, Op::log, Op::asin, Op::acos, Op::atan2, Op::div}) {
     const Program program = program_with(op);
     const Expressions expressions = expressions_of(program);
     const cln::cl_RA x[] = {cln::cl_RA(3) / 8, cln::cl_RA(5) / 8};

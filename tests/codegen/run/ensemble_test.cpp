@@ -257,9 +257,10 @@ TEST(Ensemble, ParametersMayDifferFromMemberToMember) {
 TEST(Ensemble, EveryOperationHasItsRecurrence) {
   for (const char* rate :
        {"x*y - x*x/3", "y/(1 + x*x) + 1/x", "sqrt(1 + x*x + y)", "(1 + x*x)^(1/3) - y^(-3/2)",
-        "sin(x*y) + cos(x)", "tan(x/4)*y", "exp(-x*y)", "log(1 + x + y)", "asin(x/9) + y",
-        "acos(x/9) - y/5", "atan2(x, y)", "atan2(x, 2) + atan2(3, y)",
-        "cos(x) + sin(x) + sin(x)*cos(y)", "-x - (-y)"}) {
+        "sin(x*y) + cos(x)", "tan(x/4)*y", "sinh(x - y)/2", "cosh(x)/3 - sinh(x)*cosh(y)/5",
+        "tanh(2*x - y)", "exp(-x*y)", "log(1 + x + y)", "asin(x/9) + y", "acos(x/9) - y/5",
+        "atan2(x, y)", "atan2(x, 2) + atan2(3, y)", "cos(x) + sin(x) + sin(x)*cos(y)",
+        "-x - (-y)"}) {
     const Specialisation s = specialised(equations({{"x", rate}, {"y", "1"}}));
     const States from = {{0.75, 0.5}, {0.5, 0.75}, {1, 1.25}};
     for (const auto& [name, kernel] : lane_kernels(s)) {

@@ -8,6 +8,8 @@
 #include <functional>
 #include <stdexcept>
 
+#include "symbolic/case/elementary.hpp"
+
 namespace casimir::testing {
 
 namespace {
@@ -199,6 +201,8 @@ Series SeriesEvaluator::call(const GiNaC::ex& function) const {
   if (name == "acos") return arcsine(u, -1);
   if (name == "atan") return angle(u, constant(1));
   if (name == "atan2") return angle(u, (*this)(function.op(1)));
+  if (const auto exponentials = by_exponentials(GiNaC::ex_to<GiNaC::function>(function)))
+    return (*this)(*exponentials);
   Series sine, cosine;
   sine_and_cosine(u, sine, cosine);
   if (name == "sin") return sine;

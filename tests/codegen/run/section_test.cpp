@@ -85,6 +85,11 @@ TEST(Section, FunctionsOfEveryKind) {
       {"sin(x) - 1/2", kPi / 6},
       {"-cos(x)", kPi / 2},
       {"tan(x/2) - 1/3", 2 * std::atan(1. / 3)},
+      {"sinh(x) - 2", std::asinh(2.)},
+      {"cosh(x/2) - 3/2", 2 * std::acosh(1.5)},
+      {"tanh(x) - 3/4", std::atanh(0.75)},
+      {"1/2 - cot(x)", std::atan(2.)},
+      {"abs(x - 3) - 3/2 + sign(x)*(2*x - 4)", 2.5},
       {"atan2(x, 1 + x) - 1/4", std::tan(0.25) / (1 - std::tan(0.25))},
       {"asin(x/4) - 1/3", 4 * std::sin(1. / 3)},
       {"-acos(x/4) + 4/3", 4 * std::cos(4. / 3)},
@@ -196,9 +201,9 @@ TEST(Section, OrbitsTurnWhereTheEquationsJump) {
   };
   const double error = largest_error();
   EXPECT_LT(error, 5e-10);
-  // The twin: steps that nobody looks at.
+  // The twin: steps that nobody looks at, and that the comparison with the equations alone cuts.
   kernel.watch = nullptr;
-  EXPECT_GT(largest_error(), 10 * error);
+  EXPECT_GT(largest_error(), 5 * error);
 }
 
 /// The function of a section may have the sign of a state in it.

@@ -266,7 +266,7 @@ class RandomSystem {
     const int positive =
         moved ? b.op(Op::add, b.number(cln::cl_RA(whole(1, 9)) / 7), b.op(Op::mul, x, x)) : x;
     const int small = moved ? b.op(Op::div, x, b.op(Op::add, b.number(2), b.op(Op::mul, x, x))) : x;
-    switch (whole(0, 16)) {
+    switch (whole(0, 19)) {
       case 0:
         return b.op(Op::add, x, y);
       case 1:
@@ -298,6 +298,12 @@ class RandomSystem {
         return b.op(Op::acos, small);
       case 15:
         return b.op(Op::atan2, y, positive);
+      case 16:
+        return b.op(Op::sinh, small);
+      case 17:
+        return b.op(Op::cosh, small);
+      case 18:
+        return b.op(Op::tanh, x);
       default:
         return b.op(Op::mul, b.op(Op::abs, moved ? positive : x), b.op(Op::pi));
     }

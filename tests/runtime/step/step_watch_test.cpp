@@ -45,6 +45,30 @@ Program pulse(const cln::cl_RA& width) {
   return lines.program();
 }
 
+/// x' = (1 - tanh((t - 3)/w)^2)/(2 w), of which the integral is 1; or the same as 1/(2 w cosh^2).
+Program front(const cln::cl_RA& width, bool by_cosh) {
+  Builder lines({"x"});
+  const int w = lines.number(width);
+  const int z = lines.op(Op::div, lines.op(Op::sub, lines.time(), lines.number(3)), w);
+  const int f = lines.op(by_cosh ? Op::cosh : Op::tanh, z), square = lines.op(Op::mul, f, f);
+  const int slope = by_cosh ? lines.op(Op::div, lines.number(1), square)
+                            : lines.op(Op::sub, lines.number(1), square);
+  lines.output(lines.op(Op::div, slope, lines.op(Op::mul, lines.number(2), w)));
+  return lines.program();
+}
+
+TEST(StepWatch, FrontsOfHyperbolicFunctionsAreNotSteppedOver) {
+  const cln::cl_RA width = cln::cl_RA(1) / 100;  // 300 before the front: cosh^2 is a number still
+  for (const bool by_cosh : {false, true}) {
+    const Trajectory seen = run(front(width, by_cosh), {0}, 4);
+    ASSERT_EQ(seen.status, Status::ok) << seen.reason;
+    EXPECT_NEAR(seen.state[0], 1, 1e-12) << by_cosh;
+  }
+  // The twin: without looking, the front is not met.
+  const Trajectory blind = run(front(width, false), {0}, 4, false);
+  EXPECT_EQ(blind.state[0], 0);
+}
+
 TEST(StepWatch, PolynomialsOfLowDegreeHaveNothingToWatch) {
   Builder lines({"x"});
   const int x = 0;

@@ -102,14 +102,20 @@ const std::vector<Binary>& operations() {
        [](auto& x, auto& y) { return Arb::atan2(x, y); }},
       {"sqrt", [](auto a, auto) { return Double::sqrt(a); },
        [](auto& x, auto&) { return Arb::sqrt(x); }},
-      {"sin", [](auto a, auto) { return Double::sin(a); },
-       [](auto& x, auto&) { return Arb::sin(x); }},
-      {"cos", [](auto a, auto) { return Double::cos(a); },
-       [](auto& x, auto&) { return Arb::cos(x); }},
-      {"tan", [](auto a, auto) { return Double::tan(a); },
-       [](auto& x, auto&) { return Arb::tan(x); }},
-      {"exp", [](auto a, auto) { return Double::exp(a); },
-       [](auto& x, auto&) { return Arb::exp(x); }},
+      {"sin", [](auto a, auto) { return Double::function(Op::sin, a); },
+       [](auto& x, auto&) { return Arb::function(Op::sin, x); }},
+      {"cos", [](auto a, auto) { return Double::function(Op::cos, a); },
+       [](auto& x, auto&) { return Arb::function(Op::cos, x); }},
+      {"tan", [](auto a, auto) { return Double::function(Op::tan, a); },
+       [](auto& x, auto&) { return Arb::function(Op::tan, x); }},
+      {"sinh", [](auto a, auto) { return Double::function(Op::sinh, a); },
+       [](auto& x, auto&) { return Arb::function(Op::sinh, x); }},
+      {"cosh", [](auto a, auto) { return Double::function(Op::cosh, a); },
+       [](auto& x, auto&) { return Arb::function(Op::cosh, x); }},
+      {"tanh", [](auto a, auto) { return Double::function(Op::tanh, a); },
+       [](auto& x, auto&) { return Arb::function(Op::tanh, x); }},
+      {"exp", [](auto a, auto) { return Double::function(Op::exp, a); },
+       [](auto& x, auto&) { return Arb::function(Op::exp, x); }},
       {"log", [](auto a, auto) { return Double::log(a); },
        [](auto& x, auto&) { return Arb::log(x); }},
       {"asin", [](auto a, auto) { return Double::asin(a); },
@@ -217,8 +223,8 @@ TEST(BallArithmetic, RefusesWhatHasNoValueInAllOfTheBall) {
     EXPECT_THROW(Double::sign(ball), std::domain_error);
     EXPECT_THROW(Double::power(ball, MidRad(0.3)), std::domain_error);
   }
-  EXPECT_THROW(Double::exp(MidRad(-INFINITY, 0)), std::domain_error);
-  EXPECT_THROW(Double::tan(MidRad(1.5, 0.2)), std::domain_error);
+  EXPECT_THROW(Double::function(Op::exp, MidRad(-INFINITY, 0)), std::domain_error);
+  EXPECT_THROW(Double::function(Op::tan, MidRad(1.5, 0.2)), std::domain_error);
   EXPECT_THROW(Double::atan2(MidRad(0., 0.1), MidRad(-1, 0.1)), std::domain_error);
   EXPECT_THROW(Double::atan2(MidRad(0., 0.1), MidRad(0, 0.1)), std::domain_error);
   EXPECT_THROW(Double::sign(MidRad(0.)), std::domain_error);

@@ -34,9 +34,11 @@ class Balls : public testing::Test {
 TEST_F(Balls, AgreeWithGiNaC) {
   GiNaC::Digits = 30;
   for (const char* text :
-       {"x + y/3", "x^7*y^-3", "sqrt(x)", "(x*y)^(2/3)", "sin(x)*cos(y)", "tan(x)", "exp(x - y)",
-        "log(x/y)", "atan(x)", "asin(x/9)", "acos(-x/9)", "atan2(y, x)", "atan2(-y, -x)", "Pi*x",
-        "x^y", "sqrt(2 + sqrt(x + sqrt(y)))"}) {
+       {"x + y/3",       "x^7*y^-3",  "sqrt(x)",    "(x*y)^(2/3)",
+        "sin(x)*cos(y)", "tan(x)",    "cot(x)",     "sinh(x - y)",
+        "cosh(x)",       "tanh(y/x)", "exp(x - y)", "log(x/y)",
+        "atan(x)",       "asin(x/9)", "acos(-x/9)", "atan2(y, x)",
+        "atan2(-y, -x)", "Pi*x",      "x^y",        "sqrt(2 + sqrt(x + sqrt(y)))"}) {
     BallEvaluator evaluator = at("7/3", "5/4");
     const Ball& ball = evaluator(parse(text));
     const ex exact = parse(text)

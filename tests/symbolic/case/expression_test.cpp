@@ -54,6 +54,29 @@ TEST_F(Expression, ReadsFunctionsAndConstants) {
   EXPECT_EQ(parse("atan2(x, y)"), GiNaC::atan2(x_, y_));
   EXPECT_EQ(parse("I^2"), -1);
   EXPECT_FALSE((parse("sqrt(x^2)") - x_).is_zero());
+  EXPECT_EQ(parse("sinh(x)"), GiNaC::sinh(x_));
+  EXPECT_EQ(parse("cosh(0) + tanh(0)"), 1);
+  EXPECT_EQ(parse("cot(x)"), GiNaC::cos(x_) / GiNaC::sin(x_));
+  EXPECT_EQ(parse("cot(Pi/2)"), 0);
+  EXPECT_EQ(parse("abs(x)"), parse("sqrt(x^2)"));
+  EXPECT_EQ(parse("abs(-3/2) + sign(-7)"), GiNaC::numeric(1, 2));
+  EXPECT_EQ(parse("sign(x)"), x_ / GiNaC::sqrt(GiNaC::pow(x_, 2)));
+}
+
+TEST_F(Expression, HasNoValueAtThePolesOfItsFunctions) {
+  EXPECT_EQ(error_of("cot(0)"), "1: this has no value: division by zero or a pole of the function");
+  EXPECT_EQ(error_of("sign(x - x)"),
+            "1: this has no value: division by zero or a pole of the function");
+}
+
+/// What GiNaC cancels is kept as a place without a value: cot(x)*sin(x) has none at 0.
+TEST_F(Expression, RemembersWhereItsFunctionsHaveNoValue) {
+  for (const char* text : {"cot(x)*sin(x)", "sign(x)*abs(x)"}) {
+    Text place{text, {}, {}};
+    EXPECT_FALSE(lost_parts(parse_expression(place, names_)).empty()) << text;
+  }
+  Text place{"cosh(x) - cosh(x) + x", {}, {}};
+  EXPECT_TRUE(lost_parts(parse_expression(place, names_)).empty());
 }
 
 TEST_F(Expression, SaysWhatIsWrongAndWhere) {

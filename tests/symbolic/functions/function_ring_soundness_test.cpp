@@ -63,6 +63,9 @@ long double plain_value(const ex& e, const Point& point) {
   if (name == "cos") return std::cos(part(0));
   if (name == "tan") return std::tan(part(0));
   if (name == "exp") return std::exp(part(0));
+  if (name == "sinh") return std::sinh(part(0));
+  if (name == "cosh") return std::cosh(part(0));
+  if (name == "tanh") return std::tanh(part(0));
   if (name == "log") return std::log(part(0));
   if (name == "asin") return std::asin(part(0));
   if (name == "acos") return std::acos(part(0));
@@ -91,7 +94,13 @@ class Identities {
   ex expression(int depth) {
     if (depth == 0 || random_(8) == 0) return leaf();
     const ex a = expression(depth - 1);
-    switch (random_(18)) {
+    switch (random_(21)) {
+      case 18:
+        return GiNaC::sinh(a);
+      case 19:
+        return GiNaC::cosh(a);
+      case 20:
+        return GiNaC::tanh(a);
       case 14:
         return random_(2) == 0 ? GiNaC::asin(a) : GiNaC::acos(a);
       case 15:
@@ -287,7 +296,22 @@ class Identities {
         return GiNaC::atan2(a * l, l);
     }
   }
+  ex rewritten_hyperbolic(const std::string& name, const ex& a) {
+    const ex s = GiNaC::sinh(a), c = GiNaC::cosh(a);
+    if (name == "sinh")
+      return random_(3) == 0   ? (GiNaC::exp(a) - GiNaC::exp(-a)) / 2
+             : random_(2) == 0 ? 2 * GiNaC::sinh(a / 2) * GiNaC::cosh(a / 2)
+                               : GiNaC::sqrt(nonzero(c * c - 1));
+    if (name == "cosh")
+      return random_(3) == 0   ? GiNaC::exp(a) - s
+             : random_(2) == 0 ? 1 + 2 * GiNaC::pow(GiNaC::sinh(a / 2), 2)
+                               : GiNaC::sqrt(nonzero(1 + s * s));
+    return random_(3) == 0   ? s / nonzero(c)
+           : random_(2) == 0 ? 1 - 2 / (GiNaC::exp(2 * a) + 1)
+                             : GiNaC::sqrt(nonzero(1 - 1 / (c * c)));
+  }
   ex rewritten_function(const std::string& name, const ex& a, const ex& b) {
+    if (name == "sinh" || name == "cosh" || name == "tanh") return rewritten_hyperbolic(name, a);
     if (name == "sin" && random_(3) == 0)
       return 3 * GiNaC::sin(a / 3) - 4 * GiNaC::pow(GiNaC::sin(a / 3), 3);
     if (name == "cos" && random_(3) == 0)

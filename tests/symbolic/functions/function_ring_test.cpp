@@ -53,6 +53,36 @@ TEST_F(Functions, Exponentials) {
   EXPECT_FALSE(zero(exp(GiNaC::log(x_) / 2) - x_));
 }
 
+TEST_F(Functions, HyperbolicFunctionsAreThoseOfExponentials) {
+  using GiNaC::cosh, GiNaC::sinh, GiNaC::tanh;
+  EXPECT_TRUE(zero(pow(cosh(x_), 2) - pow(sinh(x_), 2) - 1));
+  EXPECT_FALSE(zero(pow(cosh(x_), 2) + pow(sinh(x_), 2) - 1));
+  EXPECT_TRUE(zero(cosh(x_) + sinh(x_) - exp(x_)));
+  EXPECT_TRUE(zero(sinh(2 * x_) - 2 * sinh(x_) * cosh(x_)));
+  EXPECT_TRUE(zero(cosh(x_) - 1 - 2 * pow(sinh(x_ / 2), 2)));
+  EXPECT_TRUE(zero(cosh(x_ - y_) - cosh(x_) * cosh(y_) + sinh(x_) * sinh(y_)));
+  EXPECT_FALSE(zero(cosh(x_ - y_) - cosh(x_) * cosh(y_) - sinh(x_) * sinh(y_)));
+  EXPECT_TRUE(zero(tanh(x_) - sinh(x_) / cosh(x_)));
+  EXPECT_TRUE(zero(tanh(x_) * (exp(2 * x_) + 1) - exp(2 * x_) + 1));
+  EXPECT_TRUE(zero(tanh(2 * x_) * (1 + pow(tanh(x_), 2)) - 2 * tanh(x_)));
+  EXPECT_TRUE(zero(sinh(GiNaC::log(x_)) - (x_ - 1 / x_) / 2));
+  EXPECT_TRUE(zero(cosh(-x_) - cosh(x_)));
+  EXPECT_FALSE(zero(sinh(-x_) - sinh(x_)));
+  // cosh x > 0, and sinh x has the sign of x, which the ring does not ask for.
+  EXPECT_TRUE(zero(sqrt(1 + pow(sinh(x_), 2)) - cosh(x_)));
+  EXPECT_FALSE(zero(sqrt(1 + pow(sinh(x_), 2)) + cosh(x_)));
+  EXPECT_FALSE(zero(sqrt(pow(cosh(x_), 2) - 1) - sinh(x_)));
+  // Of imaginary arguments they are sines and cosines.
+  EXPECT_TRUE(zero(cosh(GiNaC::I * x_) - cos(x_)));
+  EXPECT_TRUE(zero(sinh(GiNaC::I * x_) - GiNaC::I * sin(x_)));
+}
+
+TEST_F(Functions, HyperbolicFunctionsAreDifferentiated) {
+  EXPECT_TRUE(same_derivative(GiNaC::sinh(x_ * x_ + y_)));
+  EXPECT_TRUE(same_derivative(GiNaC::cosh(x_ * y_) * GiNaC::sinh(x_)));
+  EXPECT_TRUE(same_derivative(GiNaC::tanh(x_ / y_)));
+}
+
 TEST_F(Functions, ExponentialsOfImaginaryNumbersAreSinesAndCosines) {
   EXPECT_TRUE(
       zero(exp(GiNaC::I * (x_ + y_) / 2) - cos((x_ + y_) / 2) - GiNaC::I * sin((x_ + y_) / 2)));

@@ -1,0 +1,57 @@
+#pragma once
+
+namespace casimir_kernel::taylor {
+
+/// What the method of Taylor series takes for a good step. One trajectory (`taylor::March`) and one
+/// in each lane of a register (`lanes::March`) follow it alike, whether their coefficients come
+/// from tables, from an interpreter or from compiled code.
+struct StepPolicy {
+  /// How far the derivative within a step and at its end may be from the series, in allowed errors:
+  /// far more than a step of the right size ever gives, far less than a wrong one ..
+  static constexpr double kDefect = 100;
+  /// .. and what rounding may add to that, as a part of the numbers that are compared.
+  static constexpr double kRounding = 0x1p-40;
+  /// No step is longer than this many units: what a step may grow by ..
+  static constexpr double kLongest = 16;
+  /// .. which is where the last terms shrink by so many binary digits with each order.
+  static constexpr double kSteepest = -4;
+  /// A step longer than this many units leans on coefficients that it does not see: it is compared
+  /// with the equations even where they are a polynomial.
+  static constexpr double kUnseen = 3;
+  /// The unit stays as it is for steps of so many units, and so many to either side.
+  static constexpr double kUsual = 1.2, kAround = 0.8;
+  /// The sizes of coefficients, in allowed errors, above which they are taken for no numbers.
+  static constexpr double kNoNumber = 1e300;
+  /// What is tried next of a step that did not hold.
+  static constexpr double kShorter = 0.5;
+  /// The next unit where the coefficients leave the range of numbers, as a part of this one.
+  static constexpr double kSmallerUnit = 0x1p-8;
+  /// A step of fewer roundings of the time than this is none.
+  static constexpr double kLeastRoundings = 16;
+  /// At how many places within it a step is compared with the equations: where nothing has been
+  /// compared yet, and otherwise.
+  static constexpr int kPlacesAtFirst = 4, kPlaces = 1;
+  /// Those places follow the golden section, so that no motion of whatever period has the same ones
+  /// in each step.
+  static constexpr double kGoldenSection = 0.6180339887498949;
+
+  /// Place i of so many within a step, as a part of it.
+  /// \param fraction  0 .. 1, another one in each step.
+  static constexpr double place(int i, int places, double fraction) {
+    return (static_cast<double>(i) + 0.1 + 0.8 * fraction) / places;
+  }
+};
+
+/// The order at which a tolerance costs least for one trajectory, as measured; without one (0), the
+/// highest.
+constexpr int order_of_one(double tolerance) {
+  return tolerance > 3e-5 ? 8 : tolerance > 1e-8 ? 16 : 24;
+}
+
+/// The same for many trajectories at once, as measured: lower than for one, whose step has more to
+/// wait for.
+constexpr int order_of_many(double tolerance) {
+  return tolerance > 3e-5 ? 8 : tolerance > 1e-8 ? 12 : tolerance > 7e-13 ? 16 : 20;
+}
+
+}  // namespace casimir_kernel::taylor
