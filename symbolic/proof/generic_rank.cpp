@@ -333,10 +333,17 @@ std::optional<GenericRank> generic_rank(
       });
     }
     if (!result.uneven.empty()) result.exact = false;
-    result.nonzero = needed_parameters(prover, rows, result.rank);
   } catch (const NotCertified&) {
     return std::nullopt;
   }
+  return result;
+}
+
+std::optional<GenericRank> rank_with_conditions(
+    Prover& prover, const PolynomialRows& rows,
+    const std::function<std::vector<KernelCandidate>()>& kernel) {
+  std::optional<GenericRank> result = generic_rank(prover, rows, kernel);
+  if (result) result->nonzero = needed_parameters(prover, rows, result->rank);
   return result;
 }
 

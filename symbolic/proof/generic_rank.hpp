@@ -21,8 +21,9 @@ struct GenericRank {
   std::vector<RealPoint> points;
   /// What the pieces are, where it is not shown that there are no others.
   std::string where;
-  /// Conditions on parameters without which the rank seems to be smaller, as "a != 0". What
-  /// `needed_parameters` does not find is left out: the rank is that for almost all values.
+  /// Conditions on parameters without which the rank seems to be smaller, as "a != 0". Only of
+  /// `rank_with_conditions`. What `needed_parameters` does not find is left out: the rank is that
+  /// for almost all values.
   std::vector<std::string> nonzero;
   std::string uneven;  ///< why the rank is not said: it seems to differ from piece to piece
 };
@@ -40,6 +41,11 @@ struct KernelCandidate {
 /// the points, or by the minors that border a regular one: if they vanish identically, so do all
 /// larger minors.
 std::optional<GenericRank> generic_rank(
+    Prover& prover, const PolynomialRows& rows,
+    const std::function<std::vector<KernelCandidate>()>& kernel = {});
+
+/// The same, with the conditions on parameters.
+std::optional<GenericRank> rank_with_conditions(
     Prover& prover, const PolynomialRows& rows,
     const std::function<std::vector<KernelCandidate>()>& kernel = {});
 

@@ -8,17 +8,17 @@
 namespace casimir {
 namespace {
 
-using Word = std::uint64_t;
-constexpr Word kPrime = 2147483629;  // products of two residues fit into a word
+using MinorWord = std::uint64_t;
+constexpr MinorWord kMinorPrime = 2147483629;  // products of two residues fit into a word
 
-Word residue(const cln::cl_I& n) {
-  return cln::cl_I_to_ulong(cln::mod(n, cln::cl_I(static_cast<unsigned long>(kPrime))));
+MinorWord minor_residue(const cln::cl_I& n) {
+  return cln::cl_I_to_ulong(cln::mod(n, cln::cl_I(static_cast<unsigned long>(kMinorPrime))));
 }
 
-Word power(Word base, Word exponent) {
-  Word result = 1;
-  for (; exponent > 0; exponent /= 2, base = base * base % kPrime)
-    if (exponent % 2 == 1) result = result * base % kPrime;
+MinorWord minor_power(MinorWord base, MinorWord exponent) {
+  MinorWord result = 1;
+  for (; exponent > 0; exponent /= 2, base = base * base % kMinorPrime)
+    if (exponent % 2 == 1) result = result * base % kMinorPrime;
   return result;
 }
 
@@ -47,9 +47,11 @@ std::optional<Polynomial> short_determinant(std::vector<std::vector<Polynomial>>
 
 MinorModulo::MinorModulo(const Polynomial& p) {
   for (const auto& [number, exponents] : p.term_list()) {
-    const Word below = residue(cln::denominator(number));
+    const MinorWord below = minor_residue(cln::denominator(number));
     if (below == 0) throw std::domain_error("a denominator is a multiple of the prime");
-    Term term{residue(cln::numerator(number)) * power(below, kPrime - 2) % kPrime, {}};
+    Term term{
+        minor_residue(cln::numerator(number)) * minor_power(below, kMinorPrime - 2) % kMinorPrime,
+        {}};
     for (std::size_t i = 0; i < exponents.size(); ++i)
       if (exponents[i] > 0) term.powers.emplace_back(i, exponents[i]);
     terms_.push_back(std::move(term));
@@ -57,12 +59,12 @@ MinorModulo::MinorModulo(const Polynomial& p) {
 }
 
 bool MinorModulo::is_nonzero_at(const std::vector<std::uint64_t>& point) const {
-  Word sum = 0;
+  MinorWord sum = 0;
   for (const Term& term : terms_) {
-    Word product = term.number;
+    MinorWord product = term.number;
     for (const auto& [place, exponent] : term.powers)
-      product = product * power(point[place], exponent) % kPrime;
-    sum = (sum + product) % kPrime;
+      product = product * minor_power(point[place], exponent) % kMinorPrime;
+    sum = (sum + product) % kMinorPrime;
   }
   return sum != 0;
 }

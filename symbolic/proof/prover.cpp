@@ -83,6 +83,20 @@ void Prover::begin_claim(const std::vector<ex>& expressions, Subject subject) {
   divisors_.reset();
   motion_divisors_.reset();
   claim_inhabited_.reset();
+  known_levels_.clear();
+}
+
+const Level& Prover::level(const std::vector<NamedExpression>& on) {
+  const auto same = [](const NamedExpression& f, const NamedExpression& g) {
+    return f.name == g.name && f.value.is_equal(g.value);
+  };
+  for (const KnownLevel& known : known_levels_) {
+    if (known.in_branch == in_branch_ &&
+        std::equal(on.begin(), on.end(), known.on.begin(), known.on.end(), same))
+      return known.level;
+  }
+  known_levels_.push_back({on, in_branch_, make_level(on)});
+  return known_levels_.back().level;
 }
 
 const Polynomial& Prover::convert(const ex& expression) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <list>
 #include <map>
 #include <optional>
 #include <string>
@@ -82,7 +83,8 @@ class Prover {
   Polynomial divergence() const;
   std::vector<Polynomial> gradient(const Polynomial& f) const;
 
-  Level level(const std::vector<NamedExpression>& on);
+  /// The common zeros of functions; each one once for a claim, since factors and bases cost time.
+  const Level& level(const std::vector<NamedExpression>& on);
   /// Residuals that say that the level is invariant.
   std::vector<Residual> level_rates(const Level& level);
 
@@ -138,6 +140,7 @@ class Prover {
     if (!ring_.is_polynomial()) ring_.mark_denominators(p, divided_by_);
     return p;
   }
+  Level make_level(const std::vector<NamedExpression>& on);
   std::vector<NamedExpression> simplified(const NamedExpression& f, int depth);
   bool vanishes_by_substitution(const Residual& residual, const Level& level) const;
   Polynomial along(const Polynomial& f, const std::vector<Polynomial>& field) const;
@@ -175,6 +178,13 @@ class Prover {
   std::optional<std::vector<Polynomial>> divisors_, motion_divisors_;
   Subject subject_;
   std::optional<bool> all_inhabited_, claim_inhabited_;
+  /// A level of this claim, by its functions and by how much work it was worth.
+  struct KnownLevel {
+    std::vector<NamedExpression> on;
+    bool in_branch;
+    Level level;
+  };
+  std::list<KnownLevel> known_levels_;
   std::vector<Polynomial> leads_;  ///< that the last decision took for not zero
   bool in_branch_ = false;         ///< where less work is spent: the answer may become a condition
   mutable std::vector<bool> divided_by_;  ///< which of the ring's denominators

@@ -74,7 +74,7 @@ std::vector<NamedExpression> Prover::simplified(const NamedExpression& f, int de
   }
 }
 
-Level Prover::level(const std::vector<NamedExpression>& on) {
+Level Prover::make_level(const std::vector<NamedExpression>& on) {
   constexpr int kDepth = 3;
   Level result;
   for (const NamedExpression& whole : on) {

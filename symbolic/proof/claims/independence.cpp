@@ -69,7 +69,7 @@ void decide_independence(Prover& prover, Proof& proof,
     }
     return candidates;
   };
-  const auto found = generic_rank(prover, slopes, kernel);
+  const auto found = rank_with_conditions(prover, slopes, kernel);
   if (!found) {
     proof.reason = "no point of the domain was found to take the gradients at";
   } else if (!found->uneven.empty()) {
@@ -94,7 +94,7 @@ void decide_independence(Prover& prover, Proof& proof,
 
 /// The rank of the bracket; the gradients of Casimir functions span its kernel.
 std::optional<GenericRank> bracket_rank(Prover& prover) {
-  return generic_rank(prover, structure_matrix(prover), [&] {
+  return rank_with_conditions(prover, structure_matrix(prover), [&] {
     std::vector<KernelCandidate> candidates;
     for (auto& slope : gradients(prover, real_everywhere(prover.model().casimirs)))
       candidates.push_back({std::move(slope)});

@@ -8,6 +8,7 @@
 #include "symbolic/proof/claims/claim.hpp"
 #include "symbolic/proof/dependence.hpp"
 #include "symbolic/proof/generic_rank.hpp"
+#include "symbolic/proof/special_parameters.hpp"
 
 namespace casimir {
 namespace {
@@ -56,6 +57,11 @@ Proof independence_finding(Prover& prover, const NamedExpression& f) {
   if (before == known.size() && rank_of(all) > before) {
     proof.verdict = Verdict::proved;
     proof.evidence = known.empty() ? "it is not constant" : "it is independent of " + names;
+    PolynomialRows slopes;
+    for (const NamedExpression& g : all) slopes.push_back(prover.gradient(prover.convert(g.value)));
+    proof.where = needed_parameters(prover, slopes, all.size());
+    if (!proof.where.empty())
+      proof.evidence += fmt::format(" where {}", fmt::join(proof.where, ", "));
     return proof;
   }
   if (const auto relation = polynomial_relation(prover, all)) {

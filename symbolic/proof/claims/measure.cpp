@@ -73,7 +73,7 @@ std::string doubt_about(Prover& prover, const GiNaC::ex& density, bool* both_sig
   if (!positive && !negative)
     return "no point was found at which the density has a real value that is not zero";
   *both_signs = positive && negative;
-  const auto found = generic_rank(prover, {{prover.convert(density)}});
+  const auto found = rank_with_conditions(prover, {{prover.convert(density)}});
   if (!found || !found->uneven.empty() || found->rank == 0)
     return "the density is not shown to differ from zero on every piece of the domain";
   *where = found->nonzero;

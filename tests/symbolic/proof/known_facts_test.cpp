@@ -50,6 +50,18 @@ TEST(Judgement, AlgebraicDependenceIsFoundToo) {
       << dependence->reason;
 }
 
+TEST(Judgement, IndependenceHasConditionsOnParameters) {
+  const Model model = model_of(
+      "hamiltonian = \"p1^2\"\n[phase_space]\nvariables = [\"q1\",\"q2\",\"p1\",\"p2\"]\n"
+      "canonical = true\n[parameters]\na = {}\n");
+  const Proof note = judgement(model, "(sin(a) - 1/2)*p2");
+  const Proof* dependence = finding(note, "independence");
+  ASSERT_NE(dependence, nullptr);
+  EXPECT_EQ(dependence->verdict, Verdict::proved);
+  EXPECT_EQ(dependence->where, std::vector<std::string>{"2*sin(a) - 1 != 0"});
+  EXPECT_EQ(dependence->evidence, "it is independent of H where 2*sin(a) - 1 != 0");
+}
+
 TEST(Judgement, IndependentIntegralIsSaidToBeOne) {
   const Model lagrange = model_of(
       "hamiltonian = \"(M1^2 + M2^2 + 2*M3^2)/2 - g3\"\n[phase_space]\nvariables = "
