@@ -61,28 +61,43 @@ LaneLook::LaneLook(const StepWatch& watch, std::size_t states, int lanes, Parame
       xm_(states),
       x1_(states) {}
 
+/// What `looks` says of the step of a lane, whose end is known.
+template <class Look>
+auto LaneLook::look(const casimir_lane_step& trial, std::size_t lane, const Look& looks) {
+  for (std::size_t i = 0; i < states_; ++i) {
+    x0_[i] = trial.rows[i][lane];
+    x1_[i] = end_[i * lanes_.size() + lane];
+  }
+  const Seen seen{trial, static_cast<int>(lane), states_};
+  const double t0 = trial.t[lane], t1 = t0 + trial.taken[lane] * trial.unit[lane];
+  return looks(casimir_step{t0, t1, x0_.data(), x1_.data(), &state_at, &seen, nullptr, nullptr});
+}
+
 void LaneLook::operator()(const casimir_lane_step& trial, double* parts) {
-  for (std::size_t l = 0; l < lanes_.size(); ++l) {
+  const std::size_t lanes = lanes_.size();
+  states_at(trial, trial.taken, states_, end_.data());
+  bool all_quiet = true;
+  for (std::size_t l = 0; l < lanes; ++l) {
     Lane& own = lanes_[l];
-    if (trial.held[l] && own.member != trial.member[l]) {
+    if (!trial.held[l]) continue;
+    if (own.member != trial.member[l]) {
       own.member = trial.member[l];
       own.look.begin(parameters_(own.member));
     }
-    places_[l] = own.look.place_within() * trial.taken[l];
+    parts[l] = 1;
+    own.quiet = look(trial, l, [&](const casimir_step& seen) { return own.look.is_quiet(seen); });
+    all_quiet = all_quiet && own.quiet;
   }
+  if (all_quiet) return;
+  for (std::size_t l = 0; l < lanes; ++l)
+    places_[l] = lanes_[l].look.place_within() * trial.taken[l];
   states_at(trial, places_.data(), states_, middle_.data());
-  states_at(trial, trial.taken, states_, end_.data());
-  for (std::size_t l = 0; l < lanes_.size(); ++l) {
-    if (!trial.held[l]) continue;
-    for (std::size_t i = 0; i < states_; ++i) {
-      x0_[i] = trial.rows[i][l];
-      xm_[i] = middle_[i * lanes_.size() + l];
-      x1_[i] = end_[i * lanes_.size() + l];
-    }
-    const Seen seen{trial, static_cast<int>(l), states_};
-    const double t0 = trial.t[l], t1 = t0 + trial.taken[l] * trial.unit[l];
-    parts[l] = lanes_[l].look({t0, t1, x0_.data(), x1_.data(), &state_at, &seen, nullptr, nullptr},
-                              xm_.data());
+  for (std::size_t l = 0; l < lanes; ++l) {
+    if (!trial.held[l] || lanes_[l].quiet) continue;
+    for (std::size_t i = 0; i < states_; ++i) xm_[i] = middle_[i * lanes + l];
+    parts[l] = look(trial, l, [&](const casimir_step& seen) {
+      return lanes_[l].look.within(seen, xm_.data());
+    });
   }
 }
 

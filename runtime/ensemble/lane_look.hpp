@@ -24,7 +24,11 @@ class LaneLook {
   struct Lane {
     StepLook look;
     long long member = -1;
+    bool quiet = false;
   };
+
+  template <class Look>
+  auto look(const casimir_lane_step& trial, std::size_t lane, const Look& looks);
 
   const std::size_t states_;
   const Parameters parameters_;

@@ -52,6 +52,7 @@ void StepLook::begin(const double* parameters) {
   last_.x.clear();
   jump_.reset();
   shift_ = 0.5;
+  quiet_for_ = 0;
 }
 
 const double* StepLook::arguments(double t, const double* x) {
@@ -114,6 +115,41 @@ void StepLook::sample(const casimir_step& trial) {
   }
 }
 
+bool StepLook::is_quiet(const casimir_step& trial) {
+  // Then it changes by six tenths of itself at most.
+  constexpr double kLonger = 6;
+  const double h = std::abs(trial.t1 - trial.t0);
+  met_ = nullptr;
+  take_ends(trial);
+  const bool follows = trial.t0 == quiet_until_ && h <= kLonger * quiet_for_ && !jump_;
+  quiet_for_ = 0;
+  for (const StepWatch::Watched& watched : watch_.watched())
+    if (!hardly_changes(watched)) return false;
+  quiet_for_ = h;
+  quiet_until_ = trial.t1;
+  return follows;
+}
+
+/// From the beginning to the end.
+bool StepLook::hardly_changes(const StepWatch::Watched& watched) const {
+  constexpr double kHardly = 0.1, kHardlyMore = 1;
+  const double u = first_.values[watched.place], v = last_.values[watched.place];
+  const double change = std::abs(v - u), least = std::min(std::abs(u), std::abs(v));
+  switch (watched.kind) {
+    case StepWatch::Kind::unit:
+      return change < kHardly * (1 - std::max(std::abs(u), std::abs(v)));
+    case StepWatch::Kind::exponent:
+      return change < kHardlyMore;
+    case StepWatch::Kind::phase:
+      return change < kHardly;
+    case StepWatch::Kind::power:
+    case StepWatch::Kind::divisor:
+      return change * watched.exponent < kHardlyMore * least && change < kHardly * least;
+    default:
+      return change < kHardly * least;
+  }
+}
+
 /// Whether the ends and one place between them show that nothing is near.
 bool StepLook::is_calm(const casimir_step& trial, double part, const double* middle) {
   const double* const values = middle ? arguments(trial.t0 + part * (trial.t1 - trial.t0), middle)
@@ -157,15 +193,13 @@ bool StepLook::is_calm(const StepWatch::Watched& watched, std::size_t which, con
   }
 }
 
-double StepLook::operator()(const casimir_step& trial, const double* middle) {
+double StepLook::within(const casimir_step& trial, const double* middle) {
   const double h = std::abs(trial.t1 - trial.t0);
   const double least = 64 * std::numeric_limits<double>::epsilon() * std::abs(trial.t0);
   if (h <= least) return 1;
   shift_ = next(shift_);
-  const double within = in_the_middle(shift_);
   met_ = nullptr;
-  take_ends(trial);
-  if (is_calm(trial, within, middle)) return ends_behind_jump(trial) ? 2 : 1;
+  if (is_calm(trial, in_the_middle(shift_), middle)) return ends_behind_jump(trial) ? 2 : 1;
   sample(trial);
   double part = 1;
   for (std::size_t i = 0; i < watch_.watched().size(); ++i) {

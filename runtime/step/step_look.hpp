@@ -25,8 +25,16 @@ class StepLook {
   /// branch is to end just behind it, at a distance that is 1e-12 of what the argument is in the
   /// step: what the wrong branch does on that way is its square. Behind a jump it ends at once; 2
   /// for a step that does.
+  double operator()(const casimir_step& trial) { return is_quiet(trial) ? 1 : within(trial); }
+
+  /// The same of a step that is not quiet.
   /// \param middle  the state at `place_within`, if that is known.
-  double operator()(const casimir_step& trial, const double* middle = nullptr);
+  double within(const casimir_step& trial, const double* middle = nullptr);
+
+  /// Whether the step may be taken for what its end shows, without a look within: no argument
+  /// changes by much in it, nor did in the step before, which was not much shorter. So smooth a
+  /// function does not come to anything in between.
+  bool is_quiet(const casimir_step& trial);
 
   /// The part of the next step at which it is looked at first. It follows the golden section, as no
   /// motion does.
@@ -51,6 +59,7 @@ class StepLook {
   void take_ends(const casimir_step& trial);
   void take(End& end, double t, const double* x);
   bool is_calm(const casimir_step& trial, double part, const double* middle);
+  bool hardly_changes(const StepWatch::Watched& watched) const;
   bool ends_behind_jump(const casimir_step& trial) const;
   bool is_calm(const StepWatch::Watched& watched, std::size_t index, const double* middle);
   void sample(const casimir_step& trial);
@@ -72,6 +81,7 @@ class StepLook {
   double negligible_ = 0;        ///< what an exponent has to be above
   double places_[kPlaces] = {};
   double shift_ = 0.5;
+  double quiet_until_ = 0, quiet_for_ = 0;  ///< the end and the size of the last quiet step
   const StepWatch::Watched* met_ = nullptr;
   std::optional<double> jump_;  ///< when a step that was cut is to end behind a jump
 };

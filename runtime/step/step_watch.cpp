@@ -13,7 +13,7 @@ namespace {
 constexpr int kHighPower = 10;
 /// Degrees of what is divided by, from which on a peak may have no tail that is seen from afar:
 /// that of area 1 and width w is w^(n-1)/d^n at the distance d.
-constexpr double kDeep = 3, kDeepSum = 4, kDeepWithin = 2;
+constexpr double kDeep = 4, kDeepWithin = 2;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -296,17 +296,14 @@ void StepWatch::watch_powers(const Program& rhs, const std::vector<bool>& varies
 /// be seen as little as that is.
 void StepWatch::watch_divisors(const Program& rhs, const std::vector<bool>& varies,
                                const std::vector<bool>& watched) {
-  const std::vector<bool> positive = nowhere_negative(rhs);
   const std::vector<double> degree = degrees(rhs, varies);
-  const auto enough = [&](std::size_t quotient, bool never_zero) {
-    return watched[quotient] ? kDeepWithin : never_zero ? kDeepSum : kDeep;
-  };
+  const auto enough = [&](std::size_t i) { return watched[i] ? kDeepWithin : kDeep; };
   for (std::size_t i = 0; i < rhs.code.size(); ++i) {
     const Instruction& line = rhs.code[i];
     if (!varies[i] || !has_operands(line)) continue;
     if (line.op == Op::tan) {
       const double power = highest_power(rhs, i);
-      if (power < enough(i, false)) continue;
+      if (power < enough(i)) continue;
       arguments_.code.push_back({Op::cos, line.a});
       watch(Kind::divisor, {static_cast<int>(arguments_.code.size()) - 1}, power);
     }
@@ -317,7 +314,7 @@ void StepWatch::watch_divisors(const Program& rhs, const std::vector<bool>& vari
     split_divisor(rhs, powers);
     for (std::size_t base = 0; base < i; ++base) {
       if (powers[base] == 0 || !varies[base]) continue;
-      if (powers[base] * degree[base] >= enough(i, positive[base]))
+      if (powers[base] * degree[base] >= enough(i))
         watch(Kind::divisor, {static_cast<int>(base)}, powers[base]);
     }
   }

@@ -110,11 +110,18 @@ TEST(StepWatch, QuotientsAreWatchedThatNoTailAnnounces) {
   EXPECT_EQ(watched(false, 1, false), 0);
   EXPECT_EQ(watched(false, 2, false), 4);  // 1/x^4
 
-  Builder cubed({"x"});  // (1/x)^3
-  const int one = cubed.op(Op::div, cubed.number(1), 0);
-  cubed.output(cubed.op(Op::mul, cubed.op(Op::mul, one, one), one));
-  ASSERT_EQ(StepWatch(cubed.program()).watched().size(), 1U);
-  EXPECT_EQ(StepWatch(cubed.program()).watched()[0].exponent, 3);
+  Builder squared({"x"});  // (1/x^2)^2
+  const int one = squared.op(Op::div, squared.number(1), squared.op(Op::mul, 0, 0));
+  squared.output(squared.op(Op::mul, one, one));
+  ASSERT_EQ(StepWatch(squared.program()).watched().size(), 1U);
+  EXPECT_EQ(StepWatch(squared.program()).watched()[0].exponent, 4);
+
+  for (const bool fourth : {false, true}) {
+    Builder tangent({"x"});  // tan(x)^4: of cos(x)
+    const int tan = tangent.op(Op::tan, 0), square = tangent.op(Op::mul, tan, tan);
+    tangent.output(fourth ? tangent.op(Op::mul, square, square) : square);
+    EXPECT_EQ(StepWatch(tangent.program()).empty(), !fourth);
+  }
 }
 
 /// x' = 1 + 1/w/(1 + ((t - 3)/w)^2)^4: 5 pi/16 more than the time.

@@ -39,6 +39,17 @@ std::set<int> divisors_of(const Program& program) {
   return lines;
 }
 
+/// Adds a quotient by cos(u) for each tan(u): its poles, too, are zeros of a divisor.
+void divide_tangents(Program& program) {
+  const std::size_t lines = program.code.size();
+  for (std::size_t i = 0; i < lines; ++i) {
+    if (program.code[i].op != Op::tan) continue;
+    const int angle = program.code[i].a, cosine = static_cast<int>(program.code.size());
+    program.code.push_back({Op::cos, angle});
+    program.code.push_back({Op::div, angle, cosine});
+  }
+}
+
 /// The states that a line depends on.
 std::vector<std::size_t> states_in(const Program& program, int line, std::size_t states) {
   std::set<int> open{line};
@@ -65,10 +76,11 @@ NearSingular::NearSingular(const PreparedScene& run)
     : run_(run), divisors_(run.specialisation.rhs) {
   divisors_.outputs.clear();
   divisors_.output_names.clear();
-  for (const int line : divisors_of(run.specialisation.rhs)) {
+  divide_tangents(divisors_);
+  for (const int line : divisors_of(divisors_)) {
     divisors_.outputs.push_back(line);
     divisors_.output_names.push_back("divisor");
-    states_.push_back(states_in(run.specialisation.rhs, line, run.initial.size()));
+    states_.push_back(states_in(divisors_, line, run.initial.size()));
   }
   divisors_ = codegen::without_dead_code(divisors_);
   ranges_.resize(divisors_.outputs.size());
