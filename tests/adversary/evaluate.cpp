@@ -167,6 +167,12 @@ class Evaluator {
       const Ball e = apply(acb_exp, x);
       return chain(e, e, a);
     }
+    if (name == "sinh") return chain(apply(acb_sinh, x), apply(acb_cosh, x), a);
+    if (name == "cosh") return chain(apply(acb_cosh, x), apply(acb_sinh, x), a);
+    if (name == "tanh") {
+      const Ball t = apply(acb_tanh, x);
+      return chain(t, Ball(1) - t * t, a);
+    }
     if (name == "log") {
       check_positive(x);
       return chain(apply(acb_log, x), Ball(1) / x, a);

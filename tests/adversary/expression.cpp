@@ -128,6 +128,9 @@ Expr sqrt(const Expr& a) { return call("sqrt", a); }
 Expr sin(const Expr& a) { return call("sin", a); }
 Expr cos(const Expr& a) { return call("cos", a); }
 Expr tan(const Expr& a) { return call("tan", a); }
+Expr sinh(const Expr& a) { return call("sinh", a); }
+Expr cosh(const Expr& a) { return call("cosh", a); }
+Expr tanh(const Expr& a) { return call("tanh", a); }
 Expr exp(const Expr& a) { return call("exp", a); }
 Expr log(const Expr& a) { return call("log", a); }
 Expr asin(const Expr& a) { return call("asin", a); }

@@ -102,6 +102,60 @@ std::vector<Rule> angles() {
   };
 }
 
+std::vector<Rule> hyperbolic_functions() {
+  const std::string hyperbolic = "hyperbolic";
+  return {
+      {hyperbolic,
+       [](Made o) -> Sides {
+         return {square(cosh(o.v)) - square(sinh(o.v)), 1};
+       }},
+      {hyperbolic,
+       [](Made o) -> Sides {
+         return {sinh(o.v) + cosh(o.v), exp(o.v)};
+       }},
+      {hyperbolic,
+       [](Made o) -> Sides {
+         return {2 * square(cosh(o.v / 2)), 1 + cosh(o.v)};
+       }},
+      {hyperbolic,
+       [](Made o) -> Sides {
+         return {2 * sinh(o.v / 2) * cosh(o.v / 2), sinh(o.v)};
+       }},
+      {hyperbolic,
+       [](Made o) -> Sides {
+         return {tanh(o.v) * cosh(o.v), sinh(o.v)};
+       }},
+      {hyperbolic,
+       [](Made o) -> Sides {
+         return {tanh(o.v / 2) * (1 + cosh(o.v)), sinh(o.v)};
+       }},
+      {hyperbolic,
+       [](Made o) -> Sides {
+         return {cosh(o.v + o.w), cosh(o.v) * cosh(o.w) + sinh(o.v) * sinh(o.w)};
+       }},
+      {hyperbolic,
+       [](Made o) -> Sides {
+         return {sinh(3 * o.v), 3 * sinh(o.v) + 4 * cube(sinh(o.v))};
+       }},
+      {hyperbolic,
+       [](Made o) -> Sides {
+         return {sqrt(1 + square(sinh(o.v))), cosh(o.v)};
+       }},
+      {hyperbolic,
+       [](Made o) -> Sides {
+         return {2 * cosh(log(o.p)), o.p + 1 / o.p};
+       }},
+      {hyperbolic,
+       [](Made o) -> Sides {
+         return {(1 - square(tanh(o.v))) * square(cosh(o.v)), 1};
+       }},
+      {hyperbolic,
+       [](Made o) -> Sides {
+         return {tanh(log(o.p) / 2) * (o.p + 1), o.p - 1};
+       }},
+  };
+}
+
 std::vector<Rule> inverse_functions() {
   const std::string inverse = "inverse";
   return {
@@ -355,7 +409,8 @@ std::vector<Rule> constants() {
 const std::vector<Rule>& true_rules() {
   static const std::vector<Rule> rules = [] {
     std::vector<Rule> all;
-    for (const auto& part : {angles(), inverse_functions(), roots(), exponentials(), constants()})
+    for (const auto& part : {angles(), inverse_functions(), roots(), exponentials(), constants(),
+                             hyperbolic_functions()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();
@@ -367,6 +422,14 @@ const std::vector<Rule>& branch_rules() {
       {"absolute-value",
        [](Made o) -> Sides {
          return {absolute(o.v), o.v};
+       }},
+      {"hyperbolic",
+       [](Made o) -> Sides {
+         return {sqrt(square(cosh(o.v)) - 1), sinh(o.v)};
+       }},
+      {"hyperbolic",
+       [](Made o) -> Sides {
+         return {sqrt(1 - 1 / square(cosh(o.v))), tanh(o.v)};
        }},
       {"absolute-value",
        [](Made o) -> Sides {
