@@ -371,7 +371,8 @@ const CaseFile& common_part(const AnyCaseFile& any) {
 CaseError MapCaseFile::not_a_flow() const {
   return map.error(
       "this is the case of a map, and a flow is needed here: equations or a hamiltonian", 0,
-      "show, verify and degrees work with maps; [[map]] with double brackets claims "
+      "show, verify, search, degrees and integrate work with maps; [[map]] with double brackets "
+      "claims "
       "that a map to another phase space is Poisson");
 }
 

@@ -49,8 +49,9 @@ class Builder {
       throw map.sign->error("'map_sign' needs a bracket, which this phase space does not have");
     read_next(map, result);
     read_definitions();
-    for (const SymmetryText& text : map.symmetries)
-      result.symmetries.push_back(read_symmetry(text));
+    for (const SymmetryText& text : map.symmetries) {
+      if (!changes_fixed(text)) result.symmetries.push_back(read_symmetry(text));
+    }
     for (const MeasureText& text : file_.measures) {
       if (text.every_hamiltonian)
         throw text.density.error("'every_hamiltonian' is about flows, and this is a map");
@@ -104,6 +105,15 @@ class Builder {
     if (result.steps.size() == 1) result.steps.clear();
   }
 
+  /// A symmetry that changes a parameter leads to another map where that has a value from outside.
+  bool changes_fixed(const SymmetryText& text) const {
+    return std::ranges::any_of(text.expressions, [&](const Entry& entry) {
+      return std::ranges::any_of(model_.fixed, [&](const auto& parameter) {
+        return parameter.first.value == entry.first.value;
+      });
+    });
+  }
+
   MapSymmetry read_symmetry(const SymmetryText& text) {
     MapSymmetry result;
     result.name = text.name.value;
@@ -113,11 +123,6 @@ class Builder {
     std::vector<GiNaC::symbol> symbols = model_.variables;
     symbols.insert(symbols.end(), model_.parameters.begin(), model_.parameters.end());
     for (const auto& [name, value] : text.expressions) {
-      const bool is_fixed = std::ranges::any_of(
-          model_.fixed, [&](const auto& pair) { return pair.first.value == name.value; });
-      if (is_fixed)
-        throw name.error(fmt::format(
-            "a symmetry changes the parameter '{}', which has a value from outside", name.value));
       const std::size_t i =
           symbol_position(name, name.value, 0, symbols, "a variable or parameter of this case");
       const Quantity quantity = parse_expression(value, names_);

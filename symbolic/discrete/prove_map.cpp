@@ -1,31 +1,32 @@
 #include "symbolic/discrete/prove_map.hpp"
 
 #include "symbolic/discrete/map_claims.hpp"
+#include "symbolic/discrete/prove_candidate.hpp"
 #include "symbolic/proof/run_claims.hpp"
 
 namespace casimir {
 namespace {
 
-std::vector<NamedExpression> read(const Model& model, const std::vector<Text>& texts) {
+std::vector<NamedExpression> read_candidates(const Model& model, const std::vector<Text>& texts) {
   std::vector<NamedExpression> result;
   for (const Text& text : texts) result.push_back(model.parse_named(text));
   return result;
 }
 
 std::vector<Claim> candidate_claims(const MapModel& map, const Candidates& candidates) {
-  const std::vector<NamedExpression> on = read(map.base, candidates.on);
+  const std::vector<NamedExpression> on = read_candidates(map.base, candidates.on);
   if (!map.base.poisson && !candidates.casimirs.empty()) {
     throw candidates.casimirs[0].error(
         "a Casimir function needs a bracket, which this case does not have");
   }
   std::vector<Claim> claims;
-  for (const NamedExpression& f : read(map.base, candidates.casimirs)) {
+  for (const NamedExpression& f : read_candidates(map.base, candidates.casimirs)) {
     claims.push_back(casimir_claim(f, on));
     claims.back().subject = Subject::bracket;
   }
-  for (const NamedExpression& f : read(map.base, candidates.integrals))
+  for (const NamedExpression& f : read_candidates(map.base, candidates.integrals))
     claims.push_back(discrete::integral_claim(map, f, on));
-  for (const NamedExpression& f : read(map.base, candidates.invariant_relations))
+  for (const NamedExpression& f : read_candidates(map.base, candidates.invariant_relations))
     claims.push_back(discrete::invariant_relation_claim(map, f, on));
   for (const Text& text : candidates.identities) {
     Identity identity = map.base.parse_identity(text);
@@ -35,7 +36,7 @@ std::vector<Claim> candidate_claims(const MapModel& map, const Candidates& candi
   return claims;
 }
 
-std::vector<Claim> claims_of(const MapModel& map, const Candidates& candidates) {
+std::vector<Claim> claims_about(const MapModel& map, const Candidates& candidates) {
   if (!candidates.empty()) return candidate_claims(map, candidates);
   const Model& model = map.base;
   std::vector<Claim> claims;
@@ -92,7 +93,7 @@ void shorten_conditions(Proof& proof) {
 
 std::vector<Proof> prove_map(const MapModel& map, const Candidates& candidates,
                              const std::function<bool(const Proof&)>& report) {
-  std::vector<Claim> claims = claims_of(map, candidates);
+  std::vector<Claim> claims = claims_about(map, candidates);
   for (Claim& claim : claims) {
     claim.decide = [decide = std::move(claim.decide)](Prover& prover, Proof& proof) {
       decide(prover, proof);
@@ -103,11 +104,15 @@ std::vector<Proof> prove_map(const MapModel& map, const Candidates& candidates,
 }
 
 std::vector<Proof> pending(const MapModel& map, const Candidates& candidates) {
-  return pending_claims(claims_of(map, candidates));
+  return pending_claims(claims_about(map, candidates));
 }
 
-Proof prove_density(const MapModel& map, const NamedExpression& density) {
-  return decide_claims(map.base, {discrete::measure_claim(map, density)}, {}).front();
+Proof discrete::prove_integral(const MapModel& map, const NamedExpression& f) {
+  return decide_claims(map.base, {integral_claim(map, f, {})}, {}).front();
+}
+
+Proof discrete::prove_density(const MapModel& map, const NamedExpression& density) {
+  return decide_claims(map.base, {measure_claim(map, density)}, {}).front();
 }
 
 }  // namespace casimir

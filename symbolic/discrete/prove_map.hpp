@@ -28,7 +28,4 @@ std::vector<Proof> prove_map(const MapModel& map, const Candidates& candidates =
 /// What `prove_map` would decide, in its order, all still undecided.
 std::vector<Proof> pending(const MapModel& map, const Candidates& candidates = {});
 
-/// Whether `density * dx` is kept, or changes its sign only.
-Proof prove_density(const MapModel& map, const NamedExpression& density);
-
 }  // namespace casimir

@@ -65,6 +65,10 @@ std::vector<fs::path> bundled_flows(const std::string& tag) {
   std::erase_if(result, [](const fs::path& path) {
     return std::holds_alternative<MapCaseFile>(read_any_case(path));
   });
+  if (result.empty() && !tag.empty())
+    throw CaseError({"--tag"}, fmt::format("all cases with the tag '{}' are maps, and flows are "
+                                           "needed here",
+                                           printable(tag)));
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -22,8 +23,9 @@ using discrete::Growth;
 struct Options {
   Common common;
   std::string case_name;
+  std::string tag;
   int iterates = 0;
-  bool kahan = false;
+  bool kahan = false, all = false;
 };
 
 std::string words_of(const Growth& growth) {
@@ -77,7 +79,63 @@ nlohmann::ordered_json to_json(const std::string& name, const std::vector<int>& 
   return json;
 }
 
+/// A row of the table of all bundled flows; none for one that Kahan's map is not defined for.
+std::optional<nlohmann::ordered_json> kahan_row(const CaseFile& file, const Options& options,
+                                                const search::Watch& watch) {
+  std::vector<int> found;
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    discrete::DegreeRequest request;
+    if (options.iterates > 0) request.iterates = options.iterates;
+    found = discrete::degrees_of_kahan_iterates(model_of(file), request, watch);
+  } catch (const ModelError&) {
+    return std::nullopt;
+  }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  return to_json(file.name, found, discrete::growth_of(found), true, seconds.count());
+}
+
+/// Which of the bundled flows seem to keep their integrability under Kahan's map.
+int all_degrees(const Options& options) {
+  if (!options.kahan) throw UsageError("--all is about flows: it needs --kahan");
+  SearchWatch watch(options.common, "all cases");
+  nlohmann::ordered_json rows = nlohmann::json::array();
+  std::size_t left_out = 0;
+  if (!options.common.json && !options.common.quiet)
+    fmt::print("{:<28} {:<12} {}\n", "case", "growth", "degrees of the iterates of Kahan's map");
+  for (const CaseFile& file : tagged_cases(options.tag)) {
+    const auto row = kahan_row(file, options, watch.watch());
+    if (!row) {
+      ++left_out;
+      continue;
+    }
+    rows.push_back(*row);
+    if (options.common.json || options.common.quiet) continue;
+    const std::string growth = row->at("growth");
+    const bool polynomial = growth == "polynomial";
+    fmt::print("{:<28} {:<12} {}\n", file.name,
+               polynomial ? fmt::format("n^{}", row->at("growth_degree").get<int>()) : growth,
+               fmt::join(row->at("degrees").get<std::vector<int>>(), " "));
+  }
+  const double seconds = watch.end();
+  if (options.common.json)
+    print_json(nlohmann::ordered_json{
+        {"rows", rows}, {"left_out", left_out}, {"verdict", "evidence"}, {"seconds", seconds}});
+  else if (!options.common.quiet)
+    fmt::print(
+        "{} cases, and {} without Kahan's map: not quadratic, or with an equation between "
+        "parameters; "
+        "evidence and no proof; {:.3f} s\n",
+        rows.size(), left_out, seconds);
+  return kDone;
+}
+
 int degrees(const Options& options) {
+  if (options.all == !options.case_name.empty())
+    throw UsageError("degrees needs either a CASE or --all");
+  if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
+  if (options.all)
+    return with_search_errors(options.common, "all", [&] { return all_degrees(options); });
   const AnyCaseFile file = load_any_case(options.case_name);
   const ParameterValues fixed = options.common.parameter_values();
   return with_search_errors(options.common, options.case_name, [&] {
@@ -113,7 +171,8 @@ void register_degrees(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand(
       "degrees", "Degree growth of the iterates of a map, as evidence of integrability");
   add_common(*command, options->common);
-  add_case(*command, options->case_name);
+  command->add_option("CASE", options->case_name, kCaseText);
+  add_all(*command, options->all, options->tag, "A table of every bundled flow, with --kahan");
   command
       ->add_option("--iterates", options->iterates,
                    "So many iterates; without it up to a degree of 300, at most 14")

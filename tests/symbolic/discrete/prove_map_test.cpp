@@ -30,7 +30,8 @@ Verdict verdict_of(const MapModel& map, ClaimKind kind, const std::string& name 
 const std::string kPlane = "[phase_space]\nvariables = [\"x\", \"y\"]\n";
 
 TEST(ProveMap, EveryBundledMapIsProved) {
-  for (const char* name : {"henon-area-preserving", "kahan-euler", "lyness", "mcmillan", "qrt"}) {
+  for (const char* name :
+       {"henon-area-preserving", "kahan-clebsch", "kahan-euler", "lyness", "mcmillan", "qrt"}) {
     const MapModel map = bundled(name);
     EXPECT_EQ(overall(map.base, prove_map(map)), Verdict::proved) << name;
   }
