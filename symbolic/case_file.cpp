@@ -11,6 +11,7 @@
 #include "symbolic/case/spelling.hpp"
 #include "symbolic/case/toml_keys.hpp"
 #include "symbolic/case/toml_reader.hpp"
+#include "symbolic/discrete/map_case.hpp"
 
 namespace casimir {
 namespace {
@@ -21,9 +22,11 @@ class Reader : private TomlReader {
   using TomlReader::line;
   using TomlReader::TomlReader;
 
-  CaseFile read(const toml::table& root);
+  AnyCaseFile read(const toml::table& root);
 
  private:
+  CaseFile read_common(const toml::table& root);
+  MapCaseFile map_case(const toml::table& root, CaseFile file) const;
   PhaseSpaceText phase_space(const toml::table& table, const std::string& what) const;
   VectorFieldText vector_field(const Text& momentum, const toml::node& node,
                                const std::vector<Text>& coordinates) const;
@@ -188,7 +191,56 @@ std::vector<ParameterText> Reader::parameters(const toml::table& root) const {
   return result;
 }
 
-CaseFile Reader::read(const toml::table& root) {
+/// Whether `[map]` or `[[map_step]]` give next values. With the keys of `[[map]]` the first one is
+/// that one, misspelt.
+bool gives_next_values(const toml::table& root) {
+  const toml::node* map = root.get("map");
+  if (map == nullptr) return root.contains("map_step");
+  return map->is_table() && map->as_table()->get_as<toml::table>("expressions") == nullptr;
+}
+
+MapCaseFile Reader::map_case(const toml::table& root, CaseFile file) const {
+  MapCaseFile result;
+  const toml::node* table = root.get("map");
+  const toml::node* steps = root.get("map_step");
+  const Location where = place((table ? table : steps)->source());
+  result.map = {table ? "[map]" : "[[map_step]]", where, line(where.line)};
+  if (table && steps)
+    fail(steps->source(), "a map is given either by [map] or by [[map_step]], not by both");
+  const auto refuse = [&](const char* key) {
+    if (const toml::node* node = root.get(key))
+      fail(node->source(),
+           fmt::format("'{}' is about a flow, and the table {} makes this the case of a map", key,
+                       result.map.value));
+  };
+  for (const char* key : {"hamiltonian", "lagrangian", "equations", "lax"}) refuse(key);
+  if (table) result.next = entries(*table, "[map]");
+  each(root, "map_step", [&](const toml::table& step, const std::string& what) {
+    allow(step, what, {"expressions"});
+    result.steps.push_back(entries(required(step, "expressions", what), "'expressions'"));
+  });
+  result.sign = optional_text(root, "map_sign");
+  each(root, "symmetry", [&](const toml::table& symmetry, const std::string& what) {
+    allow(symmetry, what, {"name", "expressions", "reverses"});
+    result.symmetries.push_back({name(symmetry, what),
+                                 entries(required(symmetry, "expressions", what), "'expressions'"),
+                                 boolean(symmetry, "reverses")});
+  });
+  result.file = std::move(file);
+  return result;
+}
+
+AnyCaseFile Reader::read(const toml::table& root) {
+  CaseFile file = read_common(root);
+  if (gives_next_values(root)) return map_case(root, std::move(file));
+  for (const char* key : {"map_sign", "symmetry"}) {
+    if (const toml::node* node = root.get(key))
+      fail(node->source(), fmt::format("'{}' needs a table [map] with the next values", key));
+  }
+  return file;
+}
+
+CaseFile Reader::read_common(const toml::table& root) {
   allow(root, "the case file", root_keys());
   CaseFile result;
   result.file = file_;
@@ -223,9 +275,10 @@ CaseFile Reader::read(const toml::table& root) {
     result.lax.push_back(
         {optional_text(table, "spectral"), matrix(table, "L"), matrix(table, "A")});
   });
-  each(root, "map", [&](const toml::table& table, const std::string& what) {
-    result.maps.push_back(map(table, what));
-  });
+  if (!gives_next_values(root))
+    each(root, "map", [&](const toml::table& table, const std::string& what) {
+      result.maps.push_back(map(table, what));
+    });
   each(root, "measure", [&](const toml::table& table, const std::string& what) {
     allow(table, what, {"density", "every_hamiltonian"});
     result.measures.push_back(
@@ -310,7 +363,26 @@ CaseError Text::error(const std::string& what, std::size_t offset, const std::st
   return CaseError(at, what, line, hint);
 }
 
+const CaseFile& common_part(const AnyCaseFile& any) {
+  if (const auto* map = std::get_if<MapCaseFile>(&any)) return map->file;
+  return std::get<CaseFile>(any);
+}
+
+CaseError MapCaseFile::not_a_flow() const {
+  return map.error(
+      "this is the case of a map, and a flow is needed here: equations or a hamiltonian", 0,
+      "show, verify, search, degrees and integrate work with maps; [[map]] with double brackets "
+      "claims "
+      "that a map to another phase space is Poisson");
+}
+
 CaseFile parse_case(const std::string& toml, const std::string& file) {
+  AnyCaseFile any = parse_any_case(toml, file);
+  if (const auto* map = std::get_if<MapCaseFile>(&any)) throw map->not_a_flow();
+  return std::get<CaseFile>(std::move(any));
+}
+
+AnyCaseFile parse_any_case(const std::string& toml, const std::string& file) {
   if (static_cast<double>(toml.size()) > limits().file_bytes)
     throw CaseError(
         {file}, fmt::format("the file is larger than {:g} MiB", limits().file_bytes / (1 << 20)),
@@ -319,8 +391,17 @@ CaseFile parse_case(const std::string& toml, const std::string& file) {
   if (const std::optional<int> number = line_of_deep_key(toml))
     throw CaseError({file, *number, 1}, "a key has too many parts", reader.line(*number).text());
   try {
-    CaseFile result = reader.read(toml::parse(toml, std::string_view(file)));
-    result.complex_numbers = speaks_of_imaginary_unit(toml);
+    AnyCaseFile result = reader.read(toml::parse(toml, std::string_view(file)));
+    const bool complex_numbers = speaks_of_imaginary_unit(toml);
+    std::visit(
+        [](auto& part) -> CaseFile& {
+          if constexpr (std::is_same_v<std::decay_t<decltype(part)>, CaseFile>)
+            return part;
+          else
+            return part.file;
+        },
+        result)
+        .complex_numbers = complex_numbers;
     return result;
   } catch (const toml::parse_error& problem) {
     const auto begin = problem.source().begin;
@@ -333,6 +414,10 @@ CaseFile parse_case(const std::string& toml, const std::string& file) {
 
 CaseFile read_case(const std::filesystem::path& path) {
   return parse_case(read_text(path), path.string());
+}
+
+AnyCaseFile read_any_case(const std::filesystem::path& path) {
+  return parse_any_case(read_text(path), path.string());
 }
 
 }  // namespace casimir

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "symbolic/case/limits.hpp"
-#include "symbolic/proof/claims/claim.hpp"
+#include "symbolic/proof/run_claims.hpp"
 
 namespace casimir {
 namespace {
@@ -137,10 +137,14 @@ std::optional<ClaimKind> claim_kind_of(const std::string& name) {
   return std::nullopt;
 }
 
-std::vector<Proof> pending(const Model& model, const Candidates& candidates) {
+std::vector<Proof> pending_claims(const std::vector<Claim>& claims) {
   std::vector<Proof> proofs;
-  for (const Claim& claim : claims_of(model, candidates)) proofs.push_back(undecided(claim));
+  for (const Claim& claim : claims) proofs.push_back(undecided(claim));
   return proofs;
+}
+
+std::vector<Proof> pending(const Model& model, const Candidates& candidates) {
+  return pending_claims(claims_of(model, candidates));
 }
 
 namespace {
@@ -212,7 +216,11 @@ Proof prove_claim(const Model& model, ClaimKind kind, const NamedExpression& f,
 
 std::vector<Proof> prove(const Model& model, const Candidates& candidates,
                          const std::function<bool(const Proof&)>& report) {
-  const std::vector<Claim> claims = claims_of(model, candidates);
+  return decide_claims(model, claims_of(model, candidates), report);
+}
+
+std::vector<Proof> decide_claims(const Model& model, const std::vector<Claim>& claims,
+                                 const std::function<bool(const Proof&)>& report) {
   Provers provers(model, claims);
   std::vector<Proof> proofs;
   for (const Claim& claim : claims) {

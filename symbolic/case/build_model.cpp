@@ -14,6 +14,7 @@
 #include "symbolic/case/limits.hpp"
 #include "symbolic/case/real_values.hpp"
 #include "symbolic/case/toml_keys.hpp"
+#include "symbolic/discrete/map_model.hpp"
 #include "symbolic/lie_algebra.hpp"
 #include "symbolic/model.hpp"
 #include "symbolic/model/model_dynamics.hpp"
@@ -30,17 +31,115 @@ class Builder {
       : file_(file), fixed_(fixed), find_case_(find_case), dynamics_(model_) {}
 
   Model build() {
-    check_counts();
-    copy_texts();
-    declare_names();
+    read_names();
     read_equations();
-    read_claims();
-    for (const SceneText& scene : file_.scenes)
-      model_.scenes.push_back(read_scene(scene, model_, fixed_));
+    read_rest();
     return std::move(model_);
   }
 
+  /// The same with next values in place of equations of motion.
+  MapModel build(const MapCaseFile& map) {
+    MapModel result;
+    read_names();
+    read_bracket();
+    if (!model_.poisson) model_.phase_space = "map";
+    if (model_.time)
+      throw file_.phase_space.time->error("a map has no time: a parameter may stand for a step");
+    result.sign = sign_of(map.sign);
+    if (map.sign && !model_.poisson)
+      throw map.sign->error("'map_sign' needs a bracket, which this phase space does not have");
+    read_next(map, result);
+    read_definitions();
+    for (const SymmetryText& text : map.symmetries) {
+      if (!changes_fixed(text)) result.symmetries.push_back(read_symmetry(text));
+    }
+    for (const MeasureText& text : file_.measures) {
+      if (text.every_hamiltonian)
+        throw text.density.error("'every_hamiltonian' is about flows, and this is a map");
+    }
+    read_rest();
+    result.base = std::move(model_);
+    for (MapModel& step : result.steps) step.base = result.base;
+    return result;
+  }
+
  private:
+  void read_names() {
+    check_counts();
+    copy_texts();
+    declare_names();
+  }
+
+  void read_rest() {
+    read_claims();
+    for (const SceneText& scene : file_.scenes)
+      model_.scenes.push_back(read_scene(scene, model_, fixed_));
+  }
+
+  void read_next(const MapCaseFile& map, MapModel& result) {
+    const std::string what = "a variable of this case";
+    if (map.steps.empty()) {
+      result.next =
+          all_components(map.map, map.next, model_.variables, names_, what, result.next_domain);
+      return;
+    }
+    result.next.assign(model_.variables.begin(), model_.variables.end());
+    for (const std::vector<Entry>& entries : map.steps) {
+      MapModel step;
+      step.next.assign(model_.variables.begin(), model_.variables.end());
+      GiNaC::exmap before;
+      for (std::size_t i = 0; i < result.next.size(); ++i)
+        before[model_.variables[i]] = result.next[i];
+      for (const auto& [name, value] : entries) {
+        const Quantity quantity = parse_expression(value, names_);
+        for (const ex& part : lost_parts(quantity)) step.next_domain.push_back(part);
+        step.next[variable_position(name)] = quantity.value;
+      }
+      for (std::size_t i = 0; i < result.next.size(); ++i)
+        result.next[i] = substituted(step.next[i], before);
+      // What cancels in the composition was needed all the same.
+      for (const auto* parts : {&step.next, &step.next_domain}) {
+        for (const ex& part : *parts) result.next_domain.push_back(substituted(part, before));
+      }
+      result.steps.push_back(std::move(step));
+    }
+    if (result.steps.size() == 1) result.steps.clear();
+  }
+
+  /// A symmetry that changes a parameter leads to another map where that has a value from outside.
+  bool changes_fixed(const SymmetryText& text) const {
+    return std::ranges::any_of(text.expressions, [&](const Entry& entry) {
+      return std::ranges::any_of(model_.fixed, [&](const auto& parameter) {
+        return parameter.first.value == entry.first.value;
+      });
+    });
+  }
+
+  MapSymmetry read_symmetry(const SymmetryText& text) {
+    MapSymmetry result;
+    result.name = text.name.value;
+    result.reverses = text.reverses;
+    result.variables.assign(model_.variables.begin(), model_.variables.end());
+    result.parameters.assign(model_.parameters.begin(), model_.parameters.end());
+    std::vector<GiNaC::symbol> symbols = model_.variables;
+    symbols.insert(symbols.end(), model_.parameters.begin(), model_.parameters.end());
+    for (const auto& [name, value] : text.expressions) {
+      const std::size_t i =
+          symbol_position(name, name.value, 0, symbols, "a variable or parameter of this case");
+      const Quantity quantity = parse_expression(value, names_);
+      for (const ex& part : lost_parts(quantity)) result.domain.push_back(part);
+      const std::size_t n = model_.variables.size();
+      (i < n ? result.variables[i] : result.parameters[i - n]) = quantity.value;
+    }
+    return result;
+  }
+
+  static int sign_of(const std::optional<Text>& text) {
+    if (!text || text->value == "+") return 1;
+    if (text->value == "-") return -1;
+    throw text->error("'sign' must be \"+\" or \"-\"");
+  }
+
   void check_counts() const {
     const auto check = [&](std::size_t count, double Limits::*limit, const char* what) {
       if (static_cast<double>(count) > limits().*limit)
@@ -146,11 +245,15 @@ class Builder {
     return {condition.left - condition.right, condition.comparison, text.value};
   }
 
-  void read_equations() {
+  void read_bracket() {
     model_.frame = make_frame(file_.phase_space, model_.variables, model_.parameters, names_);
     model_.linear_bracket = file_.phase_space.algebra || file_.phase_space.structure_constants;
     model_.poisson = make_bracket(file_.phase_space, model_.variables, names_, model_.frame,
                                   &model_.bracket_domain);
+  }
+
+  void read_equations() {
+    read_bracket();
     if (file_.equations) {
       if (model_.poisson || file_.hamiltonian) {
         throw CaseError(file_.phase_space.where,
@@ -170,6 +273,10 @@ class Builder {
       if (!function_named_H()) names_.offer("H", measured(*model_.hamiltonian));
       model_.field = model_.poisson->flow(*model_.hamiltonian);
     }
+    read_definitions();
+  }
+
+  void read_definitions() {
     names_.allow(&dynamics_);
     for (const Entry& definition : file_.definitions) {
       model_.definitions.push_back(named(definition.first, *names_.find(definition.first.value)));
@@ -470,10 +577,7 @@ class Builder {
         branch.domain.push_back(assumption_of(condition, names, branch.defined_by));
     }
     for (const Text& relation : text.on) map.on.push_back(anonymous(relation));
-    if (text.sign && text.sign->value == "-")
-      map.sign = -1;
-    else if (text.sign && text.sign->value != "+")
-      throw text.sign->error("'sign' must be \"+\" or \"-\"");
+    map.sign = sign_of(text.sign);
     model_.maps.push_back(std::move(map));
   }
 
@@ -489,6 +593,11 @@ class Builder {
 
 Model build_model(const CaseFile& file, const ParameterValues& fixed, const FindCase& find_case) {
   return Builder(file, fixed, find_case).build();
+}
+
+MapModel build_map_model(const MapCaseFile& file, const ParameterValues& fixed,
+                         const FindCase& find_case) {
+  return Builder(file.file, fixed, find_case).build(file);
 }
 
 }  // namespace casimir

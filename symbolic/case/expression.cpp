@@ -392,7 +392,8 @@ class Parser {
   Quantity rate(std::size_t start) {
     const Quantity f = arguments("rate", 1, start).front();
     const Dynamics* dynamics = names_.dynamics();
-    if (dynamics == nullptr) fail_at(start, "the equations of motion are not known here");
+    if (dynamics == nullptr || !dynamics->has_flow())
+      fail_at(start, "the equations of motion are not known here");
     const auto n = static_cast<double>(dynamics->dimension());
     Quantity q{0, f.bits * 2, f.degree * 2, n * n * derivative_nodes(f), 3 + 2 * f.depth};
     checked(q, start);

@@ -41,9 +41,10 @@ class Dynamics {
  public:
   virtual ~Dynamics() = default;
   virtual bool has_bracket() const = 0;
+  virtual bool has_flow() const = 0;  ///< a map has none
   /// {f, g}; only where there is a bracket.
   virtual GiNaC::ex bracket(const GiNaC::ex& f, const GiNaC::ex& g) const = 0;
-  /// df/dt along the flow.
+  /// df/dt along the flow; only where there is one.
   virtual GiNaC::ex rate(const GiNaC::ex& f) const = 0;
   virtual std::size_t dimension() const = 0;
 };

@@ -39,8 +39,8 @@ std::string_view trimmed(std::string_view text) {
 }
 
 /// Those of the root keys that are no tables.
-constexpr std::string_view kRootValues[] = {"title",      "source",      "book",      "tags",
-                                            "integrable", "hamiltonian", "lagrangian"};
+constexpr std::string_view kRootValues[] = {"title",      "source",      "book",       "tags",
+                                            "integrable", "hamiltonian", "lagrangian", "map_sign"};
 
 }  // namespace
 
@@ -50,7 +50,7 @@ const std::vector<std::string>& root_keys() {
       "hamiltonian", "lagrangian", "phase_space", "parameters",  "definitions",
       "casimirs",    "integrals",  "equations",   "conditional", "invariant_relation",
       "lax",         "map",        "measure",     "identity",    "section",
-      "scene"};
+      "scene",       "map_sign",   "map_step",    "symmetry"};
   return keys;
 }
 

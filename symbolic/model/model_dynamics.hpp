@@ -10,6 +10,7 @@ class ModelDynamics : public Dynamics {
  public:
   explicit ModelDynamics(const Model& model) : model_(model) {}
   bool has_bracket() const override { return model_.poisson.has_value(); }
+  bool has_flow() const override { return !model_.field.empty(); }
   GiNaC::ex bracket(const GiNaC::ex& f, const GiNaC::ex& g) const override {
     return model_.poisson->bracket(f, g);
   }

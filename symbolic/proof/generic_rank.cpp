@@ -354,7 +354,7 @@ std::optional<GenericRank> gradient_rank(Prover& prover, const std::vector<Polyn
     std::vector<KernelCandidate> candidates;
     if (prover.model().poisson) {
       for (const auto& slope : rows) candidates.push_back({prover.flow_of(slope)});
-    } else {
+    } else if (!prover.model().field.empty()) {  // a map has none
       candidates.push_back({prover.field()});
     }
     return candidates;

@@ -36,7 +36,7 @@ std::vector<ex> Prover::with_dynamics(const Model& model, std::vector<ex> expres
     expressions.insert(expressions.end(), model.domain.begin(), model.domain.end());
     expressions.insert(expressions.end(), model.field.begin(),
                        model.poisson ? model.field.begin() : model.field.end());
-    if (model.poisson) expressions.push_back(*model.hamiltonian);
+    if (model.hamiltonian) expressions.push_back(*model.hamiltonian);
   }
   if (subject == Subject::functions || !model.poisson) return expressions;
   expressions.insert(expressions.end(), model.bracket_domain.begin(), model.bracket_domain.end());
@@ -71,7 +71,8 @@ Prover::Prover(const Model& model, const std::vector<ex>& expressions, Subject s
       brackets_[j * n + i] = -brackets_[i * n + j];
     }
   }
-  if (subject == Subject::motion) field_ = flow_of(gradient(ring_.convert(*model.hamiltonian)));
+  if (subject == Subject::motion && model.hamiltonian)
+    field_ = flow_of(gradient(ring_.convert(*model.hamiltonian)));
 }
 
 void Prover::begin_claim(const std::vector<ex>& expressions, Subject subject) {

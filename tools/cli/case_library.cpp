@@ -39,6 +39,8 @@ std::vector<fs::path> case_folders() {
     folders.push_back(program.parent_path() / ".." / "share" / "casimir" / "cases");
     folders.push_back(program.parent_path() / "cases");
   }
+  for (std::size_t i = 0; i < folders.size(); i += 2)
+    folders.insert(folders.begin() + static_cast<std::ptrdiff_t>(i) + 1, folders[i] / "maps");
   return folders;
 }
 
@@ -61,7 +63,7 @@ std::vector<fs::path> bundled_cases(const std::string& tag) {
   std::vector<fs::path> result;
   std::set<std::string> known;
   for (const fs::path& path : bundled_cases()) {
-    const std::vector<std::string> tags = read_case(path).tags;
+    const std::vector<std::string> tags = common_part(read_any_case(path)).tags;
     known.insert(tags.begin(), tags.end());
     if (std::ranges::find(tags, tag) != tags.end()) result.push_back(path);
   }
@@ -70,9 +72,24 @@ std::vector<fs::path> bundled_cases(const std::string& tag) {
                   suggest_or_list(tag, {known.begin(), known.end()}));
 }
 
+std::vector<fs::path> bundled_flows(const std::string& tag) {
+  std::vector<fs::path> result = bundled_cases(tag);
+  std::erase_if(result, [](const fs::path& path) {
+    return std::holds_alternative<MapCaseFile>(read_any_case(path));
+  });
+  if (result.empty() && !tag.empty())
+    throw CaseError({"--tag"}, fmt::format("all cases with the tag '{}' are maps, and flows are "
+                                           "needed here",
+                                           printable(tag)));
+  return result;
+}
+
 std::vector<CaseFile> tagged_cases(const std::string& tag) {
   std::vector<CaseFile> result;
-  for (const fs::path& path : bundled_cases(tag)) result.push_back(read_case(path));
+  for (const fs::path& path : bundled_cases(tag)) {
+    AnyCaseFile file = read_any_case(path);
+    if (auto* flow = std::get_if<CaseFile>(&file)) result.push_back(std::move(*flow));
+  }
   return result;
 }
 
@@ -96,18 +113,24 @@ std::vector<CaseFile> tagged_cases(const std::string& tag) {
 }
 
 CaseFile load_case(const std::string& argument) {
+  AnyCaseFile any = load_any_case(argument);
+  if (const auto* map = std::get_if<MapCaseFile>(&any)) throw map->not_a_flow();
+  return std::get<CaseFile>(std::move(any));
+}
+
+AnyCaseFile load_any_case(const std::string& argument) {
   if (argument == "-") {
     const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
-    return parse_case(text, "<standard input>");
+    return parse_any_case(text, "<standard input>");
   }
   std::vector<std::string> names;
   if (argument.find('/') != std::string::npos || argument.ends_with(".toml")) {
     std::error_code ignored;
     if (!fs::exists(argument, ignored)) no_such_file(argument);
-    return read_case(argument);
+    return read_any_case(argument);
   }
   for (const fs::path& path : bundled_cases()) {
-    if (path.stem() == argument) return read_case(path);
+    if (path.stem() == argument) return read_any_case(path);
     names.push_back(path.stem().string());
   }
   std::string hint = suggest(argument, names);
@@ -116,13 +139,19 @@ CaseFile load_case(const std::string& argument) {
   throw CaseError({argument}, "there is no bundled case of this name", {}, hint);
 }
 
+static std::optional<CaseFile> bundled_flow(const std::string& name) {
+  for (const fs::path& path : bundled_cases()) {
+    if (path.stem() == name) return read_case(path);
+  }
+  return std::nullopt;
+}
+
 Model model_of(const CaseFile& file, const ParameterValues& fixed) {
-  return build_model(file, fixed, [](const std::string& name) -> std::optional<CaseFile> {
-    for (const fs::path& path : bundled_cases()) {
-      if (path.stem() == name) return read_case(path);
-    }
-    return std::nullopt;
-  });
+  return build_model(file, fixed, bundled_flow);
+}
+
+MapModel map_model_of(const MapCaseFile& file, const ParameterValues& fixed) {
+  return build_map_model(file, fixed, bundled_flow);
 }
 
 }  // namespace casimir::tools

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "symbolic/case_file.hpp"
+#include "symbolic/discrete/map_model.hpp"
 #include "symbolic/model.hpp"
 
 namespace casimir::tools {
@@ -16,23 +17,33 @@ void add_case_folder(const std::filesystem::path& folder);
 /// ones and those of the build tree, both found from where this program is.
 std::vector<std::filesystem::path> case_folders();
 
-/// Every bundled case file by name; of two with one name the first folder's counts.
+/// Every bundled case file by name, those of maps too, which stand in folders `maps`; of two with
+/// one name the first folder's counts.
 std::vector<std::filesystem::path> bundled_cases();
 
 /// Those that have a tag; all of them where it is empty.
 /// \throws CaseError  with the nearest tag for one that no case has.
 std::vector<std::filesystem::path> bundled_cases(const std::string& tag);
 
-/// The same, read.
+/// The same without the cases of maps.
+std::vector<std::filesystem::path> bundled_flows(const std::string& tag = {});
+
+/// Those with a tag, read, without the cases of maps.
 std::vector<CaseFile> tagged_cases(const std::string& tag);
 
 /// The case file that a user means: a path (with `/` or ending in `.toml`), `-` for standard input,
 /// or the name of a bundled case.
-/// \throws CaseError  with the nearest names if there is none.
+/// \throws CaseError  with the nearest names if there is none; and for the case of a map.
 CaseFile load_case(const std::string& argument);
+
+/// The same where the case of a map is welcome.
+AnyCaseFile load_any_case(const std::string& argument);
 
 /// The model of a case file; its maps may lead to the phase spaces of bundled cases.
 /// \throws CaseError
 Model model_of(const CaseFile& file, const ParameterValues& fixed = {});
+
+/// The same for the case of a map.
+MapModel map_model_of(const MapCaseFile& file, const ParameterValues& fixed = {});
 
 }  // namespace casimir::tools

@@ -48,6 +48,8 @@ void register_show(CLI::App& program, Action& action);
 void register_verify(CLI::App& program, Action& action);
 void register_search(CLI::App& program, Action& action);
 void register_exponents(CLI::App& program, Action& action);
+void register_degrees(CLI::App& program, Action& action);
+void register_discretise(CLI::App& program, Action& action);
 void register_obstruct(CLI::App& program, Action& action);
 void register_equilibria(CLI::App& program, Action& action);
 void register_generate(CLI::App& program, Action& action);
@@ -63,11 +65,11 @@ void register_survey(CLI::App& program, Action& action);
 
 /// In the order in which the help shows them: a new command is one file and one line here.
 inline constexpr Register kCommands[] = {
-    register_list,      register_show,     register_verify,     register_search,
-    register_exponents, register_obstruct, register_equilibria, register_generate,
-    register_integrate, register_section,  register_conserve,   register_bench,
-    register_stress,    register_report,   register_sweep,      register_survey,
-    register_new,
+    register_list,       register_show,     register_verify,     register_search,
+    register_exponents,  register_obstruct, register_equilibria, register_generate,
+    register_integrate,  register_section,  register_conserve,   register_bench,
+    register_stress,     register_report,   register_sweep,      register_survey,
+    register_discretise, register_degrees,  register_new,
 };
 
 }  // namespace casimir::tools

@@ -81,7 +81,7 @@ MethodComparison hold(const CaseFile& file, const Options& options, Progress& pr
 
 /// Every bundled case. One that has no such scene, or a file that is no case, is told and skipped.
 void hold_all(const Options& options, Progress& progress, BenchReport& report) {
-  const auto paths = bundled_cases(options.tag);
+  const auto paths = bundled_flows(options.tag);
   if (paths.empty())
     throw SystemError("no bundled cases were found; CASIMIR_CASES can name their folder");
   for (const auto& path : paths) {

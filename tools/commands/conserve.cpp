@@ -89,7 +89,7 @@ std::vector<Row> conserve_cases(const Options& options, Picture& picture) {
                   options.plot.empty() ? nullptr : &picture);
     return rows;
   }
-  const auto paths = bundled_cases(options.tag);
+  const auto paths = bundled_flows(options.tag);
   const double part = 1 / static_cast<double>(paths.size());
   double before = 0;
   for (const auto& path : paths) {

@@ -24,6 +24,7 @@
 #include "tools/runs/digits_run.hpp"
 #include "tools/runs/enclosed_run.hpp"
 #include "tools/runs/ensemble_run.hpp"
+#include "tools/runs/map_run.hpp"
 #include "tools/runs/scene_values.hpp"
 #include "tools/text/generated_report.hpp"
 #include "tools/text/run_report.hpp"
@@ -240,6 +241,21 @@ int enclose_case(const Options& options) {
                               options.observe});
 }
 
+/// Of a map: its steps are iterated, and what is about methods and errors of steps has no meaning.
+int iterate_case(const MapCaseFile& file, const Options& options) {
+  const RunRequest asked = options.run.request();
+  const bool of_methods = options.method != "auto" || asked.rtol || asked.atol || asked.tolerance ||
+                          asked.step || asked.projects();
+  if (of_methods || options.picture.wanted() || options.general || !options.observe.empty() ||
+      !options.in.empty() || !options.as.empty() || options.jobs > 0)
+    throw UsageError(
+        "a map is iterated: of the options --scene, --param, --initial, --duration, --output and "
+        "--every have a meaning");
+  MapCaseFile started = file;
+  started.file = options.start.in(file.file);
+  return iterate_map({options.common, started, asked.duration, options.output, options.every});
+}
+
 int integrate_case(const Options& options) {
   options.picture.check();
   if (options.validated) return enclose_case(options);
@@ -259,11 +275,12 @@ int integrate_case(const Options& options) {
                                   scene_options(options)});
   }
   if (!options.ensemble.empty()) return integrate_members_of(options);
+  const AnyCaseFile file = load_any_case(options.case_name);
+  if (const auto* map = std::get_if<MapCaseFile>(&file)) return iterate_case(*map, options);
   if (options.jobs > 0) throw UsageError("--jobs needs --ensemble FILE.csv");
-  const Model model =
-      in_variables(options.kept.model_of(options.start.in(load_case(options.case_name)),
-                                         options.common.parameter_values()),
-                   options.in);
+  const Model model = in_variables(options.kept.model_of(options.start.in(std::get<CaseFile>(file)),
+                                                         options.common.parameter_values()),
+                                   options.in);
   const Scene& scene = model.scene(options.common.scene);
   method_named(options.method);  // throws where there is none
   const PreparedScene run = prepare(model, scene, scene_options(options));

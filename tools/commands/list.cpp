@@ -40,8 +40,10 @@ std::vector<std::string> scene_names(const Model& model) {
 
 int list(const Options& options) {
   nlohmann::ordered_json cases = nlohmann::json::array();
-  for (const CaseFile& file : tagged_cases(options.tag)) {
-    const Model model = model_of(file);
+  for (const std::filesystem::path& path : bundled_cases(options.tag)) {
+    const AnyCaseFile file = read_any_case(path);
+    const auto* map = std::get_if<MapCaseFile>(&file);
+    const Model model = map ? map_model_of(*map).base : model_of(std::get<CaseFile>(file));
     if (options.common.json) {
       cases.push_back({{"name", model.name},
                        {"title", model.title},

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "symbolic/discrete/search_map.hpp"
 #include "symbolic/search/darboux.hpp"
 #include "symbolic/search/search.hpp"
 #include "tools/cli/case_library.hpp"
@@ -12,6 +13,7 @@
 #include "tools/cli/resources.hpp"
 #include "tools/cli/search_watch.hpp"
 #include "tools/runs/atlas.hpp"
+#include "tools/text/map_search_report.hpp"
 #include "tools/text/search_report.hpp"
 
 namespace casimir::tools {
@@ -35,9 +37,27 @@ int answer(const Options& options, const Model& model, const Report& report, Sea
   return report.complete ? kDone : kUndecided;
 }
 
+/// Of a map: what `search` asks of flows beyond the degree has no meaning there.
+int search_map_case(const MapCaseFile& file, const Options& options) {
+  if (!options.in.empty() || options.casimirs || options.darboux || !options.on.empty() ||
+      !options.functions.empty() || !options.weights.empty() || !options.free.empty())
+    throw UsageError("a search of a map takes --degree and --param only");
+  const MapModel map = map_model_of(file, options.common.parameter_values());
+  SearchWatch watch(options.common, map.base.name, memory_allowed().value_or(2e9));
+  const discrete::MapSearch found = discrete::search_map(map, options.degree, watch.watch());
+  const double seconds = watch.end();
+  if (options.common.json)
+    print_json(to_json(map.base, options.degree, found, seconds));
+  else if (!options.common.quiet)
+    print(map.base, options.degree, found, seconds);
+  return found.reason.empty() ? kDone : kUndecided;
+}
+
 int search_case(const Options& options) {
+  const AnyCaseFile file = load_any_case(options.case_name);
+  if (const auto* map = std::get_if<MapCaseFile>(&file)) return search_map_case(*map, options);
   const Model model = in_variables(
-      model_of(load_case(options.case_name), options.common.parameter_values()), options.in);
+      model_of(std::get<CaseFile>(file), options.common.parameter_values()), options.in);
   if (options.common.scene_given) model.scene(options.common.scene);
   SearchWatch watch(options.common, model.name, memory_allowed().value_or(2e9));
   if (options.darboux) {

@@ -55,10 +55,9 @@ int show_scenes_as(const Model& model, const Options& options) {
   return kDone;
 }
 
-int show(const Options& options) {
-  const Model model = in_variables(
-      model_of(load_case(options.case_name), options.common.parameter_values()), options.in);
-  if (!options.as.empty()) return show_scenes_as(model, options);
+/// \param motion  a model, or a map
+template <class Motion>
+int show_motion(const Motion& model, const Options& options) {
   if (options.common.json || options.format == "json") {
     print_json(show_json(model));
   } else if (options.format == "latex") {
@@ -67,6 +66,19 @@ int show(const Options& options) {
     show_text(model);
   }
   return kDone;
+}
+
+int show(const Options& options) {
+  const AnyCaseFile file = load_any_case(options.case_name);
+  const ParameterValues fixed = options.common.parameter_values();
+  if (const auto* map = std::get_if<MapCaseFile>(&file)) {
+    if (!options.in.empty() || !options.as.empty())
+      throw UsageError("--in and --as change the variables of a flow, not of a map");
+    return show_motion(map_model_of(*map, fixed), options);
+  }
+  const Model model = in_variables(model_of(std::get<CaseFile>(file), fixed), options.in);
+  if (!options.as.empty()) return show_scenes_as(model, options);
+  return show_motion(model, options);
 }
 
 }  // namespace

@@ -140,7 +140,7 @@ class Stress {
       matrix_.columns.push_back({name, !method.outside.empty()});
     }
     if (options_.all) {
-      for (const auto& path : bundled_cases(options_.tag))
+      for (const auto& path : bundled_flows(options_.tag))
         sources_.push_back({path.string(), read_case(path)});
     } else {
       for (const std::string& name : options_.cases) sources_.push_back(source_of(name));

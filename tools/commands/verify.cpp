@@ -97,14 +97,16 @@ nlohmann::ordered_json write_certificate(const Model& model, const Options& opti
 }
 
 /// Proves one case; its lines appear as they are decided, unless only a summary or JSON is wanted.
-Verified verify_one(const CaseFile& file, const Options& options, double time_limit, bool lines) {
-  const Model model = in_variables(model_of(file, options.common.parameter_values()), options.in);
+/// \param motion  the model, or the map that it is the base of
+template <class Motion>
+Verified verify_motion(const Model& model, const Motion& motion, const Options& options,
+                       double time_limit, bool lines) {
   if (options.common.scene_given) model.scene(options.common.scene);
   const auto start = Clock::now();
   std::optional<CaseReport> report;
-  if (lines) report.emplace(model, pending(model, candidates_of(options)));
+  if (lines) report.emplace(model, pending(motion, candidates_of(options)));
   const std::vector<Proof> proofs =
-      prove_within(time_limit, model, candidates_of(options), [&](const Proof& proof) {
+      prove_within(time_limit, motion, candidates_of(options), [&](const Proof& proof) {
         if (report) report->row(proof);
       });
   const double seconds = seconds_since(start);
@@ -113,6 +115,20 @@ Verified verify_one(const CaseFile& file, const Options& options, double time_li
   nlohmann::ordered_json json = to_json(model, proofs, seconds);
   if (!options.certificate.empty()) json["certificate"] = write_certificate(model, options, proofs);
   return {outcome, std::move(json)};
+}
+
+Verified verify_one(const AnyCaseFile& file, const Options& options, double time_limit,
+                    bool lines) {
+  const ParameterValues fixed = options.common.parameter_values();
+  if (const auto* map_file = std::get_if<MapCaseFile>(&file)) {
+    if (!options.in.empty()) throw UsageError("--in changes the variables of a flow, not of a map");
+    if (!options.certificate.empty())
+      throw UsageError("--certificate is about flows: there is none for the case of a map");
+    const MapModel map = map_model_of(*map_file, fixed);
+    return verify_motion(map.base, map, options, time_limit, lines);
+  }
+  const Model model = in_variables(model_of(std::get<CaseFile>(file), fixed), options.in);
+  return verify_motion(model, model, options, time_limit, lines);
 }
 
 int exit_status(Verdict verdict) {
@@ -132,7 +148,7 @@ int verify_all(const Options& options) {
     double left = 0;
     if (options.common.time_limit > 0)
       left = std::max(options.common.time_limit - seconds_since(start), 1e-3);
-    const Verified result = verify_one(read_case(path), options, left, false);
+    const Verified result = verify_one(read_any_case(path), options, left, false);
     if (result.outcome.verdict == Verdict::refuted) worst = Verdict::refuted;
     if (result.outcome.verdict == Verdict::undecided && worst == Verdict::proved)
       worst = Verdict::undecided;
@@ -163,7 +179,7 @@ int verify(const Options& options) {
   if (options.all) return verify_all(options);
   const bool lines = !options.common.json && !options.common.quiet;
   const Verified result =
-      verify_one(load_case(options.case_name), options, options.common.time_limit, lines);
+      verify_one(load_any_case(options.case_name), options, options.common.time_limit, lines);
   if (options.common.json) print_json(result.json);
   return exit_status(result.outcome.verdict);
 }

@@ -10,7 +10,9 @@ namespace casimir::tools {
 Atlas bundled_atlas() {
   Atlas atlas;
   for (const std::filesystem::path& path : bundled_cases()) {
-    const CaseFile file = read_case(path);
+    const AnyCaseFile any = read_any_case(path);
+    if (!std::holds_alternative<CaseFile>(any)) continue;
+    const CaseFile& file = std::get<CaseFile>(any);
     const bool changes = std::any_of(file.maps.begin(), file.maps.end(),
                                      [](const MapText& map) { return !map.inverses.empty(); });
     if (changes) atlas.add(model_of(file), file.phase_space.canonical);

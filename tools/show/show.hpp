@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "symbolic/discrete/map_model.hpp"
 #include "tools/show/system_view.hpp"
 
 namespace casimir::tools {
@@ -18,5 +19,12 @@ void show_text(const Model& model);
 
 /// LaTeX that needs amsmath alone: displays, no preamble.
 void show_latex(const Model& model);
+
+/// The same three for the case of a map: the next values in place of Hamiltonian and equations.
+/// {
+nlohmann::ordered_json show_json(const MapModel& map);
+void show_text(const MapModel& map);
+void show_latex(const MapModel& map);
+/// }
 
 }  // namespace casimir::tools

@@ -28,7 +28,7 @@ class Plain {
       json["rank"] = rank->name;
       json["rank_evidence"] = rank->evidence;
     }
-    json["hamiltonian"] = (*this)(*model_.hamiltonian);
+    if (model_.hamiltonian) json["hamiltonian"] = (*this)(*model_.hamiltonian);
   }
 
   void add_functions(Json& json, const char* key, const std::vector<NamedExpression>& list) {
@@ -75,9 +75,9 @@ void add_view(Json& json, const SystemView& view) {
   }
 }
 
-}  // namespace
-
-Json show_json(const Model& model) {
+/// With the motion that `add_motion` writes, and the view of the whole.
+Json document(const Model& model, const std::function<void(Json&, Plain&)>& add_motion,
+              const std::function<SystemView(Notation&)>& view) {
   Json json = {{"case", model.name},
                {"title", model.title},
                {"source", model.source},
@@ -89,17 +89,38 @@ Json show_json(const Model& model) {
   for (const Assumption& a : model.assumptions) json["assumptions"].push_back(a.text);
   Plain plain(model);
   if (model.poisson) plain.add_bracket(json);
-  for (std::size_t i = 0; i < model.variables.size(); ++i)
-    json["equations"][model.variables[i].get_name()] =
-        plain(expanded_within(model.field[i], kMostTermsShown));
+  add_motion(json, plain);
   plain.add_functions(json, "casimirs", model.casimirs);
   plain.add_functions(json, "integrals", model.integrals);
   plain.add_levels(json, "conditional", model.conditionals);
   plain.add_levels(json, "invariant_relation", model.invariant_relations);
   for (const Scene& scene : model.scenes) json["scenes"].push_back(scene.name);
   Notation notation(model);
-  add_view(json, view_of(model, notation, Markup::text));
+  add_view(json, view(notation));
   return json;
+}
+
+}  // namespace
+
+Json show_json(const Model& model) {
+  return document(
+      model,
+      [&](Json& json, Plain& plain) {
+        for (std::size_t i = 0; i < model.variables.size(); ++i)
+          json["equations"][model.variables[i].get_name()] =
+              plain(expanded_within(model.field[i], kMostTermsShown));
+      },
+      [&](Notation& notation) { return view_of(model, notation, Markup::text); });
+}
+
+Json show_json(const MapModel& map) {
+  return document(
+      map.base,
+      [&](Json& json, Plain& plain) {
+        for (std::size_t i = 0; i < map.next.size(); ++i)
+          json["map"][map.base.variables[i].get_name()] = plain(map.next[i]);
+      },
+      [&](Notation& notation) { return view_of(map, notation, Markup::text); });
 }
 
 }  // namespace casimir::tools

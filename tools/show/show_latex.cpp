@@ -53,14 +53,11 @@ void print_latex_bracket(const Model& model, const SystemView& view) {
   }
 }
 
-}  // namespace
-
-void show_latex(const Model& model) {
-  Notation notation(model);
-  const SystemView view = view_of(model, notation, Markup::latex);
+void print_latex(const Model& model, const SystemView& view) {
   if (model.poisson) print_latex_bracket(model, view);
   std::vector<Formula> lines;
   if (!view.hamiltonian.empty()) lines.push_back({"H", view.hamiltonian});
+  append(lines, view.map);
   append(lines, view.vector_equations);
   append(lines, view.gradients);
   append(lines, view.equations);
@@ -74,6 +71,18 @@ void show_latex(const Model& model) {
         "\\end{{equation*}}\n",
         pmatrix(pair.l), pmatrix(pair.a));
   }
+}
+
+}  // namespace
+
+void show_latex(const Model& model) {
+  Notation notation(model);
+  print_latex(model, view_of(model, notation, Markup::latex));
+}
+
+void show_latex(const MapModel& map) {
+  Notation notation(map.base);
+  print_latex(map.base, view_of(map, notation, Markup::latex));
 }
 
 }  // namespace casimir::tools

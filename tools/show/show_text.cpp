@@ -116,14 +116,11 @@ void print_lax_pairs(const std::vector<LaxView>& pairs) {
   }
 }
 
-}  // namespace
-
-void show_text(const Model& model) {
-  Notation notation(model);
-  const SystemView view = view_of(model, notation, Markup::text);
+void print_system(const Model& model, const SystemView& view) {
   print_head(model);
   if (model.poisson) print_bracket(model, view);
   if (!view.hamiltonian.empty()) print_formulas("Hamiltonian", {{"H", view.hamiltonian}});
+  print_formulas("map", view.map);
   print_formulas("equations of motion", view.vector_equations);
   print_formulas("with the gradients", view.gradients);
   print_formulas(view.vector_equations.empty() ? "equations of motion" : "in components",
@@ -134,6 +131,18 @@ void show_text(const Model& model) {
   std::vector<std::string> scenes;
   for (const Scene& scene : model.scenes) scenes.push_back(scene.name);
   if (!scenes.empty()) fmt::print("\nscenes       {}\n", fmt::join(scenes, "; "));
+}
+
+}  // namespace
+
+void show_text(const Model& model) {
+  Notation notation(model);
+  print_system(model, view_of(model, notation, Markup::text));
+}
+
+void show_text(const MapModel& map) {
+  Notation notation(map.base);
+  print_system(map.base, view_of(map, notation, Markup::text));
 }
 
 }  // namespace casimir::tools

@@ -147,7 +147,7 @@ ex Writer::readable(const ex& field) const {
 
 void Writer::add_motion(SystemView& view) const {
   if (model_.hamiltonian) view.hamiltonian = notation_.expression(*model_.hamiltonian, markup_);
-  for (std::size_t i = 0; i < model_.variables.size(); ++i) {
+  for (std::size_t i = 0; i < model_.field.size(); ++i) {
     view.equations.push_back(
         {rate(view.variables[i]), notation_.components(readable(model_.field[i]), markup_)});
   }
@@ -291,6 +291,26 @@ SystemView view_of(const Model& model, Notation& notation, Markup markup) {
   writer.add_claims(view);
   writer.add_lax_pairs(view);
   view.vectors = notation.vector_entries(markup);  // last: now it is known which occur
+  return view;
+}
+
+SystemView view_of(const MapModel& map, Notation& notation, Markup markup) {
+  SystemView view = view_of(map.base, notation, markup);
+  for (std::size_t i = 0; i < map.next.size(); ++i)
+    view.map.push_back({view.variables[i] + "'", notation.components(map.next[i], markup)});
+  for (const MapSymmetry& symmetry : map.symmetries) {
+    FormulaGroup& group = view.claims.emplace_back();
+    group.title = (symmetry.reverses ? "reversal " : "symmetry ") + symmetry.name;
+    const auto add = [&](const std::vector<GiNaC::symbol>& names, const std::vector<ex>& values) {
+      for (std::size_t i = 0; i < names.size(); ++i) {
+        if (!values[i].is_equal(names[i]))
+          group.formulas.push_back(
+              {notation.name(names[i], markup), notation.components(values[i], markup)});
+      }
+    };
+    add(map.base.variables, symmetry.variables);
+    add(map.base.parameters, symmetry.parameters);
+  }
   return view;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "symbolic/discrete/map_model.hpp"
 #include "symbolic/model.hpp"
 #include "tools/show/notation.hpp"
 
@@ -44,11 +45,15 @@ struct SystemView {
   std::vector<Formula> vector_equations;  ///< dM/dt = M x dH/dM + ..
   std::vector<Formula> gradients;         ///< dH/dM = (..), of those that occur there
   std::vector<Formula> equations;         ///< in components
+  std::vector<Formula> map;               ///< x' = .., of a map
   std::vector<FormulaGroup> claims;
   std::vector<LaxView> lax_pairs;
 };
 
 SystemView view_of(const Model& model, Notation& notation, Markup markup);
+
+/// The same for the case of a map, whose base the notation is of.
+SystemView view_of(const MapModel& map, Notation& notation, Markup markup);
 
 /// The rank of the bracket on the generic leaf.
 struct RankView {

@@ -56,7 +56,7 @@ Typed read_words(const CLI::App& command, const std::vector<std::string>& words)
 /// The case that the command line is about; standard input is not touched.
 std::optional<CaseFile> case_of(const Typed& typed) {
   if (typed.case_argument.empty() || typed.case_argument == "-") return std::nullopt;
-  return load_case(typed.case_argument);
+  return common_part(load_any_case(typed.case_argument));
 }
 
 Lines names_of(const std::vector<Entry>& entries) {

@@ -59,7 +59,7 @@ void decide_independence(Prover& prover, Proof& proof,
   const auto kernel = [&] {
     std::vector<KernelCandidate> candidates;
     if (!prover.model().poisson) {
-      candidates.push_back({prover.field()});
+      if (!prover.model().field.empty()) candidates.push_back({prover.field()});  // a map has none
       return candidates;
     }
     for (const NamedExpression& f : functions) {
@@ -309,7 +309,7 @@ std::vector<Claim> rank_claims(const Model& model) {
 }
 
 std::vector<Claim> liouville_claims(const Model& model) {
-  if (!model.poisson || model.time || !model.hamiltonian) return {};
+  if (!model.poisson || model.time) return {};
   return {{ClaimKind::liouville,
            "Liouville integrability",
            true,

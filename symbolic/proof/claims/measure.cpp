@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "symbolic/proof/claims/claim.hpp"
+#include "symbolic/proof/claims/density.hpp"
 #include "symbolic/proof/generic_rank.hpp"
 
 namespace casimir {
@@ -86,17 +87,21 @@ void decide_measure(Prover& prover, Proof& proof, const NamedExpression& density
       proof,
       every ? modular_field(prover, density) : std::vector{divergence_of_flow(prover, density)},
       {});
+  judge_density(prover, proof, density.value);
+}
+
+}  // namespace
+
+void judge_density(Prover& prover, Proof& proof, const GiNaC::ex& density) {
   if (proof.verdict != Verdict::proved) return;
   bool both_signs = false;
-  proof.reason = doubt_about(prover, density.value, &both_signs, &proof.where);
+  proof.reason = doubt_about(prover, density, &both_signs, &proof.where);
   if (!proof.reason.empty()) {
     proof.verdict = Verdict::undecided;
   } else if (both_signs) {
     proof.evidence = "the density has both signs: it is a measure only on parts of the domain";
   }
 }
-
-}  // namespace
 
 std::vector<Claim> measure_claims(const Model& model) {
   std::vector<Claim> claims;

@@ -32,15 +32,20 @@ void send(int descriptor, const std::string& line) {
   }
 }
 
+/// What is to be proved, of a flow or a map.
+struct Work {
+  std::function<std::vector<Proof>(const std::function<bool(const Proof&)>&)> run;
+  std::function<std::vector<Proof>()> pending;
+};
+
 /// The worker: one line of JSON for each proof. It dies with its parent and on Ctrl-C.
-[[noreturn]] void work(int descriptor, const Model& model, const Candidates& candidates,
-                       pid_t parent) {
+[[noreturn]] void work(int descriptor, const Work& proofs, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(kUnheard);  // it had ended before
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
   try {
-    prove(model, candidates, [&](const Proof& proof) {
+    proofs.run([&](const Proof& proof) {
       send(descriptor, to_json(proof).dump() + '\n');
       return true;
     });
@@ -74,17 +79,15 @@ bool read_lines(int descriptor, Clock::time_point deadline,
   }
 }
 
-}  // namespace
-
-std::vector<Proof> prove_within(double seconds, const Model& model, const Candidates& candidates,
-                                const std::function<void(const Proof&)>& report) {
+std::vector<Proof> within(double seconds, const Work& wanted,
+                          const std::function<void(const Proof&)>& report) {
   if (seconds <= 0) {
-    return prove(model, candidates, [&](const Proof& proof) {
+    return wanted.run([&](const Proof& proof) {
       if (report) report(proof);
       return true;
     });
   }
-  std::vector<Proof> proofs = pending(model, candidates);
+  std::vector<Proof> proofs = wanted.pending();
   int ends[2];
   if (pipe(ends) != 0)
     throw EnvironmentError(fmt::format("cannot start a worker: {}", std::strerror(errno)));
@@ -94,7 +97,7 @@ std::vector<Proof> prove_within(double seconds, const Model& model, const Candid
     throw EnvironmentError(fmt::format("cannot start a worker: {}", std::strerror(errno)));
   if (worker == 0) {
     close(ends[0]);
-    work(ends[1], model, candidates, parent);
+    work(ends[1], wanted, parent);
   }
   close(ends[1]);
   std::size_t done = 0;
@@ -127,6 +130,24 @@ std::vector<Proof> prove_within(double seconds, const Model& model, const Candid
     if (report) report(proofs[done]);
   }
   return proofs;
+}
+
+}  // namespace
+
+std::vector<Proof> prove_within(double seconds, const Model& model, const Candidates& candidates,
+                                const std::function<void(const Proof&)>& report) {
+  return within(seconds,
+                {[&](const auto& each) { return prove(model, candidates, each); },
+                 [&] { return pending(model, candidates); }},
+                report);
+}
+
+std::vector<Proof> prove_within(double seconds, const MapModel& map, const Candidates& candidates,
+                                const std::function<void(const Proof&)>& report) {
+  return within(seconds,
+                {[&](const auto& each) { return prove_map(map, candidates, each); },
+                 [&] { return pending(map, candidates); }},
+                report);
 }
 
 }  // namespace casimir

@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "symbolic/discrete/prove_map.hpp"
 #include "symbolic/prove.hpp"
 
 namespace casimir {
@@ -12,6 +13,10 @@ namespace casimir {
 /// reached is undecided and says so.
 /// \param seconds  0: no limit, and no further process.
 std::vector<Proof> prove_within(double seconds, const Model& model, const Candidates& candidates,
+                                const std::function<void(const Proof&)>& report);
+
+/// The same for the case of a map.
+std::vector<Proof> prove_within(double seconds, const MapModel& map, const Candidates& candidates,
                                 const std::function<void(const Proof&)>& report);
 
 }  // namespace casimir

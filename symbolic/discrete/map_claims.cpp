@@ -1,0 +1,264 @@
+// What a case claims of its map x -> x'. All are identities of functions of x, in the ring of the
+// prover, with x' put in; a statement is about the points at which the map and its functions have
+// real values, so that everything that is put together is among the expressions of the claim.
+#include "symbolic/discrete/map_claims.hpp"
+
+#include <fmt/format.h>
+
+#include "symbolic/case/expression_size.hpp"
+#include "symbolic/discrete/map_jacobian.hpp"
+#include "symbolic/proof/claims/density.hpp"
+
+namespace casimir::discrete {
+namespace {
+
+using GiNaC::ex;
+using Functions = std::vector<NamedExpression>;
+
+Residual difference(Prover& prover, std::string label, const ex& value) {
+  return {std::move(label), prover.convert(value), [value] { return value; }};
+}
+
+/// The map, and the functions with what they are defined by, at x and at x'.
+std::vector<ex> domain_of(const MapModel& map, const Functions& functions) {
+  std::vector<ex> result = map.next;
+  result.insert(result.end(), map.next_domain.begin(), map.next_domain.end());
+  for (const ex& value : values_of(functions)) {
+    result.push_back(value);
+    result.push_back(map.composed(value));
+  }
+  return result;
+}
+
+/// That the common zero level of the functions is carried into itself.
+std::vector<Residual> level_images(Prover& prover, const MapModel& map, const Functions& level) {
+  std::vector<Residual> residuals;
+  for (const NamedExpression& f : level)
+    residuals.push_back(
+        difference(prover, fmt::format("{} at the next point", f.name), map.composed(f.value)));
+  return residuals;
+}
+
+/// What every step keeps, the composition keeps. Where a step does not, it is decided for the
+/// composition alone, with a prover of its own: what is composed may be too large for one.
+Claim by_steps(const MapModel& map, const std::function<Claim(const MapModel&)>& claim_of) {
+  if (map.steps.empty()) return claim_of(map);
+  std::vector<Claim> parts;
+  for (const MapModel& step : map.steps) parts.push_back(claim_of(step));
+  Claim claim = parts.front();
+  for (const Claim& part : parts)
+    claim.expressions.insert(claim.expressions.end(), part.expressions.begin(),
+                             part.expressions.end());
+  claim.decide = [&map, parts, claim_of](Prover& prover, Proof& proof) {
+    std::vector<std::string> where;
+    for (const Claim& part : parts) {
+      Proof own;
+      part.decide(prover, own);
+      if (own.verdict == Verdict::proved) {
+        where.insert(where.end(), own.where.begin(), own.where.end());
+        continue;
+      }
+      const Claim whole = claim_of(map);
+      Prover alone(map.base, whole.expressions, whole.subject);
+      alone.begin_claim(whole.expressions, whole.subject);
+      whole.decide(alone, proof);
+      return;
+    }
+    // One step may lead to where the next one has no value: then all this is about nothing.
+    if (!prover.real_points().any(domain_of(map, {}))) {
+      proof.reason = "no point was found at which all steps have real values";
+      return;
+    }
+    proof.verdict = Verdict::proved;
+    proof.where = where;
+    proof.evidence = fmt::format("each of the {} steps keeps it", parts.size());
+  };
+  return claim;
+}
+
+Claim whole_integral_claim(const MapModel& map, const NamedExpression& f, const Functions& on) {
+  Claim claim{
+      ClaimKind::integral, f.name, false, [&map, f, on](Prover& prover, Proof& proof) {
+        std::vector<Residual> residuals = level_images(prover, map, on);
+        residuals.push_back(difference(prover, fmt::format("the change of {} in a step", f.name),
+                                       map.composed(f.value) - f.value));
+        prover.decide(proof, residuals, prover.level(on));
+      }};
+  Functions all = on;
+  all.push_back(f);
+  claim.on = names_of(on);
+  claim.expressions = domain_of(map, all);
+  claim.subject = Subject::functions;
+  return claim;
+}
+
+Claim whole_relation_claim(const MapModel& map, const NamedExpression& f, const Functions& on) {
+  Functions all = on;
+  all.push_back(f);
+  Claim claim{ClaimKind::invariant_relation, f.name, false,
+              [&map, all](Prover& prover, Proof& proof) {
+                prover.decide(proof, level_images(prover, map, all), prover.level(all));
+              }};
+  claim.on = names_of(on);
+  claim.expressions = domain_of(map, all);
+  claim.subject = Subject::functions;
+  return claim;
+}
+
+/// By the change of variables x' = phi(x) the measure |rho| dx is kept, near every point at which
+/// the Jacobian determinant is not zero, exactly where rho(x') det(dx'/dx) is rho(x) or -rho(x).
+Claim whole_measure_claim(const MapModel& map, const NamedExpression& density) {
+  Claim claim{
+      ClaimKind::measure, density.name, false, [&map, density](Prover& prover, Proof& proof) {
+        const Polynomial image = prover.convert(map.composed(density.value)) *
+                                 determinant(prover.ring().ring(), jacobian(prover, map));
+        const Polynomial own = prover.convert(density.value);
+        const auto residual = [&](int sign) -> Residual {
+          return {fmt::format("({}) at the next point times the Jacobian determinant, {} itself",
+                              density.name, sign > 0 ? "less" : "plus"),
+                  sign > 0 ? image - own : image + own, [&map, density, sign] {
+                    return map.composed(density.value) * jacobian_determinant(map) -
+                           sign * density.value;
+                  }};
+        };
+        const bool reverses = !prover.is_zero(image - own) && prover.is_zero(image + own);
+        prover.decide(proof, {residual(reverses ? -1 : 1)}, {});
+        judge_density(prover, proof, density.value);
+        if (proof.verdict == Verdict::proved && reverses)
+          proof.evidence += std::string(proof.evidence.empty() ? "" : "; ") +
+                            "the map reverses the orientation that the density gives";
+      }};
+  claim.expressions = domain_of(map, {density});
+  claim.subject = Subject::functions;
+  return claim;
+}
+
+Claim whole_poisson_claim(const MapModel& map) {
+  const std::size_t n = map.next.size();
+  std::vector<ex> images;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i + 1; j < n; ++j)
+      images.push_back(map.sign * map.composed((*map.base.poisson)(i, j)));
+  }
+  Claim claim{
+      ClaimKind::map, map.sign > 0 ? "Poisson map" : "anti-Poisson map", false,
+      [&map, images](Prover& prover, Proof& proof) {
+        const auto& x = map.base.variables;
+        std::vector<Residual> residuals;
+        auto image = images.begin();
+        for (std::size_t i = 0; i < x.size(); ++i) {
+          for (std::size_t j = i + 1; j < x.size(); ++j, ++image) {
+            const ex expected = *image;
+            residuals.push_back(
+                {fmt::format("{{{}', {}'}} less its image", x[i].get_name(), x[j].get_name()),
+                 prover.bracket(prover.convert(map.next[i]), prover.convert(map.next[j])) -
+                     prover.convert(expected),
+                 [&map, i, j, expected] {
+                   return map.base.poisson->bracket(map.next[i], map.next[j]) - expected;
+                 }});
+          }
+        }
+        prover.decide(proof, residuals, {});
+      }};
+  claim.expressions = domain_of(map, {});
+  claim.expressions.insert(claim.expressions.end(), images.begin(), images.end());
+  for (const ex& part : map.base.bracket_domain) claim.expressions.push_back(map.composed(part));
+  claim.subject = Subject::bracket;
+  return claim;
+}
+
+}  // namespace
+
+Claim integral_claim(const MapModel& map, const NamedExpression& f, const Functions& on) {
+  return by_steps(map, [f, on](const MapModel& own) { return whole_integral_claim(own, f, on); });
+}
+
+Claim invariant_relation_claim(const MapModel& map, const NamedExpression& f, const Functions& on) {
+  return by_steps(map, [f, on](const MapModel& own) { return whole_relation_claim(own, f, on); });
+}
+
+Claim measure_claim(const MapModel& map, const NamedExpression& density) {
+  return by_steps(map,
+                  [density](const MapModel& own) { return whole_measure_claim(own, density); });
+}
+
+/// Of an anti-Poisson map the steps need not all be anti-Poisson.
+Claim poisson_claim(const MapModel& map) {
+  return map.sign < 0 ? whole_poisson_claim(map) : by_steps(map, whole_poisson_claim);
+}
+
+namespace {
+
+/// The map at (x, p) -> (S(x), S(p)).
+std::vector<ex> at_image(const MapModel& map, const MapSymmetry& symmetry,
+                         const std::vector<ex>& functions) {
+  GiNaC::exmap image;
+  for (std::size_t i = 0; i < symmetry.variables.size(); ++i)
+    image[map.base.variables[i]] = symmetry.variables[i];
+  for (std::size_t i = 0; i < symmetry.parameters.size(); ++i)
+    image[map.base.parameters[i]] = symmetry.parameters[i];
+  std::vector<ex> result;
+  for (const ex& f : functions) result.push_back(substituted(f, image));
+  return result;
+}
+
+}  // namespace
+
+/// phi(S(x)) = S(phi(x)), or phi(S(phi(x))) = S(x). The parameters are carried along by S.
+Claim symmetry_claim(const MapModel& map, const MapSymmetry& symmetry) {
+  const std::vector<ex> after = at_image(map, symmetry, map.next);
+  std::vector<ex> left, right;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    left.push_back(symmetry.reverses ? map.composed(after[i]) : after[i]);
+    right.push_back(symmetry.reverses ? symmetry.variables[i]
+                                      : map.composed(symmetry.variables[i]));
+  }
+  Claim claim{ClaimKind::map, symmetry.name + (symmetry.reverses ? ", reversal" : ", symmetry"),
+              false, [&map, left, right](Prover& prover, Proof& proof) {
+                std::vector<Residual> residuals;
+                for (std::size_t i = 0; i < left.size(); ++i)
+                  residuals.push_back(
+                      difference(prover, map.base.variables[i].get_name(), left[i] - right[i]));
+                prover.decide(proof, residuals, {});
+              }};
+  claim.expressions = domain_of(map, {});
+  std::vector<ex> parts = at_image(map, symmetry, map.next_domain);
+  parts.insert(parts.end(), symmetry.domain.begin(), symmetry.domain.end());
+  for (const ex& part : parts) {
+    claim.expressions.push_back(part);
+    claim.expressions.push_back(map.composed(part));
+  }
+  claim.expressions.insert(claim.expressions.end(), left.begin(), left.end());
+  claim.expressions.insert(claim.expressions.end(), right.begin(), right.end());
+  claim.expressions.insert(claim.expressions.end(), symmetry.variables.begin(),
+                           symmetry.variables.end());
+  claim.subject = Subject::functions;
+  return claim;
+}
+
+std::vector<Claim> liouville_claims(const MapModel& map) {
+  std::vector<Claim> claims = casimir::liouville_claims(map.base);
+  for (Claim& claim : claims) {
+    std::vector<Claim> hypotheses{poisson_claim(map)};
+    for (const NamedExpression& f : map.base.integrals)
+      hypotheses.push_back(integral_claim(map, f, {}));
+    for (const Claim& hypothesis : hypotheses)
+      claim.expressions.insert(claim.expressions.end(), hypothesis.expressions.begin(),
+                               hypothesis.expressions.end());
+    claim.decide = [&map, hypotheses, count = claim.decide](Prover& prover, Proof& proof) {
+      for (const Claim& hypothesis : hypotheses) {
+        Proof shown;
+        hypothesis.decide(prover, shown);
+        if (shown.verdict == Verdict::proved && map.sign > 0) continue;
+        proof.reason = hypothesis.kind == ClaimKind::map
+                           ? "the map is not shown to be Poisson"
+                           : fmt::format("{} is not shown to be an integral", hypothesis.name);
+        return;
+      }
+      count(prover, proof);
+    };
+  }
+  return claims;
+}
+
+}  // namespace casimir::discrete

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <string>
+#include <vector>
+
+#include "symbolic/discrete/map_case.hpp"
+#include "symbolic/model.hpp"
+
+namespace casimir {
+
+/// See SymmetryText.
+struct MapSymmetry {
+  std::string name;
+  std::vector<GiNaC::ex> variables;   ///< one for each of Model::variables
+  std::vector<GiNaC::ex> parameters;  ///< one for each of Model::parameters
+  bool reverses = false;
+  std::vector<GiNaC::ex> domain{};  ///< as of NamedExpression
+};
+
+/// A case whose motion is a map x -> x', made mathematical.
+struct MapModel {
+  /// All but the motion: it has no Hamiltonian, and `field` is empty. Its casimirs are functions
+  /// that are in involution with all others and that the map keeps; its integrals and relations
+  /// are those of the map.
+  Model base;
+  std::vector<GiNaC::ex> next;         ///< x'_i for each variable
+  std::vector<GiNaC::ex> next_domain;  ///< of these, as of NamedExpression
+  int sign = 1;                        ///< -1: claimed to be anti-Poisson
+  std::vector<MapSymmetry> symmetries;
+  /// Maps of which this one is the composition, the first one first; empty for a single one. It has
+  /// a value where all of them have.
+  std::vector<MapModel> steps{};
+
+  /// f(x') for a function f of x.
+  GiNaC::ex composed(const GiNaC::ex& f) const;
+};
+
+/// Reads every expression of the case file.
+/// \throws CaseError  with the place of what is wrong.
+MapModel build_map_model(const MapCaseFile& file, const ParameterValues& fixed = {},
+                         const FindCase& find_case = {});
+
+}  // namespace casimir

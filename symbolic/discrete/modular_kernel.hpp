@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cln/rational.h>
+
+#include <optional>
+#include <vector>
+
+#include "symbolic/discrete/prime_field.hpp"
+
+namespace casimir::discrete {
+
+/// The null space of a matrix modulo the prime, in reduced echelon form: every vector has a 1 where
+/// all others have a 0.
+std::vector<std::vector<Element>> null_space(const std::vector<std::vector<Element>>& rows,
+                                             std::size_t columns);
+
+/// The same form of the span of some vectors.
+std::vector<std::vector<Element>> echelon(const std::vector<std::vector<Element>>& rows,
+                                          std::size_t columns);
+
+/// Fractions with numerators and denominators below 2^30 that are these residues; empty where there
+/// are none.
+std::optional<std::vector<cln::cl_RA>> rationals_from(const std::vector<Element>& residues);
+
+}  // namespace casimir::discrete

@@ -1,0 +1,338 @@
+// Polynomial and rational integrals and densities of a rational map: linear algebra modulo a prime
+// at random points, functions from it by rational reconstruction, and a proof for each of them.
+#include "symbolic/discrete/search_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "symbolic/discrete/minors.hpp"
+#include "symbolic/discrete/modular_kernel.hpp"
+#include "symbolic/discrete/modular_program.hpp"
+#include "symbolic/discrete/prove_candidate.hpp"
+#include "symbolic/functions/function_ring.hpp"
+#include "symbolic/search/modular/monomials.hpp"
+
+namespace casimir::discrete {
+namespace {
+
+using GiNaC::ex;
+using Row = std::vector<Element>;
+
+/// An element of the field with the operators that `maximal_minors` uses.
+struct Scalar {
+  Element value = 0;
+  bool is_zero() const { return value == 0; }
+  Scalar operator-() const { return {PrimeField().subtract(0, value)}; }
+  Scalar& operator+=(const Scalar& other) {
+    value = PrimeField().add(value, other.value);
+    return *this;
+  }
+};
+
+std::vector<GiNaC::symbol> symbols_in_order(const Model& model) {
+  std::vector<GiNaC::symbol> symbols = model.variables;
+  symbols.insert(symbols.end(), model.parameters.begin(), model.parameters.end());
+  return symbols;
+}
+
+std::vector<ex> next_and_slopes(const MapModel& map) {
+  std::vector<ex> functions = map.next;
+  for (const ex& next : map.next) {
+    for (const GiNaC::symbol& x : map.base.variables) functions.push_back(next.diff(x));
+  }
+  return functions;
+}
+
+class Search {
+ public:
+  Search(const MapModel& map, int degree, const search::Watch& watch)
+      : map_(map),
+        watch_(watch),
+        program_(symbols_in_order(map.base), next_and_slopes(map)),
+        next_(symbols_in_order(map.base), map.next),
+        monomials_(search::all_monomials(std::vector<int>(map.base.variables.size(), 1), degree)),
+        ring_(symbols_in_order(map.base), {}, {}) {
+    for (const GiNaC::symbol& p : map.base.parameters) {
+      result_.generic.push_back(p.get_name());
+      parameters_.push_back(field_.random(random_));
+    }
+  }
+
+  MapSearch find() {
+    find_polynomials();
+    find_fractions();
+    find_densities();
+    if (!result_.generic.empty() && result_.integrals.empty() &&
+        (result_.polynomials > 0 || result_.relations > 0))
+      result_.reason =
+          "functions with symbolic parameters are not reconstructed: with numbers for all of them "
+          "(--param) they are shown";
+    return std::move(result_);
+  }
+
+ private:
+  struct Step {
+    Row before, after;  ///< the monomials at x and at x'
+    Element jacobian;
+  };
+
+  Row monomials_at(const Row& x) const {
+    Row result;
+    for (std::size_t m = 0; m < monomials_.size(); ++m) {
+      Element product = 1;
+      for (std::size_t i = 0; i < x.size(); ++i)
+        product = field_.multiply(product, field_.power(x[i], monomials_[m][i]));
+      result.push_back(product);
+    }
+    return result;
+  }
+
+  /// A random point and where it goes; points without an image are passed over.
+  Step random_step() {
+    const std::size_t n = map_.base.variables.size();
+    constexpr int kTrials = 100;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      Row x;
+      for (std::size_t i = 0; i < n; ++i) x.push_back(field_.random(random_));
+      Row arguments = x;
+      arguments.insert(arguments.end(), parameters_.begin(), parameters_.end());
+      const auto values = program_.run(arguments);
+      if (!values) continue;
+      std::vector<std::vector<Scalar>> slopes(n);
+      for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) slopes[i].push_back({(*values)[n + i * n + j]});
+      }
+      const auto minors = maximal_minors(slopes, Scalar{1}, [&](const Scalar& a, const Scalar& b) {
+        return Scalar{field_.multiply(a.value, b.value)};
+      });
+      const auto all = minors.find((1U << n) - 1);
+      return {monomials_at(x), monomials_at({values->begin(), values->begin() + long(n)}),
+              all == minors.end() ? 0 : all->second.value};
+    }
+    throw ModelError("the map has no value at random points: a denominator is zero");
+  }
+
+  /// The null space of conditions, one for each of a few more random steps than there are unknowns.
+  std::vector<Row> solutions(std::size_t unknowns,
+                             const std::function<Row(const Step&)>& condition) {
+    constexpr std::size_t kMore = 12;
+    std::vector<Row> rows;
+    for (std::size_t k = 0; k < unknowns + kMore; ++k) {
+      if (k % 16 == 0) watch_.tick(static_cast<double>(k) / static_cast<double>(unknowns + kMore));
+      rows.push_back(condition(random_step()));
+    }
+    return null_space(rows, unknowns);
+  }
+
+  std::optional<Polynomial> polynomial_of(const Row& residues) const {
+    const auto coefficients = rationals_from(residues);
+    if (!coefficients) return std::nullopt;
+    TermCollector terms(ring_.ring());
+    for (std::size_t m = 0; m < monomials_.size(); ++m) {
+      if (cln::zerop((*coefficients)[m])) continue;
+      std::vector<unsigned long> exponents(ring_.ring().size(), 0);
+      for (std::size_t i = 0; i < map_.base.variables.size(); ++i) exponents[i] = monomials_[m][i];
+      terms.add((*coefficients)[m], exponents);
+    }
+    Polynomial p = terms.finish();
+    return p.is_zero() ? p : p.scaled(1 / p.content());
+  }
+
+  Verdict verdict_of(ClaimKind kind, const NamedExpression& f) const {
+    if (kind == ClaimKind::measure) return prove_density(map_, f).verdict;
+    return prove_integral(map_, f).verdict;
+  }
+
+  /// Keeps a function that is proved and, at a random point, independent of those before it.
+  void keep_integral(const ex& value, std::string text) {
+    std::vector<ex> functions;
+    for (const FoundOfMap& f : result_.integrals) functions.push_back(f.value);
+    functions.push_back(value);
+    std::vector<ex> slopes;
+    for (const ex& f : functions) {
+      for (const GiNaC::symbol& x : map_.base.variables) slopes.push_back(f.diff(x));
+    }
+    const std::size_t n = map_.base.variables.size();
+    Row point;
+    for (std::size_t i = 0; i < n; ++i) point.push_back(field_.random(random_));
+    const auto values = ModularProgram(map_.base.variables, slopes).run(point);
+    if (!values) return;
+    std::vector<Row> gradients;
+    for (std::size_t i = 0; i < functions.size(); ++i)
+      gradients.emplace_back(values->begin() + long(i * n), values->begin() + long((i + 1) * n));
+    if (echelon(gradients, n).size() < functions.size()) return;
+    if (verdict_of(ClaimKind::integral, {text, value, {}}) == Verdict::proved)
+      result_.integrals.push_back({value, std::move(text)});
+  }
+
+  void find_polynomials() {
+    watch_.begin("polynomial integrals");
+    const std::size_t m = monomials_.size();
+    const std::vector<Row> space = solutions(m, [&](const Step& step) {
+      Row row;
+      for (std::size_t i = 0; i < m; ++i)
+        row.push_back(field_.subtract(step.after[i], step.before[i]));
+      return row;
+    });
+    result_.polynomials = space.size() - 1;  // the constants are always there
+    result_.no_polynomial = space.size() == 1;
+    if (!result_.generic.empty()) return;
+    for (const Row& vector : space) {
+      const auto p = polynomial_of(vector);
+      if (p && !p->is_constant()) keep_integral(ring_.expression(*p), ring_.text(*p));
+    }
+  }
+
+  /// The monomials along the orbit of a random point; points whose orbits meet a pole are passed
+  /// over.
+  std::vector<Row> random_orbit() {
+    const std::size_t m = monomials_.size();
+    const std::size_t n = map_.base.variables.size();
+    constexpr std::size_t kMore = 20;
+    constexpr int kTrials = 20;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      Row arguments;
+      for (std::size_t i = 0; i < n; ++i) arguments.push_back(field_.random(random_));
+      arguments.insert(arguments.end(), parameters_.begin(), parameters_.end());
+      std::vector<Row> rows;
+      while (rows.size() < m + kMore) {
+        if (rows.size() % 16 == 0)
+          watch_.tick(static_cast<double>(rows.size()) / static_cast<double>(m + kMore));
+        rows.push_back(monomials_at({arguments.begin(), arguments.begin() + long(n)}));
+        const auto values = next_.run(arguments);
+        if (!values) break;
+        std::copy(values->begin(), values->end(), arguments.begin());
+      }
+      if (rows.size() == m + kMore) return rows;
+    }
+    throw ModelError("orbits of random points end at poles of the map");
+  }
+
+  /// The combinations of these monomials that vanish on an orbit, over all monomials.
+  std::vector<Row> relations(const std::vector<Row>& orbit,
+                             const std::vector<std::size_t>& chosen) const {
+    std::vector<Row> rows;
+    for (const Row& all : orbit) {
+      Row& row = rows.emplace_back();
+      for (const std::size_t c : chosen) row.push_back(all[c]);
+    }
+    std::vector<Row> result;
+    for (const Row& relation : null_space(rows, chosen.size())) {
+      Row& row = result.emplace_back(monomials_.size(), 0);
+      for (std::size_t k = 0; k < chosen.size(); ++k) row[chosen[k]] = relation[k];
+    }
+    return result;
+  }
+
+  /// The monomials in some of the variables, given as bits.
+  std::vector<std::size_t> monomials_in(unsigned variables) const {
+    std::vector<std::size_t> result;
+    for (std::size_t m = 0; m < monomials_.size(); ++m) {
+      bool inside = true;
+      for (std::size_t i = 0; i < map_.base.variables.size(); ++i)
+        inside = inside && (monomials_[m][i] == 0 || (variables >> i & 1U) != 0);
+      if (inside) result.push_back(m);
+    }
+    return result;
+  }
+
+  /// Hirota-Kimura bases: of A/B = h the polynomial A - h B vanishes on the orbit. So where nothing
+  /// does, no quotient is an integral. Where the relations of many orbits span one dimension more
+  /// than those of each, all quotients of functions of the span are integrals: that is looked for
+  /// among the monomials of all variables and of some of them, and what it gives is proved.
+  void find_fractions() {
+    watch_.begin("orbits");
+    constexpr int kOrbits = 6;
+    constexpr std::size_t kMostVariables = 8;
+    const std::size_t n = map_.base.variables.size();
+    std::vector<std::vector<Row>> orbits{random_orbit()};
+    const unsigned all = (1U << n) - 1;
+    result_.relations = relations(orbits.front(), monomials_in(all)).size();
+    result_.no_fraction = result_.relations == 0;
+    if (!result_.generic.empty() || result_.no_fraction) return;
+    while (orbits.size() < kOrbits) orbits.push_back(random_orbit());
+    for (unsigned variables = 1; variables <= all; ++variables) {
+      if (variables != all && n > kMostVariables) continue;
+      const std::vector<std::size_t> chosen = monomials_in(variables);
+      std::vector<Row> span;
+      std::size_t own = 0;
+      for (const auto& orbit : orbits) {
+        const std::vector<Row> found = relations(orbit, chosen);
+        own = found.size();
+        if (own == 0) break;
+        span.insert(span.end(), found.begin(), found.end());
+      }
+      if (own == 0) continue;
+      span = echelon(span, monomials_.size());
+      if (span.size() == own + 1) try_quotients(span);
+    }
+  }
+
+  void try_quotients(const std::vector<Row>& basis) {
+    std::vector<Polynomial> functions;
+    for (const Row& vector : basis) {
+      if (auto p = polynomial_of(vector)) functions.push_back(std::move(*p));
+    }
+    for (std::size_t i = 1; i < functions.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (functions[j].is_constant()) continue;  // among the polynomials
+        keep_integral(ring_.expression(functions[i]) / ring_.expression(functions[j]),
+                      fmt::format("({})/({})", ring_.text(functions[i]), ring_.text(functions[j])));
+      }
+    }
+  }
+
+  void find_densities() {
+    watch_.begin("densities");
+    const std::size_t m = monomials_.size();
+    const std::vector<Row> space = solutions(m, [&](const Step& step) {
+      Row row;
+      for (std::size_t i = 0; i < m; ++i)
+        row.push_back(
+            field_.subtract(step.after[i], field_.multiply(step.jacobian, step.before[i])));
+      return row;
+    });
+    result_.density_space = space.size();
+    if (!result_.generic.empty()) return;
+    for (const Row& vector : space) {
+      const auto p = polynomial_of(vector);
+      if (!p || p->is_zero()) continue;
+      const ex density = 1 / ring_.expression(*p);
+      std::string text = p->is_constant() ? "1" : fmt::format("1/({})", ring_.text(*p));
+      if (verdict_of(ClaimKind::measure, {text, density, {}}) == Verdict::proved)
+        result_.densities.push_back({density, std::move(text)});
+    }
+  }
+
+  const MapModel& map_;
+  const search::Watch& watch_;
+  PrimeField field_;
+  std::mt19937_64 random_{20190101};
+  ModularProgram program_;  ///< the map and its Jacobian matrix
+  ModularProgram next_;
+  search::Monomials monomials_;
+  FunctionRing ring_;
+  Row parameters_;
+  MapSearch result_;
+};
+
+}  // namespace
+
+MapSearch search_map(const MapModel& map, int degree, const search::Watch& watch) {
+  const std::size_t n = map.base.variables.size();
+  const double size = search::count_monomials(std::vector<int>(n, 1), degree);
+  constexpr double kMostMonomials = 3000;
+  if (size > kMostMonomials)
+    throw search::TooMuchMemory(fmt::format(
+        "{:g} monomials up to the degree {}: the dense matrix of a map is made for {:g}", size,
+        degree, kMostMonomials));
+  for (const Assumption& a : map.base.assumptions) {
+    if (a.comparison == Comparison::equal)
+      throw ModelError(fmt::format(
+          "'{}' is assumed, and a search is for generic values: a definition can say it", a.text));
+  }
+  return Search(map, degree, watch).find();
+}
+
+}  // namespace casimir::discrete

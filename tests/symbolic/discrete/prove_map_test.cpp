@@ -1,0 +1,181 @@
+// Claims about maps, proved and refuted, and what a rule would get wrong without its hypothesis.
+#include <gtest/gtest.h>
+
+#include "symbolic/discrete/prove_map.hpp"
+
+namespace casimir::test {
+namespace {
+
+MapModel map_of(const std::string& toml) {
+  return build_map_model(std::get<MapCaseFile>(parse_any_case(toml, "test.toml")));
+}
+
+MapModel bundled(const std::string& name) {
+  return build_map_model(
+      std::get<MapCaseFile>(read_any_case(CASIMIR_SOURCE_DIR "/cases/maps/" + name + ".toml")));
+}
+
+/// The first proof of the kind, or an undecided one without a reason.
+Proof proof_of(const MapModel& map, ClaimKind kind, const std::string& name = "") {
+  for (const Proof& proof : prove_map(map)) {
+    if (proof.kind == kind && (name.empty() || proof.name == name)) return proof;
+  }
+  return {};
+}
+
+Verdict verdict_of(const MapModel& map, ClaimKind kind, const std::string& name = "") {
+  return proof_of(map, kind, name).verdict;
+}
+
+const std::string kPlane = "[phase_space]\nvariables = [\"x\", \"y\"]\n";
+
+TEST(ProveMap, EveryBundledMapIsProved) {
+  for (const char* name :
+       {"henon-area-preserving", "kahan-clebsch", "kahan-euler", "lyness", "mcmillan", "qrt"}) {
+    const MapModel map = bundled(name);
+    EXPECT_EQ(overall(map.base, prove_map(map)), Verdict::proved) << name;
+  }
+}
+
+TEST(ProveMap, WitnessesAreOnBothSidesOfAStep) {
+  const MapModel map =
+      map_of(kPlane + "[map]\nx = \"y\"\ny = \"(2 + y)/x\"\n[integrals]\nF = \"x + y\"\n");
+  const Proof proof = proof_of(map, ClaimKind::integral);
+  EXPECT_EQ(proof.verdict, Verdict::refuted);
+  ASSERT_TRUE(proof.witness);
+  EXPECT_EQ(proof.witness->point.size(), 2U);
+}
+
+TEST(ProveMap, FunctionsOfTheLanguageAreTakenAlong) {
+  const std::string standard =
+      "[parameters]\nk = {}\n[map]\nx = \"x + y + k*sin(x)\"\ny = \"y + k*sin(x)\"\n";
+  EXPECT_EQ(verdict_of(map_of(kPlane + "canonical = true\n" + standard), ClaimKind::map),
+            Verdict::proved);
+  const std::string rotation =
+      "[map]\nx = \"x + 1/y\"\ny = \"y\"\n[integrals]\nF = \"sqrt(y^2)\"\n";
+  EXPECT_EQ(verdict_of(map_of(kPlane + rotation), ClaimKind::integral), Verdict::proved);
+  const std::string root =
+      "[map]\nx = \"sqrt(x)*y\"\ny = \"x*y\"\n[integrals]\nF = \"log(x) - log(y)\"\n";
+  EXPECT_EQ(verdict_of(map_of(kPlane + root), ClaimKind::integral), Verdict::refuted);
+}
+
+// sqrt(y^2) is |y|, and -y is not y.
+TEST(ProveMap, ARootIsNotItsRadicand) {
+  const MapModel map =
+      map_of(kPlane + "[map]\nx = \"x\"\ny = \"-y\"\n[integrals]\nF = \"sqrt(y^2)\"\nG = \"y\"\n");
+  EXPECT_EQ(verdict_of(map, ClaimKind::integral, "F"), Verdict::proved);
+  EXPECT_EQ(verdict_of(map, ClaimKind::integral, "G"), Verdict::refuted);
+}
+
+TEST(ProveMap, APoissonMapAndItsSign) {
+  const std::string exchange = kPlane + "canonical = true\n[map]\nx = \"y\"\ny = \"x\"\n";
+  EXPECT_EQ(verdict_of(map_of(exchange), ClaimKind::map), Verdict::refuted);
+  EXPECT_EQ(verdict_of(map_of("map_sign = \"-\"\n" + exchange), ClaimKind::map), Verdict::proved);
+}
+
+// A Poisson map that exchanges the leaves z = c and z = -c: z is a Casimir function all the same.
+TEST(ProveMap, ACasimirFunctionNeedNotBeKept) {
+  const MapModel map = map_of(
+      "[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n[phase_space.brackets]\n\"x,y\" = \"1\"\n"
+      "[map]\nx = \"x\"\ny = \"y\"\nz = \"-z\"\n[casimirs]\nC = \"z\"\n");
+  EXPECT_EQ(verdict_of(map, ClaimKind::map), Verdict::proved);
+  EXPECT_EQ(verdict_of(map, ClaimKind::casimir), Verdict::proved);
+  EXPECT_EQ(verdict_of(map, ClaimKind::integral, "C"), Verdict::refuted);
+  EXPECT_EQ(overall(map.base, prove_map(map)), Verdict::refuted);
+}
+
+// The bracket's image has to be taken at the next point: x -> 2x keeps {x, y} = x with y alone.
+TEST(ProveMap, TheBracketIsTakenAtTheNextPoint) {
+  const std::string linear = kPlane + "[phase_space.brackets]\n\"x,y\" = \"x\"\n";
+  EXPECT_EQ(verdict_of(map_of(linear + "[map]\nx = \"2*x\"\ny = \"y\"\n"), ClaimKind::map),
+            Verdict::proved);
+  EXPECT_EQ(verdict_of(map_of(linear + "[map]\nx = \"x\"\ny = \"2*y\"\n"), ClaimKind::map),
+            Verdict::refuted);
+}
+
+TEST(ProveMap, MeasuresMayBeReversed) {
+  const MapModel map =
+      map_of(kPlane + "[map]\nx = \"y\"\ny = \"x\"\n[[measure]]\ndensity = \"1\"\n");
+  const Proof proof = proof_of(map, ClaimKind::measure);
+  EXPECT_EQ(proof.verdict, Verdict::proved);
+  EXPECT_NE(proof.evidence.find("reverses"), std::string::npos);
+  const std::string twice = kPlane + "[map]\nx = \"2*x\"\ny = \"y\"\n[[measure]]\ndensity = ";
+  EXPECT_EQ(verdict_of(map_of(twice + "\"1\"\n"), ClaimKind::measure), Verdict::refuted);
+  EXPECT_EQ(verdict_of(map_of(twice + "\"1/x\"\n"), ClaimKind::measure), Verdict::proved);
+  EXPECT_EQ(verdict_of(map_of(twice + "\"0\"\n"), ClaimKind::measure), Verdict::undecided);
+}
+
+TEST(ProveMap, RelationsAreInvariantOnTheirLevel) {
+  const std::string map = kPlane + "[map]\nx = \"x*y\"\ny = \"y + x\"\n";
+  const std::string relation = "[[invariant_relation]]\nname = \"r\"\nexpression = ";
+  EXPECT_EQ(verdict_of(map_of(map + relation + "\"x\"\n"), ClaimKind::invariant_relation),
+            Verdict::proved);
+  EXPECT_EQ(verdict_of(map_of(map + relation + "\"y\"\n"), ClaimKind::invariant_relation),
+            Verdict::refuted);
+  // On x = 0 nothing moves.
+  EXPECT_EQ(verdict_of(map_of(map + "[[conditional]]\nname = \"c\"\nexpression = \"y\"\non = "
+                                    "[\"x\"]\n"),
+                       ClaimKind::conditional),
+            Verdict::proved);
+  // y is constant for one step from the level x = 0, but this level is left.
+  const std::string leaves = kPlane + "[map]\nx = \"1 + x\"\ny = \"y*(1 + x)\"\n";
+  EXPECT_EQ(verdict_of(map_of(leaves + "[[conditional]]\nname = \"c\"\nexpression = \"y\"\non = "
+                                       "[\"x\"]\n"),
+                       ClaimKind::conditional),
+            Verdict::refuted);
+}
+
+// Where the next value has a pole on the level, nothing is shown by numerators.
+TEST(ProveMap, APoleOnTheLevelIsNoZero) {
+  const MapModel map = map_of(kPlane +
+                              "[map]\nx = \"x/(x^2 + x*y)\"\ny = \"y\"\n"
+                              "[[invariant_relation]]\nname = \"r\"\nexpression = \"x\"\n");
+  EXPECT_NE(verdict_of(map, ClaimKind::invariant_relation), Verdict::proved);
+}
+
+TEST(ProveMap, ReversalsTakeParametersAlong) {
+  const std::string shear = kPlane +
+                            "[parameters]\ne = {}\n[map]\nx = \"x + e*y^2\"\ny = \"y\"\n"
+                            "[[symmetry]]\nname = \"s\"\nreverses = true\nexpressions = ";
+  EXPECT_EQ(verdict_of(map_of(shear + "{ e = \"-e\" }\n"), ClaimKind::map), Verdict::proved);
+  EXPECT_EQ(verdict_of(map_of(shear + "{ x = \"-x\" }\n"), ClaimKind::map), Verdict::proved);
+  EXPECT_EQ(verdict_of(map_of(shear + "{ y = \"-y\" }\n"), ClaimKind::map), Verdict::refuted);
+}
+
+TEST(ProveMap, LiouvilleNeedsAPoissonMapAndItsIntegrals) {
+  const std::string file =
+      kPlane + "canonical = true\n[map]\nx = \"2*x\"\ny = \"y\"\n[integrals]\nF = \"y\"\n";
+  EXPECT_EQ(verdict_of(map_of(file), ClaimKind::liouville), Verdict::undecided);
+  const std::string shear =
+      kPlane + "canonical = true\n[map]\nx = \"x + y\"\ny = \"y\"\n[integrals]\nF = ";
+  EXPECT_EQ(verdict_of(map_of(shear + "\"y\"\n"), ClaimKind::liouville), Verdict::proved);
+  EXPECT_EQ(verdict_of(map_of(shear + "\"x\"\n"), ClaimKind::liouville), Verdict::undecided);
+}
+
+// Each step keeps y, but from x = 0 on the second one has no value: the map is defined nowhere.
+TEST(ProveMap, StepsThatNeverMeetShowNothing) {
+  const MapModel map =
+      map_of(kPlane +
+             "[[map_step]]\nexpressions = { x = \"(y + 1)^2 - y^2 - 2*y - 1\" }\n"
+             "[[map_step]]\nexpressions = { x = \"1/x\" }\n[integrals]\nF = \"y\"\n");
+  EXPECT_NE(verdict_of(map, ClaimKind::integral), Verdict::proved);
+}
+
+// Neither step keeps x + y, their composition does.
+TEST(ProveMap, ACompositionMayKeepWhatItsStepsDoNot) {
+  const MapModel map = map_of(
+      kPlane +
+      "[[map_step]]\nexpressions = { x = \"x + 1\" }\n"
+      "[[map_step]]\nexpressions = { y = \"y - 1\" }\n[integrals]\nF = \"x + y\"\nG = \"x\"\n");
+  EXPECT_EQ(verdict_of(map, ClaimKind::integral, "F"), Verdict::proved);
+  EXPECT_EQ(verdict_of(map, ClaimKind::integral, "G"), Verdict::refuted);
+}
+
+TEST(ProveMap, AMapThatIsDefinedNowhereProvesNothing) {
+  const MapModel map =
+      map_of(kPlane + "[map]\nx = \"sqrt(-1 - x^2)\"\ny = \"y\"\n[integrals]\nF = \"y\"\n");
+  EXPECT_EQ(verdict_of(map, ClaimKind::integral), Verdict::undecided);
+}
+
+}  // namespace
+}  // namespace casimir::test

@@ -1,0 +1,75 @@
+// Searches of maps: what is found is proved, and "none" is said only where nothing is.
+#include "symbolic/discrete/search_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include "symbolic/discrete/prove_candidate.hpp"
+
+namespace casimir::test {
+namespace {
+
+using discrete::MapSearch;
+using discrete::search_map;
+
+MapModel bundled(const std::string& name,
+                 const std::vector<std::pair<std::string, std::string>>& values) {
+  ParameterValues fixed;
+  for (const auto& [parameter, value] : values)
+    fixed.push_back({{parameter, {}, {}}, {value, {}, {}}});
+  return build_map_model(
+      std::get<MapCaseFile>(read_any_case(CASIMIR_SOURCE_DIR "/cases/maps/" + name + ".toml")),
+      fixed);
+}
+
+MapModel plane(const std::string& text) {
+  return build_map_model(std::get<MapCaseFile>(
+      parse_any_case("[phase_space]\nvariables = [\"x\", \"y\"]\n" + text, "test.toml")));
+}
+
+TEST(SearchMap, FindsPolynomialsAndQuotients) {
+  const MapSearch mcmillan = search_map(bundled("mcmillan", {{"mu", "2"}}), 4);
+  ASSERT_EQ(mcmillan.integrals.size(), 1U);
+  EXPECT_EQ(mcmillan.polynomials, 1U);
+  EXPECT_EQ(mcmillan.densities.size(), 2U);
+  const MapSearch lyness = search_map(bundled("lyness", {{"a", "2"}}), 3);
+  ASSERT_EQ(lyness.integrals.size(), 1U);
+  EXPECT_TRUE(lyness.no_polynomial);
+  EXPECT_FALSE(lyness.no_fraction);
+}
+
+TEST(SearchMap, FindsTheIntegralsOfKahansEulerTop) {
+  const MapModel map =
+      bundled("kahan-euler", {{"a1", "1"}, {"a2", "3"}, {"a3", "2"}, {"eps", "1"}});
+  const MapSearch found = search_map(map, 2);
+  EXPECT_EQ(found.integrals.size(), 2U);
+  EXPECT_EQ(found.relations, 2U);
+  for (const auto& f : found.integrals)
+    EXPECT_EQ(discrete::prove_integral(map, {f.text, f.value, {}}).verdict, Verdict::proved);
+  // Symbolic parameters: the same dimensions, and no functions.
+  const MapSearch generic = search_map(bundled("kahan-euler", {}), 2);
+  EXPECT_EQ(generic.relations, 2U);
+  EXPECT_TRUE(generic.integrals.empty());
+  EXPECT_FALSE(generic.reason.empty());
+}
+
+TEST(SearchMap, SaysNoneOnlyWhereThereIsNone) {
+  const MapSearch henon = search_map(bundled("henon-area-preserving", {}), 4);
+  EXPECT_TRUE(henon.no_polynomial && henon.no_fraction);
+  EXPECT_EQ(henon.density_space, 1U);
+  const MapSearch one = search_map(plane("[map]\nx = \"x + y^2\"\ny = \"y\"\n"), 1);
+  EXPECT_FALSE(one.no_polynomial);
+  ASSERT_EQ(one.integrals.size(), 1U);
+  EXPECT_EQ(one.integrals[0].text, "y");
+  const MapSearch quotient = search_map(plane("[map]\nx = \"2*x + y\"\ny = \"2*y\"\n"), 1);
+  EXPECT_TRUE(quotient.no_polynomial);
+  const MapSearch ratio = search_map(plane("[map]\nx = \"2*x\"\ny = \"2*y\"\n"), 1);
+  EXPECT_TRUE(ratio.no_polynomial);
+  ASSERT_EQ(ratio.integrals.size(), 1U);
+}
+
+TEST(SearchMap, RefusesWhatIsNotRational) {
+  EXPECT_THROW(search_map(plane("[map]\nx = \"sin(x)\"\ny = \"y\"\n"), 2), ModelError);
+}
+
+}  // namespace
+}  // namespace casimir::test

@@ -1,0 +1,124 @@
+#include "tools/analysis/run/iterate.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "codegen/compile.hpp"
+#include "codegen/emit_cpp.hpp"
+
+namespace casimir {
+namespace {
+
+using IterationClock = std::chrono::steady_clock;
+
+double elapsed(IterationClock::time_point start) {
+  return std::chrono::duration<double>(IterationClock::now() - start).count();
+}
+
+/// The map as the right-hand side of a system of equations, for code that writes functions: the
+/// values that it writes for dx/dt are the next ones.
+Model with_next_as_field(const MapModel& map) {
+  Model model = map.base;
+  model.poisson.reset();
+  model.frame.reset();
+  model.linear_bracket = false;
+  model.field = map.next;
+  model.domain = map.next_domain;
+  return model;
+}
+
+/// How far the invariants have moved.
+class Drift {
+ public:
+  Drift(const PreparedScene& run, const std::vector<double>& state)
+      : terms_(run.invariant_terms()), size_(run.specialisation.invariant_names.size()) {
+    initial_ = values(state);
+  }
+
+  void look(const std::vector<double>& state, std::vector<Iterated::Invariant>& invariants) {
+    const std::vector<long double> now = values(state);
+    for (std::size_t i = 0; i < size_; ++i) {
+      const long double scale = std::max(std::abs(initial_[i]), sizes_[i]);
+      const long double drift = scale > 0 ? std::abs(now[i] - initial_[i]) / scale : 0;
+      invariants[i].initial = static_cast<double>(initial_[i]);
+      invariants[i].final = static_cast<double>(now[i]);
+      // What is not a number is no small drift.
+      invariants[i].drift = std::isnan(drift)
+                                ? std::numeric_limits<double>::infinity()
+                                : std::max(invariants[i].drift, static_cast<double>(drift));
+    }
+  }
+
+ private:
+  std::vector<long double> values(const std::vector<double>& state) {
+    std::vector<long double> result(size_);
+    sizes_.resize(size_);
+    if (size_ > 0) terms_(0, state.data(), result.data(), sizes_.data());
+    return result;
+  }
+
+  InvariantTerms terms_;
+  std::size_t size_;
+  std::vector<long double> initial_, sizes_;
+};
+
+bool is_finite(const std::vector<double>& x) {
+  return std::ranges::all_of(x, [](double value) { return std::isfinite(value); });
+}
+
+}  // namespace
+
+Iterated iterate(const MapModel& map, const Scene& scene, std::uint64_t steps, std::uint64_t every,
+                 const std::function<bool()>& give_up) {
+  const Model model = with_next_as_field(map);
+  const PreparedScene run = prepare(model, scene);
+  Specialisation s = run.specialisation;
+  s.has_jacobian = false;
+  Iterated result;
+  result.names = s.states;
+  for (const std::string& name : s.invariant_names) result.invariants.push_back({name});
+  result.generate_seconds = run.generate_seconds;
+  auto start = IterationClock::now();
+  const CompiledObject object = compile(emit_module(s));
+  const Module module = loaded([&] { return Module::load(object.path); });
+  result.from_cache = object.from_cache;
+  result.compile_seconds = elapsed(start);
+
+  constexpr std::uint64_t kLooks = 1000, kChunk = 4096;
+  const std::uint64_t look = std::max<std::uint64_t>(1, steps / kLooks);
+  result.state = run.initial;
+  Drift drift(run, result.state);
+  drift.look(result.state, result.invariants);
+  if (every > 0) {
+    result.sample_steps.push_back(0);
+    result.samples.push_back(result.state);
+  }
+  start = IterationClock::now();
+  std::vector<double> next(result.state.size());
+  const auto& step = module.functions().rhs;
+  while (result.steps < steps) {
+    step(0, result.state.data(), run.parameters.data(), next.data());
+    if (!is_finite(next)) {
+      result.finite = false;
+      break;
+    }
+    std::swap(result.state, next);
+    ++result.steps;
+    if (every > 0 && result.steps % every == 0) {
+      result.sample_steps.push_back(result.steps);
+      result.samples.push_back(result.state);
+    }
+    if (result.steps % look == 0) drift.look(result.state, result.invariants);
+    if (result.steps % kChunk == 0 && give_up && give_up()) {
+      result.stopped = true;
+      break;
+    }
+  }
+  result.seconds = elapsed(start);
+  drift.look(result.state, result.invariants);
+  return result;
+}
+
+}  // namespace casimir

@@ -1,0 +1,185 @@
+// casimir degrees: how the degrees of the iterates of a rational map grow.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "symbolic/discrete/degrees.hpp"
+#include "symbolic/discrete/growth.hpp"
+#include "tools/cli/case_library.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
+#include "tools/cli/search_watch.hpp"
+#include "tools/text/run_report.hpp"
+
+namespace casimir::tools {
+namespace {
+
+using discrete::Growth;
+
+struct Options {
+  Common common;
+  std::string case_name;
+  std::string tag;
+  int iterates = 0;
+  bool kahan = false, all = false;
+};
+
+std::string words_of(const Growth& growth) {
+  switch (growth.kind) {
+    case Growth::Kind::polynomial:
+      return growth.formula.empty()
+                 ? fmt::format("polynomial, like n^{}{}", *growth.degree,
+                               growth.recurrence.empty() ? "" : ": " + growth.recurrence)
+                 : fmt::format("polynomial: d(n) = {}", growth.formula);
+    case Growth::Kind::exponential:
+      return fmt::format("exponential{}; entropy about log({:.6g}) = {:.6g}",
+                         growth.recurrence.empty() ? "" : ": " + growth.recurrence, *growth.ratio,
+                         std::log(*growth.ratio));
+    case Growth::Kind::unclear:
+      break;
+  }
+  return "not clear from so few iterates (--iterates)";
+}
+
+void print(const std::string& name, const std::vector<int>& degrees, const Growth& growth,
+           bool kahan, double seconds) {
+  fmt::print("{}{}: degrees of the iterates on a general line\n", name,
+             kahan ? ", Kahan's map" : "");
+  fmt::print("  {}\n", fmt::join(degrees, " "));
+  fmt::print("growth: {}\n", words_of(growth));
+  fmt::print(
+      "evidence and no proof: computed modulo 2^61 - 1 for random parameters, and the next degree "
+      "is not known; {:.3f} s\n",
+      seconds);
+}
+
+nlohmann::ordered_json to_json(const std::string& name, const std::vector<int>& degrees,
+                               const Growth& growth, bool kahan, double seconds) {
+  nlohmann::ordered_json json{
+      {"case", name},
+      {"map", kahan ? "kahan" : "case"},
+      {"degrees", degrees},
+      {"growth", to_string(growth.kind)},
+  };
+  if (growth.degree) json["growth_degree"] = *growth.degree;
+  if (!growth.formula.empty()) json["formula"] = growth.formula;
+  if (!growth.recurrence.empty()) json["recurrence"] = growth.recurrence;
+  if (growth.ratio) {
+    json["ratio"] = exact_text(*growth.ratio);
+    json["entropy"] = exact_text(std::log(*growth.ratio));
+  } else if (growth.kind == Growth::Kind::polynomial) {
+    json["entropy"] = "0";
+  }
+  json["verdict"] = "evidence";
+  json["seconds"] = seconds;
+  return json;
+}
+
+/// A row of the table of all bundled flows; none for one that Kahan's map is not defined for.
+std::optional<nlohmann::ordered_json> kahan_row(const CaseFile& file, const Options& options,
+                                                const search::Watch& watch) {
+  std::vector<int> found;
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    discrete::DegreeRequest request;
+    if (options.iterates > 0) request.iterates = options.iterates;
+    found = discrete::degrees_of_kahan_iterates(model_of(file), request, watch);
+  } catch (const ModelError&) {
+    return std::nullopt;
+  }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  return to_json(file.name, found, discrete::growth_of(found), true, seconds.count());
+}
+
+/// Which of the bundled flows seem to keep their integrability under Kahan's map.
+int all_degrees(const Options& options) {
+  if (!options.kahan) throw UsageError("--all is about flows: it needs --kahan");
+  SearchWatch watch(options.common, "all cases");
+  nlohmann::ordered_json rows = nlohmann::json::array();
+  std::size_t left_out = 0;
+  if (!options.common.json && !options.common.quiet)
+    fmt::print("{:<28} {:<12} {}\n", "case", "growth", "degrees of the iterates of Kahan's map");
+  for (const CaseFile& file : tagged_cases(options.tag)) {
+    const auto row = kahan_row(file, options, watch.watch());
+    if (!row) {
+      ++left_out;
+      continue;
+    }
+    rows.push_back(*row);
+    if (options.common.json || options.common.quiet) continue;
+    const std::string growth = row->at("growth");
+    const bool polynomial = growth == "polynomial";
+    fmt::print("{:<28} {:<12} {}\n", file.name,
+               polynomial ? fmt::format("n^{}", row->at("growth_degree").get<int>()) : growth,
+               fmt::join(row->at("degrees").get<std::vector<int>>(), " "));
+  }
+  const double seconds = watch.end();
+  if (options.common.json)
+    print_json(nlohmann::ordered_json{
+        {"rows", rows}, {"left_out", left_out}, {"verdict", "evidence"}, {"seconds", seconds}});
+  else if (!options.common.quiet)
+    fmt::print(
+        "{} cases, and {} without Kahan's map: not quadratic, or with an equation between "
+        "parameters; "
+        "evidence and no proof; {:.3f} s\n",
+        rows.size(), left_out, seconds);
+  return kDone;
+}
+
+int degrees(const Options& options) {
+  if (options.all == !options.case_name.empty())
+    throw UsageError("degrees needs either a CASE or --all");
+  if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
+  if (options.all)
+    return with_search_errors(options.common, "all", [&] { return all_degrees(options); });
+  const AnyCaseFile file = load_any_case(options.case_name);
+  const ParameterValues fixed = options.common.parameter_values();
+  return with_search_errors(options.common, options.case_name, [&] {
+    SearchWatch watch(options.common, common_part(file).name);
+    discrete::DegreeRequest request;
+    if (options.iterates > 0) request.iterates = options.iterates;
+    const auto* map = std::get_if<MapCaseFile>(&file);
+    if (map && options.kahan)
+      throw UsageError("--kahan makes a map of a flow, and this case is a map");
+    if (!map && !options.kahan)
+      throw UsageError(
+          "degrees are those of the iterates of a map, and this case is a flow: --kahan takes the "
+          "map that Kahan's method makes of it");
+    const std::vector<int> found =
+        map ? discrete::degrees_of_iterates(map_model_of(*map, fixed), request, watch.watch())
+            : discrete::degrees_of_kahan_iterates(model_of(std::get<CaseFile>(file), fixed),
+                                                  request, watch.watch());
+    const double seconds = watch.end();
+    const Growth growth = discrete::growth_of(found);
+    const std::string name = common_part(file).name;
+    if (options.common.json)
+      print_json(to_json(name, found, growth, options.kahan, seconds));
+    else if (!options.common.quiet)
+      print(name, found, growth, options.kahan, seconds);
+    return kDone;
+  });
+}
+
+}  // namespace
+
+void register_degrees(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "degrees", "Degree growth of the iterates of a map, as evidence of integrability");
+  add_common(*command, options->common);
+  command->add_option("CASE", options->case_name, kCaseText);
+  add_all(*command, options->all, options->tag, "A table of every bundled flow, with --kahan");
+  command
+      ->add_option("--iterates", options->iterates,
+                   "So many iterates; without it up to a degree of 300, at most 14")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  command->add_flag("--kahan", options->kahan, "Of Kahan's map of a flow, with a general step");
+  command->callback([options, &action] { action = [options] { return degrees(*options); }; });
+}
+
+}  // namespace casimir::tools

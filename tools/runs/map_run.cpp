@@ -1,0 +1,112 @@
+#include "tools/runs/map_run.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "tools/analysis/run/iterate.hpp"
+#include "tools/cli/case_library.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
+#include "tools/cli/output.hpp"
+#include "tools/text/run_report.hpp"
+
+namespace casimir::tools {
+namespace {
+
+/// A number of steps; doubles hold whole numbers up to 2^53.
+std::uint64_t whole(double value, const std::string& what) {
+  constexpr double kMost = 9007199254740992.0;
+  if (!(value >= 0) || value > kMost || value != std::floor(value))
+    throw UsageError(
+        fmt::format("{} of a map is a whole number of steps, and {:g} is none", what, value));
+  return static_cast<std::uint64_t>(value);
+}
+
+void write(const std::string& path, const Iterated& run) {
+  OutputFile file(path);
+  file.stream() << "t";
+  for (const std::string& name : run.names) file.stream() << ',' << name;
+  file.stream() << '\n';
+  for (std::size_t k = 0; k < run.samples.size(); ++k) {
+    file.stream() << run.sample_steps[k];
+    for (const double x : run.samples[k]) file.stream() << ',' << exact_text(x);
+    file.stream() << '\n';
+  }
+  file.commit();
+}
+
+nlohmann::ordered_json to_json(const MapModel& map, const Scene& scene, const Iterated& run) {
+  nlohmann::ordered_json json{
+      {"case", map.base.name},
+      {"scene", scene.name},
+      {"method", "map"},
+      {"status", run.finite ? run.stopped ? "stopped" : "ok" : "non_finite"},
+      {"t", std::to_string(run.steps)}};
+  json["state"] = nlohmann::json::object();
+  for (std::size_t i = 0; i < run.names.size(); ++i)
+    json["state"][run.names[i]] = exact_text(run.state[i]);
+  json["invariants"] = nlohmann::json::object();
+  for (const Iterated::Invariant& invariant : run.invariants) {
+    json["invariants"][invariant.name] = {{"initial", exact_text(invariant.initial)},
+                                          {"final", exact_text(invariant.final)},
+                                          {"drift", exact_text(invariant.drift)}};
+  }
+  json["steps"] = run.steps;
+  json["rejected"] = 0;
+  json["evaluations"] = run.steps;
+  json["seconds"] = {{"generate", run.generate_seconds},
+                     {"compile", run.compile_seconds},
+                     {"integrate", run.seconds}};
+  json["from_cache"] = run.from_cache;
+  json["left_out"] = nlohmann::json::array();
+  json["warnings"] = nlohmann::json::array();
+  return json;
+}
+
+void print(const MapModel& map, const Scene& scene, const Iterated& run) {
+  fmt::print("{}, scene '{}', {} steps of the map in double precision\n", map.base.name,
+             printable(scene.name), run.steps);
+  fmt::print("  {} in {}, iterated in {}\n", run.from_cache ? "fetched from the cache" : "compiled",
+             duration_text(run.compile_seconds), duration_text(run.seconds));
+  for (std::size_t i = 0; i < run.names.size(); ++i)
+    fmt::print("  {:<10} {:>25}\n", run.names[i], exact_text(run.state[i]));
+  for (const Iterated::Invariant& invariant : run.invariants)
+    fmt::print("  {:<10} {:>25}   drift {:.1e}\n", invariant.name, exact_text(invariant.final),
+               invariant.drift);
+}
+
+}  // namespace
+
+int iterate_map(const MapRunRequest& request) {
+  const MapModel map = map_model_of(request.file, request.common.parameter_values());
+  const Scene& scene = map.base.scene(request.common.scene);
+  if (!request.duration) require_duration(scene);
+  const double duration = request.duration.value_or(
+      scene.duration ? GiNaC::ex_to<GiNaC::numeric>(scene.duration->evalf()).to_double() : 0);
+  const std::uint64_t steps = whole(duration, "the duration");
+  if (request.every > 0 && request.output.empty())
+    throw UsageError("--every needs --output FILE.csv");
+  std::uint64_t every = 0;
+  if (!request.output.empty())
+    every = request.every > 0 ? whole(request.every, "--every")
+                              : std::max<std::uint64_t>(1, steps / 1000);
+  const Iterated run = iterate(map, scene, steps, every, time_limit(request.common.time_limit));
+  if (!request.output.empty()) write(request.output, run);
+  if (request.common.json)
+    print_json(to_json(map, scene, run));
+  else if (!request.common.quiet)
+    print(map, scene, run);
+  if (run.finite && !run.stopped) return kDone;
+  std::string state;
+  for (std::size_t i = 0; i < run.names.size(); ++i)
+    state += fmt::format("{}{} = {:.6g}", i == 0 ? "" : ", ", run.names[i], run.state[i]);
+  std::cout.flush();
+  std::cerr << fmt::format(
+      "casimir: error: the iteration stopped after step {}: {}\n  state: {}\n", run.steps,
+      run.finite ? "the time limit was reached" : "the next state is not finite", state);
+  return run.finite ? kEnvironment : kNotContinued;
+}
+
+}  // namespace casimir::tools
