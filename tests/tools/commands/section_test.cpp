@@ -85,10 +85,10 @@ TEST(Section, TheFixedPointsOfTheHeavyTopAreProved) {
       {"5.2186", {5.21863364, 11.795}},
       {"3.8563", {3.85632298, -2.01298}},
       {"4.9540", {4.95405306, -1.97774}}};
-  const auto json = outcome.json();
+  const json result = outcome.json();
   std::size_t proved = 0;
-  for (const auto& cycle : json.at("cycles")) {
-    const auto& validated = cycle.at("validated");
+  for (const json& cycle : result.at("cycles")) {
+    const json& validated = cycle.at("validated");
     ASSERT_EQ(validated.at("verdict"), "proved") << validated;
     const std::string low = validated.at("period").at(0), high = validated.at("period").at(1);
     const auto found = known.find(low.substr(0, 6));
