@@ -9,6 +9,7 @@ namespace casimir::discrete {
 /// What a beginning of a sequence of degrees suggests. None of it is a proof: the next degree may
 /// be another.
 struct Growth {
+  /// How the degrees grow, as far as they are known.
   enum class Kind { polynomial, exponential, unclear };
   Kind kind = Kind::unclear;
   std::optional<int> degree;    ///< of polynomial growth

@@ -51,6 +51,9 @@ TEST(Install, WorksRightAfterTheProgramWasBuiltAndNotBefore) {
   const auto names = [](const fs::path& prefix) {
     std::set<fs::path> result;
     for (const fs::path& file : files_below(prefix)) result.insert(file.lexically_relative(prefix));
+    // The Python module is a target of its own.
+    std::erase_if(result,
+                  [](const fs::path& file) { return file.string().starts_with("lib/python3"); });
     return result;
   };
   EXPECT_EQ(names(folder.path() / "prefix"), names(Installed().prefix()));

@@ -72,16 +72,28 @@ std::vector<fs::path> bundled_cases(const std::string& tag) {
                   suggest_or_list(tag, {known.begin(), known.end()}));
 }
 
+static bool is_map(const fs::path& path) {
+  return std::holds_alternative<MapCaseFile>(read_any_case(path));
+}
+
 std::vector<fs::path> bundled_flows(const std::string& tag) {
   std::vector<fs::path> result = bundled_cases(tag);
-  std::erase_if(result, [](const fs::path& path) {
-    return std::holds_alternative<MapCaseFile>(read_any_case(path));
-  });
+  std::erase_if(result, is_map);
   if (result.empty() && !tag.empty())
     throw CaseError({"--tag"}, fmt::format("all cases with the tag '{}' are maps, and flows are "
                                            "needed here",
                                            printable(tag)));
   return result;
+}
+
+std::vector<fs::path> bundled_maps() {
+  std::vector<fs::path> result = bundled_cases();
+  std::erase_if(result, [](const fs::path& path) { return !is_map(path); });
+  return result;
+}
+
+std::vector<fs::path> listed_cases(const std::string& tag) {
+  return tag.empty() ? bundled_flows({}) : bundled_cases(tag);
 }
 
 std::vector<CaseFile> tagged_cases(const std::string& tag) {

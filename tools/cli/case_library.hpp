@@ -29,6 +29,13 @@ std::vector<std::filesystem::path> bundled_cases(const std::string& tag);
 std::vector<std::filesystem::path> bundled_flows(const std::string& tag = {});
 
 /// Those with a tag, read, without the cases of maps.
+/// What `--all` and `list` mean: the flows where no tag is given, else all that have it. Maps are
+/// asked for by their tag.
+std::vector<std::filesystem::path> listed_cases(const std::string& tag);
+
+/// The bundled maps.
+std::vector<std::filesystem::path> bundled_maps();
+
 std::vector<CaseFile> tagged_cases(const std::string& tag);
 
 /// The case file that a user means: a path (with `/` or ending in `.toml`), `-` for standard input,

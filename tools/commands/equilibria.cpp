@@ -106,7 +106,7 @@ void print(const ProvedEquilibrium& proof) {
     return;
   }
   fmt::print("  proved: there is one, and no other in a box of radius {} around it; {}\n",
-             decimal_above(proof.radius),
+             power_of_ten_above(proof.radius),
              proof.stability == ProvedStability::undecided
                  ? "its stability is not decided"
                  : fmt::format("proved to be {}", to_string(proof.stability)));

@@ -40,7 +40,7 @@ std::vector<std::string> scene_names(const Model& model) {
 
 int list(const Options& options) {
   nlohmann::ordered_json cases = nlohmann::json::array();
-  for (const std::filesystem::path& path : bundled_cases(options.tag)) {
+  for (const std::filesystem::path& path : listed_cases(options.tag)) {
     const AnyCaseFile file = read_any_case(path);
     const auto* map = std::get_if<MapCaseFile>(&file);
     const Model model = map ? map_model_of(*map).base : model_of(std::get<CaseFile>(file));
@@ -61,7 +61,17 @@ int list(const Options& options) {
                  claims_of(model), "", fmt::join(scene_names(model), "; "));
     }
   }
-  if (options.common.json) print_json(nlohmann::ordered_json{{"cases", cases}});
+  std::vector<std::string> maps;
+  if (options.tag.empty())
+    for (const std::filesystem::path& path : bundled_maps()) maps.push_back(path.stem().string());
+  if (options.common.json) {
+    nlohmann::ordered_json json{{"cases", cases}};
+    if (options.tag.empty()) json["maps"] = maps;
+    print_json(json);
+  } else if (!options.common.quiet && !maps.empty()) {
+    fmt::print("and {} map{}, see 'casimir list --tag map': {}\n", maps.size(),
+               maps.size() == 1 ? "" : "s", fmt::join(maps, ", "));
+  }
   return kDone;
 }
 

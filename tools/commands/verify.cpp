@@ -137,7 +137,7 @@ int exit_status(Verdict verdict) {
 
 int verify_all(const Options& options) {
   const auto start = Clock::now();
-  const std::vector<std::filesystem::path> paths = bundled_cases(options.tag);
+  const std::vector<std::filesystem::path> paths = listed_cases(options.tag);
   if (paths.empty())
     throw SystemError("no bundled cases were found; CASIMIR_CASES can name their folder");
   std::optional<AllReport> report;
@@ -193,7 +193,7 @@ void register_verify(CLI::App& program, Action& action) {
   add_common(*command, options->common);
   add_in(*command, options->in);
   command->add_option("CASE", options->case_name, kCaseText);
-  add_all(*command, options->all, options->tag, "Every bundled case");
+  add_all(*command, options->all, options->tag, "Every bundled case; maps with --tag map");
   const auto repeatable = [&](const char* name, std::vector<std::string>& target,
                               const char* text) {
     command->add_option(name, target, text)->allow_extra_args(false)->type_name("EXPR");

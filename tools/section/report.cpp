@@ -108,7 +108,7 @@ void print(const ProvedCycle& proof) {
       "         proved: one periodic orbit in a box of radius {}, and no other of this period "
       "near it\n"
       "         period in [{}, {}], trace in [{}, {}]: {}\n",
-      decimal_above(proof.radius), low, high, least, most, proof.kind());
+      power_of_ten_above(proof.radius), low, high, least, most, proof.kind());
 }
 
 void print_cycles(const SectionReport& report) {

@@ -125,6 +125,12 @@ std::string decimal_above(const cln::cl_RA& value) {
   return rounded_up(value, decimal_exponent(value) - 2);
 }
 
+std::string power_of_ten_above(const cln::cl_RA& value) {
+  if (cln::zerop(value)) return "0";
+  const long below = decimal_exponent(value);
+  return fmt::format("1e{:+03}", power_of_ten(below) == value ? below : below + 1);
+}
+
 std::string EnclosureReport::time() const {
   const cln::cl_RA& t = motion.run.end.time;
   if (cln::zerop(t)) return "0";

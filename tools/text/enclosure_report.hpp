@@ -27,6 +27,9 @@ std::pair<std::string, std::string> decimal_ends(const RationalInterval& interva
 /// A number that is not negative as a decimal of three digits, not below it.
 std::string decimal_above(const cln::cl_RA& value);
 
+/// The power of ten that is not below a number, which is not negative: "1e-12".
+std::string power_of_ten_above(const cln::cl_RA& value);
+
 nlohmann::ordered_json to_json(const EnclosureReport& report);
 void print_text(const EnclosureReport& report);
 

@@ -29,7 +29,7 @@ std::optional<std::string> help_of(const CLI::App& program, const std::vector<st
   if (words.empty()) return program.help();
   if (words.size() > 1) return std::nullopt;
   for (const CLI::App* command : program.get_subcommands(nullptr))
-    if (command->get_name() == words[0]) return command->help();
+    if (command->get_name() == words[0]) return command->help("casimir");
   return std::nullopt;
 }
 

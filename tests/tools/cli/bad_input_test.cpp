@@ -34,7 +34,6 @@ TEST_P(BadCommandLine, IsRefused) {
 INSTANTIATE_TEST_SUITE_P(
     All, BadCommandLine,
     testing::Values(
-        Bad{"NoCommand", {}, "casimir --help"},
         Bad{"UnknownCommand", {"verfy", "euler"}, "did you mean 'verify'?"},
         Bad{"UnknownCase", {"verify", "kovalevskaja"}, "did you mean 'kovalevskaya'?"},
         Bad{"MissingFile",
