@@ -47,9 +47,12 @@ TEST(Survey, TagsOfTheTableAreThoseOfTheCases) {
     for (std::sregex_iterator it(first.begin(), first.end(), kTag), end; it != end; ++it)
       explained.insert((*it)[1]);
   }
-  const auto list = run({"list", "--json"}).json();
-  for (const auto& entry : list.at("cases"))
-    for (const auto& tag : entry.at("tags")) used.insert(tag.get<std::string>());
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"list", "--json"}, {"list", "--tag", "map", "--json"}}) {
+    const auto list = run(arguments).json();
+    for (const auto& entry : list.at("cases"))
+      for (const auto& tag : entry.at("tags")) used.insert(tag.get<std::string>());
+  }
   for (const std::string& tag : explained) EXPECT_TRUE(used.contains(tag)) << tag;
   for (const std::string& tag : used) {
     const bool of_the_book = tag.starts_with("chapter-") || tag.starts_with("appendix-");
