@@ -135,6 +135,24 @@ int spawn(pid_t& child, const codegen::Compiler& compiler, std::vector<std::stri
   return failure;
 }
 
+/// While it lives, signals that end the program wait: their handler has to know of a child that was
+/// started.
+class SignalsWait {
+ public:
+  SignalsWait() {
+    sigset_t ending;
+    sigemptyset(&ending);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ending, signal);
+    pthread_sigmask(SIG_BLOCK, &ending, &before_);
+  }
+  ~SignalsWait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
 /// Waits for the end of the child but leaves its number taken. \return  false after `seconds`
 bool has_ended(pid_t child, double seconds) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
@@ -221,11 +239,14 @@ CompilerRun run_compiler(const Compiler& compiler, const std::vector<std::string
   all.insert(all.end(), compiler.arguments.begin(), compiler.arguments.end());
   all.insert(all.end(), arguments.begin(), arguments.end());
   pid_t child = 0;
-  if (const int failure = spawn(child, compiler, std::move(all), folder)) {
-    throw CompilerMissing("the C++ compiler " + compiler.program.string() +
-                          " cannot be started: " + std::strerror(failure) + "; " + kInstall);
+  {
+    const SignalsWait wait;
+    if (const int failure = spawn(child, compiler, std::move(all), folder)) {
+      throw CompilerMissing("the C++ compiler " + compiler.program.string() +
+                            " cannot be started: " + std::strerror(failure) + "; " + kInstall);
+    }
+    running = child;
   }
-  running = child;
   CompilerRun result;
   result.timed_out = !has_ended(child, seconds);
   // What the driver started, too, and before the driver's number can be given to others.
