@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "symbolic/error.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/usage/completion.hpp"
