@@ -285,6 +285,20 @@ double StepLook::resolved(const StepWatch::Watched& watched, std::size_t which) 
   return 1;
 }
 
+/// The least of the parabola through three places, from this one on, if it lies between them and
+/// comes closer to zero than the middle one.
+std::optional<StepLook::Dip> StepLook::dip_at(const StepWatch::Watched& watched,
+                                              std::size_t i) const {
+  const auto at = [&](std::size_t k) { return sampled_[k][watched.place]; };
+  const double a = places_[i], b = places_[i + 1], c = places_[i + 2];
+  const double left = (at(i + 1) - at(i)) / (b - a), right = (at(i + 2) - at(i + 1)) / (c - b);
+  const double bend = (right - left) / (c - a);
+  if (!(bend * at(i + 1) > 0)) return std::nullopt;
+  const double vertex = (a + b) / 2 - left / (2 * bend);
+  if (!(vertex > a && vertex < c)) return std::nullopt;
+  return Dip{vertex, at(i) + left * (vertex - a) + bend * (vertex - a) * (vertex - b)};
+}
+
 /// What is divided by is about that parabola through three places which comes nearest to zero: a
 /// quotient that becomes far larger than at these places is not resolved.
 double StepLook::up_to_dip(const StepWatch::Watched& watched) const {
@@ -293,13 +307,9 @@ double StepLook::up_to_dip(const StepWatch::Watched& watched) const {
     if (at(i) * at(i + 1) < 0) return kShorter;
   }
   for (std::size_t i = 0; i + 2 < kPlaces; ++i) {
-    const double a = places_[i], b = places_[i + 1], c = places_[i + 2];
-    const double left = (at(i + 1) - at(i)) / (b - a), right = (at(i + 2) - at(i + 1)) / (c - b);
-    const double bend = (right - left) / (c - a);
-    if (!(bend * at(i + 1) > 0)) continue;  // not towards zero between them
-    const double vertex = (a + b) / 2 - left / (2 * bend);
-    if (!(vertex > a && vertex < c)) continue;
-    const double least = at(i) + left * (vertex - a) + bend * (vertex - a) * (vertex - b);
+    const auto dip = dip_at(watched, i);
+    if (!dip) continue;
+    const double least = dip->value;
     const double near = std::min({std::abs(at(i)), std::abs(at(i + 1)), std::abs(at(i + 2))});
     const bool vanishes = !(least * at(i + 1) > 0);
     if (vanishes || watched.exponent * std::log(near / std::abs(least)) > kResolved)
@@ -356,13 +366,9 @@ double StepLook::up_to_branch(const casimir_step& trial, const StepWatch::Watche
     // place.
     if (i + 2 >= kPlaces || std::abs(at(i + 1)) <= zero) continue;
     const double a = places_[i], b = places_[i + 1], c = places_[i + 2];
-    const double left = (at(i + 1) - at(i)) / (b - a), right = (at(i + 2) - at(i + 1)) / (c - b);
-    const double bend = (right - left) / (c - a);
-    if (!(bend * at(i + 1) > 0)) continue;  // not towards zero between them
-    // The least of the parabola through three places, if it comes close to zero.
-    const double vertex = (a + b) / 2 - left / (2 * bend);
-    if (!(vertex > a && vertex < c)) continue;
-    const double least = at(i) + left * (vertex - a) + bend * (vertex - a) * (vertex - b);
+    const auto dip = dip_at(watched, i);
+    if (!dip) continue;
+    const auto [vertex, least] = *dip;
     // Near zero for what is one of the places may be next to it already.
     constexpr double kFar = 0.5, kNear = 0.05;
     const double around = std::max(std::abs(at(i)), std::abs(at(i + 2)));

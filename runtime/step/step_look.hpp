@@ -65,6 +65,11 @@ class StepLook {
   void sample(const casimir_step& trial);
   double resolved(const StepWatch::Watched& watched, std::size_t index);
   double up_to_branch(const casimir_step& trial, const StepWatch::Watched& watched);
+  /// A least value, and the part of the step at which it lies.
+  struct Dip {
+    double part, value;
+  };
+  std::optional<Dip> dip_at(const StepWatch::Watched& watched, std::size_t i) const;
   double up_to_dip(const StepWatch::Watched& watched) const;
   double part_of_turn(const StepWatch::Watched& watched) const;
   double defined(const casimir_step& trial, const StepWatch::Watched& watched);
