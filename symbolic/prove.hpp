@@ -53,6 +53,7 @@ struct Proof {
   ClaimKind kind = ClaimKind::integral;
   std::string name;
   Verdict verdict = Verdict::undecided;
+  std::optional<std::size_t> rank;  ///< of the structure matrix, as far as it was found
   bool fact = false;  ///< about the system; counts only where the file claims `integrable`
   bool note = false;  ///< said beside the claims; never counts
   double seconds = 0;

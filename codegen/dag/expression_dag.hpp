@@ -4,7 +4,6 @@
 #include <ginac/ginac.h>
 
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <string>
 #include <unordered_map>
@@ -89,11 +88,6 @@ class Dag {
   /// The expression in the notation of case files, e.g. "M1^2/2 - r*g1".
   std::string text(const Scaled& expression) const;
 
-  /// The same for LaTeX in mathematical mode, e.g. "\frac{1}{2} M_{1}^{2} - r g_{1}": parameters
-  /// before coordinates. `typeset` makes LaTeX of the name of a symbol; without it `latex_name`.
-  std::string latex(const Scaled& expression,
-                    const std::function<std::string(const std::string&)>& typeset = {}) const;
-
   const std::string& symbol_name(int symbol) const;
   /// Whether the symbol of that index occurs in the expression.
   bool contains(const Scaled& expression, int symbol) const;
@@ -123,8 +117,5 @@ class Dag {
   std::vector<Node> nodes_;
   std::unordered_map<std::size_t, std::vector<NodeId>> index_;
 };
-
-/// A name for LaTeX: "M1" is M with the index 1, "p_theta" is p with a Greek index.
-std::string latex_name(const std::string& name);
 
 }  // namespace casimir::codegen

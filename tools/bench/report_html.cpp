@@ -6,7 +6,7 @@
 #include "tools/bench/comparison.hpp"
 #include "tools/bench/report.hpp"
 #include "tools/bench/report_html.hpp"
-#include "tools/report/html.hpp"
+#include "tools/typeset/html.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -1,7 +1,7 @@
 // The claims of a report with their verdicts.
 #include <fmt/format.h>
 
-#include "tools/report/html.hpp"
+#include "tools/typeset/html.hpp"
 #include "tools/report/page.hpp"
 #include "tools/text/proof_report.hpp"
 #include "tools/text/proof_table.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tools/bench/comparison.hpp"
-#include "tools/report/html.hpp"
+#include "tools/typeset/html.hpp"
 #include "tools/report/page.hpp"
 #include "tools/show/book_order.hpp"
 #include "tools/text/proof_table.hpp"

@@ -8,7 +8,7 @@
 #include "tools/bench/comparison.hpp"
 #include "tools/bench/report.hpp"
 #include "tools/bench/report_html.hpp"
-#include "tools/report/html.hpp"
+#include "tools/typeset/html.hpp"
 #include "tools/report/page.hpp"
 #include "tools/text/generated_report.hpp"
 

@@ -6,7 +6,7 @@
 #include <ctime>
 
 #include "symbolic/error.hpp"
-#include "tools/report/html.hpp"
+#include "tools/typeset/html.hpp"
 #include "tools/report/style.hpp"
 #include "tools/text/proof_table.hpp"
 

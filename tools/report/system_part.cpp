@@ -4,31 +4,35 @@
 #include <algorithm>
 
 #include "symbolic/algebra/number_text.hpp"
-#include "tools/report/html.hpp"
-#include "tools/report/mathml.hpp"
+#include "tools/typeset/html.hpp"
+#include "tools/typeset/mathml.hpp"
 #include "tools/report/page.hpp"
 #include "tools/show/show.hpp"
 
 namespace casimir::tools {
 namespace {
 
+using typeset::mathml;
+
 /// More equations than this are folded away.
 constexpr std::size_t kMany = 14;
 
 std::string heading(const std::string& words) { return "<h3>" + html::text(words) + "</h3>\n"; }
 
+const std::string kEqual = "<math><mo form=\"infix\">=</mo></math> ";
+
 /// Formulas with their equal signs below each other; where a left side is long, below it.
 std::string equations(const std::vector<Formula>& formulas) {
-  constexpr std::size_t kLongLeft = 60;  // bytes of LaTeX
-  const bool stacked =
-      std::ranges::any_of(formulas, [](const Formula& f) { return f.left.size() > kLongLeft; });
+  constexpr std::size_t kLongLeft = 30;  // letters of its text
+  const bool stacked = std::ranges::any_of(
+      formulas, [](const Formula& f) { return f.left.text.size() > kLongLeft; });
   std::string text = fmt::format("<div class=\"equations{}\">\n", stacked ? " stacked" : "");
   for (const Formula& f : formulas) {
     std::string on;
-    for (const std::string& level : f.on) on += (on.empty() ? "" : " = ") + level;
-    text += "<div class=\"left\">" + mathml(f.left) +
-            "</div><div class=\"right\"><math><mo form=\"infix\">=</mo></math> " + mathml(f.right);
-    if (!on.empty()) text += " <span class=\"on\">on " + mathml(on + " = 0") + "</span>";
+    for (const Written& level : f.on) on += mathml(level.math) + kEqual;
+    text += "<div class=\"left\">" + mathml(f.left.math) + "</div><div class=\"right\">" + kEqual +
+            mathml(f.right.math);
+    if (!on.empty()) text += " <span class=\"on\">on " + on + "<math><mn>0</mn></math></span>";
     text += "</div>\n";
   }
   return text + "</div>\n";
@@ -48,9 +52,7 @@ void append(std::vector<Formula>& list, const std::vector<Formula>& more) {
 std::string bracket(const Model& model, const SystemView& view) {
   std::vector<Formula> lines;
   for (const VectorEntries& v : view.vectors) {
-    std::string entries;
-    for (const std::string& entry : v.entries) entries += (entries.empty() ? "" : ", ") + entry;
-    lines.push_back({v.shown, "\\left(" + entries + "\\right)"});
+    lines.push_back({v.shown, {"", typeset::in_brackets(typeset::list(maths(v.entries)))}});
   }
   append(lines, view.vector_brackets);
   constexpr std::size_t kFew = 3;
@@ -62,7 +64,7 @@ std::string bracket(const Model& model, const SystemView& view) {
   if (lines.empty()) text += heading("Poisson bracket");
   if (as_matrix && !view.structure_matrix.empty()) {
     text += "<div class=\"scroll display\"><math><mi>J</mi><mo>=</mo></math>" +
-            mathml_matrix(view.structure_matrix) + "</div>\n";
+            mathml(maths(view.structure_matrix)) + "</div>\n";
   }
   if (const auto rank = rank_of(model))
     text += "<p class=\"evidence\">" + html::text(rank->name + ": " + rank->evidence) + "</p>\n";
@@ -102,16 +104,22 @@ std::string scenes(const Model& model) {
   return text + "</dl>\n</details>\n";
 }
 
+/// The rate of L is the commutator [L, A].
+const std::string kLaxEquation =
+    "<math><mover accent=\"true\"><mi>L</mi><mo stretchy=\"false\">˙</mo></mover>"
+    "<mo form=\"infix\">=</mo><mo stretchy=\"false\">[</mo><mi>L</mi><mo separator=\"true\">,</mo>"
+    "<mi>A</mi><mo stretchy=\"false\">]</mo></math>";
+
 std::string lax_pairs(const SystemView& view) {
   std::string text;
   for (const LaxView& pair : view.lax_pairs) {
     text += heading("Lax pair");
-    text += "<div class=\"scroll display\">" + mathml("\\dot{L} = [L, A]") +
-            (pair.spectral.empty() ? "" : " for every " + mathml(pair.spectral)) + "</div>\n";
+    text += "<div class=\"scroll display\">" + kLaxEquation +
+            (pair.spectral ? " for every " + mathml(pair.spectral->math) : "") + "</div>\n";
     for (const auto& [name, matrix] : {std::pair{"L", &pair.l}, std::pair{"A", &pair.a}}) {
       text +=
           fmt::format("<div class=\"scroll display\"><math><mi>{}</mi><mo>=</mo></math>{}</div>\n",
-                      name, mathml_matrix(*matrix));
+                      name, mathml(maths(*matrix)));
     }
   }
   return text;
@@ -121,11 +129,11 @@ std::string lax_pairs(const SystemView& view) {
 
 std::string system_part(const Model& model) {
   Notation notation(model);
-  const SystemView view = view_of(model, notation, Markup::latex);
+  const SystemView view = view_of(model, notation);
   std::string text = "<section id=\"system\">\n<h2>The system</h2>\n";
   if (model.poisson) text += bracket(model, view);
-  if (!view.hamiltonian.empty())
-    text += heading("Hamiltonian") + equations({{"H", view.hamiltonian}});
+  if (view.hamiltonian)
+    text += heading("Hamiltonian") + equations({{{"H", typeset::letter("H")}, *view.hamiltonian}});
   std::vector<Formula> motion = view.vector_equations;
   append(motion, view.gradients);
   text += folded("Equations of motion", motion);

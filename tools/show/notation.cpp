@@ -3,11 +3,13 @@
 #include <algorithm>
 
 #include "symbolic/error.hpp"
+#include "tools/typeset/dag_math.hpp"
 
 namespace casimir::tools {
 namespace {
 
 using GiNaC::ex;
+using typeset::Math;
 
 /// Stands for a phrase in a sum; no name in a case file can be this.
 const std::string kPhrase = "#";
@@ -24,23 +26,6 @@ std::string letter(const std::string& name) {
 /// The part of a name before its index.
 std::string head(const std::string& name) {
   return name.substr(0, name.find_last_not_of("0123456789_") + 1);
-}
-
-/// A phrase beside a coefficient: in brackets if it is a vector product or a gradient.
-std::string as_factor(const std::string& phrase) {
-  const bool enclosed = phrase.front() == '(' && phrase.back() == ')';
-  const bool compound =
-      phrase.find(" x ") != std::string::npos || phrase.find('/') != std::string::npos;
-  return compound && !enclosed ? "(" + phrase + ")" : phrase;
-}
-
-std::string bold(const std::string& letters) {
-  if (letters.size() == 1) return "\\boldsymbol " + letters;
-  const bool command =
-      letters[0] == '\\' && std::all_of(letters.begin() + 1, letters.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-      });
-  return command ? "\\boldsymbol" + letters : "\\boldsymbol{" + letters + "}";
 }
 
 /// Products of conjugates have imaginary factors, and are real when they are multiplied out.
@@ -94,15 +79,15 @@ void Notation::name_letters() {
     for (const GiNaC::symbol& x : model_.variables) {  // of a quaternion the scalar, too
       const std::string name = x.get_name();
       if (head(name) == block.name)
-        latex_[name] = codegen::latex_name(greek + name.substr(block.name.size()));
+        paper_[name] = typeset::name(greek + name.substr(block.name.size()));
     }
   }
 }
 
 GiNaC::symbol Notation::product_symbol(const std::string& a, const std::string& b) {
   const GiNaC::symbol product("(" + a + ", " + b + ")");
-  latex_[product.get_name()] =
-      "(" + vector_name(a, Markup::latex) + ", " + vector_name(b, Markup::latex) + ")";
+  paper_[product.get_name()] = {
+      typeset::Kind::tuple, {}, {typeset::list({vector_name(a).math, vector_name(b).math})}};
   return product;
 }
 
@@ -139,26 +124,25 @@ void Notation::make_dag(const std::vector<Triple>& vectors, std::size_t moving) 
   scalar_products_ = std::make_unique<ScalarProducts>(*dag_, places, pairs);
 }
 
-std::string Notation::typeset(const std::string& symbol) const {
-  const auto found = latex_.find(symbol);
-  return found == latex_.end() ? codegen::latex_name(symbol) : found->second;
+Math Notation::on_paper(const std::string& symbol) const {
+  const auto found = paper_.find(symbol);
+  return found == paper_.end() ? typeset::name(symbol) : found->second;
 }
 
-std::string Notation::render(const codegen::Scaled& e, Markup markup) const {
-  if (markup == Markup::text) return dag_->text(e);
-  return dag_->latex(e, [this](const std::string& symbol) { return typeset(symbol); });
+Written Notation::written(const codegen::Scaled& e) const {
+  return {dag_->text(e), typeset::math(*dag_, e, [this](const std::string& s) { return on_paper(s); })};
 }
 
-std::string Notation::components(const ex& e, Markup markup) {
-  return render(converted(*dag_, e), markup);
+Written Notation::components(const ex& e) { return written(converted(*dag_, e)); }
+
+std::string Notation::case_text(const ex& e) { return dag_->text(converted(*dag_, e)); }
+
+Written Notation::expression(const ex& e) {
+  return written(scalar_products_->in(converted(*dag_, e)));
 }
 
-std::string Notation::expression(const ex& e, Markup markup) {
-  return render(scalar_products_->in(converted(*dag_, e)), markup);
-}
-
-std::string Notation::combination(const std::vector<std::pair<ex, Phrase>>& terms, Markup markup) {
-  std::string sum;
+Written Notation::combination(const std::vector<std::pair<ex, Phrase>>& terms) {
+  Written sum;
   for (const auto& [coefficient, phrase] : terms) {
     // A factor that is printed as one: the last of the symbols, so that it ends the product.
     const GiNaC::symbol factor(kPhrase);
@@ -168,58 +152,59 @@ std::string Notation::combination(const std::vector<std::pair<ex, Phrase>>& term
     degrees.push_back(1);
     codegen::Dag dag(symbols, degrees);
     const codegen::Scaled product = dag.product({dag.convert(coefficient), dag.convert(factor)});
-    std::string term;
-    if (markup == Markup::latex) {
-      term = dag.latex(product, [&, &latex = phrase.latex](const std::string& symbol) {
-        return symbol == kPhrase ? latex : typeset(symbol);
-      });
-    } else {
-      term = dag.text(product);
-      const bool alone = term == kPhrase || term == "-" + kPhrase;
-      term.replace(term.find(kPhrase), kPhrase.size(),
-                   alone ? phrase.text : as_factor(phrase.text));
-    }
-    if (sum.empty())
-      sum = term;
+    typeset::add_term(sum.math, typeset::math(dag, product, [&](const std::string& symbol) {
+                        return symbol == kPhrase ? phrase.written.math : on_paper(symbol);
+                      }));
+    std::string term = dag.text(product);
+    const bool alone = term == kPhrase || term == "-" + kPhrase;
+    const std::string& text = phrase.written.text;
+    term.replace(term.find(kPhrase), kPhrase.size(),
+                 phrase.compound && !alone ? "(" + text + ")" : text);
+    if (sum.text.empty())
+      sum.text = term;
     else if (term[0] == '-')
-      sum += " - " + term.substr(1);
+      sum.text += " - " + term.substr(1);
     else
-      sum += " + " + term;
+      sum.text += " + " + term;
   }
-  return sum.empty() ? "0" : sum;
+  return sum.text.empty() ? Written{"0", typeset::number("0")} : sum;
 }
 
-std::string Notation::name(const GiNaC::symbol& symbol, Markup markup) const {
-  return markup == Markup::text ? symbol.get_name() : typeset(symbol.get_name());
+Written Notation::name(const GiNaC::symbol& symbol) const {
+  return {symbol.get_name(), on_paper(symbol.get_name())};
 }
 
-std::string Notation::vector_name(const std::string& name, Markup markup) const {
-  if (markup == Markup::text) return name;
-  const auto found = heads_.find(name);
-  return bold(codegen::latex_name(found == heads_.end() ? name : found->second));
+Math Notation::letter_of(const std::string& vector) const {
+  const auto found = heads_.find(vector);
+  return typeset::name(found == heads_.end() ? vector : found->second);
 }
 
-std::string Notation::block(const Block& block, Markup markup) const {
-  if (block.is_vector()) return vector_name(block.name, markup);
-  return name(model_.variables[block.coordinates[0]], markup);
+Written Notation::vector_name(const std::string& name) const {
+  return {name, {typeset::Kind::bold, {}, {letter_of(name)}}};
 }
 
-std::string Notation::component(const Block& block, const std::string& index, Markup markup) const {
-  if (markup == Markup::text) return block.name + "_" + index;
-  const auto found = heads_.find(block.name);
-  const std::string letters =
-      codegen::latex_name(found == heads_.end() ? block.name : found->second);
-  const bool indexed = letters.find("_{") != std::string::npos;
-  if (indexed) return letters.substr(0, letters.size() - 1) + " " + index + "}";
-  return letters + "_{" + index + "}";
+Written Notation::block(const Block& block) const {
+  if (block.is_vector()) return vector_name(block.name);
+  return name(model_.variables[block.coordinates[0]]);
 }
 
-std::vector<VectorEntries> Notation::vector_entries(Markup markup) const {
+Written Notation::component(const Block& block, const std::string& index) const {
+  Math letter = letter_of(block.name);
+  Math& place = letter.kind == typeset::Kind::scripts ? letter.parts[1] : letter;
+  Math with = typeset::letter(index);
+  if (&place == &letter)
+    letter = typeset::with_index(letter, std::move(with));
+  else
+    place = typeset::product({place, std::move(with)});
+  return {block.name + "_" + index, std::move(letter)};
+}
+
+std::vector<VectorEntries> Notation::vector_entries() const {
   std::vector<VectorEntries> result;
   const auto add = [&](const std::string& vector, const auto& indices,
                        const std::vector<GiNaC::symbol>& symbols) {
-    result.push_back({vector, vector_name(vector, markup), {}});
-    for (const std::size_t i : indices) result.back().entries.push_back(name(symbols[i], markup));
+    result.push_back({vector, vector_name(vector), {}});
+    for (const std::size_t i : indices) result.back().entries.push_back(name(symbols[i]));
   };
   std::size_t moving = 0;
   for (; form_ && moving < form_->blocks.size() && form_->blocks[moving].is_vector(); ++moving)

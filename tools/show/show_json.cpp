@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 class Plain {
  public:
   explicit Plain(const Model& model) : model_(model), notation_(model) {}
-  std::string operator()(const GiNaC::ex& e) { return notation_.components(e, Markup::text); }
+  std::string operator()(const GiNaC::ex& e) { return notation_.case_text(e); }
 
   void add_bracket(Json& json) {
     const auto& x = model_.variables;
@@ -51,26 +51,26 @@ class Plain {
 
 Json object(const std::vector<Formula>& formulas) {
   Json json = Json::object();
-  for (const Formula& f : formulas) json[f.left] = f.right;
+  for (const Formula& f : formulas) json[f.left.text] = f.right.text;
   return json;
 }
 
 /// In vectors: keys are the left sides of the formulas, as the text has them.
 void add_view(Json& json, const SystemView& view) {
-  for (const VectorEntries& vector : view.vectors) json["vectors"][vector.name] = vector.entries;
+  for (const VectorEntries& vector : view.vectors) json["vectors"][vector.name] = texts(vector.entries);
   if (!view.vector_brackets.empty()) json["vector_brackets"] = object(view.vector_brackets);
   if (!view.vector_equations.empty()) {
     json["vector_equations"] = object(view.vector_equations);
     json["gradients"] = object(view.gradients);
-    json["scalar_products"] = {{"H", view.hamiltonian}};
+    json["scalar_products"] = {{"H", view.hamiltonian->text}};
     for (const FormulaGroup& group : view.claims) {
-      for (const Formula& f : group.formulas) json["scalar_products"][f.left] = f.right;
+      for (const Formula& f : group.formulas) json["scalar_products"][f.left.text] = f.right.text;
     }
   }
-  if (!view.structure_matrix.empty()) json["structure_matrix"] = view.structure_matrix;
+  if (!view.structure_matrix.empty()) json["structure_matrix"] = texts(view.structure_matrix);
   for (const LaxView& pair : view.lax_pairs) {
-    Json entry = {{"L", pair.l}, {"A", pair.a}};
-    if (!pair.spectral.empty()) entry["spectral"] = pair.spectral;
+    Json entry = {{"L", texts(pair.l)}, {"A", texts(pair.a)}};
+    if (pair.spectral) entry["spectral"] = pair.spectral->text;
     json["lax"].push_back(entry);
   }
 }
@@ -110,7 +110,7 @@ Json show_json(const Model& model) {
           json["equations"][model.variables[i].get_name()] =
               plain(expanded_within(model.field[i], kMostTermsShown));
       },
-      [&](Notation& notation) { return view_of(model, notation, Markup::text); });
+      [&](Notation& notation) { return view_of(model, notation); });
 }
 
 Json show_json(const MapModel& map) {
@@ -120,7 +120,7 @@ Json show_json(const MapModel& map) {
         for (std::size_t i = 0; i < map.next.size(); ++i)
           json["map"][map.base.variables[i].get_name()] = plain(map.next[i]);
       },
-      [&](Notation& notation) { return view_of(map, notation, Markup::text); });
+      [&](Notation& notation) { return view_of(map, notation); });
 }
 
 }  // namespace casimir::tools

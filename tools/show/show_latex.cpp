@@ -1,11 +1,20 @@
 // The LaTeX of casimir show.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "tools/show/show.hpp"
+#include "tools/typeset/latex.hpp"
 
 namespace casimir::tools {
 namespace {
+
+using typeset::latex;
+
+std::string joined(const std::vector<Written>& formulas, const char* between) {
+  std::string text;
+  for (std::size_t i = 0; i < formulas.size(); ++i)
+    text += (i > 0 ? between : "") + latex(formulas[i].math);
+  return text;
+}
 
 /// A display with aligned equal signs.
 void print_align(const std::vector<Formula>& formulas) {
@@ -13,17 +22,17 @@ void print_align(const std::vector<Formula>& formulas) {
   fmt::print("\\begin{{align*}}\n");
   for (std::size_t i = 0; i < formulas.size(); ++i) {
     const Formula& f = formulas[i];
-    fmt::print("{} &= {}", f.left, f.right);
-    if (!f.on.empty()) fmt::print(" \\quad \\text{{on }} {} = 0", fmt::join(f.on, " = "));
+    fmt::print("{} &= {}", latex(f.left.math), latex(f.right.math));
+    if (!f.on.empty()) fmt::print(" \\quad \\text{{on }} {} = 0", joined(f.on, " = "));
     fmt::print("{}\n", i + 1 < formulas.size() ? " \\\\" : "");
   }
   fmt::print("\\end{{align*}}\n");
 }
 
-std::string pmatrix(const StringMatrix& m) {
+std::string pmatrix(const WrittenMatrix& m) {
   std::string text = "\\begin{pmatrix}\n";
   for (std::size_t i = 0; i < m.size(); ++i)
-    text += fmt::format("{}{}\n", fmt::join(m[i], " & "), i + 1 < m.size() ? " \\\\" : "");
+    text += fmt::format("{}{}\n", joined(m[i], " & "), i + 1 < m.size() ? " \\\\" : "");
   return text + "\\end{pmatrix}";
 }
 
@@ -34,7 +43,7 @@ void append(std::vector<Formula>& list, const std::vector<Formula>& more) {
 void print_latex_bracket(const Model& model, const SystemView& view) {
   std::vector<Formula> lines;
   for (const VectorEntries& v : view.vectors)
-    lines.push_back({v.shown, fmt::format("({})", fmt::join(v.entries, ", "))});
+    lines.push_back({v.shown, {"", {typeset::Kind::tuple, {}, {typeset::list(maths(v.entries))}}}});
   append(lines, view.vector_brackets);
   constexpr std::size_t kFew = 3;
   if (!view.vector_brackets.empty() && view.zero_brackets.size() <= kFew)
@@ -56,7 +65,7 @@ void print_latex_bracket(const Model& model, const SystemView& view) {
 void print_latex(const Model& model, const SystemView& view) {
   if (model.poisson) print_latex_bracket(model, view);
   std::vector<Formula> lines;
-  if (!view.hamiltonian.empty()) lines.push_back({"H", view.hamiltonian});
+  if (view.hamiltonian) lines.push_back({{"H", typeset::letter("H")}, *view.hamiltonian});
   append(lines, view.map);
   append(lines, view.vector_equations);
   append(lines, view.gradients);
@@ -77,12 +86,12 @@ void print_latex(const Model& model, const SystemView& view) {
 
 void show_latex(const Model& model) {
   Notation notation(model);
-  print_latex(model, view_of(model, notation, Markup::latex));
+  print_latex(model, view_of(model, notation));
 }
 
 void show_latex(const MapModel& map) {
   Notation notation(map.base);
-  print_latex(map.base, view_of(map, notation, Markup::latex));
+  print_latex(map.base, view_of(map, notation));
 }
 
 }  // namespace casimir::tools

@@ -34,11 +34,12 @@ void print_formulas(const std::string& title, const std::vector<Formula>& formul
   if (formulas.empty()) return;
   fmt::print("\n{}\n", title);
   std::size_t width = 0;
-  for (const Formula& f : formulas) width = std::max(width, display_width(f.left));
+  for (const Formula& f : formulas) width = std::max(width, display_width(f.left.text));
   constexpr std::size_t kLongName = 24;
   for (const Formula& f : formulas) {
-    fmt::print("  {} = {}{}\n", padded(f.left, width > kLongName ? 0 : width), f.right,
-               f.on.empty() ? "" : fmt::format("  on {} = 0", fmt::join(f.on, " = ")));
+    fmt::print("  {} = {}{}\n", padded(f.left.text, width > kLongName ? 0 : width),
+               f.right.text,
+               f.on.empty() ? "" : fmt::format("  on {} = 0", fmt::join(texts(f.on), " = ")));
   }
 }
 
@@ -59,19 +60,20 @@ bool print_matrix(const SystemView& view) {
   std::size_t label = 0;
   std::size_t total = 2;
   for (std::size_t j = 0; j < n; ++j) {
-    widths[j] = view.variables[j].size();
-    for (const auto& row : view.structure_matrix) widths[j] = std::max(widths[j], row[j].size());
-    label = std::max(label, view.variables[j].size());
+    widths[j] = view.variables[j].text.size();
+    for (const auto& row : view.structure_matrix)
+      widths[j] = std::max(widths[j], row[j].text.size());
+    label = std::max(label, view.variables[j].text.size());
     total += widths[j] + 2;
   }
   if (total + label > output_width()) return false;
   fmt::print("\nbracket matrix {{row, column}}\n  {}", padded("", label));
   for (std::size_t j = 0; j < n; ++j)
-    fmt::print("  {}", padded(view.variables[j], widths[j], true));
+    fmt::print("  {}", padded(view.variables[j].text, widths[j], true));
   for (std::size_t i = 0; i < n; ++i) {
-    fmt::print("\n  {}", padded(view.variables[i], label));
+    fmt::print("\n  {}", padded(view.variables[i].text, label));
     for (std::size_t j = 0; j < n; ++j)
-      fmt::print("  {}", padded(view.structure_matrix[i][j], widths[j], true));
+      fmt::print("  {}", padded(view.structure_matrix[i][j].text, widths[j], true));
   }
   fmt::print("\n");
   return true;
@@ -90,7 +92,7 @@ void print_vector_brackets(const SystemView& view) {
 void print_bracket(const Model& model, const SystemView& view) {
   std::vector<Formula> vectors;
   for (const VectorEntries& v : view.vectors)
-    vectors.push_back({v.shown, fmt::format("({})", fmt::join(v.entries, ", "))});
+    vectors.push_back({v.shown, {fmt::format("({})", fmt::join(texts(v.entries), ", ")), {}}});
   print_formulas("vectors", vectors);
   print_vector_brackets(view);
   const bool as_matrix = print_matrix(view);
@@ -103,14 +105,14 @@ void print_bracket(const Model& model, const SystemView& view) {
 }
 
 void print_lax_pairs(const std::vector<LaxView>& pairs) {
-  const auto print = [](const char* name, const StringMatrix& m) {
+  const auto print = [](const char* name, const WrittenMatrix& m) {
     for (std::size_t i = 0; i < m.size(); ++i)
       fmt::print("  {} {}[{}]{}\n", i == 0 ? fmt::format("{} = ", name) : "    ",
-                 i == 0 ? "[" : " ", fmt::join(m[i], ", "), i + 1 == m.size() ? "]" : ",");
+                 i == 0 ? "[" : " ", fmt::join(texts(m[i]), ", "), i + 1 == m.size() ? "]" : ",");
   };
   for (const LaxView& pair : pairs) {
     fmt::print("\nLax pair, dL/dt = [L, A]{}\n",
-               pair.spectral.empty() ? "" : " for every " + pair.spectral);
+               pair.spectral ? " for every " + pair.spectral->text : "");
     print("L", pair.l);
     print("A", pair.a);
   }
@@ -119,7 +121,7 @@ void print_lax_pairs(const std::vector<LaxView>& pairs) {
 void print_system(const Model& model, const SystemView& view) {
   print_head(model);
   if (model.poisson) print_bracket(model, view);
-  if (!view.hamiltonian.empty()) print_formulas("Hamiltonian", {{"H", view.hamiltonian}});
+  if (view.hamiltonian) print_formulas("Hamiltonian", {{{"H", {}}, *view.hamiltonian}});
   print_formulas("map", view.map);
   print_formulas("equations of motion", view.vector_equations);
   print_formulas("with the gradients", view.gradients);
@@ -137,12 +139,12 @@ void print_system(const Model& model, const SystemView& view) {
 
 void show_text(const Model& model) {
   Notation notation(model);
-  print_system(model, view_of(model, notation, Markup::text));
+  print_system(model, view_of(model, notation));
 }
 
 void show_text(const MapModel& map) {
   Notation notation(map.base);
-  print_system(map.base, view_of(map, notation, Markup::text));
+  print_system(map.base, view_of(map, notation));
 }
 
 }  // namespace casimir::tools

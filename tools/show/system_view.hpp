@@ -15,8 +15,8 @@ inline constexpr double kMostTermsShown = 5000;
 
 /// left = right, where the functions `on` vanish.
 struct Formula {
-  std::string left, right;
-  std::vector<std::string> on = {};
+  Written left, right;
+  std::vector<Written> on = {};
 };
 
 /// Claims of one kind, or matrices that belong together.
@@ -25,23 +25,22 @@ struct FormulaGroup {
   std::vector<Formula> formulas;
 };
 
-using StringMatrix = std::vector<std::vector<std::string>>;
+using WrittenMatrix = std::vector<std::vector<Written>>;
 
-/// A Lax pair in one markup.
 struct LaxView {
-  std::string spectral;  ///< empty if there is none
-  StringMatrix l, a;
+  std::optional<Written> spectral;  ///< the spectral parameter
+  WrittenMatrix l, a;
 };
 
-/// What `show` tells of a system, in one markup. What a case does not have is empty.
+/// What `show` tells of a system. What a case does not have is empty.
 struct SystemView {
-  std::vector<std::string> variables;
+  std::vector<Written> variables;
   std::vector<VectorEntries> vectors;
   std::vector<Formula> vector_brackets;  ///< the non-zero ones in the shorthand: {M_i, g_j} = ..
   std::vector<Formula> zero_brackets;    ///< {g_i, g_j} = 0
-  StringMatrix structure_matrix;         ///< {x_i, x_j}
+  WrittenMatrix structure_matrix;        ///< {x_i, x_j}
   std::vector<Formula> brackets;         ///< the non-zero entries of its upper half
-  std::string hamiltonian;
+  std::optional<Written> hamiltonian;
   std::vector<Formula> vector_equations;  ///< dM/dt = M x dH/dM + ..
   std::vector<Formula> gradients;         ///< dH/dM = (..), of those that occur there
   std::vector<Formula> equations;         ///< in components
@@ -50,16 +49,24 @@ struct SystemView {
   std::vector<LaxView> lax_pairs;
 };
 
-SystemView view_of(const Model& model, Notation& notation, Markup markup);
+SystemView view_of(const Model& model, Notation& notation);
 
 /// The same for the case of a map, whose base the notation is of.
-SystemView view_of(const MapModel& map, Notation& notation, Markup markup);
+SystemView view_of(const MapModel& map, Notation& notation);
+
+/// The texts of formulas, and their trees.
+/// {
+std::vector<std::string> texts(const std::vector<Written>& list);
+std::vector<typeset::Math> maths(const std::vector<Written>& list);
+std::vector<std::vector<std::string>> texts(const WrittenMatrix& matrix);
+typeset::MathMatrix maths(const WrittenMatrix& matrix);
+/// }
 
 /// The rank of the bracket on the generic leaf.
 struct RankView {
   std::string name;      ///< "rank 4"
   std::string evidence;  ///< or why it is not known
-  std::optional<int> rank;
+  std::optional<std::size_t> rank;  ///< where it is proved
 };
 
 /// None for a system without a bracket.

@@ -62,7 +62,7 @@ class Writer {
   }
 
  private:
-  std::string text_of(const GiNaC::ex& e) { return notation_.components(e, Markup::text); }
+  std::string text_of(const GiNaC::ex& e) { return notation_.case_text(e); }
 
   /// Those about the variables are left out: the map need not keep to the domain.
   std::vector<std::string> assumptions() {

@@ -122,6 +122,7 @@ void decide_rank(Prover& prover, Proof& proof) {
   const PolynomialRows casimirs = gradients(prover, real_everywhere(prover.model().casimirs));
   const std::size_t independent = independent_rows(prover, casimirs);
   proof.name = fmt::format("rank {}", found->rank);
+  proof.rank = found->rank;
   if (!found->exact) {
     proof.reason = fmt::format(
         "the rank is at least {}, with {} independent Casimir functions known in dimension {}",

@@ -41,21 +41,6 @@ TEST(Canonical, DegreesOrderTerms) {
   EXPECT_EQ(plain.text(plain.convert(z + x + y)), "x + y + z");
 }
 
-TEST(Canonical, LatexPutsParametersFirst) {
-  Symbols s;
-  const auto latex = [&](const ex& e) { return s.dag.latex(s.dag.convert(e)); };
-  EXPECT_EQ(latex(2 * s.x * s.a), "2 a x");
-  EXPECT_EQ(s.text(2 * s.x * s.a), "2*x*a");
-  EXPECT_EQ(latex(s.x * pow(s.a - 1, 2)), "\\left(a - 1\\right)^{2} x");
-  EXPECT_EQ(latex(s.x * pow(s.a - s.y, 2)), "x \\left(y - a\\right)^{2}");
-}
-
-TEST(Canonical, LatexNamesCanBeGiven) {
-  Symbols s;
-  const Scaled e = s.dag.convert(pow(s.x, 2) * s.y);
-  EXPECT_EQ(s.dag.latex(e, [](const std::string& name) { return "\\" + name; }), "\\x^{2} \\y");
-}
-
 TEST(Canonical, OrderDoesNotFollowTheCreationOfSymbols) {
   std::vector<std::string> texts;
   for (int permutation = 0; permutation < 6; ++permutation) {

@@ -91,9 +91,9 @@ void Case::build() {
   model_ = std::make_unique<Model>(tools::model_of(changed, entries(parameters_, "parameters")));
 }
 
-std::string Case::shown(const GiNaC::ex& e, tools::Markup markup) const {
+tools::Written Case::shown(const GiNaC::ex& e) const {
   if (!notation_) notation_ = std::make_unique<tools::Notation>(*model_);
-  return notation_->components(e, markup);
+  return notation_->components(e);
 }
 
 }  // namespace casimir::python

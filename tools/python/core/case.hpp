@@ -43,7 +43,7 @@ class Case {
   /// With the changes.
   const Model& model() const { return *model_; }
   /// An expression as case files or LaTeX have it. The caller may use exact algebra.
-  std::string shown(const GiNaC::ex& e, tools::Markup markup) const;
+  tools::Written shown(const GiNaC::ex& e) const;
 
  private:
   Case() = default;

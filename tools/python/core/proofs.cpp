@@ -15,6 +15,7 @@
 #include "tools/python/core/case.hpp"
 #include "tools/python/core/guard.hpp"
 #include "tools/show/system_view.hpp"
+#include "tools/typeset/latex.hpp"
 
 namespace casimir::python {
 namespace py = pybind11;
@@ -94,7 +95,7 @@ py::object verify(const Case& self, const Names& integrals, const Names& casimir
 }
 
 py::dict to_python(const Case& self, const search::Found& found) {
-  return py::dict("text"_a = found.text, "latex"_a = self.shown(found.value, tools::Markup::latex),
+  return py::dict("text"_a = found.text, "latex"_a = latex(self.shown(found.value).math),
                   "degree"_a = found.degree, "verdict"_a = to_string(found.verdict),
                   "independent"_a = found.independent);
 }
@@ -222,21 +223,30 @@ py::object obstruct(const Case& self, const std::string& scene, const Names& alo
 /// A system as `show` tells it, in one markup.
 py::dict show(const Case& self, const std::string& format) {
   const ExactAlgebra guard;
-  const tools::Markup markup = format == "latex" ? tools::Markup::latex : tools::Markup::text;
+  const bool paper = format == "latex";
   tools::Notation notation(self.model());
-  const tools::SystemView view = view_of(self.model(), notation, markup);
+  const tools::SystemView view = view_of(self.model(), notation);
   const py::gil_scoped_acquire python;
-  const auto pairs = [](const std::vector<tools::Formula>& formulas) {
-    py::list list;
-    for (const tools::Formula& formula : formulas)
-      list.append(py::make_tuple(formula.left, formula.right));
+  const auto shown = [&](const tools::Written& one) { return paper ? latex(one.math) : one.text; };
+  const auto all = [&](const std::vector<tools::Written>& formulas) {
+    Names list;
+    for (const tools::Written& one : formulas) list.push_back(shown(one));
     return list;
   };
+  const auto pairs = [&](const std::vector<tools::Formula>& formulas) {
+    py::list list;
+    for (const tools::Formula& formula : formulas)
+      list.append(py::make_tuple(shown(formula.left), shown(formula.right)));
+    return list;
+  };
+  std::vector<Names> matrix;
+  for (const std::vector<tools::Written>& row : view.structure_matrix) matrix.push_back(all(row));
   py::list claims;
   for (const tools::FormulaGroup& group : view.claims)
     claims.append(py::make_tuple(group.title, pairs(group.formulas)));
-  return py::dict("variables"_a = view.variables, "structure_matrix"_a = view.structure_matrix,
-                  "brackets"_a = pairs(view.brackets), "hamiltonian"_a = view.hamiltonian,
+  return py::dict("variables"_a = all(view.variables), "structure_matrix"_a = matrix,
+                  "brackets"_a = pairs(view.brackets),
+                  "hamiltonian"_a = view.hamiltonian ? shown(*view.hamiltonian) : "",
                   "equations"_a = pairs(view.equations), "claims"_a = claims);
 }
 
@@ -274,14 +284,15 @@ Names scenes(const Case& self) {
 std::pair<std::string, std::string> expression(const Case& self, const std::string& text) {
   const ExactAlgebra guard;
   const GiNaC::ex value = self.model().parse(typed(text, "expression"));
-  return {self.shown(value, tools::Markup::text), self.shown(value, tools::Markup::latex)};
+  const tools::Written shown = self.shown(value);
+  return {shown.text, latex(shown.math)};
 }
 
 Values named(const Case& self, const std::vector<NamedExpression>& list) {
   const ExactAlgebra guard;
   Values result;
   for (const NamedExpression& f : list)
-    result.emplace_back(f.name, self.shown(f.value, tools::Markup::text));
+    result.emplace_back(f.name, self.shown(f.value).text);
   return result;
 }
 

@@ -1,0 +1,72 @@
+// Expressions as people write them, in LaTeX.
+#include "tools/typeset/dag_math.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tools/typeset/latex.hpp"
+
+namespace casimir::tools::typeset {
+namespace {
+
+using GiNaC::ex;
+
+struct Paper {
+  GiNaC::symbol x{"x"}, y{"y"}, a{"a"}, m{"M1"}, om{"omega_max"};
+  codegen::Dag dag{{x, y, m, a, om}, 3};
+  std::string operator()(const ex& e) { return latex(math(dag, dag.convert(e))); }
+};
+
+TEST(DagMath, PutsParametersFirst) {
+  Paper paper;
+  EXPECT_EQ(paper(2 * paper.x * paper.a), "2 a x");
+  EXPECT_EQ(paper(paper.x * pow(paper.a - 1, 2)), "\\left(a - 1\\right)^{2} x");
+  EXPECT_EQ(paper(paper.x * pow(paper.a - paper.y, 2)), "x \\left(y - a\\right)^{2}");
+}
+
+TEST(DagMath, WritesQuotientsRootsAndPowersAsPeopleDo) {
+  Paper paper;
+  const ex& x = paper.x;
+  EXPECT_EQ(paper(-x * x / 2), "-\\frac{1}{2} x^{2}");
+  EXPECT_EQ(paper(3 * x / (2 * paper.a)), "\\frac{3 x}{2 a}");
+  EXPECT_EQ(paper(1 / sqrt(x + 1)), "\\frac{1}{\\sqrt{x + 1}}");
+  EXPECT_EQ(paper((x + paper.y) / 2 - 1), "\\frac{1}{2} x + \\frac{1}{2} y - 1");
+  EXPECT_EQ(paper(pow(sin(x), 2) * GiNaC::Pi), "\\pi \\sin^{2}\\left(x\\right)");
+  EXPECT_EQ(paper(GiNaC::atan2(x, paper.y)), "\\operatorname{atan2}\\left(x, y\\right)");
+  EXPECT_EQ(paper(GiNaC::log(x)), "\\ln\\left(x\\right)");
+}
+
+TEST(DagMath, NamesHaveIndicesAndGreekLetters) {
+  Paper paper;
+  EXPECT_EQ(paper(paper.m * paper.m), "M_{1}^{2}");
+  EXPECT_EQ(paper(paper.om), "\\omega_{\\mathrm{max}}");
+  EXPECT_EQ(latex(name("p_theta12")), "p_{\\theta 12}");
+  EXPECT_EQ(latex(name("pi")), "\\mathrm{pi}");
+}
+
+TEST(DagMath, NamesCanBeGiven) {
+  Paper paper;
+  const auto bold = [](const std::string& name) { return Math{Kind::bold, {}, {letter(name)}}; };
+  EXPECT_EQ(latex(math(paper.dag, paper.dag.convert(pow(paper.x, 2) * paper.y), bold)),
+            "\\boldsymbol x^{2} \\boldsymbol y");
+}
+
+TEST(Latex, WordsOfACaseGiveNoCommand) {
+  EXPECT_EQ(latex(prose("a\\input{b}_c & 50%")), "\\text{ainputb\\_c \\& 50\\%}");
+}
+
+TEST(Latex, TheDotOfARateStandsOnTheLetter) {
+  EXPECT_EQ(latex(rate(name("M1"))), "\\dot{M}_{1}");
+  EXPECT_EQ(latex(rate({Kind::bold, {}, {name("gamma")}})), "\\dot{\\boldsymbol\\gamma}");
+  EXPECT_EQ(latex(rate({Kind::bold, {}, {name("L1")}})), "\\dot{\\boldsymbol{L_{1}}}");
+}
+
+TEST(Math, SumsTakeTheSignsOfWhatIsAdded) {
+  Math sum;
+  add_term(sum, negated(letter("a")));
+  add_term(sum, letter("b"));
+  add_term(sum, negated(letter("c")));
+  EXPECT_EQ(latex(sum), "-a + b - c");
+}
+
+}  // namespace
+}  // namespace casimir::tools::typeset
