@@ -42,8 +42,8 @@ enum class Parity : unsigned char { none, odd, even };
 /// is that of its recurrence.
 struct FunctionRow {
   Op op;
-  std::string_view name;    ///< in case files
-  std::string_view c_name;  ///< in the mathematical library of C
+  std::string_view name;     ///< in case files
+  std::string_view c_name;   ///< in the mathematical library of C
   std::string_view printed;  ///< in formulas on paper
   Parity parity = Parity::none;
   /// Whether its series may end sooner than that of its argument: at a singularity of its own.
@@ -163,11 +163,7 @@ inline constexpr FunctionRow kTable[] = {
      .printed = "atan2",
      .singular = true,
      .step = {{{angle, value, argument, second}}}},
-    {.op = Op::abs,
-     .name = "abs",
-     .c_name = "fabs",
-     .printed = "abs",
-     .step = {{{side}}}},
+    {.op = Op::abs, .name = "abs", .c_name = "fabs", .printed = "abs", .step = {{{side}}}},
     {.op = Op::sign,
      .name = "sign",
      .c_name = "copysign",

@@ -6,7 +6,7 @@ namespace casimir::tools {
 
 Plot picture_of(const MethodComparison& contest) {
   Plot plot{.title = fmt::format("{}, scene {}", contest.title, contest.scene),
-            .x_label = "error at the end, relative to the size of each state along the run",
+            .x_label = "error at the end, relative to the size of the motion",
             .y_label = "run time",
             .log_x = true,
             .log_y = true,

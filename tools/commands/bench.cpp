@@ -14,6 +14,7 @@
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/options/choices.hpp"
 #include "tools/cli/options/kept_parameters.hpp"
+#include "tools/cli/options/picture_options.hpp"
 #include "tools/cli/options/run_options.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
@@ -30,6 +31,7 @@ struct Options {
   std::vector<std::string> case_names, outputs;
   std::string in, tag;
   std::string plot, format = "text";
+  PictureOptions print;
   bool all = false;
   RunOptions run;
   ComparisonOptions contest{.tolerances = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10,
@@ -155,6 +157,7 @@ void check_usage(const Options& options) {
   if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
   if (options.run.asked.rtol || options.run.asked.atol)
     throw UsageError("bench runs at a range of tolerances: --tolerances X,Y, or --tolerance X");
+  options.print.check(!options.plot.empty());
   if (options.plot.empty()) return;
   check_plot_name(options.plot);
   if (options.all || options.case_names.size() > 1)
@@ -174,7 +177,8 @@ int bench(Options options) {
     return exit_of(contest.failure);
   }
   print(report, options);
-  if (!options.plot.empty()) draw(picture_of(report.contests.front()), options.plot);
+  if (!options.plot.empty())
+    draw(picture_of(report.contests.front()), options.print.sheet(options.plot));
   for (const std::string& path : options.outputs)
     if (is_page(path)) write_page(report, path);
   const std::vector<Row> rows = report.rows();
@@ -239,8 +243,10 @@ void register_bench(CLI::App& program, Action& action) {
       ->allow_extra_args(false)
       ->type_name("FILE");
   command
-      ->add_option("--plot", options->plot, "Draw error against run time to this .svg or .png file")
+      ->add_option("--plot", options->plot,
+                   "Draw error against run time to this .svg, .png or .pdf file")
       ->type_name("FILE");
+  options->print.add_to(*command);
   command->add_option("--format", options->format, "text (default), markdown or json")
       ->check(one_of({"text", "markdown", "json"}))
       ->type_name("FORMAT");

@@ -11,6 +11,7 @@
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/options/kept_parameters.hpp"
+#include "tools/cli/options/picture_options.hpp"
 #include "tools/cli/options/run_options.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
@@ -27,6 +28,7 @@ struct Options {
   KeptParameters kept;
   OtherStart start;
   std::string case_name, output, plot;
+  PictureOptions print;
   std::string in, tag;
   std::vector<std::string> methods = conserving_methods();
   double bound = 1e-9;
@@ -105,6 +107,7 @@ int conserve(const Options& options) {
   if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
   if (options.all && !options.plot.empty()) throw UsageError("--plot needs a CASE");
   if (!options.plot.empty()) check_plot_name(options.plot);
+  options.print.check(!options.plot.empty());
   Picture picture;
   const std::vector<Row> rows = conserve_cases(options, picture);
   if (!options.output.empty()) {
@@ -131,7 +134,8 @@ int conserve(const Options& options) {
                                           refused));
   }
   // The rows first: pictures need a program that may be missing.
-  if (!options.plot.empty()) draw(drift_picture(picture.title, picture.drifts), options.plot);
+  if (!options.plot.empty())
+    draw(drift_picture(picture.title, picture.drifts), options.print.sheet(options.plot));
   return failed == 0 ? kDone : kFailed;
 }
 
@@ -161,7 +165,8 @@ void register_conserve(CLI::App& program, Action& action) {
       ->add_option("--plot", options->plot,
                    "Draw drift against time, of the default scene or that of --scene: a curve an "
                    "invariant, or with several methods a curve a method")
-      ->type_name("FILE.svg|png");
+      ->type_name("FILE.svg|png|pdf");
+  options->print.add_to(*command);
   command->callback([options, &action] { action = [options] { return conserve(*options); }; });
 }
 

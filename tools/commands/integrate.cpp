@@ -17,6 +17,7 @@
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/options/kept_parameters.hpp"
 #include "tools/cli/options/motion_options.hpp"
+#include "tools/cli/options/picture_options.hpp"
 #include "tools/cli/options/run_options.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/watched_run.hpp"
@@ -41,6 +42,7 @@ struct Options {
   KeptParameters kept;
   OtherStart start;
   MotionOptions picture;
+  PictureOptions print;
   std::string case_name, method = "auto", output, ensemble, in, as;
   std::vector<std::string> observe;
   double every = 0;
@@ -226,7 +228,7 @@ void draw_motion(const Model& model, const Scene& scene, const PreparedScene& ru
                  const AssessedRun& judged, const Options& options) {
   if (!options.picture.wanted()) return;
   draw(options.picture.picture(model, scene, motion_of(run, judged, options.every)),
-       printable(options.picture.file(), 200));
+       options.print.sheet(options.picture.file()));
   if (!options.common.json && !options.common.quiet)
     fmt::print("  drew {}\n", printable(options.picture.file(), 200));
 }
@@ -258,6 +260,7 @@ int iterate_case(const MapCaseFile& file, const Options& options) {
 
 int integrate_case(const Options& options) {
   options.picture.check();
+  options.print.check(options.picture.wanted());
   if (options.validated) return enclose_case(options);
   if (options.initial_radius) throw UsageError("--initial-radius needs --validated");
   for (const std::string& word : options.common.params)
@@ -366,6 +369,7 @@ void register_integrate(CLI::App& program, Action& action) {
       ->allow_extra_args(false)
       ->type_name("A,B");
   options->picture.add_to(*command);
+  options->print.add_to(*command);
   command->add_flag("--general", options->general,
                     "Parameters at run time and nothing left out, for comparison");
   command->callback(

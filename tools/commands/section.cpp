@@ -11,6 +11,7 @@
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/options/choices.hpp"
+#include "tools/cli/options/picture_options.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/plot/gnuplot.hpp"
 #include "tools/runs/scene_values.hpp"
@@ -29,6 +30,7 @@ struct Options {
   std::string case_name, seeds;
   SectionOptions request;
   std::vector<std::string> outputs;
+  PictureOptions print;
   std::size_t orbits = 40, points = 500, cycles = 0;
   bool fixed_points = false, validated = false;
   double tolerance = 1e-14;
@@ -44,15 +46,12 @@ constexpr std::size_t kStarts = 400;
 /// Orbits are begun in turns, of so many at least: they fill the registers of some cores.
 constexpr std::size_t kOrbitsOfTurn = 16, kTurns = 4;
 
-bool is_picture(const std::string& path) {
-  return path.ends_with(".svg") || path.ends_with(".png");
-}
-
 void check_usage(const Options& options) {
   for (const std::string& path : options.outputs)
-    if (!is_picture(path) && !path.ends_with(".csv"))
-      throw UsageError(fmt::format("'{}': an output's name must end in .csv, .svg or .png",
-                                   printable(path, 200)));
+    if (!is_picture_name(path) && !path.ends_with(".csv"))
+      throw UsageError(fmt::format("'{}': an output's name must end in .csv, {}",
+                                   printable(path, 200), kPictureNames));
+  options.print.check(std::ranges::any_of(options.outputs, is_picture_name));
   if (options.validated && options.longest_cycle() == 0)
     throw UsageError("--validated proves cycles: it needs --cycles N or --fixed-points");
 }
@@ -235,7 +234,7 @@ class Section {
   void deliver(const SectionReport& report) const {
     bool table = false;
     for (const std::string& path : options_.outputs) {
-      if (is_picture(path)) continue;
+      if (is_picture_name(path)) continue;
       write_csv(report, path);
       table = true;
     }
@@ -245,9 +244,9 @@ class Section {
       print_text(report);
     std::cout.flush();
     for (const std::string& path : options_.outputs) {
-      if (is_picture(path))
+      if (is_picture_name(path))
         draw_section(problem_, model_.title + ", " + problem_.level_text(), report.orbits,
-                     report.cycles.cycles, path);
+                     report.cycles.cycles, options_.print.sheet(path));
       if (!options_.common.quiet && !options_.common.json)
         fmt::print("  wrote {}\n", printable(path, 200));
     }
@@ -399,10 +398,11 @@ void register_section(CLI::App& program, Action& action) {
       ->check(CLI::PositiveNumber);
   command
       ->add_option("--output,--plot", options->outputs,
-                   "Write the crossings to a .csv file, or draw them to an .svg or .png file "
+                   "Write the crossings to a .csv file, or draw them to an .svg, .png or .pdf file "
                    "(repeatable)")
       ->allow_extra_args(false)
       ->type_name("FILE");
+  options->print.add_to(*command);
   command->callback([options, &action] { action = [options] { return section(*options); }; });
 }
 

@@ -15,6 +15,7 @@
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
+#include "tools/cli/options/picture_options.hpp"
 #include "tools/cli/options/run_options.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
@@ -32,6 +33,7 @@ struct Options {
   Common common;
   std::vector<std::string> cases, methods;
   std::string tag, in, output, plot;
+  PictureOptions print;
   std::optional<double> tolerance;
   double cell_limit = 5, reference_limit = 30;
   int jobs = 0;
@@ -291,6 +293,7 @@ int stress(const Options& options) {
   if (options.all == !options.cases.empty()) throw UsageError("stress needs either CASES or --all");
   if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
   if (!options.plot.empty()) check_plot_name(options.plot);
+  options.print.check(!options.plot.empty());
   Stress stress(options);
   const StressMatrix matrix = stress.run();
   if (!options.output.empty()) {
@@ -302,7 +305,7 @@ int stress(const Options& options) {
     print_json(to_json(matrix));
   else if (!options.common.quiet)
     print(matrix);
-  if (!options.plot.empty()) draw_matrix(matrix, options.plot);
+  if (!options.plot.empty()) draw_matrix(matrix, options.print.sheet(options.plot));
   if (matrix.failed() > 0) return kFailed;
   if (stress.out_of_time()) throw SystemError("the time limit was reached");
   return kDone;
@@ -362,7 +365,8 @@ void register_stress(CLI::App& program, Action& action) {
       ->type_name("N")
       ->check(CLI::PositiveNumber);
   add_csv_output(*command, options->output, "Write a row for each cell to this CSV file");
-  command->add_option("--plot", options->plot, "Draw the matrix")->type_name("FILE.svg|png");
+  command->add_option("--plot", options->plot, "Draw the matrix")->type_name("FILE.svg|png|pdf");
+  options->print.add_to(*command);
   command->callback([options, &action] { action = [options] { return stress(*options); }; });
 }
 

@@ -79,7 +79,7 @@ Curve DriftRecord::largest() const {
 Plot drift_picture(const std::string& title, const std::vector<DriftRecord>& records) {
   Plot plot{.title = title,
             .x_label = "time",
-            .y_label = "drift of an invariant, relative to its size",
+            .y_label = "relative drift of an invariant",
             .log_y = true};
   if (records.size() == 1) {
     plot.title += ", " + records.front().method();
@@ -87,7 +87,7 @@ Plot drift_picture(const std::string& title, const std::vector<DriftRecord>& rec
       plot.curves.push_back(without_zeros(std::move(curve)));
     return plot;
   }
-  plot.y_label = "largest drift of the invariants, relative to their size";
+  plot.y_label = "largest relative drift of the invariants";
   for (const DriftRecord& record : records) plot.curves.push_back(without_zeros(record.largest()));
   return plot;
 }

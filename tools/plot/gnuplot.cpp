@@ -14,6 +14,7 @@
 
 #include "symbolic/error.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/text/text_layout.hpp"
 
 extern char** environ;
 
@@ -51,17 +52,25 @@ bool is_whole(const std::string& picture) {
   std::string end(static_cast<std::size_t>(std::max<std::streamoff>(size, 0)), '\0');
   in.seekg(-size, std::ios::end);
   in.read(end.data(), size);
-  return in && (end.find("</svg>") != std::string::npos || end.find("IEND") != std::string::npos);
+  return in && (end.find("</svg>") != std::string::npos || end.find("IEND") != std::string::npos ||
+                end.find("%%EOF") != std::string::npos);
 }
 
 }  // namespace
 
 std::string quoted(const std::string& text) {
   std::string result = "'";
-  for (const char c : text) {
-    if (c >= ' ' && c <= '~' && c != '\'' && c != '`' && c != '\\') result += c;
+  for (const char c : one_line(text)) {
+    if (c != '\'' && c != '`' && c != '\\') result += c;
   }
   return result + "'";
+}
+
+std::string quoted_lines(const std::string& text, std::size_t letters) {
+  std::string lines;
+  for (const std::string& line : wrapped(text, letters))
+    lines += (lines.empty() ? "" : ".\"\\n\".") + quoted(line);
+  return lines.empty() ? "''" : lines;
 }
 
 std::string quoted_path(const std::string& path) {
@@ -69,13 +78,6 @@ std::string quoted_path(const std::string& path) {
     throw UsageError("a plot's name must not contain quotes");
   // From the root on: gnuplot runs what follows a '|', and takes a '-' for an option.
   return "'" + std::filesystem::absolute(path).string() + "'";
-}
-
-void check_plot_name(const std::string& path) {
-  if (!path.ends_with(".svg") && !path.ends_with(".png")) {
-    throw UsageError(
-        fmt::format("'{}': a plot's name must end in .svg or .png", printable(path, 200)));
-  }
 }
 
 void draw_script(const std::string& script, OutputFile& picture) {

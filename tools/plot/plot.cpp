@@ -45,9 +45,10 @@ std::size_t marked_every(const Curve& curve, std::size_t group) {
   return std::max<std::size_t>(1, points / kMarksOfLine + group % 6 * points / (kStagger * 12));
 }
 
-std::string style_of(const Curve& curve, std::size_t group) {
+std::string style_of(const Curve& curve, std::size_t group, const Print& print) {
   const Mark mark = kMarks[group % std::size(kMarks)];
-  const char* colour = kColours[group % std::size(kColours)];
+  // Curves in grey would be hard to tell apart, and to see.
+  const std::string colour = print.monochrome ? "#000000" : kColours[group % std::size(kColours)];
   switch (curve.style) {
     case Curve::Style::line:
       return fmt::format("linespoints lw 1.6 dt {} pt {} ps 0.9 pi {} lc rgb '{}'",
@@ -91,28 +92,31 @@ std::string data_of(const Plot& plot, const Curve& curve) {
   return points;
 }
 
-std::string axes(const Plot& plot) {
+std::string axes(const Plot& plot, const Print& print) {
   std::string text;
-  if (!plot.title.empty()) text += fmt::format("set title {}\n", quoted(plot.title));
+  if (!plot.title.empty() && print.title)
+    text += fmt::format("set title {} noenhanced\n",
+                        quoted_lines(plot.title, letters_across(print, 0.9)));
   if (plot.square) {
     text += "set size ratio -1\nunset border\nunset tics\nset lmargin 2\nset rmargin 2\n";
   } else {
-    text +=
-        fmt::format("set xlabel {}\nset ylabel {}\n", quoted(plot.x_label), quoted(plot.y_label));
+    text += fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\n",
+                        quoted_lines(plot.x_label, letters_across(print, 0.8)),
+                        quoted_lines(plot.y_label, letters_across(print, 0.5)));
     text +=
         fmt::format("set grid lt 1 lw 0.8 lc rgb '{}'\nset tics nomirror\nset border 3\n", kGrid);
   }
-  if (plot.log_x) text += "set logscale x\nunset mxtics\nset format x '1e%T'\n";
-  if (plot.log_y) text += "set logscale y\nset format y '1e%T'\n";
+  if (plot.log_x) text += "set logscale x\nunset mxtics\nset format x '10^{%T}'\n";
+  if (plot.log_y) text += "set logscale y\nset format y '10^{%T}'\n";
   if (!plot.y_unit.empty())
-    text += fmt::format("set format y {}\n", quoted("%.0s %c" + plot.y_unit));
+    text += fmt::format("set micro\nset format y {}\n", quoted("%.0s %c" + plot.y_unit));
   return text;
 }
 
-std::string script(const Plot& plot, const std::string& terminal, const std::string& key,
-                   const std::string& output) {
-  std::string text = fmt::format("set encoding utf8\nset terminal {} noenhanced\nset output {}\n{}",
-                                 terminal, quoted_path(output), axes(plot));
+std::string script(const Plot& plot, const Print& print, const std::string& terminal,
+                   const std::string& key, const std::string& output) {
+  std::string text = fmt::format("set encoding utf8\nset terminal {} enhanced\nset output {}\n{}",
+                                 terminal, quoted_path(output), axes(plot, print));
   const bool legend = std::ranges::any_of(plot.curves, in_legend);
   text += legend ? "set key " + key + "\n" : "unset key\n";
   std::string commands;
@@ -124,8 +128,9 @@ std::string script(const Plot& plot, const std::string& terminal, const std::str
       text += fmt::format("$curve{} << EOD\n{}EOD\n", i, points);
       commands +=
           fmt::format("{}$curve{} using 1:2 with {} {}", commands.empty() ? "plot " : ", \\\n     ",
-                      i, style_of(curve, group),
-                      in_legend(curve) ? "title " + quoted(curve.name) : std::string("notitle"));
+                      i, style_of(curve, group, print),
+                      in_legend(curve) ? "title " + quoted(curve.name) + " noenhanced"
+                                       : std::string("notitle"));
     }
     const bool next_has_it =
         curve.style == Curve::Style::guide || curve.style == Curve::Style::faint ||
@@ -142,14 +147,45 @@ std::string script(const Plot& plot, const std::string& terminal, const std::str
 
 constexpr const char* kKeyBeside = "outside right top Left reverse";
 
-std::string svg_terminal(const Plot& plot) {
-  return fmt::format("svg size {} dynamic background rgb 'white' font 'sans,13'",
-                     plot.square ? "720,760" : "1000,600");
+ScreenSize screen_size(const Plot& plot) {
+  return plot.square ? ScreenSize{720, 760, 13} : ScreenSize{1000, 600, 13};
 }
 
-std::string png_terminal(const Plot& plot) {
-  return fmt::format("pngcairo size {} font 'sans,13' background rgb 'white'",
-                     plot.square ? "940,990" : "1300,780");
+/// A legend below the curves: as many columns as the longest name allows, where gnuplot itself
+/// would take one.
+struct KeyBelow {
+  std::size_t lines = 0;
+  std::string key;
+};
+
+/// \param width  of the picture, and `sample` of what stands before a name, in letters
+KeyBelow key_below(const Plot& plot, double width, double sample) {
+  std::size_t entries = 0, longest = 0;
+  for (const Curve& curve : plot.curves) {
+    if (!in_legend(curve)) continue;
+    ++entries;
+    longest = std::max(longest, curve.name.size());
+  }
+  const double columns =
+      std::clamp(std::floor(width / (sample + static_cast<double>(longest))), 1., 4.);
+  const auto lines = static_cast<std::size_t>(std::ceil(static_cast<double>(entries) / columns));
+  return {lines, fmt::format("below center vertical maxrows {} Left reverse spacing 1.15", lines)};
+}
+
+std::string sheet_script(const Plot& plot, const Sheet& sheet, const std::string& output) {
+  const ScreenSize screen = screen_size(plot);
+  if (!is_narrow(sheet.print))
+    return script(plot, sheet.print, terminal_of(sheet, screen), kKeyBeside, output);
+  // In a column the legend stands below, and makes the figure higher.
+  constexpr double kSample = 9, kMillimetresOfLine = 3.6;
+  const auto [lines, key] =
+      key_below(plot, static_cast<double>(letters_across(sheet.print, 1)), kSample);
+  Sheet higher = sheet;
+  if (!higher.print.height)
+    higher.print.height =
+        height_in_print(sheet.print, screen) + kMillimetresOfLine * static_cast<double>(lines);
+  return script(plot, sheet.print, terminal_of(higher, screen), key + "\nset xlabel offset 0,0.4",
+                output);
 }
 
 /// The element in what gnuplot wrote, with `name` before every identifier.
@@ -203,45 +239,30 @@ void use_variables(std::string& svg) {
 
 }  // namespace
 
-std::string plot_script(const Plot& plot, const std::string& path, const std::string& output) {
-  return script(plot, path.ends_with(".svg") ? svg_terminal(plot) : png_terminal(plot), kKeyBeside,
-                output);
-}
-
-void draw(const Plot& plot, const std::string& path) {
-  check_plot_name(path);
-  OutputFile picture(path);
-  draw_script(plot_script(plot, path, picture.temporary().string()), picture);
+void draw(const Plot& plot, const Sheet& sheet) {
+  check_plot_name(sheet.path);
+  OutputFile picture(sheet.path);
+  draw_script(sheet_script(plot, sheet, picture.temporary().string()), picture);
   picture.commit();
 }
 
 std::string svg_element(const Plot& plot, const std::string& name, const std::string& beside) {
   OutputFile picture(beside + "." + name + ".svg");
-  draw_script(plot_script(plot, ".svg", picture.temporary().string()), picture);
+  draw_script(sheet_script(plot, {".svg"}, picture.temporary().string()), picture);
   return element_of(picture, name);
 }
 
 std::string page_svg(const Plot& plot, const std::string& name, const std::string& beside) {
   constexpr std::size_t kWidth = 640, kHeight = 440, kLine = 24;
-  // As many columns as the longest name allows: gnuplot itself would take one.
-  constexpr std::size_t kSample = 60, kLetter = 8;
-  std::size_t entries = 0, longest = 0;
-  for (const Curve& curve : plot.curves) {
-    if (!in_legend(curve)) continue;
-    ++entries;
-    longest = std::max(longest, curve.name.size());
-  }
-  const std::size_t columns = std::clamp<std::size_t>(kWidth / (kSample + kLetter * longest), 1, 4);
-  const std::size_t lines = (entries + columns - 1) / columns;
+  constexpr double kLetter = 8, kSample = 60;
+  const auto [lines, below] = key_below(plot, kWidth / kLetter, kSample / kLetter);
   const std::string terminal =
       fmt::format("svg size {},{} dynamic background rgb 'white' font 'sans,15'",
                   plot.square ? kHeight : kWidth, kHeight + kLine * lines);
-  const std::string key = fmt::format(
-      "below center vertical maxrows {} Left reverse spacing 1.15 font ',13'\n"
-      "set xlabel offset 0,0.4",
-      lines);
-  return page_svg([&](const std::string& output) { return script(plot, terminal, key, output); },
-                  name, beside);
+  const std::string key = below + " font ',13'\nset xlabel offset 0,0.4";
+  return page_svg(
+      [&](const std::string& output) { return script(plot, {}, terminal, key, output); }, name,
+      beside);
 }
 
 std::string page_svg(const std::function<std::string(const std::string& output)>& script_for,

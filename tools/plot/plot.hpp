@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/plot/gnuplot.hpp"
+#include "tools/plot/sheet.hpp"
 
 namespace casimir::tools {
 
@@ -38,10 +39,7 @@ struct Plot {
 /// Draws with gnuplot, which is run directly, not through a shell.
 /// \throws SystemError  if gnuplot is missing (saying what to install), fails, or the file cannot
 ///                      be written.
-void draw(const Plot& plot, const std::string& path);
-
-/// What `draw` would write to a file of that name, as a script for gnuplot.
-std::string plot_script(const Plot& plot, const std::string& path, const std::string& output);
+void draw(const Plot& plot, const Sheet& sheet);
 
 /// The same picture as the text of an SVG element, to stand inside a page: without the lines before
 /// it, and with `name` (letters, digits and '-') before every identifier, so that several of them

@@ -1,11 +1,11 @@
 // The claims of a report with their verdicts.
 #include <fmt/format.h>
 
-#include "tools/typeset/html.hpp"
 #include "tools/report/page.hpp"
 #include "tools/text/proof_report.hpp"
 #include "tools/text/proof_table.hpp"
 #include "tools/text/run_report.hpp"
+#include "tools/typeset/html.hpp"
 
 namespace casimir::tools {
 namespace {

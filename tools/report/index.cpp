@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "tools/bench/comparison.hpp"
-#include "tools/typeset/html.hpp"
 #include "tools/report/page.hpp"
 #include "tools/show/book_order.hpp"
 #include "tools/text/proof_table.hpp"
+#include "tools/typeset/html.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -8,9 +8,9 @@
 #include "tools/bench/comparison.hpp"
 #include "tools/bench/report.hpp"
 #include "tools/bench/report_html.hpp"
-#include "tools/typeset/html.hpp"
 #include "tools/report/page.hpp"
 #include "tools/text/generated_report.hpp"
+#include "tools/typeset/html.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -6,9 +6,9 @@
 #include <ctime>
 
 #include "symbolic/error.hpp"
-#include "tools/typeset/html.hpp"
 #include "tools/report/style.hpp"
 #include "tools/text/proof_table.hpp"
+#include "tools/typeset/html.hpp"
 
 namespace casimir::tools {
 namespace {

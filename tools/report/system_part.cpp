@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "symbolic/algebra/number_text.hpp"
-#include "tools/typeset/html.hpp"
-#include "tools/typeset/mathml.hpp"
 #include "tools/report/page.hpp"
 #include "tools/show/show.hpp"
+#include "tools/typeset/html.hpp"
+#include "tools/typeset/mathml.hpp"
 
 namespace casimir::tools {
 namespace {

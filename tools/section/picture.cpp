@@ -26,7 +26,7 @@ std::string label_of(const PlottedFunction& function) {
   if (!is_angle(function)) return function.label;
   const bool plain = std::ranges::all_of(
       function.label, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
-  return (plain ? function.label : "(" + function.label + ")") + " / pi";
+  return (plain ? function.label : "(" + function.label + ")") + "/π";
 }
 
 /// An axis of the picture: which part of it is shown.
@@ -69,14 +69,14 @@ double unit_of(const PlottedFunction& function) { return is_angle(function) ? kP
 
 class Drawing {
  public:
-  explicit Drawing(const SectionProblem& problem) : problem_(problem) {}
+  Drawing(const SectionProblem& problem, const Print& print) : problem_(problem), print_(print) {}
 
   void add(const std::string& points, const std::string& style, const std::string& name) {
     if (points.empty()) return;
     blocks_ += fmt::format("$set{} << EOD\n{}EOD\n", count_, points);
     plots_ += fmt::format("{}$set{} using 1:2 with points {} {}",
                           plots_.empty() ? "plot " : ", \\\n     ", count_++, style,
-                          name.empty() ? "notitle" : "title " + quoted(name));
+                          name.empty() ? "notitle" : "title " + quoted(name) + " noenhanced");
   }
 
   /// An entry of the legend, with a mark of its own: those in the picture are too small.
@@ -106,30 +106,33 @@ class Drawing {
 
   std::string script(const std::string& title, const std::string& terminal,
                      const std::string& output) const {
-    std::string text =
-        fmt::format("set encoding utf8\nset terminal {} noenhanced\nset output {}\nset title {}\n",
-                    terminal, quoted_path(output), quoted(title));
+    std::string text = fmt::format("set encoding utf8\nset terminal {} enhanced\nset output {}\n",
+                                   terminal, quoted_path(output));
+    if (print_.title)
+      text += fmt::format("set title {} noenhanced\n",
+                          quoted_lines(title, letters_across(print_, 0.9)));
     for (std::size_t k = 0; k < 2; ++k) {
       const double unit = unit_of(problem_.plotted[k]);
-      text += fmt::format("set {0}label {1}\nset {0}range [{2:.9g}:{3:.9g}]\n", k == 0 ? 'x' : 'y',
-                          quoted(label_of(problem_.plotted[k])), axes_[k].from / unit,
-                          axes_[k].to / unit);
+      text += fmt::format("set {0}label {1} noenhanced\nset {0}range [{2:.9g}:{3:.9g}]\n",
+                          k == 0 ? 'x' : 'y', quoted(label_of(problem_.plotted[k])),
+                          axes_[k].from / unit, axes_[k].to / unit);
     }
     text +=
-        "set key outside top center horizontal samplen 1\nset border 15 lw 1\n"
-        "set tics out nomirror\n";
+        "set key outside bottom center horizontal samplen 1\nset border 15 lw 1\n"
+        "set tics out nomirror\nset xlabel offset 0,0.3\n";
     if (plots_.empty()) return text + "plot 1/0 notitle\n";
     return text + blocks_ + plots_ + "\n";
   }
 
  private:
   const SectionProblem& problem_;
+  const Print& print_;
   std::array<Axis, 2> axes_;
   std::string blocks_, plots_;
   int count_ = 0;
 };
 
-void add_orbits(Drawing& drawing, const std::vector<OrbitReport>& orbits) {
+void add_orbits(Drawing& drawing, const std::vector<OrbitReport>& orbits, const Print& print) {
   std::size_t total = 0;
   for (const OrbitReport& orbit : orbits) total += orbit.places.size();
   const double size =
@@ -143,13 +146,14 @@ void add_orbits(Drawing& drawing, const std::vector<OrbitReport>& orbits) {
   for (const OrbitReport& orbit : orbits) {
     if (orbit.chaotic || !orbit.judged) continue;
     regular = true;
-    drawing.add(
-        drawing.places(orbit.places),
-        fmt::format("pt 7 ps {:.3f} lc rgb '{}'", size, kColours[colour++ % std::size(kColours)]),
-        "");
+    drawing.add(drawing.places(orbit.places),
+                fmt::format("pt 7 ps {:.3f} lc rgb '{}'", size,
+                            ink(print, kColours[colour++ % std::size(kColours)])),
+                "");
   }
   if (regular)
-    drawing.explain(fmt::format("pt 7 ps 0.8 lc rgb '{}'", kColours[0]), "regular orbits");
+    drawing.explain(fmt::format("pt 7 ps 0.8 lc rgb '{}'", ink(print, kColours[0])),
+                    "regular orbits");
   if (!chaos.empty())
     drawing.explain(fmt::format("pt 7 ps 0.8 lc rgb '{}'", kChaos), "chaotic orbits");
 }
@@ -174,25 +178,23 @@ void add_cycles(Drawing& drawing, const std::vector<Cycle>& cycles) {
 
 std::string section_script(const SectionProblem& problem, const std::string& title,
                            const std::vector<OrbitReport>& orbits, const std::vector<Cycle>& cycles,
-                           const std::string& terminal, const std::string& output) {
-  Drawing drawing(problem);
+                           const Print& print, const std::string& terminal,
+                           const std::string& output) {
+  Drawing drawing(problem, print);
   drawing.bound(orbits);
-  add_orbits(drawing, orbits);
+  add_orbits(drawing, orbits, print);
   add_cycles(drawing, cycles);
   return drawing.script(title, terminal, output);
 }
 
 void draw_section(const SectionProblem& problem, const std::string& title,
                   const std::vector<OrbitReport>& orbits, const std::vector<Cycle>& cycles,
-                  const std::string& path) {
-  check_plot_name(path);
-  const std::string terminal =
-      path.ends_with(".svg") ? "svg size 1000,700 dynamic background rgb 'white' font 'sans,14'"
-                             : "pngcairo size 1400,980 font 'sans,16' background rgb 'white'";
-  OutputFile picture(path);
-  draw_script(
-      section_script(problem, title, orbits, cycles, terminal, picture.temporary().string()),
-      picture);
+                  const Sheet& sheet) {
+  check_plot_name(sheet.path);
+  OutputFile picture(sheet.path);
+  draw_script(section_script(problem, title, orbits, cycles, sheet.print,
+                             terminal_of(sheet, {1000, 700, 14}), picture.temporary().string()),
+              picture);
   picture.commit();
 }
 

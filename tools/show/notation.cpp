@@ -130,7 +130,8 @@ Math Notation::on_paper(const std::string& symbol) const {
 }
 
 Written Notation::written(const codegen::Scaled& e) const {
-  return {dag_->text(e), typeset::math(*dag_, e, [this](const std::string& s) { return on_paper(s); })};
+  return {dag_->text(e),
+          typeset::math(*dag_, e, [this](const std::string& s) { return on_paper(s); })};
 }
 
 Written Notation::components(const ex& e) { return written(converted(*dag_, e)); }

@@ -74,7 +74,7 @@ class Notation {
 
   const Model& model_;
   std::optional<VectorForm> form_;
-  std::vector<Triple> constants_;             ///< of parameters
+  std::vector<Triple> constants_;               ///< of parameters
   std::map<std::string, std::string> heads_;    ///< of a vector's name: the letter for it on paper
   std::map<std::string, typeset::Math> paper_;  ///< of symbols that are not written as their names
   std::vector<GiNaC::symbol> symbols_;

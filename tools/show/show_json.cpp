@@ -57,7 +57,8 @@ Json object(const std::vector<Formula>& formulas) {
 
 /// In vectors: keys are the left sides of the formulas, as the text has them.
 void add_view(Json& json, const SystemView& view) {
-  for (const VectorEntries& vector : view.vectors) json["vectors"][vector.name] = texts(vector.entries);
+  for (const VectorEntries& vector : view.vectors)
+    json["vectors"][vector.name] = texts(vector.entries);
   if (!view.vector_brackets.empty()) json["vector_brackets"] = object(view.vector_brackets);
   if (!view.vector_equations.empty()) {
     json["vector_equations"] = object(view.vector_equations);

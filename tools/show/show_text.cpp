@@ -37,8 +37,7 @@ void print_formulas(const std::string& title, const std::vector<Formula>& formul
   for (const Formula& f : formulas) width = std::max(width, display_width(f.left.text));
   constexpr std::size_t kLongName = 24;
   for (const Formula& f : formulas) {
-    fmt::print("  {} = {}{}\n", padded(f.left.text, width > kLongName ? 0 : width),
-               f.right.text,
+    fmt::print("  {} = {}{}\n", padded(f.left.text, width > kLongName ? 0 : width), f.right.text,
                f.on.empty() ? "" : fmt::format("  on {} = 0", fmt::join(texts(f.on), " = ")));
   }
 }

@@ -129,7 +129,8 @@ Written Writer::index_value(const BlockBracket& b) const {
   for (const BlockTerm& term : b.v) {
     Written entry = notation_.component(block(term.block), vectors ? "k" : "i");
     if (vectors) {
-      const Math epsilon = typeset::with_index(typeset::symbol("varepsilon"), typeset::letter("ijk"));
+      const Math epsilon =
+          typeset::with_index(typeset::symbol("varepsilon"), typeset::letter("ijk"));
       entry = {"eps_ijk " + entry.text, typeset::product({epsilon, entry.math})};
     }
     terms.push_back({term.coefficient, {entry}});
@@ -192,7 +193,8 @@ Phrase Writer::flow_phrase(std::size_t target, const FlowTerm& term) const {
   }
   if (!block(term.gradient).is_vector())
     return {{"(" + right.text + ") " + left.text, typeset::product({right.math, left.math})}, true};
-  return {{left.text + " x " + right.text, {typeset::Kind::cross, {}, {left.math, right.math}}}, true};
+  return {{left.text + " x " + right.text, {typeset::Kind::cross, {}, {left.math, right.math}}},
+          true};
 }
 
 void Writer::add_vector_motion(SystemView& view) const {
@@ -206,8 +208,7 @@ void Writer::add_vector_motion(SystemView& view) const {
       occurs[term.gradient] = true;
       terms.emplace_back(term.coefficient, flow_phrase(target, term));
     }
-    view.vector_equations.push_back(
-        {rate(shown(target)), notation_.combination(terms)});
+    view.vector_equations.push_back({rate(shown(target)), notation_.combination(terms)});
   }
   for (std::size_t i = 0; i < form.blocks.size(); ++i) {
     if (!occurs[i]) continue;
@@ -245,16 +246,15 @@ void Writer::add_claims(SystemView& view) const {
     return Formula{{"rho", typeset::letter("rho")}, notation_.expression(measure.density.value)};
   });
   add("identities", model_.identities, [&](const Identity& identity) {
-    return Formula{notation_.expression(identity.left),
-                   notation_.expression(identity.right), expressions(identity.on)};
+    return Formula{notation_.expression(identity.left), notation_.expression(identity.right),
+                   expressions(identity.on)};
   });
   for (const PoissonMap& map : model_.maps) {
     view.claims.push_back({(map.sign < 0 ? "anti-Poisson map " : "Poisson map ") + map.name, {}});
     const auto& y = map.target.coordinates();
     for (std::size_t i = 0; i < y.size(); ++i) {
-      view.claims.back().formulas.push_back({notation_.name(y[i]),
-                                             notation_.expression(map.expressions[i]),
-                                             expressions(map.on)});
+      view.claims.back().formulas.push_back(
+          {notation_.name(y[i]), notation_.expression(map.expressions[i]), expressions(map.on)});
     }
   }
 }
@@ -262,8 +262,7 @@ void Writer::add_claims(SystemView& view) const {
 WrittenMatrix Writer::matrix(const GiNaC::matrix& m) const {
   WrittenMatrix result(m.rows());
   for (unsigned i = 0; i < m.rows(); ++i) {
-    for (unsigned j = 0; j < m.cols(); ++j)
-      result[i].push_back(notation_.components(m(i, j)));
+    for (unsigned j = 0; j < m.cols(); ++j) result[i].push_back(notation_.components(m(i, j)));
   }
   return result;
 }
@@ -303,8 +302,7 @@ SystemView view_of(const MapModel& map, Notation& notation) {
     const auto add = [&](const std::vector<GiNaC::symbol>& names, const std::vector<ex>& values) {
       for (std::size_t i = 0; i < names.size(); ++i) {
         if (!values[i].is_equal(names[i]))
-          group.formulas.push_back(
-              {notation.name(names[i]), notation.components(values[i])});
+          group.formulas.push_back({notation.name(names[i]), notation.components(values[i])});
       }
     };
     add(map.base.variables, symmetry.variables);

@@ -64,8 +64,8 @@ typeset::MathMatrix maths(const WrittenMatrix& matrix);
 
 /// The rank of the bracket on the generic leaf.
 struct RankView {
-  std::string name;      ///< "rank 4"
-  std::string evidence;  ///< or why it is not known
+  std::string name;                 ///< "rank 4"
+  std::string evidence;             ///< or why it is not known
   std::optional<std::size_t> rank;  ///< where it is proved
 };
 

@@ -38,18 +38,21 @@ Look look_of(const StressCell& cell) {
   }
 }
 
-constexpr int kRowHeight = 22, kColumnWidth = 70;
+constexpr std::size_t kRowHeight = 22, kColumnWidth = 70;
+constexpr double kLetters = 12;
 
 /// The cell in column x and row y, as an object and a label.
-std::string cell_commands(const StressCell& cell, double x, double y, bool fastest) {
+std::string cell_commands(const StressCell& cell, double x, double y, bool fastest,
+                          const Print& print, double letters) {
   const Look look = look_of(cell);
   constexpr double kHalf = 0.47;
   return fmt::format(
       "set object rect from {:g},{:g} to {:g},{:g} fc rgb '{}' fs solid 1 border lc rgb '{}' lw "
       "{}\n"
-      "set label {} at {:g},{:g} center tc rgb '{}' font ',11'\n",
-      x - kHalf, y - kHalf, x + kHalf, y + kHalf, look.fill, fastest ? "#000000" : "#ffffff",
-      fastest ? "2.5" : "1", quoted(look.text), x, y, look.ink);
+      "set label {} at {:g},{:g} center tc rgb '{}' font ',{:.3g}'\n",
+      x - kHalf, y - kHalf, x + kHalf, y + kHalf, ink(print, look.fill),
+      fastest ? "#000000" : "#ffffff", fastest ? "2.5" : "1", quoted(look.text), x, y, look.ink,
+      0.9 * letters);
 }
 
 std::string tics(const std::vector<std::string>& names) {
@@ -59,7 +62,7 @@ std::string tics(const std::vector<std::string>& names) {
   return "(" + list + ")";
 }
 
-std::string script(const StressMatrix& matrix, const std::string& path, const std::string& output) {
+std::string script(const StressMatrix& matrix, const Sheet& sheet, const std::string& output) {
   const std::size_t columns = matrix.columns.size(), rows = matrix.lines.size();
   std::size_t label = 0;
   std::vector<std::string> methods, scenes;
@@ -70,21 +73,27 @@ std::string script(const StressMatrix& matrix, const std::string& path, const st
                                  line.extreme.empty() ? "ordinary" : line.extreme));
     label = std::max(label, scenes.back().size());
   }
-  const std::size_t width = 90 + 9 * label + kColumnWidth * std::max<std::size_t>(columns, 5);
-  const std::size_t height = 340 + kRowHeight * rows;
-  std::string text = fmt::format(
-      "set encoding utf8\nset terminal {} size {},{} background rgb 'white' font 'sans,12' "
-      "noenhanced\nset output {}\n",
-      path.ends_with(".svg") ? "svg dynamic" : "pngcairo", width, height, quoted_path(output));
-  text +=
+  const ScreenSize screen{
+      static_cast<double>(90 + 9 * label + kColumnWidth * std::max<std::size_t>(columns, 5)),
+      static_cast<double>(340 + kRowHeight * rows), kLetters};
+  // A matrix grows and shrinks as a whole.
+  Sheet scaled = sheet;
+  constexpr double kPointsOfMillimetre = 72 / 25.4;
+  if (sheet.print.width && !sheet.print.points)
+    scaled.print.points = kLetters * *sheet.print.width * kPointsOfMillimetre / screen.width;
+  const double letters = letters_of(scaled, screen);
+  std::string text = fmt::format("set encoding utf8\nset terminal {} noenhanced\nset output {}\n",
+                                 terminal_of(scaled, screen), quoted_path(output));
+  text += fmt::format(
       "set label 'Scene by method: the digits that are right, or what became of it instead' at "
-      "screen 0.02, screen 1 left offset 0,-1.2 font ',14'\n"
+      "screen 0.02, screen 1 left offset 0,-1.2 font ',{:.3g}'\n"
       "set label 'heavy frame: the fastest right answer    coarse: ok with few digits' at screen "
       "0.02, screen 0 left offset 0,3.4\n"
       "set label 'WRONG: ok, and it is not    *: of another library' at screen 0.02, screen 0 left "
       "offset 0,2.2\n"
       "set label 'in brackets: the kind of scene' at screen 0.02, screen 0 left offset 0,1\n"
-      "unset key\nunset border\nset tics scale 0\nset tmargin 9\nset bmargin 10\n";
+      "unset key\nunset border\nset tics scale 0\nset tmargin 9\nset bmargin 10\n",
+      1.2 * letters);
   text += fmt::format("set xrange [0.5:{}.5]\nset x2range [0.5:{}.5]\nset yrange [{}.5:0.5]\n",
                       columns, columns, rows);
   text += fmt::format("set xtics rotate by -35 {}\nset x2tics rotate by 35 {}\nset ytics {}\n",
@@ -95,8 +104,9 @@ std::string script(const StressMatrix& matrix, const std::string& path, const st
     const int fastest = StressMatrix::fastest(line);
     for (std::size_t x = 0; x < line.cells.size(); ++x) {
       const bool first = static_cast<int>(x) == fastest;
-      (first ? framed : text) += cell_commands(line.cells[x], static_cast<double>(x + 1),
-                                               static_cast<double>(y + 1), first);
+      (first ? framed : text) +=
+          cell_commands(line.cells[x], static_cast<double>(x + 1), static_cast<double>(y + 1),
+                        first, sheet.print, letters);
     }
   }
   return text + framed + "plot 1/0\n";
@@ -104,10 +114,10 @@ std::string script(const StressMatrix& matrix, const std::string& path, const st
 
 }  // namespace
 
-void draw_matrix(const StressMatrix& matrix, const std::string& path) {
-  check_plot_name(path);
-  OutputFile picture(path);
-  draw_script(script(matrix, path, picture.temporary().string()), picture);
+void draw_matrix(const StressMatrix& matrix, const Sheet& sheet) {
+  check_plot_name(sheet.path);
+  OutputFile picture(sheet.path);
+  draw_script(script(matrix, sheet, picture.temporary().string()), picture);
   picture.commit();
 }
 

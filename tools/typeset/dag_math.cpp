@@ -24,7 +24,8 @@ Math integer(const cln::cl_I& n) { return number(rational_text(n)); }
 /// Of a positive number.
 Math rational(const cln::cl_RA& c) {
   const cln::cl_I below = cln::denominator(c);
-  return below == 1 ? integer(cln::numerator(c)) : fraction(integer(cln::numerator(c)), integer(below));
+  return below == 1 ? integer(cln::numerator(c))
+                    : fraction(integer(cln::numerator(c)), integer(below));
 }
 
 class Typesetter {
@@ -70,7 +71,8 @@ class Typesetter {
   Math product_of(const std::vector<Factor>& factors, const cln::cl_RA& coefficient) const {
     std::vector<Math> above, below;
     for (const Factor& f : parameters_first(factors))
-      (cln::minusp(f.exponent) ? below : above).push_back(power(dag_[f.node], cln::abs(f.exponent)));
+      (cln::minusp(f.exponent) ? below : above)
+          .push_back(power(dag_[f.node], cln::abs(f.exponent)));
     if (below.empty()) {
       if (coefficient != 1) above.insert(above.begin(), rational(coefficient));
       return product(std::move(above));
@@ -122,7 +124,8 @@ class Typesetter {
 
 }  // namespace
 
-Math math(const Dag& dag, const Scaled& expression, const std::function<Math(const std::string&)>& names) {
+Math math(const Dag& dag, const Scaled& expression,
+          const std::function<Math(const std::string&)>& names) {
   return Typesetter(dag, names).scaled(expression);
 }
 

@@ -38,14 +38,14 @@ std::string scripts_text(const Math& formula) {
 /// Whether LaTeX has a command for the function.
 bool has_command(std::string_view function) {
   static constexpr std::array kCommands = std::to_array<std::string_view>(
-      {"arccos", "arcsin", "arctan", "arg", "cos", "cosh", "cot", "coth", "csc", "exp", "lg", "ln",
-       "log", "max", "min", "sec", "sin", "sinh", "tan", "tanh"});
+      {"arccos", "arcsin", "arctan", "arg", "cos", "cosh", "cot", "coth", "csc", "exp",
+       "lg",     "ln",     "log",    "max", "min", "sec",  "sin", "sinh", "tan", "tanh"});
   return std::ranges::find(kCommands, function) != kCommands.end();
 }
 
 std::string call_text(const Math& formula) {
-  std::string text = has_command(formula.text) ? "\\" + formula.text
-                                               : "\\operatorname{" + formula.text + "}";
+  std::string text =
+      has_command(formula.text) ? "\\" + formula.text : "\\operatorname{" + formula.text + "}";
   if (!formula.parts[0].empty()) text += "^{" + latex(formula.parts[0]) + "}";
   return text + grown(joined_text(formula.parts, 1, ", "));
 }

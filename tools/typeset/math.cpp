@@ -59,7 +59,8 @@ Math with_power(Math base, Math power) {
 Math negated(Math term) { return {Kind::sum, {}, {std::move(term)}, {true}}; }
 
 void add_term(Math& sum, Math term) {
-  if (sum.kind != Kind::sum) sum = sum.empty() ? Math{Kind::sum} : Math{Kind::sum, {}, {sum}, {false}};
+  if (sum.kind != Kind::sum)
+    sum = sum.empty() ? Math{Kind::sum} : Math{Kind::sum, {}, {sum}, {false}};
   if (term.kind != Kind::sum) term = {Kind::sum, {}, {std::move(term)}, {false}};
   for (std::size_t i = 0; i < term.parts.size(); ++i) {
     sum.parts.push_back(std::move(term.parts[i]));

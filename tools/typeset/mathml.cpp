@@ -95,7 +95,8 @@ Pieces sum(const Math& formula) {
   for (std::size_t i = 0; i < formula.parts.size(); ++i) {
     if (i > 0 || formula.negative[i]) {
       const std::string sign = formula.negative[i] ? "−" : "+";
-      put(result, {fmt::format("<mo form=\"{}\">{}</mo>", i > 0 ? "infix" : "prefix", sign), 2, i > 0});
+      put(result,
+          {fmt::format("<mo form=\"{}\">{}</mo>", i > 0 ? "infix" : "prefix", sign), 2, i > 0});
     }
     put(result, pieces_of(formula.parts[i]));
   }
@@ -138,8 +139,8 @@ Pieces brackets(const Pieces& inside) {
   const Piece all = joined(inside);
   if (all.width < kLongBracket) {
     const char* mo = all.tall ? "<mo>" : "<mo stretchy=\"false\">";
-    return {{fmt::format("<mrow>{0}(</mo>{1}{0})</mo></mrow>", mo, all.markup), all.width + 2, false,
-             all.tall}};
+    return {{fmt::format("<mrow>{0}(</mo>{1}{0})</mo></mrow>", mo, all.markup), all.width + 2,
+             false, all.tall}};
   }
   Pieces result{{"<mo stretchy=\"false\" form=\"prefix\">(</mo>", 1}};
   for (std::size_t i = 0; i < inside.size(); ++i) {
@@ -169,7 +170,8 @@ Pieces between(const char* left, const Math& inside, const char* right) {
 
 Pieces stacked(const Math& above, const Math& below) {
   const Piece top = unbroken(above), bottom = unbroken(below);
-  return {{element("mfrac", top.markup + bottom.markup), std::max(top.width, bottom.width), false, true}};
+  return {{element("mfrac", top.markup + bottom.markup), std::max(top.width, bottom.width), false,
+           true}};
 }
 
 /// Those kinds that change the look of one part.
@@ -195,7 +197,8 @@ Pieces pieces_of(const Math& formula) {
     case Kind::symbol:
       return {{element("mi", letter_of(formula.text)), 1}};
     case Kind::word:
-      return {{"<mi mathvariant=\"normal\">" + html::text(formula.text) + "</mi>", formula.text.size()}};
+      return {{"<mi mathvariant=\"normal\">" + html::text(formula.text) + "</mi>",
+               formula.text.size()}};
     case Kind::number:
       return {{element("mn", formula.text), formula.text.size()}};
     case Kind::prose:

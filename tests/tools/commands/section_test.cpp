@@ -189,7 +189,7 @@ TEST(Section, SystemsWithoutASectionAreRefused) {
   refused({"section", "euler-poisson", "--casimir", "F3=1"}, "did you mean 'F1'");
   refused({"section", "euler-poisson", "--casimir", "F1"}, "NAME=VALUE");
   refused({"section", "euler-poisson", "--energy", "M1"}, "--energy:1:1");
-  refused({"section", "euler-poisson", "--output", "a.pdf"}, ".csv, .svg or .png");
+  refused({"section", "euler-poisson", "--output", "a.gif"}, ".csv, .svg, .png or .pdf");
 }
 
 TEST(Section, PointsOffTheLevelAreDroppedAndFail) {

@@ -58,11 +58,11 @@ TEST(MathMl, HasTheTreeOfTheFormula) {
       sum({typeset::product({half(), square}),
            typeset::negated(typeset::product({typeset::letter("r"), typeset::name("gamma1")}))});
   EXPECT_EQ(letters(typeset::mathml(energy)), "12M12 −rγ1");
-  EXPECT_EQ(count(typeset::mathml({Kind::root, {}, {sum({typeset::letter("x"), half()})}}),
-                  "<msqrt>"),
-            1U);
-  EXPECT_EQ(count(typeset::mathml(typeset::rate({Kind::bold, {}, {typeset::letter("M")}})), "mover"),
-            2U);
+  EXPECT_EQ(
+      count(typeset::mathml({Kind::root, {}, {sum({typeset::letter("x"), half()})}}), "<msqrt>"),
+      1U);
+  EXPECT_EQ(
+      count(typeset::mathml(typeset::rate({Kind::bold, {}, {typeset::letter("M")}})), "mover"), 2U);
 }
 
 TEST(MathMl, LinesBreakBetweenTermsAndInLongBracketsOnly) {

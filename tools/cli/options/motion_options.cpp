@@ -33,10 +33,11 @@ std::string vector_name(const std::string& option) { return option == "true" ? "
 
 void MotionOptions::add_to(CLI::App& command) {
   command
-      .add_option("--plot", file_,
-                  "Draw the motion to this .svg or .png file: states against time, or what the "
-                  "following options say")
-      ->type_name("FILE.svg|png");
+      .add_option(
+          "--plot", file_,
+          "Draw the motion to this .svg, .png or .pdf file: states against time, or what the "
+          "following options say")
+      ->type_name("FILE.svg|png|pdf");
   command
       .add_option("--plot-y", against_time_,
                   "With --plot: these against time, states or expressions such as M1^2 + M2^2")
@@ -59,7 +60,7 @@ void MotionOptions::check() const {
   if (file_.empty()) {
     if (kinds > 0)
       throw UsageError(
-          "--plot-y, --plot-xy, --plot-sphere and --plot-apex need --plot FILE.svg or FILE.png");
+          "--plot-y, --plot-xy, --plot-sphere and --plot-apex need --plot FILE.svg, .png or .pdf");
     return;
   }
   check_plot_name(file_);

@@ -291,8 +291,7 @@ std::pair<std::string, std::string> expression(const Case& self, const std::stri
 Values named(const Case& self, const std::vector<NamedExpression>& list) {
   const ExactAlgebra guard;
   Values result;
-  for (const NamedExpression& f : list)
-    result.emplace_back(f.name, self.shown(f.value).text);
+  for (const NamedExpression& f : list) result.emplace_back(f.name, self.shown(f.value).text);
   return result;
 }
 
