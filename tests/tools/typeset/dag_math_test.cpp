@@ -29,7 +29,7 @@ TEST(DagMath, WritesQuotientsRootsAndPowersAsPeopleDo) {
   EXPECT_EQ(paper(-x * x / 2), "-\\frac{1}{2} x^{2}");
   EXPECT_EQ(paper(3 * x / (2 * paper.a)), "\\frac{3 x}{2 a}");
   EXPECT_EQ(paper(1 / sqrt(x + 1)), "\\frac{1}{\\sqrt{x + 1}}");
-  EXPECT_EQ(paper((x + paper.y) / 2 - 1), "\\frac{1}{2} x + \\frac{1}{2} y - 1");
+  EXPECT_EQ(paper((x + paper.y) / 2 - 1), "\\frac{1}{2} \\left(x + y - 2\\right)");
   EXPECT_EQ(paper(pow(sin(x), 2) * GiNaC::Pi), "\\pi \\sin^{2}\\left(x\\right)");
   EXPECT_EQ(paper(GiNaC::atan2(x, paper.y)), "\\operatorname{atan2}\\left(x, y\\right)");
   EXPECT_EQ(paper(GiNaC::log(x)), "\\ln\\left(x\\right)");
