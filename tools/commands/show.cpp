@@ -24,6 +24,7 @@ struct Options {
   std::string in;
   std::string as;
   std::string format = "text";
+  bool standalone = false;
 };
 
 /// The initial states of the scenes in other variables, exactly and as numbers.
@@ -61,7 +62,7 @@ int show_motion(const Motion& model, const Options& options) {
   if (options.common.json || options.format == "json") {
     print_json(show_json(model));
   } else if (options.format == "latex") {
-    show_latex(model);
+    show_latex(model, options.standalone ? LatexUse::document : LatexUse::displays);
   } else if (!options.common.quiet) {
     show_text(model);
   }
@@ -69,6 +70,8 @@ int show_motion(const Motion& model, const Options& options) {
 }
 
 int show(const Options& options) {
+  if (options.standalone && options.format != "latex")
+    throw UsageError("--standalone is a whole document of LaTeX: it needs --format latex");
   const AnyCaseFile file = load_any_case(options.case_name);
   const ParameterValues fixed = options.common.parameter_values();
   if (const auto* map = std::get_if<MapCaseFile>(&file)) {
@@ -93,6 +96,8 @@ void register_show(CLI::App& program, Action& action) {
   add_case(*command, options->case_name);
   command->add_option("--format", options->format, "text, latex or json")
       ->check(one_of({"text", "latex", "json"}));
+  command->add_flag("--standalone", options->standalone,
+                    "With --format latex: a document that compiles as it is");
   command->callback([options, &action] { action = [options] { return show(*options); }; });
 }
 

@@ -1,6 +1,8 @@
 // The LaTeX of casimir show.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tools/show/show.hpp"
 #include "tools/typeset/latex.hpp"
 
@@ -16,13 +18,24 @@ std::string joined(const std::vector<Written>& formulas, const char* between) {
   return text;
 }
 
+/// The right side of an aligned equation: long sums go on below, each line with its sign.
+std::string in_lines(const typeset::Math& formula) {
+  constexpr double kLine = 64;
+  std::string text;
+  for (const typeset::Math& line : typeset::lines_of(formula, kLine)) {
+    const bool plus = !text.empty() && !line.negative.front();
+    text += (text.empty() ? "" : " \\\\\n&\\quad ") + std::string(plus ? "+ " : "") + latex(line);
+  }
+  return text;
+}
+
 /// A display with aligned equal signs.
 void print_align(const std::vector<Formula>& formulas) {
   if (formulas.empty()) return;
   fmt::print("\\begin{{align*}}\n");
   for (std::size_t i = 0; i < formulas.size(); ++i) {
     const Formula& f = formulas[i];
-    fmt::print("{} &= {}", latex(f.left.math), latex(f.right.math));
+    fmt::print("{} &= {}", latex(f.left.math), in_lines(f.right.math));
     if (!f.on.empty()) fmt::print(" \\quad \\text{{on }} {} = 0", joined(f.on, " = "));
     fmt::print("{}\n", i + 1 < formulas.size() ? " \\\\" : "");
   }
@@ -62,6 +75,38 @@ void print_latex_bracket(const Model& model, const SystemView& view) {
   }
 }
 
+/// How wide a matrix is on paper, in letters.
+double width_of(const WrittenMatrix& m) {
+  double all = 0;
+  for (std::size_t j = 0; !m.empty() && j < m.front().size(); ++j) {
+    double column = 0;
+    for (const std::vector<Written>& row : m)
+      column = std::max(column, typeset::width(row[j].math));
+    all += column + 2;
+  }
+  return all;
+}
+
+/// In one line, where the matrices are no wider than a page.
+void print_lax_pair(const LaxView& pair) {
+  constexpr double kPage = 60;
+  const bool one = width_of(pair.l) + width_of(pair.a) <= kPage;
+  const char* next = one ? ", \\qquad " : ",\n\\end{equation*}\n\\begin{equation*}\n";
+  fmt::print("\\begin{{equation*}}\n\\dot{{L}} = [L, A]{0}L = {1}{0}A = {2}\n\\end{{equation*}}\n",
+             next, pmatrix(pair.l), pmatrix(pair.a));
+}
+
+/// A matrix of a Lax pair or of many variables is wider than a page of text.
+void print_preamble(const Model& model) {
+  const std::string& title = model.title.empty() ? model.name : model.title;
+  fmt::print(
+      "\\documentclass[a4paper]{{article}}\n\\usepackage{{amsmath}}\n"
+      "\\usepackage[margin=20mm]{{geometry}}\n\\allowdisplaybreaks\n\\setcounter{{MaxMatrixCols}}{{"
+      "64}}\n"
+      "\\begin{{document}}\n\\section*{{{}}}\n",
+      latex(typeset::prose(printable(title, 200))));
+}
+
 void print_latex(const Model& model, const SystemView& view) {
   if (model.poisson) print_latex_bracket(model, view);
   std::vector<Formula> lines;
@@ -74,24 +119,25 @@ void print_latex(const Model& model, const SystemView& view) {
   lines.clear();
   for (const FormulaGroup& group : view.claims) append(lines, group.formulas);
   print_align(lines);
-  for (const LaxView& pair : view.lax_pairs) {
-    fmt::print(
-        "\\begin{{equation*}}\n\\dot{{L}} = [L, A], \\qquad L = {}, \\qquad A = {}\n"
-        "\\end{{equation*}}\n",
-        pmatrix(pair.l), pmatrix(pair.a));
-  }
+  for (const LaxView& pair : view.lax_pairs) print_lax_pair(pair);
 }
 
 }  // namespace
 
-void show_latex(const Model& model) {
+void show_latex(const Model& model, LatexUse use) {
   Notation notation(model);
-  print_latex(model, view_of(model, notation));
+  const SystemView view = view_of(model, notation);
+  if (use == LatexUse::document) print_preamble(model);
+  print_latex(model, view);
+  if (use == LatexUse::document) fmt::print("\\end{{document}}\n");
 }
 
-void show_latex(const MapModel& map) {
+void show_latex(const MapModel& map, LatexUse use) {
   Notation notation(map.base);
-  print_latex(map.base, view_of(map, notation));
+  const SystemView view = view_of(map, notation);
+  if (use == LatexUse::document) print_preamble(map.base);
+  print_latex(map.base, view);
+  if (use == LatexUse::document) fmt::print("\\end{{document}}\n");
 }
 
 }  // namespace casimir::tools

@@ -75,6 +75,60 @@ Math rate(const Math& letter) {
   return result;
 }
 
+double width(const Math& formula) {
+  constexpr double kSmall = 0.7, kSign = 2;
+  std::vector<double> parts;
+  double all = 0;
+  for (const Math& part : formula.parts) all += parts.emplace_back(width(part));
+  const auto count = static_cast<double>(parts.size());
+  switch (formula.kind) {
+    case Kind::letter:
+      return is_greek(formula.text) ? 1 : static_cast<double>(formula.text.size());
+    case Kind::symbol:
+      return 1;
+    case Kind::word:
+    case Kind::number:
+    case Kind::prose:
+      return static_cast<double>(formula.text.size());
+    case Kind::sum:
+      return all + kSign * (count - 1) + (formula.negative.front() ? 1 : 0);
+    case Kind::list:
+    case Kind::cross:
+      return all + count - 1;
+    case Kind::fraction:
+      return std::ranges::max(parts);
+    case Kind::scripts:
+      return parts[0] + kSmall * std::max(parts[1], parts[2]);
+    case Kind::call:
+      return static_cast<double>(formula.text.size()) + 2 + all;
+    case Kind::root:
+    case Kind::brackets:
+    case Kind::tuple:
+    case Kind::poisson:
+      return all + 2;
+    default:
+      return all;
+  }
+}
+
+std::vector<Math> lines_of(const Math& formula, double letters) {
+  if (formula.kind != Kind::sum || width(formula) <= letters) return {formula};
+  std::vector<Math> lines;
+  double filled = 0;
+  for (std::size_t i = 0; i < formula.parts.size(); ++i) {
+    constexpr double kSign = 2;
+    const double more = width(formula.parts[i]) + kSign;
+    if (lines.empty() || filled + more > letters) {
+      lines.push_back({Kind::sum});
+      filled = 0;
+    }
+    lines.back().parts.push_back(formula.parts[i]);
+    lines.back().negative.push_back(formula.negative[i]);
+    filled += more;
+  }
+  return lines;
+}
+
 Math name(std::string_view name) {
   std::vector<std::string> parts(1);
   for (const char c : name) {

@@ -63,6 +63,13 @@ Math rate(const Math& letter);
 /// A name of a case file: "M1" is M with the index 1, "p_theta" is p with a Greek index.
 Math name(std::string_view name);
 
+/// How wide a formula is on paper: roughly, in letters.
+double width(const Math& formula);
+
+/// A long sum in lines of at most so many letters, where terms allow it: the parts of it, of which
+/// all but the first begin with a sign. Any other formula is one line.
+std::vector<Math> lines_of(const Math& formula, double letters);
+
 /// Whether `text` is the name of a Greek letter, "gamma".
 bool is_greek(std::string_view text);
 

@@ -93,6 +93,15 @@ TEST(Show, GreekLettersInLatexUnlessTheCaseHasThem) {
   EXPECT_FALSE(has(out, "\\boldsymbol\\gamma")) << out;
 }
 
+TEST(Show, LatexCanBeADocument) {
+  const std::string document = run({"show", "clebsch", "--format", "latex", "--standalone"}).out;
+  EXPECT_TRUE(document.starts_with("\\documentclass")) << document.substr(0, 80);
+  EXPECT_TRUE(document.ends_with("\\end{document}\n"));
+  const std::string displays = run({"show", "clebsch", "--format", "latex"}).out;
+  EXPECT_NE(document.find(displays), std::string::npos);
+  EXPECT_EQ(run({"show", "clebsch", "--standalone"}).status, 2);
+}
+
 TEST(Show, JsonHasTheBracketInBothForms) {
   const auto json = run({"show", "kovalevskaya", "--json"}).json();
   EXPECT_EQ(json.at("vectors").at("M"), (std::vector<std::string>{"M1", "M2", "M3"}));

@@ -68,5 +68,17 @@ TEST(Math, SumsTakeTheSignsOfWhatIsAdded) {
   EXPECT_EQ(latex(sum), "-a + b - c");
 }
 
+TEST(Math, LongSumsGoOnInTheNextLine) {
+  Math sum;
+  for (const char* name : {"a1", "b1", "c1", "d1", "e1"}) add_term(sum, letter(name));
+  add_term(sum, negated(letter("f1")));
+  const std::vector<Math> lines = lines_of(sum, 13);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(latex(lines[0]), "a1 + b1 + c1");
+  EXPECT_EQ(latex(lines[1]), "d1 + e1 - f1");
+  EXPECT_EQ(lines_of(sum, 100).size(), 1U);
+  EXPECT_EQ(lines_of(letter("a_very_long_name"), 3).size(), 1U);
+}
+
 }  // namespace
 }  // namespace casimir::tools::typeset
