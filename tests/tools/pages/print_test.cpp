@@ -29,7 +29,7 @@ TEST(Print, FiguresHaveTheWidthThatIsAskedFor) {
   const std::string pdf = file_text(folder.path() / "f.pdf");
   EXPECT_TRUE(pdf.starts_with("%PDF"));
   EXPECT_NEAR(size_after(pdf, R"(MediaBox \[ *0 0 ([0-9.]+) ([0-9.]+))").first, 86 / 25.4 * 72,
-              0.5);
+              1);
   const auto svg = size_after(file_text(folder.path() / "f.svg"),
                               "<svg[^>]*width=\"([0-9.]+)\"[^>]*height=\"([0-9.]+)\"");
   EXPECT_NEAR(svg.first, 86 / 25.4 * 96, 1);
