@@ -181,8 +181,7 @@ TEST(ProveMap, AStepMayLeadOutOfWhatIsAssumed) {
                        ClaimKind::measure),
             Verdict::refuted);
   // What stays inside is kept.
-  EXPECT_EQ(verdict_of(map_of(kPlane + domain +
-                              steps("x = \"2*x\"", "y = \"y + abs(x) - x\"") +
+  EXPECT_EQ(verdict_of(map_of(kPlane + domain + steps("x = \"2*x\"", "y = \"y + abs(x) - x\"") +
                               "[integrals]\nF = \"y\"\n"),
                        ClaimKind::integral),
             Verdict::proved);
@@ -190,10 +189,10 @@ TEST(ProveMap, AStepMayLeadOutOfWhatIsAssumed) {
 
 // The root of the second step is real where the first one has led to x >= 0: from x <= 0.
 TEST(ProveMap, RootsOfAStepGiveNoSignsToAnother) {
-  const MapModel map = map_of(
-      kPlane +
-      "[[map_step]]\nexpressions = { x = \"-x\", y = \"y + abs(x) - x\" }\n"
-      "[[map_step]]\nexpressions = { x = \"sqrt(x)\" }\n[integrals]\nF = \"y\"\n");
+  const MapModel map =
+      map_of(kPlane +
+             "[[map_step]]\nexpressions = { x = \"-x\", y = \"y + abs(x) - x\" }\n"
+             "[[map_step]]\nexpressions = { x = \"sqrt(x)\" }\n[integrals]\nF = \"y\"\n");
   EXPECT_EQ(verdict_of(map, ClaimKind::integral), Verdict::refuted);
 }
 
