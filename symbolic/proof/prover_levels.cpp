@@ -94,7 +94,7 @@ Level Prover::make_level(const std::vector<NamedExpression>& on) {
   Level result;
   for (const NamedExpression& whole : on) {
     for (const auto& [f, numerator] : level_functions(whole)) {
-      convert(f.value);
+      if (!f.value.is_equal(whole.value)) convert(f.value);
       result.texts.push_back(f.name);
       result.functions.push_back(f.value);
       result.numerators.push_back(numerator);
@@ -406,9 +406,9 @@ void Prover::decide_on(Proof& proof, const std::vector<Residual>& residuals, con
     }
     const bool first = proof.verdict == Verdict::proved;
     // A level on which no exact point is found the first time is not searched again and again.
-    constexpr int kSearches = 2;
+    const int most_searches = in_branch_ ? 1 : 2;
     std::optional<Witness> found;
-    if (searches++ < kSearches || level.empty()) found = witness(rest, residual, level);
+    if (searches++ < most_searches || level.empty()) found = witness(rest, residual, level);
     if (!first && !found) continue;
     proof.verdict = found ? Verdict::refuted : Verdict::undecided;
     proof.residual = shortened(ring_.text(rest), rest.terms());
