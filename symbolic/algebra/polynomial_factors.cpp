@@ -21,10 +21,38 @@ void check_degree(const Polynomial& p, long most, const char* what) {
   }
 }
 
+/// Whether some variable occurs in one term alone, as a number times itself: then the polynomial
+/// has the degree 1 in it with a number as coefficient, and so is irreducible. FLINT would see that
+/// too, after preparations that take longer than all else where polynomials are short.
+bool has_lonely_variable(const Polynomial& p) {
+  constexpr std::size_t kMostTerms = 100;
+  if (p.terms() > kMostTerms) return false;
+  std::vector<std::size_t> occurs(p.ring().size());
+  std::vector<bool> alone(p.ring().size());
+  for (const auto& [coefficient, exponents] : p.term_list()) {
+    std::size_t last = 0;
+    unsigned long degree = 0;
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
+      if (exponents[i] == 0) continue;
+      ++occurs[i];
+      degree += exponents[i];
+      last = i;
+    }
+    if (degree == 1) alone[last] = true;
+  }
+  for (std::size_t i = 0; i < alone.size(); ++i)
+    if (alone[i] && occurs[i] == 1) return true;
+  return false;
+}
+
 }  // namespace
 
 std::vector<std::pair<Polynomial, unsigned long>> Polynomial::factors() const {
   if (terms() == 1) return monomial_factors();
+  if (has_lonely_variable(*this)) {
+    const cln::cl_RA number = content();
+    return {{ring_->constant(number), 1}, {scaled(1 / number), 1}};
+  }
   constexpr long kMostDegree = 200;
   constexpr double kMostBits = 10'000;  // at the degree of 200 some 0.2 s
   constexpr std::size_t kMostTerms = 20'000;

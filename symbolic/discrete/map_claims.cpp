@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "symbolic/case/expression_size.hpp"
 #include "symbolic/discrete/map_jacobian.hpp"
 #include "symbolic/proof/claims/density.hpp"
@@ -39,8 +41,30 @@ std::vector<Residual> level_images(Prover& prover, const MapModel& map, const Fu
   return residuals;
 }
 
-/// What every step keeps, the composition keeps. Where a step does not, it is decided for the
-/// composition alone, with a prover of its own: what is composed may be too large for one.
+/// The case without what it assumes of its variables: a step may lead to where that does not hold.
+Model anywhere(const Model& model) {
+  Model result = model;
+  std::erase_if(result.assumptions, [&](const Assumption& a) {
+    return std::any_of(model.variables.begin(), model.variables.end(),
+                       [&](const GiNaC::symbol& x) { return a.difference.has(x); });
+  });
+  return result;
+}
+
+/// Decides what is said of one map of a composition, in a ring of its own: what another step takes
+/// the root of is positive at another point.
+Proof decided_alone(const Model& model, const Claim& claim) {
+  Proof proof;
+  Prover prover(model, claim.expressions, claim.subject);
+  prover.begin_claim(claim.expressions, claim.subject);
+  claim.decide(prover, proof);
+  return proof;
+}
+
+/// What every step keeps at all points, the composition keeps; of the first step the points are
+/// those at which the assumptions hold, those of the others are where the ones before have led.
+/// Where a step does not keep it, or not without a condition, it is decided for the composition
+/// alone.
 Claim by_steps(const MapModel& map, const std::function<Claim(const MapModel&)>& claim_of) {
   if (map.steps.empty()) return claim_of(map);
   std::vector<Claim> parts;
@@ -50,27 +74,28 @@ Claim by_steps(const MapModel& map, const std::function<Claim(const MapModel&)>&
     claim.expressions.insert(claim.expressions.end(), part.expressions.begin(),
                              part.expressions.end());
   claim.decide = [&map, parts, claim_of](Prover& prover, Proof& proof) {
-    std::vector<std::string> where;
+    const Model later = anywhere(map.base);
     for (const Claim& part : parts) {
-      Proof own;
-      part.decide(prover, own);
-      if (own.verdict == Verdict::proved) {
-        where.insert(where.end(), own.where.begin(), own.where.end());
+      const bool first = &part == &parts.front();
+      const Proof own = decided_alone(first ? map.base : later, part);
+      if (own.verdict == Verdict::proved && (first || own.where.empty())) {
+        proof.where.insert(proof.where.end(), own.where.begin(), own.where.end());
         continue;
       }
       const Claim whole = claim_of(map);
       Prover alone(map.base, whole.expressions, whole.subject);
       alone.begin_claim(whole.expressions, whole.subject);
+      proof.where.clear();
       whole.decide(alone, proof);
       return;
     }
     // One step may lead to where the next one has no value: then all this is about nothing.
     if (!prover.real_points().any(domain_of(map, {}))) {
+      proof.where.clear();
       proof.reason = "no point was found at which all steps have real values";
       return;
     }
     proof.verdict = Verdict::proved;
-    proof.where = where;
     proof.evidence = fmt::format("each of the {} steps keeps it", parts.size());
   };
   return claim;

@@ -88,6 +88,10 @@ std::pair<Polynomial, Polynomial> FunctionRing::lowest_terms(const Polynomial& p
 
 bool FunctionRing::is_nowhere_zero(const Polynomial& p) const {
   if (p.is_zero()) return false;
+  // Where nothing is assumed, a polynomial in the symbols without constant term is zero at zero.
+  if (generators_.empty() && signs_.empty() && nonzero_.empty() &&
+      cln::zerop(p.evaluate(std::vector<cln::cl_RA>(ring_->size()))))
+    return false;
   const auto factors = p.factors();
   return std::all_of(factors.begin(), factors.end(),
                      [&](const auto& factor) { return known_nonzero(factor.first); });

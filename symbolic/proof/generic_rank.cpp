@@ -25,6 +25,23 @@ bool is_skew(const PolynomialRows& rows) {
   return true;
 }
 
+/// The candidates that are orthogonal to all rows at the point, as far as its values tell, which
+/// are taken once for each vector.
+std::vector<const KernelCandidate*> likely_kernel(const PolynomialRows& rows,
+                                                  const std::vector<KernelCandidate>& candidates,
+                                                  RealPoint& point) {
+  std::vector<RealPoint::Values> at_rows;
+  for (const auto& row : rows) at_rows.push_back(point.values(row));
+  std::vector<const KernelCandidate*> likely;
+  for (const KernelCandidate& candidate : candidates) {
+    const RealPoint::Values own = point.values(candidate.vector);
+    if (std::all_of(at_rows.begin(), at_rows.end(),
+                    [&](const auto& row) { return point.may_be_orthogonal(row, own); }))
+      likely.push_back(&candidate);
+  }
+  return likely;
+}
+
 /// Whether `count` of the candidates are in the kernel of all rows and independent at the point.
 bool kernel_has(Prover& prover, const PolynomialRows& rows,
                 const std::vector<KernelCandidate>& candidates, RealPoint& point,
@@ -36,14 +53,15 @@ bool kernel_has(Prover& prover, const PolynomialRows& rows,
     for (std::size_t j = 0; j < rows[i].size(); ++j) sum.add(rows[i][j], candidate.vector[j]);
     return prover.is_zero(sum.finish());
   };
+  // What is not orthogonal at the point need not be multiplied out.
+  const auto likely = likely_kernel(rows, candidates, point);
+  if (likely.size() < count) return false;
   PolynomialRows independent;
-  for (const KernelCandidate& candidate : candidates) {
+  for (const KernelCandidate* candidate : likely) {
     if (independent.size() == count) break;
-    independent.push_back(candidate.vector);
-    // What is not orthogonal at the point need not be multiplied out.
+    independent.push_back(candidate->vector);
     bool belongs = point.rank(independent) == independent.size();
-    for (std::size_t i = 0; i < rows.size() && belongs; ++i)
-      belongs = point.may_be_orthogonal(rows[i], candidate.vector) && orthogonal(candidate, i);
+    for (std::size_t i = 0; i < rows.size() && belongs; ++i) belongs = orthogonal(*candidate, i);
     if (!belongs) independent.pop_back();
   }
   return independent.size() == count;
@@ -350,12 +368,26 @@ std::optional<GenericRank> rank_with_conditions(
 std::optional<GenericRank> gradient_rank(Prover& prover, const std::vector<Polynomial>& functions) {
   PolynomialRows rows;
   for (const Polynomial& f : functions) rows.push_back(prover.gradient(f));
+  // {f, g} = -{g, f}: each bracket is looked at once.
+  std::map<std::pair<std::size_t, std::size_t>, bool> commute;
   return generic_rank(prover, rows, [&] {
     std::vector<KernelCandidate> candidates;
-    if (prover.model().poisson) {
-      for (const auto& slope : rows) candidates.push_back({prover.flow_of(slope)});
-    } else if (!prover.model().field.empty()) {  // a map has none
-      candidates.push_back({prover.field()});
+    if (!prover.model().poisson) {
+      if (!prover.model().field.empty()) candidates.push_back({prover.field()});  // a map has none
+      return candidates;
+    }
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+      const std::vector<Polynomial> flow = prover.flow_of(rows[j]);
+      candidates.push_back({flow, [&, j, flow](std::size_t i) {
+                              if (i == j) return true;
+                              const auto pair = std::minmax(i, j);
+                              const auto known = commute.find(pair);
+                              if (known != commute.end()) return known->second;
+                              SumOfProducts sum(prover.ring().ring());
+                              for (std::size_t k = 0; k < flow.size(); ++k)
+                                sum.add(rows[i][k], flow[k]);
+                              return commute[pair] = prover.is_zero(sum.finish());
+                            }});
     }
     return candidates;
   });

@@ -22,6 +22,12 @@ MinorWord minor_power(MinorWord base, MinorWord exponent) {
   return result;
 }
 
+std::optional<MinorWord> minor_fraction(const cln::cl_RA& number) {
+  const MinorWord below = minor_residue(cln::denominator(number));
+  if (below == 0) return std::nullopt;
+  return minor_residue(cln::numerator(number)) * minor_power(below, kMinorPrime - 2) % kMinorPrime;
+}
+
 }  // namespace
 
 std::optional<Polynomial> short_determinant(std::vector<std::vector<Polynomial>> m,
@@ -47,18 +53,16 @@ std::optional<Polynomial> short_determinant(std::vector<std::vector<Polynomial>>
 
 MinorModulo::MinorModulo(const Polynomial& p) {
   for (const auto& [number, exponents] : p.term_list()) {
-    const MinorWord below = minor_residue(cln::denominator(number));
-    if (below == 0) throw std::domain_error("a denominator is a multiple of the prime");
-    Term term{
-        minor_residue(cln::numerator(number)) * minor_power(below, kMinorPrime - 2) % kMinorPrime,
-        {}};
+    const std::optional<MinorWord> residue = minor_fraction(number);
+    if (!residue) throw std::domain_error("a denominator is a multiple of the prime");
+    Term term{*residue, {}};
     for (std::size_t i = 0; i < exponents.size(); ++i)
       if (exponents[i] > 0) term.powers.emplace_back(i, exponents[i]);
     terms_.push_back(std::move(term));
   }
 }
 
-bool MinorModulo::is_nonzero_at(const std::vector<std::uint64_t>& point) const {
+std::uint64_t MinorModulo::value_at(const std::vector<std::uint64_t>& point) const {
   MinorWord sum = 0;
   for (const Term& term : terms_) {
     MinorWord product = term.number;
@@ -66,7 +70,44 @@ bool MinorModulo::is_nonzero_at(const std::vector<std::uint64_t>& point) const {
       product = product * minor_power(point[place], exponent) % kMinorPrime;
     sum = (sum + product) % kMinorPrime;
   }
-  return sum != 0;
+  return sum;
+}
+
+MatrixModulo::MatrixModulo(const std::vector<std::vector<Polynomial>>& rows) {
+  for (const auto& row : rows) {
+    rows_.emplace_back();
+    for (const Polynomial& p : row) rows_.back().emplace_back(p);
+  }
+}
+
+std::optional<std::size_t> MatrixModulo::rank_at(const std::vector<cln::cl_RA>& point) const {
+  std::vector<MinorWord> residues;
+  for (const cln::cl_RA& x : point) {
+    const std::optional<MinorWord> residue = minor_fraction(x);
+    if (!residue) return std::nullopt;
+    residues.push_back(*residue);
+  }
+  std::vector<std::vector<MinorWord>> m;
+  for (const auto& row : rows_) {
+    m.emplace_back();
+    for (const MinorModulo& p : row) m.back().push_back(p.value_at(residues));
+  }
+  std::size_t rank = 0;
+  for (std::size_t j = 0; rank < m.size() && j < m[0].size(); ++j) {
+    std::size_t pivot = rank;
+    while (pivot < m.size() && m[pivot][j] == 0) ++pivot;
+    if (pivot == m.size()) continue;
+    std::swap(m[pivot], m[rank]);
+    const MinorWord over = minor_power(m[rank][j], kMinorPrime - 2);
+    for (std::size_t i = rank + 1; i < m.size(); ++i) {
+      const MinorWord factor = m[i][j] * over % kMinorPrime;
+      if (factor == 0) continue;
+      for (std::size_t k = j; k < m[0].size(); ++k)
+        m[i][k] = (m[i][k] + (kMinorPrime - factor) * m[rank][k]) % kMinorPrime;
+    }
+    ++rank;
+  }
+  return rank;
 }
 
 }  // namespace casimir

@@ -20,7 +20,8 @@ class MinorModulo {
   explicit MinorModulo(const Polynomial& p);
 
   /// \param point  a value for each variable of the ring
-  bool is_nonzero_at(const std::vector<std::uint64_t>& point) const;
+  bool is_nonzero_at(const std::vector<std::uint64_t>& point) const { return value_at(point) != 0; }
+  std::uint64_t value_at(const std::vector<std::uint64_t>& point) const;
 
  private:
   struct Term {
@@ -28,6 +29,19 @@ class MinorModulo {
     std::vector<std::pair<std::size_t, unsigned long>> powers;
   };
   std::vector<Term> terms_;
+};
+
+/// A matrix of polynomials modulo the same prime.
+class MatrixModulo {
+ public:
+  /// \throws std::domain_error  where a denominator is a multiple of the prime
+  explicit MatrixModulo(const std::vector<std::vector<Polynomial>>& rows);
+
+  /// No larger than the rank over the rational numbers. Empty where a coordinate has no residue.
+  std::optional<std::size_t> rank_at(const std::vector<cln::cl_RA>& point) const;
+
+ private:
+  std::vector<std::vector<MinorModulo>> rows_;
 };
 
 }  // namespace casimir

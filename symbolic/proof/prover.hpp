@@ -142,6 +142,12 @@ class Prover {
   }
   Level make_level(const std::vector<NamedExpression>& on);
   std::vector<NamedExpression> simplified(const NamedExpression& f, int depth);
+  /// A function of a level with its numerator.
+  struct LevelFunction {
+    NamedExpression f;
+    Polynomial numerator;
+  };
+  const std::vector<LevelFunction>& level_functions(const NamedExpression& f);
   bool vanishes_by_substitution(const Residual& residual, const Level& level) const;
   Polynomial along(const Polynomial& f, const std::vector<Polynomial>& field) const;
   /// Whether the residual is a combination of the level's functions with continuous coefficients
@@ -185,8 +191,11 @@ class Prover {
     Level level;
   };
   std::list<KnownLevel> known_levels_;
-  std::vector<Polynomial> leads_;  ///< that the last decision took for not zero
-  bool in_branch_ = false;         ///< where less work is spent: the answer may become a condition
+  /// For all claims: factors cost time.
+  std::map<std::string, std::pair<GiNaC::ex, std::vector<LevelFunction>>> level_functions_;
+  std::vector<std::optional<bool>> never_zero_;  ///< of the ring's denominators
+  std::vector<Polynomial> leads_;                ///< that the last decision took for not zero
+  bool in_branch_ = false;  ///< where less work is spent: the answer may become a condition
   mutable std::vector<bool> divided_by_;  ///< which of the ring's denominators
 };
 

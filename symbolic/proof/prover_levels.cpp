@@ -53,8 +53,9 @@ std::vector<NamedExpression> Prover::simplified(const NamedExpression& f, int de
   std::size_t count = 0;
   for (const auto& [factor, exponent] : numerator.factors()) {
     if (factor.is_constant()) continue;
-    rest = ring_.is_nowhere_zero(factor) ? rest * factor : rest * factor.pow(exponent - 1);
-    if (ring_.is_nowhere_zero(factor)) continue;
+    const bool nowhere = ring_.is_nowhere_zero(factor);
+    if (nowhere || exponent > 1) rest *= nowhere ? factor : factor.pow(exponent - 1);
+    if (nowhere) continue;
     product *= factor;
     ++count;
   }
@@ -74,16 +75,29 @@ std::vector<NamedExpression> Prover::simplified(const NamedExpression& f, int de
   }
 }
 
-Level Prover::make_level(const std::vector<NamedExpression>& on) {
+const std::vector<Prover::LevelFunction>& Prover::level_functions(const NamedExpression& f) {
   constexpr int kDepth = 3;
+  convert(f.value);  // what it divides by counts for each claim
+  const auto known = level_functions_.find(f.name);
+  if (known != level_functions_.end() && known->second.first.is_equal(f.value))
+    return known->second.second;
+  std::vector<LevelFunction> parts;
+  for (NamedExpression& part : simplified(f, kDepth)) {
+    Polynomial numerator = ring_.lowest_terms(convert(part.value)).first;
+    if (numerator.is_zero()) continue;  // no condition, and no divisor
+    parts.push_back({std::move(part), std::move(numerator)});
+  }
+  return (level_functions_[f.name] = {f.value, std::move(parts)}).second;
+}
+
+Level Prover::make_level(const std::vector<NamedExpression>& on) {
   Level result;
   for (const NamedExpression& whole : on) {
-    for (const NamedExpression& f : simplified(whole, kDepth)) {
-      Polynomial numerator = ring_.lowest_terms(convert(f.value)).first;
-      if (numerator.is_zero()) continue;  // no condition, and no divisor
+    for (const auto& [f, numerator] : level_functions(whole)) {
+      if (!f.value.is_equal(whole.value)) convert(f.value);
       result.texts.push_back(f.name);
       result.functions.push_back(f.value);
-      result.numerators.push_back(std::move(numerator));
+      result.numerators.push_back(numerator);
     }
   }
   // The time moves as well, and t = 0 is no part of a level.
@@ -392,9 +406,9 @@ void Prover::decide_on(Proof& proof, const std::vector<Residual>& residuals, con
     }
     const bool first = proof.verdict == Verdict::proved;
     // A level on which no exact point is found the first time is not searched again and again.
-    constexpr int kSearches = 2;
+    const int most_searches = in_branch_ ? 1 : 2;
     std::optional<Witness> found;
-    if (searches++ < kSearches || level.empty()) found = witness(rest, residual, level);
+    if (searches++ < most_searches || level.empty()) found = witness(rest, residual, level);
     if (!first && !found) continue;
     proof.verdict = found ? Verdict::refuted : Verdict::undecided;
     proof.residual = shortened(ring_.text(rest), rest.terms());

@@ -78,20 +78,25 @@ std::vector<std::vector<Ball>> RealPoint::values(const PolynomialRows& rows) {
   return result;
 }
 
-bool RealPoint::may_be_orthogonal(const std::vector<Polynomial>& a,
-                                  const std::vector<Polynomial>& b) {
-  if (!exact_.empty()) {
-    cln::cl_RA sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      if (!a[i].is_zero() && !b[i].is_zero())
-        sum = sum + a[i].evaluate(exact_) * b[i].evaluate(exact_);
-    }
-    return cln::zerop(sum);
+RealPoint::Values RealPoint::values(const std::vector<Polynomial>& vector) {
+  Values result;
+  for (const Polynomial& p : vector) {
+    if (exact_.empty())
+      result.balls.push_back(value(p));
+    else
+      result.exact.push_back(p.is_zero() ? 0 : p.evaluate(exact_));
   }
-  Ball sum;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    acb_addmul(sum.raw(), value(a[i]).raw(), value(b[i]).raw(), evaluator_.bits());
-  return sum.contains_zero();
+  return result;
+}
+
+bool RealPoint::may_be_orthogonal(const Values& a, const Values& b) const {
+  cln::cl_RA sum = 0;
+  for (std::size_t i = 0; i < a.exact.size(); ++i)
+    if (!cln::zerop(a.exact[i]) && !cln::zerop(b.exact[i])) sum = sum + a.exact[i] * b.exact[i];
+  Ball total;
+  for (std::size_t i = 0; i < a.balls.size(); ++i)
+    acb_addmul(total.raw(), a.balls[i].raw(), b.balls[i].raw(), evaluator_.bits());
+  return cln::zerop(sum) && total.contains_zero();
 }
 
 std::size_t RealPoint::rank(const PolynomialRows& rows) {

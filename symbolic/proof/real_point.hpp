@@ -31,9 +31,17 @@ class RealPoint {
   /// \throws NotCertified
   std::size_t rank(const PolynomialRows& rows);
 
-  /// False where the product of the vectors is certainly not zero.
+  /// The values of a vector: rational numbers where the point has such and the ring has polynomials
+  /// only, else balls.
+  struct Values {
+    std::vector<cln::cl_RA> exact{};
+    std::vector<Ball> balls{};
+  };
   /// \throws NotCertified
-  bool may_be_orthogonal(const std::vector<Polynomial>& a, const std::vector<Polynomial>& b);
+  Values values(const std::vector<Polynomial>& vector);
+
+  /// False where the product of two vectors with these values is certainly not zero.
+  bool may_be_orthogonal(const Values& a, const Values& b) const;
 
   BallEvaluator& evaluator() { return evaluator_; }
   const std::vector<GiNaC::ex>& coordinates() const { return coordinates_; }

@@ -41,9 +41,10 @@ std::optional<std::string> nonzero_value(const ExactPoint& point, const ex& expr
 }
 
 /// The witness if the value at this point is shown not to be zero, and the level's to be zero.
+/// \param brief  what balls do not tell from zero is not evaluated exactly
 std::optional<Witness> confirmed(const FunctionRing& ring, const RealPoints& real_points,
                                  const ExactPoint& point, const Suspect& suspect,
-                                 const Level& level) {
+                                 const Level& level, bool brief) {
   constexpr long kBits = 192;
   const auto examine = [&]() -> std::optional<Witness> {
     BallEvaluator balls(real_points.numbers(), kBits);
@@ -52,6 +53,7 @@ std::optional<Witness> confirmed(const FunctionRing& ring, const RealPoints& rea
     // Where a function of the claim is not differentiable, nothing is said of its rate. Levels may
     // consist of such points.
     if (level.empty() && !balls.smooth()) return std::nullopt;
+    if (brief && balls(suspect.expression).is_zero() != false) return std::nullopt;
     auto value = nonzero_value(point, suspect.expression, balls);
     if (!value) return std::nullopt;
     const bool on_level =
@@ -92,25 +94,25 @@ std::optional<Witness> find_witness(const Model& model, const FunctionRing& ring
       const auto point = points.completed(level, freedom);
       if (!point) break;
       if (cln::zerop(suspect.numerator.evaluate(*point))) continue;
-      if (auto found =
-              confirmed(ring, real_points, ExactPoint(ring, *point, freedom.bare), suspect, level))
+      if (auto found = confirmed(ring, real_points, ExactPoint(ring, *point, freedom.bare), suspect,
+                                 level, brief))
         return found;
     }
   }
   const std::vector<bool> all_bare(ring.symbols().size(), true);
   const auto at = [&](const Point& point) {
-    return confirmed(ring, real_points, ExactPoint(ring, point, all_bare), suspect, level);
+    return confirmed(ring, real_points, ExactPoint(ring, point, all_bare), suspect, level, brief);
   };
-  constexpr int kFew = 20, kMany = 400;
+  constexpr int kFew = 20, kMany = 400, kBriefTrials = 20;
   if (brief || !ring.is_polynomial()) {
-    for (int trial = 0; trial < kTrials; ++trial) {
+    for (int trial = 0; trial < (brief ? kBriefTrials : kTrials); ++trial) {
       const auto point = points.rational(level, brief ? kFew : kMany);
       if (!point) break;
       if (auto found = at(*point)) return found;
     }
   }
   // A level that cannot be solved, and a narrow domain, may have simple points all the same.
-  const int simple_trials = brief ? 60 : 300;
+  const int simple_trials = brief ? 30 : 300;
   for (int trial = 0; trial < simple_trials && (!level.empty() || !ring.is_polynomial()); ++trial) {
     const std::vector<ex> simple = real_points.draw_simple();
     BallEvaluator balls(real_points.numbers(), 64);

@@ -40,15 +40,42 @@ std::vector<Polynomial> characteristic_polynomial(const FunctionRing& ring, cons
   return result;
 }
 
-/// The rank of the gradients; empty where it is not shown to be the generic one.
-std::optional<std::size_t> rank_of(Prover& prover, const std::vector<Polynomial>& functions) {
-  if (functions.empty()) return 0;
-  const auto found = gradient_rank(prover, functions);
-  return found && found->exact ? std::optional(found->rank) : std::nullopt;
-}
-
 bool proportional(const Polynomial& a, const Polynomial& b) {
   return a.terms() == b.terms() && a.scaled(1 / a.content()) == b.scaled(1 / b.content());
+}
+
+/// How many of the known functions, of the found ones, and of both are independent. Where the
+/// gradients of some have the rank of all at the points that show it, one on each piece, they have
+/// it at almost all points, and no larger one.
+struct Ranks {
+  std::optional<std::size_t> known, found, together;  ///< empty where it is not shown
+};
+
+Ranks ranks_of(Prover& prover, const std::vector<Polynomial>& known,
+               const std::vector<Polynomial>& found) {
+  std::vector<Polynomial> all = known;
+  for (const Polynomial& f : found) {
+    if (std::none_of(known.begin(), known.end(),
+                     [&](const Polynomial& g) { return proportional(f, g); }))
+      all.push_back(f);
+  }
+  auto whole = all.empty() ? std::nullopt : gradient_rank(prover, all);
+  const auto rank_of = [&](const std::vector<Polynomial>& functions) -> std::optional<std::size_t> {
+    if (functions.empty()) return 0;
+    if (whole && whole->exact && !whole->points.empty()) {
+      PolynomialRows rows;
+      for (const Polynomial& f : functions) rows.push_back(prover.gradient(f));
+      if (std::all_of(whole->points.begin(), whole->points.end(),
+                      [&](RealPoint& point) { return point.rank(rows) == whole->rank; }))
+        return whole->rank;
+    }
+    const auto own = gradient_rank(prover, functions);
+    return own && own->exact ? std::optional(own->rank) : std::nullopt;
+  };
+  Ranks result{rank_of(known), rank_of(found), std::nullopt};
+  if (all.empty()) result.together = 0;
+  if (whole && whole->exact) result.together = whole->rank;
+  return result;
 }
 
 /// The integrals that follow from a proved Lax pair; constants and repetitions left out.
@@ -100,18 +127,14 @@ void describe_integrals(Prover& prover, Proof& proof, const LaxPair& pair) {
   if (model.hamiltonian && !model.time) known.push_back(prover.convert(*model.hamiltonian));
   for (const NamedExpression& f : real_everywhere(model.integrals))
     known.push_back(prover.convert(f.value));
-  std::vector<Polynomial> all = known;
-  all.insert(all.end(), found.begin(), found.end());
   proof.evidence = fmt::format("the characteristic polynomial gives {} integral{}", found.size(),
                                found.size() == 1 ? "" : "s");
-  const auto own = rank_of(prover, found);
-  const auto before = rank_of(prover, known);
-  const auto together = rank_of(prover, all);
-  if (own) proof.evidence += fmt::format(", {} independent", *own);
-  if (before && together) {
-    proof.evidence += *together == *before
-                          ? "; all follow from the known ones"
-                          : fmt::format("; {} beyond the known ones", *together - *before);
+  const Ranks ranks = ranks_of(prover, known, found);
+  if (ranks.found) proof.evidence += fmt::format(", {} independent", *ranks.found);
+  if (ranks.known && ranks.together) {
+    proof.evidence += *ranks.together == *ranks.known ? "; all follow from the known ones"
+                                                      : fmt::format("; {} beyond the known ones",
+                                                                    *ranks.together - *ranks.known);
   }
 }
 

@@ -161,6 +161,41 @@ TEST(ProveMap, StepsThatNeverMeetShowNothing) {
   EXPECT_NE(verdict_of(map, ClaimKind::integral), Verdict::proved);
 }
 
+// From x > 0 the first step leads to x < 0, where the second one changes y.
+TEST(ProveMap, AStepMayLeadOutOfWhatIsAssumed) {
+  const auto steps = [](const std::string& first, const std::string& second) {
+    return "[[map_step]]\nexpressions = { " + first + " }\n[[map_step]]\nexpressions = { " +
+           second + " }\n";
+  };
+  const std::string turned = steps("x = \"-x\"", "y = \"y + abs(x) - x\"");
+  const std::string shrunk = steps("x = \"-x\"", "y = \"y*(1 + abs(x) - x)\"");
+  const std::string domain = "domain = [\"x > 0\"]\n";
+  EXPECT_EQ(verdict_of(map_of(kPlane + domain + turned + "[integrals]\nF = \"y\"\n"),
+                       ClaimKind::integral),
+            Verdict::refuted);
+  EXPECT_EQ(verdict_of(map_of(kPlane + domain + turned +
+                              "[[invariant_relation]]\nname = \"R\"\nexpression = \"y\"\n"),
+                       ClaimKind::invariant_relation),
+            Verdict::refuted);
+  EXPECT_EQ(verdict_of(map_of(kPlane + domain + shrunk + "[[measure]]\ndensity = \"1\"\n"),
+                       ClaimKind::measure),
+            Verdict::refuted);
+  // What stays inside is kept.
+  EXPECT_EQ(verdict_of(map_of(kPlane + domain + steps("x = \"2*x\"", "y = \"y + abs(x) - x\"") +
+                              "[integrals]\nF = \"y\"\n"),
+                       ClaimKind::integral),
+            Verdict::proved);
+}
+
+// The root of the second step is real where the first one has led to x >= 0: from x <= 0.
+TEST(ProveMap, RootsOfAStepGiveNoSignsToAnother) {
+  const MapModel map =
+      map_of(kPlane +
+             "[[map_step]]\nexpressions = { x = \"-x\", y = \"y + abs(x) - x\" }\n"
+             "[[map_step]]\nexpressions = { x = \"sqrt(x)\" }\n[integrals]\nF = \"y\"\n");
+  EXPECT_EQ(verdict_of(map, ClaimKind::integral), Verdict::refuted);
+}
+
 // Neither step keeps x + y, their composition does.
 TEST(ProveMap, ACompositionMayKeepWhatItsStepsDoNot) {
   const MapModel map = map_of(
