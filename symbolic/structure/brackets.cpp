@@ -1,0 +1,138 @@
+// Poisson brackets of given equations of motion.
+#include "symbolic/structure/brackets.hpp"
+
+#include <algorithm>
+
+#include "symbolic/structure/bracket_search.hpp"
+
+namespace casimir::structure {
+namespace {
+
+class HamiltonianSearch {
+ public:
+  HamiltonianSearch(const Model& model, int degree, const search::Watch& watch)
+      : watch_(watch), search_(model, degree_of_motion(model) + 1, watch) {
+    report_.degree = degree;
+    report_.hamiltonian_degree = degree_of_motion(model) + 1;
+  }
+
+  BracketReport run();
+
+ private:
+  void search_degree(int degree, bool last);
+  void make_equations(const std::vector<Bivector>& basis);
+  void take(const ConstantEquations& equations, const std::vector<Bivector>& basis,
+            const search::Branch& family);
+
+  const search::Watch& watch_;
+  BracketSearch search_;
+  std::vector<Bivector> taken_;
+  std::optional<ConstantEquations> equations_;  ///< whose ring the families of solutions use
+  BracketReport report_;
+};
+
+/// Unknowns: the constants of the Hamiltonian, then those of the bracket.
+void HamiltonianSearch::make_equations(const std::vector<Bivector>& basis) {
+  const std::size_t n = search_.dimension(), functions = search_.integrals().size();
+  equations_.emplace(search_.space().system(), functions + basis.size());
+  std::vector<std::vector<ConstantEquations::Summand>> motion(n);
+  for (std::size_t i = 0; i < n; ++i) motion[i].push_back({-search_.motion()[i], {}});
+  for (std::size_t t = 0; t < basis.size(); ++t) {
+    for (std::size_t f = 0; f < functions; ++f) {
+      const std::vector<Polynomial> field =
+          hamiltonian_field(basis[t], n, search_.integrals()[f]);
+      for (std::size_t i = 0; i < n; ++i)
+        if (!field[i].is_zero()) motion[i].push_back({field[i], {f, functions + t}});
+    }
+  }
+  for (const auto& sum : motion) equations_->add(sum);
+  std::vector<std::vector<ConstantEquations::Summand>> jacobi(skew_indices(n, 3).size());
+  for (std::size_t t = 0; t < basis.size(); ++t) {
+    for (std::size_t s = t; s < basis.size(); ++s) {
+      watch_.tick(static_cast<double>(t) / static_cast<double>(basis.size()));
+      const std::vector<Polynomial> defect = schouten(basis[t], basis[s], n);
+      for (std::size_t c = 0; c < defect.size(); ++c) {
+        if (!defect[c].is_zero())
+          jacobi[c].push_back(
+              {s == t ? defect[c] : defect[c].scaled(2), {functions + t, functions + s}});
+      }
+    }
+  }
+  for (const auto& sum : jacobi) equations_->add(sum);
+}
+
+/// The simplest member of a family.
+void HamiltonianSearch::take(const ConstantEquations& equations, const std::vector<Bivector>& basis,
+                             const search::Branch& family) {
+  const std::size_t functions = search_.integrals().size();
+  std::vector<std::size_t> free = equations.free_in(family);
+  // The constants of the bracket first: those of the Hamiltonian may well be zero.
+  std::vector<std::size_t> order(free.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  std::stable_partition(order.begin(), order.end(),
+                        [&](std::size_t k) { return free[k] >= functions; });
+  for (const std::vector<GiNaC::ex>& choice : simple_constants(free.size())) {
+    std::vector<GiNaC::ex> values(free.size());
+    for (std::size_t k = 0; k < order.size(); ++k) values[order[k]] = choice[k];
+    const auto constants = equations.values(family, values);
+    if (!constants) continue;
+    const auto middle = constants->begin() + static_cast<std::ptrdiff_t>(functions);
+    const auto [bracket, factor] = search_.combination(basis, {middle, constants->end()});
+    if (factor.is_zero()) continue;
+    if (std::any_of(taken_.begin(), taken_.end(),
+                    [&, &own = bracket](const Bivector& other) { return are_proportional(other, own); }))
+      return;
+    const GiNaC::ex h = search_.combination(search_.integrals(), {constants->begin(), middle}) /
+                        (factor * search_.factor_of_motion());
+    Bracket found = search_.described(bracket, h.normal());
+    found.free = free.size();
+    taken_.push_back(bracket);
+    if (found.jacobi == Verdict::proved && found.motion == Verdict::proved)
+      report_.found.push_back(std::move(found));
+    return;
+  }
+}
+
+void HamiltonianSearch::search_degree(int degree, bool last) {
+  search_.space().search_up_to(degree, watch_);
+  report_.invariant = search_.space().dimensions().back();
+  std::vector<Bivector> basis;
+  for (const Polynomial& t : search_.space().basis(degree))
+    basis.push_back(search_.space().components(t));
+  std::vector<search::Branch> families;
+  if (!basis.empty() && !search_.integrals().empty()) {
+    make_equations(basis);
+    families = equations_->solve(watch_);
+    for (const search::Branch& family : families)
+      if (family.decided) take(*equations_, basis, family);
+  }
+  if (!last) return;
+  const std::optional<std::string> doubt = search_.doubt(families);
+  report_.whatever_hamiltonian = basis.empty();
+  report_.complete = !doubt && (basis.empty() || search_.integrals_are_all());
+  if (doubt)
+    report_.reason = *doubt;
+  else if (!report_.complete)
+    report_.reason = "the polynomial integrals, of which the Hamiltonian is one, may not be all";
+  else if (report_.found.empty() && !families.empty()) {
+    report_.complete = false;
+    report_.reason = "no simple values of the constants give a bracket that was proved";
+  }
+}
+
+BracketReport HamiltonianSearch::run() {
+  for (int degree = 0; degree <= report_.degree; ++degree)
+    search_degree(degree, degree == report_.degree);
+  const search::System& system = search_.space().system();
+  for (const std::size_t place : system.parameters())
+    report_.generic.push_back(system.name(place));
+  return report_;
+}
+
+}  // namespace
+
+BracketReport find_brackets(const Model& model, int degree, const search::Watch& watch) {
+  return HamiltonianSearch(model, degree, watch).run();
+}
+
+}  // namespace casimir::structure
