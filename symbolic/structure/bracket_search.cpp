@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "symbolic/functions/short_text.hpp"
 #include "symbolic/search/modular/span.hpp"
 #include "symbolic/search/search.hpp"
 
@@ -227,6 +228,74 @@ GiNaC::ex BracketSearch::combination(const std::vector<Polynomial>& functions,
   return sum;
 }
 
+std::vector<Bivector> BracketSearch::shortest_independent(
+    std::vector<Bivector> list, const std::vector<Bivector>& base) const {
+  const search::System& system = space_.system();
+  const auto length = [](const Bivector& p) {
+    std::size_t sum = 0;
+    for (const Polynomial& component : p) {
+      for (const auto& [number, exponents] : component.term_list()) {
+        sum += 1;
+        for (const unsigned long e : exponents) sum += e;
+        if (number != 1 && number != -1) ++sum;
+      }
+    }
+    return sum;
+  };
+  std::stable_sort(list.begin(), list.end(), [&](const Bivector& a, const Bivector& b) {
+    return length(a) < length(b);
+  });
+  const search::Modulus modulus = search::usable_modulus(system);
+  std::mt19937_64 random(37);
+  const std::optional<search::Point> constants = system.random_point(modulus, random);
+  std::vector<search::Point> points;
+  while (constants && points.size() < 24) {
+    std::optional<search::Point> point = system.random_point(modulus, random, &*constants);
+    if (!point) break;
+    points.push_back(std::move(*point));
+  }
+  search::Span span(modulus);
+  const auto is_new = [&](const Bivector& p) {
+    std::vector<search::Residue> values;
+    for (const search::Point& point : points) {
+      for (const Polynomial& component : p)
+        values.push_back(search::value_at(component, point, modulus).value_or(0));
+    }
+    return span.insert(std::move(values));
+  };
+  for (const Bivector& p : base) is_new(p);
+  std::erase_if(list, [&](const Bivector& p) { return !is_new(p); });
+  return list;
+}
+
+/// `short_text` is that of the polynomial or of its negative.
+std::string BracketSearch::signed_text(const GiNaC::ex& polynomial) {
+  search::System& system = space_.system();
+  const Polynomial p = system.functions().reduced(system.prover().convert(polynomial.expand()));
+  const std::string text = search::short_text(system.functions(), p, system.is_constant());
+  const auto is = [&](const std::string& own) {
+    return (model_.parse({own, {"the text of a function", 1, 1}, own}) - polynomial)
+        .expand()
+        .is_zero();
+  };
+  if (is(text)) return text;
+  const std::string negative = p.terms() > 1 ? "-(" + text + ")" : "-" + text;
+  return is(negative) ? negative : system.functions().text(p);
+}
+
+std::string BracketSearch::text_of(const GiNaC::ex& function) {
+  const GiNaC::ex parts = function.numer_denom();
+  const std::string top = signed_text(parts.op(0));
+  if (parts.op(1).is_equal(1)) return top;
+  const auto bracketed = [](const std::string& text) {
+    // "-(..)" is how `signed_text` writes a negative sum.
+    const bool plain =
+        text.starts_with("-(") || text.find_first_of("+-*/ ") == std::string::npos;
+    return plain ? text : "(" + text + ")";
+  };
+  return bracketed(top) + "/" + bracketed(signed_text(parts.op(1)));
+}
+
 Bracket BracketSearch::described(const Bivector& p, const std::optional<GiNaC::ex>& hamiltonian) {
   search::System& system = space_.system();
   Bracket result;
@@ -251,7 +320,7 @@ Bracket BracketSearch::described(const Bivector& p, const std::optional<GiNaC::e
     if (proof.verdict != Verdict::proved) result.jacobi = Verdict::undecided;
   if (hamiltonian) {
     result.hamiltonian = hamiltonian;
-    result.hamiltonian_text = system.text_of(hamiltonian->expand());
+    result.hamiltonian_text = text_of(*hamiltonian);
     const std::vector<GiNaC::ex> flow = model.poisson->flow(*hamiltonian);
     result.motion = Verdict::proved;
     for (std::size_t i = 0; i < flow.size(); ++i)

@@ -29,6 +29,13 @@ class BracketSearch {
   /// The function of the parameters that the motion was multiplied by.
   GiNaC::ex factor_of_motion() const;
 
+  /// Of bivectors, those that are not in the linear span of `base` and of shorter ones before them,
+  /// the shortest first.
+  std::vector<Bivector> shortest_independent(std::vector<Bivector> list,
+                                             const std::vector<Bivector>& base) const;
+  /// A function in the notation of case files, its denominator behind it.
+  std::string text_of(const GiNaC::ex& function);
+
   /// Everything of a bracket that follows from its components and its Hamiltonian, with proofs.
   Bracket described(const Bivector& p, const std::optional<GiNaC::ex>& hamiltonian);
 
@@ -37,6 +44,7 @@ class BracketSearch {
 
  private:
   void take_integrals(int degree);
+  std::string signed_text(const GiNaC::ex& polynomial);
 
   const Model& model_;
   const search::Watch& watch_;

@@ -2,6 +2,7 @@
 #include "symbolic/structure/brackets.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "symbolic/structure/bracket_search.hpp"
 
@@ -20,19 +21,23 @@ class HamiltonianSearch {
 
  private:
   void search_degree(int degree, bool last);
-  void make_equations(const std::vector<Bivector>& basis);
-  void take(const ConstantEquations& equations, const std::vector<Bivector>& basis,
-            const search::Branch& family);
+  void make_equations();
+  void collect(const search::Branch& family);
+  void take();
 
   const search::Watch& watch_;
   BracketSearch search_;
+  std::vector<Bivector> basis_;       ///< of the invariant bivectors
+  std::vector<Bivector> candidates_;  ///< that solve all equations
+  std::vector<GiNaC::ex> hamiltonians_;
   std::vector<Bivector> taken_;
   std::optional<ConstantEquations> equations_;  ///< whose ring the families of solutions use
   BracketReport report_;
 };
 
 /// Unknowns: the constants of the Hamiltonian, then those of the bracket.
-void HamiltonianSearch::make_equations(const std::vector<Bivector>& basis) {
+void HamiltonianSearch::make_equations() {
+  const std::vector<Bivector>& basis = basis_;
   const std::size_t n = search_.dimension(), functions = search_.integrals().size();
   equations_.emplace(search_.space().system(), functions + basis.size());
   std::vector<std::vector<ConstantEquations::Summand>> motion(n);
@@ -61,55 +66,63 @@ void HamiltonianSearch::make_equations(const std::vector<Bivector>& basis) {
   for (const auto& sum : jacobi) equations_->add(sum);
 }
 
-/// The simplest member of a family.
-void HamiltonianSearch::take(const ConstantEquations& equations, const std::vector<Bivector>& basis,
-                             const search::Branch& family) {
+/// Simple members of a family, with their Hamiltonians.
+void HamiltonianSearch::collect(const search::Branch& family) {
   const std::size_t functions = search_.integrals().size();
-  std::vector<std::size_t> free = equations.free_in(family);
+  const std::vector<std::size_t> free = equations_->free_in(family);
   // The constants of the bracket first: those of the Hamiltonian may well be zero.
   std::vector<std::size_t> order(free.size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  std::iota(order.begin(), order.end(), 0);
   std::stable_partition(order.begin(), order.end(),
                         [&](std::size_t k) { return free[k] >= functions; });
   for (const std::vector<GiNaC::ex>& choice : simple_constants(free.size())) {
     std::vector<GiNaC::ex> values(free.size());
     for (std::size_t k = 0; k < order.size(); ++k) values[order[k]] = choice[k];
-    const auto constants = equations.values(family, values);
+    const auto constants = equations_->values(family, values);
     if (!constants) continue;
     const auto middle = constants->begin() + static_cast<std::ptrdiff_t>(functions);
-    const auto [bracket, factor] = search_.combination(basis, {middle, constants->end()});
+    auto [bracket, factor] = search_.combination(basis_, {middle, constants->end()});
     if (factor.is_zero()) continue;
-    if (std::any_of(taken_.begin(), taken_.end(),
-                    [&, &own = bracket](const Bivector& other) { return are_proportional(other, own); }))
-      return;
     const GiNaC::ex h = search_.combination(search_.integrals(), {constants->begin(), middle}) /
                         (factor * search_.factor_of_motion());
-    Bracket found = search_.described(bracket, h.normal());
-    found.free = free.size();
-    taken_.push_back(bracket);
-    if (found.jacobi == Verdict::proved && found.motion == Verdict::proved)
-      report_.found.push_back(std::move(found));
-    return;
+    candidates_.push_back(std::move(bracket));
+    hamiltonians_.push_back(h.normal());
+  }
+}
+
+void HamiltonianSearch::take() {
+  for (const Bivector& p : search_.shortest_independent(candidates_, taken_)) {
+    const auto place = std::find(candidates_.begin(), candidates_.end(), p);
+    const GiNaC::ex h = hamiltonians_[static_cast<std::size_t>(place - candidates_.begin())];
+    Bracket found = search_.described(p, h);
+    if (found.jacobi != Verdict::proved || found.motion != Verdict::proved) continue;
+    taken_.push_back(p);
+    report_.found.push_back(std::move(found));
   }
 }
 
 void HamiltonianSearch::search_degree(int degree, bool last) {
   search_.space().search_up_to(degree, watch_);
   report_.invariant = search_.space().dimensions().back();
-  std::vector<Bivector> basis;
+  basis_.clear();
   for (const Polynomial& t : search_.space().basis(degree))
-    basis.push_back(search_.space().components(t));
+    basis_.push_back(search_.space().components(t));
   std::vector<search::Branch> families;
-  if (!basis.empty() && !search_.integrals().empty()) {
-    make_equations(basis);
+  candidates_.clear();
+  hamiltonians_.clear();
+  if (!basis_.empty() && !search_.integrals().empty()) {
+    make_equations();
     families = equations_->solve(watch_);
     for (const search::Branch& family : families)
-      if (family.decided) take(*equations_, basis, family);
+      if (family.decided) collect(family);
+    take();
   }
   if (!last) return;
+  report_.families = families.size();
+  report_.spanned = report_.found.size() == report_.invariant;
   const std::optional<std::string> doubt = search_.doubt(families);
-  report_.whatever_hamiltonian = basis.empty();
-  report_.complete = !doubt && (basis.empty() || search_.integrals_are_all());
+  report_.whatever_hamiltonian = basis_.empty();
+  report_.complete = !doubt && (basis_.empty() || search_.integrals_are_all());
   if (doubt)
     report_.reason = *doubt;
   else if (!report_.complete)

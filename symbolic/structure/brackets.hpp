@@ -22,7 +22,7 @@ struct Bracket {
   /// Functions C_0, C_1, .. with P' dC_0 = 0, P' dC_(k+1) = P dC_k and P dC_K = 0 at the end, P
   /// being the first bracket and P' this one. Of a second bracket only.
   std::vector<std::vector<std::string>> chains;
-  std::size_t free = 0;  ///< constants that the family it was taken from has, the scale among them
+  std::vector<std::size_t> compatible;  ///< numbers of the other ones found that it may be added to
   int degree = 0;
   Verdict jacobi = Verdict::undecided;  ///< the Jacobi identity
   Verdict motion = Verdict::undecided;  ///< that the motion is that of the Hamiltonian
@@ -33,9 +33,13 @@ struct BracketReport {
   int degree = 0;              ///< highest, of the components
   int hamiltonian_degree = 0;  ///< highest, of the Hamiltonian
   std::optional<Bracket> first;  ///< of a search for second brackets: the one they belong to
-  std::vector<Bracket> found;
+  std::vector<Bracket> found;  ///< none of them a linear combination of others
+  std::size_t families = 0;    ///< of solutions of the equations for the constants
+  /// Proved where it is complete: every such bracket is a linear combination of those found (and
+  /// the first), as the invariant bivectors have no more dimensions.
+  bool spanned = false;
   std::size_t invariant = 0;  ///< dimension of the space of invariant bivectors of that degree
-  /// Proved: every such bracket belongs to a family that something was taken from.
+  /// Proved: every such bracket belongs to one of the families; there is none where these are none.
   bool complete = false;
   /// Proved where it is complete and nothing was found: no bracket whatever the Hamiltonian.
   bool whatever_hamiltonian = false;

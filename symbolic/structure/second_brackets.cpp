@@ -1,6 +1,7 @@
 // Second Poisson brackets that are compatible with a first one.
 #include <algorithm>
 
+#include "symbolic/algebra/rational_matrix.hpp"
 #include "symbolic/structure/bracket_search.hpp"
 
 namespace casimir::structure {
@@ -20,11 +21,14 @@ class PencilSearch {
   bool take_first();
   std::vector<Bivector> others(int degree);
   std::vector<search::Branch> solve(const std::vector<Bivector>& basis);
-  void take(const ConstantEquations& equations, const std::vector<Bivector>& basis,
-            const search::Branch& family);
+  void take(const std::vector<Bivector>& basis, const std::vector<search::Branch>& families);
+  void compare();
   std::optional<GiNaC::ex> hamiltonian_of(const Bivector& p);
   std::vector<std::vector<std::string>> chains_of(const Bivector& p);
-  std::vector<std::vector<std::string>> chains_of_length(const Bivector& p, std::size_t length);
+  void add_links(ConstantEquations& equations, const Bivector& p, std::size_t length);
+  std::optional<std::vector<cln::cl_RA>> at_simple_parameters(
+      const std::vector<GiNaC::ex>& constants) const;
+  std::vector<std::string> chain_text(const std::vector<GiNaC::ex>& constants, std::size_t length);
 
   const search::Watch& watch_;
   const Model& model_;
@@ -120,90 +124,141 @@ std::optional<GiNaC::ex> PencilSearch::hamiltonian_of(const Bivector& p) {
   return std::nullopt;
 }
 
-/// Chains C_0, .., C_length that are no shorter ones.
-std::vector<std::vector<std::string>> PencilSearch::chains_of_length(const Bivector& p,
-                                                                     std::size_t length) {
+/// The equations P' dC_k = P dC_(k-1) for chains C_0, .., C_length, where C_-1 and C_(length+1)
+/// are zero. The unknowns are the constants of C_0, then those of C_1, ..
+void PencilSearch::add_links(ConstantEquations& equations, const Bivector& p, std::size_t length) {
   const std::size_t n = search_.dimension();
   const std::vector<Polynomial>& integrals = search_.integrals();
-  const std::size_t count = integrals.size();
-  ConstantEquations own(search_.space().system(), count * (length + 1));
-  // P' dC_k - P dC_(k-1), where C_-1 and C_(length+1) are zero.
   for (std::size_t k = 0; k <= length + 1; ++k) {
     std::vector<std::vector<ConstantEquations::Summand>> link(n);
-    for (std::size_t f = 0; f < count; ++f) {
+    for (std::size_t f = 0; f < integrals.size(); ++f) {
       const auto add = [&](const Bivector& bracket, std::size_t function, int sign) {
         const std::vector<Polynomial> field = hamiltonian_field(bracket, n, integrals[f]);
         for (std::size_t i = 0; i < n; ++i)
           if (!field[i].is_zero())
-            link[i].push_back({field[i].scaled(sign), {function * count + f}});
+            link[i].push_back({field[i].scaled(sign), {function * integrals.size() + f}});
       };
       if (k <= length) add(p, k, 1);
       if (k > 0) add(first_, k - 1, -1);
     }
-    for (const auto& sum : link) own.add(sum);
+    for (const auto& sum : link) equations.add(sum);
   }
+}
+
+/// Chains that are not made of shorter ones: of these, with zeros before and behind them, they are
+/// no linear combination, at simple values of the parameters.
+std::vector<std::vector<std::string>> PencilSearch::chains_of(const Bivector& p) {
+  constexpr std::size_t kLongest = 3, kMostUnknowns = 60;
+  const std::size_t count = search_.integrals().size();
   std::vector<std::vector<std::string>> result;
-  for (const search::Branch& family : own.solve(watch_)) {
-    const std::size_t free = own.free_in(family).size();
-    for (std::size_t one = 0; one < free; ++one) {
-      std::vector<GiNaC::ex> values(free, 0);
-      values[one] = 1;
-      const auto constants = own.values(family, values);
-      if (!constants) continue;
-      std::vector<std::string> chain;
-      for (std::size_t k = 0; k <= length; ++k) {
-        const auto begin = constants->begin() + static_cast<std::ptrdiff_t>(k * count);
-        const GiNaC::ex function =
-            search_.combination(integrals, {begin, begin + static_cast<std::ptrdiff_t>(count)});
-        // Where a link is a Casimir function of both, the chain is put together of shorter ones.
-        const Polynomial p_function =
-            search_.space().system().prover().convert(function.normal().numer().expand());
-        const auto kills = [&](const Bivector& bracket) {
-          const std::vector<Polynomial> field = hamiltonian_field(bracket, n, p_function);
-          return std::all_of(field.begin(), field.end(),
-                             [](const Polynomial& entry) { return entry.is_zero(); });
-        };
-        const bool starts = k == 0 || !kills(p), ends = k == length || !kills(first_);
-        if (function.is_zero() || !starts || !ends) break;
-        chain.push_back(search_.space().system().text_of(function.expand()));
+  std::vector<std::vector<cln::cl_RA>> shorter;
+  for (std::size_t length = 0; length <= kLongest; ++length) {
+    if (count * (length + 1) > kMostUnknowns) break;
+    RationalMatrix rows;
+    for (const std::vector<cln::cl_RA>& chain : shorter) {
+      for (std::size_t shift = 0; chain.size() + shift * count <= count * (length + 1); ++shift) {
+        rows.emplace_back(count * (length + 1), 0);
+        std::copy(chain.begin(), chain.end(),
+                  rows.back().begin() + static_cast<std::ptrdiff_t>(shift * count));
       }
-      if (chain.size() == length + 1) result.push_back(std::move(chain));
+    }
+    std::size_t known = rank(rows);
+    ConstantEquations own(search_.space().system(), count * (length + 1));
+    add_links(own, p, length);
+    for (const search::Branch& family : own.solve(watch_)) {
+      const std::size_t free = own.free_in(family).size();
+      for (std::size_t one = 0; one < free; ++one) {
+        std::vector<GiNaC::ex> values(free, 0);
+        values[one] = 1;
+        const auto constants = own.values(family, values);
+        if (!constants) continue;
+        const auto numbers = at_simple_parameters(*constants);
+        if (!numbers) continue;
+        rows.push_back(*numbers);
+        if (rank(rows) == known) {
+          rows.pop_back();
+          continue;
+        }
+        ++known;
+        shorter.push_back(*numbers);
+        result.push_back(chain_text(*constants, length));
+      }
     }
   }
   return result;
 }
 
-std::vector<std::vector<std::string>> PencilSearch::chains_of(const Bivector& p) {
-  constexpr std::size_t kLongest = 3, kMostUnknowns = 60;
-  std::vector<std::vector<std::string>> result;
-  for (std::size_t length = 1; length <= kLongest; ++length) {
-    if (search_.integrals().size() * (length + 1) > kMostUnknowns) break;
-    for (auto& chain : chains_of_length(p, length)) result.push_back(std::move(chain));
+std::optional<std::vector<cln::cl_RA>> PencilSearch::at_simple_parameters(
+    const std::vector<GiNaC::ex>& constants) const {
+  GiNaC::exmap values;
+  int next = 3;
+  for (const GiNaC::symbol& parameter : model_.parameters) {
+    values[parameter] = GiNaC::numeric(next, next + 2);
+    next = next * 2 + 1;
+  }
+  std::vector<cln::cl_RA> result;
+  for (const GiNaC::ex& constant : constants) {
+    const GiNaC::ex parts = constant.numer_denom().subs(values);
+    if (!GiNaC::is_a<GiNaC::numeric>(parts.op(0)) || !GiNaC::is_a<GiNaC::numeric>(parts.op(1)) ||
+        parts.op(1).is_zero())
+      return std::nullopt;
+    const GiNaC::numeric number =
+        GiNaC::ex_to<GiNaC::numeric>(parts.op(0)) / GiNaC::ex_to<GiNaC::numeric>(parts.op(1));
+    if (!number.is_rational()) return std::nullopt;
+    result.push_back(cln::the<cln::cl_RA>(number.to_cl_N()));
   }
   return result;
 }
 
-/// One member for each free constant, the others zero where they may be.
-void PencilSearch::take(const ConstantEquations& equations, const std::vector<Bivector>& basis,
-                        const search::Branch& family) {
-  const std::size_t free = equations.free_in(family).size();
-  std::size_t found = 0;
-  for (const std::vector<GiNaC::ex>& choice : simple_constants(free)) {
-    if (found == free) return;
-    const auto constants = equations.values(family, choice);
-    if (!constants) continue;
-    const auto [bracket, factor] = search_.combination(basis, *constants);
-    if (factor.is_zero()) continue;
-    ++found;
-    const auto is_known = [&, &own = bracket](const Bivector& other) {
-      return are_proportional(other, own);
-    };
-    if (std::any_of(taken_.begin(), taken_.end(), is_known)) continue;
-    taken_.push_back(bracket);
-    Bracket second = search_.described(bracket, hamiltonian_of(bracket));
-    second.free = free;
-    second.chains = chains_of(bracket);
-    if (second.jacobi == Verdict::proved) report_.found.push_back(std::move(second));
+/// All functions of a chain times one constant, so that they have no denominators.
+std::vector<std::string> PencilSearch::chain_text(const std::vector<GiNaC::ex>& constants,
+                                                  std::size_t length) {
+  const std::vector<Polynomial>& integrals = search_.integrals();
+  std::vector<Bivector> basis;
+  for (std::size_t k = 0; k <= length; ++k) {
+    for (const Polynomial& f : integrals) {
+      basis.emplace_back(length + 1, Polynomial(f.ring()));
+      basis.back()[k] = f;
+    }
+  }
+  std::vector<std::string> result;
+  for (const Polynomial& f : search_.combination(basis, constants).first)
+    result.push_back(search_.text_of(search_.space().system().expression(f)));
+  return result;
+}
+
+/// The shortest members of all families that are no combinations of others.
+void PencilSearch::take(const std::vector<Bivector>& basis,
+                        const std::vector<search::Branch>& families) {
+  std::vector<Bivector> candidates;
+  for (const search::Branch& family : families) {
+    if (!family.decided) continue;
+    for (const auto& choice : simple_constants(equations_->free_in(family).size())) {
+      const auto constants = equations_->values(family, choice);
+      if (!constants) continue;
+      auto [bracket, factor] = search_.combination(basis, *constants);
+      if (!factor.is_zero()) candidates.push_back(std::move(bracket));
+    }
+  }
+  std::vector<Bivector> known = taken_;
+  known.push_back(first_);
+  for (const Bivector& p : search_.shortest_independent(std::move(candidates), known)) {
+    Bracket second = search_.described(p, hamiltonian_of(p));
+    if (second.jacobi != Verdict::proved) continue;
+    second.chains = chains_of(p);
+    taken_.push_back(p);
+    report_.found.push_back(std::move(second));
+  }
+}
+
+void PencilSearch::compare() {
+  for (std::size_t i = 0; i < taken_.size(); ++i) {
+    for (std::size_t j = 0; j < taken_.size(); ++j) {
+      if (i == j) continue;
+      const std::vector<Polynomial> both = schouten(taken_[i], taken_[j], search_.dimension());
+      if (std::all_of(both.begin(), both.end(), [](const Polynomial& c) { return c.is_zero(); }))
+        report_.found[i].compatible.push_back(j);
+    }
   }
 }
 
@@ -220,9 +275,11 @@ BracketReport PencilSearch::run() {
     families.clear();
     if (basis.empty()) continue;
     families = solve(basis);
-    for (const search::Branch& family : families)
-      if (family.decided) take(*equations_, basis, family);
+    take(basis, families);
   }
+  compare();
+  report_.families = families.size();
+  report_.spanned = families.empty() || report_.found.size() + 1 == report_.invariant;
   const std::optional<std::string> doubt = search_.doubt(families);
   report_.complete = !doubt;
   if (doubt) report_.reason = *doubt;

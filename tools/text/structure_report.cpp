@@ -34,7 +34,7 @@ nlohmann::ordered_json to_json(const Bracket& bracket) {
     own["motion"] = to_string(bracket.motion);
   }
   own["casimirs"] = bracket.casimirs;
-  if (bracket.free > 0) own["free_constants"] = bracket.free;
+  if (!bracket.compatible.empty()) own["compatible_with"] = bracket.compatible;
   if (!bracket.chains.empty()) own["chains"] = bracket.chains;
   return own;
 }
@@ -62,18 +62,24 @@ std::string generic_text(const std::vector<std::string>& names) {
 }
 
 void print_bracket(const Bracket& bracket, bool colour) {
-  fmt::print("  degree {}   {}\n", bracket.degree,
-             tensor_text({2, false}, bracket.texts));
+  fmt::print("  degree {}   {}\n", bracket.degree, tensor_text({2, false}, bracket.texts));
   fmt::print("    Jacobi identity   {}\n", verdict_text(bracket.jacobi, colour));
   if (bracket.hamiltonian)
     fmt::print("    H = {}   {}\n", bracket.hamiltonian_text,
                verdict_text(bracket.motion, colour));
   for (const std::string& casimir : bracket.casimirs)
     fmt::print("    Casimir function {}   {}\n", casimir, verdict_text(Verdict::proved, colour));
-  for (const std::vector<std::string>& chain : bracket.chains)
-    fmt::print("    chain {}\n", fmt::join(chain, " -> "));
-  if (bracket.free > 1)
-    fmt::print("    one of a family with {} constants\n", bracket.free);
+  for (const std::vector<std::string>& chain : bracket.chains) {
+    if (chain.size() == 1)
+      fmt::print("    Casimir function of both: {}\n", chain[0]);
+    else
+      fmt::print("    chain {}\n", fmt::join(chain, " -> "));
+  }
+  if (!bracket.compatible.empty()) {
+    std::vector<std::size_t> numbers;
+    for (const std::size_t i : bracket.compatible) numbers.push_back(i + 1);
+    fmt::print("    compatible with number {}\n", fmt::join(numbers, ", "));
+  }
 }
 
 }  // namespace
@@ -131,6 +137,8 @@ nlohmann::ordered_json to_json(const Model& model, int degree, const BracketRepo
   if (report.first) json["first"] = to_json(*report.first);
   json["brackets"] = nlohmann::json::array();
   for (const Bracket& bracket : report.found) json["brackets"].push_back(to_json(bracket));
+  json["families"] = report.families;
+  json["spanned"] = report.spanned;
   json["verdict"] = report.complete ? "proved" : "undecided";
   if (report.complete && report.found.empty() && report.whatever_hamiltonian)
     json["excluded"] = "any_hamiltonian";
@@ -155,15 +163,20 @@ void print(const Model& model, int degree, const BracketReport& report, double s
   if (!report.complete) {
     fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
                report.reason);
-  } else if (report.first) {
-    fmt::print("No other that is compatible with the first, up to degree {}{}: {}\n", degree,
-               generic, verdict_text(Verdict::proved, colour));
-  } else if (report.whatever_hamiltonian) {
+  } else if (!report.first && report.whatever_hamiltonian) {
     fmt::print("No Poisson bracket up to degree {}, whatever the Hamiltonian{}: {}\n", degree,
                generic, verdict_text(Verdict::proved, colour));
   } else {
-    fmt::print("No other{} up to degree {} with a polynomial Hamiltonian up to degree {}{}: {}\n",
-               report.found.empty() ? "" : " family", degree, report.hamiltonian_degree, generic,
+    const std::string kind =
+        report.first ? "that is compatible with the first"
+                     : fmt::format("with a polynomial Hamiltonian up to degree {}",
+                                   report.hamiltonian_degree);
+    const std::string what =
+        report.families == 0 ? "No other"
+        : report.spanned     ? "No other, beside linear combinations of these,"
+                         : fmt::format("All belong to {} famil{} with members of these: no other",
+                                       report.families, report.families == 1 ? "y" : "ies");
+    fmt::print("{} up to degree {} {}{}: {}\n", what, degree, kind, generic,
                verdict_text(Verdict::proved, colour));
   }
   fmt::print("{} found among {} invariant bivectors, {:.3f} s\n", report.found.size(),
