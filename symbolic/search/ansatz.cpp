@@ -294,8 +294,8 @@ Ansatz make_ansatz(const System& system, const Problem& problem, const Watch& wa
           cofactors, kMostCofactors));
     // A multiple of an earlier relation need not be a cofactor: that one's takes it over.
     if (left >= 0) {
-      ansatz.relations.push_back(
-          {level[f], without_multiples(monomials_of(problem, weights, left), {leading.begin(), own})});
+      ansatz.relations.push_back({level[f], without_multiples(monomials_of(problem, weights, left),
+                                                              {leading.begin(), own})});
     }
     for (auto earlier = leading.begin(); earlier != own; ++earlier) {
       for (std::size_t k = 0; k < places.size(); ++k)

@@ -52,8 +52,8 @@ struct Solution {
   std::vector<Generator> found;
   std::size_t trivial = 0;  ///< dimension of what the known ones generate, with the constants
   std::size_t found_dimension = 0;  ///< what the found ones add to that
-  bool complete = false;    ///< there are no others: proved
-  std::string reason;       ///< where it is not complete
+  bool complete = false;            ///< there are no others: proved
+  std::string reason;               ///< where it is not complete
   std::size_t unknowns = 0, equations = 0, blocks = 0, largest_block = 0;
 };
 

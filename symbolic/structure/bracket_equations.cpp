@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/search/modular/span.hpp"
 
 namespace casimir::structure {
@@ -167,7 +168,13 @@ std::vector<Polynomial> ConstantEquations::independent() const {
 std::vector<search::Branch> ConstantEquations::solve(const search::Watch& watch) const {
   std::vector<std::size_t> places(unknowns_);
   std::iota(places.begin(), places.end(), first_);
-  return search::solve_system(independent(), places, watch);
+  try {
+    return search::solve_system(independent(), places, watch);
+  } catch (const TooLarge&) {
+    search::Branch unknown;
+    unknown.decided = false;
+    return {unknown};
+  }
 }
 
 std::vector<std::size_t> ConstantEquations::free_in(const search::Branch& family) const {
@@ -187,8 +194,8 @@ GiNaC::ex ConstantEquations::value(const Polynomial& p,
     GiNaC::ex term = GiNaC::numeric(number);
     for (std::size_t i = 0; i < exponents.size(); ++i) {
       if (exponents[i] == 0) continue;
-      const GiNaC::ex base = i < first_ ? system_.expression(system_.ring().variable(i))
-                                        : unknowns[i - first_];
+      const GiNaC::ex base =
+          i < first_ ? system_.expression(system_.ring().variable(i)) : unknowns[i - first_];
       term *= GiNaC::pow(base, GiNaC::numeric(static_cast<unsigned long>(exponents[i])));
     }
     sum += term;

@@ -39,7 +39,7 @@ class ConstantEquations {
   /// The sum has to vanish.
   void add(const std::vector<Summand>& sum);
 
-  /// All solutions, by families.
+  /// All solutions, by families; one that is not decided where the equations grow beyond limits.
   std::vector<search::Branch> solve(const search::Watch& watch) const;
 
   /// The unknowns, over the parameters, where the free ones of a family have these values; empty

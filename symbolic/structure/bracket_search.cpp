@@ -110,8 +110,7 @@ bool are_proportional(const Bivector& p, const Bivector& q) {
          p[pivot].scaled(1 / p[pivot].content()) == q[pivot].scaled(1 / q[pivot].content());
 }
 
-BracketSearch::BracketSearch(const Model& model, int hamiltonian_degree,
-                             const search::Watch& watch)
+BracketSearch::BracketSearch(const Model& model, int hamiltonian_degree, const search::Watch& watch)
     : model_(model),
       watch_(watch),
       space_(model, {2, false}),
@@ -136,7 +135,10 @@ void BracketSearch::take_integrals(int degree) {
   std::vector<Polynomial> generators;
   std::vector<int> degrees;
   for (const search::Found& found : report.found) {
-    if (!space_.add_integral(found.value)) continue;
+    if (!space_.add_integral(found.value)) {
+      integrals_are_all_ = false;
+      continue;
+    }
     generators.push_back(system.functions().reduced(system.prover().convert(found.value)));
     degrees.push_back(found.degree);
   }
@@ -156,6 +158,8 @@ void BracketSearch::take_integrals(int degree) {
     products.push_back(std::move(product));
   }
   integrals_ = independent(system, products);
+  std::erase_if(products, [](const Polynomial& p) { return p.is_constant(); });
+  all_integrals_ = std::move(products);
 }
 
 GiNaC::ex BracketSearch::factor_of_motion() const {
@@ -169,8 +173,8 @@ GiNaC::ex BracketSearch::factor_of_motion() const {
   return 1;
 }
 
-std::pair<Bivector, GiNaC::ex> BracketSearch::combination(
-    const std::vector<Bivector>& basis, const std::vector<GiNaC::ex>& constants) {
+std::pair<Bivector, GiNaC::ex> BracketSearch::combination(const std::vector<Bivector>& basis,
+                                                          const std::vector<GiNaC::ex>& constants) {
   search::System& system = space_.system();
   // Multiplied by the common denominator, and divided by the content.
   GiNaC::ex bottom = 1;
@@ -228,8 +232,8 @@ GiNaC::ex BracketSearch::combination(const std::vector<Polynomial>& functions,
   return sum;
 }
 
-std::vector<Bivector> BracketSearch::shortest_independent(
-    std::vector<Bivector> list, const std::vector<Bivector>& base) const {
+std::vector<Bivector> BracketSearch::shortest_independent(std::vector<Bivector> list,
+                                                          const std::vector<Bivector>& base) const {
   const search::System& system = space_.system();
   const auto length = [](const Bivector& p) {
     std::size_t sum = 0;
@@ -242,9 +246,8 @@ std::vector<Bivector> BracketSearch::shortest_independent(
     }
     return sum;
   };
-  std::stable_sort(list.begin(), list.end(), [&](const Bivector& a, const Bivector& b) {
-    return length(a) < length(b);
-  });
+  std::stable_sort(list.begin(), list.end(),
+                   [&](const Bivector& a, const Bivector& b) { return length(a) < length(b); });
   const search::Modulus modulus = search::usable_modulus(system);
   std::mt19937_64 random(37);
   const std::optional<search::Point> constants = system.random_point(modulus, random);
@@ -289,8 +292,7 @@ std::string BracketSearch::text_of(const GiNaC::ex& function) {
   if (parts.op(1).is_equal(1)) return top;
   const auto bracketed = [](const std::string& text) {
     // "-(..)" is how `signed_text` writes a negative sum.
-    const bool plain =
-        text.starts_with("-(") || text.find_first_of("+-*/ ") == std::string::npos;
+    const bool plain = text.starts_with("-(") || text.find_first_of("+-*/ ") == std::string::npos;
     return plain ? text : "(" + text + ")";
   };
   return bracketed(top) + "/" + bracketed(signed_text(parts.op(1)));
@@ -303,21 +305,22 @@ Bracket BracketSearch::described(const Bivector& p, const std::optional<GiNaC::e
     result.upper.push_back(system.expression(p[c]));
     if (p[c].is_zero()) continue;
     result.texts.emplace_back(space_.lift().label(c), system.functions().text(p[c]));
-    result.degree =
-        std::max(result.degree,
-                 search::weighted_degree(p[c], system.atoms(),
-                                         std::vector<int>(system.atoms().size(), 1)));
+    result.degree = std::max(
+        result.degree,
+        search::weighted_degree(p[c], system.atoms(), std::vector<int>(system.atoms().size(), 1)));
   }
   Model model = bare(model_);
   model.phase_space = "explicit brackets";
   model.poisson.emplace(model.variables, result.upper);
   model.hamiltonian = hamiltonian;
-  result.jacobi = Verdict::proved;
   Candidates only;
   only.only = ClaimKind::jacobi;
   if (!hamiltonian) model.hamiltonian = 0;
-  for (const Proof& proof : prove(model, only))
-    if (proof.verdict != Verdict::proved) result.jacobi = Verdict::undecided;
+  const std::vector<Proof> proofs = prove(model, only);
+  if (!proofs.empty() && std::ranges::all_of(proofs, [](const Proof& proof) {
+        return proof.verdict == Verdict::proved;
+      }))
+    result.jacobi = Verdict::proved;
   if (hamiltonian) {
     result.hamiltonian = hamiltonian;
     result.hamiltonian_text = text_of(*hamiltonian);
@@ -334,8 +337,26 @@ Bracket BracketSearch::described(const Bivector& p, const std::optional<GiNaC::e
   return result;
 }
 
-std::optional<std::string> BracketSearch::doubt(
-    const std::vector<search::Branch>& families) const {
+std::optional<GiNaC::ex> BracketSearch::hamiltonian_of(const Bivector& p) {
+  const std::size_t n = dimension();
+  ConstantEquations own(space_.system(), integrals_.size());
+  std::vector<std::vector<ConstantEquations::Summand>> motion(n);
+  for (std::size_t i = 0; i < n; ++i) motion[i].push_back({-motion_[i], {}});
+  for (std::size_t f = 0; f < integrals_.size(); ++f) {
+    const std::vector<Polynomial> field = hamiltonian_field(p, n, integrals_[f]);
+    for (std::size_t i = 0; i < n; ++i)
+      if (!field[i].is_zero()) motion[i].push_back({field[i], {f}});
+  }
+  for (const auto& sum : motion) own.add(sum);
+  for (const search::Branch& family : own.solve(watch_)) {
+    const auto constants =
+        own.values(family, std::vector<GiNaC::ex>(own.free_in(family).size(), 0));
+    if (constants) return (combination(integrals_, *constants) / factor_of_motion()).normal();
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> BracketSearch::doubt(const std::vector<search::Branch>& families) const {
   const search::System& system = space_.system();
   if (!space_.complete()) return space_.reason();
   for (const search::Branch& family : families) {

@@ -15,8 +15,11 @@ class BracketSearch {
 
   std::size_t dimension() const { return space_.lift().dimension(); }
   TensorSpace& space() { return space_; }
-  /// Linearly independent integrals, without the constants, in the ring of the space.
+  /// Linearly independent integrals, without the constants, in the ring of the space: by random
+  /// points modulo a prime, so that by bad luck one may be missing.
   const std::vector<Polynomial>& integrals() const { return integrals_; }
+  /// What spans all of them for certain.
+  const std::vector<Polynomial>& all_integrals() const { return all_integrals_; }
   bool integrals_are_all() const { return integrals_are_all_; }
   /// The motion times a function of the parameters, so that no denominator is left.
   const std::vector<Polynomial>& motion() const { return motion_; }
@@ -29,6 +32,8 @@ class BracketSearch {
   /// The function of the parameters that the motion was multiplied by.
   GiNaC::ex factor_of_motion() const;
 
+  /// H with P dH = X, among the integrals; empty where there is none or it is not found.
+  std::optional<GiNaC::ex> hamiltonian_of(const Bivector& p);
   /// Of bivectors, those that are not in the linear span of `base` and of shorter ones before them,
   /// the shortest first.
   std::vector<Bivector> shortest_independent(std::vector<Bivector> list,
@@ -49,7 +54,7 @@ class BracketSearch {
   const Model& model_;
   const search::Watch& watch_;
   TensorSpace space_;
-  std::vector<Polynomial> integrals_, motion_;
+  std::vector<Polynomial> integrals_, all_integrals_, motion_;
   bool integrals_are_all_ = false;
   std::string integrals_reason_;
   int hamiltonian_degree_;

@@ -30,11 +30,11 @@ struct Bracket {
 
 /// What a search for brackets found, and whether that is all.
 struct BracketReport {
-  int degree = 0;              ///< highest, of the components
-  int hamiltonian_degree = 0;  ///< highest, of the Hamiltonian
+  int degree = 0;                ///< highest, of the components
+  int hamiltonian_degree = 0;    ///< highest, of the Hamiltonian
   std::optional<Bracket> first;  ///< of a search for second brackets: the one they belong to
-  std::vector<Bracket> found;  ///< none of them a linear combination of others
-  std::size_t families = 0;    ///< of solutions of the equations for the constants
+  std::vector<Bracket> found;    ///< none of them a linear combination of others
+  std::size_t families = 0;      ///< of solutions of the equations for the constants
   /// Proved where it is complete: every such bracket is a linear combination of those found (and
   /// the first), as the invariant bivectors have no more dimensions.
   bool spanned = false;
@@ -62,7 +62,6 @@ BracketReport find_brackets(const Model& model, int degree, const search::Watch&
 /// The Poisson brackets up to a degree that are invariant and compatible with that of the case (or
 /// the first one that is found for bare equations), less multiples of it.
 /// \throws as find_brackets
-BracketReport find_second_brackets(const Model& model, int degree,
-                                   const search::Watch& watch = {});
+BracketReport find_second_brackets(const Model& model, int degree, const search::Watch& watch = {});
 
 }  // namespace casimir::structure

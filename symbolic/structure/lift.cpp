@@ -71,21 +71,22 @@ std::vector<GiNaC::ex> wedge(std::size_t dimension, const std::vector<GiNaC::ex>
   return result;
 }
 
-Lift::Lift(const Model& model, TensorType type)
-    : type_(type), dimension_(model.variables.size()) {
+Lift::Lift(const Model& model, TensorType type) : type_(type), dimension_(model.variables.size()) {
   constexpr double kMostComponents = 500;
-  if (model.time) throw ModelError("invariant tensors are searched where no time is in the equations");
+  if (model.time)
+    throw ModelError("invariant tensors are searched where no time is in the equations");
   if (type.rank > static_cast<int>(dimension_))
-    throw ModelError(fmt::format("there are no skew tensors of rank {} in {} variables", type.rank,
-                                 dimension_));
+    throw ModelError(
+        fmt::format("there are no skew tensors of rank {} in {} variables", type.rank, dimension_));
   double components = 1;
   for (int k = 0; k < type.rank; ++k) {
     components *= static_cast<double>(dimension_ - static_cast<std::size_t>(k)) / (k + 1);
   }
   if (components > kMostComponents)
-    throw ModelError(fmt::format("a tensor of rank {} has {:.0f} components in {} variables, more "
-                                 "than the {} that are searched",
-                                 type.rank, components, dimension_, kMostComponents));
+    throw ModelError(
+        fmt::format("a tensor of rank {} has {:.0f} components in {} variables, more "
+                    "than the {} that are searched",
+                    type.rank, components, dimension_, kMostComponents));
   indices_ = skew_indices(dimension_, type.rank);
   model_.name = model.name;
   model_.file = model.file;

@@ -23,18 +23,19 @@ class PencilSearch {
   std::vector<search::Branch> solve(const std::vector<Bivector>& basis);
   void take(const std::vector<Bivector>& basis, const std::vector<search::Branch>& families);
   void compare();
-  std::optional<GiNaC::ex> hamiltonian_of(const Bivector& p);
   std::vector<std::vector<std::string>> chains_of(const Bivector& p);
   void add_links(ConstantEquations& equations, const Bivector& p, std::size_t length);
   std::optional<std::vector<cln::cl_RA>> at_simple_parameters(
       const std::vector<GiNaC::ex>& constants) const;
-  std::vector<std::string> chain_text(const std::vector<GiNaC::ex>& constants, std::size_t length);
+  std::vector<std::string> chain_text(const Bivector& p, const std::vector<GiNaC::ex>& constants,
+                                      std::size_t length);
 
   const search::Watch& watch_;
   const Model& model_;
   BracketSearch search_;
   Bivector first_;
   std::vector<Bivector> taken_;
+  bool unshown_ = false;  ///< of some family no member was found
   std::optional<ConstantEquations> equations_;
   BracketReport report_;
 };
@@ -62,7 +63,7 @@ bool PencilSearch::take_first() {
   search::System& system = search_.space().system();
   for (const GiNaC::ex& component : upper)
     first_.push_back(system.functions().reduced(system.prover().convert(component)));
-  report_.first = search_.described(first_, hamiltonian_of(first_));
+  report_.first = search_.described(first_, search_.hamiltonian_of(first_));
   if (report_.first->jacobi != Verdict::proved) {
     report_.reason = "the bracket does not obey the Jacobi identity";
     return false;
@@ -100,28 +101,6 @@ std::vector<search::Branch> PencilSearch::solve(const std::vector<Bivector>& bas
   for (const auto& sum : linear) equations_->add(sum);
   for (const auto& sum : quadratic) equations_->add(sum);
   return equations_->solve(watch_);
-}
-
-/// H with P dH = X, among the integrals.
-std::optional<GiNaC::ex> PencilSearch::hamiltonian_of(const Bivector& p) {
-  const std::size_t n = search_.dimension();
-  const std::vector<Polynomial>& integrals = search_.integrals();
-  ConstantEquations own(search_.space().system(), integrals.size());
-  std::vector<std::vector<ConstantEquations::Summand>> motion(n);
-  for (std::size_t i = 0; i < n; ++i) motion[i].push_back({-search_.motion()[i], {}});
-  for (std::size_t f = 0; f < integrals.size(); ++f) {
-    const std::vector<Polynomial> field = hamiltonian_field(p, n, integrals[f]);
-    for (std::size_t i = 0; i < n; ++i)
-      if (!field[i].is_zero()) motion[i].push_back({field[i], {f}});
-  }
-  for (const auto& sum : motion) own.add(sum);
-  for (const search::Branch& family : own.solve(watch_)) {
-    const auto constants = own.values(
-        family, std::vector<GiNaC::ex>(own.free_in(family).size(), 0));
-    if (constants)
-      return (search_.combination(integrals, *constants) / search_.factor_of_motion()).normal();
-  }
-  return std::nullopt;
 }
 
 /// The equations P' dC_k = P dC_(k-1) for chains C_0, .., C_length, where C_-1 and C_(length+1)
@@ -181,7 +160,8 @@ std::vector<std::vector<std::string>> PencilSearch::chains_of(const Bivector& p)
         }
         ++known;
         shorter.push_back(*numbers);
-        result.push_back(chain_text(*constants, length));
+        std::vector<std::string> chain = chain_text(p, *constants, length);
+        if (!chain.empty()) result.push_back(std::move(chain));
       }
     }
   }
@@ -210,19 +190,29 @@ std::optional<std::vector<cln::cl_RA>> PencilSearch::at_simple_parameters(
   return result;
 }
 
-/// All functions of a chain times one constant, so that they have no denominators.
-std::vector<std::string> PencilSearch::chain_text(const std::vector<GiNaC::ex>& constants,
+/// All functions of a chain times one constant, so that they have no denominators; empty where the
+/// links are not what they have to be.
+std::vector<std::string> PencilSearch::chain_text(const Bivector& p,
+                                                  const std::vector<GiNaC::ex>& constants,
                                                   std::size_t length) {
-  const std::vector<Polynomial>& integrals = search_.integrals();
+  const std::size_t n = search_.dimension();
   std::vector<Bivector> basis;
   for (std::size_t k = 0; k <= length; ++k) {
-    for (const Polynomial& f : integrals) {
+    for (const Polynomial& f : search_.integrals()) {
       basis.emplace_back(length + 1, Polynomial(f.ring()));
       basis.back()[k] = f;
     }
   }
+  const std::vector<Polynomial> chain = search_.combination(basis, constants).first;
+  std::vector<Polynomial> rest(n, Polynomial(chain.front().ring()));
+  for (const Polynomial& f : chain) {
+    if (!(hamiltonian_field(p, n, f) == rest)) return {};
+    rest = hamiltonian_field(first_, n, f);
+  }
+  if (!std::ranges::all_of(rest, [](const Polynomial& entry) { return entry.is_zero(); }))
+    return {};
   std::vector<std::string> result;
-  for (const Polynomial& f : search_.combination(basis, constants).first)
+  for (const Polynomial& f : chain)
     result.push_back(search_.text_of(search_.space().system().expression(f)));
   return result;
 }
@@ -231,19 +221,26 @@ std::vector<std::string> PencilSearch::chain_text(const std::vector<GiNaC::ex>& 
 void PencilSearch::take(const std::vector<Bivector>& basis,
                         const std::vector<search::Branch>& families) {
   std::vector<Bivector> candidates;
+  unshown_ = false;
   for (const search::Branch& family : families) {
     if (!family.decided) continue;
-    for (const auto& choice : simple_constants(equations_->free_in(family).size())) {
+    const std::size_t before = candidates.size(), free = equations_->free_in(family).size();
+    bool only_zero = free == 0;
+    for (const auto& choice : simple_constants(free)) {
       const auto constants = equations_->values(family, choice);
       if (!constants) continue;
       auto [bracket, factor] = search_.combination(basis, *constants);
-      if (!factor.is_zero()) candidates.push_back(std::move(bracket));
+      if (!factor.is_zero()) {
+        candidates.push_back(std::move(bracket));
+        only_zero = false;
+      }
     }
+    unshown_ = unshown_ || (!only_zero && candidates.size() == before);
   }
   std::vector<Bivector> known = taken_;
   known.push_back(first_);
   for (const Bivector& p : search_.shortest_independent(std::move(candidates), known)) {
-    Bracket second = search_.described(p, hamiltonian_of(p));
+    Bracket second = search_.described(p, search_.hamiltonian_of(p));
     if (second.jacobi != Verdict::proved) continue;
     second.chains = chains_of(p);
     taken_.push_back(p);
@@ -264,8 +261,7 @@ void PencilSearch::compare() {
 
 BracketReport PencilSearch::run() {
   const search::System& system = search_.space().system();
-  for (const std::size_t place : system.parameters())
-    report_.generic.push_back(system.name(place));
+  for (const std::size_t place : system.parameters()) report_.generic.push_back(system.name(place));
   if (!take_first()) return report_;
   std::vector<search::Branch> families;
   for (int degree = 0; degree <= report_.degree; ++degree) {
@@ -279,10 +275,21 @@ BracketReport PencilSearch::run() {
   }
   compare();
   report_.families = families.size();
-  report_.spanned = families.empty() || report_.found.size() + 1 == report_.invariant;
+  const std::size_t own = report_.first->degree <= report_.degree ? 1 : 0;
+  report_.spanned = report_.found.size() + own == report_.invariant;
+  // Where the invariant bivectors are spanned, the equations need not have been solved.
+  if (search_.space().complete() && report_.spanned) {
+    report_.complete = true;
+    return report_;
+  }
   const std::optional<std::string> doubt = search_.doubt(families);
-  report_.complete = !doubt;
-  if (doubt) report_.reason = *doubt;
+  if (doubt)
+    report_.reason = *doubt;
+  else if (search_.space().basis(report_.degree).size() != report_.invariant)
+    report_.reason = "the invariant bivectors were not all put together";
+  else if (unshown_)
+    report_.reason = "no simple values of the constants give a bracket that was proved";
+  report_.complete = report_.reason.empty();
   return report_;
 }
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "symbolic/search/finder.hpp"
-#include "symbolic/search/modular/span.hpp"
 #include "symbolic/search/independence.hpp"
+#include "symbolic/search/modular/span.hpp"
 
 namespace casimir::structure {
 

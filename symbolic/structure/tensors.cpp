@@ -148,8 +148,7 @@ void TensorSearch::search_rank(int rank) {
   report_.reason = space.reason();
   for (const std::size_t place : space.system().parameters())
     report_.generic.push_back(space.system().name(place));
-  for (const search::Generator& g : space.found())
-    report_.found.push_back(described(space, g));
+  for (const search::Generator& g : space.found()) report_.found.push_back(described(space, g));
 }
 
 TensorReport TensorSearch::run() {

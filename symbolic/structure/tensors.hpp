@@ -27,8 +27,8 @@ struct TensorReport {
   std::vector<Tensor> found;  ///< without what the known ones generate
   /// Of the space of invariant tensors with polynomial components of degree 0, 1, .. at most.
   std::vector<std::size_t> dimensions;
-  bool complete = false;  ///< proved: there are no others, and the dimensions are right
-  std::string reason;     ///< where not
+  bool complete = false;             ///< proved: there are no others, and the dimensions are right
+  std::string reason;                ///< where not
   std::vector<std::string> generic;  ///< parameters that it is about generic values of
 };
 

@@ -34,8 +34,8 @@ struct Options {
 
 /// How many of the options that ask for something else than integrals were given.
 int kinds_of(const Options& o) {
-  return int{o.darboux} + int{o.casimirs} + int{o.fields} + int{o.bivectors} +
-         int{o.hamiltonian} + int{o.bihamiltonian} + int{o.forms || o.tensors > 0};
+  return int{o.darboux} + int{o.casimirs} + int{o.fields} + int{o.bivectors} + int{o.hamiltonian} +
+         int{o.bihamiltonian} + int{o.forms || o.tensors > 0};
 }
 
 bool is_structure(const Options& o) {
@@ -55,7 +55,8 @@ int answer(const Options& options, const Model& model, const Report& report, Sea
 /// Of a map: what `search` asks of flows beyond the degree has no meaning there.
 int search_map_case(const MapCaseFile& file, const Options& options) {
   if (!options.in.empty() || options.casimirs || options.darboux || is_structure(options) ||
-      !options.on.empty() || !options.functions.empty() || !options.weights.empty() || !options.free.empty())
+      !options.on.empty() || !options.functions.empty() || !options.weights.empty() ||
+      !options.free.empty())
     throw UsageError("a search of a map takes --degree and --param only");
   const MapModel map = map_model_of(file, options.common.parameter_values());
   SearchWatch watch(options.common, map.base.name, memory_allowed().value_or(2e9));
@@ -71,16 +72,16 @@ int search_map_case(const MapCaseFile& file, const Options& options) {
 /// Tensors and brackets.
 int search_structure(const Options& options, const Model& model, SearchWatch& watch) {
   if (options.hamiltonian)
-    return answer(options, model,
-                  structure::find_brackets(model, options.degree, watch.watch()), watch);
+    return answer(options, model, structure::find_brackets(model, options.degree, watch.watch()),
+                  watch);
   if (options.bihamiltonian)
     return answer(options, model,
                   structure::find_second_brackets(model, options.degree, watch.watch()), watch);
   structure::TensorType type{options.tensors, options.forms};
   if (options.fields || (options.forms && options.tensors == 0)) type.rank = 1;
   if (options.bivectors) type.rank = 2;
-  return answer(options, model,
-                structure::find_tensors(model, type, options.degree, watch.watch()), watch);
+  return answer(options, model, structure::find_tensors(model, type, options.degree, watch.watch()),
+                watch);
 }
 
 int search_case(const Options& options) {

@@ -65,8 +65,7 @@ void print_bracket(const Bracket& bracket, bool colour) {
   fmt::print("  degree {}   {}\n", bracket.degree, tensor_text({2, false}, bracket.texts));
   fmt::print("    Jacobi identity   {}\n", verdict_text(bracket.jacobi, colour));
   if (bracket.hamiltonian)
-    fmt::print("    H = {}   {}\n", bracket.hamiltonian_text,
-               verdict_text(bracket.motion, colour));
+    fmt::print("    H = {}   {}\n", bracket.hamiltonian_text, verdict_text(bracket.motion, colour));
   for (const std::string& casimir : bracket.casimirs)
     fmt::print("    Casimir function {}   {}\n", casimir, verdict_text(Verdict::proved, colour));
   for (const std::vector<std::string>& chain : bracket.chains) {
@@ -167,12 +166,12 @@ void print(const Model& model, int degree, const BracketReport& report, double s
     fmt::print("No Poisson bracket up to degree {}, whatever the Hamiltonian{}: {}\n", degree,
                generic, verdict_text(Verdict::proved, colour));
   } else {
-    const std::string kind =
-        report.first ? "that is compatible with the first"
-                     : fmt::format("with a polynomial Hamiltonian up to degree {}",
-                                   report.hamiltonian_degree);
+    const std::string kind = report.first
+                                 ? "that is compatible with the first"
+                                 : fmt::format("with a polynomial Hamiltonian up to degree {}",
+                                               report.hamiltonian_degree);
     const std::string what =
-        report.families == 0 ? "No other"
+        report.found.empty() ? "No other"
         : report.spanned     ? "No other, beside linear combinations of these,"
                          : fmt::format("All belong to {} famil{} with members of these: no other",
                                        report.families, report.families == 1 ? "y" : "ies");

@@ -16,7 +16,6 @@ nlohmann::ordered_json to_json(const Model& model, int degree,
 
 /// The same for people.
 void print(const Model& model, int degree, const structure::TensorReport& report, double seconds);
-void print(const Model& model, int degree, const structure::BracketReport& report,
-           double seconds);
+void print(const Model& model, int degree, const structure::BracketReport& report, double seconds);
 
 }  // namespace casimir::tools

