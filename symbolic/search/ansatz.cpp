@@ -54,9 +54,47 @@ Monomials without_multiples(const Monomials& monomials,
 /// Of all relations: more take minutes to be written down alone.
 constexpr double kMostCofactors = 2e6;
 
+/// The monomials of an ansatz or of a cofactor: of tensors those that are linear in the components.
+Monomials monomials_of(const Problem& problem, const std::vector<int>& weights, int degree) {
+  if (problem.fibre.empty()) return all_monomials(weights, degree);
+  std::vector<int> base;
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    if (!problem.fibre[i]) base.push_back(weights[i]);
+  const Monomials factors = all_monomials(base, degree - 1);
+  Monomials result(weights.size());
+  for (std::size_t c = 0; c < factors.size(); ++c) {
+    std::vector<std::uint8_t> exponents(weights.size(), 0);
+    for (std::size_t i = 0, k = 0; i < weights.size(); ++i)
+      if (!problem.fibre[i]) exponents[i] = factors[c][k++];
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      if (!problem.fibre[i]) continue;
+      exponents[i] = 1;
+      result.add(exponents, factors.degree(c) + 1);
+      exponents[i] = 0;
+    }
+  }
+  return result;
+}
+
+/// What the equations take, in bytes.
+double bytes_of(const Problem& problem) {
+  if (problem.fibre.empty())
+    return bytes_of_equations(problem.fields, problem.weights, problem.degree);
+  constexpr double kBytesOfAnEntry = 60;
+  std::vector<int> base;
+  double terms = 0, components = 0;
+  for (std::size_t i = 0; i < problem.weights.size(); ++i) {
+    if (!problem.fibre[i]) base.push_back(problem.weights[i]);
+    components += problem.fibre[i] ? 1 : 0;
+    for (const auto& rates : problem.fields.rates) terms += static_cast<double>(rates[i].terms());
+  }
+  // A monomial times one component meets the terms of the base, and those of that component.
+  return count_monomials(base, problem.degree - 1) * terms * components * kBytesOfAnEntry;
+}
+
 /// No problem of this size is begun.
 void check_memory(const Problem& problem, const Watch& watch) {
-  const double bytes = bytes_of_equations(problem.fields, problem.weights, problem.degree);
+  const double bytes = bytes_of(problem);
   if (bytes <= watch.memory_limit) return;
   throw TooMuchMemory(fmt::format(
       "degree {} has {:.3g} unknowns, whose equations take about {:.3g} GB, more than the limit "
@@ -239,7 +277,7 @@ Ansatz make_ansatz(const System& system, const Problem& problem, const Watch& wa
   for (const Polynomial& f : level) leading.push_back(leading_monomial(f, places, weights));
   // A defined function is an unknown itself, and not what it leads.
   const auto replaced = leading.end() - static_cast<std::ptrdiff_t>(system.defined().size());
-  Ansatz ansatz{without_multiples(all_monomials(problem.weights, problem.degree),
+  Ansatz ansatz{without_multiples(monomials_of(problem, problem.weights, problem.degree),
                                   {leading.begin(), replaced}),
                 {}};
   if (!system.defined().empty()) choose_independent(system, problem, ansatz);
@@ -256,8 +294,8 @@ Ansatz make_ansatz(const System& system, const Problem& problem, const Watch& wa
           cofactors, kMostCofactors));
     // A multiple of an earlier relation need not be a cofactor: that one's takes it over.
     if (left >= 0) {
-      ansatz.relations.push_back(
-          {level[f], without_multiples(all_monomials(weights, left), {leading.begin(), own})});
+      ansatz.relations.push_back({level[f], without_multiples(monomials_of(problem, weights, left),
+                                                              {leading.begin(), own})});
     }
     for (auto earlier = leading.begin(); earlier != own; ++earlier) {
       for (std::size_t k = 0; k < places.size(); ++k)

@@ -8,6 +8,7 @@
 
 #include "symbolic/case/limits.hpp"
 #include "symbolic/functions/short_text.hpp"
+#include "symbolic/search/darboux_integrals.hpp"
 #include "symbolic/search/modular/monomials.hpp"
 #include "symbolic/search/polynomial_system.hpp"
 #include "symbolic/search/quasi_homogeneous.hpp"
@@ -188,6 +189,7 @@ void DarbouxSearch::add(const Branch& branch, const Polynomial& f, const Polynom
   for (std::size_t i = 0; i < dimension_; ++i) rate += own->derivative(i) * system_.flow()[i];
   if (!rate.divide(*own, &quotient)) return;
   result.cofactor = system_.prover().ring().text(quotient);
+  result.cofactor_value = system_.expression(quotient);
   const auto same = [&](const DarbouxPolynomial& other) { return other.text == result.text; };
   if (std::any_of(report_.found.begin(), report_.found.end(), same)) return;
   result.verdict =
@@ -280,11 +282,25 @@ DarbouxReport DarbouxSearch::run() {
 
 }  // namespace
 
+std::string to_string(DarbouxCombination::Kind kind) {
+  switch (kind) {
+    case DarbouxCombination::Kind::integral:
+      return "integral";
+    case DarbouxCombination::Kind::multiplier:
+      return "multiplier";
+    case DarbouxCombination::Kind::time_dependent:
+      break;
+  }
+  return "time_dependent";
+}
+
 DarbouxReport find_darboux(const Model& model, int degree, const Watch& watch) {
   constexpr int kHighest = 6;
   if (degree > kHighest)
     throw ModelError(fmt::format("Darboux polynomials are searched up to degree {}", kHighest));
-  return DarbouxSearch(model, degree, watch).run();
+  DarbouxReport report = DarbouxSearch(model, degree, watch).run();
+  report.combinations = combine(model, report.found, degree, watch);
+  return report;
 }
 
 }  // namespace casimir::search

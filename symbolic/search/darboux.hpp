@@ -13,15 +13,32 @@ namespace casimir::search {
 struct DarbouxPolynomial {
   GiNaC::ex value;                     ///< over the symbols of the model
   std::string text, cofactor;          ///< in the notation of case files
+  GiNaC::ex cofactor_value;            ///< over the symbols of the model
   std::vector<std::string> relations;  ///< between coefficients that are left, as algebraic numbers
   int degree = 0;
   Verdict verdict = Verdict::undecided;
 };
 
+/// A product of powers of Darboux polynomials, times an exponential, that the motion keeps.
+struct DarbouxCombination {
+  enum class Kind {
+    integral,
+    multiplier,      ///< the density of an invariant measure
+    time_dependent,  ///< constant along the motion, with the time in it
+  };
+  Kind kind = Kind::integral;
+  std::string text;  ///< with the bases for their absolute values
+  Verdict verdict = Verdict::undecided;
+};
+
+/// "integral", "multiplier" or "time_dependent".
+std::string to_string(DarbouxCombination::Kind kind);
+
 /// What a search for them found, and whether that is all.
 struct DarbouxReport {
   std::vector<DarbouxPolynomial> found;  ///< irreducible, with a cofactor that is not zero
-  bool complete = false;                 ///< there are no others, for generic parameters
+  std::vector<DarbouxCombination> combinations;
+  bool complete = false;  ///< there are no others, for generic parameters
   std::string reason;
   std::vector<std::string> generic;  ///< parameters
 };

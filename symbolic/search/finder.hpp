@@ -5,6 +5,11 @@
 
 namespace casimir::search {
 
+/// What is said of generic values of the parameters says something only where the assumptions leave
+/// an open set of them: a >= 1 and a <= 1 leave a = 1 alone.
+/// \return  why it is not known that they do; empty where they do.
+std::optional<std::string> thin_assumptions(System& system);
+
 /// Everything that one search of a case needs, from reading to proof.
 class Finder {
  public:

@@ -108,13 +108,9 @@ void Run::eliminate() {
 bool Run::only_trivial() {
   if (!relations_.empty()) return false;
   std::vector<Polynomial> functions;
-  std::vector<int> degrees;
-  for (const Generator& g : generators_) {
-    functions.push_back(g.function);
-    degrees.push_back(g.degree);
-  }
+  for (const Generator& g : generators_) functions.push_back(g.function);
   if (rank_of_gradients(system_, functions) < functions.size()) return false;
-  if (products_up_to(degrees, problem_.degree, 0).size() != nullity_) return false;
+  if (known_products(generators_, problem_, problem_.degree, 0).size() != nullity_) return false;
   solution_.trivial = nullity_;
   return true;
 }
@@ -199,13 +195,10 @@ std::vector<Run::Vector> Run::null_vectors() {
 
 /// Puts the products into the span that use any generator from the place `old` on.
 void Run::add_products(std::size_t old) {
-  std::vector<int> degrees;
-  for (std::size_t g = 0; g < generators_.size(); ++g) {
-    degrees.push_back(generators_[g].degree);
-    if (g >= generator_values_.size())
-      generator_values_.push_back(values_of(generators_[g].function));
-  }
-  for (const std::vector<int>& exponents : products_up_to(degrees, problem_.degree, old)) {
+  while (generator_values_.size() < generators_.size())
+    generator_values_.push_back(values_of(generators_[generator_values_.size()].function));
+  for (const std::vector<int>& exponents :
+       known_products(generators_, problem_, problem_.degree, old)) {
     std::vector<Residue> values(points_.size(), 1);
     for (std::size_t g = 0; g < exponents.size(); ++g) {
       for (int k = 0; k < exponents[g]; ++k)
@@ -219,13 +212,11 @@ void Run::add_products(std::size_t old) {
 /// Coefficients, modulo the prime, of products of generators up to a degree.
 std::vector<std::vector<Residue>> Run::trivial_vectors(int degree) {
   constexpr std::size_t kMaxTerms = 3000, kMaxProducts = 60;
-  std::vector<int> degrees;
-  for (const Generator& g : generators_) degrees.push_back(g.degree);
   std::unordered_map<std::string, std::size_t> columns;
   for (std::size_t c = 0; c < ansatz_.size(); ++c)
     columns.emplace(std::string(ansatz_[c], ansatz_[c] + ansatz_.variables()), c);
   std::vector<std::vector<Residue>> result;
-  std::vector<std::vector<int>> products = products_up_to(degrees, degree, 0);
+  std::vector<std::vector<int>> products = known_products(generators_, problem_, degree, 0);
   if (products.size() > kMaxProducts) return result;
   for (const std::vector<int>& exponents : products) {
     Polynomial product = system_.ring().constant(1);
@@ -308,6 +299,7 @@ Solution Run::run() {
     solution_.found.push_back(generators_.back());
     add_products(generators_.size() - 1);
   }
+  solution_.found_dimension = span_.dimension() - solution_.trivial;
   // Cofactors of the relations are unknowns for one field only.
   const bool cofactors = relations_.empty() || problem_.fields.rates.size() == 1;
   solution_.complete =
@@ -334,6 +326,47 @@ Solution Run::run() {
 }
 
 }  // namespace
+
+int fibre_degree(const std::uint8_t* exponents, const std::vector<bool>& fibre) {
+  int sum = 0;
+  for (std::size_t i = 0; i < fibre.size(); ++i) sum += fibre[i] ? exponents[i] : 0;
+  return sum;
+}
+
+std::vector<std::vector<int>> known_products(const std::vector<Generator>& generators,
+                                             const Problem& problem, int degree, std::size_t old) {
+  std::vector<int> degrees;
+  for (const Generator& g : generators) degrees.push_back(g.degree);
+  if (problem.fibre.empty()) return products_up_to(degrees, degree, old);
+  // One tensor, times a product of functions.
+  std::vector<bool> is_tensor;
+  for (const Generator& g : generators) {
+    bool linear = false;
+    for (std::size_t i = 0; i < problem.fibre.size(); ++i)
+      linear = linear || (problem.fibre[i] && g.function.uses(problem.fields.places[i]));
+    is_tensor.push_back(linear);
+  }
+  std::vector<int> of_functions;
+  std::vector<std::size_t> functions;
+  for (std::size_t g = 0; g < generators.size(); ++g) {
+    if (is_tensor[g]) continue;
+    functions.push_back(g);
+    of_functions.push_back(degrees[g]);
+  }
+  std::vector<std::vector<int>> result;
+  for (std::size_t t = 0; t < generators.size(); ++t) {
+    if (!is_tensor[t] || degrees[t] > degree) continue;
+    for (const std::vector<int>& factors : products_up_to(of_functions, degree - degrees[t], 0)) {
+      std::vector<int> exponents(generators.size(), 0);
+      exponents[t] = 1;
+      for (std::size_t f = 0; f < functions.size(); ++f) exponents[functions[f]] = factors[f];
+      const bool is_new = std::any_of(exponents.begin() + static_cast<std::ptrdiff_t>(old),
+                                      exponents.end(), [](int e) { return e != 0; });
+      if (is_new) result.push_back(std::move(exponents));
+    }
+  }
+  return result;
+}
 
 int weighted_degree(const Polynomial& p, const std::vector<std::size_t>& places,
                     const std::vector<int>& weights) {

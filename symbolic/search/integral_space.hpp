@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,13 @@ struct Problem {
   int degree = 0;                ///< highest, weighted
   std::vector<Polynomial> on;    ///< the level, if any
   std::vector<Generator> known;  ///< that are not to be found again, nor what they generate
+  /// Which places are those of a tensor's components: where there are any, only functions that are
+  /// linear in them are looked for. Their weights are 1, and count in the degree.
+  std::vector<bool> fibre{};
 };
+
+/// How many of the variables of a monomial are a tensor's components.
+int fibre_degree(const std::uint8_t* exponents, const std::vector<bool>& fibre);
 
 /// The unknowns of a problem. On a level, and where the atoms have relations, only functions are
 /// looked for that no relation makes simpler, and cofactors of the relations are unknowns too.
@@ -44,8 +51,9 @@ Ansatz make_ansatz(const System& system, const Problem& problem, const Watch& wa
 struct Solution {
   std::vector<Generator> found;
   std::size_t trivial = 0;  ///< dimension of what the known ones generate, with the constants
-  bool complete = false;    ///< there are no others: proved
-  std::string reason;       ///< where it is not complete
+  std::size_t found_dimension = 0;  ///< what the found ones add to that
+  bool complete = false;            ///< there are no others: proved
+  std::string reason;               ///< where it is not complete
   std::size_t unknowns = 0, equations = 0, blocks = 0, largest_block = 0;
 };
 
@@ -55,6 +63,11 @@ struct Solution {
 /// is about generic values of them.
 /// \throws TooMuchMemory, TimeUp
 Solution solve(const System& system, const Problem& problem, const Watch& watch);
+
+/// The products of generators that a problem has among its solutions, up to a degree, without those
+/// that use only the first `old` generators: exponents for each.
+std::vector<std::vector<int>> known_products(const std::vector<Generator>& generators,
+                                             const Problem& problem, int degree, std::size_t old);
 
 /// The weighted degree of a polynomial in the variables at `places`.
 int weighted_degree(const Polynomial& p, const std::vector<std::size_t>& places,

@@ -170,10 +170,6 @@ void Finder::check_level() {
   }
 }
 
-namespace {
-
-/// What is said of generic values of the parameters says something only where the assumptions leave
-/// an open set of them: a >= 1 and a <= 1 leave a = 1 alone.
 std::optional<std::string> thin_assumptions(System& system) {
   const std::vector<Assumption>& assumptions = system.model().assumptions;
   if (assumptions.empty()) return std::nullopt;
@@ -198,8 +194,6 @@ std::optional<std::string> thin_assumptions(System& system) {
          "may "
          "leave special values only";
 }
-
-}  // namespace
 
 /// What else has to hold, for "no other" to be about functions.
 void Finder::doubt() {

@@ -1,4 +1,4 @@
-// casimir search: finds the polynomial integrals of a case up to a degree.
+// casimir search: finds the polynomial integrals of a case up to a degree, and other structure.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -6,6 +6,8 @@
 #include "symbolic/discrete/search_map.hpp"
 #include "symbolic/search/darboux.hpp"
 #include "symbolic/search/search.hpp"
+#include "symbolic/structure/brackets.hpp"
+#include "symbolic/structure/tensors.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
@@ -15,6 +17,7 @@
 #include "tools/runs/atlas.hpp"
 #include "tools/text/map_search_report.hpp"
 #include "tools/text/search_report.hpp"
+#include "tools/text/structure_report.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -24,8 +27,20 @@ struct Options {
   std::string case_name, in;
   int degree = 0;
   bool casimirs = false, darboux = false;
+  int tensors = 0;  ///< their rank, where it is given
+  bool fields = false, bivectors = false, forms = false, hamiltonian = false, bihamiltonian = false;
   std::vector<std::string> on, functions, weights, free;
 };
+
+/// How many of the options that ask for something else than integrals were given.
+int kinds_of(const Options& o) {
+  return int{o.darboux} + int{o.casimirs} + int{o.fields} + int{o.bivectors} + int{o.hamiltonian} +
+         int{o.bihamiltonian} + int{o.forms || o.tensors > 0};
+}
+
+bool is_structure(const Options& o) {
+  return o.fields || o.bivectors || o.forms || o.tensors > 0 || o.hamiltonian || o.bihamiltonian;
+}
 
 template <class Report>
 int answer(const Options& options, const Model& model, const Report& report, SearchWatch& watch) {
@@ -39,8 +54,9 @@ int answer(const Options& options, const Model& model, const Report& report, Sea
 
 /// Of a map: what `search` asks of flows beyond the degree has no meaning there.
 int search_map_case(const MapCaseFile& file, const Options& options) {
-  if (!options.in.empty() || options.casimirs || options.darboux || !options.on.empty() ||
-      !options.functions.empty() || !options.weights.empty() || !options.free.empty())
+  if (!options.in.empty() || options.casimirs || options.darboux || is_structure(options) ||
+      !options.on.empty() || !options.functions.empty() || !options.weights.empty() ||
+      !options.free.empty())
     throw UsageError("a search of a map takes --degree and --param only");
   const MapModel map = map_model_of(file, options.common.parameter_values());
   SearchWatch watch(options.common, map.base.name, memory_allowed().value_or(2e9));
@@ -53,6 +69,21 @@ int search_map_case(const MapCaseFile& file, const Options& options) {
   return found.reason.empty() ? kDone : kUndecided;
 }
 
+/// Tensors and brackets.
+int search_structure(const Options& options, const Model& model, SearchWatch& watch) {
+  if (options.hamiltonian)
+    return answer(options, model, structure::find_brackets(model, options.degree, watch.watch()),
+                  watch);
+  if (options.bihamiltonian)
+    return answer(options, model,
+                  structure::find_second_brackets(model, options.degree, watch.watch()), watch);
+  structure::TensorType type{options.tensors, options.forms};
+  if (options.fields || (options.forms && options.tensors == 0)) type.rank = 1;
+  if (options.bivectors) type.rank = 2;
+  return answer(options, model, structure::find_tensors(model, type, options.degree, watch.watch()),
+                watch);
+}
+
 int search_case(const Options& options) {
   const AnyCaseFile file = load_any_case(options.case_name);
   if (const auto* map = std::get_if<MapCaseFile>(&file)) return search_map_case(*map, options);
@@ -60,6 +91,7 @@ int search_case(const Options& options) {
       model_of(std::get<CaseFile>(file), options.common.parameter_values()), options.in);
   if (options.common.scene_given) model.scene(options.common.scene);
   SearchWatch watch(options.common, model.name, memory_allowed().value_or(2e9));
+  if (is_structure(options)) return search_structure(options, model, watch);
   if (options.darboux) {
     return answer(options, model, search::find_darboux(model, options.degree, watch.watch()),
                   watch);
@@ -75,6 +107,15 @@ int search_case(const Options& options) {
 }
 
 int search(const Options& options) {
+  if (kinds_of(options) > 1)
+    throw UsageError(
+        "of --casimirs, --darboux, --fields, --bivectors, --tensors (with --forms), --hamiltonian "
+        "and --bihamiltonian only one is possible");
+  if (is_structure(options) && (!options.free.empty() || !options.on.empty() ||
+                                !options.functions.empty() || !options.weights.empty()))
+    throw UsageError("a search for tensors or brackets takes --degree and --param only");
+  if (!is_structure(options) && options.degree < 1)
+    throw UsageError("--degree has to be 1 at least");
   if (options.casimirs && !options.on.empty())
     throw UsageError("--casimirs and --on do not go together");
   if (options.casimirs && !options.free.empty())
@@ -84,6 +125,22 @@ int search(const Options& options) {
     throw UsageError("--darboux takes --degree and --param only");
   return with_search_errors(options.common, options.case_name,
                             [&] { return search_case(options); });
+}
+
+void add_structure_options(CLI::App& command, Options& options) {
+  command.add_flag("--fields", options.fields, "Vector fields that commute with the motion");
+  command.add_flag("--bivectors", options.bivectors, "Bivectors that the motion keeps");
+  command
+      .add_option("--tensors", options.tensors,
+                  "Skew tensors with K indices that the motion keeps: K = 2 are bivectors")
+      ->type_name("K")
+      ->check(CLI::Range(1, 12));
+  command.add_flag("--forms", options.forms,
+                   "1-forms that the motion keeps; with --tensors K those of degree K");
+  command.add_flag("--hamiltonian", options.hamiltonian,
+                   "Poisson brackets and Hamiltonians of the equations of motion alone");
+  command.add_flag("--bihamiltonian", options.bihamiltonian,
+                   "Second Poisson brackets, compatible with that of the case");
 }
 
 }  // namespace
@@ -98,7 +155,7 @@ void register_search(CLI::App& program, Action& action) {
   command->add_option("--degree", options->degree, "Highest degree (weighted, with --weights)")
       ->required()
       ->type_name("N")
-      ->check(CLI::Range(1, 1000));
+      ->check(CLI::Range(0, 1000));
   command->add_flag("--casimirs", options->casimirs, "Casimir functions instead of integrals");
   command
       ->add_option("--on", options->on,
@@ -120,6 +177,7 @@ void register_search(CLI::App& program, Action& action) {
       ->type_name("NAME,..");
   command->add_flag("--darboux", options->darboux,
                     "Polynomials whose zero level is invariant, instead of integrals");
+  add_structure_options(*command, *options);
   command->callback([options, &action] { action = [options] { return search(*options); }; });
 }
 

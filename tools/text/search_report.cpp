@@ -36,6 +36,13 @@ std::string noun(const Report& report, bool plural) {
   return "integral" + ending;
 }
 
+/// What a person calls it.
+std::string kind_text(search::DarbouxCombination::Kind kind) {
+  using Kind = search::DarbouxCombination::Kind;
+  if (kind == Kind::multiplier) return "density of an invariant measure";
+  return kind == Kind::integral ? "integral" : "constant in time";
+}
+
 void print_list(const std::vector<Found>& list, bool colour) {
   for (const Found& found : list) {
     fmt::print("  degree {:<3} {}{}   {}\n", found.degree, found.text,
@@ -165,6 +172,14 @@ nlohmann::ordered_json to_json(const Model& model, int degree, const search::Dar
                                            {"degree", found.degree},
                                            {"verdict", to_string(found.verdict)}});
   }
+  json["combinations"] = nlohmann::json::array();
+  for (const search::DarbouxCombination& own : report.combinations) {
+    if (own.kind == search::DarbouxCombination::Kind::integral)
+      json["integrals"].push_back(own.text);
+    json["combinations"].push_back({{"kind", search::to_string(own.kind)},
+                                    {"expression", own.text},
+                                    {"verdict", to_string(own.verdict)}});
+  }
   if (!report.reason.empty()) json["reason"] = report.reason;
   json["seconds"] = seconds;
   return json;
@@ -185,6 +200,10 @@ void print(const Model& model, int degree, const search::DarbouxReport& report, 
   else
     fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
                report.reason);
+  if (!report.combinations.empty()) fmt::print("what they give, with their absolute values:\n");
+  for (const search::DarbouxCombination& own : report.combinations)
+    fmt::print("  {}   {}   {}\n", kind_text(own.kind), own.text,
+               verdict_text(own.verdict, colour));
   fmt::print("{} found, {:.3f} s\n", report.found.size(), seconds);
 }
 

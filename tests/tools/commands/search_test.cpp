@@ -208,5 +208,85 @@ TEST(Equilibria, OfAHeavyTopHangAndStand) {
   EXPECT_GE(found.at("equilibria").size(), 2u);
 }
 
+TEST(SearchStructure, TensorsHaveTheirDimensionsAndComponents) {
+  const Folder folder;
+  const Json found = answered(folder, {"search", "clebsch", "--bivectors", "--degree", "1"});
+  EXPECT_EQ(found.at("kind"), "bivectors");
+  EXPECT_EQ(found.at("dimensions"), Json({0, 2}));
+  EXPECT_EQ(found.at("verdict"), "proved");
+  ASSERT_EQ(found.at("tensors").size(), 1u);
+  EXPECT_EQ(found.at("tensors")[0].at("components").at("p1,p2"), "-M3");
+  EXPECT_EQ(
+      answered(folder, {"search", "clebsch", "--tensors", "2", "--degree", "1"}).at("tensors"),
+      found.at("tensors"));
+  EXPECT_EQ(answered(folder, {"search", "euler", "--forms", "--tensors", "2", "--degree", "2"})
+                .at("dimensions"),
+            Json({0, 0, 1}));
+}
+
+// What is found is put into a case file, which is verified.
+TEST(SearchStructure, ABracketThatIsFoundIsABracketOfACaseFile) {
+  const Folder folder;
+  const std::string equations =
+      "[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n[equations]\nx = \"2*y*z\"\ny = "
+      "\"-3*x*z\"\nz = \"x*y\"\n";
+  const std::string bare = folder.write("bare.toml", "title = \"bare\"\n" + equations);
+  const Json found = answered(folder, {"search", bare, "--hamiltonian", "--degree", "1"});
+  ASSERT_GE(found.at("brackets").size(), 1u);
+  const Json& bracket = found.at("brackets")[0];
+  std::string text = "title = \"found\"\nhamiltonian = \"" +
+                     bracket.at("hamiltonian").get<std::string>() +
+                     "\"\n[phase_space]\nvariables = [\"x\", \"y\", "
+                     "\"z\"]\n[phase_space.brackets]\n";
+  for (const auto& [pair, value] : bracket.at("brackets").items())
+    text += "\"" + pair + "\" = \"" + value.get<std::string>() + "\"\n";
+  text += "[casimirs]\nC = \"" + bracket.at("casimirs")[0].get<std::string>() + "\"\n";
+  const std::string file = folder.write("found.toml", text);
+  EXPECT_EQ(answered(folder, {"verify", file}).at("verdict"), "proved");
+  const Json shown = run_in(folder, {"show", file, "--format", "json"}).json();
+  EXPECT_EQ(shown.dump().find("error"), std::string::npos);
+}
+
+TEST(SearchStructure, NoBracketOfADampedBodyIsSaidForAllHamiltonians) {
+  const Folder folder;
+  const Json found = answered(folder, {"search", "damped-body", "--hamiltonian", "--degree", "2"});
+  EXPECT_EQ(found.at("brackets"), Json::array());
+  EXPECT_EQ(found.at("excluded"), "any_hamiltonian");
+  EXPECT_EQ(found.at("verdict"), "proved");
+}
+
+TEST(SearchStructure, SecondBracketsHaveChains) {
+  const Folder folder;
+  const Json found = answered(folder, {"search", "clebsch", "--bihamiltonian", "--degree", "1"});
+  ASSERT_EQ(found.at("brackets").size(), 1u);
+  EXPECT_EQ(found.at("brackets")[0].at("chains").size(), 2u);
+  EXPECT_EQ(found.at("first").at("jacobi"), "proved");
+}
+
+TEST(SearchStructure, DarbouxPolynomialsAreCombined) {
+  const Folder folder;
+  const std::string file =
+      folder.write("node.toml",
+                   "title = \"node\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = "
+                   "\"2*x\"\ny = \"3*y\"\n");
+  const Json found = answered(folder, {"search", file, "--darboux", "--degree", "1"});
+  EXPECT_EQ(found.at("integrals"), Json({"x^3/y^2"}));
+  EXPECT_EQ(answered(folder, {"verify", file, "--integral", "x^3/y^2"}).at("verdict"), "proved");
+}
+
+TEST(SearchStructure, OptionsThatDoNotGoTogetherAreNamed) {
+  const Folder folder;
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--fields", "--hamiltonian"},
+        {"--bivectors", "--on", "M1"},
+        {"--bivectors", "--tensors", "3"},
+        {"--darboux", "--fields"}}) {
+    std::vector<std::string> arguments{"search", "euler", "--degree", "1"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(run_in(folder, arguments).status, 2) << more.front();
+  }
+  EXPECT_EQ(run_in(folder, {"search", "euler", "--degree", "0"}).status, 2);
+}
+
 }  // namespace
 }  // namespace casimir::test

@@ -1,0 +1,119 @@
+#include "symbolic/structure/tensor_space.hpp"
+
+#include <fmt/format.h>
+
+#include "symbolic/search/finder.hpp"
+#include "symbolic/search/independence.hpp"
+#include "symbolic/search/modular/span.hpp"
+
+namespace casimir::structure {
+
+using search::Generator;
+using search::Problem;
+using search::Watch;
+
+TensorSpace::TensorSpace(const Model& model, TensorType type)
+    : lift_(model, type), system_(lift_.model(), {}, {}) {
+  for (const std::size_t atom : system_.atoms())
+    fibre_.push_back(atom >= lift_.dimension() && atom < lift_.model().variables.size());
+}
+
+Problem TensorSpace::problem(int degree) const {
+  Problem result;
+  result.fields = {system_.atoms(), {system_.flow()}};
+  result.weights.assign(system_.atoms().size(), 1);
+  result.degree = degree + 1;  // with the component's variable
+  result.known = known_;
+  result.fibre = fibre_;
+  return result;
+}
+
+bool TensorSpace::add(const GiNaC::ex& function) {
+  const Polynomial p = system_.functions().reduced(system_.prover().convert(function));
+  if (!system_.in_atoms(p)) return false;
+  const std::vector<int> weights(system_.atoms().size(), 1);
+  const int degree = search::weighted_degree(p, system_.atoms(), weights);
+  // A bracket without the Jacobi identity is kept by no Hamiltonian flow.
+  if (degree == 0 || !system_.prover().is_zero(system_.prover().rate(p))) return false;
+  known_.push_back({p, degree});
+  return true;
+}
+
+bool TensorSpace::add_integral(const GiNaC::ex& integral) { return add(integral); }
+
+bool TensorSpace::add_tensor(const std::vector<GiNaC::ex>& components) {
+  return add(lift_.function(components));
+}
+
+void TensorSpace::search_up_to(int degree, const Watch& watch) {
+  for (int d = static_cast<int>(dimensions_.size()); d <= degree; ++d) {
+    watch.begin(fmt::format("{} of degree {}", name_of(lift_.type()), d));
+    const search::Solution solution = search::solve(system_, problem(d), watch);
+    for (const Generator& g : solution.found) {
+      known_.push_back(g);
+      found_.push_back(g);
+    }
+    dimensions_.push_back(solution.trivial + solution.found_dimension);
+    if (!solution.complete && complete_) {
+      complete_ = false;
+      reason_ = solution.reason;
+    }
+  }
+  if (!complete_) return;
+  std::optional<std::string> doubt = search::unknown_relations(system_);
+  if (!doubt) doubt = search::thin_assumptions(system_);
+  if (!doubt) return;
+  complete_ = false;
+  reason_ = *doubt;
+}
+
+std::vector<Polynomial> TensorSpace::basis(int degree) {
+  const Problem own = problem(degree);
+  const search::Modulus modulus = search::usable_modulus(system_);
+  std::mt19937_64 random(23);
+  const std::vector<std::vector<int>> products =
+      search::known_products(own.known, own, degree + 1, 0);
+  const std::optional<search::Point> constants = system_.random_point(modulus, random);
+  std::vector<search::Point> points;
+  while (constants && points.size() < products.size() + 4) {
+    std::optional<search::Point> point = system_.random_point(modulus, random, &*constants);
+    if (!point) break;
+    points.push_back(std::move(*point));
+  }
+  search::Span span(modulus);
+  std::vector<Polynomial> result;
+  for (const std::vector<int>& exponents : products) {
+    Polynomial product = system_.ring().constant(1);
+    for (std::size_t g = 0; g < exponents.size(); ++g) {
+      if (exponents[g] > 0)
+        product = product * own.known[g].function.pow(static_cast<unsigned long>(exponents[g]));
+    }
+    std::vector<search::Residue> values;
+    for (const search::Point& point : points)
+      values.push_back(search::value_at(product, point, modulus).value_or(0));
+    if (span.insert(std::move(values))) result.push_back(std::move(product));
+  }
+  return result;
+}
+
+std::vector<Polynomial> TensorSpace::components(const Polynomial& tensor) const {
+  std::vector<Polynomial> result;
+  for (std::size_t c = 0; c < lift_.indices().size(); ++c)
+    result.push_back(tensor.derivative(lift_.dimension() + c));
+  return result;
+}
+
+std::vector<GiNaC::ex> TensorSpace::expressions(const Polynomial& tensor) const {
+  std::vector<GiNaC::ex> result;
+  for (const Polynomial& component : components(tensor))
+    result.push_back(system_.expression(component));
+  return result;
+}
+
+int TensorSpace::degree_of(const Polynomial& tensor) const {
+  return search::weighted_degree(tensor, system_.atoms(),
+                                 std::vector<int>(system_.atoms().size(), 1)) -
+         1;
+}
+
+}  // namespace casimir::structure

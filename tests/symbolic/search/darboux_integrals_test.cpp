@@ -1,0 +1,62 @@
+// What Darboux polynomials give together: integrals, densities and what is constant in time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "symbolic/search/darboux.hpp"
+#include "tests/symbolic/cases.hpp"
+
+namespace casimir::test {
+namespace {
+
+using search::DarbouxCombination;
+using search::DarbouxReport;
+using Kind = DarbouxCombination::Kind;
+
+/// Of one kind, all proved.
+std::vector<std::string> texts(const DarbouxReport& report, Kind kind) {
+  std::vector<std::string> result;
+  for (const DarbouxCombination& own : report.combinations) {
+    EXPECT_EQ(own.verdict, Verdict::proved) << own.text;
+    if (own.kind == kind) result.push_back(own.text);
+  }
+  return result;
+}
+
+DarbouxReport of_equations(const std::string& variables, const std::string& equations, int degree,
+                           const std::string& parameters = {}) {
+  return search::find_darboux(
+      model_of("[phase_space]\nvariables = " + variables + "\n[parameters]\n" + parameters +
+               "[equations]\n" + equations),
+      degree);
+}
+
+using Texts = std::vector<std::string>;
+
+TEST(DarbouxIntegrals, OfLotkaAndVolterraHaveExponentsThatAreParameters) {
+  const DarbouxReport report =
+      of_equations(R"(["x", "y"])", "x = \"x*(a - b*y)\"\ny = \"y*(c*x - d)\"\n", 1,
+                   "a = {}\nb = {}\nc = {}\nd = {}\n");
+  EXPECT_EQ(texts(report, Kind::integral), Texts{"x^d*y^a*exp(-y*b - x*c)"});
+  EXPECT_EQ(texts(report, Kind::multiplier), Texts{"1/(x*y)"});
+  EXPECT_TRUE(texts(report, Kind::time_dependent).empty());
+}
+
+TEST(DarbouxIntegrals, OfTwoCofactorsInAWholeRatioAreRational) {
+  const DarbouxReport report = of_equations(R"(["x", "y"])", "x = \"2*x\"\ny = \"3*y\"\n", 1);
+  EXPECT_EQ(texts(report, Kind::integral), Texts{"x^3/y^2"});
+  EXPECT_EQ(texts(report, Kind::time_dependent).size(), 1U);
+}
+
+/// A constant cofactor alone is no integral; the time is needed.
+TEST(DarbouxIntegrals, OfLorenzWithATwiceSNeedTheTime) {
+  const DarbouxReport report = of_equations(
+      R"(["x", "y", "z"])", "x = \"s*(y - x)\"\ny = \"r*x - y - x*z\"\nz = \"x*y - 2*s*z\"\n", 2,
+      "s = {}\nr = {}\n");
+  EXPECT_TRUE(texts(report, Kind::integral).empty());
+  EXPECT_EQ(texts(report, Kind::time_dependent), Texts{"(x^2 - 2*z*s)*exp((2*s)*t)"});
+  EXPECT_EQ(texts(report, Kind::multiplier), Texts{"(x^2 - 2*z*s)^((-3*s - 1)/(2*s))"});
+}
+
+}  // namespace
+}  // namespace casimir::test
