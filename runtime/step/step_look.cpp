@@ -29,6 +29,12 @@ double next(double shift) {
 
 double in_the_middle(double shift) { return 0.3 + 0.4 * shift; }
 
+bool is_exponent(const StepWatch::Watched& watched) {
+  using Kind = StepWatch::Kind;
+  return watched.kind == Kind::exponent || watched.kind == Kind::both ||
+         watched.kind == Kind::front;
+}
+
 }  // namespace
 
 StepLook::StepLook(const StepWatch& watch, std::size_t states, const double* parameters,
@@ -54,6 +60,7 @@ void StepLook::begin(const double* parameters, const double* state) {
   for (std::size_t i = states_; i + 1 < inputs_.size(); ++i)
     negligible_ -= std::log(std::max(std::abs(inputs_[i]), 1.));
   highest_.assign(watched_.size(), -std::numeric_limits<double>::infinity());
+  changes_.assign(watched_.size(), 0);
   first_.x.clear();
   last_.x.clear();
   jump_.reset();
@@ -160,9 +167,30 @@ bool StepLook::hardly_changes(const StepWatch::Watched& watched) const {
 bool StepLook::is_calm(const casimir_step& trial, double part, const double* middle) {
   const double* const values = middle ? arguments(trial.t0 + part * (trial.t1 - trial.t0), middle)
                                       : arguments_within(trial, part, false);
-  bool all = true;
-  for (std::size_t i = 0; i < watched_.size(); ++i) all = is_calm(watched_[i], i, values) && all;
-  return all;
+  bool all = true, may_turn = false;
+  for (std::size_t i = 0; i < watched_.size(); ++i) {
+    all = is_calm(watched_[i], i, values) && all;
+    const std::size_t place = watched_[i].place;
+    const auto [least, most] =
+        std::minmax({first_.values[place], values[place], last_.values[place]});
+    changes_[i] = most - least;
+    may_turn = may_turn || (is_exponent(watched_[i]) && std::max(-least, most) > kResolved);
+  }
+  return all && !(may_turn && turns(trial));
+}
+
+/// Whether an exponent leaves the beginning so fast that it may have been somewhere else between
+/// the places at which it is much the same: beyond a peak, or two.
+bool StepLook::turns(const casimir_step& trial) {
+  constexpr double kAside = 0x1p-7, kTimes = 4;
+  const double* const aside = arguments_within(trial, kAside, false);
+  for (std::size_t i = 0; i < watched_.size(); ++i) {
+    if (!is_exponent(watched_[i])) continue;
+    const std::size_t place = watched_[i].place;
+    const double slope = std::abs(aside[place] - first_.values[place]) / kAside;
+    if (!(slope < kTimes * changes_[i] + kResolved)) return true;
+  }
+  return false;
 }
 
 bool StepLook::is_calm(const StepWatch::Watched& watched, std::size_t which, const double* middle) {

@@ -64,6 +64,7 @@ class StepLook {
   void take_ends(const casimir_step& trial);
   void take(End& end, double t, const double* x);
   bool is_calm(const casimir_step& trial, double part, const double* middle);
+  bool turns(const casimir_step& trial);
   bool hardly_changes(const StepWatch::Watched& watched) const;
   bool ends_behind_jump(const casimir_step& trial) const;
   bool passes_pole() const;
@@ -90,6 +91,7 @@ class StepLook {
   std::vector<double> inputs_, outputs_;
   End first_, last_;
   std::vector<double> sampled_[kPlaces];
+  std::vector<double> changes_;  ///< of arguments, between the ends and the place between them
   std::vector<double> highest_;  ///< of the exponents of powers, so far
   double negligible_ = 0;        ///< what an exponent has to be above
   double places_[kPlaces] = {};

@@ -72,9 +72,9 @@ Scene lorentzian(Random& random) {
           .exact = {{x, end.value + area}}};
 }
 
-/// Narrow peaks with nothing between them: cos(t)^10000.
+/// Narrow peaks with nothing between them: cos(t)^8000.
 Scene power_of_cosine(Random& random) {
-  constexpr Real n = 5000;
+  constexpr Real n = 4000;
   const int turns = 1 + random(6);
   const Number end = between(random, 3.1416L * turns + 0.5L, 3.1416L * turns + 2.6L);
   const Real whole =
@@ -85,7 +85,7 @@ Scene power_of_cosine(Random& random) {
           .variables = {"x"},
           .time = "t",
           .parameters = {{"k", k.text}},
-          .equations = {"k*cos(t)^10000"},
+          .equations = {"k*cos(t)^8000"},
           .initial = {"0"},
           .duration = end.text,
           .exact = {{k.value * whole * (turns + Real(0.5))}}};

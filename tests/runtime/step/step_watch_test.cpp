@@ -269,6 +269,25 @@ TEST(Steps, DoNotPassAPulseOver) {
   EXPECT_LT(run(pulse(cln::cl_RA(1) / 1000), {0}, 20, false).state[0], 1e-3);
 }
 
+/// Two peaks, between which the exponent is at the beginning, within and at the end of a step what
+/// it is on the other side of one: exp(-10^5 (x - 0.3)^2 (x + 0.7)^2) along an oscillator.
+TEST(Steps, DoNotPassOneOfTwoPeaksOver) {
+  Builder lines({"x", "v", "y"});
+  const int a = lines.op(Op::sub, 0, lines.number(cln::cl_RA(3) / 10));
+  const int b = lines.op(Op::add, 0, lines.number(cln::cl_RA(7) / 10));
+  const int product = lines.op(Op::mul, a, b), square = lines.op(Op::mul, product, product);
+  const int u = lines.op(Op::mul, lines.number(-100000), square);
+  lines.output(1);
+  lines.output(lines.op(Op::neg, 0));
+  lines.output(lines.op(Op::exp, u));
+  const Program rhs = lines.program();
+  for (const auto& [v, truth] : {std::pair{0., 0.17057071128447514}, {0.1, 0.16924439278900793}}) {
+    const Trajectory orbit = run(rhs, {1, v, 0}, 40);
+    ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
+    EXPECT_NEAR(orbit.state[2], truth, 1e-12) << v;
+  }
+}
+
 /// x' = sqrt(1 - t) ends at t = 1.
 TEST(Steps, EndWhereARootLosesItsRealValue) {
   Builder lines({"x"});

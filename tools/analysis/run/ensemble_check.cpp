@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "tools/analysis/estimate/growth_of_changes.hpp"
 #include "tools/analysis/run/taylor_path.hpp"
 
 namespace casimir {

@@ -54,7 +54,10 @@ cln::cl_RA exactly(double number) {
 }  // namespace
 
 double remainder(const cln::cl_F& value, double nearest) {
-  return codegen::nearest<double>(cln::rational(value) - exactly(nearest));
+  const cln::cl_RA left = cln::rational(value) - exactly(nearest);
+  // Nothing is left that a double could say.
+  if (cln::abs(left) < exactly(std::numeric_limits<double>::denorm_min())) return 0;
+  return codegen::nearest<double>(left);
 }
 
 PreparedScene prepare(const Model& model, const Scene& scene, const SceneOptions& options) {
