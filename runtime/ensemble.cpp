@@ -24,7 +24,7 @@ class Feed {
         numbers_(count_),
         check_(work.ensemble(), invariants) {
     const Ensemble& ensemble = work.ensemble();
-    if (kernel.watch)
+    if (kernel.watch && looks_at_any(*kernel.watch))
       look_.emplace(*kernel.watch, ensemble.states, kernel.lanes, [&ensemble](long long member) {
         return ensemble.values_of(static_cast<std::size_t>(member));
       });
@@ -46,6 +46,13 @@ class Feed {
   bool looks() const { return look_.has_value(); }
 
  private:
+  bool looks_at_any(const StepWatch& watch) const {
+    const Ensemble& ensemble = work_.ensemble();
+    for (std::size_t i = 0; i < ensemble.size(); ++i)
+      if (watch.looks(ensemble.values_of(i), ensemble.state(i))) return true;
+    return false;
+  }
+
   long long next_member(double* x, const double** numbers) {
     const long long member = work_.next();
     if (member < 0) return member;

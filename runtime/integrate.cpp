@@ -135,8 +135,8 @@ void run_kernel(const Module& module, const Method& method, const Settings& s,
     run.projector = &projection;
   }
   std::optional<StepLook> look;
-  if (module.watch()) {
-    look.emplace(*module.watch(), trajectory.state.size(), parameters);
+  if (module.watch() && module.watch()->looks(parameters, trajectory.state.data())) {
+    look.emplace(*module.watch(), trajectory.state.size(), parameters, trajectory.state.data());
     run.look = [](void* looker, const casimir_step* trial) {
       return (*static_cast<StepLook*>(looker))(*trial);
     };

@@ -72,7 +72,7 @@ class Runner {
     const auto middle = start.begin() + static_cast<std::ptrdiff_t>(states);
     state_.assign(start.begin(), middle);
     parameters_.assign(middle, start.end() - 1);
-    look_.emplace(*problem.rhs, parameters_);
+    look_.emplace(*problem.rhs, state_, parameters_);
     end_ = problem.end ? BigFloat(*problem.end) : start.back();
     if (problem.mark) mark_ = BigFloat(*problem.mark);
     run_.digits = digits;

@@ -22,12 +22,14 @@ void state_at(const casimir_step* seen, double t, double* x) {
 
 }  // namespace
 
-PreciseLook::PreciseLook(const Program& rhs, std::vector<BigFloat> parameters)
+PreciseLook::PreciseLook(const Program& rhs, const std::vector<BigFloat>& state,
+                         std::vector<BigFloat> parameters)
     : watch_(rhs), parameters_(std::move(parameters)) {
-  if (watch_.empty()) return;
-  std::vector<double> numbers;
+  std::vector<double> numbers, start;
   for (const BigFloat& value : parameters_) numbers.push_back(double_of(value));
-  look_ = std::make_unique<StepLook>(watch_, rhs.outputs.size(), numbers.data());
+  for (const BigFloat& value : state) start.push_back(double_of(value));
+  if (watch_.looks(numbers.data(), start.data()))
+    look_ = std::make_unique<StepLook>(watch_, start.size(), numbers.data(), start.data());
 }
 
 BigFloat PreciseLook::size(const PreciseStep& step) {

@@ -28,7 +28,8 @@ struct UnknownBranch {};
 class PreciseLook {
  public:
   /// Borrows the program of a right-hand side, not beyond the construction.
-  PreciseLook(const Program& rhs, std::vector<BigFloat> parameters);
+  PreciseLook(const Program& rhs, const std::vector<BigFloat>& state,
+              std::vector<BigFloat> parameters);
 
   /// The step that may be taken, or is to be tried, in the place of this one: the same size if it
   /// may be taken. One that ends where a branch begins is just so long that the argument has the

@@ -53,13 +53,15 @@ void state_at(const casimir_step* step, double t, double* x) {
 LaneLook::LaneLook(const StepWatch& watch, std::size_t states, int lanes, Parameters parameters)
     : states_(states),
       parameters_(std::move(parameters)),
-      lanes_(static_cast<std::size_t>(lanes), Lane{StepLook(watch, states, nullptr)}),
+      lanes_(static_cast<std::size_t>(lanes), Lane{StepLook(watch, states, nullptr, nullptr)}),
       places_(lanes_.size()),
       middle_(states * lanes_.size()),
       end_(middle_.size()),
       x0_(states),
       xm_(states),
-      x1_(states) {}
+      x1_(states) {
+  for (Lane& lane : lanes_) lane.look.end_at_poles();
+}
 
 /// What `looks` says of the step of a lane, whose end is known.
 template <class Look>
@@ -82,7 +84,8 @@ void LaneLook::operator()(const casimir_lane_step& trial, double* parts) {
     if (!trial.held[l]) continue;
     if (own.member != trial.member[l]) {
       own.member = trial.member[l];
-      own.look.begin(parameters_(own.member));
+      for (std::size_t i = 0; i < states_; ++i) x0_[i] = trial.rows[i][l];
+      own.look.begin(parameters_(own.member), x0_.data());
     }
     parts[l] = 1;
     own.quiet = look(trial, l, [&](const casimir_step& seen) { return own.look.is_quiet(seen); });

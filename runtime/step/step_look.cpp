@@ -29,25 +29,38 @@ double next(double shift) {
 
 double in_the_middle(double shift) { return 0.3 + 0.4 * shift; }
 
+bool is_exponent(const StepWatch::Watched& watched) {
+  using Kind = StepWatch::Kind;
+  return watched.kind == Kind::exponent || watched.kind == Kind::both ||
+         watched.kind == Kind::front;
+}
+
 }  // namespace
 
-StepLook::StepLook(const StepWatch& watch, std::size_t states, const double* parameters)
+StepLook::StepLook(const StepWatch& watch, std::size_t states, const double* parameters,
+                   const double* state)
     : watch_(watch),
       states_(states),
       evaluate_(watch.arguments()),
       inputs_(watch.arguments().inputs.size()),
       outputs_(watch.arguments().outputs.size()) {
-  begin(parameters);
+  begin(parameters, state);
 }
 
-void StepLook::begin(const double* parameters) {
+void StepLook::begin(const double* parameters, const double* state) {
+  const bool all = watch_.is_extreme(parameters, state);
+  watched_.clear();
+  met_ = nullptr;
+  for (const StepWatch::Watched& watched : watch_.watched())
+    if (all || !watched.faint) watched_.push_back(watched);
   if (parameters)
     std::copy_n(parameters, inputs_.size() - states_ - 1,
                 inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
   negligible_ = kNegligible - watch_.log_of_factors();
   for (std::size_t i = states_; i + 1 < inputs_.size(); ++i)
     negligible_ -= std::log(std::max(std::abs(inputs_[i]), 1.));
-  highest_.assign(watch_.watched().size(), -std::numeric_limits<double>::infinity());
+  highest_.assign(watched_.size(), -std::numeric_limits<double>::infinity());
+  changes_.assign(watched_.size(), 0);
   first_.x.clear();
   last_.x.clear();
   jump_.reset();
@@ -123,7 +136,7 @@ bool StepLook::is_quiet(const casimir_step& trial) {
   take_ends(trial);
   const bool follows = trial.t0 == quiet_until_ && h <= kLonger * quiet_for_ && !jump_;
   quiet_for_ = 0;
-  for (const StepWatch::Watched& watched : watch_.watched())
+  for (const StepWatch::Watched& watched : watched_)
     if (!hardly_changes(watched)) return false;
   quiet_for_ = h;
   quiet_until_ = trial.t1;
@@ -154,21 +167,35 @@ bool StepLook::hardly_changes(const StepWatch::Watched& watched) const {
 bool StepLook::is_calm(const casimir_step& trial, double part, const double* middle) {
   const double* const values = middle ? arguments(trial.t0 + part * (trial.t1 - trial.t0), middle)
                                       : arguments_within(trial, part, false);
-  bool all = true;
-  for (std::size_t i = 0; i < watch_.watched().size(); ++i)
-    all = is_calm(watch_.watched()[i], i, values) && all;
-  return all;
+  bool all = true, may_turn = false;
+  for (std::size_t i = 0; i < watched_.size(); ++i) {
+    all = is_calm(watched_[i], i, values) && all;
+    const std::size_t place = watched_[i].place;
+    const auto [least, most] =
+        std::minmax({first_.values[place], values[place], last_.values[place]});
+    changes_[i] = most - least;
+    may_turn = may_turn || (is_exponent(watched_[i]) && std::max(-least, most) > kResolved);
+  }
+  return all && !(may_turn && turns(trial));
+}
+
+/// Whether an exponent leaves the beginning so fast that it may have been somewhere else between
+/// the places at which it is much the same: beyond a peak, or two.
+bool StepLook::turns(const casimir_step& trial) {
+  constexpr double kAside = 0x1p-7, kTimes = 4;
+  const double* const aside = arguments_within(trial, kAside, false);
+  for (std::size_t i = 0; i < watched_.size(); ++i) {
+    if (!is_exponent(watched_[i])) continue;
+    const std::size_t place = watched_[i].place;
+    const double slope = std::abs(aside[place] - first_.values[place]) / kAside;
+    if (!(slope < kTimes * changes_[i] + kResolved)) return true;
+  }
+  return false;
 }
 
 bool StepLook::is_calm(const StepWatch::Watched& watched, std::size_t which, const double* middle) {
   std::array<double, 3> u = {first_.values[watched.place], middle[watched.place],
                              last_.values[watched.place]};
-  if (watched.kind == StepWatch::Kind::power) {
-    double& highest = highest_[which];
-    for (double& value : u) value = watched.exponent * std::log(std::abs(value));
-    highest = std::max(highest, *std::ranges::max_element(u));
-    for (double& value : u) value = std::max(value, highest + kLeastPower);
-  }
   if (std::ranges::any_of(u, [](double value) { return std::isnan(value); })) return false;
   const auto [least, most] = std::ranges::minmax(u);
   const double change = most - least;
@@ -178,8 +205,14 @@ bool StepLook::is_calm(const StepWatch::Watched& watched, std::size_t which, con
     case StepWatch::Kind::exponent:
       return change < kResolved || most + change < negligible_;
     case StepWatch::Kind::both:
-    case StepWatch::Kind::power:
       return change < kResolved;
+    case StepWatch::Kind::power: {
+      const double largest = std::max(std::abs(least), std::abs(most));
+      const double below = largest - change;
+      highest_[which] = std::max(highest_[which], watched.exponent * std::log(largest));
+      return (below > 0 && watched.exponent * std::log(largest / below) < kResolved) ||
+             watched.exponent * std::log(largest + change) < highest_[which] + kNegligiblePower;
+    }
     case StepWatch::Kind::front:
       return 2 * change < kResolved ||
              2 * (change - std::min(std::abs(least), std::abs(most))) < negligible_;
@@ -193,17 +226,25 @@ bool StepLook::is_calm(const StepWatch::Watched& watched, std::size_t which, con
   }
 }
 
+/// Whether something that is divided by changes its sign in a step.
+bool StepLook::passes_pole() const {
+  return std::ranges::any_of(watched_, [&](const StepWatch::Watched& watched) {
+    return watched.kind == StepWatch::Kind::divisor &&
+           first_.values[watched.place] * last_.values[watched.place] < 0;
+  });
+}
+
 double StepLook::within(const casimir_step& trial, const double* middle) {
   const double h = std::abs(trial.t1 - trial.t0);
   const double least = 64 * std::numeric_limits<double>::epsilon() * std::abs(trial.t0);
-  if (h <= least) return 1;
+  if (h <= least) return ends_at_poles_ && passes_pole() ? 0 : 1;
   shift_ = next(shift_);
   met_ = nullptr;
   if (is_calm(trial, in_the_middle(shift_), middle)) return ends_behind_jump(trial) ? 2 : 1;
   sample(trial);
   double part = 1;
-  for (std::size_t i = 0; i < watch_.watched().size(); ++i) {
-    const StepWatch::Watched& watched = watch_.watched()[i];
+  for (std::size_t i = 0; i < watched_.size(); ++i) {
+    const StepWatch::Watched& watched = watched_[i];
     double own = 1;
     switch (watched.kind) {
       case StepWatch::Kind::side:
@@ -218,8 +259,10 @@ double StepLook::within(const casimir_step& trial, const double* middle) {
       case StepWatch::Kind::exponent:
       case StepWatch::Kind::both:
       case StepWatch::Kind::front:
-      case StepWatch::Kind::power:
         own = resolved(watched, i);
+        break;
+      case StepWatch::Kind::power:
+        own = resolved_power(watched, i);
         break;
       case StepWatch::Kind::divisor:
         own = std::min(up_to_dip(watched), resolved(watched, i));
@@ -249,22 +292,42 @@ bool StepLook::ends_behind_jump(const casimir_step& trial) const {
   return jump_ && std::abs(trial.t1 - *jump_) <= kSame * (std::abs(*jump_) + std::abs(trial.t0));
 }
 
+/// Between two places a base is not larger than at these by more than it changes from place to
+/// place around them. Its logarithm would not do: it changes by any amount where the base passes
+/// zero, and there the power is nothing.
+double StepLook::resolved_power(const StepWatch::Watched& watched, std::size_t which) {
+  std::array<double, kPlaces> b;
+  for (std::size_t i = 0; i < kPlaces; ++i) b[i] = sampled_[i][watched.place];
+  if (!std::ranges::all_of(b, [](double value) { return std::isfinite(value); })) return 1;
+  const auto power = [&](double base) { return watched.exponent * std::log(base); };
+  double& highest = highest_[which];
+  for (const double value : b) highest = std::max(highest, power(std::abs(value)));
+  const auto change = [&](std::size_t i) { return std::abs(b[i + 1] - b[i]); };
+  for (std::size_t i = 0; i + 1 < kPlaces; ++i) {
+    double most = change(i);
+    if (i > 0) most = std::max(most, change(i - 1));
+    if (i + 2 < kPlaces) most = std::max(most, change(i + 1));
+    const double size = std::max(std::abs(b[i]), std::abs(b[i + 1]));
+    const double seen = std::max(power(size), highest + kLeastPower), above = power(size + most);
+    if (above > highest + kNegligiblePower && above - seen > kResolved) return kShorter;
+  }
+  return 1;
+}
+
 /// Between two places the exponent is not above the larger of its values there by more than it
 /// changes from place to place around them.
 double StepLook::resolved(const StepWatch::Watched& watched, std::size_t which) {
   using Kind = StepWatch::Kind;
   const bool is_divisor = watched.kind == Kind::divisor;
-  const bool is_power = is_divisor || watched.kind == Kind::power;
-  const double exponent = is_divisor ? -watched.exponent : watched.exponent;
   const double times = watched.kind == Kind::front ? 2 : 1;
   std::array<double, kPlaces> u;
   for (std::size_t i = 0; i < kPlaces; ++i) {
     const double value = sampled_[i][watched.place];
-    u[i] = is_power ? exponent * std::log(std::abs(value)) : times * value;
+    u[i] = is_divisor ? -watched.exponent * std::log(std::abs(value)) : times * value;
     if (std::isnan(u[i]) || u[i] == std::numeric_limits<double>::infinity()) return 1;
   }
   double negligible = negligible_;
-  if (is_power) {
+  if (is_divisor) {
     double& highest = highest_[which];
     highest = std::max(highest, *std::ranges::max_element(u));
     if (std::isinf(highest)) return 1;

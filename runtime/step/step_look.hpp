@@ -15,11 +15,16 @@ class StepLook {
  public:
   /// Borrows the watch.
   /// \param parameters  null if there are none.
-  StepLook(const StepWatch& watch, std::size_t states, const double* parameters);
+  /// \param state       at the start; null if it is not known.
+  StepLook(const StepWatch& watch, std::size_t states, const double* parameters,
+           const double* state);
 
-  /// Another run begins.
-  /// \param parameters  null if there are none.
-  void begin(const double* parameters);
+  /// Another run begins, with the same arguments.
+  void begin(const double* parameters, const double* state);
+
+  /// A run ends where something that is divided by passes zero, instead of going on behind it: for
+  /// those that nobody warns of it.
+  void end_at_poles() { ends_at_poles_ = true; }
 
   /// 1 for a step that may be taken; or how much of it may be tried instead. A step that passes a
   /// branch is to end just behind it, at a distance that is 1e-12 of what the argument is in the
@@ -59,11 +64,14 @@ class StepLook {
   void take_ends(const casimir_step& trial);
   void take(End& end, double t, const double* x);
   bool is_calm(const casimir_step& trial, double part, const double* middle);
+  bool turns(const casimir_step& trial);
   bool hardly_changes(const StepWatch::Watched& watched) const;
   bool ends_behind_jump(const casimir_step& trial) const;
+  bool passes_pole() const;
   bool is_calm(const StepWatch::Watched& watched, std::size_t index, const double* middle);
   void sample(const casimir_step& trial);
   double resolved(const StepWatch::Watched& watched, std::size_t index);
+  double resolved_power(const StepWatch::Watched& watched, std::size_t index);
   double up_to_branch(const casimir_step& trial, const StepWatch::Watched& watched);
   /// A least value, and the part of the step at which it lies.
   struct Dip {
@@ -77,15 +85,18 @@ class StepLook {
                  double behind, double size);
 
   const StepWatch& watch_;
+  std::vector<StepWatch::Watched> watched_;  ///< what is watched in this run
   const std::size_t states_;
   Interpreter evaluate_;
   std::vector<double> inputs_, outputs_;
   End first_, last_;
   std::vector<double> sampled_[kPlaces];
+  std::vector<double> changes_;  ///< of arguments, between the ends and the place between them
   std::vector<double> highest_;  ///< of the exponents of powers, so far
   double negligible_ = 0;        ///< what an exponent has to be above
   double places_[kPlaces] = {};
   double shift_ = 0.5;
+  bool ends_at_poles_ = false;
   double quiet_until_ = 0, quiet_for_ = 0;  ///< the end and the size of the last quiet step
   const StepWatch::Watched* met_ = nullptr;
   std::optional<double> jump_;  ///< when a step that was cut is to end behind a jump

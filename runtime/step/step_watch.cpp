@@ -217,23 +217,61 @@ double log_of_numbers(const Program& rhs) {
   return std::min(sum, kMost);
 }
 
+/// How far a number is from 1, as a logarithm; nothing for those that everybody has.
+double extremeness(double number) {
+  constexpr double kUsual = 3.5;
+  const double size = std::abs(std::log(std::abs(number)));
+  return std::isfinite(size) && size > kUsual ? size : 0;
+}
+
+double extremeness_of_literals(const Program& rhs) {
+  double sum = 0;
+  for (const Instruction& line : rhs.code)
+    if (is_literal(line)) sum += extremeness(literal_value(rhs, line, Arithmetic<double>{}));
+  return sum;
+}
+
 }  // namespace
 
-StepWatch::StepWatch(const Program& rhs) : arguments_(rhs), log_of_factors_(log_of_numbers(rhs)) {
+StepWatch::StepWatch(const Program& rhs)
+    : arguments_(rhs),
+      log_of_factors_(log_of_numbers(rhs)),
+      log_of_extremes_(extremeness_of_literals(rhs)),
+      states_(rhs.outputs.size()) {
   arguments_.outputs.clear();
   arguments_.output_names.clear();
   const std::vector<bool> varies = varying(rhs);
   watch_branches(rhs, varies);
   watch_powers(rhs, varies);
-  watch_divisors(rhs, varies, within_arguments());
-  watch_phases(rhs, varies, within_arguments());
+  watch_divisors(rhs, varies, within_arguments(false));
+  watch_near_kinks(rhs, varies);
+  watch_phases(varies);
   arguments_ = pruned(arguments_);
 }
 
-/// Which lines the arguments depend on that are watched.
-std::vector<bool> StepWatch::within_arguments() const {
+bool StepWatch::is_extreme(const double* parameters, const double* state) const {
+  constexpr double kFrom = 18.4;  // of a factor of 10^8
+  double sum = log_of_extremes_;
+  for (std::size_t i = states_; parameters && i + 1 < arguments_.inputs.size(); ++i)
+    sum += extremeness(parameters[i - states_]);
+  for (std::size_t i = 0; state && i < states_; ++i) sum += extremeness(state[i]);
+  return sum > kFrom;
+}
+
+bool StepWatch::looks(const double* parameters, const double* state) const {
+  if (watched_.empty()) return false;
+  const auto is_faint = [](const Watched& watched) { return watched.faint; };
+  return !std::ranges::all_of(watched_, is_faint) || is_extreme(parameters, state);
+}
+
+/// Which lines the arguments depend on that are watched, or are so whatever the numbers.
+std::vector<bool> StepWatch::within_arguments(bool faint_too) const {
   std::vector<bool> within(arguments_.code.size(), false);
-  for (const int line : arguments_.outputs) within[index(line)] = true;
+  for (const Watched& watched : watched_) {
+    if (watched.faint && !faint_too) continue;
+    within[index(arguments_.outputs[watched.place])] = true;
+    if (watched.kind == Kind::turn) within[index(arguments_.outputs[watched.place + 1])] = true;
+  }
   for (std::size_t i = within.size(); i-- > 0;) {
     const Instruction& line = arguments_.code[i];
     if (!within[i] || !has_operands(line)) continue;
@@ -290,10 +328,15 @@ void StepWatch::watch_powers(const Program& rhs, const std::vector<bool>& varies
   for (std::size_t i = 0; i < rhs.code.size(); ++i)
     if (varies[i] && highest[i] >= kHighPower)
       watch(Kind::power, {static_cast<int>(i)}, highest[i]);
+  for (std::size_t i = 0; i < rhs.code.size(); ++i) {
+    const Instruction& line = rhs.code[i];
+    if (line.op == Op::pow && varies[i] && exponent_of(rhs, line) >= kHighPower)
+      watch(Kind::power, {line.a}, exponent_of(rhs, line));
+  }
 }
 
-/// Not those that any method sees from afar: see `kDeep`. In the argument of a function they may
-/// be seen as little as that is.
+/// Those that any method sees from afar, see `kDeep`, where numbers are extreme only. In the
+/// argument of a function they may be seen as little as that is.
 void StepWatch::watch_divisors(const Program& rhs, const std::vector<bool>& varies,
                                const std::vector<bool>& watched) {
   const std::vector<double> degree = degrees(rhs, varies);
@@ -303,9 +346,9 @@ void StepWatch::watch_divisors(const Program& rhs, const std::vector<bool>& vari
     if (!varies[i] || !has_operands(line)) continue;
     if (line.op == Op::tan) {
       const double power = highest_power(rhs, i);
-      if (power < enough(i)) continue;
       arguments_.code.push_back({Op::cos, line.a});
-      watch(Kind::divisor, {static_cast<int>(arguments_.code.size()) - 1}, power);
+      watch(Kind::divisor, {static_cast<int>(arguments_.code.size()) - 1}, power,
+            power < enough(i));
     }
     const double power = line.op == Op::div ? 1 : line.op == Op::pow ? -exponent_of(rhs, line) : 0;
     if (!(power > 0)) continue;
@@ -314,31 +357,51 @@ void StepWatch::watch_divisors(const Program& rhs, const std::vector<bool>& vari
     split_divisor(rhs, powers);
     for (std::size_t base = 0; base < i; ++base) {
       if (powers[base] == 0 || !varies[base]) continue;
-      if (powers[base] * degree[base] >= enough(i))
-        watch(Kind::divisor, {static_cast<int>(base)}, powers[base]);
+      watch(Kind::divisor, {static_cast<int>(base)}, powers[base],
+            powers[base] * degree[base] < enough(i));
     }
   }
 }
 
-void StepWatch::watch_phases(const Program& rhs, const std::vector<bool>& varies,
-                             const std::vector<bool>& watched) {
+/// Where roots, logarithms and angles are nearly singular they turn as a kink does, on a way that
+/// is as short as a small number in their argument makes it: sqrt(x^2 + 10^(-20)).
+void StepWatch::watch_near_kinks(const Program& rhs, const std::vector<bool>& varies) {
+  const auto put = [&](Op op, int a, int b = -1) {
+    arguments_.code.push_back({op, a, b});
+    return static_cast<int>(arguments_.code.size()) - 1;
+  };
   for (std::size_t i = 0; i < rhs.code.size(); ++i) {
     const Instruction& line = rhs.code[i];
-    if (!watched[i] || !varies[i]) continue;
-    if (line.op == Op::sin || line.op == Op::cos || line.op == Op::tan)
-      watch(Kind::phase, {line.a});
+    if (!varies[i] || !has_operands(line)) continue;
+    if (line.op == Op::sqrt || line.op == Op::log || line.op == Op::pow)
+      watch(Kind::divisor, {line.a}, 1, true);
+    if (line.op == Op::atan2)
+      watch(Kind::divisor,
+            {put(Op::add, put(Op::mul, line.a, line.a), put(Op::mul, line.b, line.b))}, 1, true);
   }
 }
 
-void StepWatch::watch(Kind kind, const std::vector<int>& lines, double exponent) {
+/// \param varies  of the equations' lines; those that were added behind them do.
+void StepWatch::watch_phases(const std::vector<bool>& varies) {
+  const std::vector<bool> within = within_arguments(true), always = within_arguments(false);
+  for (std::size_t i = 0; i < within.size(); ++i) {
+    const Instruction& line = arguments_.code[i];
+    if (!within[i] || (i < varies.size() && !varies[i])) continue;
+    if (line.op == Op::sin || line.op == Op::cos || line.op == Op::tan)
+      watch(Kind::phase, {line.a}, 1, !always[i]);
+  }
+}
+
+void StepWatch::watch(Kind kind, const std::vector<int>& lines, double exponent, bool faint) {
   for (Watched& known : watched_) {
     if (known.kind != kind || arguments_.outputs[known.place] != lines[0] ||
         (lines.size() > 1 && arguments_.outputs[known.place + 1] != lines[1]))
       continue;
     known.exponent = std::max(known.exponent, exponent);
+    known.faint = known.faint && faint;
     return;
   }
-  watched_.push_back({kind, arguments_.outputs.size(), exponent});
+  watched_.push_back({kind, arguments_.outputs.size(), exponent, faint});
   for (const int line : lines) {
     arguments_.outputs.push_back(line);
     arguments_.output_names.emplace_back();

@@ -34,14 +34,22 @@ class StepWatch {
   };
   struct Watched {
     Kind kind;
-    std::size_t place;  ///< of u among the outputs of `arguments`; v, if there is one, is the next
-    double exponent;    ///< of a power or a divisor
+    std::size_t place;   ///< of u among the outputs of `arguments`; v, if there is one, is the next
+    double exponent;     ///< of a power or a divisor
+    bool faint = false;  ///< watched only where numbers are extreme: see `is_extreme`
   };
 
   /// \param rhs  a right-hand side, with the inputs of one.
   explicit StepWatch(const Program& rhs);
 
   bool empty() const { return watched_.empty(); }
+  /// Whether numbers so large or so small are in play that what a method sees from afar otherwise
+  /// may be hidden from it: the tail of 10^(-16)/cos(q)^2 is below any tolerance up to the pole.
+  /// \param parameters  null if there are none
+  /// \param state       at the start; null if it is not known
+  bool is_extreme(const double* parameters, const double* state) const;
+  /// Whether there is anything to be watched with these numbers.
+  bool looks(const double* parameters, const double* state) const;
   const std::vector<Watched>& watched() const { return watched_; }
   /// The arguments, as functions of the inputs of the right-hand side.
   const Program& arguments() const { return arguments_; }
@@ -50,18 +58,19 @@ class StepWatch {
   double log_of_factors() const { return log_of_factors_; }
 
  private:
-  void watch(Kind kind, const std::vector<int>& lines, double exponent = 1);
+  void watch(Kind kind, const std::vector<int>& lines, double exponent = 1, bool faint = false);
   void watch_branches(const Program& rhs, const std::vector<bool>& varies);
   void watch_powers(const Program& rhs, const std::vector<bool>& varies);
   void watch_divisors(const Program& rhs, const std::vector<bool>& varies,
                       const std::vector<bool>& watched);
-  void watch_phases(const Program& rhs, const std::vector<bool>& varies,
-                    const std::vector<bool>& watched);
-  std::vector<bool> within_arguments() const;
+  void watch_near_kinks(const Program& rhs, const std::vector<bool>& varies);
+  void watch_phases(const std::vector<bool>& varies);
+  std::vector<bool> within_arguments(bool faint_too) const;
 
   std::vector<Watched> watched_;
   Program arguments_;
-  double log_of_factors_ = 0;
+  double log_of_factors_ = 0, log_of_extremes_ = 0;
+  std::size_t states_;
 };
 
 }  // namespace casimir

@@ -6,6 +6,7 @@
 
 #include <boost/math/special_functions/jacobi_elliptic.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cmath>
 
 #include "runtime/digits/agreed_run.hpp"
 #include "tests/runtime/programs.hpp"
@@ -280,6 +281,21 @@ TEST(PreciseRun, PulsesAreNotPassedOver) {
 }
 
 /// x' = -x + t^4 from 0, whose first five terms are zero.
+/// Between two places at which cos(t)^8192 is next to nothing it may be 1.
+TEST(PreciseRun, PeaksOfPowersAreNotPassedOver) {
+  Builder b({"x"});
+  int power = b.op(Op::cos, b.time());
+  for (int i = 0; i < 13; ++i) power = b.op(Op::mul, power, power);
+  b.output(power);
+  const Program program = b.program();
+  const PreciseRun run = precise_run(problem(program, {0, 10}), 20);
+  ASSERT_EQ(run.status, Status::ok) << run.reason;
+  const double n = 4096;  // half a peak at 0, and three
+  const double area =
+      std::sqrt(std::acos(-1)) * std::exp(std::lgamma(n + 0.5) - std::lgamma(n + 1));
+  EXPECT_NEAR(cln::double_approx(run.state[0]) / area, 3.5, 1e-9);
+}
+
 TEST(PreciseRun, WhatRestsAtZeroBegins) {
   Builder b({"x"});
   const int square = b.op(Op::mul, b.time(), b.time());

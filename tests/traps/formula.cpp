@@ -114,9 +114,10 @@ class Reader {
     if (word == "Pi") return put(Op::constant, 0, 0, std::acos(Real(-1)));
     if (const auto known = names_.find(word); known != names_.end()) return known->second;
     static const std::map<std::string, Op> functions = {
-        {"sqrt", Op::sqrt}, {"sin", Op::sin},    {"cos", Op::cos},   {"tan", Op::tan},
-        {"exp", Op::exp},   {"log", Op::log},    {"asin", Op::asin}, {"acos", Op::acos},
-        {"atan", Op::atan}, {"atan2", Op::atan2}};
+        {"sqrt", Op::sqrt}, {"sin", Op::sin},     {"cos", Op::cos},      {"tan", Op::tan},
+        {"exp", Op::exp},   {"log", Op::log},     {"asin", Op::asin},    {"acos", Op::acos},
+        {"atan", Op::atan}, {"atan2", Op::atan2}, {"sinh", Op::sinh},    {"cosh", Op::cosh},
+        {"tanh", Op::tanh}, {"cot", Op::cot},     {"abs", Op::absolute}, {"sign", Op::sign}};
     const auto function = functions.find(word);
     if (function == functions.end()) fail();
     need('(');
@@ -206,6 +207,18 @@ Real Formulas::value_of(const Line& line, const Real* symbols) const {
       return std::atan(a);
     case Op::atan2:
       return std::atan2(a, b());
+    case Op::sinh:
+      return std::sinh(a);
+    case Op::cosh:
+      return std::cosh(a);
+    case Op::tanh:
+      return std::tanh(a);
+    case Op::cot:
+      return 1 / std::tan(a);
+    case Op::absolute:
+      return std::abs(a);
+    case Op::sign:
+      return static_cast<Real>((a > 0) - (a < 0));
   }
   return 0;
 }

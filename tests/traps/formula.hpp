@@ -44,7 +44,13 @@ class Formulas {
     asin,
     acos,
     atan,
-    atan2
+    atan2,
+    sinh,
+    cosh,
+    tanh,
+    cot,
+    absolute,
+    sign
   };
   struct Line {
     Op op;

@@ -12,9 +12,9 @@ struct Kind {
 
 const std::vector<Kind>& all() {
   static const std::vector<Kind> kinds = {
-      {"pulse", pulse_shapes()}, {"quiet", quiet_shapes()},      {"wall", wall_shapes()},
-      {"well", well_shapes()},   {"late", late_shapes()},        {"scales", scale_shapes()},
-      {"rest", rest_shapes()},   {"singular", singular_shapes()}};
+      {"pulse", pulse_shapes()}, {"quiet", quiet_shapes()},       {"wall", wall_shapes()},
+      {"well", well_shapes()},   {"late", late_shapes()},         {"scales", scale_shapes()},
+      {"rest", rest_shapes()},   {"singular", singular_shapes()}, {"faint", faint_shapes()}};
   return kinds;
 }
 

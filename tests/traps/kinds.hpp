@@ -39,6 +39,8 @@ std::vector<Maker> late_shapes();
 std::vector<Maker> scale_shapes();
 /// Starts at rest, in an equilibrium, or where a function has its end.
 std::vector<Maker> rest_shapes();
+/// What announces itself below any tolerance: walls and peaks with factors next to nothing.
+std::vector<Maker> faint_shapes();
 /// Ends of the solution, or of what is real, at a known time; and what only looks like one.
 std::vector<Maker> singular_shapes();
 

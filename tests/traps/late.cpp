@@ -139,6 +139,22 @@ Scene saddle(Random& random) {
           .exact = {{std::exp(-end.value), -std::exp(-end.value)}}};
 }
 
+/// e x' = x^2 - y, y' = x has the canard x = s/2, y = s^2/4 - e/2, which attracts up to s = 0 and
+/// then is as unstable.
+Scene canard(Random& random) {
+  const Number e = scaled(random, 0.01L, 0.25L), b = between(random, 1, 3);
+  const Number end = between(random, b.value, 1.875L * b.value);
+  const Real s = end.value - b.value;
+  return {.kind = "late",
+          .shape = "canard",
+          .variables = {"x", "y"},
+          .parameters = {{"e", e.text}},
+          .equations = {"(x^2 - y)/e", "x"},
+          .initial = {"-(" + b.text + ")/2", "(" + b.text + ")^2/4 - (" + e.text + ")/2"},
+          .duration = end.text,
+          .exact = {{s / 2, s * s / 4 - e.value / 2}}};
+}
+
 /// A small state that feeds a large one only after it has grown.
 Scene seed(Random& random) {
   const Number e = between(random, 20, 250), end = between(random, 2, 40);
@@ -167,6 +183,7 @@ std::vector<Maker> late_shapes() {
           down_and_up,
           spark,
           saddle,
+          canard,
           seed};
 }
 

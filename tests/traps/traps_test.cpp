@@ -26,6 +26,10 @@ TEST(TrapsFormula, HasThePrecedenceOfCaseFiles) {
   EXPECT_EQ(constant("0.25e1"), 2.5L);
   EXPECT_EQ(constant("8^(1/3)"), 2);
   EXPECT_NEAR(static_cast<double>(constant("atan2(1, -1)/Pi")), 0.75, 1e-17);
+  EXPECT_NEAR(static_cast<double>(constant("cosh(2)^2 - sinh(2)^2")), 1, 1e-17);
+  EXPECT_NEAR(static_cast<double>(constant("tanh(2)*cosh(2)/sinh(2)")), 1, 1e-17);
+  EXPECT_NEAR(static_cast<double>(constant("cot(1)*tan(1)")), 1, 1e-17);
+  EXPECT_EQ(constant("abs(-3)*sign(-5) + sign(0)"), -3);
 }
 
 TEST(TrapsFormula, RefusesWhatIsNoExpression) {

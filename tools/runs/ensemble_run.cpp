@@ -9,6 +9,7 @@
 #include <iostream>
 #include <optional>
 
+#include "tools/analysis/run/ensemble_check.hpp"
 #include "tools/analysis/run/ensemble_kernel.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
@@ -16,6 +17,7 @@
 #include "tools/cli/output.hpp"
 #include "tools/text/ensemble_file.hpp"
 #include "tools/text/run_report.hpp"
+#include "tools/text/trust_report.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -34,6 +36,7 @@ struct Report {
   const Settings& settings;
   const EnsembleKernel& kernel;
   const EnsembleResult& result;
+  const std::vector<std::string>& warnings;
 
   const Specialisation& spec() const { return run.specialisation; }
   std::size_t count(Status status) const {
@@ -145,8 +148,7 @@ Json to_json(const Report& report) {
   json["instruction_set"] =
       report.kernel.lanes ? Json(report.kernel.lanes->instruction_set) : Json(nullptr);
   json["from_cache"] = report.kernel.from_cache;
-  json["warnings"] = Json::array();
-  if (!report.kernel.warning.empty()) json["warnings"].push_back(report.kernel.warning);
+  json["warnings"] = report.warnings;
   return json;
 }
 
@@ -174,7 +176,18 @@ void print_text(const Report& report) {
       if (k < member.invariants.size()) drift = std::max(drift, member.invariants[k].drift);
     fmt::print("  {:<16} largest drift {:.1e}\n", s.invariant_names[k], drift);
   }
-  if (!report.kernel.warning.empty()) fmt::print("  warning: {}\n", report.kernel.warning);
+  for (const std::string& warning : report.warnings) fmt::print("  warning: {}\n", warning);
+}
+
+/// On how the members were made, and on those that were integrated again by themselves.
+std::vector<std::string> warnings_on(const EnsembleKernel& kernel,
+                                     const std::vector<CheckedMember>& checked) {
+  std::vector<std::string> warnings;
+  if (!kernel.warning.empty()) warnings.push_back(kernel.warning);
+  for (const CheckedMember& member : checked)
+    for (const std::string& warning : warnings_of(member.trust))
+      warnings.push_back(fmt::format("member {}: {}", member.member + 1, warning));
+  return warnings;
 }
 
 /// What went wrong, on stderr.
@@ -247,7 +260,9 @@ int integrate_ensemble(const EnsembleRequest& request) {
   } catch (const std::invalid_argument& problem) {
     throw UsageError(problem.what());
   }
-  const Report report{run, method, settings, kernel, result};
+  const std::vector<std::string> warnings =
+      warnings_on(kernel, check_members(run, method, settings, ensemble, result));
+  const Report report{run, method, settings, kernel, result, warnings};
   if (!request.output.empty()) write_members(request.output, report);
   if (request.common.json) {
     print_json(to_json(report));

@@ -196,10 +196,10 @@ class March {
     }
   }
 
-  /// The error allowed to state i, whose size is what it takes during the step.
-  CASIMIR_INLINE V allowed(int i) {
+  /// The error allowed to state i, whose size is what it takes during a step of so many units.
+  CASIMIR_INLINE V allowed(int i, V s = all_lanes<V>(1)) {
     const V* c = series_.row(i);
-    const V size = absolute(c[0]) + absolute(c[1]) + absolute(c[2]);
+    const V size = absolute(c[0]) + (absolute(c[1]) + absolute(c[2]) * s) * s;
     return larger_of(run_->atol + run_->rtol * size, all_lanes<V>(0x1p-1000));
   }
 
@@ -412,12 +412,14 @@ class March {
   CASIMIR_INLINE M follows_at(M which, V s, V t, const V* x) {
     series_.begin(t, x, rate_);
     V defect = V{};
+    // What the unit would make of a state is nothing to a step that was cut to a tiny part of it.
+    const V part = s < Policy::kPartOfUnit ? s : all_lanes<V>(1);
     for (int i = 0; i < series_.states; ++i) {
       const V* c = series_.row(i);
       V told = V{};
       for (int k = series_.order; k > 0; --k) told = (told + c[k] * k) * s;
       const V size = absolute(c[0]) + absolute(x[i]) + absolute(told);
-      const V most = Policy::kDefect * allowed(i) + size * Policy::kRounding;
+      const V most = Policy::kDefect * allowed(i, part) + size * Policy::kRounding;
       defect += absolute(rate_[i] * (s * unit_) - told) / most;
     }
     failure_ = (which & (defect < Policy::kNoNumber))    ? all_lanes<V>(CASIMIR_STEP_UNDERFLOW)

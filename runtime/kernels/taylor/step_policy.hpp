@@ -28,6 +28,9 @@ struct StepPolicy {
   static constexpr double kSmallerUnit = 0x1p-8;
   /// A step of fewer roundings of the time than this is none.
   static constexpr double kLeastRoundings = 16;
+  /// From which part of a unit down the coefficients in that unit do not tell how large a state is
+  /// during a step.
+  static constexpr double kPartOfUnit = 0.125;
   /// At how many places within it a step is compared with the equations: where nothing has been
   /// compared yet, and otherwise.
   static constexpr int kPlacesAtFirst = 4, kPlaces = 1;

@@ -147,10 +147,11 @@ class March {
     return lane_sum(zero) == 0;
   }
 
-  /// One over the error allowed to each component, whose size is what it takes during the step.
-  CASIMIR_INLINE V weight(int b) const {
-    const V size =
-        absolute(series_.c[0][b]) + absolute(series_.c[1][b]) + absolute(series_.c[2][b]);
+  /// One over the error allowed to each component, whose size is what it takes during a step of so
+  /// many units.
+  CASIMIR_INLINE V weight(int b, double s = 1) const {
+    const V size = absolute(series_.c[0][b]) + absolute(series_.c[1][b]) * s +
+                   absolute(series_.c[2][b]) * (s * s);
     const V unit = pieces_ > 0 ? size + scale_ : atol_ + rtol_ * size;
     return 1 / (unit > kSmallest ? unit : all_lanes<V>(kSmallest));
   }
@@ -283,6 +284,10 @@ class March {
   /// missing only from them, and a pulse may have passed before the end.
   __attribute__((noinline)) bool follows(double s, double t1, const V* next) {
     const int places = fresh_ || s > Policy::kUnseen ? Policy::kPlacesAtFirst : Policy::kPlaces;
+    // What the unit would make of the state is nothing to a step that was cut to a tiny part of it.
+    if (__builtin_expect(s < Policy::kPartOfUnit, 0)) {
+      for (int b = 0; b < series_.blocks; ++b) weight_[b] = weight(b, s);
+    }
     for (int i = 0; i < places; ++i) {
       place_ += Policy::kGoldenSection;
       if (place_ >= 1) place_ -= 1;

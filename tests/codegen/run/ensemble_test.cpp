@@ -355,5 +355,50 @@ TEST(Ensemble, NoMemberStepsOverAPulse) {
   EXPECT_LT(result.members[0].state[0], 1);
 }
 
+/// q^2 = (3 - t)^2 + c t^2/9: each member turns at a wall of its own width, which no tail
+/// announces.
+TEST(Ensemble, NoMemberPassesAFaintWall) {
+  const Specialisation s = specialised(equations({{"q", "p"}, {"p", "1/(10^16*q^3)"}}));
+  LaneKernel kernel = testing::lanes_of_recurrences(s);
+  States from;
+  for (int i = 0; i < 9; ++i) from.push_back({2 + 0.25 * i, -1});
+  EnsembleResult result = run_lanes(kernel, ensemble_of(from), settings_for(8, 1e-10));
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    ASSERT_EQ(result.members[i].status, Status::ok) << i;
+    EXPECT_NEAR(result.members[i].state[0], 8 - from[i][0], 1e-5) << i;
+  }
+  kernel.watch = nullptr;
+  result = run_lanes(kernel, ensemble_of(from), settings_for(8, 1e-10));
+  EXPECT_LT(result.members[0].state[0], 0);
+}
+
+/// Where a divisor passes zero the solution ends, and nobody would say of a member that a step went
+/// on.
+TEST(Ensemble, MembersEndAtFaintPoles) {
+  const Specialisation s = specialised(equations({{"x", "1"}, {"y", "1 + 1/(10^20*x)"}}));
+  LaneKernel kernel = testing::lanes_of_recurrences(s);
+  const Ensemble ensemble = ensemble_of({{-1.0 / 3, 0}, {-0.7, 0}, {0.5, 0}});
+  EnsembleResult result = run_lanes(kernel, ensemble, settings_for(4, 1e-10));
+  for (const std::size_t i : {0, 1}) {
+    EXPECT_NE(result.members[i].status, Status::ok) << i;
+    EXPECT_NEAR(result.members[i].time, -ensemble.state(i)[0], 1e-9) << i;
+  }
+  EXPECT_EQ(result.members[2].status, Status::ok);
+  kernel.watch = nullptr;
+  EXPECT_EQ(run_lanes(kernel, ensemble, settings_for(4, 1e-10)).members[0].status, Status::ok);
+}
+
+TEST(Ensemble, NoMemberPassesThePeaksOfAHighPower) {
+  const Specialisation s = specialised(equations({{"x", "v"}, {"v", "-x"}, {"y", "x^8000"}}));
+  LaneKernel kernel = testing::lanes_of_recurrences(s);
+  const EnsembleResult result =
+      run_lanes(kernel, ensemble_of({{1, 0, 0}, {-1, 0, 0}}), settings_for(10, 1e-12));
+  const double n = 4000;
+  const double area =
+      std::sqrt(std::acos(-1.)) * std::exp(std::lgamma(n + 0.5) - std::lgamma(n + 1));
+  for (const MemberResult& member : result.members)  // half a peak at the start, and three
+    EXPECT_NEAR(member.state[2] / area, 3.5, 1e-6);
+}
+
 }  // namespace
 }  // namespace casimir

@@ -101,7 +101,7 @@ TEST(StepWatch, QuotientsAreWatchedThatNoTailAnnounces) {
     lines.output(rate);
     lines.output(rate);
     const StepWatch watch(lines.program());
-    return watch.empty() ? 0 : watch.watched()[0].exponent;
+    return watch.looks(nullptr, nullptr) ? watch.watched()[0].exponent : 0;
   };
   EXPECT_EQ(watched(true, 3, true), 0);  // of Kepler's problem
   EXPECT_EQ(watched(true, 1, false), 0);
@@ -120,7 +120,59 @@ TEST(StepWatch, QuotientsAreWatchedThatNoTailAnnounces) {
     Builder tangent({"x"});  // tan(x)^4: of cos(x)
     const int tan = tangent.op(Op::tan, 0), square = tangent.op(Op::mul, tan, tan);
     tangent.output(fourth ? tangent.op(Op::mul, square, square) : square);
-    EXPECT_EQ(StepWatch(tangent.program()).empty(), !fourth);
+    EXPECT_EQ(StepWatch(tangent.program()).looks(nullptr, nullptr), fourth);
+  }
+}
+
+/// q' = p, p' = c/q^3
+Program repelled(const cln::cl_RA& strength, bool by_parameter) {
+  Builder lines = by_parameter ? Builder({"q", "p", "c"}) : Builder({"q", "p"});
+  const int c = by_parameter ? 2 : lines.number(strength);
+  lines.output(1);
+  lines.output(lines.op(Op::div, c, lines.op(Op::mul, 0, lines.op(Op::mul, 0, 0))));
+  return lines.program();
+}
+
+/// A tail that any method sees is below its tolerance where its factor is next to nothing.
+TEST(StepWatch, LowerQuotientsAreWatchedWhereNumbersAreExtreme) {
+  const cln::cl_RA small = cln::cl_RA(1) / cln::expt(cln::cl_I(10), 20);
+  EXPECT_FALSE(StepWatch(repelled(1, false)).looks(nullptr, nullptr));
+  EXPECT_TRUE(StepWatch(repelled(small, false)).looks(nullptr, nullptr));
+
+  const StepWatch by_parameter(repelled(1, true));
+  EXPECT_FALSE(by_parameter.empty());
+  const double usual = 0.5, tiny = 1e-20, at[] = {1, 2}, far[] = {1e12, 2};
+  EXPECT_FALSE(by_parameter.looks(&usual, at));
+  EXPECT_TRUE(by_parameter.looks(&tiny, at));
+  EXPECT_TRUE(by_parameter.looks(&usual, far));
+}
+
+/// q^2 = (3 - t)^2 + c t^2/9: from the wall at 0 it comes back.
+TEST(Steps, DoNotPassAWallOverThatNoTailAnnounces) {
+  const cln::cl_RA small = cln::cl_RA(1) / cln::expt(cln::cl_I(10), 20);
+  const Trajectory orbit = run(repelled(small, false), {3, -1}, 5);
+  ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
+  EXPECT_NEAR(orbit.state[0], 2, 1e-5);  // the turn is 1e-10 wide
+  EXPECT_NEAR(orbit.state[1], 1, 1e-5);
+  EXPECT_NEAR(run(repelled(small, false), {3, -1}, 5, false).state[0], -2, 1e-9);
+}
+
+/// x' = sqrt((t - 3)^2 + 10^(-24)) and log((t - 3)^2 + 10^(-24)) turn within 1e-12.
+TEST(StepWatch, RootsAndLogarithmsAreWatchedWhereTheyTurnLikeKinks) {
+  for (const Op op : {Op::sqrt, Op::log}) {
+    Builder lines({"x"});
+    const int z = lines.op(Op::sub, lines.time(), lines.number(3));
+    const int width = lines.number(cln::cl_RA(1) / cln::expt(cln::cl_I(10), 24));
+    const int u = lines.op(Op::add, lines.op(Op::mul, z, z), width);
+    lines.output(lines.op(op, u));
+    const Program rhs = lines.program();
+    const StepWatch watch(rhs);
+    EXPECT_TRUE(watch.looks(nullptr, nullptr));
+    const Trajectory orbit = run(rhs, {0}, 5);
+    ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
+    // Of |z|, and of 2 log|z|.
+    const double truth = op == Op::sqrt ? 6.5 : 2 * (3 * std::log(3.) - 3 + 2 * std::log(2.) - 2);
+    EXPECT_NEAR(orbit.state[0], truth, 1e-11);
   }
 }
 
@@ -215,6 +267,25 @@ TEST(Steps, DoNotPassAPulseOver) {
   }
   // Without the look it is gone.
   EXPECT_LT(run(pulse(cln::cl_RA(1) / 1000), {0}, 20, false).state[0], 1e-3);
+}
+
+/// Two peaks, between which the exponent is at the beginning, within and at the end of a step what
+/// it is on the other side of one: exp(-10^5 (x - 0.3)^2 (x + 0.7)^2) along an oscillator.
+TEST(Steps, DoNotPassOneOfTwoPeaksOver) {
+  Builder lines({"x", "v", "y"});
+  const int a = lines.op(Op::sub, 0, lines.number(cln::cl_RA(3) / 10));
+  const int b = lines.op(Op::add, 0, lines.number(cln::cl_RA(7) / 10));
+  const int product = lines.op(Op::mul, a, b), square = lines.op(Op::mul, product, product);
+  const int u = lines.op(Op::mul, lines.number(-100000), square);
+  lines.output(1);
+  lines.output(lines.op(Op::neg, 0));
+  lines.output(lines.op(Op::exp, u));
+  const Program rhs = lines.program();
+  for (const auto& [v, truth] : {std::pair{0., 0.17057071128447514}, {0.1, 0.16924439278900793}}) {
+    const Trajectory orbit = run(rhs, {1, v, 0}, 40);
+    ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
+    EXPECT_NEAR(orbit.state[2], truth, 1e-12) << v;
+  }
 }
 
 /// x' = sqrt(1 - t) ends at t = 1.

@@ -136,6 +136,23 @@ struct BadFile {
   const char* says;
 };
 
+/// Members have no estimate each: what is doubtful shows where some are integrated again.
+TEST(EnsembleFile, WhatRoundingDecidesIsAWarning) {
+  const Folder folder;
+  write(folder, "saddle.toml",
+        "[phase_space]\nvariables = [\"x\", \"v\"]\n[equations]\nx = \"v\"\nv = \"x\"\n"
+        "[[scene]]\nname = \"default\"\ninitial = { x = \"1\", v = \"-1\" }\nduration = \"50\"\n");
+  const Outcome grown =
+      members(folder, "x,v\n1,-1\n2,-2\n", {"integrate", "saddle.toml", "--json"});
+  ASSERT_EQ(grown.status, 0) << grown.err;
+  const auto warnings = grown.json().at("warnings");
+  ASSERT_EQ(warnings.size(), 2U) << warnings;
+  EXPECT_NE(warnings[0].get<std::string>().find("member 1: "), std::string::npos) << warnings;
+  const Outcome calm = members(folder, "x,v\n1,-1\n2,-2\n",
+                               {"integrate", "saddle.toml", "--duration", "2", "--json"});
+  EXPECT_TRUE(calm.json().at("warnings").empty()) << calm.json().at("warnings");
+}
+
 TEST(EnsembleFile, BadOnesAreRefusedAtTheirPlace) {
   const Folder folder;
   for (const BadFile& bad : {BadFile{"M1,gg3\n1,2\n", "members.csv:1:4: error:", "mean 'g3'"},

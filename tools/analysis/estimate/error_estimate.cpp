@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "runtime/step/step_watch.hpp"
 #include "tools/analysis/estimate/growth_of_changes.hpp"
 #include "tools/analysis/estimate/rounding_of_rates.hpp"
 #include "tools/analysis/run/taylor_path.hpp"
@@ -157,8 +158,14 @@ CrossCheck cross_check(const PreparedScene& run, const Method& method, const Set
   own.max_steps = kCrossCheckSteps;
   own.longest_step = std::abs(trajectory.time) / kLeastCrossCheckSteps;
   own.give_up = settings.give_up;
-  const Method& check = *find_method(method.series ? "cvode-adams" : "taylor");
-  const Trajectory other = integrate(module, check, own, run.initial, run.parameters);
+  const Method* check = find_method(method.series ? "cvode-adams" : "taylor");
+  Trajectory other = integrate(module, *check, own, run.initial, run.parameters);
+  if (!method.series && other.status == Status::non_finite &&
+      has_rates(module, other.time, other.state, run.parameters)) {
+    // It is the series that end there, not the solution.
+    check = find_method("cvode-adams");
+    other = integrate(module, *check, own, run.initial, run.parameters);
+  }
   CrossCheck result;
   result.contradicts = !method.series &&
                        (other.status == Status::singularity || other.status == Status::non_finite ||
@@ -166,11 +173,11 @@ CrossCheck cross_check(const PreparedScene& run, const Method& method, const Set
   if (other.status != Status::ok) return result;
   const double explained = std::min(0.1, 100 * growth * (own.rtol + settings.rtol));
   result.distance = distance(other.state, trajectory.state, sizes);
-  if (result.distance > explained && method.series) {
+  if (result.distance > explained && !check->series) {
     // It is CVODE that may have stepped over something: its word is taken for it with more steps.
     own.longest_step = std::abs(trajectory.time) / kMostCrossCheckSteps;
     own.max_steps = 4 * kCrossCheckSteps;
-    const Trajectory again = integrate(module, check, own, run.initial, run.parameters);
+    const Trajectory again = integrate(module, *check, own, run.initial, run.parameters);
     if (again.status == Status::ok) {
       const double apart = distance(again.state, trajectory.state, sizes);
       if (apart <= explained) result.distance = apart;
@@ -215,7 +222,10 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
   const std::size_t n = run.initial.size();
   Neighbours neighbours(run, compiled, method, settings, sizes);
   // Polynomials of low degree hide nothing from a step.
-  const bool may_hide = compiled.module.watch() || run.specialisation.uses_time;
+  const StepWatch* const watch = compiled.module.watch();
+  const double* const numbers = run.parameters.empty() ? nullptr : run.parameters.data();
+  const bool may_hide =
+      (watch && watch->looks(numbers, run.initial.data())) || run.specialisation.uses_time;
   const bool has_time =
       3 * trajectory.seconds < budget || (may_hide && trajectory.seconds < kLongestToRepeat);
   const bool repeated = has_time && neighbours.begin();

@@ -51,6 +51,15 @@ std::optional<std::vector<double>> differences(const PreparedScene& run,
 
 }  // namespace
 
+bool has_rates(const Module& module, double t, const std::vector<double>& x,
+               const std::vector<double>& parameters) {
+  std::vector<double> rates(x.size());
+  module.functions().rhs(t, x.data(), parameters.empty() ? nullptr : parameters.data(),
+                         rates.data());
+  const auto is_finite = [](double value) { return std::isfinite(value); };
+  return std::ranges::all_of(x, is_finite) && std::ranges::all_of(rates, is_finite);
+}
+
 double rounding_of_rates(const PreparedScene& run, const Module& module,
                          const Trajectory& trajectory, const std::vector<double>& sizes) {
   if (only_sums_and_products(run.specialisation.rhs)) return 0;

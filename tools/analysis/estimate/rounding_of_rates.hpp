@@ -7,6 +7,11 @@
 
 namespace casimir {
 
+/// Whether the state and its rates are finite numbers. Coefficients of its Taylor series may still
+/// be none.
+bool has_rates(const Module& module, double t, const std::vector<double>& x,
+               const std::vector<double>& parameters);
+
 /// What the end state of a run owes to rounding within the equations, as in (1 - cos(x))/x for
 /// small x or cos(t + 10^16): relative to `sizes`, and 0 where the rates keep nine digits. No step
 /// size and no other method shows it, since all evaluate the equations with the same digits.

@@ -20,6 +20,9 @@ namespace {
 constexpr const char* kSmooth = "taylor";
 /// Of `auto`, without a tolerance: where rounding takes over.
 constexpr double kSmoothTolerance = 1e-15, kStiffTolerance = 1e-13;
+/// What `auto` takes where coefficients of Taylor series are beyond all doubles.
+constexpr const char* kWithoutSeries = "dop853";
+constexpr double kToleranceWithoutSeries = 1e-13;
 /// After so many steps `auto` asks for the first time whether the equations are stiff; then after
 /// twice as many, and so on.
 constexpr unsigned long long kFirstLook = 300;
@@ -95,11 +98,31 @@ class Judge {
     result_.chosen = smoothness.finding();
     if (result_.chosen.empty()) {
       result_.chosen = "the equations are not stiff";
+      if (result_.trajectory.status == Status::non_finite) try_without_series();
     } else {
       prepare(method_named(kStiffMethod), settings_for(options_.run, run_, kStiffTolerance));
       run_it();
       if (!options_.run.tolerance && !options_.run.atol) try_small_states();
     }
+  }
+
+  /// 1/(1 + exp(10^5 x)) is as good as 0 where the exponential is beyond all doubles; the
+  /// coefficients of its series are infinity by infinity.
+  void try_without_series() {
+    const double time = result_.trajectory.time;
+    if (!has_rates(result_.compiled->module, time, result_.trajectory.state, run_.parameters))
+      return;
+    AssessedRun first = std::move(result_);
+    result_ = {};
+    prepare(method_named(kWithoutSeries),
+            settings_for(options_.run, run_, kToleranceWithoutSeries));
+    run_it();
+    if (result_.trajectory.status == Status::ok) {
+      result_.chosen =
+          fmt::format("coefficients of Taylor series are beyond all doubles at t = {:.3g}", time);
+      return;
+    }
+    result_ = std::move(first);
   }
 
   /// A state of reacting matter may dwindle below the absolute tolerance and, once it is lost to

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "codegen/compile.hpp"
 #include "codegen/emit/number_literal.hpp"
@@ -40,8 +41,23 @@ std::vector<cln::cl_F> start_values(const Specialisation& specialisation, int di
 
 double rounded(const cln::cl_F& value) { return codegen::nearest<double>(cln::rational(value)); }
 
+namespace {
+
+/// Subnormal numbers, too, which CLN has not.
+cln::cl_RA exactly(double number) {
+  constexpr int kBits = std::numeric_limits<double>::digits;
+  int exponent = 0;
+  const double mantissa = std::ldexp(std::frexp(number, &exponent), kBits);
+  return cln::cl_I(static_cast<long>(mantissa)) * cln::expt(cln::cl_RA(2), exponent - kBits);
+}
+
+}  // namespace
+
 double remainder(const cln::cl_F& value, double nearest) {
-  return cln::double_approx(value - cln::cl_float(cln::cl_DF(nearest), value));
+  const cln::cl_RA left = cln::rational(value) - exactly(nearest);
+  // Nothing is left that a double could say.
+  if (cln::abs(left) < exactly(std::numeric_limits<double>::denorm_min())) return 0;
+  return codegen::nearest<double>(left);
 }
 
 PreparedScene prepare(const Model& model, const Scene& scene, const SceneOptions& options) {

@@ -1,0 +1,74 @@
+#include "tools/analysis/run/ensemble_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "tools/analysis/estimate/growth_of_changes.hpp"
+#include "tools/analysis/run/taylor_path.hpp"
+
+namespace casimir {
+namespace {
+
+/// The first, the last and one between them of those that reached the end.
+std::set<std::size_t> chosen(const EnsembleResult& result) {
+  constexpr double kGoldenSection = 0.6180339887498949;
+  std::vector<std::size_t> ended;
+  for (std::size_t i = 0; i < result.members.size(); ++i)
+    if (result.members[i].status == Status::ok) ended.push_back(i);
+  if (ended.empty()) return {};
+  const double between = kGoldenSection * static_cast<double>(ended.size());
+  return {ended.front(), ended[static_cast<std::size_t>(between)], ended.back()};
+}
+
+PreparedScene scene_of(const PreparedScene& run, const Ensemble& ensemble, std::size_t member) {
+  PreparedScene own = run;
+  const double *const x = ensemble.state(member), *const p = ensemble.values_of(member);
+  own.initial.assign(x, x + ensemble.states);
+  own.parameters.assign(p, p + ensemble.parameters);
+  own.rounding.assign(own.initial.size(), 0);
+  own.parameter_rounding.assign(own.parameters.size(), 0);
+  return own;
+}
+
+/// Nothing is compiled for it that the ensemble has not compiled.
+CompiledModule module_of(const PreparedScene& own, const Method& method) {
+  if (!method.series) return compile_for(own, method);
+  return {.module = taylor_module_without_compiler(own.specialisation.rhs, {}, own.parameters),
+          .compiled = false};
+}
+
+}  // namespace
+
+std::vector<CheckedMember> check_members(const PreparedScene& run, const Method& method,
+                                         const Settings& settings, const Ensemble& ensemble,
+                                         const EnsembleResult& result, double budget) {
+  constexpr double kPart = 0.1;
+  std::vector<CheckedMember> checked;
+  for (const std::size_t member : chosen(result)) {
+    const PreparedScene own = scene_of(run, ensemble, member);
+    const Method& how = method.series ? *find_method("taylor") : method;
+    const CompiledModule compiled = module_of(own, how);
+    Settings alone = settings;
+    alone.monitor = true;
+    alone.give_up = time_limit(budget);
+    const Trajectory again = integrate(compiled.module, how, alone, own.initial, own.parameters);
+    if (again.status == Status::stopped) break;  // the others take as long
+    CheckedMember& found = checked.emplace_back(CheckedMember{member, {}});
+    if (again.status != Status::ok) {
+      found.trust.known = true;
+      found.trust.unconfirmed = true;
+      continue;
+    }
+    found.trust = assess(own, compiled, how, alone, again, kPart * budget);
+    const std::vector<double> sizes = sizes_of(again);
+    double apart = 0;
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+      apart =
+          std::max(apart, std::abs(result.members[member].state[i] - again.state[i]) / sizes[i]);
+    found.trust.error_estimate = std::max(found.trust.error_estimate, apart);
+  }
+  return checked;
+}
+
+}  // namespace casimir

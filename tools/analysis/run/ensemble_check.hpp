@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "runtime/ensemble.hpp"
+#include "tools/analysis/estimate/error_estimate.hpp"
+
+namespace casimir {
+
+/// What is known of a member of an ensemble that was integrated again by itself.
+struct CheckedMember {
+  std::size_t member = 0;
+  ErrorEstimate trust;  ///< of the end state that it has in the ensemble
+};
+
+/// Integrates some members again by themselves, as far as that takes no more than about `budget`
+/// seconds, with an estimate of their errors: the first, the last and one between them of those
+/// that reached the end. Members have no estimate of their own, and what rounding or a step does to
+/// one of them it mostly does to its neighbours as well.
+/// \param run  what the members are, but for their initial states and parameters.
+std::vector<CheckedMember> check_members(const PreparedScene& run, const Method& method,
+                                         const Settings& settings, const Ensemble& ensemble,
+                                         const EnsembleResult& result, double budget = 2);
+
+}  // namespace casimir
