@@ -29,7 +29,7 @@ namespace casimir {
 namespace {
 
 /// At such tolerances it is rounding that limits a run, and the leading terms are worth their time.
-constexpr double kCareful = 1e-14;
+constexpr double kCareful = 3e-15;
 
 struct Target {
   const char* name;
