@@ -15,6 +15,7 @@
 #include "codegen/compile/cache.hpp"
 #include "codegen/compile/compiler.hpp"
 #include "codegen/compile/shared_object.hpp"
+#include "runtime/instruction_set.hpp"
 
 namespace casimir {
 
@@ -33,7 +34,6 @@ const std::vector<std::string>& usual_flags() {
                                               "c++",
                                               "-std=c++20",
                                               "-O2",
-                                              "-march=native",
                                               "-fno-math-errno",
                                               "-fno-exceptions",
                                               "-fno-rtti",
@@ -48,9 +48,19 @@ const std::vector<std::string>& usual_flags() {
   return flags;
 }
 
+/// For this processor, and no wider registers than those of the instruction set. The baseline is
+/// that of all processors of the architecture.
+std::vector<std::string> flags_of(InstructionSet set) {
+  if (set == instruction_sets_here().front()) return {"-march=native"};
+  if (set == InstructionSet::avx2) return {"-march=native", "-mno-avx512f"};
+  return {"-march=x86-64", "-mtune=native"};
+}
+
 /// The arguments in front of the file names.
 std::vector<std::string> flags_for(const CompileOptions& options) {
   std::vector<std::string> result = usual_flags();
+  const std::vector<std::string> target = flags_of(chosen_instruction_set());
+  result.insert(result.end(), target.begin(), target.end());
   if (options.standard_library) {
     for (const char* flag : {"-nostdlib", "-fno-exceptions", "-fno-rtti"}) std::erase(result, flag);
     result.emplace_back("-lstdc++");

@@ -60,8 +60,8 @@ struct CompiledObject {
   std::shared_ptr<const void> in_use = {};  ///< until it is gone, no process makes room there
 };
 
-/// Compiles C++ text to a shared object, or finds it in the cache.
-///
+/// Compiles C++ text to a shared object, or finds it in the cache. The code is for this processor,
+/// as far as the instructions that $CASIMIR_INSTRUCTIONS asks for (runtime/instruction_set.hpp).
 /// The name of the object is a digest of the text, the compiler, its arguments and the processor;
 /// a digest of its content is checked, and a damaged object is made again. Processes that want the
 /// same object at the same time compile it once; one that is killed leaves nothing that matters.

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "codegen/compile.hpp"
+#include "runtime/instruction_set.hpp"
 #include "symbolic/error.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/command_line.hpp"
@@ -53,6 +54,7 @@ int run(int argc, char** argv) {
     const std::string message = program.usage_message(problem, argc, argv);
     return fail(kBadInput, message, error_json(message));
   }
+  chosen_instruction_set();  // what is wrong with it is said before any work
   return action();
 }
 
@@ -71,6 +73,8 @@ int run_guarded(int argc, char** argv) {
   } catch (const EnvironmentError& problem) {
     return fail(kEnvironment, problem.what());
   } catch (const SystemError& problem) {
+    return fail(kEnvironment, problem.what());
+  } catch (const InstructionsUnavailable& problem) {
     return fail(kEnvironment, problem.what());
   } catch (const std::bad_alloc&) {
     return fail(kEnvironment, out_of_memory_text());

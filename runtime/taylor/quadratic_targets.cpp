@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "runtime/instruction_set.hpp"
 #include "runtime/taylor/leading_layout.hpp"
 #include "runtime/taylor/quadratic_layout.hpp"
 
@@ -28,7 +29,7 @@ namespace casimir {
 namespace {
 
 /// At such tolerances it is rounding that limits a run, and the leading terms are worth their time.
-constexpr double kCareful = 1e-14;
+constexpr double kCareful = 3e-15;
 
 struct Target {
   const char* name;
@@ -39,24 +40,38 @@ struct Target {
   LeadingKernel* leading;
 };
 
-/// Those that this processor runs, best first.
+Target target_of(InstructionSet set) {
+#ifdef CASIMIR_X86_KERNELS
+  if (set == InstructionSet::avx512)
+    return {"avx512",
+            8,
+            casimir_quadratic_avx512,
+            casimir_wide_avx512,
+            casimir_series_avx512,
+            casimir_leading_avx512};
+  if (set == InstructionSet::avx2)
+    return {"avx2",
+            4,
+            casimir_quadratic_avx2,
+            casimir_wide_avx2,
+            casimir_series_avx2,
+            casimir_leading_avx2};
+#endif
+  return {"baseline",
+          2,
+          nullptr,
+          casimir_wide_baseline,
+          casimir_series_baseline,
+          casimir_leading_baseline};
+}
+
+/// Those that this processor runs, best first, from the one that was asked for.
 const std::vector<Target>& targets() {
   static const std::vector<Target> known = [] {
+    const InstructionSet widest = chosen_instruction_set();
     std::vector<Target> result;
-#ifdef CASIMIR_X86_KERNELS
-    __builtin_cpu_init();
-    const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512vl")) {
-      result.push_back({"avx512", 8, casimir_quadratic_avx512, casimir_wide_avx512,
-                        casimir_series_avx512, casimir_leading_avx512});
-    }
-    if (avx2)
-      result.push_back({"avx2", 4, casimir_quadratic_avx2, casimir_wide_avx2, casimir_series_avx2,
-                        casimir_leading_avx2});
-#endif
-    result.push_back({"baseline", 2, nullptr, casimir_wide_baseline, casimir_series_baseline,
-                      casimir_leading_baseline});
+    for (const InstructionSet set : instruction_sets_here())
+      if (set <= widest) result.push_back(target_of(set));
     return result;
   }();
   return known;

@@ -10,8 +10,8 @@
 
 namespace casimir {
 
-/// The instruction sets that have precompiled kernels of their own here, the widest that this
-/// processor runs first: some of "avx512", "avx2", "baseline". Never empty.
+/// The instruction sets with precompiled kernels of their own that this processor runs, from the
+/// one that is chosen (instruction_set.hpp): some of "avx512", "avx2", "baseline". Never empty.
 std::vector<std::string> quadratic_targets();
 
 /// Whether the precompiled kernels have room for a system: up to 24 states and 320 products, which

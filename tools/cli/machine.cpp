@@ -15,6 +15,7 @@
 
 #include "codegen/compile.hpp"
 #include "codegen/compile/compiler.hpp"
+#include "runtime/instruction_set.hpp"
 #include "runtime/outside/sundials_version.hpp"
 
 namespace casimir::tools {
@@ -65,6 +66,7 @@ Machine this_machine() {
   machine.processor = processor_entry("model name");
   if (machine.processor.empty()) machine.processor = system.machine;
   machine.flags = vector_flags();
+  machine.instructions = name_of(chosen_instruction_set());
   machine.cores = std::thread::hardware_concurrency();
   machine.system = fmt::format("{} {} {}", system.sysname, system.release, system.machine);
   if (const std::string compiler = compiler_version(); !compiler.empty())
@@ -82,7 +84,7 @@ std::string processor_text(const Machine& machine) {
   std::string text =
       fmt::format("{}, {} core{}", machine.processor, machine.cores, machine.cores == 1 ? "" : "s");
   if (!machine.flags.empty()) text += fmt::format(", {}", fmt::join(machine.flags, " "));
-  return text;
+  return text + "; kernels and generated code for " + machine.instructions;
 }
 
 std::string versions_text(const Machine& machine) {
@@ -95,6 +97,7 @@ std::string versions_text(const Machine& machine) {
 void add_to_json(nlohmann::ordered_json& document, const Machine& machine) {
   document["machine"] = {{"cpu", machine.processor},
                          {"flags", machine.flags},
+                         {"instructions", machine.instructions},
                          {"cores", machine.cores},
                          {"system", machine.system}};
   nlohmann::ordered_json versions = nlohmann::ordered_json::object();

@@ -99,6 +99,9 @@ const std::vector<std::pair<const char*, const char*>> kVariables = {
     {"CASIMIR_CACHE",
      "where compiled modules are kept; otherwise casimir in XDG_CACHE_HOME or in "
      "~/.cache"},
+    {"CASIMIR_INSTRUCTIONS",
+     "the instruction set of kernels and of generated code, avx512, avx2 or sse2; otherwise the "
+     "widest that the processor has"},
     {"CXX", "the C++ compiler, with its first arguments; otherwise c++, g++ or clang++"},
     {"NO_COLOR", "when set and not empty, nothing is coloured"}};
 

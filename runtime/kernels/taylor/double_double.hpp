@@ -67,6 +67,25 @@ CASIMIR_INLINE DoubleDouble<V> operator*(DoubleDouble<V> a, DoubleDouble<V> b) {
   return fast_sum(p.high, p.low + (a.high * b.low + a.low * b.high));
 }
 
+/// a * b, of which low may be some units in the last place of high: for `Sum`.
+template <class V>
+CASIMIR_INLINE DoubleDouble<V> loose_product(DoubleDouble<V> a, DoubleDouble<V> b) {
+  const DoubleDouble<V> p = exact_product(a.high, b.high);
+  return {p.high, p.low + (a.high * b.low + a.low * b.high)};
+}
+
+/// A sum in which the next term waits for one addition only: what the others lose is collected
+/// apart (Ogita, Rump, Oishi, SIAM J. Sci. Comput. 26 (2005) 1955). Its low part may be some units
+/// in the last place of high; the error is relative to the largest term.
+template <class V>
+struct Sum : DoubleDouble<V> {
+  CASIMIR_INLINE void add(DoubleDouble<V> term) {
+    const DoubleDouble<V> sum = exact_sum(this->high, term.high);
+    this->high = sum.high;
+    this->low += sum.low + term.low;
+  }
+};
+
 template <class V>
 CASIMIR_INLINE DoubleDouble<V> operator*(DoubleDouble<V> a, V b) {
   const DoubleDouble<V> p = exact_product(a.high, b);

@@ -61,19 +61,20 @@ class Leading {
 
   /// Coefficient k of the rates in register b.
   DoubleDouble<V> rate(int k, int b) const {
-    DoubleDouble<V> sum = {};
-    if (k == 0) sum = factor(tables_.constant + 2 * b * width);
+    Sum<V> sum = {};
+    if (k == 0) sum.add(factor(tables_.constant + 2 * b * width));
     for (int e = tables_.linear_begin[b]; e < tables_.linear_begin[b + 1]; ++e)
-      sum = sum +
-            factor(tables_.linear_factor + 2 * e * width) * of(k, tables_.linear_state + e * width);
+      sum.add(loose_product(factor(tables_.linear_factor + 2 * e * width),
+                            of(k, tables_.linear_state + e * width)));
     for (int e = tables_.product_begin[b]; e < tables_.product_begin[b + 1]; ++e) {
       const long long* const l = tables_.product_left + e * width;
       const long long* const r = tables_.product_right + e * width;
-      DoubleDouble<V> inner = of(0, l) * of(k, r);
-      for (int j = 1; j <= k; ++j) inner = inner + of(j, l) * of(k - j, r);
-      sum = sum + factor(tables_.product_factor + 2 * e * width) * inner;
+      Sum<V> inner = {};
+      for (int j = 0; j <= k; ++j) inner.add(loose_product(of(j, l), of(k - j, r)));
+      sum.add(loose_product(factor(tables_.product_factor + 2 * e * width),
+                            static_cast<DoubleDouble<V>>(inner)));
     }
-    return sum;
+    return fast_sum(sum.high, sum.low);
   }
 
   const casimir_leading_tables& tables_;

@@ -37,13 +37,15 @@ void with_order(const casimir_quadratic& tables, const casimir_run* run, double*
   integrate<width, registers, 24>(tables, run, x, out);
 }
 
+/// From so many registers of products on, their sums take most of the time.
+constexpr int kManyRegisters = 10;
 constexpr int kMostBlocks = CASIMIR_WIDE_STATES / kWidth;
 
 template <int blocks, int fixed>
 void march_wide(const casimir_wide& tables, const casimir_run* run, double* x,
                 casimir_outcome* out) {
   using Series = casimir_kernel::taylor::Wide<kWidth, blocks, fixed>;
-  Series series(tables, casimir_kernel::taylor::order_for(run));
+  Series series(tables, casimir_kernel::taylor::order_for(run, tables.registers >= kManyRegisters));
   casimir_kernel::taylor::March<Series>(run, series, x, out).go();
 }
 

@@ -12,7 +12,8 @@ template <int fixed>
 void integrate(const casimir_series& called, int blocks, const casimir_run* run, double* x,
                casimir_outcome* out) {
   using Series = casimir_kernel::taylor::CalledSeries<fixed>;
-  Series series(called, casimir_kernel::taylor::order_for(run), blocks);
+  const bool large = called.states >= casimir_kernel::taylor::kManyStates;
+  Series series(called, casimir_kernel::taylor::order_for(run, large), blocks);
   called.start(called.object, series.order, run->parameters);
   casimir_kernel::taylor::March<Series>(run, series, x, out).go();
 }

@@ -51,6 +51,21 @@ constexpr int order_of_one(double tolerance) {
   return tolerance > 3e-5 ? 8 : tolerance > 1e-8 ? 16 : 24;
 }
 
+/// Systems of so many states, if nothing else is known of them, have so many products that their
+/// sums take most of the time.
+constexpr int kManyStates = 20;
+
+/// The same where the products take the time and not what one coefficient has to wait for in the
+/// one before. The time of a step then grows like the square of the order N, its length like
+/// tolerance^(1/N), which would be best at N = log(1/tolerance)/2; as measured, a little above.
+constexpr int order_of_large(double tolerance) {
+  return tolerance > 3e-5    ? 8
+         : tolerance > 1e-9  ? 12
+         : tolerance > 1e-13 ? 16
+         : tolerance > 0     ? 20
+                             : order_of_one(tolerance);
+}
+
 /// The same for many trajectories at once, as measured: lower than for one, whose step has more to
 /// wait for.
 constexpr int order_of_many(double tolerance) {

@@ -33,12 +33,16 @@ namespace taylor {
 
 /// The part of the tolerance that a step aims at. Truncation errors add up in one direction,
 /// rounding errors in all: at the least tolerances truncation shall not be what millions of steps
-/// show.
+/// show. It goes out of sight by degrees, so that no tolerance costs much more than the next one.
 inline double aim(const casimir_run* run) {
-  // A hundredth of what rounding a step costs: 25 million steps show more than that.
-  constexpr double kFine = 1e-14, kUnseen = 1e-18;
-  if (run->leading) return kUnseen / run->rtol;
-  return run->rtol > 0 && run->rtol < kFine ? run->rtol / kFine : 1;
+  // A hundredth of what rounding a step costs: 25 million steps show more than that. Where the
+  // leading terms round like all others, a run shows no more than what is a part of that rounding.
+  constexpr double kUnseen = 1e-18, kRounded = 1e-16, kFine = 1e-13, kLeast = 1e-15;
+  if (!(run->rtol > 0 && run->rtol < kFine)) return 1;
+  if (!run->leading && run->rtol < kLeast) return run->rtol / kLeast * (kRounded / kLeast);
+  // kUnseen at the tolerance kLeast.
+  const double lost = run->rtol / kFine, part = lost * __builtin_sqrt(lost);
+  return larger(part, (run->leading ? kUnseen : kRounded) / run->rtol);
 }
 
 template <class Series>
@@ -425,8 +429,10 @@ class March {
 };
 
 /// The order at which the tolerance of a run costs least.
-inline int order_for(const casimir_run* run) {
-  return order_of_one(run->fixed_step > 0 ? 0 : run->rtol);
+/// \param large  so many products that they take the time.
+inline int order_for(const casimir_run* run, bool large = false) {
+  const double tolerance = run->fixed_step > 0 ? 0 : run->rtol;
+  return large ? order_of_large(tolerance) : order_of_one(tolerance);
 }
 
 }  // namespace taylor

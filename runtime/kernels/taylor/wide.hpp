@@ -110,17 +110,14 @@ struct Wide {
   }
 
   /// What the coefficients before `first` give to the products of order first .. first + 3, except
-  /// for coefficient 0.
+  /// for coefficient 0. The latest of them on the right come last: so the sums of the others need
+  /// not wait for them.
   CASIMIR_INLINE void look_ahead(int first) {
     each_register([&](int m) CASIMIR_INLINE_LAMBDA {
       const V* const l = product_[m].left;
       const V* const r = product_[m].right + first;
       V r1 = r[-1], r2 = r[-2], r3 = r[-3];
-      // l[1] .. l[3] do not reach the later orders: there r is not known yet.
-      V s0 = l[1] * r1 + l[2] * r2 + l[3] * r3;
-      V s1 = l[2] * r1 + l[3] * r2;
-      V s2 = l[3] * r1;
-      V s3 = V{};
+      V s0 = V{}, s1 = V{}, s2 = V{}, s3 = V{};
       for (int j = 4; j < first; ++j) {
         const V a = l[j], r4 = r[-j];
         s0 += a * r4;
@@ -131,6 +128,10 @@ struct Wide {
         r2 = r3;
         r3 = r4;
       }
+      // l[1] .. l[3] do not reach the later orders: there r is not known yet.
+      s0 += (l[3] * r[-3] + l[2] * r[-2]) + l[1] * r[-1];
+      s1 += l[3] * r[-2] + l[2] * r[-1];
+      s2 += l[3] * r[-1];
       ahead_[m][0] = s0;
       ahead_[m][1] = s1;
       ahead_[m][2] = s2;

@@ -11,6 +11,7 @@
 
 #include "codegen/compile/cache.hpp"
 #include "codegen/emit_cpp.hpp"
+#include "runtime/instruction_set.hpp"
 #include "tests/codegen/compile/compile_support.hpp"
 
 namespace casimir {
@@ -43,6 +44,31 @@ TEST_F(Compile, TheKeyHoldsFlagsAndCompiler) {
   EXPECT_FALSE(make(answer(1), "", {"-O1"}).from_cache);
   EXPECT_FALSE(make(answer(1), wrapper(folder_, "")).from_cache);
   EXPECT_TRUE(make(answer(1)).from_cache);
+}
+
+TEST_F(Compile, TheEnvironmentChoosesTheInstructionsAndTheKeyHoldsThem) {
+  const std::string text =
+      "extern \"C\" int answer(void) {\n"
+      "#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)\n"
+      "  return 512;\n"
+      "#elif defined(__AVX2__) && defined(__FMA__)\n"
+      "  return 256;\n"
+      "#elif defined(__AVX__)\n"
+      "  return -1;\n"
+      "#else\n"
+      "  return 128;\n"
+      "#endif\n}\n";
+  for (const InstructionSet set : instruction_sets_here()) {
+    const Variable chosen("CASIMIR_INSTRUCTIONS", name_of(set).c_str());
+    const CompiledObject first = make(text);
+    EXPECT_FALSE(first.from_cache) << name_of(set);
+    EXPECT_EQ(ask(first), set == InstructionSet::avx512 ? 512
+                          : set == InstructionSet::avx2 ? 256
+                                                        : 128);
+    EXPECT_TRUE(make(text).from_cache);
+  }
+  const Variable chosen("CASIMIR_INSTRUCTIONS", "avx1024");
+  EXPECT_THROW(make(text), InstructionsUnavailable);
 }
 
 TEST_F(Compile, TheFolderIsPrivate) {

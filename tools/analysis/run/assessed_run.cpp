@@ -13,11 +13,11 @@
 #include "tools/analysis/estimate/rounding_of_rates.hpp"
 #include "tools/analysis/run/drift_check.hpp"
 #include "tools/analysis/run/invariant_projection.hpp"
+#include "tools/analysis/run/smooth_method.hpp"
 
 namespace casimir {
 namespace {
 
-constexpr const char* kSmooth = "taylor";
 /// Of `auto`, without a tolerance: where rounding takes over.
 constexpr double kSmoothTolerance = 1e-15, kStiffTolerance = 1e-13;
 /// What `auto` takes where coefficients of Taylor series are beyond all doubles.
@@ -92,13 +92,16 @@ class Judge {
   }
 
   void run_chosen_method() {
-    prepare(method_named(kSmooth), settings_for(options_.run, run_, kSmoothTolerance));
+    prepare_smooth(settings_for(options_.run, run_, kSmoothTolerance));
     SmoothnessWatch smoothness(*result_.compiled, run_, result_.settings.duration);
     run_it(&smoothness);
     result_.chosen = smoothness.finding();
     if (result_.chosen.empty()) {
       result_.chosen = "the equations are not stiff";
-      if (result_.trajectory.status == Status::non_finite) try_without_series();
+      if (!result_.method->series)
+        result_.chosen += ", and few digits are asked for";
+      else if (result_.trajectory.status == Status::non_finite)
+        try_without_series();
     } else {
       prepare(method_named(kStiffMethod), settings_for(options_.run, run_, kStiffTolerance));
       run_it();
@@ -123,6 +126,16 @@ class Judge {
       return;
     }
     result_ = std::move(first);
+  }
+
+  void prepare_smooth(const Settings& settings) {
+    const Method& method = smooth_method(run_, settings.fixed_step > 0 ? 0 : settings.rtol);
+    try {
+      return prepare(method, settings);
+    } catch (const CompilerMissing&) {
+      if (method.series) throw;
+    }
+    prepare(method_named("auto"), settings);  // which needs no compiler
   }
 
   /// A state of reacting matter may dwindle below the absolute tolerance and, once it is lost to

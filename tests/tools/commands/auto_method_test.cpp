@@ -1,0 +1,80 @@
+// casimir integrate --method auto: which method it begins with.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/tools/program.hpp"
+
+namespace casimir::test {
+namespace {
+
+/// A free top in n dimensions.
+std::string top(int n) {
+  std::string names, energy, start;
+  for (int i = 1; i <= n; ++i) {
+    for (int j = i + 1; j <= n; ++j) {
+      const std::string name = "M" + std::to_string(i) + std::to_string(j);
+      names += (names.empty() ? "\"" : ", \"") + name + "\"";
+      energy += (energy.empty() ? "" : " + ") + name + "^2*" + std::to_string(i * 7 % 5 + j) + "/8";
+      start +=
+          (start.empty() ? "" : ", ") + name + " = \"" + std::to_string(i * j % 9 - 4) + "/5\"";
+    }
+  }
+  return "hamiltonian = \"" + energy + "\"\n[phase_space]\nvariables = [" + names +
+         "]\nalgebra = \"so(" + std::to_string(n) +
+         ")\"\n[[scene]]\nname = \"default\"\ninitial = { " + start + " }\nduration = \"2\"\n";
+}
+
+nlohmann::json integrated(const std::string& text, const std::vector<std::string>& more,
+                          const Environment& environment = {}) {
+  std::vector<std::string> words{"integrate", "-", "--json"};
+  words.insert(words.end(), more.begin(), more.end());
+  const Outcome outcome = run(words, text, environment);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return outcome.json();
+}
+
+double distance(const nlohmann::json& a, const nlohmann::json& b) {
+  double largest = 0;
+  for (const auto& [name, value] : a.at("state").items())
+    largest = std::max(largest, std::abs(std::stod(value.get<std::string>()) -
+                                         std::stod(b.at("state").at(name).get<std::string>())));
+  return largest;
+}
+
+TEST(AutoMethod, ManyCompiledProductsAndFewDigitsAreForRungeKutta) {
+  const auto few = integrated(top(8), {"--tolerance", "1e-6"});
+  EXPECT_EQ(few.at("method"), "dop853");
+  const auto many = integrated(top(8), {});
+  EXPECT_EQ(many.at("method"), "taylor");
+  EXPECT_LT(distance(few, many), 1e-4);
+  EXPECT_GT(distance(few, many), 1e-13) << "they were the same run";
+  // What was estimated is what is known of any other run.
+  EXPECT_LT(distance(few, many),
+            std::stod(few.at("trust").at("error_estimate").get<std::string>()) * 3);
+}
+
+TEST(AutoMethod, WhatNeedsNoCompilerStaysWithTables) {
+  for (const char* tolerance : {"1e-3", "1e-6", "1e-12"})
+    EXPECT_EQ(integrated(top(5), {"--tolerance", tolerance}).at("method"), "taylor") << tolerance;
+}
+
+TEST(AutoMethod, BranchesAndConstantStepsStayWithTaylorSeries) {
+  EXPECT_EQ(integrated(top(8), {"--tolerance", "1e-6", "--step", "0.01"}).at("method"), "taylor");
+  std::string text = top(8);
+  const std::string what = "hamiltonian = \"";
+  text.replace(text.find(what), what.size(), what + "abs(M12) + ");
+  EXPECT_EQ(integrated(text, {"--tolerance", "1e-6"}).at("method"), "taylor");
+}
+
+TEST(AutoMethod, WithoutACompilerItIsTaylorSeriesAgain) {
+  const Folder cache;
+  const auto run =
+      integrated(top(8), {"--tolerance", "1e-6"},
+                 {{"PATH", "/nonexistent"}, {"CXX", ""}, {"CASIMIR_CACHE", cache.path().string()}});
+  EXPECT_EQ(run.at("method"), "taylor");
+  EXPECT_NE(run.at("warnings").dump().find("interpreted"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace casimir::test

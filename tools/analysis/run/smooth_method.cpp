@@ -1,0 +1,80 @@
+#include "tools/analysis/run/smooth_method.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/instruction_set.hpp"
+#include "runtime/kernels/taylor/step_policy.hpp"
+#include "tools/analysis/run/taylor_path.hpp"
+
+namespace casimir {
+namespace {
+
+/// Of smaller systems the model knows too little, and there is little to be won.
+constexpr std::size_t kFewStates = 12;
+
+/// dop853 must take less than this part of the time: the model is no better.
+constexpr double kClearly = 0.7;
+
+/// Whether a right-hand side may follow another formula beyond some point.
+bool has_branches(const Program& rhs) {
+  return std::any_of(rhs.code.begin(), rhs.code.end(), [](const Instruction& line) {
+    return line.op == Op::abs || line.op == Op::sign || line.op == Op::atan2;
+  });
+}
+
+/// For one term of one sum, compiled: measured with AVX-512 over so(8) and four bodies in a plane
+/// (0.18 and 0.14), and for the others with the ratios that the tops have between instruction sets.
+double term_cost() {
+  const InstructionSet set = chosen_instruction_set();
+  return set == InstructionSet::avx512 ? 0.15 : set == InstructionSet::avx2 ? 0.22 : 0.4;
+}
+
+/// A model of the costs, in nanoseconds for a stretch of time in which a solution changes by about
+/// itself.
+struct SmoothCosts {
+  int states;
+  double products;    ///< sums that the series need
+  double operations;  ///< of one right-hand side, a function or a division counted as several
+  double taylor(double tolerance) const;
+  double dop853(double tolerance) const;
+};
+
+double SmoothCosts::taylor(double tolerance) const {
+  using casimir_kernel::taylor::kManyStates;
+  const int order = states >= kManyStates ? casimir_kernel::taylor::order_of_large(tolerance)
+                                          : casimir_kernel::taylor::order_of_one(tolerance);
+  constexpr double kStep = 40, kOrder = 8;  // what waits for what, whatever the size
+  const double step = kStep + kOrder * order + term_cost() * products * order * order / 2;
+  return step / std::pow(tolerance, 1. / order);
+}
+
+double SmoothCosts::dop853(double tolerance) const {
+  // Twelve right-hand sides, and the sums of them for each state.
+  constexpr double kStep = 40, kOperation = 0.1, kStages = 12, kSums = 90;
+  // The error of a step is so small that it is longer than its order alone would say.
+  constexpr double kOrder = 8, kLonger = 1.3;
+  const double step = kStep + kOperation * (kStages * operations + kSums * states);
+  return step / (kLonger * std::pow(tolerance, 1 / kOrder));
+}
+
+}  // namespace
+
+const Method& smooth_method(const PreparedScene& run, double tolerance) {
+  const Method& series = *find_method("taylor");
+  const Specialisation& s = run.specialisation;
+  if (!(tolerance > 0) || s.states.size() < kFewStates || has_branches(s.rhs) ||
+      choose_taylor_path(s.rhs, run.parameters, true).path != TaylorPath::compiled)
+    return series;
+  // A function has a sum or two of its own, and takes the time of many products where it is called.
+  constexpr double kSumsOfFunction = 2, kOfFunction = 8;
+  const OperationCount& count = s.specialised;
+  const double functions = count.div + count.calls;
+  const SmoothCosts costs{static_cast<int>(s.states.size()),
+                          count.mul + kSumsOfFunction * functions,
+                          count.mul + count.add + kOfFunction * functions};
+  const bool clearly = costs.dop853(tolerance) < kClearly * costs.taylor(tolerance);
+  return clearly ? *find_method("dop853") : series;
+}
+
+}  // namespace casimir
