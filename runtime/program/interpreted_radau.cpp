@@ -188,8 +188,12 @@ std::function<ModuleFunctions::Integration> interpreted_radau(const Program& rhs
     system->set_parameters(run->parameters);
     const auto integrate = states <= 4    ? run_in<4>
                            : states <= 8  ? run_in<8>
+                           : states <= 12 ? run_in<12>
                            : states <= 16 ? run_in<16>
+                           : states <= 20 ? run_in<20>
+                           : states <= 24 ? run_in<24>
                            : states <= 32 ? run_in<32>
+                           : states <= 40 ? run_in<40>
                                           : run_in<51>;
     integrate(*system, stages, *run, x, out);
   };

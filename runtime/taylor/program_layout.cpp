@@ -131,6 +131,10 @@ class ProgramLayout::Sorter {
     return true;
   }
 
+  int in_whole_registers(int count) const {
+    return (count + layout_.width_ - 1) / layout_.width_ * layout_.width_;
+  }
+
   void give_places() {
     const int states = static_cast<int>(program_.outputs.size());
     int next = states;
@@ -141,10 +145,11 @@ class ProgramLayout::Sorter {
       constant_place_[static_cast<int>(i)] = next++;
       layout_.constants_.push_back(static_cast<int>(i));
     }
+    next = in_whole_registers(next);
     for (auto& [key, group] : groups_) {
       group.level = key.first;
       const int count = static_cast<int>(group.lines.size());
-      group.padded = (count + layout_.width_ - 1) / layout_.width_ * layout_.width_;
+      group.padded = in_whole_registers(count);
       group.target = next;
       next += group.kind == CASIMIR_GROUP_SINCOS ? 2 * group.padded : group.padded;
     }
@@ -210,7 +215,8 @@ void ProgramLayout::start(int order, const double* parameters) {
   }
   constant_values_.clear();
   for (const int i : constants_) constant_values_.push_back(value[index(i)]);
-  place_.assign(index(places_), 0);
+  const auto lines = [](std::size_t numbers) { return std::vector<Line>(numbers / 8 + 1); };
+  place_ = lines(index(places_));
   std::size_t room = 0;
   for (Group& group : groups_) {
     group.history = room;
@@ -218,12 +224,12 @@ void ProgramLayout::start(int order, const double* parameters) {
     group.values.clear();
     for (const int line : group.constant) group.values.push_back(value[index(line)]);
   }
-  history_.assign(room, 0);
+  history_ = lines(room);
   tables_.clear();
   for (const Group& group : groups_)
     tables_.push_back({group.kind, static_cast<int>(group.lines.size()), group.padded, group.target,
                        group.a.data(), group.b.data(), group.values.data(),
-                       history_.data() + group.history});
+                       history_[0].numbers + group.history});
 }
 
 void ProgramLayout::expand(double t, double unit, double* rows, int stride) {
@@ -239,7 +245,7 @@ void ProgramLayout::expand(double t, double unit, double* rows, int stride) {
                                 static_cast<int>(constants_.size()),
                                 first_constant_,
                                 constant_values_.data(),
-                                place_.data()};
+                                place_[0].numbers};
   kernel_of(width_)(&view, t, unit, rows);
 }
 

@@ -44,7 +44,12 @@ class ProgramLayout {
   std::vector<bool> is_constant_;      ///< lines that depend on parameters only
   std::vector<Group> groups_;
   std::vector<int> outputs_;
-  std::vector<double> constant_values_, place_, history_;
+  /// Whole lines of the cache: a register that lies across two of them is loaded twice.
+  struct alignas(64) Line {
+    double numbers[8] = {};
+  };
+  std::vector<double> constant_values_;
+  std::vector<Line> place_, history_;
   std::vector<casimir_group> tables_;
   int order_ = 0;
 };

@@ -169,7 +169,7 @@ class Judge {
     Trajectory& trajectory = result_.trajectory;
     if (!result_.compiled->warning.empty()) doubts.push_back(result_.compiled->warning);
     if (result_.later && result_.later->missing)
-      doubts.push_back(kInterpretedWarning);
+      doubts.emplace_back(kInterpretedWarning);
     for (std::string& doubt : check_drift(model_, run_.specialisation.invariant_names, trajectory))
       doubts.push_back(std::move(doubt));
     result_.trust = assess(run_, *result_.compiled, *result_.method, result_.settings, trajectory);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "codegen/compile/compiler.hpp"
 #include "codegen/optimise/differentiate.hpp"
 #include "runtime/program/interpreted_radau.hpp"
 #include "runtime/uncompiled.hpp"
@@ -24,7 +25,8 @@ constexpr double kLine = 1.5e-9, kSeriesLine = 60e-9;
 constexpr double kSweeps = 5;
 /// Nominal seconds of interpreted steps from which on compiled code is worth its compilation.
 constexpr double kLong = 0.05;
-constexpr unsigned long long kFirstLook = 32;
+/// Of that: what has to be done before the rest is estimated. In transients the time hardly moves.
+constexpr double kKnown = 1. / 8;
 
 /// What an interpreted run needs to go over.
 struct Successor {
@@ -55,7 +57,8 @@ class Lookout {
     if (++steps_ != next_ || step.t1 == asked_.t_end) return 0;
     next_ *= 2;
     const double part = (step.t1 - asked_.t_begin) / (asked_.t_end - asked_.t_begin);
-    if (!(static_cast<double>(steps_) * successor_.step > kLong * part)) return 0;
+    const double work = static_cast<double>(steps_) * successor_.step;
+    if (work < kKnown * kLong || work < kLong * part) return 0;
     long_ = !successor_.may_go_over ||
             successor_.may_go_over(step.t1, {step.x1, step.x1 + successor_.states});
     return 1;
@@ -63,7 +66,7 @@ class Lookout {
 
   const casimir_run& asked_;
   const Successor& successor_;
-  unsigned long long steps_ = 0, next_ = kFirstLook;
+  unsigned long long steps_ = 0, next_ = 1;
   bool long_ = false;
 };
 
@@ -117,7 +120,7 @@ class LateModule {
       : run_(run), method_(method), later_(std::move(later)) {}
 
   const Module* module() {
-    if (!module_ && !missing_) compile();
+    if (!module_ && !later_->missing) compile();
     return module_ ? &module_->module : nullptr;
   }
 
@@ -129,7 +132,7 @@ class LateModule {
       later_->compiled = true;
       later_->from_cache = module_->from_cache;
     } catch (const CompilerMissing&) {
-      missing_ = later_->missing = true;
+      later_->missing = true;
     }
     later_->seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -139,8 +142,16 @@ class LateModule {
   const Method& method_;
   std::shared_ptr<LaterCode> later_;
   std::optional<CompiledModule> module_;
-  bool missing_ = false;
 };
+
+bool has_compiler() {
+  try {
+    codegen::find_compiler("");
+    return true;
+  } catch (const CompilerMissing&) {
+    return false;
+  }
+}
 
 /// The method interpreted, and the nominal seconds of a step; nothing where it cannot be.
 struct Interpreted {
@@ -173,6 +184,7 @@ BegunModule interpreted_first(
   CompiledModule result{.module = uncompiled_module(s.rhs, s.invariants, {}, run.parameters),
                         .compiled = false};
   auto later = std::make_shared<LaterCode>();
+  later->missing = !has_compiler();
   auto late = std::make_shared<LateModule>(run, method, later);
   Successor successor{how->step, [late] { return late->module(); }, may_go_over, s.states.size()};
   ModuleFunctions functions = result.module.functions();

@@ -13,7 +13,7 @@ namespace casimir {
 struct LaterCode {
   bool compiled = false;
   bool from_cache = false;
-  bool missing = false;  ///< it would have been, but there is no compiler
+  bool missing = false;  ///< it could not be: there is no compiler
   double seconds = 0;    ///< to compile or fetch it
 };
 
@@ -30,8 +30,8 @@ struct BegunModule {
 ///
 /// A run is long if the interpreted steps that it needs, as far as can be told from those made,
 /// would take more than a twentieth of a second on a machine that needs the nominal times of
-/// interpreted_first.cpp. It is asked after 32 steps, 64, 128 and so on; with a constant step, in
-/// the beginning.
+/// interpreted_first.cpp. It is asked after 1, 2, 4, 8 and so on steps, once an eighth of that time
+/// has gone by; with a constant step, in the beginning.
 ///
 /// Methods that cannot be interpreted are compiled, as by `compile_for`.
 /// \param may_go_over  asked before anything is compiled; false ends the run as stopped. May be
