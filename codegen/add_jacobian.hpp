@@ -4,8 +4,8 @@
 
 namespace casimir {
 
-/// Adds the Jacobian to what was specialised without one: the search for a short form of it can take
-/// longer than all else, and few methods need it.
+/// Adds the Jacobian to what was specialised without one: the search for a short form of it can
+/// take longer than all else, and few methods need it.
 void add_jacobian(Specialisation& specialisation);
 
 }  // namespace casimir

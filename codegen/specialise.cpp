@@ -430,8 +430,8 @@ void add_jacobian(Specialisation& specialisation) {
   std::vector<GiNaC::symbol> symbols;
   for (const std::string& input : specialisation.rhs.inputs) symbols.emplace_back(input);
   Dag dag(symbols, n);
-  specialisation.jacobian = codegen::optimised(
-      dag, {specialisation.jacobian, codegen::jacobian(specialisation.rhs, n)});
+  specialisation.jacobian =
+      codegen::optimised(dag, {specialisation.jacobian, codegen::jacobian(specialisation.rhs, n)});
   specialisation.has_jacobian = true;
 }
 

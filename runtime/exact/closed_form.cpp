@@ -44,7 +44,8 @@ void run_along(const ClosedForm& form, std::size_t states, const casimir_run& ru
   const double span = run.t_end - run.t_begin;
   if (std::abs(span) > form.horizon())
     throw std::invalid_argument(
-        "exact: the motion is so close to a separatrix that its data do not say on which side it is "
+        "exact: the motion is so close to a separatrix that its data do not say on which side it "
+        "is "
         "for so long; another method or a shorter duration can be had");
   *out = {};
   out->t = run.t_begin;
@@ -96,7 +97,8 @@ std::function<ModuleFunctions::Integration> exact_integration(
     std::shared_ptr<const ClosedForm> form) {
   return [rhs, initial, start = std::move(start), form = std::move(form)](
              const casimir_run* run, double* x, casimir_outcome* out) {
-    if (std::equal(start.begin(), start.end(), x)) return run_along(*form, start.size(), *run, x, out);
+    if (std::equal(start.begin(), start.end(), x))
+      return run_along(*form, start.size(), *run, x, out);
     const Recognised other = closed_form(rhs, exactly(x, initial));
     if (!other.form) throw std::invalid_argument("exact: " + other.reason);
     run_along(*other.form, start.size(), *run, x, out);

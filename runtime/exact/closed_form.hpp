@@ -40,7 +40,8 @@ struct Recognised {
 /// the code; what it assumes is the shape itself, read off the exact equations of the scene, and
 /// what is said here of coefficients. All else is refused.
 ///
-/// - x' = a y z, y' = b z x, z' = c x y in any order of three states, where a, b, c have not all the
+/// - x' = a y z, y' = b z x, z' = c x y in any order of three states, where a, b, c have not all
+/// the
 ///   same sign (then solutions have poles), and at most one is zero, while the other two have
 ///   opposite signs, or all are: the free rigid body.
 /// - q' = a p, p' = b sin q + c cos q: the pendulum.

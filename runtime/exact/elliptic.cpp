@@ -14,8 +14,8 @@ cln::cl_F number(int value, const cln::cl_F& like) {
 
 /// Whether nothing is left of the smaller one in the digits that there are.
 bool vanishes(const cln::cl_F& small, const cln::cl_F& beside) {
-  return cln::abs(small) <= cln::abs(beside) * cln::float_epsilon(cln::float_format(beside)) *
-                                number(16, beside);
+  return cln::abs(small) <=
+         cln::abs(beside) * cln::float_epsilon(cln::float_format(beside)) * number(16, beside);
 }
 
 /// Of 1 - m, below which the sums of hyperbolic functions converge fast.
@@ -109,8 +109,7 @@ JacobiFunctions::Values JacobiFunctions::at_part(double part) const {
   const double size = std::abs(part);
   const bool beyond = size > 0.25;
   const double u = four_quarters_ * (beyond ? 0.5 - size : size);
-  const auto [sn, cn, dn, am] =
-      complement_ < kNearOne ? by_hyperbolic_functions(u) : by_means(u);
+  const auto [sn, cn, dn, am] = complement_ < kNearOne ? by_hyperbolic_functions(u) : by_means(u);
   constexpr double kPi = 3.14159265358979323846;
   return {std::copysign(sn, part), beyond ? -cn : cn, dn,
           std::copysign(beyond ? kPi - am : am, part)};

@@ -119,7 +119,8 @@ Recognised pendulum(const Motion& motion) {
   const std::string other = "the equations are not q' = a p, p' = b sin q + c cos q";
   if (motion.states() != 2) return {nullptr, other};
   const N a = motion.coefficient(0, {0, 0, 0, 1, 0, 0});
-  const N b = motion.coefficient(1, {0, 1, 0, 0, 0, 0}), c = motion.coefficient(1, {0, 0, 1, 0, 0, 0});
+  const N b = motion.coefficient(1, {0, 1, 0, 0, 0, 0}),
+          c = motion.coefficient(1, {0, 0, 1, 0, 0, 0});
   const std::size_t terms = (cln::zerop(b) ? 0 : 1) + (cln::zerop(c) ? 0 : 1);
   if (cln::zerop(a) || terms == 0 || motion.field[0].size() != 1 || motion.field[1].size() != terms)
     return {nullptr, other};

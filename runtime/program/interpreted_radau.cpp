@@ -86,7 +86,9 @@ class Between {
     run_.factor = [](void* self, int which, int size, const double* matrix) {
       return static_cast<Between*>(self)->factor(which, size, matrix);
     };
-    run_.solve = [](void* self, int which, double* b) { static_cast<Between*>(self)->solve(which, b); };
+    run_.solve = [](void* self, int which, double* b) {
+      static_cast<Between*>(self)->solve(which, b);
+    };
     run_.observer = run_.looker = this;
     if (asked.observe)
       run_.observe = [](void* self, const casimir_step* step) {

@@ -71,8 +71,7 @@ class InterpretedSeries {
   }
 
   void expand(double unit) {
-    if (layout_)
-      return layout_->expand(inputs_.back(), unit, row(1), static_cast<int>(stride_));
+    if (layout_) return layout_->expand(inputs_.back(), unit, row(1), static_cast<int>(stride_));
     std::copy_n(inputs_.begin(), states_, state_.begin());
     const auto& series = jet_->expand(inputs_.back(), state_, unit);
     for (int k = 1; k <= order_; ++k) {

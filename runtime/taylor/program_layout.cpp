@@ -72,10 +72,9 @@ class ProgramLayout::Sorter {
     const std::size_t states = program_.outputs.size();
     for (const Instruction& line : program_.code) {
       const bool known =
-          is_literal(line) ||
-          (line.op == Op::input
-               ? index(line.a) >= states && index(line.a) + 1 < program_.inputs.size()
-               : constant(line.a) && constant(line.b));
+          is_literal(line) || (line.op == Op::input ? index(line.a) >= states &&
+                                                          index(line.a) + 1 < program_.inputs.size()
+                                                    : constant(line.a) && constant(line.b));
       layout_.is_constant_.push_back(known);
     }
   }
@@ -175,8 +174,7 @@ class ProgramLayout::Sorter {
   int place_of(int line) const {
     const Instruction& at = program_.code[index(line)];
     if (layout_.is_constant_[index(line)]) return constant_place_.at(line);
-    if (at.op == Op::input)
-      return index(at.a) < program_.outputs.size() ? at.a : layout_.time_;
+    if (at.op == Op::input) return index(at.a) < program_.outputs.size() ? at.a : layout_.time_;
     const auto& [kind, level, cell, second] = cell_.at(line);
     const Group& group = groups_.at({level, kind});
     return group.target + static_cast<int>(cell) + (second ? group.padded : 0);
@@ -207,11 +205,11 @@ void ProgramLayout::start(int order, const double* parameters) {
   std::vector<double> value(program_.code.size());
   for (const int i : constants_) {
     const Instruction& line = program_.code[index(i)];
-    value[index(i)] =
-        is_literal(line)       ? literal_value(program_, line, arithmetic)
-        : line.op == Op::input ? parameters[index(line.a) - program_.outputs.size()]
-                               : applied(line.op, value[index(line.a)],
-                                         value[index(line.b < 0 ? line.a : line.b)], arithmetic);
+    value[index(i)] = is_literal(line) ? literal_value(program_, line, arithmetic)
+                      : line.op == Op::input
+                          ? parameters[index(line.a) - program_.outputs.size()]
+                          : applied(line.op, value[index(line.a)],
+                                    value[index(line.b < 0 ? line.a : line.b)], arithmetic);
   }
   constant_values_.clear();
   for (const int i : constants_) constant_values_.push_back(value[index(i)]);

@@ -29,19 +29,19 @@ class ProgramLayout {
  private:
   struct Group {
     int kind = 0, level = 0, target = 0, padded = 0;
-    std::vector<int> lines;         ///< that it does; the first of a pair of sine and cosine
-    std::vector<int> a, b;          ///< places
-    std::vector<int> constant;      ///< lines of constants, where there are any
-    std::vector<double> values;     ///< of these
-    std::size_t history = 0;        ///< where its series begin
+    std::vector<int> lines;      ///< that it does; the first of a pair of sine and cosine
+    std::vector<int> a, b;       ///< places
+    std::vector<int> constant;   ///< lines of constants, where there are any
+    std::vector<double> values;  ///< of these
+    std::size_t history = 0;     ///< where its series begin
   };
   class Sorter;
 
   Program program_;
   std::size_t parameters_ = 0;
   int width_ = 8, places_ = 0, time_ = 0, first_constant_ = 0;
-  std::vector<int> constants_;         ///< lines whose values are places
-  std::vector<bool> is_constant_;      ///< lines that depend on parameters only
+  std::vector<int> constants_;     ///< lines whose values are places
+  std::vector<bool> is_constant_;  ///< lines that depend on parameters only
   std::vector<Group> groups_;
   std::vector<int> outputs_;
   /// Whole lines of the cache: a register that lies across two of them is loaded twice.

@@ -1,5 +1,5 @@
-#include "runtime/exact/closed_form.hpp"
 #include "runtime/methods.hpp"
+#include "runtime/exact/closed_form.hpp"
 
 #include <gtest/gtest.h>
 

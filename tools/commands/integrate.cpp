@@ -174,11 +174,10 @@ void print_text(const PreparedScene& run, const Answer& answer, const AssessedRu
   if (!judged.projected.empty())
     fmt::print("  every step ends on the level of {}\n", fmt::join(judged.projected, ", "));
   const CodeOfRun code(judged);
-  fmt::print(
-      "  generated in {}, {} in {}, {} in {}: {} steps, {} rejected, {} evaluations\n",
-      duration_text(run.generate_seconds), code.made, duration_text(code.seconds), code.run,
-      duration_text(trajectory.seconds), trajectory.steps, trajectory.rejected,
-      trajectory.evaluations);
+  fmt::print("  generated in {}, {} in {}, {} in {}: {} steps, {} rejected, {} evaluations\n",
+             duration_text(run.generate_seconds), code.made, duration_text(code.seconds), code.run,
+             duration_text(trajectory.seconds), trajectory.steps, trajectory.rejected,
+             trajectory.evaluations);
   fmt::print("  t = {}\n", exact_text(trajectory.time));
   const std::vector<double> state = answer(trajectory.time, trajectory.state);
   for (std::size_t i = 0; i < state.size(); ++i)

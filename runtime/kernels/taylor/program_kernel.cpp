@@ -82,8 +82,7 @@ class Group {
     int j = from;
     for (; j + 3 <= to; j += 4) {
       CASIMIR_UNROLL
-      for (int q = 0; q < 4; ++q)
-        sum[q] += load<V>(left + q * step) * load<V>(right - q * step);
+      for (int q = 0; q < 4; ++q) sum[q] += load<V>(left + q * step) * load<V>(right - q * step);
       left += 4 * step;
       right -= 4 * step;
     }

@@ -33,7 +33,7 @@ struct casimir_group {
 
 struct casimir_program {
   int states, parameters, order, rows;
-  int stride;   /* numbers in a row of coefficients of the states */
+  int stride; /* numbers in a row of coefficients of the states */
   int groups;
   const struct casimir_group* group;
   const int* output; /* places of the rates */

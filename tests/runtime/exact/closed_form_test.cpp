@@ -94,10 +94,11 @@ constexpr double kClose = 2e-14;
 TEST(ClosedForm, FreeBodiesOfEveryKind) {
   const Rational half = Rational(1) / 2, third = Rational(1) / 3;
   // Signs of all kinds that stay bounded, each axis as the middle one, around both other axes.
-  for (const Start& c : {Start{1, -2, 1}, Start{-1, 3, -half}, Start{-2, third, 5}, Start{1, 1, -third},
-                         Start{third, -half, -1}})
-    for (const Start& x : {Start{1, half, third}, Start{-1, half, third}, Start{third, -1, 1},
-                           Start{third, half, -1}, Start{0, 1, -half}, Start{1, 0, half}, Start{-half, 1, 0}})
+  for (const Start& c : {Start{1, -2, 1}, Start{-1, 3, -half}, Start{-2, third, 5},
+                         Start{1, 1, -third}, Start{third, -half, -1}})
+    for (const Start& x :
+         {Start{1, half, third}, Start{-1, half, third}, Start{third, -1, 1},
+          Start{third, half, -1}, Start{0, 1, -half}, Start{1, 0, half}, Start{-half, 1, 0}})
       for (const Rational& t : {Rational(1) / 10, Rational(7), Rational(-100) / 3})
         EXPECT_LT(error(body(c), x, t), kClose) << c[0] << ' ' << c[1] << ' ' << x[0] << ' ' << t;
 }
@@ -135,12 +136,13 @@ TEST(ClosedForm, EquilibriaStayWhereTheyAre) {
 
 TEST(ClosedForm, Pendulums) {
   const Rational half = Rational(1) / 2;
-  for (const Start& x : {Start{half, 0}, Start{-3, half}, Start{1, 2}, Start{0, -3}, Start{7, 1}, Start{0, 2},
-                         Start{0, -2}, Start{20, -5}})
+  for (const Start& x : {Start{half, 0}, Start{-3, half}, Start{1, 2}, Start{0, -3}, Start{7, 1},
+                         Start{0, 2}, Start{0, -2}, Start{20, -5}})
     for (const Rational& t : {Rational(1) / 10, Rational(9), Rational(-40)}) {
       if (x[0] == 0 && cln::abs(x[1]) == 2 && cln::abs(t) > 10) continue;  // the separatrix
       EXPECT_LT(error(pendulum(1, -1, 0), x, t), kClose) << x[0] << ' ' << x[1] << ' ' << t;
-      EXPECT_LT(error(pendulum(-2, Rational(1) / 3, half), x, t), 4 * kClose) << x[0] << ' ' << x[1];
+      EXPECT_LT(error(pendulum(-2, Rational(1) / 3, half), x, t), 4 * kClose)
+          << x[0] << ' ' << x[1];
     }
 }
 
@@ -150,15 +152,15 @@ TEST(ClosedForm, PolynomialForces) {
     Start f, x;
   };
   for (const auto& [f, x] : {
-           Case{{0, -1}, {1, half}},                   // harmonic
-           Case{{half, -4}, {1, 0}},                   // and displaced
-           Case{{0, -1, 0, -1}, {1, half}},            // Duffing, one well
-           Case{{0, -1, 0, -1}, {2, 0}},               // from a turning point
-           Case{{0, 1, 0, -1}, {1, half}},             // two wells, inside
-           Case{{0, 1, 0, -1}, {1, 1}},                // and around both
+           Case{{0, -1}, {1, half}},         // harmonic
+           Case{{half, -4}, {1, 0}},         // and displaced
+           Case{{0, -1, 0, -1}, {1, half}},  // Duffing, one well
+           Case{{0, -1, 0, -1}, {2, 0}},     // from a turning point
+           Case{{0, 1, 0, -1}, {1, half}},   // two wells, inside
+           Case{{0, 1, 0, -1}, {1, 1}},      // and around both
            Case{{0, 1, 0, -1}, {-1, -half}},
-           Case{{0, -1, 0, Rational(1) / 6}, {1, 0}},  // soft
-           Case{{0, -1, 1}, {half, Rational(1) / 10}},          // cubic potential
+           Case{{0, -1, 0, Rational(1) / 6}, {1, 0}},   // soft
+           Case{{0, -1, 1}, {half, Rational(1) / 10}},  // cubic potential
            Case{{Rational(1) / 10, -1, half, -half}, {half, 1}},
        })
     for (const Rational& t : {Rational(1) / 1000, Rational(1), Rational(-30)})
@@ -172,7 +174,8 @@ TEST(ClosedForm, PolynomialForces) {
 // The whole turns are taken off exactly: a million periods later nothing is lost.
 TEST(ClosedForm, AMillionPeriods) {
   using Big = boost::multiprecision::cpp_bin_float_100;
-  // x' = y z, y' = -2 z x, z' = x y / 2 from (1, 0, 2): x = cn, y = -sqrt(2) .. as in free_body.cpp.
+  // x' = y z, y' = -2 z x, z' = x y / 2 from (1, 0, 2): x = cn, y = -sqrt(2) .. as in
+  // free_body.cpp.
   const Program program = body({1, -2, Rational(1) / 2});
   const Recognised found = closed_form(program, exact({1, 0, 2}));
   ASSERT_TRUE(found.form);
@@ -213,12 +216,12 @@ TEST(ClosedForm, RefusesAllElse) {
   driven.output(1);
   driven.output(driven.op(Op::sub, driven.time(), 0));
   EXPECT_TRUE(refused(driven.program(), {1, 1}));
-  EXPECT_TRUE(refused(force(1, {0, 1}), {1, 0}));            // runs away
-  EXPECT_TRUE(refused(force(1, {0, 0, 0, 1}), {1, 0}));      // in a finite time
-  EXPECT_TRUE(refused(force(1, {0, -1, 1}), {2, 0}));        // beyond the barrier
+  EXPECT_TRUE(refused(force(1, {0, 1}), {1, 0}));        // runs away
+  EXPECT_TRUE(refused(force(1, {0, 0, 0, 1}), {1, 0}));  // in a finite time
+  EXPECT_TRUE(refused(force(1, {0, -1, 1}), {2, 0}));    // beyond the barrier
   EXPECT_FALSE(refused(force(1, {0, -1, 1}), {Rational(1) / 2, 0}));
   EXPECT_TRUE(refused(force(1, {0, -1, 0, 0, 1}), {Rational(1) / 2, 0}));  // degree four
-  EXPECT_TRUE(refused(force(1, {1}), {0, 0}));                              // free fall
+  EXPECT_TRUE(refused(force(1, {1}), {0, 0}));                             // free fall
 }
 
 TEST(ClosedForm, RunsFromTheStartAndFromElsewhere) {

@@ -24,8 +24,8 @@ struct Mixed {
     d[2] = p[0] * (std::cos(t) - y[2]);
   }
   static void jacobian(double, const double* y, const double* p, double* J) {
-    const double columns[9] = {0, (-2 * y[0] * y[1] - 1) * p[0], 0, 1, (1 - y[0] * y[0]) * p[0],
-                               0, 0,                             0, -p[0]};
+    const double columns[9] = {
+        0, (-2 * y[0] * y[1] - 1) * p[0], 0, 1, (1 - y[0] * y[0]) * p[0], 0, 0, 0, -p[0]};
     std::copy_n(columns, 9, J);
   }
 };
@@ -136,8 +136,9 @@ TEST_P(InterpretedRadau, NeedsTheRightJacobian) {
   JacobianProgram bent = mixed_jacobian();
   bent.entries[3] = {0, 0};
   const Method& method = *find_method(GetParam() == 5 ? "radau9" : "radau5");
-  const Trajectory right = integrate(interpreted_module(mixed_program(), mixed_jacobian(), GetParam()),
-                                     method, stiff_settings(), {2, 0, 0.5}, {1000});
+  const Trajectory right =
+      integrate(interpreted_module(mixed_program(), mixed_jacobian(), GetParam()), method,
+                stiff_settings(), {2, 0, 0.5}, {1000});
   const Trajectory wrong = integrate(interpreted_module(mixed_program(), bent, GetParam()), method,
                                      stiff_settings(), {2, 0, 0.5}, {1000});
   EXPECT_TRUE(wrong.status != Status::ok || wrong.evaluations > 2 * right.evaluations);

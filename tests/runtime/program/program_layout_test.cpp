@@ -61,12 +61,12 @@ Program random_program(unsigned seed) {
     const Op all[] = {Op::add, Op::sub, Op::neg, Op::mul, Op::div, Op::sqrt,
                       Op::pow, Op::exp, Op::log, Op::sin, Op::cos};
     const Op op = all[random() % std::size(all)];
-    const int line = op == Op::div                       ? b.op(op, any(), bounded())
-                     : op == Op::pow                     ? b.op(op, bounded(), half)
-                     : op == Op::sqrt || op == Op::log   ? b.op(op, bounded())
-                     : op == Op::exp                     ? b.op(op, b.op(Op::sin, any()))
+    const int line = op == Op::div                     ? b.op(op, any(), bounded())
+                     : op == Op::pow                   ? b.op(op, bounded(), half)
+                     : op == Op::sqrt || op == Op::log ? b.op(op, bounded())
+                     : op == Op::exp                   ? b.op(op, b.op(Op::sin, any()))
                      : op == Op::add || op == Op::sub || op == Op::mul ? b.op(op, any(), any())
-                                                         : b.op(op, any());
+                                                                       : b.op(op, any());
     lines.push_back(line);
     if (op == Op::mul) lines.back() = b.op(Op::cos, line);
   }
@@ -78,9 +78,9 @@ class ProgramLayouts : public testing::TestWithParam<std::string> {};
 
 TEST_P(ProgramLayouts, EveryOperationHasTheSeriesOfTheProgramLineByLine) {
   for (unsigned seed = 1; seed <= 60; ++seed)
-    EXPECT_LT(difference(random_program(seed), {0.3, -0.7, 1.1}, {0.6}, 0.4, 0.25,
-                         width_of(GetParam())),
-              1e-11)
+    EXPECT_LT(
+        difference(random_program(seed), {0.3, -0.7, 1.1}, {0.6}, 0.4, 0.25, width_of(GetParam())),
+        1e-11)
         << seed;
 }
 

@@ -91,8 +91,8 @@ class Judge {
     }
     result_.settings.give_up = time_limit(options_.time_limit);
     // Nothing is compiled for a method that is not the one to go on with. The module outlives this.
-    BegunModule begun = interpreted_first(
-        run_, method, [of = smoothness_](double t, const std::vector<double>& x) {
+    BegunModule begun =
+        interpreted_first(run_, method, [of = smoothness_](double t, const std::vector<double>& x) {
           return !*of || (*of)->look(t, x);
         });
     result_.compiled.emplace(std::move(begun.code));
@@ -160,16 +160,13 @@ class Judge {
   }
 
   /// Of code that is compiled in the middle of a run.
-  double seconds_to_compile() const {
-    return result_.later ? result_.later->seconds : 0;
-  }
+  double seconds_to_compile() const { return result_.later ? result_.later->seconds : 0; }
 
   void judge() {
     std::vector<std::string>& doubts = result_.doubts;
     Trajectory& trajectory = result_.trajectory;
     if (!result_.compiled->warning.empty()) doubts.push_back(result_.compiled->warning);
-    if (result_.later && result_.later->missing)
-      doubts.emplace_back(kInterpretedWarning);
+    if (result_.later && result_.later->missing) doubts.emplace_back(kInterpretedWarning);
     for (std::string& doubt : check_drift(model_, run_.specialisation.invariant_names, trajectory))
       doubts.push_back(std::move(doubt));
     result_.trust = assess(run_, *result_.compiled, *result_.method, result_.settings, trajectory);

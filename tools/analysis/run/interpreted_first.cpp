@@ -23,14 +23,17 @@ using Integration = std::function<ModuleFunctions::Integration>;
 constexpr double kLine = 1.5e-9, kSeriesLine = 60e-9;
 /// Evaluations of the right-hand side in a step of Radau IIA with s stages, for each stage.
 constexpr double kSweeps = 5;
-/// Nominal seconds of interpreted steps from which on compiled code is worth its compilation.
-constexpr double kLong = 0.05;
+/// Nominal seconds of interpreted steps from which on compiled code, which is about twice as fast,
+/// is worth its compilation: those, or these for each line of the program, which the compiler
+/// takes.
+constexpr double kLong = 0.05, kLongForLine = 5e-3;
 /// Of that: what has to be done before the rest is estimated. In transients the time hardly moves.
 constexpr double kKnown = 1. / 8;
 
 /// What an interpreted run needs to go over.
 struct Successor {
-  double step = 0;  ///< nominal seconds of an interpreted one
+  double step = 0;   ///< nominal seconds of an interpreted one
+  double worth = 0;  ///< nominal seconds of interpreted steps that make a run long
   /// The compiled module, made where it is first asked for; null where there is no compiler.
   std::function<const Module*()> compiled;
   std::function<bool(double, const std::vector<double>&)> may_go_over;
@@ -58,7 +61,7 @@ class Lookout {
     next_ *= 2;
     const double part = (step.t1 - asked_.t_begin) / (asked_.t_end - asked_.t_begin);
     const double work = static_cast<double>(steps_) * successor_.step;
-    if (work < kKnown * kLong || work < kLong * part) return 0;
+    if (work < successor_.worth * std::max(kKnown, part)) return 0;
     long_ = !successor_.may_go_over ||
             successor_.may_go_over(step.t1, {step.x1, step.x1 + successor_.states});
     return 1;
@@ -101,7 +104,7 @@ void integrate(const Integration& interpreted, const Successor& successor, const
   if (asked.fixed_step > 0) {
     const double steps = std::abs(asked.t_end - asked.t_begin) / asked.fixed_step;
     const Module* const module =
-        steps * successor.step > kLong ? successor.compiled() : nullptr;
+        steps * successor.step > successor.worth ? successor.compiled() : nullptr;
     return module ? module->functions().integrate(&asked, x, out) : interpreted(&asked, x, out);
   }
   Lookout lookout(asked, successor);
@@ -186,7 +189,9 @@ BegunModule interpreted_first(
   auto later = std::make_shared<LaterCode>();
   later->missing = !has_compiler();
   auto late = std::make_shared<LateModule>(run, method, later);
-  Successor successor{how->step, [late] { return late->module(); }, may_go_over, s.states.size()};
+  const double worth = std::max(kLong, kLongForLine * static_cast<double>(s.rhs.code.size()));
+  Successor successor{how->step, worth, [late] { return late->module(); }, may_go_over,
+                      s.states.size()};
   ModuleFunctions functions = result.module.functions();
   functions.integrate = [interpreted = how->integrate ? how->integrate : functions.integrate,
                          successor](const casimir_run* asked, double* x, casimir_outcome* out) {

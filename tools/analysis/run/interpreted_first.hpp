@@ -29,9 +29,10 @@ struct BegunModule {
 /// clock nor what the cache holds. So the same run gives the same bits, whenever it is made.
 ///
 /// A run is long if the interpreted steps that it needs, as far as can be told from those made,
-/// would take more than a twentieth of a second on a machine that needs the nominal times of
-/// interpreted_first.cpp. It is asked after 1, 2, 4, 8 and so on steps, once an eighth of that time
-/// has gone by; with a constant step, in the beginning.
+/// would take more than a twentieth of a second, or five milliseconds for each line of the program
+/// if that is more, on a machine that needs the nominal times of interpreted_first.cpp. It is asked
+/// after 1, 2, 4, 8 and so on steps, once an eighth of that time has gone by; with a constant step,
+/// in the beginning.
 ///
 /// Methods that cannot be interpreted are compiled, as by `compile_for`.
 /// \param may_go_over  asked before anything is compiled; false ends the run as stopped. May be

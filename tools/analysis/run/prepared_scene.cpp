@@ -17,6 +17,8 @@
 #include "runtime/exact/polynomial_field.hpp"
 #include "runtime/methods.hpp"
 #include "runtime/program/term_size.hpp"
+#include "runtime/taylor/program_layout.hpp"
+#include "runtime/taylor/quadratic_targets.hpp"
 #include "runtime/uncompiled.hpp"
 #include "tools/analysis/run/interpreted_first.hpp"
 #include "tools/analysis/run/taylor_path.hpp"
@@ -131,12 +133,18 @@ CompiledModule compiled_module(const PreparedScene& run, const Method& method) {
   }
 }
 
+/// Where a program has more lines, the compiler takes many seconds, and tables are half as fast as
+/// what it makes.
+constexpr std::size_t kMostCompiledLines = 1500;
+
 /// For the method of Taylor series: the tables where the system has that shape, else the compiler,
-/// and without one the program itself.
+/// and without one, or where it would take too long, the program itself.
 CompiledModule taylor_module(const PreparedScene& run, const Method& method) {
   const Specialisation& s = run.specialisation;
   TaylorChoice choice = choose_taylor_path(s.rhs, run.parameters, true);
-  if (choice.path == TaylorPath::compiled) {
+  const bool large = s.rhs.code.size() > kMostCompiledLines &&
+                     ProgramLayout::of(s.rhs, run.parameters.size(), series_width());
+  if (choice.path == TaylorPath::compiled && !large) {
     try {
       return compiled_module(run, method);
     } catch (const CompilerMissing&) {
@@ -146,14 +154,13 @@ CompiledModule taylor_module(const PreparedScene& run, const Method& method) {
   CompiledModule result{
       .module = uncompiled_module(s.rhs, s.invariants, choice.form, run.parameters),
       .compiled = false};
-  if (choice.path == TaylorPath::interpreted) result.warning = kInterpretedWarning;
+  if (choice.path == TaylorPath::interpreted && !large) result.warning = kInterpretedWarning;
   return result;
 }
 
 /// The closed form of a scene's motion, or why there is none.
 Recognised recognised(const PreparedScene& run, std::vector<cln::cl_F>& start) {
-  if (!run.parameters.empty())
-    return {nullptr, "the parameters have no values before the run"};
+  if (!run.parameters.empty()) return {nullptr, "the parameters have no values before the run"};
   start = start_values(run.specialisation, kExactDigits);
   start.resize(run.initial.size());
   return closed_form(run.specialisation.rhs, start);
@@ -175,7 +182,7 @@ CompiledModule exact_module(const PreparedScene& run) {
 
 CompiledModule compile_for(const PreparedScene& run, const Method& method) {
   const auto start = Clock::now();
-  CompiledModule result = method.name == "taylor"          ? taylor_module(run, method)
+  CompiledModule result = method.name == "taylor"         ? taylor_module(run, method)
                           : evaluates_closed_form(method) ? exact_module(run)
                                                           : compiled_module(run, method);
   result.seconds = seconds_since(start);
