@@ -1,5 +1,7 @@
 #include "codegen/specialise.hpp"
 
+#include "codegen/add_jacobian.hpp"
+
 #include <cln/exception.h>
 
 #include <algorithm>
@@ -307,6 +309,8 @@ class Specialiser {
             dag, {codegen::jacobian(plain_field, n), codegen::jacobian(result_.rhs, n)});
       });
       result_.has_jacobian = true;
+    } else {
+      result_.jacobian = codegen::jacobian(plain_field, n);  // for `add_jacobian`
     }
     if (options_.gradients) {
       const Program plain_invariants = plain(dag, invariants, inputs, result_.invariant_names);
@@ -418,6 +422,17 @@ class Specialiser {
 Specialisation specialise(const Model& model, const Scene& scene,
                           const SpecialiseOptions& options) {
   return Specialiser(model, scene, options).run();
+}
+
+void add_jacobian(Specialisation& specialisation) {
+  if (specialisation.has_jacobian) return;
+  const std::size_t n = specialisation.states.size();
+  std::vector<GiNaC::symbol> symbols;
+  for (const std::string& input : specialisation.rhs.inputs) symbols.emplace_back(input);
+  Dag dag(symbols, n);
+  specialisation.jacobian =
+      codegen::optimised(dag, {specialisation.jacobian, codegen::jacobian(specialisation.rhs, n)});
+  specialisation.has_jacobian = true;
 }
 
 }  // namespace casimir

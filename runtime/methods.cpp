@@ -105,6 +105,10 @@ constexpr Method kMethods[] = {
     radau("radau9", 9, "radau::integrate<System, 5>"),
     splitting("splitting6", 6, "splitting::integrate<System, 6>"),
     splitting("splitting", 8, "splitting::integrate<System, 8>"),
+    {.name = "exact",
+     .description = "elliptic and elementary functions, of systems that are recognised",
+     .literature = "Whittaker: A Treatise on the Analytical Dynamics of Particles and Rigid "
+                   "Bodies (1937), VI"},
     odeint("odeint-fehlberg78", 8, "odeint::integrate<System, odeint::runge_kutta_fehlberg78>",
            "Boost.Odeint, explicit Runge-Kutta method of Fehlberg of order 7(8)"),
     odeint("odeint-dopri5", 5, "odeint::integrate<System, odeint::runge_kutta_dopri5>",

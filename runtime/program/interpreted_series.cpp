@@ -8,16 +8,20 @@
 
 #include "runtime/program/interpreter.hpp"
 #include "runtime/program/program_series.hpp"
+#include "runtime/taylor/program_layout.hpp"
 #include "runtime/taylor/quadratic_targets.hpp"
 
 namespace casimir {
 namespace {
 
-/// The functions of a casimir_series, from a program.
+/// The functions of a casimir_series, from a program: by tables where all of its operations have
+/// them, else line by line.
 class InterpretedSeries {
  public:
-  InterpretedSeries(const Program& program, std::size_t parameters)
+  InterpretedSeries(const Program& program, std::size_t parameters,
+                    std::optional<ProgramLayout>& layout)
       : program_(program),
+        layout_(layout),
         parameters_(parameters),
         states_(program.outputs.size()),
         width_(series_width()),
@@ -55,6 +59,7 @@ class InterpretedSeries {
   void start(int order, const double* parameters) {
     order_ = order;
     std::copy_n(parameters, parameters_, inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
+    if (layout_) return layout_->start(order, parameters);
     jet_.emplace(program_, Arithmetic<double>{},
                  std::vector<double>(parameters, parameters + parameters_), order);
   }
@@ -66,6 +71,7 @@ class InterpretedSeries {
   }
 
   void expand(double unit) {
+    if (layout_) return layout_->expand(inputs_.back(), unit, row(1), static_cast<int>(stride_));
     std::copy_n(inputs_.begin(), states_, state_.begin());
     const auto& series = jet_->expand(inputs_.back(), state_, unit);
     for (int k = 1; k <= order_; ++k) {
@@ -80,6 +86,7 @@ class InterpretedSeries {
   };
 
   const Program& program_;
+  std::optional<ProgramLayout>& layout_;
   const std::size_t parameters_, states_;
   const int width_;
   const std::size_t stride_;  ///< numbers in a row
@@ -94,11 +101,12 @@ class InterpretedSeries {
 
 std::function<ModuleFunctions::Integration> interpreted(const Program& rhs,
                                                         std::size_t parameters) {
-  return [rhs, parameters](const casimir_run* run, double* x, casimir_outcome* out) {
+  return [rhs, parameters, layout = ProgramLayout::of(rhs, parameters, series_width())](
+             const casimir_run* run, double* x, casimir_outcome* out) mutable {
     if (rhs.outputs.size() > CASIMIR_SERIES_STATES)
       throw std::invalid_argument("a system of more than " + std::to_string(CASIMIR_SERIES_STATES) +
                                   " states is more than the method of Taylor series has room for");
-    InterpretedSeries series(rhs, parameters);
+    InterpretedSeries series(rhs, parameters, layout);
     const casimir_series functions = series.functions();
     integrate_series(functions, series.width(), run, x, out);
   };

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "runtime/exact/closed_form.hpp"
 #include "runtime/integrate.hpp"
 #include "runtime/kernels/one_step/dop853.hpp"
 #include "runtime/kernels/one_step/dopri5.hpp"
@@ -176,7 +177,9 @@ Trajectory run(const std::string& name, const Settings& settings, std::vector<do
 inline std::vector<std::string> own_methods() {
   std::vector<std::string> names;
   for (const Method& method : methods())
-    if (method.outside.empty() && !method.series && !method.splits) names.emplace_back(method.name);
+    if (method.outside.empty() && !method.series && !method.splits &&
+        !evaluates_closed_form(method))
+      names.emplace_back(method.name);
   return names;
 }
 inline std::vector<std::string> own_and_linked_methods() {

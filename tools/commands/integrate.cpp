@@ -100,6 +100,27 @@ void write_samples(const std::string& path, const Answer& answer, const Trajecto
   file.commit();
 }
 
+/// How the code of a run was made, in words.
+struct CodeOfRun {
+  const char *name, *made = "laid out", *run = "integrated";
+  double seconds;
+  bool from_cache;
+
+  explicit CodeOfRun(const AssessedRun& run_of)
+      : name("tables"), seconds(run_of.compiled->seconds), from_cache(run_of.compiled->from_cache) {
+    bool compiled = run_of.compiled->compiled;
+    if (compiled) name = "compiled";
+    if (const auto& later = run_of.later) {
+      compiled = later->compiled;
+      seconds += later->seconds;
+      from_cache = later->from_cache;
+      name = compiled ? "interpreted, then compiled" : "interpreted";
+      run = compiled ? "interpreted and integrated" : "interpreted";
+    }
+    if (compiled) made = from_cache ? "fetched from the cache" : "compiled";
+  }
+};
+
 Json to_json(const Model& model, const PreparedScene& run, const Answer& answer,
              const AssessedRun& judged, const RunWords& words) {
   const Specialisation& s = run.specialisation;
@@ -128,10 +149,12 @@ Json to_json(const Model& model, const PreparedScene& run, const Answer& answer,
   json["steps"] = trajectory.steps;
   json["rejected"] = trajectory.rejected;
   json["evaluations"] = trajectory.evaluations;
+  const CodeOfRun code(judged);
   json["seconds"] = {{"generate", run.generate_seconds},
-                     {"compile", judged.compiled->seconds},
+                     {"compile", code.seconds},
                      {"integrate", trajectory.seconds}};
-  json["from_cache"] = judged.compiled->from_cache;
+  json["from_cache"] = code.from_cache;
+  json["code"] = code.name;
   json["left_out"] = left_out_json(s);
   json["warnings"] = words.warnings;
   json["trust"] = tools::to_json(judged.trust);
@@ -146,21 +169,17 @@ Json to_json(const Model& model, const PreparedScene& run, const Answer& answer,
 void print_text(const PreparedScene& run, const Answer& answer, const AssessedRun& judged,
                 const RunWords& words) {
   const Specialisation& s = run.specialisation;
-  const CompiledModule& compiled = *judged.compiled;
   const Trajectory& trajectory = judged.trajectory;
   fmt::print("{}, scene '{}', {} at tolerance {:g}\n", s.case_name, printable(s.scene),
              judged.method->name, judged.settings.rtol);
   if (!judged.chosen.empty()) fmt::print("  chosen by auto: {}\n", judged.chosen);
   if (!judged.projected.empty())
     fmt::print("  every step ends on the level of {}\n", fmt::join(judged.projected, ", "));
-  fmt::print(
-      "  generated in {}, {} in {}, integrated in {}: {} steps, {} rejected, {} evaluations\n",
-      duration_text(run.generate_seconds),
-      compiled.from_cache ? "fetched from the cache"
-      : compiled.compiled ? "compiled"
-                          : "laid out",
-      duration_text(compiled.seconds), duration_text(trajectory.seconds), trajectory.steps,
-      trajectory.rejected, trajectory.evaluations);
+  const CodeOfRun code(judged);
+  fmt::print("  generated in {}, {} in {}, {} in {}: {} steps, {} rejected, {} evaluations\n",
+             duration_text(run.generate_seconds), code.made, duration_text(code.seconds), code.run,
+             duration_text(trajectory.seconds), trajectory.steps, trajectory.rejected,
+             trajectory.evaluations);
   fmt::print("  t = {}\n", exact_text(trajectory.time));
   const std::vector<double> state = answer(trajectory.time, trajectory.state);
   for (std::size_t i = 0; i < state.size(); ++i)

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <thread>
 
+#include "runtime/exact/closed_form.hpp"
 #include "symbolic/error.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
 #include "tools/cli/case_library.hpp"
@@ -49,7 +50,8 @@ std::vector<std::string> default_methods() {
   std::vector<std::string> names{kAutomatic};
   for (const Method& method : methods()) {
     const bool multistep = method.header.empty() && method.order == 0;
-    if (method.name != kAutomatic && (method.outside.empty() || multistep))
+    if (method.name != kAutomatic && !evaluates_closed_form(method) &&
+        (method.outside.empty() || multistep))
       names.emplace_back(method.name);
   }
   return names;

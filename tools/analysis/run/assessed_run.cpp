@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 
@@ -42,7 +43,10 @@ class SmoothnessWatch {
   void see(double t, const double* x) {
     if (++steps_ != next_look_) return;
     next_look_ *= 2;
-    const std::vector<double> state(x, x + run_.initial.size());
+    look(t, {x, x + run_.initial.size()});
+  }
+  /// \return  whether nothing was found.
+  bool look(double t, const std::vector<double>& state) {
     const double* const p = run_.parameters.empty() ? nullptr : run_.parameters.data();
     const double left = std::abs(duration_ - t);
     if (is_stiff(compiled_.module, t, state, p, left))
@@ -50,6 +54,7 @@ class SmoothnessWatch {
     else if (steps_ >= kManySteps &&
              rounding_of_rates_at(run_, compiled_.module, t, state, left) > kRough)
       finding_ = fmt::format("the equations lose their digits to rounding at t = {:.3g}", t);
+    return finding_.empty();
   }
   const std::string& finding() const { return finding_; }
 
@@ -88,13 +93,21 @@ class Judge {
           set_projection(options_.run, model_, run_, result_.settings, result_.doubts);
     }
     result_.settings.give_up = time_limit(options_.time_limit);
-    result_.compiled.emplace(compile_for(run_, method));
+    // Nothing is compiled for a method that is not the one to go on with. The module outlives this.
+    BegunModule begun =
+        interpreted_first(run_, method, [of = smoothness_](double t, const std::vector<double>& x) {
+          return !*of || (*of)->look(t, x);
+        });
+    result_.compiled.emplace(std::move(begun.code));
+    result_.later = std::move(begun.later);
   }
 
   void run_chosen_method() {
     prepare_smooth(settings_for(options_.run, run_, kSmoothTolerance));
     SmoothnessWatch smoothness(*result_.compiled, run_, result_.settings.duration);
+    *smoothness_ = &smoothness;
     run_it(&smoothness);
+    *smoothness_ = nullptr;
     result_.chosen = smoothness.finding();
     if (result_.chosen.empty()) {
       result_.chosen = "the equations are not stiff";
@@ -168,8 +181,10 @@ class Judge {
       };
     const auto run = [&] {
       try {
+        const double before = seconds_to_compile();
         result_.trajectory = integrate(result_.compiled->module, *result_.method, settings,
                                        run_.initial, run_.parameters);
+        result_.trajectory.seconds -= seconds_to_compile() - before;
       } catch (const std::invalid_argument& problem) {
         throw RequestError(problem.what());
       }
@@ -180,10 +195,14 @@ class Judge {
       run();
   }
 
+  /// Of code that is compiled in the middle of a run.
+  double seconds_to_compile() const { return result_.later ? result_.later->seconds : 0; }
+
   void judge() {
     std::vector<std::string>& doubts = result_.doubts;
     Trajectory& trajectory = result_.trajectory;
     if (!result_.compiled->warning.empty()) doubts.push_back(result_.compiled->warning);
+    if (result_.later && result_.later->missing) doubts.emplace_back(kInterpretedWarning);
     for (std::string& doubt : check_drift(model_, run_.specialisation.invariant_names, trajectory))
       doubts.push_back(std::move(doubt));
     result_.trust = assess(run_, *result_.compiled, *result_.method, result_.settings, trajectory);
@@ -203,6 +222,8 @@ class Judge {
   const PreparedScene& run_;
   const AssessmentOptions& options_;
   std::optional<NearSingular> singular_;
+  /// While `auto` looks whether its first choice is right.
+  std::shared_ptr<SmoothnessWatch*> smoothness_ = std::make_shared<SmoothnessWatch*>(nullptr);
   AssessedRun result_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "runtime/integrate.hpp"
 #include "symbolic/model.hpp"
 #include "tools/analysis/estimate/error_estimate.hpp"
+#include "tools/analysis/run/interpreted_first.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
 #include "tools/analysis/run_request.hpp"
 
@@ -22,6 +24,7 @@ struct AssessedRun {
   std::string chosen;  ///< why, where `auto` chose the method
   Settings settings;
   std::optional<CompiledModule> compiled;  ///< set
+  std::shared_ptr<const LaterCode> later;  ///< of code that begins interpreted, else null
   Trajectory trajectory;
   ErrorEstimate trust;
   std::vector<std::string> projected;  ///< onto the levels of these invariants

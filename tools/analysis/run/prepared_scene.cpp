@@ -9,13 +9,19 @@
 #include <cmath>
 #include <limits>
 
+#include "codegen/add_jacobian.hpp"
 #include "codegen/compile.hpp"
 #include "codegen/emit/number_literal.hpp"
 #include "codegen/emit_cpp.hpp"
 #include "runtime/evaluate.hpp"
+#include "runtime/exact/closed_form.hpp"
+#include "runtime/exact/polynomial_field.hpp"
 #include "runtime/methods.hpp"
 #include "runtime/program/term_size.hpp"
+#include "runtime/taylor/program_layout.hpp"
+#include "runtime/taylor/quadratic_targets.hpp"
 #include "runtime/uncompiled.hpp"
+#include "tools/analysis/run/interpreted_first.hpp"
 #include "tools/analysis/run/taylor_path.hpp"
 
 namespace casimir {
@@ -66,6 +72,7 @@ PreparedScene prepare(const Model& model, const Scene& scene, const SceneOptions
   what.fold_parameters = options.fold_parameters;
   what.keep_parameters = options.keep_parameters;
   what.observe = options.observe;
+  what.jacobian = false;  // see `add_jacobian`
   PreparedScene run;
   run.specialisation = specialise(model, scene, what);
   const Specialisation& s = run.specialisation;
@@ -124,7 +131,7 @@ CompiledModule compiled_module(const PreparedScene& run, const Method& method) {
   std::optional<Splitting> splitting;
   if (method.splits) splitting = splitting_of(run);
   // What no kernel of ours calls need not be compiled.
-  if (!method.header.empty() && !method.uses_jacobian) s.has_jacobian = false;
+  if (method.header.empty() || method.uses_jacobian) add_jacobian(s);
   // A library that only calls the right-hand side has no kernel: one module serves them all.
   const std::string kernel = method.header.empty() ? std::string{} : kernel_source(method);
   CompileOptions options;
@@ -142,12 +149,18 @@ CompiledModule compiled_module(const PreparedScene& run, const Method& method) {
   }
 }
 
+/// Where a program has more lines, the compiler takes many seconds, and tables are half as fast as
+/// what it makes.
+constexpr std::size_t kMostCompiledLines = 1500;
+
 /// For the method of Taylor series: the tables where the system has that shape, else the compiler,
-/// and without one the program itself.
+/// and without one, or where it would take too long, the program itself.
 CompiledModule taylor_module(const PreparedScene& run, const Method& method) {
   const Specialisation& s = run.specialisation;
   TaylorChoice choice = choose_taylor_path(s.rhs, run.parameters, true);
-  if (choice.path == TaylorPath::compiled) {
+  const bool large = s.rhs.code.size() > kMostCompiledLines &&
+                     ProgramLayout::of(s.rhs, run.parameters.size(), series_width());
+  if (choice.path == TaylorPath::compiled && !large) {
     try {
       return compiled_module(run, method);
     } catch (const CompilerMissing&) {
@@ -157,21 +170,51 @@ CompiledModule taylor_module(const PreparedScene& run, const Method& method) {
   CompiledModule result{
       .module = uncompiled_module(s.rhs, s.invariants, choice.form, run.parameters),
       .compiled = false};
-  if (choice.path == TaylorPath::interpreted) result.warning = kInterpretedWarning;
+  if (choice.path == TaylorPath::interpreted && !large) result.warning = kInterpretedWarning;
   return result;
+}
+
+/// The closed form of a scene's motion, or why there is none.
+Recognised recognised(const PreparedScene& run, std::vector<cln::cl_F>& start) {
+  if (!run.parameters.empty()) return {nullptr, "the parameters have no values before the run"};
+  start = start_values(run.specialisation, kExactDigits);
+  start.resize(run.initial.size());
+  return closed_form(run.specialisation.rhs, start);
+}
+
+/// \throws ModelError  where there is no closed form.
+CompiledModule exact_module(const PreparedScene& run) {
+  const Specialisation& s = run.specialisation;
+  std::vector<cln::cl_F> start;
+  Recognised found = recognised(run, start);
+  if (!found.form) throw ModelError("no closed form of the solution is known: " + found.reason);
+  ModuleFunctions functions =
+      uncompiled_module(s.rhs, s.invariants, {}, run.parameters).functions();
+  functions.integrate = exact_integration(s.rhs, start, run.initial, found.form);
+  return {.module = Module::from_functions(functions), .compiled = false};
 }
 
 }  // namespace
 
 CompiledModule compile_for(const PreparedScene& run, const Method& method) {
   const auto start = Clock::now();
-  CompiledModule result =
-      method.name == "taylor" ? taylor_module(run, method) : compiled_module(run, method);
+  CompiledModule result = method.name == "taylor"         ? taylor_module(run, method)
+                          : evaluates_closed_form(method) ? exact_module(run)
+                                                          : compiled_module(run, method);
+  result.seconds = seconds_since(start);
+  return result;
+}
+
+CompiledModule compile_always(const PreparedScene& run, const Method& method) {
+  const auto start = Clock::now();
+  CompiledModule result = compiled_module(run, method);
   result.seconds = seconds_since(start);
   return result;
 }
 
 bool suits(const PreparedScene& run, const Method& method) {
+  std::vector<cln::cl_F> start;
+  if (evaluates_closed_form(method)) return recognised(run, start).form != nullptr;
   if (!method.splits) return true;
   try {
     splitting_of(run);

@@ -1,0 +1,108 @@
+#include "runtime/exact/closed_form.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "runtime/exact/shapes.hpp"
+
+namespace casimir {
+namespace exact {
+
+cln::cl_F undecided_part(const cln::cl_F& like) {
+  return cln::scale_float(cln::cl_float(cln::cl_RA(1), like), -900);
+}
+
+}  // namespace exact
+
+namespace {
+
+/// What the observer of a run is shown, and how often.
+constexpr double kShownInPeriod = 16, kMostShown = 4096;
+
+/// The numbers with many digits that these doubles are.
+std::vector<cln::cl_F> exactly(const double* x, const std::vector<cln::cl_F>& like) {
+  std::vector<cln::cl_F> numbers;
+  for (std::size_t i = 0; i < like.size(); ++i)
+    numbers.push_back(cln::cl_float(cln::rational(cln::cl_DF(x[i])), like[i]));
+  return numbers;
+}
+
+struct Shown {
+  const ClosedForm& form;
+  double begin;
+};
+
+void evaluate(const casimir_step* step, double t, double* x) {
+  const Shown& shown = *static_cast<const Shown*>(step->data);
+  shown.form.at(difference(t, shown.begin), x);
+}
+
+void run_along(const ClosedForm& form, std::size_t states, const casimir_run& run, double* x,
+               casimir_outcome* out) {
+  const double span = run.t_end - run.t_begin;
+  if (std::abs(span) > form.horizon())
+    throw std::invalid_argument(
+        "exact: the motion is so close to a separatrix that its data do not say on which side it "
+        "is "
+        "for so long; another method or a shorter duration can be had");
+  *out = {};
+  out->t = run.t_begin;
+  if (span == 0) return;
+  double steps = 1;
+  if (run.observe)
+    steps = std::clamp(std::ceil(kShownInPeriod * std::abs(span) / form.period()), 1., kMostShown);
+  std::vector<double> before;
+  const Shown shown{form, run.t_begin};
+  for (double k = 1; k <= steps; ++k) {
+    const double t = k == steps ? run.t_end : run.t_begin + span * (k / steps);
+    if (run.observe) before.assign(x, x + states);
+    form.at(difference(t, run.t_begin), x);
+    ++out->evaluations;
+    ++out->steps;
+    casimir_step step = {};
+    step.t0 = out->t;
+    step.t1 = out->t = t;
+    step.x0 = before.data();
+    step.x1 = x;
+    step.dense = evaluate;
+    step.data = &shown;
+    if (run.observe && run.observe(run.observer, &step) != 0 && t != run.t_end) {
+      out->status = CASIMIR_STOPPED;
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+Recognised closed_form(const Program& rhs, const std::vector<cln::cl_F>& initial) {
+  const auto field = polynomial_field(rhs);
+  if (!field || initial.size() != rhs.outputs.size())
+    return {nullptr,
+            "the equations are no polynomials in the states and in their sines and cosines"};
+  const exact::Motion motion{*field, initial};
+  std::string reasons;
+  for (const auto recognise : {exact::free_body, exact::pendulum, exact::polynomial_force}) {
+    Recognised found = recognise(motion);
+    if (found.form) return found;
+    reasons += (reasons.empty() ? "" : "; ") + found.reason;
+  }
+  return {nullptr, reasons};
+}
+
+std::function<ModuleFunctions::Integration> exact_integration(
+    const Program& rhs, const std::vector<cln::cl_F>& initial, std::vector<double> start,
+    std::shared_ptr<const ClosedForm> form) {
+  return [rhs, initial, start = std::move(start), form = std::move(form)](
+             const casimir_run* run, double* x, casimir_outcome* out) {
+    if (std::equal(start.begin(), start.end(), x))
+      return run_along(*form, start.size(), *run, x, out);
+    const Recognised other = closed_form(rhs, exactly(x, initial));
+    if (!other.form) throw std::invalid_argument("exact: " + other.reason);
+    run_along(*other.form, start.size(), *run, x, out);
+  };
+}
+
+}  // namespace casimir
