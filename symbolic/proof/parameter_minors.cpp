@@ -74,17 +74,23 @@ std::uint64_t MinorModulo::value_at(const std::vector<std::uint64_t>& point) con
 }
 
 MatrixModulo::MatrixModulo(const std::vector<std::vector<Polynomial>>& rows) {
-  for (const auto& row : rows) {
-    rows_.emplace_back();
-    for (const Polynomial& p : row) rows_.back().emplace_back(p);
+  try {
+    for (const auto& row : rows) {
+      rows_.emplace_back();
+      for (const Polynomial& p : row) rows_.back().emplace_back(p);
+    }
+  } catch (const std::domain_error&) {
+    rows_.clear();
   }
 }
 
-std::optional<std::size_t> MatrixModulo::rank_at(const std::vector<cln::cl_RA>& point) const {
+std::size_t MatrixModulo::rank_at(const std::vector<GiNaC::ex>& point) const {
   std::vector<MinorWord> residues;
-  for (const cln::cl_RA& x : point) {
-    const std::optional<MinorWord> residue = minor_fraction(x);
-    if (!residue) return std::nullopt;
+  for (const GiNaC::ex& x : point) {
+    if (!x.info(GiNaC::info_flags::rational)) return 0;
+    const auto residue =
+        minor_fraction(cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(x).to_cl_N()));
+    if (!residue) return 0;
     residues.push_back(*residue);
   }
   std::vector<std::vector<MinorWord>> m;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <ginac/ginac.h>
+
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -34,14 +36,14 @@ class MinorModulo {
 /// A matrix of polynomials modulo the same prime.
 class MatrixModulo {
  public:
-  /// \throws std::domain_error  where a denominator is a multiple of the prime
   explicit MatrixModulo(const std::vector<std::vector<Polynomial>>& rows);
 
-  /// No larger than the rank over the rational numbers. Empty where a coordinate has no residue.
-  std::optional<std::size_t> rank_at(const std::vector<cln::cl_RA>& point) const;
+  /// No larger than the rank over the rational numbers; 0 where some number has no residue.
+  /// \param point  of each symbol of a ring without other functions
+  std::size_t rank_at(const std::vector<GiNaC::ex>& point) const;
 
  private:
-  std::vector<std::vector<MinorModulo>> rows_;
+  std::vector<std::vector<MinorModulo>> rows_;  ///< none where a coefficient has no residue
 };
 
 }  // namespace casimir

@@ -75,21 +75,6 @@ std::vector<NamedExpression> Prover::simplified(const NamedExpression& f, int de
   }
 }
 
-const std::vector<Prover::LevelFunction>& Prover::level_functions(const NamedExpression& f) {
-  constexpr int kDepth = 3;
-  convert(f.value);  // what it divides by counts for each claim
-  const auto known = level_functions_.find(f.name);
-  if (known != level_functions_.end() && known->second.first.is_equal(f.value))
-    return known->second.second;
-  std::vector<LevelFunction> parts;
-  for (NamedExpression& part : simplified(f, kDepth)) {
-    Polynomial numerator = ring_.lowest_terms(convert(part.value)).first;
-    if (numerator.is_zero()) continue;  // no condition, and no divisor
-    parts.push_back({std::move(part), std::move(numerator)});
-  }
-  return (level_functions_[f.name] = {f.value, std::move(parts)}).second;
-}
-
 Level Prover::make_level(const std::vector<NamedExpression>& on) {
   Level result;
   for (const NamedExpression& whole : on) {

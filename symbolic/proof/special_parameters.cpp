@@ -113,7 +113,6 @@ class SpecialParameters {
   static Polynomial reduced(Polynomial p, const Equations& set);
   bool is_common_zero(const Equations& set) const;
   bool lowers_rank(const std::function<bool(std::vector<GiNaC::ex>&)>& put, bool* tried);
-  bool certainly_keeps_rank(const RealPoint& point);
   bool is_solvable(const Polynomial& f, std::size_t place) const;
   bool put_zero(const Polynomial& f, std::vector<GiNaC::ex>& coordinates, bool larger) const;
   bool is_excluded_at_zero(const Polynomial& parameter) const;
@@ -274,22 +273,6 @@ bool SpecialParameters::is_common_zero(const Equations& set) const {
                                          [&](const auto& m) { return reduced(m, set).is_zero(); });
 }
 
-/// Where the ring has polynomials only, by the rank modulo a prime, which is no larger.
-bool SpecialParameters::certainly_keeps_rank(const RealPoint& point) {
-  if (!ring_.is_polynomial()) return false;
-  try {
-    if (!modular_rows_) modular_rows_.emplace(rows_);
-  } catch (const std::domain_error&) {
-    return false;
-  }
-  std::vector<cln::cl_RA> numbers;
-  for (const GiNaC::ex& x : point.coordinates()) {
-    if (!x.info(GiNaC::info_flags::rational)) return false;
-    numbers.push_back(cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(x).to_cl_N()));
-  }
-  return modular_rows_->rank_at(numbers).value_or(0) >= rank_;
-}
-
 /// Whether the rank is smaller at all points that `put` leads to; `tried` becomes whether there are
 /// any inside of all assumptions.
 bool SpecialParameters::lowers_rank(const std::function<bool(std::vector<GiNaC::ex>&)>& put,
@@ -306,7 +289,9 @@ bool SpecialParameters::lowers_rank(const std::function<bool(std::vector<GiNaC::
       if (!prover_.real_points().admits(point, domain)) continue;
       ++admitted;
       *tried = true;
-      if (certainly_keeps_rank(point) || point.rank(rows_) >= rank_) return false;
+      if (ring_.is_polynomial() && !modular_rows_) modular_rows_.emplace(rows_);
+      if (modular_rows_ && modular_rows_->rank_at(point.coordinates()) >= rank_) return false;
+      if (point.rank(rows_) >= rank_) return false;
     } catch (const NotCertified&) {
     }
   }

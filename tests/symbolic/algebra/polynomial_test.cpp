@@ -97,6 +97,23 @@ TEST_F(Ring3, FactorsAreFoundInTheVariablesThatOccur) {
   EXPECT_EQ((x_.pow(2) * z_).scaled(-3).factors()[1].second, 2U);
 }
 
+// As from FLINT: f times g is factored by it, while f alone, with a variable in one term, is not.
+TEST_F(Ring3, AVariableInOneTermAloneMakesAFactorLikeOthers) {
+  const Polynomial other = x_ * x_ + x_ * z_ + z_ * z_;
+  for (const Polynomial& f : {x_ * x_ - y_.scaled(2) + z_ * x_, (one_ - x_).scaled(6),
+                              y_.scaled(cln::cl_RA(-1) / 3) + x_ * z_.pow(2)}) {
+    const auto alone = f.factors();
+    ASSERT_EQ(alone.size(), 2U);
+    EXPECT_EQ(alone[0].first * alone[1].first, f);
+    const auto both = (f * other).factors();
+    ASSERT_EQ(both.size(), 3U);
+    EXPECT_TRUE(both[1].first == alone[1].first || both[2].first == alone[1].first);
+  }
+  // In two terms it says nothing: x y - y = (x - 1) y.
+  EXPECT_EQ((x_ * y_ - y_).factors().size(), 3U);
+  EXPECT_EQ((x_ * y_ + x_ + y_ + one_).factors().size(), 3U);
+}
+
 TEST_F(Ring3, SumOfManyIsTheSumOneByOne) {
   std::vector<Polynomial> summands;
   Polynomial expected(ring_);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "symbolic/proof/parameter_minors.hpp"
 #include "tests/symbolic/cases.hpp"
 
 namespace casimir::test {
@@ -160,6 +161,20 @@ TEST_F(GenericRanks, TooMuchWorkIsNotAProof) {
   ASSERT_TRUE(found);
   EXPECT_EQ(found->rank, 5U);
   EXPECT_FALSE(found->exact);
+}
+
+// Modulo a prime the rank may be smaller, and is never larger.
+TEST(MatrixModulo, HasNoLargerRankThanOverTheRationalNumbers) {
+  const PolynomialRing ring(2);
+  const Polynomial x = ring.variable(0), y = ring.variable(1), zero(ring);
+  const MatrixModulo matrix({{x, y}, {x * x, x * y}});
+  const auto at = [&](const GiNaC::ex& a, const GiNaC::ex& b) { return matrix.rank_at({a, b}); };
+  EXPECT_EQ(at(1, 2), 1U);
+  EXPECT_EQ(at(0, 0), 0U);
+  EXPECT_EQ(at(GiNaC::sqrt(GiNaC::ex(2)), 0), 0U) << "has no residue";
+  EXPECT_EQ(MatrixModulo({{x, y}, {y, x}}).rank_at({GiNaC::ex(1) / 3, 2}), 2U);
+  EXPECT_EQ(MatrixModulo({{x, y}, {y, x}}).rank_at({-5, 5}), 1U);
+  EXPECT_EQ(MatrixModulo({{zero, zero}}).rank_at({1, 1}), 0U);
 }
 
 }  // namespace
