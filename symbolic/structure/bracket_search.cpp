@@ -288,14 +288,18 @@ std::string BracketSearch::signed_text(const GiNaC::ex& polynomial) {
 
 std::string BracketSearch::text_of(const GiNaC::ex& function) {
   const GiNaC::ex parts = function.numer_denom();
-  const std::string top = signed_text(parts.op(0));
-  if (parts.op(1).is_equal(1)) return top;
+  std::string top = signed_text(parts.op(0)), bottom = signed_text(parts.op(1));
+  if (bottom.starts_with('-')) {
+    top = signed_text(-parts.op(0));
+    bottom = signed_text(-parts.op(1));
+  }
+  if (bottom == "1") return top;
   const auto bracketed = [](const std::string& text) {
-    // "-(..)" is how `signed_text` writes a negative sum.
-    const bool plain = text.starts_with("-(") || text.find_first_of("+-*/ ") == std::string::npos;
+    const bool plain = text.find_first_of("+-*/ ") == std::string::npos;
     return plain ? text : "(" + text + ")";
   };
-  return bracketed(top) + "/" + bracketed(signed_text(parts.op(1)));
+  // "-(..)" is how `signed_text` writes a negative sum.
+  return (top.starts_with("-(") ? top : bracketed(top)) + "/" + bracketed(bottom);
 }
 
 Bracket BracketSearch::described(const Bivector& p, const std::optional<GiNaC::ex>& hamiltonian) {

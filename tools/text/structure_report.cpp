@@ -170,11 +170,11 @@ void print(const Model& model, int degree, const BracketReport& report, double s
                                  ? "that is compatible with the first"
                                  : fmt::format("with a polynomial Hamiltonian up to degree {}",
                                                report.hamiltonian_degree);
-    const std::string what =
-        report.found.empty() ? "No other"
-        : report.spanned     ? "No other, beside linear combinations of these,"
-                         : fmt::format("All belong to {} famil{} with members of these: no other",
-                                       report.families, report.families == 1 ? "y" : "ies");
+    const std::string what = report.found.empty() ? "No other"
+                             : report.spanned
+                                 ? "No other, beside linear combinations of these,"
+                                 : fmt::format("No other than in the {} famil{} of these",
+                                               report.families, report.families == 1 ? "y" : "ies");
     fmt::print("{} up to degree {} {}{}: {}\n", what, degree, kind, generic,
                verdict_text(Verdict::proved, colour));
   }
