@@ -114,6 +114,35 @@ TEST(QuadraticKernel, OneFactorThatIsWrongIsSeen) {
   }
 }
 
+TEST(QuadraticKernel, NoToleranceTakesManyMoreStepsThanTheOneBefore) {
+  // A free rigid body. What millions of steps would show goes out of sight by degrees.
+  const QuadraticForm form{
+      .states = 3,
+      .constant = State(3),
+      .linear = {State(3), State(3), State(3)},
+      .products = {{0, 1, {0, 0, -0.5}}, {0, 2, {0, 0.75, 0}}, {1, 2, {-0.25, 0, 0}}},
+      .constant_rest = {},
+      .linear_rest = {}};
+  for (const std::string& target : quadratic_targets()) {
+    const QuadraticKernel kernel(form, target);
+    double before = 0, first = 0;
+    for (int i = 0; i <= 12; ++i) {
+      State x = {0.75, 0.5, 1};
+      casimir_outcome out = {};
+      const casimir_run run = run_for(500, 1e-12 * std::pow(10, -0.25 * i));
+      kernel.integrate(&run, x.data(), &out);
+      ASSERT_EQ(out.status, CASIMIR_OK);
+      const auto steps = static_cast<double>(out.steps);
+      if (i > 0) {
+        EXPECT_LT(steps, 1.2 * before) << target << i;
+      }
+      if (i == 0) first = steps;
+      before = steps;
+    }
+    EXPECT_GT(before, 1.5 * first) << target;  // 1e-15 aims at far less than it
+  }
+}
+
 TEST(QuadraticKernel, MoreStatesThanItHasRoomForAreRefused) {
   const QuadraticForm form = some_form(25, false);
   EXPECT_FALSE(has_quadratic_kernel(form));
