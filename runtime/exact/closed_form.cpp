@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -9,6 +10,26 @@
 
 namespace casimir {
 namespace exact {
+namespace {
+
+class AtRest : public ClosedForm {
+ public:
+  explicit AtRest(const Motion& of) {
+    for (const cln::cl_F& x : of.initial) state_.push_back(cln::double_approx(x));
+  }
+  void at(const TwoDoubles&, double* x) const override {
+    std::copy(state_.begin(), state_.end(), x);
+  }
+  double period() const override { return std::numeric_limits<double>::infinity(); }
+  double horizon() const override { return std::numeric_limits<double>::infinity(); }
+
+ private:
+  std::vector<double> state_;
+};
+
+}  // namespace
+
+Recognised at_rest(const Motion& motion) { return {std::make_shared<AtRest>(motion), ""}; }
 
 cln::cl_F undecided_part(const cln::cl_F& like) {
   return cln::scale_float(cln::cl_float(cln::cl_RA(1), like), -900);

@@ -75,22 +75,6 @@ class FreeBody : public ClosedForm {
   Phase phase_;
 };
 
-/// A motion that is none.
-class AtRest : public ClosedForm {
- public:
-  explicit AtRest(const Motion& of) {
-    for (const N& x : of.initial) state_.push_back(cln::double_approx(x));
-  }
-  void at(const TwoDoubles&, double* x) const override {
-    for (std::size_t i = 0; i < state_.size(); ++i) x[i] = state_[i];
-  }
-  double period() const override { return std::numeric_limits<double>::infinity(); }
-  double horizon() const override { return std::numeric_limits<double>::infinity(); }
-
- private:
-  std::vector<double> state_;
-};
-
 /// The coefficients; nothing where the equations have another term.
 std::optional<std::array<N, 3>> coefficients(const Motion& of) {
   std::array<N, 3> c;
@@ -126,7 +110,7 @@ Recognised free_body(const Motion& motion) {
   int moving = 0;
   for (std::size_t i = 0; i < 3; ++i)
     if (!cln::zerop((*c)[i] * motion.initial[(i + 1) % 3] * motion.initial[(i + 2) % 3])) ++moving;
-  if (moving == 0) return {std::make_shared<AtRest>(motion), ""};
+  if (moving == 0) return at_rest(motion);
   const auto axes = axes_of(motion, *c);
   if (!axes)
     return {nullptr,

@@ -98,21 +98,6 @@ class Pendulum : public ClosedForm {
   Phase phase_;
 };
 
-class AtRest : public ClosedForm {
- public:
-  explicit AtRest(const Motion& of)
-      : x_{cln::double_approx(of.initial[0]), cln::double_approx(of.initial[1])} {}
-  void at(const TwoDoubles&, double* x) const override {
-    x[0] = x_[0];
-    x[1] = x_[1];
-  }
-  double period() const override { return std::numeric_limits<double>::infinity(); }
-  double horizon() const override { return std::numeric_limits<double>::infinity(); }
-
- private:
-  double x_[2];
-};
-
 }  // namespace
 
 Recognised pendulum(const Motion& motion) {
@@ -128,8 +113,7 @@ Recognised pendulum(const Motion& motion) {
   const N x = -a * b, y = a * c, strength = cln::sqrt(x * x + y * y);
   const N lowest = cln::cl_float(cln::atan(x, y), x);
   const N &q = motion.initial[0], force = cln::abs(cln::cl_float(cln::sin(q - lowest), q));
-  if (cln::zerop(motion.initial[1]) && force < undecided_part(q))
-    return {std::make_shared<AtRest>(motion), ""};
+  if (cln::zerop(motion.initial[1]) && force < undecided_part(q)) return at_rest(motion);
   return {std::make_shared<Pendulum>(motion, a, cln::sqrt(strength), lowest), ""};
 }
 

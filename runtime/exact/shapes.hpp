@@ -27,6 +27,9 @@ cln::cl_F undecided_part(const cln::cl_F& like);
 /// digits than double has.
 inline constexpr double kSeparatrixHorizon = 200;
 
+/// Of a motion that is none.
+Recognised at_rest(const Motion& motion);
+
 // Each of these: a form, or why there is none.
 Recognised free_body(const Motion& motion);
 Recognised pendulum(const Motion& motion);

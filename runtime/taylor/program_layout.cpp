@@ -19,7 +19,7 @@ ProgramKernel casimir_program_baseline;
 namespace casimir {
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
+std::size_t as_index(int i) { return static_cast<std::size_t>(i); }
 
 ProgramKernel* kernel_of([[maybe_unused]] int width) {
 #ifdef CASIMIR_X86_KERNELS
@@ -66,15 +66,15 @@ class ProgramLayout::Sorter {
   }
 
  private:
-  bool constant(int line) const { return line < 0 || layout_.is_constant_[index(line)]; }
+  bool constant(int line) const { return line < 0 || layout_.is_constant_[as_index(line)]; }
 
   void find_constants() {
     const std::size_t states = program_.outputs.size();
     for (const Instruction& line : program_.code) {
-      const bool known =
-          is_literal(line) || (line.op == Op::input ? index(line.a) >= states &&
-                                                          index(line.a) + 1 < program_.inputs.size()
-                                                    : constant(line.a) && constant(line.b));
+      const bool known = is_literal(line) ||
+                         (line.op == Op::input ? as_index(line.a) >= states &&
+                                                     as_index(line.a) + 1 < program_.inputs.size()
+                                               : constant(line.a) && constant(line.b));
       layout_.is_constant_.push_back(known);
     }
   }
@@ -110,13 +110,13 @@ class ProgramLayout::Sorter {
 
   /// Notes the group of a line and its level: one above those of its operands.
   bool put(int i) {
-    const Instruction& line = program_.code[index(i)];
+    const Instruction& line = program_.code[as_index(i)];
     if (line.op == Op::input) return true;
     const std::optional<int> kind = kind_of(line);
     if (!kind) return false;
-    int level = level_[index(line.a)];
-    if (line.b >= 0) level = std::max(level, level_[index(line.b)]);
-    level_[index(i)] = level + 1;
+    int level = level_[as_index(line.a)];
+    if (line.b >= 0) level = std::max(level, level_[as_index(line.b)]);
+    level_[as_index(i)] = level + 1;
     Group& group = groups_[{level + 1, *kind}];
     group.kind = *kind;
     if (*kind == CASIMIR_GROUP_SINCOS) {
@@ -154,7 +154,7 @@ class ProgramLayout::Sorter {
     }
     layout_.places_ = next;
     for (auto& [key, group] : groups_) {
-      for (const int line : group.lines) take_operands(group, program_.code[index(line)]);
+      for (const int line : group.lines) take_operands(group, program_.code[as_index(line)]);
       layout_.groups_.push_back(group);
     }
     for (const int line : program_.outputs) layout_.outputs_.push_back(place_of(line));
@@ -172,9 +172,9 @@ class ProgramLayout::Sorter {
   }
 
   int place_of(int line) const {
-    const Instruction& at = program_.code[index(line)];
-    if (layout_.is_constant_[index(line)]) return constant_place_.at(line);
-    if (at.op == Op::input) return index(at.a) < program_.outputs.size() ? at.a : layout_.time_;
+    const Instruction& at = program_.code[as_index(line)];
+    if (layout_.is_constant_[as_index(line)]) return constant_place_.at(line);
+    if (at.op == Op::input) return as_index(at.a) < program_.outputs.size() ? at.a : layout_.time_;
     const auto& [kind, level, cell, second] = cell_.at(line);
     const Group& group = groups_.at({level, kind});
     return group.target + static_cast<int>(cell) + (second ? group.padded : 0);
@@ -204,23 +204,23 @@ void ProgramLayout::start(int order, const double* parameters) {
   const Arithmetic<double> arithmetic;
   std::vector<double> value(program_.code.size());
   for (const int i : constants_) {
-    const Instruction& line = program_.code[index(i)];
-    value[index(i)] = is_literal(line) ? literal_value(program_, line, arithmetic)
-                      : line.op == Op::input
-                          ? parameters[index(line.a) - program_.outputs.size()]
-                          : applied(line.op, value[index(line.a)],
-                                    value[index(line.b < 0 ? line.a : line.b)], arithmetic);
+    const Instruction& line = program_.code[as_index(i)];
+    value[as_index(i)] = is_literal(line) ? literal_value(program_, line, arithmetic)
+                         : line.op == Op::input
+                             ? parameters[as_index(line.a) - program_.outputs.size()]
+                             : applied(line.op, value[as_index(line.a)],
+                                       value[as_index(line.b < 0 ? line.a : line.b)], arithmetic);
   }
   constant_values_.clear();
-  for (const int i : constants_) constant_values_.push_back(value[index(i)]);
+  for (const int i : constants_) constant_values_.push_back(value[as_index(i)]);
   const auto lines = [](std::size_t numbers) { return std::vector<Line>(numbers / 8 + 1); };
-  place_ = lines(index(places_));
+  place_ = lines(as_index(places_));
   std::size_t room = 0;
   for (Group& group : groups_) {
     group.history = room;
-    room += index(series_of(group.kind)) * index(order + 1) * index(group.padded);
+    room += as_index(series_of(group.kind)) * as_index(order + 1) * as_index(group.padded);
     group.values.clear();
-    for (const int line : group.constant) group.values.push_back(value[index(line)]);
+    for (const int line : group.constant) group.values.push_back(value[as_index(line)]);
   }
   history_ = lines(room);
   tables_.clear();
