@@ -7,7 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "runtime/exact/closed_form.hpp"
+#include "runtime/methods.hpp"
 #include "runtime/outside/arkode.hpp"
 #include "runtime/outside/cvode.hpp"
 #include "runtime/step/observer.hpp"
@@ -270,7 +270,7 @@ Trajectory integrate(const Module& module, const Method& method, const Settings&
   Observer observer(module, settings, p, initial);
   if (method.name == "arkode-erk") {
     integrate_with_arkode(module, settings, p, observer, trajectory);
-  } else if (method.header.empty() && !evaluates_closed_form(method)) {
+  } else if (method.header.empty() && !method.closed_form) {
     integrate_with_cvode(module, method, settings, p, observer, trajectory);
   } else if (module.functions().integrate == nullptr) {
     throw std::invalid_argument("the module was compiled without a kernel");

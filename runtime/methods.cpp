@@ -106,6 +106,7 @@ constexpr Method kMethods[] = {
     splitting("splitting6", 6, "splitting::integrate<System, 6>"),
     splitting("splitting", 8, "splitting::integrate<System, 8>"),
     {.name = "exact",
+     .closed_form = true,
      .description = "elliptic and elementary functions, of systems that are recognised",
      .literature = "Whittaker: A Treatise on the Analytical Dynamics of Particles and Rigid "
                    "Bodies (1937), VI"},

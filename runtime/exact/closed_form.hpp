@@ -7,14 +7,10 @@
 #include <vector>
 
 #include "runtime/exact/elliptic.hpp"
-#include "runtime/methods.hpp"
 #include "runtime/module.hpp"
 #include "runtime/program.hpp"
 
 namespace casimir {
-
-/// Whether a method takes no steps but evaluates a closed form, of the systems that have one.
-inline bool evaluates_closed_form(const Method& method) { return method.name == "exact"; }
 
 /// A solution in closed form: the state at any time, without steps.
 class ClosedForm {

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <vector>
 
-#include "runtime/exact/closed_form.hpp"
 #include "runtime/integrate.hpp"
 #include "runtime/kernels/one_step/dop853.hpp"
 #include "runtime/kernels/one_step/dopri5.hpp"
 #include "runtime/kernels/one_step/gauss.hpp"
 #include "runtime/kernels/one_step/radau.hpp"
+#include "runtime/methods.hpp"
 #include "runtime/program.hpp"
 
 // Problems with known solutions, as the classes that kernels are instantiated with.
@@ -177,8 +177,7 @@ Trajectory run(const std::string& name, const Settings& settings, std::vector<do
 inline std::vector<std::string> own_methods() {
   std::vector<std::string> names;
   for (const Method& method : methods())
-    if (method.outside.empty() && !method.series && !method.splits &&
-        !evaluates_closed_form(method))
+    if (method.outside.empty() && !method.series && !method.splits && !method.closed_form)
       names.emplace_back(method.name);
   return names;
 }

@@ -9,7 +9,7 @@
 #include <iterator>
 #include <thread>
 
-#include "runtime/exact/closed_form.hpp"
+#include "runtime/methods.hpp"
 #include "symbolic/error.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
 #include "tools/cli/case_library.hpp"
@@ -50,8 +50,7 @@ std::vector<std::string> default_methods() {
   std::vector<std::string> names{kAutomatic};
   for (const Method& method : methods()) {
     const bool multistep = method.header.empty() && method.order == 0;
-    if (method.name != kAutomatic && !evaluates_closed_form(method) &&
-        (method.outside.empty() || multistep))
+    if (method.name != kAutomatic && !method.closed_form && (method.outside.empty() || multistep))
       names.emplace_back(method.name);
   }
   return names;

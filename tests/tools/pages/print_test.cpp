@@ -28,8 +28,7 @@ TEST(Print, FiguresHaveTheWidthThatIsAskedFor) {
   // In a PDF lengths are points, 72 of an inch; SVG has 96 pixels of an inch; PNG 300.
   const std::string pdf = file_text(folder.path() / "f.pdf");
   EXPECT_TRUE(pdf.starts_with("%PDF"));
-  EXPECT_NEAR(size_after(pdf, R"(MediaBox \[ *0 0 ([0-9.]+) ([0-9.]+))").first, 86 / 25.4 * 72,
-              1);
+  EXPECT_NEAR(size_after(pdf, R"(MediaBox \[ *0 0 ([0-9.]+) ([0-9.]+))").first, 86 / 25.4 * 72, 1);
   const auto svg = size_after(file_text(folder.path() / "f.svg"),
                               "<svg[^>]*width=\"([0-9.]+)\"[^>]*height=\"([0-9.]+)\"");
   EXPECT_NEAR(svg.first, 86 / 25.4 * 96, 1);

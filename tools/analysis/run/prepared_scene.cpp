@@ -198,9 +198,9 @@ CompiledModule exact_module(const PreparedScene& run) {
 
 CompiledModule compile_for(const PreparedScene& run, const Method& method) {
   const auto start = Clock::now();
-  CompiledModule result = method.name == "taylor"         ? taylor_module(run, method)
-                          : evaluates_closed_form(method) ? exact_module(run)
-                                                          : compiled_module(run, method);
+  CompiledModule result = method.name == "taylor" ? taylor_module(run, method)
+                          : method.closed_form    ? exact_module(run)
+                                                  : compiled_module(run, method);
   result.seconds = seconds_since(start);
   return result;
 }
@@ -214,7 +214,7 @@ CompiledModule compile_always(const PreparedScene& run, const Method& method) {
 
 bool suits(const PreparedScene& run, const Method& method) {
   std::vector<cln::cl_F> start;
-  if (evaluates_closed_form(method)) return recognised(run, start).form != nullptr;
+  if (method.closed_form) return recognised(run, start).form != nullptr;
   if (!method.splits) return true;
   try {
     splitting_of(run);
