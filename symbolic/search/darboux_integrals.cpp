@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "symbolic/model/bare_motion.hpp"
 #include "symbolic/search/integral_space.hpp"
 
 namespace casimir::search {
@@ -38,16 +39,7 @@ class Combiner {
 };
 
 Model Combiner::extended(Kind kind) const {
-  Model result;
-  result.name = model_.name;
-  result.file = model_.file;
-  result.phase_space = "equations";
-  result.complex_numbers = model_.complex_numbers;
-  result.variables = model_.variables;
-  result.parameters = model_.parameters;
-  result.assumptions = model_.assumptions;
-  result.field = model_.field;
-  result.domain = model_.domain;
+  Model result = bare_motion(model_);
   for (std::size_t i = 0; i < found_.size(); ++i) {
     result.variables.push_back(logarithms_[i]);
     result.field.push_back(found_[i].cofactor_value);

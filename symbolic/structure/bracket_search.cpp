@@ -5,24 +5,16 @@
 #include <algorithm>
 
 #include "symbolic/functions/short_text.hpp"
+#include "symbolic/model/bare_motion.hpp"
 #include "symbolic/search/modular/span.hpp"
 #include "symbolic/search/search.hpp"
 
 namespace casimir::structure {
 namespace {
 
-/// The equations of motion alone.
+/// The equations of motion alone, with the points that scenes give.
 Model bare(const Model& model) {
-  Model result;
-  result.name = model.name;
-  result.file = model.file;
-  result.phase_space = "equations";
-  result.complex_numbers = model.complex_numbers;
-  result.variables = model.variables;
-  result.parameters = model.parameters;
-  result.assumptions = model.assumptions;
-  result.field = model.field;
-  result.domain = model.domain;
+  Model result = bare_motion(model);
   result.scenes = model.scenes;
   return result;
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "symbolic/model/bare_motion.hpp"
+
 namespace casimir::structure {
 namespace {
 
@@ -88,15 +90,7 @@ Lift::Lift(const Model& model, TensorType type) : type_(type), dimension_(model.
                     "than the {} that are searched",
                     type.rank, components, dimension_, kMostComponents));
   indices_ = skew_indices(dimension_, type.rank);
-  model_.name = model.name;
-  model_.file = model.file;
-  model_.complex_numbers = model.complex_numbers;
-  model_.phase_space = "equations";
-  model_.variables = model.variables;
-  model_.parameters = model.parameters;
-  model_.assumptions = model.assumptions;
-  model_.field = model.field;
-  model_.domain = model.domain;
+  model_ = bare_motion(model);
   for (std::size_t c = 0; c < indices_.size(); ++c) {
     // No name of a case file looks like that.
     model_.variables.emplace_back("<" + label(c) + ">");
