@@ -97,9 +97,9 @@ bool flag_of(const std::string& path, const std::string& key, const toml::node& 
 }
 
 double size_of(const std::string& path, const toml::node& node) {
-  constexpr double kLeast = 4, kMost = 72;
+  constexpr double kSmallest = 4, kLargest = 72;
   const auto size = node.value<double>();
-  if (!size || *size < kLeast || *size > kMost)
+  if (!size || *size < kSmallest || *size > kLargest)
     fail_at(path, node, "size: expected the height of the letters in points, 4 to 72");
   return *size;
 }
@@ -196,14 +196,14 @@ double millimetres(const std::string& text, const std::string& option) {
        {"cm", 10},
        {"in", kMillimetresOfInch},
        {"pt", kMillimetresOfInch / kPointsOfInch}});
-  constexpr double kLeast = 20, kMost = 2000;
+  constexpr double kNarrowest = 20, kWidest = 2000;
   for (const auto& [unit, size] : kUnits) {
     if (!text.ends_with(unit)) continue;
     double number = 0;
     const char* end = text.data() + text.size() - unit.size();
     const auto [stop, problem] = std::from_chars(text.data(), end, number);
     if (problem != std::errc() || stop != end) break;
-    if (!(number * size >= kLeast && number * size <= kMost))
+    if (!(number * size >= kNarrowest && number * size <= kWidest))
       throw UsageError(fmt::format("{} '{}': expected 20mm to 2m", option, printable(text)));
     return number * size;
   }
