@@ -21,6 +21,7 @@ struct DarbouxPolynomial {
 
 /// A product of powers of Darboux polynomials, times an exponential, that the motion keeps.
 struct DarbouxCombination {
+  /// What it is for.
   enum class Kind {
     integral,
     multiplier,      ///< the density of an invariant measure

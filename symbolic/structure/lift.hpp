@@ -39,7 +39,9 @@ class Lift {
 
   /// The lifted system: variables of the case first, then the u_I.
   const Model& model() const { return model_; }
+  /// Of the tensors that are looked for.
   TensorType type() const { return type_; }
+  /// The number of variables of the case.
   std::size_t dimension() const { return dimension_; }
   /// One list for each component.
   const std::vector<std::vector<std::size_t>>& indices() const { return indices_; }

@@ -381,7 +381,7 @@ TEST(Conserve, DrawsDriftAgainstTime) {
   const std::string methods = file_text(folder.path() / "two.svg");
   for (const char* name : {">taylor<", ">dop853<"})
     EXPECT_NE(methods.find(name), std::string::npos) << name;
-  EXPECT_EQ(run({"conserve", "clebsch", "--plot", "drift.pdf"}).status, 2);
+  EXPECT_EQ(run({"conserve", "clebsch", "--plot", "drift.gif"}).status, 2);
   EXPECT_EQ(run({"conserve", "--all", "--plot", "drift.svg"}).status, 2);
 }
 

@@ -173,22 +173,19 @@ TEST(Bench, ToleranceTooCoarseForTheMotionIsWrongButNoFailure) {
   }
 }
 
-/// A pulse as narrow as 1e-4, which step control with few steps passes without a notice.
+/// A pulse as narrow as 1e-4, which step control alone passes without a notice.
 std::string pulse_case() {
   return equations_case("x = \"(1/10000)/((s - 61)^2 + 1/100000000)\"\ns = \"1\"",
                         "initial = { x = \"0\", s = \"0\" }\nduration = \"100\"");
 }
 
-TEST(Bench, ErrorThatNoToleranceExplainsFailsTheCommand) {
+TEST(Bench, APulseThatALibraryMissesIsWrongAndFailsNothing) {
   const Folder folder;
   const std::string pulse = folder.write("pulse.toml", pulse_case());
-  const Outcome missed = run_in(folder, {"bench", pulse, "--method", "dop853", "--tolerances",
-                                         "1e-5", "--repeat", "1", "--json"});
-  EXPECT_EQ(missed.status, 1) << missed.out;
-  EXPECT_EQ(missed.json().at("rows").at(0).at("status"), "wrong");
-  EXPECT_GE(missed.json().at("failed"), 1);
-  EXPECT_TRUE(missed.json().at("ratios").empty());
-  // The twins: a library's method may be wrong without failing, and a series sees the pulse.
+  const Outcome seen = run_in(folder, {"bench", pulse, "--method", "dop853", "--tolerances", "1e-5",
+                                       "--repeat", "1", "--json"});
+  EXPECT_EQ(seen.status, 0) << seen.out;
+  EXPECT_EQ(seen.json().at("rows").at(0).at("status"), "ok");
   const Outcome library = run_in(folder, {"bench", pulse, "--method", "odeint-fehlberg78",
                                           "--tolerances", "1e-6", "--repeat", "1", "--json"});
   EXPECT_EQ(library.status, 0);
