@@ -144,7 +144,9 @@ Written Notation::expression(const ex& e) {
 
 Written Notation::combination(const std::vector<std::pair<ex, Phrase>>& terms) {
   Written sum;
-  for (const auto& [coefficient, phrase] : terms) {
+  for (const auto& term_of_sum : terms) {
+    const auto& coefficient = term_of_sum.first;
+    const Phrase& phrase = term_of_sum.second;
     // A factor that is printed as one: the last of the symbols, so that it ends the product.
     const GiNaC::symbol factor(kPhrase);
     std::vector<GiNaC::symbol> symbols = symbols_;
