@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -187,7 +188,7 @@ std::string ink(const Print& print, const std::string& colour) {
   };
   // How light the eye takes it to be (ITU-R BT.601).
   const double grey = 0.299 * part(1) + 0.587 * part(3) + 0.114 * part(5);
-  return fmt::format("#{0:02x}{0:02x}{0:02x}", static_cast<int>(grey + 0.5));
+  return fmt::format("#{0:02x}{0:02x}{0:02x}", std::lround(grey));
 }
 
 double millimetres(const std::string& text, const std::string& option) {
