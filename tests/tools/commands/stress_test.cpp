@@ -49,6 +49,18 @@ TEST(Stress, NoAnswerIsSilentlyWrong) {
   EXPECT_GT(json.at("counts").at("refused"), 15);
 }
 
+TEST(Stress, WhatAStepDoesNotSeeIsSeenOrSaid) {
+  const Folder folder;
+  const Outcome outcome = run_in(folder, {"stress", CASIMIR_SOURCE_DIR "/tests/traps/hidden.toml",
+                                          "--method", "taylor,dop853", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json json = outcome.json();
+  EXPECT_EQ(json.at("counts").at("wrong"), 0) << listed(json, "wrong");
+  // Eight scenes by two methods, and most of the answers are to be had.
+  EXPECT_EQ(json.at("rows").size(), 16U);
+  EXPECT_GE(json.at("counts").at("right"), 12);
+}
+
 TEST(Stress, FalseReferenceMakesTheAnswerWrong) {
   const Folder folder;
   folder.write(
