@@ -13,7 +13,7 @@
 #include "codegen/dag/vanishing.hpp"
 #include "codegen/optimise/optimise.hpp"
 #include "codegen/optimise/terms.hpp"
-#include "symbolic/case/expression_size.hpp"
+#include "symbolic/expression/expression_size.hpp"
 
 namespace casimir {
 

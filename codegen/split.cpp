@@ -5,8 +5,8 @@
 
 #include "codegen/dag/expression_dag.hpp"
 #include "codegen/optimise/optimise.hpp"
-#include "symbolic/case/expression_size.hpp"
 #include "symbolic/error.hpp"
+#include "symbolic/expression/expression_size.hpp"
 
 namespace casimir {
 namespace {

@@ -8,10 +8,10 @@
 #include <fstream>
 
 #include "symbolic/case/limits.hpp"
-#include "symbolic/case/spelling.hpp"
 #include "symbolic/case/toml_keys.hpp"
 #include "symbolic/case/toml_reader.hpp"
 #include "symbolic/discrete/map_case.hpp"
+#include "symbolic/expression/spelling.hpp"
 
 namespace casimir {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "symbolic/algebra/exact_constant.hpp"
 #include "symbolic/algebra/where_defined.hpp"
-#include "symbolic/case/decimal.hpp"
-#include "symbolic/case/expression_size.hpp"
+#include "symbolic/expression/decimal.hpp"
+#include "symbolic/expression/expression_size.hpp"
 
 namespace casimir {
 namespace {

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "symbolic/algebra/rational_matrix.hpp"
-#include "symbolic/case/expression.hpp"
-#include "symbolic/case/expression_size.hpp"
+#include "symbolic/expression/expression.hpp"
+#include "symbolic/expression/expression_size.hpp"
 #include "symbolic/functions/function_ring.hpp"
 
 namespace casimir {

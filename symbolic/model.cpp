@@ -4,8 +4,8 @@
 
 #include "symbolic/algebra/exact_constant.hpp"
 #include "symbolic/algebra/where_defined.hpp"
-#include "symbolic/case/expression.hpp"
-#include "symbolic/case/expression_size.hpp"
+#include "symbolic/expression/expression.hpp"
+#include "symbolic/expression/expression_size.hpp"
 #include "symbolic/model/model_dynamics.hpp"
 
 namespace casimir {

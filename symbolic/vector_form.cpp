@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "symbolic/case/expression_size.hpp"
+#include "symbolic/expression/expression_size.hpp"
 
 namespace casimir {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "symbolic/algebra/integer_factors.hpp"
 #include "symbolic/algebra/number_text.hpp"
-#include "symbolic/case/decimal.hpp"
-#include "symbolic/case/elementary.hpp"
+#include "symbolic/expression/decimal.hpp"
+#include "symbolic/expression/elementary.hpp"
 
 namespace casimir {
 namespace {

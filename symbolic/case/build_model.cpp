@@ -9,12 +9,14 @@
 
 #include "symbolic/case/build_scene.hpp"
 #include "symbolic/case/case_names.hpp"
-#include "symbolic/case/expression.hpp"
-#include "symbolic/case/expression_size.hpp"
+#include "symbolic/case/case_parts.hpp"
 #include "symbolic/case/limits.hpp"
+#include "symbolic/case/read_claims.hpp"
 #include "symbolic/case/real_values.hpp"
 #include "symbolic/case/toml_keys.hpp"
 #include "symbolic/discrete/map_model.hpp"
+#include "symbolic/expression/expression.hpp"
+#include "symbolic/expression/expression_size.hpp"
 #include "symbolic/lie_algebra.hpp"
 #include "symbolic/model.hpp"
 #include "symbolic/model/model_dynamics.hpp"
@@ -71,7 +73,7 @@ class Builder {
   }
 
   void read_rest() {
-    read_claims();
+    read_claims(file_, find_case_, names_, model_);
     for (const SceneText& scene : file_.scenes)
       model_.scenes.push_back(read_scene(scene, model_, fixed_));
   }
@@ -134,12 +136,6 @@ class Builder {
     return result;
   }
 
-  static int sign_of(const std::optional<Text>& text) {
-    if (!text || text->value == "+") return 1;
-    if (text->value == "-") return -1;
-    throw text->error("'sign' must be \"+\" or \"-\"");
-  }
-
   void check_counts() const {
     const auto check = [&](std::size_t count, double Limits::*limit, const char* what) {
       if (static_cast<double>(count) > limits().*limit)
@@ -171,12 +167,6 @@ class Builder {
     const auto it = std::find_if(fixed_.begin(), fixed_.end(),
                                  [&](const auto& pair) { return pair.first.value == parameter; });
     return it == fixed_.end() ? nullptr : &it->second;
-  }
-
-  /// A witness gives each symbol its value by name, and the residual's under the name `value`.
-  static void check_symbol_name(const Text& name) {
-    if (name.value == "value")
-      throw name.error("'value' names the value of a residual in a witness, and cannot name this");
   }
 
   void declare_names() {
@@ -236,13 +226,6 @@ class Builder {
       throw text.error(fmt::format("the assumption '{}' does not hold", printable(text.value)));
     }
     model_.assumptions.push_back(assumption);
-  }
-
-  /// \param lost  gets what GiNaC simplified away
-  static Assumption assumption_of(const Text& text, Scope& names, std::vector<ex>& lost) {
-    const Condition condition = parse_condition(text, names);
-    lost.insert(lost.end(), condition.lost.begin(), condition.lost.end());
-    return {condition.left - condition.right, condition.comparison, text.value};
   }
 
   void read_bracket() {
@@ -365,220 +348,10 @@ class Builder {
     return symbol_position(name, name.value, 0, model_.variables, "a variable of this case");
   }
 
-  static NamedExpression named(const Text& name, const Quantity& quantity) {
-    return {name.value, quantity.value, name.where, lost_parts(quantity)};
-  }
-
-  NamedExpression anonymous(const Text& text) {
-    return named(text, parse_expression(text, names_));
-  }
-
   /// The value of what the motion is made of; it has one only where all parts have.
   ex in_domain(const Quantity& quantity) {
     for (const ex& part : lost_parts(quantity)) model_.domain.push_back(part);
     return quantity.value;
-  }
-
-  std::vector<NamedExpression> read_named(const std::vector<Entry>& entries) {
-    std::vector<NamedExpression> result;
-    for (const auto& [name, text] : entries) {
-      check_name(name, "a function");
-      const Quantity quantity = parse_expression(text, names_);
-      result.push_back(named(name, quantity));
-      names_.name_function(name, quantity);
-      check_name_H(name, quantity.value);
-    }
-    return result;
-  }
-
-  /// Every command calls the Hamiltonian H where it lists the integrals.
-  void check_name_H(const Text& name, const ex& value) const {
-    if (name.value == "H" && model_.hamiltonian && !value.is_equal(*model_.hamiltonian))
-      throw name.error("'H' names the Hamiltonian among the integrals; here it would be another", 0,
-                       "give this function another name, or write it as the Hamiltonian");
-  }
-
-  LevelClaim read_level(const LevelText& text) {
-    LevelClaim claim{named(text.name, parse_expression(text.expression, names_)), {}};
-    for (const Text& relation : text.on) claim.on.push_back(anonymous(relation));
-    return claim;
-  }
-
-  void read_claims() {
-    if (!model_.poisson && !file_.casimirs.empty()) {
-      throw file_.casimirs[0].first.error(
-          "a Casimir function needs a bracket, which this phase space does not have");
-    }
-    if (!model_.poisson && !file_.maps.empty()) {
-      throw file_.maps[0].name.error(
-          "a Poisson map needs a bracket, which this phase space does not have");
-    }
-    model_.casimirs = read_named(file_.casimirs);
-    model_.integrals = read_named(file_.integrals);
-    for (const Text& text : file_.phase_space.constraints)
-      model_.constraints.push_back(anonymous(text));
-    for (const LevelText& text : file_.conditionals)
-      model_.conditionals.push_back(read_level(text));
-    for (const LevelText& text : file_.invariant_relations)
-      model_.invariant_relations.push_back(read_level(text));
-    for (const LaxText& text : file_.lax) read_lax(text);
-    for (const MapText& text : file_.maps) read_map(text);
-    for (const MeasureText& text : file_.measures) {
-      if (text.every_hamiltonian && !model_.poisson)
-        throw text.density.error("'every_hamiltonian' needs a bracket");
-      model_.measures.push_back({anonymous(text.density), text.every_hamiltonian});
-    }
-    for (const IdentityText& text : file_.identities) {
-      const Quantity left = parse_expression(text.left, names_);
-      const Quantity right = text.right ? parse_expression(*text.right, names_) : Quantity{0};
-      Identity identity{text.name.value, text.name.where, left.value, right.value, {},
-                        lost_parts(left)};
-      for (const ex& part : lost_parts(right)) identity.domain.push_back(part);
-      for (const Text& relation : text.on) identity.on.push_back(anonymous(relation));
-      model_.identities.push_back(std::move(identity));
-    }
-    if (!file_.section) return;
-    Section section{parse_expression(file_.section->function, names_).value, true, {}};
-    if (const auto& direction = file_.section->direction) {
-      if (direction->value != "up" && direction->value != "down")
-        throw direction->error("'direction' must be \"up\" or \"down\"");
-      section.upwards = direction->value == "up";
-    }
-    for (const Text& text : file_.section->plot)
-      section.plot.push_back(parse_expression(text, names_).value);
-    model_.section = section;
-  }
-
-  void read_lax(const LaxText& text) {
-    const std::size_t n = text.l.size();
-    if (n == 0 || text.a.size() != n) {
-      throw CaseError(
-          {file_.file, text.l.empty() || text.l[0].empty() ? 1 : text.l[0][0].where.line, 1},
-          "the matrices L and A of a Lax pair must have the same size");
-    }
-    LaxPair pair{std::nullopt, GiNaC::matrix(unsigned(n), unsigned(n)),
-                 GiNaC::matrix(unsigned(n), unsigned(n))};
-    pair.spectral = GiNaC::symbol(text.spectral ? text.spectral->value : "(none)");
-    if (text.spectral) {
-      check_name(*text.spectral, "the spectral parameter");
-      check_symbol_name(*text.spectral);
-      if (names_.find(text.spectral->value) != nullptr)
-        throw text.spectral->error(fmt::format("'{}' is declared twice", text.spectral->value));
-    }
-    ExtendedNames names(names_, {*pair.spectral});
-    for (unsigned i = 0; i < n; ++i) {
-      for (unsigned j = 0; j < n; ++j) {
-        const Quantity l = parse_expression(text.l[i][j], names);
-        const Quantity a = parse_expression(text.a[i][j], names);
-        pair.l(i, j) = l.value;
-        pair.a(i, j) = a.value;
-        for (const Quantity* entry : {&l, &a})
-          for (const ex& part : lost_parts(*entry)) pair.domain.push_back(part);
-      }
-    }
-    if (!text.spectral) pair.spectral.reset();
-    model_.lax_pairs.push_back(std::move(pair));
-  }
-
-  /// The phase space that a map leads to: written out, an algebra, or that of another case.
-  PhaseSpaceText target_of(const MapText& text) const {
-    if (text.to_table) return *text.to_table;
-    if (!find_lie_algebra(text.to->value)) {
-      if (const auto found = find_case(text.to->value)) {
-        return found->phase_space;
-      }
-    }
-    PhaseSpaceText target;
-    target.where = text.to->where;
-    target.algebra = text.to;
-    for (const Entry& entry : text.expressions) target.variables.push_back(entry.first);
-    return target;
-  }
-
-  std::optional<CaseFile> find_case(const std::string& name) const {
-    if (find_case_) return find_case_(name);
-    if (name.find('/') != std::string::npos) return std::nullopt;
-    const auto path = std::filesystem::path(file_.file).parent_path() / (name + ".toml");
-    std::error_code problem;
-    if (!std::filesystem::is_regular_file(path, problem)) return std::nullopt;
-    return read_case(path);
-  }
-
-  /// One expression for each symbol, over `names`.
-  /// \param domain  gets what they are defined by beside their values, as of NamedExpression
-  static std::vector<ex> all_components(const Text& map, const std::vector<Entry>& entries,
-                                        const std::vector<GiNaC::symbol>& symbols, Scope& names,
-                                        const std::string& what, std::vector<ex>& domain) {
-    std::vector<ex> result(symbols.size());
-    std::vector<bool> seen(symbols.size());
-    for (const auto& [name, value] : entries) {
-      const std::size_t i = symbol_position(name, name.value, 0, symbols, what);
-      const Quantity quantity = parse_expression(value, names);
-      for (const ex& part : lost_parts(quantity)) domain.push_back(part);
-      result[i] = quantity.value;
-      seen[i] = true;
-    }
-    for (std::size_t i = 0; i < seen.size(); ++i) {
-      if (!seen[i])
-        throw map.error(fmt::format("the map gives no expression for '{}'", symbols[i].get_name()));
-    }
-    return result;
-  }
-
-  void read_map(const MapText& text) {
-    const PhaseSpaceText target = target_of(text);
-    const std::vector<GiNaC::symbol> coordinates = make_variables(target);
-    NameTable names;  // the bracket of the target may have the parameters of this case
-    for (const GiNaC::symbol& s : model_.parameters) names.add(s.get_name(), Quantity::symbol(s));
-    for (const auto& [parameter, value] : model_.fixed) names.add(parameter.value, measured(value));
-    for (std::size_t i = 0; i < coordinates.size(); ++i) {
-      const std::string name = coordinates[i].get_name();
-      // What this file writes over the target's coordinates must not be able to mean a parameter.
-      const bool written_here = text.to_table || !text.image.empty() || !text.inverses.empty();
-      if (written_here && names.find(name) != nullptr)
-        throw(text.to_table ? target.variables[i] : text.name)
-            .error(fmt::format("'{}' names a parameter of this case and a variable of 'to'", name));
-      names.add(name, Quantity::symbol(coordinates[i]));
-    }
-    const std::optional<Frame> frame = make_frame(target, coordinates, model_.parameters, names);
-    std::vector<ex> target_domain, domain;
-    const std::optional<PoissonStructure> bracket =
-        make_bracket(target, coordinates, names, frame, &target_domain);
-    if (!bracket) throw CaseError(target.where, "the phase space of 'to' needs a bracket");
-    PoissonMap map{text.name.value,
-                   text.name.where,
-                   *bracket,
-                   all_components(text.name, text.expressions, coordinates, names_,
-                                  "a variable of the phase space of 'to'", domain),
-                   {},
-                   1,
-                   text.to ? text.to->value : std::string{},
-                   {},
-                   {}};
-    GiNaC::exmap image;
-    for (std::size_t i = 0; i < coordinates.size(); ++i) image[coordinates[i]] = map.expressions[i];
-    for (const ex& part : target_domain) domain.push_back(substituted(part, image));
-    for (const Text& condition : target.domain) {
-      std::vector<ex> lost;
-      // A map leads into the target's domain, or says nothing.
-      Assumption inside = assumption_of(condition, names, lost);
-      inside.difference = substituted(inside.difference, image);
-      if (const auto part = real_only_where(inside)) domain.push_back(*part);
-      for (const ex& part : lost) domain.push_back(substituted(part, image));
-    }
-    map.domain = std::move(domain);
-    for (const Text& function : text.image.empty() ? target.constraints : text.image)
-      map.image.push_back({function.value, parse_expression(function, names).value, {}});
-    for (const MapInverseText& inverse : text.inverses) {
-      MapInverse& branch = map.inverses.emplace_back();
-      branch.expressions = all_components(text.name, inverse.expressions, model_.variables, names,
-                                          "a variable of this case", branch.defined_by);
-      for (const Text& condition : inverse.domain)
-        branch.domain.push_back(assumption_of(condition, names, branch.defined_by));
-    }
-    for (const Text& relation : text.on) map.on.push_back(anonymous(relation));
-    map.sign = sign_of(text.sign);
-    model_.maps.push_back(std::move(map));
   }
 
   const CaseFile& file_;

@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "symbolic/algebra/exact_constant.hpp"
-#include "symbolic/case/decimal.hpp"
-#include "symbolic/case/expression.hpp"
-#include "symbolic/case/expression_size.hpp"
+#include "symbolic/expression/decimal.hpp"
+#include "symbolic/expression/expression.hpp"
+#include "symbolic/expression/expression_size.hpp"
 
 namespace casimir {
 namespace {

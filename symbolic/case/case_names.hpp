@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "symbolic/case/expression.hpp"
+#include "symbolic/expression/expression.hpp"
 
 namespace casimir {
 

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 
-#include "symbolic/case/expression_size.hpp"
 #include "symbolic/discrete/map_jacobian.hpp"
+#include "symbolic/expression/expression_size.hpp"
 #include "symbolic/proof/claims/density.hpp"
 
 namespace casimir::discrete {

@@ -1,6 +1,6 @@
 #include "symbolic/discrete/map_model.hpp"
 
-#include "symbolic/case/expression_size.hpp"
+#include "symbolic/expression/expression_size.hpp"
 
 namespace casimir {
 

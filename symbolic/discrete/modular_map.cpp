@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "symbolic/case/expression_size.hpp"
+#include "symbolic/expression/expression_size.hpp"
 
 namespace casimir::discrete {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "symbolic/algebra/machine_word.hpp"
 #include "symbolic/algebra/number_text.hpp"
-#include "symbolic/case/elementary.hpp"
 #include "symbolic/case/limits.hpp"
+#include "symbolic/expression/elementary.hpp"
 #include "symbolic/functions/function_ring.hpp"
 #include "symbolic/functions/gaussian_argument.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "symbolic/case/expression.hpp"
+#include "symbolic/expression/expression.hpp"
 #include "symbolic/model.hpp"
 
 namespace casimir {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "symbolic/case/expression.hpp"
 #include "symbolic/case_file.hpp"
+#include "symbolic/expression/expression.hpp"
 #include "symbolic/frame.hpp"
 #include "symbolic/poisson.hpp"
 

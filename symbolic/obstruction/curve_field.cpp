@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "symbolic/obstruction/kovacic.hpp"
+#include "symbolic/obstruction/equation/kovacic.hpp"
 
 namespace casimir::obstruction {
 namespace {

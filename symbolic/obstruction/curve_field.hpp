@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "symbolic/obstruction/univariate.hpp"
+#include "symbolic/obstruction/equation/univariate.hpp"
 
 namespace casimir::obstruction {
 

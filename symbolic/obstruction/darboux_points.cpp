@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "symbolic/obstruction/curve_field.hpp"
-#include "symbolic/obstruction/kovacic.hpp"
+#include "symbolic/obstruction/equation/kovacic.hpp"
 
 namespace casimir::obstruction {
 namespace {

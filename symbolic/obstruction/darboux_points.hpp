@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "symbolic/obstruction/univariate.hpp"
+#include "symbolic/obstruction/equation/univariate.hpp"
 
 namespace casimir::obstruction {
 

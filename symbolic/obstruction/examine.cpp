@@ -8,9 +8,9 @@
 #include <stdexcept>
 
 #include "symbolic/obstruction/darboux_points.hpp"
+#include "symbolic/obstruction/equation/kimura.hpp"
+#include "symbolic/obstruction/equation/kovacic.hpp"
 #include "symbolic/obstruction/homogeneous_table.hpp"
-#include "symbolic/obstruction/kimura.hpp"
-#include "symbolic/obstruction/kovacic.hpp"
 
 namespace casimir::obstruction {
 namespace {

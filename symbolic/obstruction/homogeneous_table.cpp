@@ -6,7 +6,7 @@
 #include <sstream>
 #include <vector>
 
-#include "symbolic/obstruction/univariate.hpp"
+#include "symbolic/obstruction/equation/univariate.hpp"
 
 namespace casimir::obstruction {
 namespace {

@@ -7,10 +7,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "symbolic/obstruction/equation/kovacic.hpp"
 #include "symbolic/obstruction/examine.hpp"
 #include "symbolic/obstruction/hamiltonian_system.hpp"
 #include "symbolic/obstruction/invariant_plane.hpp"
-#include "symbolic/obstruction/kovacic.hpp"
 #include "symbolic/obstruction/normal_variation.hpp"
 #include "symbolic/obstruction/particular_curve.hpp"
 

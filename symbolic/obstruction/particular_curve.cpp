@@ -6,7 +6,7 @@
 #include <optional>
 #include <sstream>
 
-#include "symbolic/obstruction/kovacic.hpp"
+#include "symbolic/obstruction/equation/kovacic.hpp"
 
 namespace casimir::obstruction {
 namespace {

@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "symbolic/algebra/number_text.hpp"
-#include "symbolic/case/expression.hpp"
+#include "symbolic/expression/expression.hpp"
 
 namespace casimir {
 namespace {

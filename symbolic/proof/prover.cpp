@@ -9,9 +9,9 @@
 #include <numeric>
 #include <sstream>
 
-#include "symbolic/case/expression_size.hpp"
-#include "symbolic/proof/exact_point.hpp"
-#include "symbolic/proof/witness.hpp"
+#include "symbolic/expression/expression_size.hpp"
+#include "symbolic/proof/points/exact_point.hpp"
+#include "symbolic/proof/points/witness.hpp"
 
 namespace casimir {
 namespace {

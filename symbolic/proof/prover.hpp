@@ -12,9 +12,9 @@
 #include "symbolic/functions/function_ring.hpp"
 #include "symbolic/model.hpp"
 #include "symbolic/proof/level.hpp"
-#include "symbolic/proof/point_search.hpp"
-#include "symbolic/proof/real_level_point.hpp"
-#include "symbolic/proof/real_point.hpp"
+#include "symbolic/proof/points/point_search.hpp"
+#include "symbolic/proof/points/real_level_point.hpp"
+#include "symbolic/proof/points/real_point.hpp"
 #include "symbolic/prove.hpp"
 
 namespace casimir {

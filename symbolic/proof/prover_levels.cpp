@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "symbolic/algebra/where_defined.hpp"
-#include "symbolic/case/expression_size.hpp"
+#include "symbolic/expression/expression_size.hpp"
 #include "symbolic/proof/prover.hpp"
 
 namespace casimir {

@@ -15,7 +15,7 @@
 #include "symbolic/algebra/ideal.hpp"
 #include "symbolic/algebra/rational_matrix.hpp"
 #include "symbolic/algebra/where_defined.hpp"
-#include "symbolic/case/expression_size.hpp"
+#include "symbolic/expression/expression_size.hpp"
 #include "symbolic/proof/parameter_minors.hpp"
 
 namespace casimir {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "symbolic/case/expression.hpp"
 #include "symbolic/case_file.hpp"
+#include "symbolic/expression/expression.hpp"
 #include "tools/analysis/run/validated.hpp"
 
 namespace {

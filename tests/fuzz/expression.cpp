@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "symbolic/case/expression.hpp"
 #include "symbolic/case/limits.hpp"
+#include "symbolic/expression/expression.hpp"
 #include "symbolic/model.hpp"
 #include "symbolic/model/model_dynamics.hpp"
 #include "tests/fuzz/target.hpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "symbolic/case/expression.hpp"
+#include "symbolic/expression/expression.hpp"
 
 namespace casimir {
 namespace {

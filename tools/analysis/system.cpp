@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <set>
 
-#include "symbolic/case/decimal.hpp"
-#include "symbolic/case/elementary.hpp"
-#include "symbolic/case/expression.hpp"
+#include "symbolic/expression/decimal.hpp"
+#include "symbolic/expression/elementary.hpp"
+#include "symbolic/expression/expression.hpp"
 
 namespace casimir {
 namespace {

@@ -7,7 +7,7 @@
 #include "tools/analysis/benchmark/method_comparison.hpp"
 #include "tools/cli/machine.hpp"
 #include "tools/plot/plot.hpp"
-#include "tools/text/run_report.hpp"
+#include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
 

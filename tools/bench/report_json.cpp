@@ -2,7 +2,7 @@
 
 #include "tools/bench/comparison.hpp"
 #include "tools/bench/report.hpp"
-#include "tools/text/generated_report.hpp"
+#include "tools/text/files/generated_report.hpp"
 
 namespace casimir::tools {
 namespace {

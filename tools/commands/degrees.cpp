@@ -13,7 +13,7 @@
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/search_watch.hpp"
-#include "tools/text/run_report.hpp"
+#include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -4,14 +4,14 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "symbolic/case/expression.hpp"
 #include "symbolic/discrete/kahan.hpp"
+#include "symbolic/expression/expression.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/output.hpp"
-#include "tools/text/discretised_case.hpp"
+#include "tools/text/files/discretised_case.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -14,7 +14,7 @@
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/search_watch.hpp"
 #include "tools/runs/atlas.hpp"
-#include "tools/text/enclosure_report.hpp"
+#include "tools/text/runs/enclosure_report.hpp"
 
 namespace casimir::tools {
 namespace {

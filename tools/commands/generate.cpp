@@ -16,7 +16,7 @@
 #include "tools/cli/output.hpp"
 #include "tools/runs/atlas.hpp"
 #include "tools/runs/scene_values.hpp"
-#include "tools/text/generated_report.hpp"
+#include "tools/text/files/generated_report.hpp"
 
 namespace casimir::tools {
 namespace {

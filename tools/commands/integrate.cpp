@@ -27,9 +27,9 @@
 #include "tools/runs/ensemble_run.hpp"
 #include "tools/runs/map_run.hpp"
 #include "tools/runs/scene_values.hpp"
-#include "tools/text/generated_report.hpp"
-#include "tools/text/run_report.hpp"
-#include "tools/text/trust_report.hpp"
+#include "tools/text/files/generated_report.hpp"
+#include "tools/text/runs/run_report.hpp"
+#include "tools/text/runs/trust_report.hpp"
 
 namespace casimir::tools {
 namespace {

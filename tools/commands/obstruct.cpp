@@ -10,7 +10,7 @@
 #include "tools/cli/options/search_options.hpp"
 #include "tools/cli/search_watch.hpp"
 #include "tools/runs/atlas.hpp"
-#include "tools/text/obstruction_report.hpp"
+#include "tools/text/proofs/obstruction_report.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -20,7 +20,7 @@
 #include "tools/runs/atlas.hpp"
 #include "tools/runs/scene_values.hpp"
 #include "tools/show/book_order.hpp"
-#include "tools/text/proof_table.hpp"
+#include "tools/text/proofs/proof_table.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -15,9 +15,9 @@
 #include "tools/cli/resources.hpp"
 #include "tools/cli/search_watch.hpp"
 #include "tools/runs/atlas.hpp"
-#include "tools/text/map_search_report.hpp"
-#include "tools/text/search_report.hpp"
-#include "tools/text/structure_report.hpp"
+#include "tools/text/proofs/map_search_report.hpp"
+#include "tools/text/proofs/search_report.hpp"
+#include "tools/text/proofs/structure_report.hpp"
 
 namespace casimir::tools {
 namespace {

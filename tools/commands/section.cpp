@@ -19,7 +19,7 @@
 #include "tools/section/report.hpp"
 #include "tools/section/request.hpp"
 #include "tools/section/seeds.hpp"
-#include "tools/text/run_report.hpp"
+#include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -13,7 +13,7 @@
 #include "tools/cli/options/choices.hpp"
 #include "tools/runs/atlas.hpp"
 #include "tools/show/show.hpp"
-#include "tools/text/run_report.hpp"
+#include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
 namespace {

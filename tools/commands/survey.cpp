@@ -16,8 +16,8 @@
 #include "tools/cli/options/choices.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
-#include "tools/text/marked_file.hpp"
-#include "tools/text/survey_table.hpp"
+#include "tools/text/files/marked_file.hpp"
+#include "tools/text/proofs/survey_table.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -27,7 +27,7 @@
 #include "tools/sweep/grid_options.hpp"
 #include "tools/sweep/mpi_ranks.hpp"
 #include "tools/sweep/table.hpp"
-#include "tools/text/run_report.hpp"
+#include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -17,8 +17,8 @@
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/runs/atlas.hpp"
-#include "tools/text/proof_report.hpp"
-#include "tools/text/verify_report.hpp"
+#include "tools/text/proofs/proof_report.hpp"
+#include "tools/text/proofs/verify_report.hpp"
 
 namespace casimir::tools {
 namespace {

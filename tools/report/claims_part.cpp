@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include "tools/report/page.hpp"
-#include "tools/text/proof_report.hpp"
-#include "tools/text/proof_table.hpp"
-#include "tools/text/run_report.hpp"
+#include "tools/text/proofs/proof_report.hpp"
+#include "tools/text/proofs/proof_table.hpp"
+#include "tools/text/runs/run_report.hpp"
 #include "tools/typeset/html.hpp"
 
 namespace casimir::tools {

@@ -10,7 +10,7 @@
 #include "tools/analysis/proof/prove_in_process.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/runs/conserve_run.hpp"
-#include "tools/text/trust_report.hpp"
+#include "tools/text/runs/trust_report.hpp"
 
 namespace casimir::tools {
 namespace {

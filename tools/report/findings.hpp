@@ -12,7 +12,7 @@
 #include "tools/cli/machine.hpp"
 #include "tools/plot/drift_plot.hpp"
 #include "tools/plot/motion_plot.hpp"
-#include "tools/text/run_report.hpp"
+#include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
 

@@ -8,7 +8,7 @@
 #include "tools/bench/comparison.hpp"
 #include "tools/report/page.hpp"
 #include "tools/show/book_order.hpp"
-#include "tools/text/proof_table.hpp"
+#include "tools/text/proofs/proof_table.hpp"
 #include "tools/typeset/html.hpp"
 
 namespace casimir::tools {

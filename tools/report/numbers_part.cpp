@@ -9,7 +9,7 @@
 #include "tools/bench/report.hpp"
 #include "tools/bench/report_html.hpp"
 #include "tools/report/page.hpp"
-#include "tools/text/generated_report.hpp"
+#include "tools/text/files/generated_report.hpp"
 #include "tools/typeset/html.hpp"
 
 namespace casimir::tools {

@@ -7,7 +7,7 @@
 
 #include "symbolic/error.hpp"
 #include "tools/report/style.hpp"
-#include "tools/text/proof_table.hpp"
+#include "tools/text/proofs/proof_table.hpp"
 #include "tools/typeset/html.hpp"
 
 namespace casimir::tools {

@@ -6,7 +6,7 @@
 #include "symbolic/model.hpp"
 #include "tools/analysis/run_request.hpp"
 #include "tools/plot/drift_plot.hpp"
-#include "tools/text/run_report.hpp"
+#include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
 

@@ -9,14 +9,14 @@
 #include <iostream>
 
 #include "runtime/digits/agreed_run.hpp"
-#include "symbolic/case/decimal.hpp"
-#include "symbolic/case/expression.hpp"
+#include "symbolic/expression/decimal.hpp"
+#include "symbolic/expression/expression.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/runs/atlas.hpp"
-#include "tools/text/digits_report.hpp"
+#include "tools/text/runs/digits_report.hpp"
 
 namespace casimir::tools {
 namespace {

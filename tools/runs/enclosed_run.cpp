@@ -9,7 +9,7 @@
 #include <iostream>
 
 #include "symbolic/algebra/number_text.hpp"
-#include "symbolic/case/expression.hpp"
+#include "symbolic/expression/expression.hpp"
 #include "tools/analysis/run/validated.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
@@ -17,7 +17,7 @@
 #include "tools/cli/progress.hpp"
 #include "tools/runs/atlas.hpp"
 #include "tools/runs/digits_run.hpp"
-#include "tools/text/enclosure_report.hpp"
+#include "tools/text/runs/enclosure_report.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -15,9 +15,9 @@
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/output.hpp"
-#include "tools/text/ensemble_file.hpp"
-#include "tools/text/run_report.hpp"
-#include "tools/text/trust_report.hpp"
+#include "tools/text/files/ensemble_file.hpp"
+#include "tools/text/runs/run_report.hpp"
+#include "tools/text/runs/trust_report.hpp"
 
 namespace casimir::tools {
 namespace {

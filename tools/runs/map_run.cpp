@@ -10,7 +10,7 @@
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/output.hpp"
-#include "tools/text/run_report.hpp"
+#include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "tools/cli/output.hpp"
-#include "tools/text/enclosure_report.hpp"
-#include "tools/text/run_report.hpp"
+#include "tools/text/runs/enclosure_report.hpp"
+#include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
 namespace {

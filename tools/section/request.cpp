@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "symbolic/case/decimal.hpp"
-#include "symbolic/case/expression.hpp"
+#include "symbolic/expression/decimal.hpp"
+#include "symbolic/expression/expression.hpp"
 #include "tools/cli/errors.hpp"
 
 namespace casimir::tools {

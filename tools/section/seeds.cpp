@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "tools/cli/errors.hpp"
-#include "tools/text/ensemble_file.hpp"
+#include "tools/text/files/ensemble_file.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -1,5 +1,5 @@
 // The JSON of casimir show.
-#include "symbolic/case/expression_size.hpp"
+#include "symbolic/expression/expression_size.hpp"
 #include "tools/show/show.hpp"
 #include "tools/show/system_view.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "symbolic/case/expression_size.hpp"
+#include "symbolic/expression/expression_size.hpp"
 #include "symbolic/prove.hpp"
 
 namespace casimir::tools {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tools/analysis/stress/cell.hpp"
-#include "tools/text/run_report.hpp"
+#include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
 

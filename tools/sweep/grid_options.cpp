@@ -9,7 +9,7 @@
 #include "codegen/optimise/optimise.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/program/number.hpp"
-#include "symbolic/case/expression.hpp"
+#include "symbolic/expression/expression.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
 #include "tools/cli/errors.hpp"
 

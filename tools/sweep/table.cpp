@@ -5,7 +5,7 @@
 #include "symbolic/error.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/output.hpp"
-#include "tools/text/run_report.hpp"
+#include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
 namespace {

@@ -3,7 +3,7 @@
 // bracket and the Hamiltonian.
 #include <fmt/format.h>
 
-#include "symbolic/case/expression_size.hpp"
+#include "symbolic/expression/expression_size.hpp"
 #include "symbolic/proof/claims/claim.hpp"
 
 namespace casimir {

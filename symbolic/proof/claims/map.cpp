@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "symbolic/case/expression_size.hpp"
+#include "symbolic/expression/expression_size.hpp"
 #include "symbolic/proof/claims/claim.hpp"
 
 namespace casimir {

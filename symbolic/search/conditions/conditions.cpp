@@ -5,8 +5,8 @@
 #include <set>
 
 #include "symbolic/algebra/number_text.hpp"
-#include "symbolic/case/expression.hpp"
 #include "symbolic/error.hpp"
+#include "symbolic/expression/expression.hpp"
 #include "symbolic/search/conditions/rank_conditions.hpp"
 #include "symbolic/search/conditions/special_sets.hpp"
 #include "symbolic/search/conditions/special_values.hpp"

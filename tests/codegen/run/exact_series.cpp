@@ -8,7 +8,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "symbolic/case/elementary.hpp"
+#include "symbolic/expression/elementary.hpp"
 
 namespace casimir::testing {
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "symbolic/case/expression.hpp"
+#include "symbolic/expression/expression.hpp"
 
 namespace casimir::test {
 namespace {

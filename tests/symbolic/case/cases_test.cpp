@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "symbolic/case/expression.hpp"
+#include "symbolic/expression/expression.hpp"
 #include "symbolic/prove.hpp"
 #include "tests/bundled_cases.hpp"
 

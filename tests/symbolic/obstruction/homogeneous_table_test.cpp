@@ -7,7 +7,7 @@
 
 #include <set>
 
-#include "symbolic/obstruction/kimura.hpp"
+#include "symbolic/obstruction/equation/kimura.hpp"
 
 namespace casimir::obstruction {
 namespace {

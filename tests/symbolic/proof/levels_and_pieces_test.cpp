@@ -4,7 +4,7 @@
 #include <set>
 
 #include "symbolic/proof/generic_rank.hpp"
-#include "symbolic/proof/real_level_point.hpp"
+#include "symbolic/proof/points/real_level_point.hpp"
 #include "tests/symbolic/cases.hpp"
 
 namespace casimir::test {

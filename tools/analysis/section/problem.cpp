@@ -12,9 +12,9 @@
 #include "runtime/evaluate.hpp"
 #include "runtime/program/term_size.hpp"
 #include "runtime/step/dense.hpp"
-#include "symbolic/case/decimal.hpp"
-#include "symbolic/case/expression.hpp"
-#include "symbolic/case/expression_size.hpp"
+#include "symbolic/expression/decimal.hpp"
+#include "symbolic/expression/expression.hpp"
+#include "symbolic/expression/expression_size.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/section/periods.hpp"
 

@@ -12,8 +12,8 @@
 #include "tools/python/core/bindings.hpp"
 #include "tools/python/core/case.hpp"
 #include "tools/python/core/guard.hpp"
-#include "tools/text/run_report.hpp"
-#include "tools/text/trust_report.hpp"
+#include "tools/text/runs/run_report.hpp"
+#include "tools/text/runs/trust_report.hpp"
 
 namespace casimir::python {
 namespace py = pybind11;

@@ -1,0 +1,500 @@
+#include "symbolic/expression/expression.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <unordered_set>
+
+#include "symbolic/case/limits.hpp"
+#include "symbolic/expression/decimal.hpp"
+#include "symbolic/expression/elementary.hpp"
+#include "symbolic/expression/spelling.hpp"
+
+namespace casimir {
+namespace {
+
+using GiNaC::ex;
+
+bool is_name_start(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
+bool is_name_part(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+double bit_length(const GiNaC::numeric& number) {
+  return std::max<double>(number.numer().int_length(), number.denom().int_length());
+}
+
+/// Recursive descent over one range of the text. Sums and products are collected before GiNaC sees
+/// them, since adding term by term costs quadratic time.
+class Parser {
+ public:
+  Parser(const Text& text, Scope& names, std::size_t begin, std::size_t end)
+      : text_(text), names_(names), at_(begin), end_(end) {}
+
+  Quantity parse() {
+    Quantity result = sum();
+    if (peek() != '\0') unexpected("an operator or the end");
+    if (!parts_.empty()) result.parts = std::make_shared<const std::vector<ex>>(std::move(parts_));
+    return result;
+  }
+
+ private:
+  class Depth {
+   public:
+    explicit Depth(Parser& parser) : parser_(parser) {
+      if (++parser_.depth_ > limits().nesting)
+        parser_.fail(
+            fmt::format("the expression is nested more than {:.0f} deep", limits().nesting),
+            limit_hint(&Limits::nesting));
+    }
+    ~Depth() { --parser_.depth_; }
+    Depth(const Depth&) = delete;
+    Depth& operator=(const Depth&) = delete;
+
+   private:
+    Parser& parser_;
+  };
+
+  [[noreturn]] void fail(const std::string& what, const std::string& hint = {}) const {
+    fail_at(at_, what, hint);
+  }
+  [[noreturn]] void fail_at(std::size_t offset, const std::string& what,
+                            const std::string& hint = {}) const {
+    // TOML has read \f of \frac already, so the line of the file is what shows it.
+    const std::string latex = spelling_of_latex(text_.excerpt.text());
+    throw text_.error(what, offset, latex.empty() ? hint : latex);
+  }
+
+  /// What stands here cannot: `expected` could.
+  [[noreturn]] void unexpected(const std::string& expected) {
+    fail("unexpected " + here() + ", expected " + expected, hint_for(peek()));
+  }
+
+  /// What people mean who write this character where no expression has it.
+  std::string hint_for(char c) const {
+    if (c == '=')
+      return "an expression stands here and no equation: A = B is the zero level of A - (B)";
+    if (c == '<' || c == '>' || c == '!')
+      return "an expression stands here and no condition: conditions stand in 'assume' and "
+             "'domain'";
+    if (c == '(' || is_name_part(c)) return "write products with '*'";
+    if (c == '[' || c == ']') return "only round parentheses group, as in 2*(x + y)";
+    if (c == '|') return "|x| is written abs(x)";
+    if (static_cast<unsigned char>(c) < 0x80) return {};
+    const std::string spelling = spelling_of_character(character());
+    return spelling.empty() ? "names consist of the ASCII letters, digits and '_'" : spelling;
+  }
+
+  char peek() {
+    while (at_ < end_ && std::isspace(static_cast<unsigned char>(text_.value[at_]))) ++at_;
+    return at_ < end_ ? text_.value[at_] : '\0';
+  }
+
+  bool accept(char c) {
+    if (peek() != c) return false;
+    ++at_;
+    return true;
+  }
+
+  std::string here() {
+    if (peek() == '\0' && at_ >= end_) return "end of the expression";
+    return "'" + printable(character()) + "'";
+  }
+
+  /// The character that stands here, a UTF-8 sequence.
+  std::string character() const {
+    std::size_t length = 1;
+    while (at_ + length < end_ &&
+           (static_cast<unsigned char>(text_.value[at_ + length]) & 0xC0) == 0x80)
+      ++length;
+    return text_.value.substr(at_, length);
+  }
+
+  void check(double value, double Limits::*limit, std::size_t offset, const char* what) const {
+    if (value <= limits().*limit) return;  // false also for what is not a number
+    fail_at(offset, fmt::format(fmt::runtime(what), limits().*limit), limit_hint(limit));
+  }
+
+  Quantity checked(Quantity q, std::size_t offset) const {
+    check(q.degree, &Limits::degree, offset, "the degree here exceeds {:.0f}");
+    check(q.bits, &Limits::bits, offset, "a number here would have more than {:.0f} bits");
+    check(q.nodes, &Limits::size, offset, "the expression has more than {:.0f} terms and factors");
+    check(q.depth, &Limits::depth, offset,
+          "the tree of the expression has more than {:.0f} levels");
+    return q;
+  }
+
+  Quantity sum() {
+    const Depth depth(*this);
+    const std::size_t start = at_;
+    Quantity total = product();
+    GiNaC::exvector terms{total.value};
+    for (char c = peek(); c == '+' || c == '-'; c = peek()) {
+      const std::size_t offset = at_++;
+      const Quantity next = product();
+      terms.push_back(c == '+' ? next.value : -next.value);
+      total.bits = std::max(total.bits, next.bits) + 1;
+      total.degree = std::max(total.degree, next.degree);
+      total.nodes += next.nodes;
+      total.depth = std::max(total.depth, next.depth);
+      checked({0, 0, total.degree, total.nodes}, offset);
+    }
+    if (terms.size() > 1) {
+      total.depth += 1;
+      total.bits -= static_cast<double>(terms.size()) - 1 -
+                    std::ceil(std::log2(static_cast<double>(terms.size())));
+      total.value = evaluated(start, [&] { return ex(GiNaC::add(terms)); });
+    }
+    return total;
+  }
+
+  Quantity product() {
+    const std::size_t start = at_;
+    Quantity total = unary();
+    GiNaC::exvector factors{total.value};
+    for (char c = peek(); c == '*' || c == '/'; c = peek()) {
+      const std::size_t offset = at_++;
+      if (c == '*' && at_ < end_ && text_.value[at_] == '*')
+        fail("unexpected '**'", "write a power as x^2");
+      const Quantity next = unary();
+      if (c == '/' && next.value.is_zero()) fail_at(offset, "division by zero");
+      factors.push_back(c == '*' ? next.value : evaluated(offset, [&] {
+        return ex(GiNaC::pow(next.value, -1));
+      }));
+      if (c == '/') add_part(factors.back());
+      total.bits += next.bits;
+      total.degree += next.degree;
+      total.nodes += next.nodes;
+      total.depth = std::max(total.depth, next.depth);
+      checked(total, offset);
+    }
+    if (factors.size() > 1) {
+      total.depth += 1;
+      total.value = evaluated(start, [&] { return ex(GiNaC::mul(factors)); });
+    }
+    return total;
+  }
+
+  Quantity unary() {
+    const Depth depth(*this);
+    if (accept('-')) {
+      Quantity q = unary();
+      q.value = -q.value;
+      return q;
+    }
+    if (accept('+')) return unary();
+    return power();
+  }
+
+  Quantity power() {
+    const Quantity base = primary();
+    if (peek() != '^') return base;
+    const std::size_t offset = at_++;
+    const Quantity exponent = unary();
+    Quantity q{0, base.bits, base.degree, base.nodes + exponent.nodes,
+               1 + std::max(base.depth, exponent.depth)};
+    if (GiNaC::is_a<GiNaC::numeric>(exponent.value)) {
+      const GiNaC::numeric e = GiNaC::ex_to<GiNaC::numeric>(exponent.value);
+      if (base.value.is_zero() && !e.is_positive())
+        fail_at(offset, "zero to a power that is not positive");
+      const double size =
+          std::max(1.0, e.is_real() ? std::abs(e.to_double()) : GiNaC::abs(e).to_double());
+      q.bits *= size;
+      q.degree *= size;
+      checked(q, offset);
+    } else {
+      q.degree += exponent.degree;
+      q.bits += exponent.bits;
+      if (base.value.is_zero()) fail_at(offset, "zero to a power that is not a number");
+    }
+    q.value = evaluated(offset, [&] { return principal_power(base.value, exponent.value); });
+    if (!exponent.value.info(GiNaC::info_flags::nonnegint)) add_part(q.value);
+    return checked(q, offset);
+  }
+
+  /// GiNaC makes x^(-1/2) of (1/x)^(1/2), which is right for x > 0 only. For other real x it is
+  /// x^(1/2)/(x^2)^(1/2).
+  ex principal_power(const ex& base, const ex& exponent) const {
+    const bool fraction = GiNaC::is_a<GiNaC::numeric>(exponent) &&
+                          !GiNaC::ex_to<GiNaC::numeric>(exponent).is_integer();
+    if (!fraction || !names_.complex_numbers()) return GiNaC::pow(base, exponent);
+    ex inner = base;
+    ex factor = 1;  // positive numbers are taken out
+    if (GiNaC::is_a<GiNaC::mul>(base) && base.nops() == 2 &&
+        GiNaC::is_a<GiNaC::numeric>(base.op(1)) && base.op(1).info(GiNaC::info_flags::positive)) {
+      inner = base.op(0);
+      factor = GiNaC::pow(base.op(1), exponent);
+    }
+    const bool reciprocal = GiNaC::is_a<GiNaC::power>(inner) && inner.op(1).is_equal(GiNaC::ex(-1));
+    if (!reciprocal) return GiNaC::pow(base, exponent);
+    return factor * GiNaC::pow(inner.op(0), exponent) /
+           GiNaC::pow(GiNaC::pow(inner.op(0), 2), exponent);
+  }
+
+  /// Runs one GiNaC operation that may meet a pole.
+  template <class Operation>
+  ex evaluated(std::size_t offset, Operation operation) const {
+    try {
+      return operation();
+    } catch (const GiNaC::pole_error&) {
+      fail_at(offset, "this has no value: division by zero or a pole of the function");
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const CaseError&) {
+      throw;
+    } catch (const std::exception& problem) {  // GiNaC's own errors have no common type
+      fail_at(offset, fmt::format("this has no value ({})", printable(problem.what(), 80)));
+    }
+  }
+
+  Quantity primary() {
+    const char c = peek();
+    if (c == '(') {
+      ++at_;
+      Quantity q = sum();
+      if (!accept(')')) unexpected("')'");
+      return q;
+    }
+    if (c == '{') return bracket();
+    if (is_digit(c) || c == '.') return number();
+    if (is_name_start(c)) return name();
+    unexpected("a number, a name or '('");
+  }
+
+  std::string digits() {
+    const std::size_t start = at_;
+    while (at_ < end_ && is_digit(text_.value[at_])) ++at_;
+    return text_.value.substr(start, at_ - start);
+  }
+
+  Quantity number() {
+    const std::size_t start = at_;
+    std::string mantissa = digits();
+    long exponent = 0;
+    if (at_ < end_ && text_.value[at_] == '.') {
+      ++at_;
+      const std::string fraction = digits();
+      exponent = -static_cast<long>(fraction.size());
+      mantissa += fraction;
+    }
+    if (mantissa.empty()) fail_at(start, "a decimal point without digits");
+    if (at_ < end_ && (text_.value[at_] == 'e' || text_.value[at_] == 'E'))
+      exponent += exponent_part(start);
+    if (at_ < end_ && is_name_start(text_.value[at_]))
+      fail("unexpected " + here() + " after a number", "write products with '*'");
+    const double bits =
+        (static_cast<double>(mantissa.size()) + std::abs(static_cast<double>(exponent))) * 3.33;
+    checked({0, bits, 0, 1}, start);
+    const GiNaC::numeric digits_value(mantissa.c_str());
+    const GiNaC::numeric value =
+        digits_value * GiNaC::pow(GiNaC::numeric(10), GiNaC::numeric(exponent));
+    return {value, std::max(1.0, bit_length(value)), 0, 1};
+  }
+
+  long exponent_part(std::size_t start) {
+    ++at_;
+    const bool negative = at_ < end_ && text_.value[at_] == '-';
+    if (at_ < end_ && (text_.value[at_] == '-' || text_.value[at_] == '+')) ++at_;
+    const std::string value = digits();
+    if (value.empty()) fail_at(start, "a number with an empty exponent");
+    if (value.size() > 6)
+      fail_at(start, fmt::format("a number here would have more than {:.0f} bits", limits().bits),
+              limit_hint(&Limits::bits));
+    return (negative ? -1 : 1) * std::stol(value);
+  }
+
+  Quantity name() {
+    const std::size_t start = at_;
+    while (at_ < end_ && is_name_part(text_.value[at_])) ++at_;
+    const std::string word = text_.value.substr(start, at_ - start);
+    if (const ElementaryFunction* function = find_elementary_function(word))
+      return call(*function, start);
+    if (peek() == '(' && names_.find(word) == nullptr) {
+      if (word == "diff") return partial_derivative(start);
+      if (word == "rate") return rate(start);
+    }
+    if (peek() == '(' && names_.find(word) == nullptr) {
+      unknown_function(word, start);
+    }
+    if (word == "Pi") return {GiNaC::Pi, 1, 0, 1};
+    if (word == "I") return {GiNaC::I, 1, 0, 1};
+    if (const Quantity* known = names_.find(word)) {
+      for (const ex& part : known->parts ? *known->parts : std::vector<ex>{}) add_part(part);
+      return *known;
+    }
+    undeclared(word, start);
+  }
+
+  /// A name with '(' behind it.
+  [[noreturn]] void unknown_function(const std::string& word, std::size_t start) {
+    std::vector<std::string> functions = elementary_function_names();
+    functions.insert(functions.end(), {"diff", "rate"});
+    std::string hint = spelling_of_name(word);
+    if (hint.empty()) hint = suggest_or_list(word, functions, "functions");
+    fail_at(start, fmt::format("unknown function '{}'", printable(word)), hint);
+  }
+
+  [[noreturn]] void undeclared(const std::string& word, std::size_t start) {
+    std::vector<std::string> known = names_.known();
+    const bool constant = known.empty();
+    known.emplace_back("Pi");
+    std::string hint = same_but_for_case(word, known);
+    if (hint.empty()) hint = spelling_of_name(word);
+    if (hint.empty()) hint = product_of_names(word, known);
+    if (hint.empty())
+      hint = constant ? "a constant stands here: numbers, Pi and functions of them"
+                      : suggest_or_list(word, known, "declared");
+    fail_at(start, fmt::format("'{}' is not declared", printable(word)), hint);
+  }
+
+  std::vector<Quantity> arguments(std::string_view function, std::size_t arity, std::size_t start) {
+    if (!accept('(')) fail_at(start, fmt::format("'{}' is a function and needs '('", function));
+    std::vector<Quantity> given;
+    if (peek() != ')') {
+      do {
+        given.push_back(sum());
+      } while (accept(','));
+    }
+    if (!accept(')')) unexpected("',' or ')'");
+    if (given.size() != arity) {
+      fail_at(start, fmt::format("'{}' takes {} argument{}, {} given", function, arity,
+                                 arity == 1 ? "" : "s", given.size()));
+    }
+    return given;
+  }
+
+  /// What differentiating may make of an expression: each factor is differentiated in turn.
+  static double derivative_nodes(const Quantity& q) { return q.nodes * std::max(1.0, q.degree); }
+
+  /// {F, G}
+  Quantity bracket() {
+    const std::size_t start = at_++;
+    const Quantity f = sum();
+    if (!accept(',')) unexpected("',' of a bracket {F, G}");
+    const Quantity g = sum();
+    if (!accept('}')) unexpected("'}'");
+    const Dynamics* dynamics = names_.dynamics();
+    if (dynamics == nullptr || !dynamics->has_bracket())
+      fail_at(start, "there is no Poisson bracket here");
+    const auto n = static_cast<double>(dynamics->dimension());
+    Quantity q{0, f.bits + g.bits, f.degree + g.degree,
+               n * n * (derivative_nodes(f) + derivative_nodes(g)),
+               3 + 2 * std::max(f.depth, g.depth)};
+    checked(q, start);
+    q.value = evaluated(start, [&] { return dynamics->bracket(f.value, g.value); });
+    return q;
+  }
+
+  /// rate(F) = dF/dt
+  Quantity rate(std::size_t start) {
+    const Quantity f = arguments("rate", 1, start).front();
+    const Dynamics* dynamics = names_.dynamics();
+    if (dynamics == nullptr || !dynamics->has_flow())
+      fail_at(start, "the equations of motion are not known here");
+    const auto n = static_cast<double>(dynamics->dimension());
+    Quantity q{0, f.bits * 2, f.degree * 2, n * n * derivative_nodes(f), 3 + 2 * f.depth};
+    checked(q, start);
+    q.value = evaluated(start, [&] { return dynamics->rate(f.value); });
+    return q;
+  }
+
+  /// diff(F, x)
+  Quantity partial_derivative(std::size_t start) {
+    const std::vector<Quantity> given = arguments("diff", 2, start);
+    if (!GiNaC::is_a<GiNaC::symbol>(given[1].value))
+      fail_at(start, "the second argument of 'diff' must be a variable or a parameter");
+    Quantity q = given[0];
+    q.nodes = derivative_nodes(given[0]);
+    q.depth = 1 + 2 * q.depth;
+    checked(q, start);
+    q.value = evaluated(
+        start, [&] { return given[0].value.diff(GiNaC::ex_to<GiNaC::symbol>(given[1].value)); });
+    return q;
+  }
+
+  Quantity call(const ElementaryFunction& function, std::size_t start) {
+    const std::vector<Quantity> arguments = this->arguments(function.name, function.arity, start);
+    const Quantity& first = arguments.front();
+    const Quantity& last = arguments.back();
+    if (function.real && names_.complex_numbers())
+      fail_at(start, fmt::format("'{}' is for real numbers, and this case has complex ones",
+                                 function.name));
+    const double uses = function.uses;
+    Quantity q{0, uses * first.bits, uses * first.degree, uses * (1 + first.nodes),
+               (uses > 1 ? 3 : 1) + std::max(first.depth, last.depth)};
+    if (arguments.size() > 1) {
+      q.bits += last.bits;
+      q.degree += last.degree;
+      q.nodes += last.nodes;
+    }
+    q.degree = std::max(1.0, q.degree);
+    checked(q, start);
+    // GiNaC says 0, but no direction leads to the origin.
+    if (function.name == "atan2" && first.value.is_zero() && last.value.is_zero())
+      fail_at(start, "this has no value: atan2(0, 0)");
+    q.value = evaluated(start, [&] {
+      return function.name == "sqrt" ? principal_power(first.value, GiNaC::numeric(1, 2))
+                                     : function.apply(first.value, last.value);
+    });
+    if (!function.everywhere) add_part(q.value);
+    return checked(q, start);
+  }
+
+  /// Each once; numbers have values everywhere.
+  void add_part(const ex& part) {
+    if (!GiNaC::is_a<GiNaC::numeric>(part) && seen_.insert(part).second) parts_.push_back(part);
+  }
+
+  const Text& text_;
+  Scope& names_;
+  std::size_t at_;
+  std::size_t end_;
+  int depth_ = 0;
+  std::vector<ex> parts_;
+  std::unordered_set<ex> seen_;
+};
+
+Quantity parse_range(const Text& text, Scope& names, std::size_t begin, std::size_t end) {
+  if (static_cast<double>(text.value.size()) > limits().file_bytes) {
+    throw text.error(fmt::format("the expression has {} bytes; the limit is {:.0f}",
+                                 text.value.size(), limits().file_bytes),
+                     0, limit_hint(&Limits::file_bytes));
+  }
+  return Parser(text, names, begin, end).parse();
+}
+
+}  // namespace
+
+Quantity parse_expression(const Text& text, Scope& names) {
+  return parse_range(text, names, 0, text.value.size());
+}
+
+Condition parse_condition(const Text& text, Scope& names) {
+  const std::string& s = text.value;
+  const std::size_t at = s.find_first_of("!=<>");
+  if (at == std::string::npos) {
+    throw text.error("expected a condition such as 'r != 0' or 'G > 0'");
+  }
+  const bool two = at + 1 < s.size() && s[at + 1] == '=';
+  const auto comparison = comparison_of(s.substr(at, two ? 2 : 1));
+  if (!comparison) throw text.error("unexpected '!', expected '!='", at);
+  const Quantity left = parse_range(text, names, 0, at);
+  const Quantity right = parse_range(text, names, at + (two ? 2 : 1), s.size());
+  std::vector<ex> parts;
+  for (const Quantity* side : {&left, &right})
+    if (side->parts) parts.insert(parts.end(), side->parts->begin(), side->parts->end());
+  Quantity difference{left.value - right.value};
+  difference.parts = std::make_shared<const std::vector<ex>>(std::move(parts));
+  return {left.value, *comparison, right.value, lost_parts(difference)};
+}
+
+std::pair<Quantity, Quantity> parse_equation(const Text& text, Scope& names) {
+  const std::size_t at = text.value.find('=');
+  if (at == std::string::npos) return {parse_expression(text, names), {0}};
+  return {parse_range(text, names, 0, at), parse_range(text, names, at + 1, text.value.size())};
+}
+
+}  // namespace casimir

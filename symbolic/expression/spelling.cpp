@@ -1,0 +1,131 @@
+#include "symbolic/expression/spelling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+#include <span>
+#include <unordered_set>
+
+#include "symbolic/error.hpp"
+#include "symbolic/expression/elementary.hpp"
+
+namespace casimir {
+namespace {
+
+struct Spelling {
+  std::string_view elsewhere, here;
+};
+
+/// One name for another.
+constexpr Spelling kNames[] = {
+    {"ln", "log"},     {"Log", "log"},     {"pi", "Pi"},         {"PI", "Pi"},
+    {"M_PI", "Pi"},    {"arcsin", "asin"}, {"arccos", "acos"},   {"arctan", "atan"},
+    {"arctg", "atan"}, {"tg", "tan"},      {"sh", "sinh"},       {"ch", "cosh"},
+    {"th", "tanh"},    {"ctg", "cot"},     {"sgn", "sign"},      {"fabs", "abs"},
+    {"Abs", "abs"},    {"signum", "sign"}, {"arctan2", "atan2"}, {"Sqrt", "sqrt"},
+    {"root", "sqrt"},  {"D", "diff"},      {"dt", "rate"},
+};
+
+/// What has no name here.
+constexpr Spelling kForms[] = {
+    {"e", "e is written exp(1)"},
+    {"pow", "pow(x, y) is written x^y"},
+    {"sqr", "sqr(x) is written x^2"},
+    {"cbrt", "cbrt(x) is written x^(1/3) for x > 0"},
+    {"coth", "coth(x) is written 1/tanh(x)"},
+    {"asinh", "asinh(x) is written log(x + sqrt(x^2 + 1))"},
+    {"arsinh", "arsinh(x) is written log(x + sqrt(x^2 + 1))"},
+    {"acosh", "acosh(x) is written log(x + sqrt(x^2 - 1))"},
+    {"arcosh", "arcosh(x) is written log(x + sqrt(x^2 - 1))"},
+    {"atanh", "atanh(x) is written log((1 + x)/(1 - x))/2"},
+    {"artanh", "artanh(x) is written log((1 + x)/(1 - x))/2"},
+    {"sec", "sec(x) is written 1/cos(x)"},
+    {"csc", "csc(x) is written 1/sin(x)"},
+    {"log10", "log10(x) is written log(x)/log(10)"},
+    {"log2", "log2(x) is written log(x)/log(2)"},
+};
+
+constexpr Spelling kCharacters[] = {
+    {"π", "Pi"},      {"·", "*"},      {"×", "*"},     {"⋅", "*"},       {"∗", "*"},
+    {"−", "-"},       {"–", "-"},      {"—", "-"},     {"÷", "/"},       {"∕", "/"},
+    {"²", "^2"},      {"³", "^3"},     {"⁴", "^4"},    {"½", "1/2"},     {"¼", "1/4"},
+    {"√", "sqrt(x)"}, {"≠", "!="},     {"≤", "<="},    {"≥", ">="},      {"α", "alpha"},
+    {"β", "beta"},    {"γ", "gamma"},  {"δ", "delta"}, {"ε", "epsilon"}, {"θ", "theta"},
+    {"κ", "kappa"},   {"λ", "lambda"}, {"μ", "mu"},    {"ν", "nu"},      {"ρ", "rho"},
+    {"σ", "sigma"},   {"τ", "tau"},    {"φ", "phi"},   {"χ", "chi"},     {"ψ", "psi"},
+    {"ω", "omega"},   {"Ω", "Omega"},  {"“", "\""},    {"”", "\""},
+};
+
+constexpr Spelling kLatex[] = {
+    {"frac", "{a}{b} is written (a)/(b)"},
+    {"dfrac", "{a}{b} is written (a)/(b)"},
+    {"tfrac", "{a}{b} is written (a)/(b)"},
+    {"sqrt", "{a} is written sqrt(a)"},
+    {"cdot", " is written *"},
+    {"times", " is written *"},
+    {"pi", " is written Pi"},
+    {"ln", " x is written log(x)"},
+    {"left", "( is written ("},
+    {"right", ") is written )"},
+    {"arctan", " x is written atan(x)"},
+    {"arcsin", " x is written asin(x)"},
+    {"arccos", " x is written acos(x)"},
+};
+
+std::string_view found_in(std::span<const Spelling> table, std::string_view word) {
+  const auto it =
+      std::ranges::find_if(table, [&](const Spelling& entry) { return entry.elsewhere == word; });
+  return it == table.end() ? std::string_view{} : it->here;
+}
+
+bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+
+}  // namespace
+
+std::string spelling_of_name(std::string_view name) {
+  if (const std::string_view ours = found_in(kNames, name); !ours.empty())
+    return fmt::format("did you mean '{}'?", ours);
+  return std::string(found_in(kForms, name));
+}
+
+std::string spelling_of_character(std::string_view character) {
+  const std::string_view ours = found_in(kCharacters, character);
+  return ours.empty() ? std::string{} : fmt::format("'{}' is written {}", character, ours);
+}
+
+std::string spelling_of_latex(std::string_view text) {
+  for (std::size_t at = text.find('\\'); at < text.size(); at = text.find('\\', at + 1)) {
+    const auto begin = text.begin() + static_cast<std::ptrdiff_t>(at) + 1;
+    const auto end = std::find_if_not(begin, text.end(), is_letter);
+    constexpr std::ptrdiff_t kLongest = 30;
+    // A single letter is an escape of TOML.
+    if (end - begin < 2 || end - begin > kLongest) continue;
+    const std::string word(begin, end);
+    std::string_view ours = found_in(kLatex, word);
+    if (!ours.empty()) return fmt::format("\\{}{}", word, ours);
+    if (find_elementary_function(word) != nullptr)
+      return fmt::format("\\{0} x is written {0}(x)", word);
+    return fmt::format("expressions are plain text and not LaTeX: \\{0} is written {0}", word);
+  }
+  return {};
+}
+
+std::string product_of_names(const std::string& word, const std::vector<std::string>& known) {
+  const std::unordered_set<std::string> names(known.begin(), known.end());
+  // The products that the beginnings of the word are; empty: none.
+  std::vector<std::string> product(word.size() + 1);
+  for (std::size_t end = 1; end <= word.size(); ++end) {
+    for (std::size_t begin = 0; begin < end && product[end].empty(); ++begin) {
+      if (begin > 0 && product[begin].empty()) continue;
+      const std::string name = word.substr(begin, end - begin);
+      if (names.contains(name)) product[end] = begin == 0 ? name : product[begin] + "*" + name;
+    }
+  }
+  const std::string& whole = product.back();
+  return whole.find('*') == std::string::npos ? std::string{}
+                                              : fmt::format("did you mean '{}'?", whole);
+}
+
+}  // namespace casimir

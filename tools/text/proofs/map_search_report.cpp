@@ -1,0 +1,53 @@
+#include "tools/text/proofs/map_search_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace casimir::tools {
+
+nlohmann::ordered_json to_json(const Model& base, int degree, const discrete::MapSearch& found,
+                               double seconds) {
+  nlohmann::ordered_json json{{"case", base.name}, {"degree", degree}};
+  json["integrals"] = nlohmann::json::array();
+  for (const discrete::FoundOfMap& f : found.integrals) json["integrals"].push_back(f.text);
+  json["densities"] = nlohmann::json::array();
+  for (const discrete::FoundOfMap& f : found.densities) json["densities"].push_back(f.text);
+  json["trivial"] = 1;
+  json["at_most"] = {{"polynomials", found.polynomials},
+                     {"relations", found.relations},
+                     {"densities", found.density_space}};
+  json["none"] = {{"polynomial", found.no_polynomial ? "proved" : "undecided"},
+                  {"rational", found.no_fraction ? "proved" : "undecided"}};
+  if (!found.generic.empty()) json["generic"] = found.generic;
+  if (!found.reason.empty()) json["reason"] = found.reason;
+  json["seconds"] = seconds;
+  return json;
+}
+
+void print(const Model& base, int degree, const discrete::MapSearch& found, double seconds) {
+  fmt::print("{}: integrals of the map that are quotients of polynomials up to degree {}\n",
+             base.name, degree);
+  for (const discrete::FoundOfMap& f : found.integrals) fmt::print("  proved  {}\n", f.text);
+  if (found.integrals.empty()) fmt::print("  none was found\n");
+  const std::string generic = found.generic.empty() ? ""
+                                                    : fmt::format(" (for generic values of {})",
+                                                                  fmt::join(found.generic, ", "));
+  if (found.no_polynomial)
+    fmt::print("no polynomial integral of this degree: proved{}\n", generic);
+  else
+    fmt::print("at most {} linearly independent polynomial integrals, with powers and products{}\n",
+               found.polynomials, generic);
+  if (found.no_fraction)
+    fmt::print("no rational integral of this degree: proved{}\n", generic);
+  else
+    fmt::print("every orbit lies on at most {} independent hypersurfaces of this degree{}\n",
+               found.relations, generic);
+  for (const discrete::FoundOfMap& f : found.densities) fmt::print("density {}: proved\n", f.text);
+  if (found.density_space > found.densities.size())
+    fmt::print("at most {} linearly independent polynomials P with a density 1/P{}\n",
+               found.density_space, generic);
+  if (!found.reason.empty()) fmt::print("{}\n", found.reason);
+  fmt::print("{} found, {:.3f} s\n", found.integrals.size(), seconds);
+}
+
+}  // namespace casimir::tools

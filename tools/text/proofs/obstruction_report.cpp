@@ -1,0 +1,104 @@
+// What `obstruct` prints.
+#include "tools/text/proofs/obstruction_report.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "tools/text/text_layout.hpp"
+
+namespace casimir::tools {
+namespace {
+
+using obstruction::Examined;
+using obstruction::Obstruction;
+
+nlohmann::ordered_json to_json(const Examined& examined) {
+  nlohmann::ordered_json json{
+      {"along", examined.along},     {"level", examined.level},
+      {"curve", examined.curve},     {"nve", examined.nve},
+      {"reduced", examined.reduced}, {"singular_points", examined.exponents}};
+  json["cases"] = nlohmann::json::array();
+  for (const auto& [what, outcome] : examined.cases)
+    json["cases"].push_back({{"case", what}, {"outcome", outcome}});
+  if (!examined.solution.empty()) json["solution"] = examined.solution;
+  json["group"] = examined.outcome;
+  return json;
+}
+
+void print_line(const std::string& label, const std::string& text) {
+  constexpr std::size_t kLabel = 12;
+  const std::vector<std::string> lines =
+      wrapped(text, std::max<std::size_t>(output_width() - kLabel - 2, 40));
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    fmt::print("  {}{}\n", padded(i == 0 ? label : "", kLabel), lines[i]);
+}
+
+void print_evidence(const Examined& examined) {
+  print_line("along", examined.along);
+  print_line("level", examined.level);
+  if (!examined.curve.empty()) print_line("curve", examined.curve);
+  print_line("NVE", examined.nve);
+  print_line("reduced", examined.reduced);
+  for (const std::string& point : examined.exponents) print_line("", point);
+  for (const auto& [what, outcome] : examined.cases)
+    print_line("", fmt::format("{}: {}", what, outcome));
+  if (!examined.solution.empty()) print_line("w = y'/y", examined.solution);
+  print_line("group", examined.outcome);
+}
+
+std::string parameters_text(const Obstruction& answer) {
+  std::string result;
+  for (const auto& [name, value] : answer.parameters)
+    result += fmt::format("{}{} = {}", result.empty() ? "" : ", ", name, value);
+  return result;
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const Model& model, const Obstruction& answer, double seconds) {
+  nlohmann::ordered_json json{{"case", model.name},
+                              {"verdict", answer.proved ? "proved" : "undecided"}};
+  json["parameters"] = nlohmann::json::object();
+  for (const auto& [name, value] : answer.parameters) json["parameters"][name] = value;
+  if (answer.proved) {
+    const Examined& decisive = answer.examined.back();
+    json["along"] = decisive.along;
+    json["level"] = decisive.level;
+    json["nve"] = decisive.nve;
+    json["theorem"] = answer.theorem;
+    json["excluded"] = answer.excluded;
+  } else {
+    json["reason"] = answer.reason;
+  }
+  json["examined"] = nlohmann::json::array();
+  for (const Examined& examined : answer.examined) json["examined"].push_back(to_json(examined));
+  json["left_out"] = answer.left_out;
+  json["seconds"] = seconds;
+  return json;
+}
+
+void print(const Model& model, const Obstruction& answer, double seconds, bool all) {
+  const std::string parameters = parameters_text(answer);
+  fmt::print("{}: further integrals excluded?{}{}\n", model.name, parameters.empty() ? "" : " At ",
+             parameters);
+  for (const Examined& examined : answer.examined) {
+    if (examined.decisive || all) {
+      print_evidence(examined);
+    } else {
+      print_line("tried",
+                 fmt::format("{}, {}: {}", examined.along, examined.level, examined.outcome));
+    }
+  }
+  if (!answer.proved || all)
+    for (const std::string& line : answer.left_out) print_line("left out", line);
+  if (answer.proved) {
+    print_line("theorem", answer.theorem);
+    print_line("excluded", answer.excluded);
+    fmt::print("not integrable: proved, {:.3f} s\n", seconds);
+  } else {
+    fmt::print("undecided: {}, {:.3f} s\n", answer.reason, seconds);
+  }
+}
+
+}  // namespace casimir::tools

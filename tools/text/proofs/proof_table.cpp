@@ -1,0 +1,150 @@
+#include "tools/text/proofs/proof_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "tools/text/proofs/proof_report.hpp"
+#include "tools/text/runs/run_report.hpp"
+#include "tools/text/text_layout.hpp"
+
+namespace casimir::tools {
+namespace {
+
+constexpr std::size_t kTimeWidth = 9;  // "999.99 ms"
+constexpr std::size_t kLeastName = 24;
+constexpr std::size_t kLeastText = 30;
+const std::string kGap = "  ";
+
+std::string name_of(const Proof& proof) {
+  std::string name = proof.name;
+  if (!proof.on.empty()) name += fmt::format(" on {} = 0", fmt::join(proof.on, " = "));
+  // A verdict with a condition says so in its line.
+  if (!proof.where.empty()) name += fmt::format(" where {}", fmt::join(proof.where, ", "));
+  return name;
+}
+
+std::string witness_text(const Witness& witness) {
+  std::string text;
+  for (const auto& [name, value] : witness.point)
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, value);
+  return text;
+}
+
+std::string trimmed(std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line;
+}
+
+}  // namespace
+
+void Tally::add(Verdict verdict) {
+  ++(verdict == Verdict::proved ? proved : verdict == Verdict::refuted ? refuted : undecided);
+}
+
+std::string Tally::text() const {
+  return fmt::format("{} proved, {} refuted, {} undecided", proved, refuted, undecided);
+}
+
+Tally tally_of(const Model& model, const std::vector<Proof>& proofs) {
+  Tally tally;
+  for (const Proof& proof : proofs) {
+    if (counts(model, proof)) tally.add(proof.verdict);
+  }
+  return tally;
+}
+
+ProofTable::ProofTable(const std::vector<Proof>& rows, std::size_t width, bool colour,
+                       std::size_t indent)
+    : width_(width), indent_(indent), kind_width_(5), name_width_(4), colour_(colour) {
+  for (const Proof& proof : rows) {
+    if (proof.kind == ClaimKind::judgement) continue;  // lines of findings, not a row
+    kind_width_ = std::max(kind_width_, display_width(to_string(proof.kind)));
+    name_width_ = std::max(name_width_, display_width(name_of(proof)));
+  }
+  const std::size_t others = indent_ + kVerdictWidth + kind_width_ + kTimeWidth + 3 * kGap.size();
+  name_width_ = std::min(name_width_, std::max(kLeastName, width_ - std::min(width_, others)));
+}
+
+std::string ProofTable::line(const std::string& verdict, const std::string& kind,
+                             const std::string& name, const std::string& time) const {
+  return std::string(indent_, ' ') + verdict + kGap + padded(kind, kind_width_) + kGap +
+         padded(name, name_width_) + kGap + padded(time, kTimeWidth, true);
+}
+
+std::string ProofTable::heading() const {
+  const std::string columns = line(padded("verdict", kVerdictWidth), "claim", "name", "time");
+  const std::string evidence = kGap + "evidence";
+  return columns + (columns.size() + evidence.size() <= width_ ? evidence : "") + '\n';
+}
+
+std::string ProofTable::row(const Proof& proof) const {
+  const std::vector<std::string> name = wrapped(name_of(proof), name_width_);
+  std::string text = line(verdict_text(proof.verdict, colour_, kVerdictWidth),
+                          to_string(proof.kind), name[0], duration_text(proof.seconds));
+  const std::size_t used =
+      indent_ + kVerdictWidth + kind_width_ + name_width_ + kTimeWidth + 4 * kGap.size();
+  const bool beside = used + display_width(proof.evidence) <= width_;
+  if (beside && !proof.evidence.empty()) text += kGap + proof.evidence;
+  text = trimmed(text) + '\n';
+  for (std::size_t i = 1; i < name.size(); ++i)
+    text += trimmed(line(padded("", kVerdictWidth), "", name[i], "")) + '\n';
+  return text + details(proof, !beside);
+}
+
+std::string ProofTable::judgement(const Proof& note) const {
+  std::string text;
+  const std::string space(indent_ + kVerdictWidth + kGap.size(), ' ');
+  const std::size_t columns = std::max(kLeastText, width_ - std::min(width_, space.size() + 2));
+  for (const std::string& line : judgement_lines(note)) {
+    bool first = true;
+    for (const std::string& part : wrapped(line, columns)) {
+      text += space + (first ? "" : "  ") + part + '\n';
+      first = false;
+    }
+  }
+  std::string head;
+  for (const std::string& part : wrapped(note.name, columns)) {
+    head += std::string(indent_, ' ') + padded(head.empty() ? "judged" : "", kVerdictWidth) + kGap +
+            part + '\n';
+  }
+  return head + text;
+}
+
+std::string ProofTable::details(const Proof& proof, bool with_evidence) const {
+  // Below the names of the kinds, so that the column of the verdicts stays free.
+  const std::string space(indent_ + kVerdictWidth + kGap.size() + 2, ' ');
+  std::string text;
+  const auto detail = [&](const std::string& label, const std::string& value) {
+    const std::string head = label.empty() ? "" : padded(label, 8) + kGap;
+    const std::size_t left = space.size() + head.size();
+    const std::size_t columns = std::max(kLeastText, width_ - std::min(width_, left));
+    bool first = true;
+    for (const std::string& part : wrapped(value, columns)) {
+      text += space + (first ? head : std::string(head.size(), ' ')) + part + '\n';
+      first = false;
+    }
+  };
+  if (with_evidence && !proof.evidence.empty()) detail("", proof.evidence);
+  for (const std::string& integral : proof.integrals) detail("gives", integral);
+  if (!proof.reason.empty()) detail("reason", proof.reason);
+  if (!proof.residual.empty()) detail("residual", proof.residual);
+  if (proof.witness) {
+    detail("witness", witness_text(*proof.witness));
+    detail("value", proof.witness->value);
+  }
+  std::vector<std::string> where;
+  const auto add = [&](const std::string& condition) {
+    const auto known = [&](const std::vector<std::string>& list) {
+      return std::find(list.begin(), list.end(), condition) != list.end();
+    };
+    if (!known(where) && !known(proof.where)) where.push_back(condition);
+  };
+  for (const std::string& d : proof.nonzero) add(d + " != 0");
+  for (const std::string& p : proof.positive) add(p + " >= 0");
+  if (!where.empty()) detail("defined", fmt::format("where {}", fmt::join(where, ", ")));
+  return text;
+}
+
+}  // namespace casimir::tools

@@ -1,0 +1,210 @@
+#include "tools/text/proofs/search_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "tools/cli/output.hpp"
+#include "tools/text/proofs/proof_report.hpp"
+
+namespace casimir::tools {
+namespace {
+
+using search::Found;
+using search::Report;
+
+nlohmann::ordered_json texts(const std::vector<Found>& list) {
+  nlohmann::ordered_json result = nlohmann::json::array();
+  for (const Found& found : list) result.push_back(found.text);
+  return result;
+}
+
+nlohmann::ordered_json details(const std::vector<Found>& list) {
+  nlohmann::ordered_json result = nlohmann::json::array();
+  for (const Found& found : list) {
+    result.push_back({{"expression", found.text},
+                      {"degree", found.degree},
+                      {"verdict", to_string(found.verdict)},
+                      {"independent", found.independent}});
+  }
+  return result;
+}
+
+std::string noun(const Report& report, bool plural) {
+  const std::string ending = plural ? "s" : "";
+  if (report.kind == ClaimKind::casimir) return "Casimir function" + ending;
+  if (report.kind == ClaimKind::conditional) return "integral" + ending + " on the level";
+  return "integral" + ending;
+}
+
+/// What a person calls it.
+std::string kind_text(search::DarbouxCombination::Kind kind) {
+  using Kind = search::DarbouxCombination::Kind;
+  if (kind == Kind::multiplier) return "density of an invariant measure";
+  return kind == Kind::integral ? "integral" : "constant in time";
+}
+
+void print_list(const std::vector<Found>& list, bool colour) {
+  for (const Found& found : list) {
+    fmt::print("  degree {:<3} {}{}   {}\n", found.degree, found.text,
+               found.independent ? "" : "   (a function of the others)",
+               verdict_text(found.verdict, colour));
+  }
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const Model& model, int degree, const Report& report,
+                               double seconds) {
+  nlohmann::ordered_json json{{"case", model.name},
+                              {"degree", degree},
+                              {"kind", to_string(report.kind)},
+                              {"integrals", texts(report.found)},
+                              {"details", details(report.found)},
+                              {"casimirs", texts(report.casimirs)},
+                              {"hamiltonian", report.hamiltonian},
+                              {"trivial", report.trivial},
+                              {"verdict", report.complete ? "proved" : "undecided"},
+                              {"generic", report.generic}};
+  if (!report.reason.empty()) json["reason"] = report.reason;
+  json["system"] = {{"unknowns", report.unknowns},
+                    {"equations", report.equations},
+                    {"blocks", report.blocks},
+                    {"largest_block", report.largest_block}};
+  json["seconds"] = seconds;
+  return json;
+}
+
+void print(const Model& model, int degree, const Report& report, double seconds) {
+  const bool colour = may_colour(1);
+  fmt::print("{}: polynomial {} up to degree {}\n", model.name, noun(report, true), degree);
+  if (report.kind != ClaimKind::casimir && (report.hamiltonian || !report.casimirs.empty())) {
+    fmt::print("known: {}\n", report.hamiltonian ? "the Hamiltonian" : "Casimir functions");
+    print_list(report.casimirs, colour);
+  }
+  if (report.found.empty()) {
+    fmt::print("found: none\n");
+  } else {
+    fmt::print("found:\n");
+    print_list(report.found, colour);
+  }
+  const std::string generic = report.generic.empty() ? ""
+                                                     : fmt::format(", for generic values of {}",
+                                                                   fmt::join(report.generic, ", "));
+  if (report.complete) {
+    fmt::print("No other {} up to degree {} that the known ones do not generate{}: {}\n",
+               noun(report, false), degree, generic, verdict_text(Verdict::proved, colour));
+  } else {
+    fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
+               report.reason);
+  }
+  fmt::print("{} unknowns, {} equations, {} blocks (largest {}), {} trivial solutions, {:.3f} s\n",
+             report.unknowns, report.equations, report.blocks, report.largest_block, report.trivial,
+             seconds);
+}
+
+nlohmann::ordered_json to_json(const Model& model, int degree,
+                               const search::ConditionReport& report, double seconds) {
+  nlohmann::ordered_json json{{"case", model.name},
+                              {"degree", degree},
+                              {"integrals", texts(report.generic.found)},
+                              {"casimirs", texts(report.generic.casimirs)},
+                              {"trivial", report.generic.trivial},
+                              {"conditions", nlohmann::json::array()},
+                              {"verdict", report.complete ? "proved" : "undecided"},
+                              {"generic", report.generic.generic}};
+  for (const search::Condition& condition : report.conditions) {
+    nlohmann::ordered_json own{{"parameters", nlohmann::json::object()}};
+    for (const auto& [name, value] : condition.parameters) own["parameters"][name] = value;
+    own["integrals"] = texts(condition.found);
+    if (!condition.relation.empty()) own["relation"] = condition.relation + " = 0";
+    own["verdict"] = to_string(condition.verdict);
+    json["conditions"].push_back(own);
+  }
+  if (report.sets_open) {
+    json["surfaces"] = to_string(Verdict::proved);
+    json["points"] = to_string(Verdict::undecided);
+  }
+  if (!report.reason.empty()) json["reason"] = report.reason;
+  json["seconds"] = seconds;
+  return json;
+}
+
+void print(const Model& model, int degree, const search::ConditionReport& report, double seconds) {
+  const bool colour = may_colour(1);
+  fmt::print("{}: where there is an additional polynomial {} up to degree {}\n", model.name,
+             noun(report.generic, false), degree);
+  if (!report.generic.found.empty()) {
+    fmt::print("for generic values:\n");
+    print_list(report.generic.found, colour);
+  }
+  for (const search::Condition& condition : report.conditions) {
+    std::string line;
+    for (const auto& [name, value] : condition.parameters)
+      line += (line.empty() ? "" : ", ") + name + " = " + value;
+    if (!condition.relation.empty())
+      line += fmt::format("{}{} = 0", line.empty() ? "" : "   that is ", condition.relation);
+    fmt::print("{}   {}\n", line, verdict_text(condition.verdict, colour));
+    print_list(condition.found, colour);
+  }
+  if (report.conditions.empty()) fmt::print("none found\n");
+  if (report.sets_open)
+    fmt::print("No other curve or surface of one condition: {}\n",
+               verdict_text(Verdict::proved, colour));
+  if (report.complete)
+    fmt::print("No other value, curve or set: {}\n", verdict_text(Verdict::proved, colour));
+  else
+    fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
+               report.reason);
+  fmt::print("{} conditions, {:.3f} s\n", report.conditions.size(), seconds);
+}
+
+nlohmann::ordered_json to_json(const Model& model, int degree, const search::DarbouxReport& report,
+                               double seconds) {
+  nlohmann::ordered_json json{{"case", model.name},
+                              {"degree", degree},
+                              {"integrals", nlohmann::json::array()},
+                              {"invariant_relations", nlohmann::json::array()},
+                              {"verdict", report.complete ? "proved" : "undecided"},
+                              {"generic", report.generic}};
+  for (const search::DarbouxPolynomial& found : report.found) {
+    json["invariant_relations"].push_back({{"expression", found.text},
+                                           {"cofactor", found.cofactor},
+                                           {"degree", found.degree},
+                                           {"verdict", to_string(found.verdict)}});
+  }
+  json["combinations"] = nlohmann::json::array();
+  for (const search::DarbouxCombination& own : report.combinations) {
+    if (own.kind == search::DarbouxCombination::Kind::integral)
+      json["integrals"].push_back(own.text);
+    json["combinations"].push_back({{"kind", search::to_string(own.kind)},
+                                    {"expression", own.text},
+                                    {"verdict", to_string(own.verdict)}});
+  }
+  if (!report.reason.empty()) json["reason"] = report.reason;
+  json["seconds"] = seconds;
+  return json;
+}
+
+void print(const Model& model, int degree, const search::DarbouxReport& report, double seconds) {
+  const bool colour = may_colour(1);
+  fmt::print("{}: polynomials F up to degree {} with dF/dt = K*F, which are no integrals\n",
+             model.name, degree);
+  for (const search::DarbouxPolynomial& found : report.found) {
+    fmt::print("  F = {}   K = {}   {}\n", found.text, found.cofactor,
+               verdict_text(found.verdict, colour));
+  }
+  if (report.complete)
+    fmt::print("{}: {}\n",
+               report.found.empty() ? "There are none" : "No others that are irreducible",
+               verdict_text(Verdict::proved, colour));
+  else
+    fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
+               report.reason);
+  if (!report.combinations.empty()) fmt::print("what they give, with their absolute values:\n");
+  for (const search::DarbouxCombination& own : report.combinations)
+    fmt::print("  {}   {}   {}\n", kind_text(own.kind), own.text,
+               verdict_text(own.verdict, colour));
+  fmt::print("{} found, {:.3f} s\n", report.found.size(), seconds);
+}
+
+}  // namespace casimir::tools

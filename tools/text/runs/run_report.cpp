@@ -1,0 +1,146 @@
+#include "tools/text/runs/run_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+namespace casimir::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(exact_text(value)) : Json(nullptr); }
+
+std::string short_number(double value) {
+  return std::isnan(value) ? "-" : fmt::format("{:.1e}", value);
+}
+
+std::string spread_text(const Row& row) {
+  return row.rounds < 2 ? "-" : fmt::format("{:.1f} %", 100 * row.spread / row.seconds);
+}
+
+}  // namespace
+
+std::string status_text(const Row& row) {
+  switch (row.end) {
+    case RowEnd::ran:
+      break;
+    case RowEnd::wrong:
+      return "wrong";
+    case RowEnd::too_slow:
+      return "too_slow";
+    case RowEnd::refused:
+      return "refused";
+    case RowEnd::crashed:
+      return "crashed";
+    case RowEnd::does_not_split:
+      return "does not split";
+    case RowEnd::drifted:
+      return fmt::format("drift above {:g}", row.bound);
+  }
+  return to_string(row.status);
+}
+
+Json to_json(const std::vector<Row>& rows) {
+  Json list = Json::array();
+  int failed = 0;
+  for (const Row& row : rows) {
+    failed += row.failed ? 1 : 0;
+    list.push_back({{"case", row.case_name},
+                    {"scene", row.scene},
+                    {"method", row.method},
+                    {"code", row.code},
+                    {"tolerance", row.tolerance},
+                    {"error", number(row.error)},
+                    {"drift", number(row.drift)},
+                    {"seconds", row.seconds},
+                    {"spread", row.spread},
+                    {"rounds", row.rounds},
+                    {"steps", row.steps},
+                    {"evaluations", row.evaluations},
+                    {"status", status_text(row)},
+                    {"failed", row.failed}});
+    if (!row.reason.empty()) list.back()["reason"] = row.reason;
+  }
+  return {{"rows", list}, {"failed", failed}};
+}
+
+void write_csv(std::ostream& stream, const std::vector<Row>& rows) {
+  stream << "case,scene,method,code,tolerance,error,drift,seconds,spread,rounds,steps,evaluations,"
+            "status\n";
+  for (const Row& row : rows) {
+    stream << fmt::format("{},{},{},{},{:g},{},{},{:.6g},{:.3g},{},{},{},{}\n",
+                          csv_field(row.case_name), csv_field(row.scene), row.method, row.code,
+                          row.tolerance, std::isnan(row.error) ? "" : exact_text(row.error),
+                          exact_text(row.drift), row.seconds, row.spread, row.rounds, row.steps,
+                          row.evaluations, csv_field(status_text(row)));
+  }
+}
+
+std::string to_text(const std::vector<Row>& rows, bool with_error) {
+  const bool repeated =
+      std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.spread > 0; });
+  // Columns that are there or not.
+  const auto error_column = [&](const std::string& content) {
+    return with_error ? fmt::format("{:>9}  ", content) : "";
+  };
+  const auto spread_column = [&](const std::string& content) {
+    return repeated ? fmt::format("{:>7} ", content) : "";
+  };
+  std::string text;
+  std::string head;
+  for (const Row& row : rows) {
+    const std::string title = fmt::format("{}, scene '{}'\n", row.case_name, row.scene);
+    if (title != head) {
+      head = title;
+      text +=
+          title + fmt::format("  {:<18} {:<12} {:>9} {}{:>9} {:>10} {}{:>9} {:>11}  {}\n", "method",
+                              "code", "tolerance", error_column("error"), "drift", "time",
+                              spread_column("spread"), "steps", "evaluations", "status");
+    }
+    text +=
+        fmt::format("  {:<18} {:<12} {:>9.0e} {}{:>9} {:>10} {}{:>9} {:>11}  {}\n", row.method,
+                    row.code, row.tolerance, error_column(short_number(row.error)),
+                    short_number(row.drift), duration_text(row.seconds),
+                    spread_column(spread_text(row)), row.steps, row.evaluations, status_text(row));
+  }
+  return text;
+}
+
+std::string advice(Status status) {
+  switch (status) {
+    case Status::singularity:
+    case Status::non_finite:
+      return "the motion has no value further on in these variables: shorten --duration, or use "
+             "other variables";
+    case Status::step_underflow:
+      return "loosen --tolerance or try another --method";
+    case Status::max_steps:
+      return "raise --max-steps";
+    case Status::no_convergence:
+      return "try a smaller --step, or --method dop853";
+    case Status::drift_exceeded:
+      return "tighten --tolerance, or try another --method";
+    case Status::stopped:
+      return "raise --time-limit";
+    default:
+      return "";
+  }
+}
+
+std::string duration_text(double seconds) {
+  if (seconds < 1e-3) return fmt::format("{:.1f} us", seconds * 1e6);
+  if (seconds < 1) return fmt::format("{:.2f} ms", seconds * 1e3);
+  return fmt::format("{:.2f} s", seconds);
+}
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace casimir::tools

@@ -1,0 +1,86 @@
+#include "tools/text/runs/trust_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tools/analysis/proof/exact_text.hpp"
+#include "tools/text/runs/run_report.hpp"
+
+namespace casimir::tools {
+namespace {
+
+/// Estimated errors that the user is warned of.
+constexpr double kDoubtful = 1e-4;
+
+std::string six_digits(const ErrorEstimate& trust) {
+  if (!trust.six_digits_until) return "";
+  return fmt::format(", and six digits hold until t = {:.6g}", *trust.six_digits_until);
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const ErrorEstimate& trust) {
+  nlohmann::ordered_json json = {{"conditioning", nullptr},
+                                 {"input_rounding", nullptr},
+                                 {"error_estimate", nullptr},
+                                 {"beyond_double", nullptr}};
+  if (!trust.known) return json;
+  json["conditioning"] = exact_text(trust.conditioning);
+  json["input_rounding"] = exact_text(trust.input_rounding);
+  json["beyond_double"] = trust.beyond_double;
+  if (trust.on_the_way > 2 * trust.conditioning)
+    json["conditioning_on_the_way"] = exact_text(trust.on_the_way);
+  if (!trust.unconfirmed) json["error_estimate"] = exact_text(trust.error_estimate);
+  if (trust.six_digits_until) json["six_digits_until"] = exact_text(*trust.six_digits_until);
+  if (trust.followed) json["extrapolated_from"] = exact_text(*trust.followed);
+  return json;
+}
+
+std::vector<std::string> warnings_of(const ErrorEstimate& trust) {
+  std::vector<std::string> warnings;
+  if (trust.unconfirmed)
+    warnings.push_back(
+        "a run with a hundredth of the tolerance, or one by Taylor series, does not reach the end "
+        "or would take too long: nothing confirms this one");
+  if (!trust.known) {
+    warnings.push_back(
+        "how much small changes grow is not known: the variational equations could not be "
+        "integrated along this run");
+  } else if (trust.died_out()) {
+    warnings.push_back(fmt::format(
+        "on the way small changes grow {:.0e} times, beyond what double precision can hold, though "
+        "they have died out at the end{}: which way the motion took is decided by rounding",
+        trust.on_the_way, six_digits(trust)));
+  } else if (trust.beyond_double) {
+    warnings.push_back(fmt::format(
+        "the end state is beyond what double precision can hold: small changes of the initial "
+        "state grow {:.0e} times{}; --digits {} can hold it",
+        trust.conditioning, six_digits(trust),
+        static_cast<int>(20 + std::log10(trust.conditioning))));
+  }
+  if (!trust.beyond_double && !trust.unconfirmed && !(trust.error_estimate < kDoubtful)) {
+    warnings.push_back(
+        fmt::format("the end state may be off by {:.0e} of its size: tighten --tolerance",
+                    trust.error_estimate));
+  }
+  return warnings;
+}
+
+RunWords words_of(const AssessedRun& judged, bool interrupted) {
+  RunWords words{.warnings = judged.doubts, .advice = {}, .interrupted = interrupted};
+  for (std::string& warning : warnings_of(judged.trust))
+    words.warnings.push_back(std::move(warning));
+  const Trajectory& trajectory = judged.trajectory;
+  if (trajectory.status == Status::ok) {
+    if (judged.near_singular) words.warnings.push_back(*judged.near_singular);
+    return words;
+  }
+  words.advice = judged.near_singular ? *judged.near_singular
+                 : trajectory.stiff   ? fmt::format("--method {}, or auto", kStiffMethod)
+                 : interrupted        ? "the run was interrupted: begin it again"
+                                      : advice(trajectory.status);
+  return words;
+}
+
+}  // namespace casimir::tools
