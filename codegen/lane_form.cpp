@@ -13,7 +13,7 @@
 namespace casimir {
 namespace {
 
-constexpr int kOne = -1;  // in place of a state: the factor 1
+constexpr int kNoState = -1;  // in place of a state: the factor 1
 
 /// A number that does not depend on the states: exact, or a line of the program of numbers.
 struct Number {
@@ -91,45 +91,47 @@ class NumberWriter {
 };
 
 /// A polynomial of degree two: coefficients of the products of two of 1, x_1, .., x_n.
-using Polynomial = std::map<std::pair<int, int>, Number>;
+using LanePolynomial = std::map<std::pair<int, int>, Number>;
 
-class Expander {
+class LaneExpander {
  public:
-  Expander(const Program& program, NumberWriter& numbers)
+  LaneExpander(const Program& program, NumberWriter& numbers)
       : program_(program),
         numbers_(numbers),
         states_(static_cast<int>(program.outputs.size())),
         constant_(codegen::constant_instructions(program)) {}
 
   /// The polynomial of each output, or nothing.
-  std::optional<std::vector<Polynomial>> run() {
+  std::optional<std::vector<LanePolynomial>> run() {
     for (std::size_t i = 0; i < program_.code.size(); ++i) {
       // Roots of constants and the like are rounded far beyond double.
-      std::optional<Polynomial> value =
+      std::optional<LanePolynomial> value =
           constant_[i] ? plain({codegen::constant_value(program_, static_cast<int>(i))})
                        : line(program_.code[i]);
       if (!value) return std::nullopt;
       values_.push_back(std::move(*value));
     }
-    std::vector<Polynomial> outputs;
+    std::vector<LanePolynomial> outputs;
     for (const int output : program_.outputs) outputs.push_back(at(output));
     return outputs;
   }
 
  private:
-  const Polynomial& at(int i) const { return values_[static_cast<std::size_t>(i)]; }
+  const LanePolynomial& at(int i) const { return values_[static_cast<std::size_t>(i)]; }
 
-  static Polynomial plain(const Number& value) {
+  static LanePolynomial plain(const Number& value) {
     if (value.is_zero()) return {};
-    return {{{kOne, kOne}, value}};
+    return {{{kNoState, kNoState}, value}};
   }
-  static bool is_plain(const Polynomial& p) {
+  static bool is_plain(const LanePolynomial& p) {
     return std::all_of(p.begin(), p.end(),
-                       [](const auto& term) { return term.first.second == kOne; });
+                       [](const auto& term) { return term.first.second == kNoState; });
   }
-  static Number number_of(const Polynomial& p) { return p.empty() ? Number{} : p.begin()->second; }
+  static Number number_of(const LanePolynomial& p) {
+    return p.empty() ? Number{} : p.begin()->second;
+  }
 
-  Polynomial sum(Polynomial a, const Polynomial& b, Op op) {
+  LanePolynomial sum(LanePolynomial a, const LanePolynomial& b, Op op) {
     for (const auto& [states, factor] : b) {
       Number& total = a[states];
       total = numbers_.combined(op, total, factor);
@@ -139,13 +141,13 @@ class Expander {
   }
 
   /// Nothing if the degree of the product is more than two.
-  std::optional<Polynomial> product(const Polynomial& a, const Polynomial& b) {
-    Polynomial result;
+  std::optional<LanePolynomial> product(const LanePolynomial& a, const LanePolynomial& b) {
+    LanePolynomial result;
     for (const auto& [u, x] : a) {
       for (const auto& [v, y] : b) {
         std::array<int, 4> states = {u.first, u.second, v.first, v.second};
         std::sort(states.begin(), states.end());
-        if (states[1] != kOne) return std::nullopt;
+        if (states[1] != kNoState) return std::nullopt;
         result = sum(std::move(result),
                      {{{states[2], states[3]}, numbers_.combined(Op::mul, x, y)}}, Op::add);
       }
@@ -153,20 +155,20 @@ class Expander {
     return result;
   }
 
-  std::optional<Polynomial> input(int index) {
-    if (index < states_) return Polynomial{{{kOne, index}, {1}}};
+  std::optional<LanePolynomial> input(int index) {
+    if (index < states_) return LanePolynomial{{{kNoState, index}, {1}}};
     if (index + 1 == static_cast<int>(program_.inputs.size())) return std::nullopt;  // the time
     return plain(numbers_.input(index - states_));
   }
 
-  std::optional<Polynomial> quotient(const Polynomial& a, const Polynomial& b) {
+  std::optional<LanePolynomial> quotient(const LanePolynomial& a, const LanePolynomial& b) {
     if (!is_plain(b) || b.empty()) return std::nullopt;
-    Polynomial result = a;
+    LanePolynomial result = a;
     for (auto& [states, factor] : result) factor = numbers_.combined(Op::div, factor, number_of(b));
     return result;
   }
 
-  std::optional<Polynomial> line(const Instruction& code) {
+  std::optional<LanePolynomial> line(const Instruction& code) {
     switch (code.op) {
       case Op::input:
         return input(code.a);
@@ -191,7 +193,7 @@ class Expander {
   NumberWriter& numbers_;
   const int states_;
   const std::vector<bool> constant_;
-  std::vector<Polynomial> values_;
+  std::vector<LanePolynomial> values_;
 };
 
 /// The part of a factor that a copy carries, and the sign in front of it.
@@ -204,22 +206,22 @@ struct Carried {
 /// Puts the polynomials into the lists of a LaneForm.
 class Layout {
  public:
-  Layout(const std::vector<Polynomial>& rates, NumberWriter& numbers)
+  Layout(const std::vector<LanePolynomial>& rates, NumberWriter& numbers)
       : rates_(rates), numbers_(numbers) {
     form_.states = static_cast<int>(rates.size());
   }
 
   LaneForm run() {
-    for (const Polynomial& rate : rates_)
+    for (const LanePolynomial& rate : rates_)
       for (const auto& [states, factor] : rate)
-        if (states.first != kOne) ++uses_[states];
+        if (states.first != kNoState) ++uses_[states];
     count_carriers();
     lay_out_sums();
     for (const auto& [state, size] : copies_) numbers_.output(size);
     lay_out_shared_terms();
     lay_out_linear_terms();
-    for (const Polynomial& rate : rates_) {
-      const auto found = rate.find({kOne, kOne});
+    for (const LanePolynomial& rate : rates_) {
+      const auto found = rate.find({kNoState, kNoState});
       numbers_.output(found == rate.end() ? Number{} : found->second);
     }
     form_.numbers = numbers_.take();
@@ -250,7 +252,7 @@ class Layout {
   void own_products(Action action) {
     for (std::size_t r = 0; r < rates_.size(); ++r)
       for (const auto& [states, factor] : rates_[r])
-        if (states.first != kOne && uses_[states] == 1) action(r, states, factor);
+        if (states.first != kNoState && uses_[states] == 1) action(r, states, factor);
   }
 
   /// How many products each possible copy could serve.
@@ -303,10 +305,10 @@ class Layout {
   }
 
   void lay_out_shared_terms() {
-    for (const Polynomial& rate : rates_) {
+    for (const LanePolynomial& rate : rates_) {
       form_.shared.push_back(static_cast<int>(form_.shared_sum.size()));
       for (const auto& [states, factor] : rate) {
-        if (states.first == kOne || uses_[states] == 1) continue;
+        if (states.first == kNoState || uses_[states] == 1) continue;
         form_.shared_sum.push_back(sum_of_[states]);
         numbers_.output(factor);
       }
@@ -315,10 +317,10 @@ class Layout {
   }
 
   void lay_out_linear_terms() {
-    for (const Polynomial& rate : rates_) {
+    for (const LanePolynomial& rate : rates_) {
       form_.linear.push_back(static_cast<int>(form_.linear_state.size()));
       for (const auto& [states, factor] : rate) {
-        if (states.first != kOne || states.second == kOne) continue;
+        if (states.first != kNoState || states.second == kNoState) continue;
         form_.linear_state.push_back(states.second);
         numbers_.output(factor);
       }
@@ -326,7 +328,7 @@ class Layout {
     form_.linear.push_back(static_cast<int>(form_.linear_state.size()));
   }
 
-  const std::vector<Polynomial>& rates_;
+  const std::vector<LanePolynomial>& rates_;
   NumberWriter& numbers_;
   LaneForm form_;
   std::map<States, int> uses_, sum_of_;
@@ -343,7 +345,7 @@ std::optional<LaneForm> lane_form(const Program& rhs) {
   NumberWriter numbers(
       {rhs.inputs.begin() + static_cast<std::ptrdiff_t>(states), rhs.inputs.end() - 1});
   const Program program = codegen::without_dead_code(rhs);
-  const auto rates = Expander(program, numbers).run();
+  const auto rates = LaneExpander(program, numbers).run();
   if (!rates) return std::nullopt;
   return Layout(*rates, numbers).run();
 }

@@ -76,9 +76,9 @@ double lost_by_rounding(const cln::cl_RA& exact, double rounded) {
   return cln::double_approx(exact - cln::rational(cln::cl_DF(rounded)));
 }
 
-class Expander {
+class QuadraticExpander {
  public:
-  explicit Expander(const Program& program)
+  explicit QuadraticExpander(const Program& program)
       : program_(program), constant_(codegen::constant_instructions(program)) {}
 
   /// The polynomial of each output.
@@ -129,7 +129,7 @@ class Expander {
 
 std::optional<QuadraticForm> quadratic_form(const Program& rhs,
                                             const std::vector<double>& parameters) {
-  const auto rates = Expander(with_numbers(rhs, parameters)).run();
+  const auto rates = QuadraticExpander(with_numbers(rhs, parameters)).run();
   if (!rates) return std::nullopt;
   const std::size_t n = rates->size();
   QuadraticForm form;

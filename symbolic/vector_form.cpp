@@ -21,9 +21,9 @@ Vector cross(const Vector& a, const Vector& b) {
 }
 
 /// Reads the brackets between blocks; an answer is none where they have no vector shape.
-class Reader {
+class VectorReader {
  public:
-  Reader(const PoissonStructure& structure, const std::vector<Block>& blocks)
+  VectorReader(const PoissonStructure& structure, const std::vector<Block>& blocks)
       : structure_(structure), blocks_(blocks) {}
 
   std::optional<BlockBracket> read(std::size_t a, std::size_t b) const {
@@ -105,7 +105,7 @@ std::vector<Block> blocks_of(const std::vector<Triple>& triples, const Symbols& 
 std::vector<BlockBracket> read_all(const PoissonStructure& structure,
                                    const std::vector<Block>& blocks,
                                    std::vector<std::size_t>& failures) {
-  const Reader reader(structure, blocks);
+  const VectorReader reader(structure, blocks);
   std::vector<BlockBracket> brackets;
   failures.assign(blocks.size(), 0);
   for (std::size_t a = 0; a < blocks.size(); ++a) {

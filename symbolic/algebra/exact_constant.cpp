@@ -17,25 +17,25 @@
 namespace casimir {
 namespace {
 
+using cln::cl_RA;
 using GiNaC::ex;
-using Rational = cln::cl_RA;
 
 /// None of the theorems applies.
 struct Unknown {};
 
 struct Less {
-  bool operator()(const Rational& a, const Rational& b) const { return a < b; }
+  bool operator()(const cl_RA& a, const cl_RA& b) const { return a < b; }
 };
 
 /// A product of p^e with 0 < e < 1, of I, of exp(a + b I), and of one logarithm or Pi.
 struct RadicalTerm {
-  std::map<Rational, Rational, Less> powers;  ///< prime to exponent
+  std::map<cl_RA, cl_RA, Less> powers;  ///< prime to exponent
   bool imaginary = false;
-  Rational exponent_real = 0, exponent_imaginary = 0;
-  Rational logarithm = 0;  ///< of this prime; 0: none, 1: Pi
+  cl_RA exponent_real = 0, exponent_imaginary = 0;
+  cl_RA logarithm = 0;  ///< of this prime; 0: none, 1: Pi
 
   friend int compare(const RadicalTerm& a, const RadicalTerm& b) {
-    const auto three_way = [](const Rational& x, const Rational& y) { return cln::compare(x, y); };
+    const auto three_way = [](const cl_RA& x, const cl_RA& y) { return cln::compare(x, y); };
     if (const int c = three_way(a.logarithm, b.logarithm)) return c;
     if (const int c = three_way(a.exponent_real, b.exponent_real)) return c;
     if (const int c = three_way(a.exponent_imaginary, b.exponent_imaginary)) return c;
@@ -51,30 +51,30 @@ struct RadicalTerm {
   friend bool operator<(const RadicalTerm& a, const RadicalTerm& b) { return compare(a, b) < 0; }
 };
 
-using Sum = std::map<RadicalTerm, Rational>;
+using Sum = std::map<RadicalTerm, cl_RA>;
 
-void add_to(Sum& sum, const RadicalTerm& monomial, const Rational& coefficient) {
-  Rational& place = sum[monomial];
+void add_to(Sum& sum, const RadicalTerm& monomial, const cl_RA& coefficient) {
+  cl_RA& place = sum[monomial];
   place = place + coefficient;
   if (cln::zerop(place)) sum.erase(monomial);
 }
 
-Sum constant(const Rational& value) {
+Sum constant(const cl_RA& value) {
   Sum sum;
   if (!cln::zerop(value)) sum[RadicalTerm{}] = value;
   return sum;
 }
 
 /// p^e of a prime, any rational e: a rational factor times a power with 0 <= exponent < 1.
-void take_power(RadicalTerm& monomial, Rational& coefficient, const Rational& prime,
-                const Rational& exponent) {
-  const Rational total =
+void take_power(RadicalTerm& monomial, cl_RA& coefficient, const cl_RA& prime,
+                const cl_RA& exponent) {
+  const cl_RA total =
       monomial.powers.contains(prime) ? monomial.powers[prime] + exponent : exponent;
   const cln::cl_I whole = cln::floor1(total);
   constexpr long kMaxPower = 10000;
   if (cln::abs(whole) > kMaxPower) throw Unknown{};
   coefficient = coefficient * cln::expt(prime, whole);
-  const Rational rest = total - whole;
+  const cl_RA rest = total - whole;
   if (cln::zerop(rest))
     monomial.powers.erase(prime);
   else
@@ -88,7 +88,7 @@ Sum product(const Sum& a, const Sum& b) {
   for (const auto& [m, c] : a) {
     for (const auto& [n, d] : b) {
       RadicalTerm monomial = m;
-      Rational coefficient = c * d;
+      cl_RA coefficient = c * d;
       for (const auto& [prime, exponent] : n.powers)
         take_power(monomial, coefficient, prime, exponent);
       if (m.imaginary && n.imaginary) coefficient = -coefficient;
@@ -113,7 +113,7 @@ bool is_zero(const Sum& sum) {
   if (sum.empty()) return true;
   // Monomials of one exponential and one logarithm are its algebraic coefficient, which is not
   // zero.
-  std::set<Rational, Less> logarithms;
+  std::set<cl_RA, Less> logarithms;
   std::set<std::pair<std::string, std::string>> exponentials;
   for (const auto& [m, c] : sum) {
     logarithms.insert(m.logarithm);
@@ -143,10 +143,10 @@ Quotient inverse(const Quotient& a) {
 Quotient evaluate(const ex& e);
 
 /// base^exponent where the base is one term without logarithms and exponentials.
-Quotient root(const Quotient& base, const Rational& exponent) {
+Quotient root(const Quotient& base, const cl_RA& exponent) {
   if (base.top.size() != 1 || base.bottom.size() != 1) throw Unknown{};
   RadicalTerm result;
-  Rational coefficient = 1;
+  cl_RA coefficient = 1;
   const auto take = [&](const Sum& side, int sign) {
     const auto& [m, c] = *side.begin();
     if (m.imaginary || !cln::zerop(m.logarithm) || !cln::zerop(m.exponent_real) ||
@@ -161,7 +161,7 @@ Quotient root(const Quotient& base, const Rational& exponent) {
       const auto factors = prime_factors(integer);
       if (!factors) throw Unknown{};
       for (const auto& [prime, times] : *factors)
-        take_power(result, coefficient, prime, direction * Rational(cln::cl_I(times)) * exponent);
+        take_power(result, coefficient, prime, direction * cl_RA(cln::cl_I(times)) * exponent);
     }
   };
   take(base.top, 1);
@@ -192,21 +192,21 @@ Quotient power(const Quotient& base, const ex& exponent) {
 }
 
 /// exp(a + b I) for rational a, b.
-Quotient exponential(const Rational& real, const Rational& imaginary) {
+Quotient exponential(const cl_RA& real, const cl_RA& imaginary) {
   RadicalTerm m;
   m.exponent_real = real;
   m.exponent_imaginary = imaginary;
   return {Sum{{m, 1}}, constant(1)};
 }
 
-Rational rational_argument(const ex& argument) {
+cl_RA rational_argument(const ex& argument) {
   if (!GiNaC::is_a<GiNaC::numeric>(argument)) throw Unknown{};
   const GiNaC::numeric number = GiNaC::ex_to<GiNaC::numeric>(argument);
   if (!number.is_rational()) throw Unknown{};
   return cln::the<cln::cl_RA>(number.to_cl_N());
 }
 
-Quotient logarithm(const Rational& argument) {
+Quotient logarithm(const cl_RA& argument) {
   if (argument <= 0) throw Unknown{};
   Sum sum;
   const std::pair<cln::cl_I, int> parts[] = {{cln::numerator(argument), 1},
@@ -217,7 +217,7 @@ Quotient logarithm(const Rational& argument) {
     for (const auto& [prime, times] : *factors) {
       RadicalTerm m;
       m.logarithm = prime;
-      add_to(sum, m, sign * Rational(cln::cl_I(times)));
+      add_to(sum, m, sign * cl_RA(cln::cl_I(times)));
     }
   }
   return {sum, constant(1)};
@@ -231,7 +231,7 @@ Quotient function_value(const GiNaC::function& f) {
   if (name == "exp") return exponential(rational_argument(f.op(0)), 0);
   if (const auto exponentials = by_exponentials(f)) return evaluate(*exponentials);
   if (name != "sin" && name != "cos" && name != "tan") throw Unknown{};
-  const Rational angle = rational_argument(f.op(0));
+  const cl_RA angle = rational_argument(f.op(0));
   const Quotient forward = exponential(0, angle);
   const Quotient back = exponential(0, -angle);
   const Quotient minus_one{constant(-1), constant(1)};
@@ -270,7 +270,7 @@ Quotient evaluate(const ex& e) {
   throw Unknown{};
 }
 
-std::string text_of(const Rational& value) { return rational_text(value); }
+std::string text_of(const cl_RA& value) { return rational_text(value); }
 
 std::string text_of(const RadicalTerm& m) {
   std::string text;
@@ -309,7 +309,7 @@ std::optional<ExactConstant> exact_constant(const ex& value) {
     const bool zero = is_zero(quotient.top);
     if (quotient.bottom.size() == 1 &&
         compare(quotient.bottom.begin()->first, RadicalTerm{}) == 0) {
-      const Rational factor = quotient.bottom.begin()->second;
+      const cl_RA factor = quotient.bottom.begin()->second;
       for (auto& [monomial, coefficient] : quotient.top) coefficient = coefficient / factor;
       return ExactConstant{zero, text_of(quotient.top)};
     }

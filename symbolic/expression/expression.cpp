@@ -12,6 +12,8 @@
 #include "symbolic/case/limits.hpp"
 #include "symbolic/expression/decimal.hpp"
 #include "symbolic/expression/elementary.hpp"
+#include "symbolic/expression/expression_size.hpp"
+#include "symbolic/expression/name_characters.hpp"
 #include "symbolic/expression/spelling.hpp"
 
 namespace casimir {
@@ -19,13 +21,7 @@ namespace {
 
 using GiNaC::ex;
 
-bool is_name_start(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
-bool is_name_part(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-double bit_length(const GiNaC::numeric& number) {
-  return std::max<double>(number.numer().int_length(), number.denom().int_length());
-}
 
 /// Recursive descent over one range of the text. Sums and products are collected before GiNaC sees
 /// them, since adding term by term costs quadratic time.

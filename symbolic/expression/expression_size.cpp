@@ -10,14 +10,15 @@
 #include "symbolic/expression/decimal.hpp"
 
 namespace casimir {
-namespace {
-
-using GiNaC::ex;
 
 double bit_length(const GiNaC::numeric& number) {
   if (!number.is_crational()) return 64;
   return std::max<double>(number.numer().int_length(), number.denom().int_length());
 }
+
+namespace {
+
+using GiNaC::ex;
 
 /// Shared parts are looked at once, and count as often as they are used.
 class SizeOfExpression {

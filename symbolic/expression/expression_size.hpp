@@ -4,6 +4,9 @@
 
 namespace casimir {
 
+/// Of the longer of numerator and denominator; 64 for a number that is not rational.
+double bit_length(const GiNaC::numeric& number);
+
 /// The bounds of a finished expression, as reading its text would have given them.
 Quantity measured(const GiNaC::ex& value);
 

@@ -8,12 +8,10 @@
 
 #include "symbolic/expression/elementary.hpp"
 #include "symbolic/expression/expression.hpp"
+#include "symbolic/expression/name_characters.hpp"
 
 namespace casimir {
 namespace {
-
-bool is_name_start(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
-bool is_name_part(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
 const std::set<std::string_view>& cpp_keywords() {
   static const std::set<std::string_view> words = {

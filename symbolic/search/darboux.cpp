@@ -54,7 +54,7 @@ class DarbouxSearch {
   DarbouxReport report_;
 };
 
-int growth_of(const System& system) {
+int field_growth(const System& system) {
   long degree = 1;
   for (const Polynomial& rate : system.flow()) {
     for (const auto& [number, exponents] : rate.term_list()) {
@@ -76,7 +76,7 @@ DarbouxSearch::DarbouxSearch(const Model& model, int degree, const Watch& watch)
       system_(model, {}, {}),
       dimension_(model.variables.size()),
       monomials_(all_monomials(std::vector<int>(dimension_, 1), degree)),
-      cofactor_monomials_(all_monomials(std::vector<int>(dimension_, 1), growth_of(system_))),
+      cofactor_monomials_(all_monomials(std::vector<int>(dimension_, 1), field_growth(system_))),
       first_f_(system_.ring().size()),
       first_k_(first_f_ + monomials_.size()),
       ring_(room_for(system_, monomials_, cofactor_monomials_)) {

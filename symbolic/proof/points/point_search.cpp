@@ -12,7 +12,7 @@
 namespace casimir {
 namespace {
 
-constexpr int kTrials = 400;
+constexpr int kFreeTrials = 400;
 constexpr int kLevelTrials = 4000;
 
 /// A rational root of c0 + c1 x + c2 x^2 (higher coefficients: none is looked for).
@@ -214,7 +214,7 @@ bool PointSearch::solve_angles(Point& point, const Level& level, FunctionRing::F
 
 std::optional<Point> PointSearch::completed(const Level& level,
                                             const FunctionRing::Freedom& freedom) {
-  const int trials = level.empty() ? kTrials : kLevelTrials;
+  const int trials = level.empty() ? kFreeTrials : kLevelTrials;
   const bool functions_in_level =
       std::any_of(level.numerators.begin(), level.numerators.end(), [&](const Polynomial& f) {
         for (std::size_t g = ring_.symbols().size(); g < ring_.ring().size(); ++g) {

@@ -13,7 +13,7 @@ namespace {
 
 using GiNaC::ex;
 
-constexpr long kBits = 128;
+constexpr long kNewtonBits = 128;
 
 /// A scoped matrix of real balls.
 class BallMatrix {
@@ -50,7 +50,7 @@ class Newton {
       bool small = true;
       for (std::size_t j = 0; j < k; ++j) {
         Ball& x = x_[j];
-        arb_sub(acb_realref(x.raw()), acb_realref(x.raw()), step.at(j, 0), kBits);
+        arb_sub(acb_realref(x.raw()), acb_realref(x.raw()), step.at(j, 0), kNewtonBits);
         mag_zero(arb_radref(acb_realref(x.raw())));
         if (!x.is_finite()) return std::nullopt;
         small = small && arf_cmpabs_2exp_si(arb_midref(step.at(j, 0)), -100) < 0;
@@ -66,7 +66,7 @@ class Newton {
     std::vector<Ball> image = x_;
     for (std::size_t j = 0; j < k; ++j) {
       auto* x = acb_realref(image[j].raw());
-      arb_sub(x, x, step.at(j, 0), kBits);
+      arb_sub(x, x, step.at(j, 0), kNewtonBits);
       if (arb_contains_interior(acb_realref(box[j].raw()), x) == 0) return std::nullopt;
     }
     return at(image);
@@ -74,7 +74,7 @@ class Newton {
 
  private:
   BallEvaluator at(const std::vector<Ball>& moved) const {
-    BallEvaluator result(numbers_, kBits);
+    BallEvaluator result(numbers_, kNewtonBits);
     for (std::size_t i = 0; i < point_.size(); ++i) {
       const auto place = std::find(unknowns_.begin(), unknowns_.end(), i);
       if (place == unknowns_.end())
@@ -89,7 +89,7 @@ class Newton {
   bool choose_unknowns() {
     const std::size_t k = functions_.size();
     const std::size_t n = point_.size();
-    BallEvaluator start(numbers_, kBits);
+    BallEvaluator start(numbers_, kNewtonBits);
     for (std::size_t i = 0; i < n; ++i) start.set(ring_.symbols()[i], point_[i]);
     std::vector<std::vector<double>> matrix(k, std::vector<double>(n));
     for (std::size_t i = 0; i < k; ++i) {
@@ -132,7 +132,7 @@ class Newton {
       for (std::size_t j = 0; j < k; ++j)
         arb_set(jacobian.at(i, j), acb_realref(slopes_at(slopes_[i][unknowns_[j]]).raw()));
     }
-    return arb_mat_solve(step.raw(), jacobian.raw(), values.raw(), kBits) != 0;
+    return arb_mat_solve(step.raw(), jacobian.raw(), values.raw(), kNewtonBits) != 0;
   }
 
   const FunctionRing& ring_;
