@@ -18,7 +18,7 @@ Model model_of(const std::string& name) {
   return build_model(read_case(folder / (name + ".toml")));
 }
 
-Text text_of(const std::string& value) { return {value, {"fault", 1, 1}, value}; }
+Text fault_text(const std::string& value) { return {value, {"fault", 1, 1}, value}; }
 
 std::string plain(std::string name) {
   std::replace_if(
@@ -165,8 +165,8 @@ TEST_P(SearchFault, IsFoundOrLeftOpen) {
   const Sought& sought = GetParam();
   search::Request request;
   request.degree = sought.degree;
-  if (*sought.on != '\0') request.on = {text_of(sought.on)};
-  if (*sought.functions != '\0') request.functions = {text_of(sought.functions)};
+  if (*sought.on != '\0') request.on = {fault_text(sought.on)};
+  if (*sought.functions != '\0') request.functions = {fault_text(sought.functions)};
   const search::Report report = search::find_integrals(model_of(sought.file), request);
   EXPECT_TRUE(!report.complete ||
               std::any_of(report.found.begin(), report.found.end(), [&](const auto& f) {
@@ -194,11 +194,11 @@ struct SoughtValue {
 
 class FreeFault : public testing::TestWithParam<SoughtValue> {};
 
-search::ConditionReport conditions_of(const SoughtValue& sought) {
+search::ConditionReport report_of(const SoughtValue& sought) {
   search::Request request;
   request.degree = sought.degree;
   std::vector<Text> free;
-  for (const std::string& name : sought.free) free.push_back(text_of(name));
+  for (const std::string& name : sought.free) free.push_back(fault_text(name));
   return search::find_conditions(model_of(sought.file), request, free);
 }
 
@@ -216,7 +216,7 @@ bool has_two_values(const search::ConditionReport& report) {
 }
 
 TEST_P(FreeFault, IsFoundOrLeftOpen) {
-  const search::ConditionReport report = conditions_of(GetParam());
+  const search::ConditionReport report = report_of(GetParam());
   const std::string& value = GetParam().value;
   EXPECT_TRUE(!report.complete ||
               (value.empty() ? has_two_values(report) : has_value(report, value)));
@@ -237,7 +237,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& sought) { return plain(std::string(sought.param.file) + sought.param.value); });
 
 TEST(FreeFaults, NothingIsShownWhereTheAdditionalFunctionIsZero) {
-  EXPECT_FALSE(has_value(conditions_of({"free-atan", 1, {"n"}, ""}), "-1"));
+  EXPECT_FALSE(has_value(report_of({"free-atan", 1, {"n"}, ""}), "-1"));
 }
 
 TEST(LaxFaults, WitnessHasTheParameterOfItsOwnPair) {

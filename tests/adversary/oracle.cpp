@@ -80,7 +80,7 @@ bool fails_along_orbit(const Case& claim, Sampler& sampler, const std::vector<As
   return point && explicit_orbit_leaves(claim, *point, more);
 }
 
-Finding on_level(const Case& claim, Sampler& sampler) {
+Finding finding_on_level(const Case& claim, Sampler& sampler) {
   int orbits = 0;
   return over_points(sampler, [&](const Point& point) {
     Sign sign = Sign::zero;
@@ -170,7 +170,7 @@ Finding examine(const Case& claim, Random& random, const std::vector<Assumption>
   if (fails_along_orbit(claim, sampler, more)) return Finding::fails;
   if (claim.kind == Kind::measure) return of_measure(claim, sampler);
   if (claim.kind == Kind::conditional || claim.kind == Kind::invariant_relation)
-    return on_level(claim, sampler);
+    return finding_on_level(claim, sampler);
   return over_points(sampler,
                      [&](const Point& point) { return sign_of(At(claim, point).residuals()); });
 }

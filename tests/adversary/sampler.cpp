@@ -21,7 +21,7 @@ Ball special_number(Random& random) {
 }
 
 /// The symbol, if the assumption says that it is positive (1) or negative (-1).
-int sign_of(const Assumption& a, const std::string& symbol) {
+int assumed_sign(const Assumption& a, const std::string& symbol) {
   const Node& n = a.left.node();
   if (n.op != Op::symbol || n.name != symbol) return 0;
   return a.relation[0] == '>' ? 1 : a.relation[0] == '<' ? -1 : 0;
@@ -77,7 +77,7 @@ Point Sampler::free_values() {
   for (const std::string& symbol : symbols) {
     point[symbol] = random_number(random_, near);
     for (const Assumption& a : assumptions_) {
-      if (const int sign = sign_of(a, symbol); sign != 0)
+      if (const int sign = assumed_sign(a, symbol); sign != 0)
         point[symbol] = with_sign(point[symbol], sign);
     }
   }

@@ -129,7 +129,7 @@ Outcome judged_apart(const AnyClaim& claim, std::uint64_t seed, std::uint64_t in
   return child > 0 ? result : Outcome::unconfirmed;
 }
 
-std::string text_of(AnyClaim& claim) {
+std::string written(AnyClaim& claim) {
   if (const auto* search = std::get_if<SearchCase>(&claim)) return search->text();
   if (const auto* planted = std::get_if<PlantedCase>(&claim)) return planted->text();
   return base_of(claim).text();
@@ -158,14 +158,14 @@ std::string shrunk(std::uint64_t seed, std::uint64_t index, Outcome outcome, dou
       for (const Expr& part : smaller(*expressions_of(best)[i])) {
         AnyClaim candidate = best;
         *expressions_of(candidate)[i] = part;
-        if (text_of(candidate).size() >= text_of(best).size() || !is_alike(candidate)) continue;
+        if (written(candidate).size() >= written(best).size() || !is_alike(candidate)) continue;
         best = std::move(candidate);
         better = true;
         break;
       }
     }
   }
-  return text_of(best);
+  return written(best);
 }
 
 }  // namespace casimir::adversary

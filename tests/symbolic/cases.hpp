@@ -6,6 +6,11 @@
 
 namespace casimir::test {
 
+/// A case of this folder's `cases/`.
+inline Model bundled(const std::string& name) {
+  return build_model(read_case(CASIMIR_SOURCE_DIR "/cases/" + name + ".toml"));
+}
+
 /// A case written in a test.
 inline Model model_of(const std::string& toml) {
   return build_model(parse_case(toml, "test.toml"));

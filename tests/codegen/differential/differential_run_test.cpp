@@ -20,12 +20,12 @@ constexpr double kEpsilon = 0x1p-52;
 constexpr std::size_t kOrder = 16;
 
 /// More of them with CASIMIR_DIFFERENTIAL_SYSTEMS.
-unsigned system_count() {
+unsigned run_count() {
   const char* wanted = std::getenv("CASIMIR_DIFFERENTIAL_SYSTEMS");
   return wanted ? static_cast<unsigned>(std::atoi(wanted)) : 7;
 }
 
-double error_of(double value, const cln::cl_F& exact) {
+double error_of_value(double value, const cln::cl_F& exact) {
   if (!std::isfinite(value)) return INFINITY;
   return std::fabs(cln::double_approx(exact - cln::cl_float(cln::cl_DF(value), exact)));
 }
@@ -102,7 +102,7 @@ struct Witness {
         const double value = step.rows[i][k * static_cast<std::size_t>(step.lanes) +
                                           static_cast<std::size_t>(lane)] /
                              scale;
-        const double error = error_of(value, exact[i][k].value);
+        const double error = error_of_value(value, exact[i][k].value);
         ++compared;
         if (error > motions.errors(k) * exact[i][k].size + 0x1p-1000)
           complaint << "coefficient " << k << " of state " << i << " is " << value << ", off by "
@@ -164,7 +164,7 @@ unsigned long compare_ends(const Motions& motions, const std::string& name, cons
       const double bound =
           1e-15 * (1 + std::fabs(run.state[i])) * static_cast<double>(run.steps + 2) +
           4 * kEpsilon * end[i].size;
-      EXPECT_LE(error_of(run.state[i], end[i].value), bound)
+      EXPECT_LE(error_of_value(run.state[i], end[i].value), bound)
           << name << ": state " << i << " after " << duration << '\n'
           << motions.system.text();
     }
@@ -186,7 +186,7 @@ unsigned long compare_functions(const Motions& motions, const Module& module) {
     const std::vector<Expected> all = system.expected(place);
     for (std::size_t i = 0; i < n + m + n * n; ++i) {
       const Expected& e = all[i < n + m ? i : i + n * m];  // there are no gradients
-      EXPECT_LE(error_of(values[i], e.exact.value),
+      EXPECT_LE(error_of_value(values[i], e.exact.value),
                 2 * e.operations * (kEpsilon * e.exact.size + 0x1p-1000))
           << e.what << " of\n"
           << system.text();
@@ -197,7 +197,7 @@ unsigned long compare_functions(const Motions& motions, const Module& module) {
 
 TEST(DifferentialRun, EveryKernelHasTheCoefficientsAndEndsOfRandomSystems) {
   unsigned long functions = 0, lanes = 0, ends = 0;
-  for (unsigned seed = 1; seed <= system_count() && !HasFailure(); ++seed) {
+  for (unsigned seed = 1; seed <= run_count() && !HasFailure(); ++seed) {
     const Motions motions(seed);
     const Specialisation& s = motions.system.specialisation();
     bool moderate = !motions.series.empty();
@@ -212,9 +212,9 @@ TEST(DifferentialRun, EveryKernelHasTheCoefficientsAndEndsOfRandomSystems) {
   }
   std::printf("%lu values of functions, %lu coefficients in lanes, %lu ends of motions\n",
               functions, lanes, ends);
-  EXPECT_GT(functions, 10 * system_count());
-  EXPECT_GT(lanes, 10 * system_count());
-  EXPECT_GT(ends, 2 * system_count());
+  EXPECT_GT(functions, 10 * run_count());
+  EXPECT_GT(lanes, 10 * run_count());
+  EXPECT_GT(ends, 2 * run_count());
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ SectionPlane plane_of(const Specialisation& s, bool upwards, double period = 0) 
   return plane;
 }
 
-SectionSettings settings_for(std::size_t states, std::size_t points) {
+SectionSettings section_settings(std::size_t states, std::size_t points) {
   SectionSettings settings;
   settings.points = points;
   settings.states = states;
@@ -46,7 +46,8 @@ TEST(Section, CrossingsOfACircleInOneDirection) {
       std::vector<double> seeds;
       for (int i = 0; i < 11; ++i)
         seeds.insert(seeds.end(), {std::sin(0.3 * i), std::cos(0.3 * i)});
-      const SectionResult result = cut(kernel, plane_of(s, upwards), seeds, 2, settings_for(2, 50));
+      const SectionResult result =
+          cut(kernel, plane_of(s, upwards), seeds, 2, section_settings(2, 50));
       for (int i = 0; i < 11; ++i) {
         const SectionOrbit& orbit = result.orbits[static_cast<std::size_t>(i)];
         ASSERT_EQ(orbit.size(), 50U) << name;
@@ -66,7 +67,7 @@ TEST(Section, CrossingsOfACircleInOneDirection) {
 TEST(Section, SeveralCrossingsInOneStepAreAllFound) {
   const Specialisation s = with_function(kCircle, "(x - 1/2)*(x - 51/100)*(x - 52/100)");
   const SectionResult result =
-      cut(lane_kernels(s).front().second, plane_of(s, true), {0, 1}, 2, settings_for(2, 3));
+      cut(lane_kernels(s).front().second, plane_of(s, true), {0, 1}, 2, section_settings(2, 3));
   const SectionOrbit& orbit = result.orbits[0];
   ASSERT_EQ(orbit.size(), 3U);
   EXPECT_NEAR(orbit.times[0], kPi / 6, 1e-10);
@@ -100,7 +101,7 @@ TEST(Section, FunctionsOfEveryKind) {
   for (const auto& [text, root] : functions) {
     const Specialisation s = with_function({{"x", "1"}}, text);
     const SectionResult result =
-        cut(lane_kernels(s).front().second, plane_of(s, true), {0.1}, 1, settings_for(1, 1));
+        cut(lane_kernels(s).front().second, plane_of(s, true), {0.1}, 1, section_settings(1, 1));
     ASSERT_EQ(result.orbits[0].size(), 1U) << text;
     EXPECT_NEAR(result.orbits[0].times[0], root - 0.1, 1e-11) << text;
   }
@@ -109,14 +110,14 @@ TEST(Section, FunctionsOfEveryKind) {
 TEST(Section, AnAngleCrossesAtEveryTurn) {
   const Specialisation angle = with_function({{"x", "3"}}, "x - 1");
   SectionResult result = cut(lane_kernels(angle).front().second, plane_of(angle, true, 2 * kPi),
-                             {0}, 1, settings_for(1, 20));
+                             {0}, 1, section_settings(1, 20));
   ASSERT_EQ(result.orbits[0].size(), 20U);
   for (std::size_t n = 0; n < 20; ++n)
     EXPECT_NEAR(result.orbits[0].times[n], (1 + 2 * kPi * static_cast<double>(n)) / 3, 1e-11);
   // atan2 jumps where the angle goes on: that is no crossing.
   const Specialisation circle = with_function(kCircle, "atan2(x, y) - 1");
   result = cut(lane_kernels(circle).front().second, plane_of(circle, true, 2 * kPi), {0, 1}, 2,
-               settings_for(2, 20));
+               section_settings(2, 20));
   ASSERT_EQ(result.orbits[0].size(), 20U);
   for (std::size_t n = 0; n < 20; ++n)
     EXPECT_NEAR(result.orbits[0].times[n], 1 + 2 * kPi * static_cast<double>(n), 1e-11);
@@ -124,15 +125,15 @@ TEST(Section, AnAngleCrossesAtEveryTurn) {
 
 TEST(Section, ASeedOnThePlaneIsNoCrossing) {
   const Specialisation s = with_function(kCircle, "x");
-  const SectionResult result =
-      cut(lane_kernels(s).front().second, plane_of(s, true), {0, 1, 0, -1}, 2, settings_for(2, 3));
+  const SectionResult result = cut(lane_kernels(s).front().second, plane_of(s, true), {0, 1, 0, -1},
+                                   2, section_settings(2, 3));
   EXPECT_NEAR(result.orbits[0].times[0], 2 * kPi, 1e-13);
   EXPECT_NEAR(result.orbits[1].times[0], kPi, 1e-13);
 }
 
 TEST(Section, AnOrbitThatDoesNotReturnIsSaidToo) {
   const Specialisation s = with_function(kCircle, "x - 2");
-  SectionSettings settings = settings_for(2, 3);
+  SectionSettings settings = section_settings(2, 3);
   settings.steps_between = 50;
   const SectionResult result =
       cut(lane_kernels(s).front().second, plane_of(s, true), {0, 1}, 2, settings);
@@ -145,7 +146,7 @@ TEST(Section, GrowthOfADeviationGoesOnBeyondTheRangeOfNumbers) {
   const Specialisation s = with_function(
       {{"x", "y"}, {"y", "-x"}, {"z", "-z"}, {"dx", "dy"}, {"dy", "-dx"}, {"dz", "dz/2"}}, "x");
   const SectionResult result = cut(lane_kernels(s).front().second, plane_of(s, true),
-                                   {0, 1, 0, 0, 0, 1}, 6, settings_for(3, 300));
+                                   {0, 1, 0, 0, 0, 1}, 6, section_settings(3, 300));
   const SectionOrbit& orbit = result.orbits[0];
   ASSERT_EQ(orbit.growth.size(), 300U);
   for (std::size_t n = 0; n < 300; ++n) EXPECT_NEAR(orbit.growth[n] / orbit.times[n], 0.5, 1e-9);
@@ -164,7 +165,7 @@ TEST(Section, OrbitsDoNotDependOnEachOther) {
   program.outputs = {0};
   program.output_names = {"s"};
   const SectionPlane plane{program, true, 0};
-  SectionSettings settings = settings_for(6, 20);
+  SectionSettings settings = section_settings(6, 20);
   const SectionResult one = cut(kernel, plane, seeds, 6, settings);
   settings.jobs = 2;
   const SectionResult two = cut(kernel, plane, seeds, 6, settings);
@@ -186,7 +187,7 @@ TEST(Section, OrbitsTurnWhereTheEquationsJump) {
   std::vector<double> seeds;
   for (int i = 0; i < 10; ++i) seeds.insert(seeds.end(), {0.5 + 0.25 * i, 0});
   const auto largest_error = [&] {
-    const SectionResult result = cut(kernel, plane_of(s, true), seeds, 2, settings_for(2, 20));
+    const SectionResult result = cut(kernel, plane_of(s, true), seeds, 2, section_settings(2, 20));
     double error = 0;
     for (std::size_t i = 0; i < 10; ++i) {
       const SectionOrbit& orbit = result.orbits[i];
@@ -210,7 +211,7 @@ TEST(Section, OrbitsTurnWhereTheEquationsJump) {
 TEST(Section, AFunctionWithASign) {
   const Specialisation s = with_function({{"x", "1"}}, "x + x/sqrt(x^2)/2 - 1");
   const SectionResult result =
-      cut(lane_kernels(s).front().second, plane_of(s, true), {0.1}, 1, settings_for(1, 1));
+      cut(lane_kernels(s).front().second, plane_of(s, true), {0.1}, 1, section_settings(1, 1));
   ASSERT_EQ(result.orbits[0].size(), 1U);
   EXPECT_NEAR(result.orbits[0].times[0], 0.4, 1e-12);
 }

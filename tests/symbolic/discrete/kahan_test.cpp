@@ -7,6 +7,7 @@
 #include "symbolic/discrete/growth.hpp"
 #include "symbolic/discrete/prove_map.hpp"
 #include "tests/symbolic/cases.hpp"
+#include "tests/symbolic/discrete/maps.hpp"
 
 namespace casimir::test {
 namespace {
@@ -15,15 +16,6 @@ using discrete::DegreeRequest;
 using discrete::degrees_of_iterates;
 using discrete::degrees_of_kahan_iterates;
 using Degrees = std::vector<int>;
-
-Model bundled(const std::string& name) {
-  return build_model(read_case(CASIMIR_SOURCE_DIR "/cases/" + name + ".toml"));
-}
-
-MapModel bundled_map(const std::string& name) {
-  return build_map_model(
-      std::get<MapCaseFile>(read_any_case(CASIMIR_SOURCE_DIR "/cases/maps/" + name + ".toml")));
-}
 
 /// Equations with whatever else is a name as a parameter.
 Model flow(const std::vector<std::string>& variables, const std::vector<std::string>& rates,

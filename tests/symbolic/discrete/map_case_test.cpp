@@ -2,13 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "symbolic/discrete/map_model.hpp"
+#include "tests/symbolic/discrete/maps.hpp"
 
 namespace casimir::test {
 namespace {
-
-MapModel map_of(const std::string& toml) {
-  return build_map_model(std::get<MapCaseFile>(parse_any_case(toml, "test.toml")));
-}
 
 std::string error_of(const std::string& toml) {
   try {

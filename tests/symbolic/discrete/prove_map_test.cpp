@@ -2,18 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "symbolic/discrete/prove_map.hpp"
+#include "tests/symbolic/discrete/maps.hpp"
 
 namespace casimir::test {
 namespace {
-
-MapModel map_of(const std::string& toml) {
-  return build_map_model(std::get<MapCaseFile>(parse_any_case(toml, "test.toml")));
-}
-
-MapModel bundled(const std::string& name) {
-  return build_map_model(
-      std::get<MapCaseFile>(read_any_case(CASIMIR_SOURCE_DIR "/cases/maps/" + name + ".toml")));
-}
 
 /// The first proof of the kind, or an undecided one without a reason.
 Proof proof_of(const MapModel& map, ClaimKind kind, const std::string& name = "") {
@@ -32,7 +24,7 @@ const std::string kPlane = "[phase_space]\nvariables = [\"x\", \"y\"]\n";
 TEST(ProveMap, EveryBundledMapIsProved) {
   for (const char* name :
        {"henon-area-preserving", "kahan-clebsch", "kahan-euler", "lyness", "mcmillan", "qrt"}) {
-    const MapModel map = bundled(name);
+    const MapModel map = bundled_map(name);
     EXPECT_EQ(overall(map.base, prove_map(map)), Verdict::proved) << name;
   }
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "symbolic/discrete/prove_candidate.hpp"
+#include "tests/symbolic/discrete/maps.hpp"
 
 namespace casimir::test {
 namespace {
@@ -11,14 +12,12 @@ namespace {
 using discrete::MapSearch;
 using discrete::search_map;
 
-MapModel bundled(const std::string& name,
-                 const std::vector<std::pair<std::string, std::string>>& values) {
+MapModel with_values(const std::string& name,
+                     const std::vector<std::pair<std::string, std::string>>& values) {
   ParameterValues fixed;
   for (const auto& [parameter, value] : values)
     fixed.push_back({{parameter, {}, {}}, {value, {}, {}}});
-  return build_map_model(
-      std::get<MapCaseFile>(read_any_case(CASIMIR_SOURCE_DIR "/cases/maps/" + name + ".toml")),
-      fixed);
+  return bundled_map(name, fixed);
 }
 
 MapModel plane(const std::string& text) {
@@ -27,11 +26,11 @@ MapModel plane(const std::string& text) {
 }
 
 TEST(SearchMap, FindsPolynomialsAndQuotients) {
-  const MapSearch mcmillan = search_map(bundled("mcmillan", {{"mu", "2"}}), 4);
+  const MapSearch mcmillan = search_map(with_values("mcmillan", {{"mu", "2"}}), 4);
   ASSERT_EQ(mcmillan.integrals.size(), 1U);
   EXPECT_EQ(mcmillan.polynomials, 1U);
   EXPECT_EQ(mcmillan.densities.size(), 2U);
-  const MapSearch lyness = search_map(bundled("lyness", {{"a", "2"}}), 3);
+  const MapSearch lyness = search_map(with_values("lyness", {{"a", "2"}}), 3);
   ASSERT_EQ(lyness.integrals.size(), 1U);
   EXPECT_TRUE(lyness.no_polynomial);
   EXPECT_FALSE(lyness.no_fraction);
@@ -39,21 +38,21 @@ TEST(SearchMap, FindsPolynomialsAndQuotients) {
 
 TEST(SearchMap, FindsTheIntegralsOfKahansEulerTop) {
   const MapModel map =
-      bundled("kahan-euler", {{"a1", "1"}, {"a2", "3"}, {"a3", "2"}, {"eps", "1"}});
+      with_values("kahan-euler", {{"a1", "1"}, {"a2", "3"}, {"a3", "2"}, {"eps", "1"}});
   const MapSearch found = search_map(map, 2);
   EXPECT_EQ(found.integrals.size(), 2U);
   EXPECT_EQ(found.relations, 2U);
   for (const auto& f : found.integrals)
     EXPECT_EQ(discrete::prove_integral(map, {f.text, f.value, {}}).verdict, Verdict::proved);
   // Symbolic parameters: the same dimensions, and no functions.
-  const MapSearch generic = search_map(bundled("kahan-euler", {}), 2);
+  const MapSearch generic = search_map(with_values("kahan-euler", {}), 2);
   EXPECT_EQ(generic.relations, 2U);
   EXPECT_TRUE(generic.integrals.empty());
   EXPECT_FALSE(generic.reason.empty());
 }
 
 TEST(SearchMap, SaysNoneOnlyWhereThereIsNone) {
-  const MapSearch henon = search_map(bundled("henon-area-preserving", {}), 4);
+  const MapSearch henon = search_map(with_values("henon-area-preserving", {}), 4);
   EXPECT_TRUE(henon.no_polynomial && henon.no_fraction);
   EXPECT_EQ(henon.density_space, 1U);
   const MapSearch one = search_map(plane("[map]\nx = \"x + y^2\"\ny = \"y\"\n"), 1);

@@ -33,11 +33,11 @@ class Random {
   std::mt19937 engine_;
 };
 
-using Point = GiNaC::exmap;
+using Values = GiNaC::exmap;
 
-long double value_of(const ex& e, const Point& point);
+long double value_of(const ex& e, const Values& point);
 
-long double plain_value(const ex& e, const Point& point) {
+long double plain_value(const ex& e, const Values& point) {
   const auto part = [&](std::size_t i) { return value_of(e.op(i), point); };
   if (GiNaC::is_a<GiNaC::numeric>(e)) {
     const GiNaC::numeric& number = GiNaC::ex_to<GiNaC::numeric>(e);
@@ -80,7 +80,7 @@ long double plain_value(const ex& e, const Point& point) {
 
 /// The real value; not a number where a part of the expression is not real, or so large or small
 /// that rounding might matter.
-long double value_of(const ex& e, const Point& point) {
+long double value_of(const ex& e, const Values& point) {
   const long double value = plain_value(e, point);
   const bool fit = value == 0 || (std::fabs(value) < 1e4L && std::fabs(value) > 1e-4L);
   // No real number is -0, of which atan2 makes another side of its cut.
@@ -185,8 +185,8 @@ class Identities {
   }
 
   /// Every other one of small numbers, at which cuts are met and the ends of ranges.
-  Point point() {
-    Point result;
+  Values point() {
+    Values result;
     const bool small = random_(2) == 0;
     for (const ex& x : symbols_) {
       const double value = small ? random_(5) - 2 : static_cast<double>(random_.real());
@@ -340,7 +340,7 @@ class Identities {
   std::vector<ex> symbols_{GiNaC::symbol("x"), GiNaC::symbol("y"), GiNaC::symbol("z")};
 };
 
-bool holds(const Assumption& assumption, const Point& point) {
+bool holds(const Assumption& assumption, const Values& point) {
   const long double value = value_of(assumption.difference, point);
   return !std::isnan(value) && casimir::holds(assumption.comparison, (value > 0) - (value < 0));
 }
@@ -377,7 +377,7 @@ bool proved(const Claim& claim, const std::vector<GiNaC::symbol>& symbols) {
   }
 }
 
-bool inside(const Claim& claim, const Point& point) {
+bool inside(const Claim& claim, const Values& point) {
   return !std::isnan(value_of(claim.context, point)) &&
          std::all_of(claim.assumptions.begin(), claim.assumptions.end(),
                      [&](const Assumption& assumption) { return holds(assumption, point); });
@@ -398,7 +398,7 @@ unsigned compared_points(const Claim& claim, Identities& identities) {
   constexpr int kPoints = 60;
   unsigned compared = 0;
   for (int k = 0; k < kPoints; ++k) {
-    const Point point = identities.point();
+    const Values point = identities.point();
     const long double left = value_of(claim.left, point), right = value_of(claim.right, point);
     if (!inside(claim, point) || !std::isfinite(left) || !std::isfinite(right)) continue;
     ++compared;

@@ -19,7 +19,7 @@ Proof judgement(const Model& model, const std::string& f) {
   candidates.integrals = {{f, {"--integral", 1, 1}, f}};
   const std::vector<Proof> proofs = prove(model, candidates);
   EXPECT_EQ(proofs.size(), 2U);
-  EXPECT_EQ(proofs.back().kind, ClaimKind::judgement);
+  EXPECT_EQ(proofs.back().kind, casimir::ClaimKind::judgement);
   EXPECT_TRUE(proofs.back().note);
   return proofs.back();
 }

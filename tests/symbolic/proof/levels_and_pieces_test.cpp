@@ -11,7 +11,7 @@ namespace casimir::test {
 namespace {
 
 /// Verdict and conditions of the only claim of a kind.
-Proof proof_of(const std::string& kind, const std::string& text) {
+Proof proof_in_case(const std::string& kind, const std::string& text) {
   const Model model = model_of(text);
   for (Proof& proof : prove(model)) {
     if (to_string(proof.kind) == kind) return std::move(proof);
@@ -26,10 +26,10 @@ std::string equations(const std::string& rest) {
 
 /// z on a level of x and y, which rest, where dz/dt is given.
 Proof on_level(const std::string& level, const std::string& rate, const std::string& more = "") {
-  return proof_of("conditional",
-                  equations(more + "[equations]\nx = \"0\"\ny = \"0\"\nz = \"" + rate +
-                            "\"\n[[conditional]]\nname = \"C\"\nexpression = \"z\"\non = [\"" +
-                            level + "\"]\n"));
+  return proof_in_case("conditional",
+                       equations(more + "[equations]\nx = \"0\"\ny = \"0\"\nz = \"" + rate +
+                                 "\"\n[[conditional]]\nname = \"C\"\nexpression = \"z\"\non = [\"" +
+                                 level + "\"]\n"));
 }
 
 TEST(Levels, ALeadingCoefficientThatVanishesOnAPartOfTheLevel) {
@@ -69,10 +69,10 @@ TEST(Levels, AnInequalityThatHoldsTriviallyThereSaysNothing) {
 /// R(t) = t^2/4 starts on y = 0 and leaves it, though dy/dt vanishes there.
 TEST(Levels, InvarianceNeedsARegularCofactor) {
   const auto relation = [](const std::string& rate, const std::string& f) {
-    return proof_of("invariant_relation", equations("[equations]\nx = \"1\"\ny = \"" + rate +
-                                                    "\"\nz = \"0\"\n[[invariant_relation]]\n"
-                                                    "name = \"R\"\nexpression = \"" +
-                                                    f + "\"\n"))
+    return proof_in_case("invariant_relation", equations("[equations]\nx = \"1\"\ny = \"" + rate +
+                                                         "\"\nz = \"0\"\n[[invariant_relation]]\n"
+                                                         "name = \"R\"\nexpression = \"" +
+                                                         f + "\"\n"))
         .verdict;
   };
   EXPECT_EQ(relation("x*y", "y"), Verdict::proved);
@@ -100,11 +100,11 @@ TEST(Levels, AreThoseOfSimplerFunctionsWithTheSameRealZeros) {
 /// The rate of x^2 vanishes on x = 0, whatever that of x is.
 TEST(Levels, OfSquaresAreLeftWhereTheirRootsAre) {
   const auto relation = [](const std::string& rate, const std::string& f) {
-    return proof_of("invariant_relation",
-                    equations("[equations]\nx = \"" + rate +
-                              "\"\ny = \"0\"\nz = \"0\"\n[[invariant_relation]]\n"
-                              "name = \"R\"\nexpression = \"" +
-                              f + "\"\n"))
+    return proof_in_case("invariant_relation",
+                         equations("[equations]\nx = \"" + rate +
+                                   "\"\ny = \"0\"\nz = \"0\"\n[[invariant_relation]]\n"
+                                   "name = \"R\"\nexpression = \"" +
+                                   f + "\"\n"))
         .verdict;
   };
   for (const char* f : {"x^2", "x^3*(1 + y^2)", "x^2*exp(z)"}) {
@@ -117,10 +117,10 @@ TEST(Levels, OfSquaresAreLeftWhereTheirRootsAre) {
 /// What a root of higher power leaves differentiable, and what it does not.
 TEST(Levels, MeetRootsThatAreDifferentiable) {
   const auto conditional = [](const std::string& rate, const std::string& f) {
-    return proof_of("conditional", equations("[equations]\nx = \"x\"\ny = \"" + rate +
-                                             "\"\nz = \"0\"\n[[conditional]]\nname = \"C\"\n"
-                                             "expression = \"" +
-                                             f + "\"\non = [\"x\"]\n"))
+    return proof_in_case("conditional", equations("[equations]\nx = \"x\"\ny = \"" + rate +
+                                                  "\"\nz = \"0\"\n[[conditional]]\nname = \"C\"\n"
+                                                  "expression = \"" +
+                                                  f + "\"\non = [\"x\"]\n"))
         .verdict;
   };
   EXPECT_EQ(conditional("sqrt(x)", "y + x^(3/2)"), Verdict::proved);
@@ -133,12 +133,12 @@ TEST(Levels, MeetRootsThatAreDifferentiable) {
 /// On y = 0 and x < 0 dF/dt is |x| - x, though the derivative of the root has 1/sqrt(y) in it.
 TEST(Levels, MeetRootsWhoseDerivativesSayNoMore) {
   const auto conditional = [](const std::string& domain) {
-    return proof_of("conditional",
-                    "[phase_space]\nvariables = [\"x\",\"y\",\"z\",\"q\",\"w\"]\ndomain = [\"" +
-                        domain +
-                        "\"]\n[equations]\nx = \"0\"\ny = \"sqrt(x^2) - x\"\n"
-                        "z = \"sqrt(x^2) - x\"\nq = \"0\"\nw = \"0\"\n[[conditional]]\n"
-                        "name = \"C\"\nexpression = \"z + sqrt(y)*(y + y*w)\"\non = [\"q\"]\n")
+    return proof_in_case(
+               "conditional",
+               "[phase_space]\nvariables = [\"x\",\"y\",\"z\",\"q\",\"w\"]\ndomain = [\"" + domain +
+                   "\"]\n[equations]\nx = \"0\"\ny = \"sqrt(x^2) - x\"\n"
+                   "z = \"sqrt(x^2) - x\"\nq = \"0\"\nw = \"0\"\n[[conditional]]\n"
+                   "name = \"C\"\nexpression = \"z + sqrt(y)*(y + y*w)\"\non = [\"q\"]\n")
         .verdict;
   };
   EXPECT_NE(conditional("x*y >= 0"), Verdict::proved);
@@ -149,8 +149,8 @@ TEST(Levels, MeetRootsWhoseDerivativesSayNoMore) {
 TEST(Integrals, AreNoneWhereARootInTheMotionVanishes) {
   const auto where = [](const std::string& rate, const std::string& f) {
     const Proof proof =
-        proof_of("integral", equations("[equations]\nx = \"1\"\ny = \"" + rate +
-                                       "\"\nz = \"0\"\n[integrals]\nF = \"" + f + "\"\n"));
+        proof_in_case("integral", equations("[equations]\nx = \"1\"\ny = \"" + rate +
+                                            "\"\nz = \"0\"\n[integrals]\nF = \"" + f + "\"\n"));
     EXPECT_EQ(proof.verdict, Verdict::proved) << f;
     return std::set<std::string>(proof.where.begin(), proof.where.end());
   };
@@ -164,11 +164,12 @@ TEST(Integrals, AreNoneWhereARootInTheMotionVanishes) {
 
 TEST(Signs, OfAProductNeedTheOthersNotToVanish) {
   const auto claim = [](const std::string& assume_a, const std::string& assume_b) {
-    return proof_of("identity", equations("[parameters]\na = { assume = \"" + assume_a +
-                                          "\" }\nb = { assume = \"" + assume_b +
-                                          "\" }\n[equations]\nx = \"0\"\ny = \"0\"\nz = \"0\"\n"
-                                          "[[identity]]\nname = \"i\"\nleft = \"sqrt(b^2)\"\n"
-                                          "right = \"b\"\n"))
+    return proof_in_case("identity",
+                         equations("[parameters]\na = { assume = \"" + assume_a +
+                                   "\" }\nb = { assume = \"" + assume_b +
+                                   "\" }\n[equations]\nx = \"0\"\ny = \"0\"\nz = \"0\"\n"
+                                   "[[identity]]\nname = \"i\"\nleft = \"sqrt(b^2)\"\n"
+                                   "right = \"b\"\n"))
         .verdict;
   };
   EXPECT_EQ(claim("a > 0", "a*b >= 0"), Verdict::proved);
@@ -182,12 +183,12 @@ TEST(Signs, OfAProductNeedTheOthersNotToVanish) {
 TEST(Signs, OfSumsFollowFromThoseOfTheirParts) {
   const auto follows = [](const std::string& a, const std::string& b, const std::string& c,
                           const std::string& function) {
-    return proof_of("identity",
-                    "hamiltonian = \"p^2\"\n[phase_space]\nvariables = [\"q\",\"p\"]\n"
-                    "canonical = true\n[parameters]\na = { assume = [" +
-                        a + "] }\nb = { assume = [" + b + "] }\nc = { assume = [" + c +
-                        "] }\n[[identity]]\nname = \"I\"\nleft = \"sqrt((" + function +
-                        ")^2)*q\"\nright = \"(" + function + ")*q\"\n")
+    return proof_in_case("identity",
+                         "hamiltonian = \"p^2\"\n[phase_space]\nvariables = [\"q\",\"p\"]\n"
+                         "canonical = true\n[parameters]\na = { assume = [" +
+                             a + "] }\nb = { assume = [" + b + "] }\nc = { assume = [" + c +
+                             "] }\n[[identity]]\nname = \"I\"\nleft = \"sqrt((" + function +
+                             ")^2)*q\"\nright = \"(" + function + ")*q\"\n")
         .verdict;
   };
   EXPECT_EQ(follows("'a > b'", "'b > c'", "'c > 0'", "a - c"), Verdict::proved);
@@ -206,13 +207,13 @@ TEST(Signs, OfSumsFollowFromThoseOfTheirParts) {
 /// {u, v} is |q|/q: 1 where sqrt(q) has a value.
 TEST(Domain, OfAMapIsWhereItsExpressionsHaveValuesAsWritten) {
   const auto map = [](const std::string& v) {
-    return proof_of("map",
-                    "hamiltonian = \"p^2\"\n[phase_space]\nvariables = [\"q\",\"p\"]\n"
-                    "canonical = true\n[[map]]\nname = \"M\"\nexpressions = { u = \"q\", "
-                    "v = \"" +
-                        v +
-                        "\" }\n[map.to]\nvariables = [\"u\", \"v\"]\n[map.to.brackets]\n"
-                        "\"u,v\" = \"1\"\n")
+    return proof_in_case("map",
+                         "hamiltonian = \"p^2\"\n[phase_space]\nvariables = [\"q\",\"p\"]\n"
+                         "canonical = true\n[[map]]\nname = \"M\"\nexpressions = { u = \"q\", "
+                         "v = \"" +
+                             v +
+                             "\" }\n[map.to]\nvariables = [\"u\", \"v\"]\n[map.to.brackets]\n"
+                             "\"u,v\" = \"1\"\n")
         .verdict;
   };
   EXPECT_EQ(map("p*sqrt(q^2)/sqrt(q)^2"), Verdict::proved);
@@ -221,10 +222,10 @@ TEST(Domain, OfAMapIsWhereItsExpressionsHaveValuesAsWritten) {
 
 TEST(Domain, AClaimAboutNothingIsNotProved) {
   const auto identity = [](const std::string& left, const std::string& right) {
-    return proof_of("identity",
-                    equations("[equations]\nx = \"0\"\ny = \"0\"\nz = \"0\"\n[[identity]]\n"
-                              "name = \"i\"\nleft = \"" +
-                              left + "\"\nright = \"" + right + "\"\n"))
+    return proof_in_case("identity",
+                         equations("[equations]\nx = \"0\"\ny = \"0\"\nz = \"0\"\n[[identity]]\n"
+                                   "name = \"i\"\nleft = \"" +
+                                   left + "\"\nright = \"" + right + "\"\n"))
         .verdict;
   };
   EXPECT_EQ(identity("log(x*y)", "log(x) + log(y)"), Verdict::proved);
@@ -240,10 +241,10 @@ TEST(Domain, AClaimAboutNothingIsNotProved) {
 /// What an assumption says where GiNaC has simplified it.
 TEST(Domain, AnAssumptionHoldsOnlyWhereItHasAValue) {
   const auto verdict = [](const std::string& assumption, const std::string& f) {
-    return proof_of("integral", equations("domain = [\"" + assumption +
-                                          "\"]\n[equations]\nx = \"0\"\ny = \"0\"\nz = "
-                                          "\"1\"\n[integrals]\nF = \"" +
-                                          f + "\"\n"))
+    return proof_in_case("integral", equations("domain = [\"" + assumption +
+                                               "\"]\n[equations]\nx = \"0\"\ny = \"0\"\nz = "
+                                               "\"1\"\n[integrals]\nF = \"" +
+                                               f + "\"\n"))
         .verdict;
   };
   EXPECT_EQ(verdict("z*0 + 1 > 0", "(sqrt(x^2) - x)*z"), Verdict::refuted);
@@ -256,9 +257,9 @@ TEST(Domain, AnAssumptionHoldsOnlyWhereItHasAValue) {
 /// sqrt(-x^2) has a value at x = 0, and no derivative.
 TEST(Domain, WithoutAnInsideIsNothingToDifferentiateOn) {
   const auto integral = [](const std::string& f) {
-    return proof_of("integral", equations("[equations]\nx = \"0\"\ny = \"0\"\nz = \"1\"\n"
-                                          "[integrals]\nF = \"" +
-                                          f + "\"\n"))
+    return proof_in_case("integral", equations("[equations]\nx = \"0\"\ny = \"0\"\nz = \"1\"\n"
+                                               "[integrals]\nF = \"" +
+                                               f + "\"\n"))
         .verdict;
   };
   EXPECT_EQ(integral("x + sqrt(-x^2)^2"), Verdict::undecided);
@@ -272,15 +273,15 @@ std::string canonical(const std::string& integral) {
 }
 
 TEST(Facts, HoldOnEachPiece) {
-  EXPECT_EQ(proof_of("liouville", canonical("p2")).verdict, Verdict::proved);
-  EXPECT_EQ(proof_of("liouville", canonical("p2*exp(p1)")).verdict, Verdict::proved);
+  EXPECT_EQ(proof_in_case("liouville", canonical("p2")).verdict, Verdict::proved);
+  EXPECT_EQ(proof_in_case("liouville", canonical("p2*exp(p1)")).verdict, Verdict::proved);
   // On each of the two pieces, and each has its own point.
-  const Proof both = proof_of("liouville", canonical("2*sqrt(p2^2) + p2"));
+  const Proof both = proof_in_case("liouville", canonical("2*sqrt(p2^2) + p2"));
   EXPECT_EQ(both.verdict, Verdict::proved);
   EXPECT_TRUE(both.where.empty());
   for (const char* one : {"sqrt(p2^2) + p2", "sqrt(p2^2)*p2 - p2^2"}) {
-    EXPECT_NE(proof_of("independence", canonical(one)).verdict, Verdict::proved) << one;
-    EXPECT_NE(proof_of("liouville", canonical(one)).verdict, Verdict::proved) << one;
+    EXPECT_NE(proof_in_case("independence", canonical(one)).verdict, Verdict::proved) << one;
+    EXPECT_NE(proof_in_case("liouville", canonical(one)).verdict, Verdict::proved) << one;
   }
 }
 
@@ -290,8 +291,8 @@ TEST(Facts, DoNotTakeGeneratorsForIndependent) {
         "p2*(2*cos(atan2(p2, p1)/2)^2 - 1 - p1/sqrt(p1^2 + p2^2))",
         "p2*(4*cos(acos(p2/10)/3)^3 - 3*cos(acos(p2/10)/3) - p2/10)",
         "p2*(8*cos(Pi/7)*cos(2*Pi/7)*cos(3*Pi/7) - 1)", "p2*(sqrt(3 + 2*sqrt(2)) - 1 - sqrt(2))"}) {
-    EXPECT_NE(proof_of("independence", canonical(zero)).verdict, Verdict::proved) << zero;
-    EXPECT_NE(proof_of("liouville", canonical(zero)).verdict, Verdict::proved) << zero;
+    EXPECT_NE(proof_in_case("independence", canonical(zero)).verdict, Verdict::proved) << zero;
+    EXPECT_NE(proof_in_case("liouville", canonical(zero)).verdict, Verdict::proved) << zero;
   }
 }
 
@@ -299,7 +300,7 @@ TEST(Facts, DoNotTakeGeneratorsForIndependent) {
 TEST(Facts, NeedNoRationalPoints) {
   for (const char* function : {"Pi*p2 + p1", "p2*exp(sqrt(2)*p1)", "sqrt(2 + sqrt(3 + sqrt(5)))*p2",
                                "p2*atan2(p1, 7)", "log(2 + p2^2)"}) {
-    const Proof proof = proof_of("liouville", canonical(function));
+    const Proof proof = proof_in_case("liouville", canonical(function));
     EXPECT_EQ(proof.verdict, Verdict::proved) << function << ": " << proof.reason;
   }
 }
@@ -336,11 +337,12 @@ TEST(LowestTerms, CancelWhatNumeratorsKeep) {
 /// The conditions of a fact about two free motions with the second integral F.
 std::set<std::string> conditions_of(const std::string& kind, const std::string& f,
                                     const std::string& assume_a = "") {
-  const Proof proof = proof_of(kind,
-                               "integrable = true\nhamiltonian = \"p1^2 + p2^2\"\n[phase_space]\n"
-                               "variables = [\"q1\",\"q2\",\"p1\",\"p2\"]\ncanonical = "
-                               "true\n[parameters]\na = { assume = [" +
-                                   assume_a + "] }\nb = {}\n[integrals]\nF = \"" + f + "\"\n");
+  const Proof proof =
+      proof_in_case(kind,
+                    "integrable = true\nhamiltonian = \"p1^2 + p2^2\"\n[phase_space]\n"
+                    "variables = [\"q1\",\"q2\",\"p1\",\"p2\"]\ncanonical = "
+                    "true\n[parameters]\na = { assume = [" +
+                        assume_a + "] }\nb = {}\n[integrals]\nF = \"" + f + "\"\n");
   EXPECT_EQ(proof.verdict, Verdict::proved) << f << ": " << proof.reason;
   return {proof.where.begin(), proof.where.end()};
 }
@@ -396,12 +398,12 @@ TEST(SpecialParameters, OfWhichTheAssumptionsAdmitOneRoot) {
 TEST(Maps, LeadIntoTheDomainOfTheTarget) {
   const auto map = [](const std::string& domain, const std::string& bracket,
                       const std::string& image) {
-    return proof_of("map",
-                    "hamiltonian = \"p\"\n[phase_space]\nvariables = [\"q\",\"p\"]\n"
-                    "canonical = true\n[[map]]\nname = \"M\"\nto = { variables = "
-                    "[\"u\",\"v\"], domain = [\"" +
-                        domain + "\"], brackets = { \"u,v\" = \"" + bracket +
-                        "\" } }\nexpressions = { u = \"" + image + "\", v = \"p\" }\n");
+    return proof_in_case("map",
+                         "hamiltonian = \"p\"\n[phase_space]\nvariables = [\"q\",\"p\"]\n"
+                         "canonical = true\n[[map]]\nname = \"M\"\nto = { variables = "
+                         "[\"u\",\"v\"], domain = [\"" +
+                             domain + "\"], brackets = { \"u,v\" = \"" + bracket +
+                             "\" } }\nexpressions = { u = \"" + image + "\", v = \"p\" }\n");
   };
   for (const char* one : {"1", "sqrt(u^2)/u"}) {
     const Proof half = map("u > 0", one, "q");

@@ -14,10 +14,6 @@ namespace {
 using structure::Bracket;
 using structure::BracketReport;
 
-Model bundled(const std::string& name) {
-  return build_model(read_case(CASIMIR_SOURCE_DIR "/cases/" + name + ".toml"));
-}
-
 bool is_proved(const Bracket& bracket) {
   return bracket.jacobi == Verdict::proved && bracket.motion == Verdict::proved;
 }

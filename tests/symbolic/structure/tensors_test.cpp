@@ -17,10 +17,6 @@ using Dimensions = std::vector<std::size_t>;
 
 constexpr TensorType kFields{1, false}, kBivectors{2, false}, kForms{1, true}, kTwoForms{2, true};
 
-Model bundled(const std::string& name) {
-  return build_model(read_case(CASIMIR_SOURCE_DIR "/cases/" + name + ".toml"));
-}
-
 Model kirchhoff(const std::string& hamiltonian, const std::string& parameters) {
   return model_of("hamiltonian = \"" + hamiltonian +
                   "\"\n[phase_space]\nvariables = [\"M1\", \"M2\", \"M3\", \"p1\", \"p2\", "

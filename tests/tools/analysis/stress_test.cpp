@@ -6,7 +6,7 @@
 namespace casimir::test {
 namespace {
 
-SceneReference truth() {
+SceneReference truth_of_the_scene() {
   SceneReference known{.states = {"x"}};
   known.truth = ReferenceState{{1}, {0}, {1}};
   known.growth = 1;
@@ -23,42 +23,43 @@ StressAnswer answer(double x) {
 }
 
 TEST(Stress, AnErrorThatTheToleranceExplainsIsRightAndALargerOneWrong) {
-  const StressCell right = cell_of({}, false, truth(), answer(1 + 1e-9));
+  const StressCell right = cell_of({}, false, truth_of_the_scene(), answer(1 + 1e-9));
   EXPECT_EQ(right.verdict, Judgement::right);
   EXPECT_FALSE(right.row.failed);
   EXPECT_NEAR(right.row.error, 1e-9, 1e-12);
-  const StressCell wrong = cell_of({}, false, truth(), answer(1.2));
+  const StressCell wrong = cell_of({}, false, truth_of_the_scene(), answer(1.2));
   EXPECT_EQ(wrong.verdict, Judgement::wrong);
   EXPECT_TRUE(wrong.row.failed);
-  EXPECT_FALSE(cell_of({}, true, truth(), answer(1.2)).row.failed) << "of another library";
+  EXPECT_FALSE(cell_of({}, true, truth_of_the_scene(), answer(1.2)).row.failed)
+      << "of another library";
 }
 
 TEST(Stress, AStateThatIsMissingIsNoNumber) {
   StressAnswer nothing = answer(1);
   nothing.state.clear();
-  EXPECT_EQ(cell_of({}, false, truth(), nothing).verdict, Judgement::wrong);
+  EXPECT_EQ(cell_of({}, false, truth_of_the_scene(), nothing).verdict, Judgement::wrong);
 }
 
 TEST(Stress, ARefusalNeedsAReason) {
   StressAnswer refused;
   refused.kind = StressAnswer::Kind::refused;
   refused.complaint = "why";
-  const StressCell cell = cell_of({}, false, truth(), refused);
+  const StressCell cell = cell_of({}, false, truth_of_the_scene(), refused);
   EXPECT_EQ(cell.verdict, Judgement::refused);
   EXPECT_EQ(cell.row.end, RowEnd::refused);
   EXPECT_EQ(cell.row.reason, "why");
   refused.complaint.clear();
-  EXPECT_EQ(cell_of({}, false, truth(), refused).verdict, Judgement::wrong);
+  EXPECT_EQ(cell_of({}, false, truth_of_the_scene(), refused).verdict, Judgement::wrong);
   StressAnswer crashed;
   crashed.kind = StressAnswer::Kind::crashed;
-  EXPECT_EQ(cell_of({}, false, truth(), crashed).verdict, Judgement::wrong);
+  EXPECT_EQ(cell_of({}, false, truth_of_the_scene(), crashed).verdict, Judgement::wrong);
   StressAnswer killed;
   killed.kind = StressAnswer::Kind::killed;
-  EXPECT_EQ(cell_of({}, false, truth(), killed).verdict, Judgement::refused);
+  EXPECT_EQ(cell_of({}, false, truth_of_the_scene(), killed).verdict, Judgement::refused);
 }
 
 TEST(Stress, TheTimeOfASingularityIsCompared) {
-  SceneReference known = truth();
+  SceneReference known = truth_of_the_scene();
   known.truth.reset();
   known.singular_time = 2;
   StressAnswer stopped = answer(1);

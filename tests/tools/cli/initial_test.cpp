@@ -8,8 +8,6 @@
 namespace casimir::test {
 namespace {
 
-double number(const nlohmann::json& text) { return std::stod(text.get<std::string>()); }
-
 /// H of kovalevskaya's default scene with another M1, M2: (M1^2 + M2^2 + 2 M3^2)/2 - g1.
 double energy(const Outcome& outcome) {
   return number(outcome.json().at("invariants").at("H").at("initial"));

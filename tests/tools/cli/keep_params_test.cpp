@@ -9,8 +9,6 @@
 namespace casimir::test {
 namespace {
 
-double number(const nlohmann::json& json) { return std::stod(json.get<std::string>()); }
-
 /// A cache of its own, so that what one run compiles the next one finds.
 struct KeepParams : ::testing::Test {
   nlohmann::json integrate(std::vector<std::string> arguments) const {

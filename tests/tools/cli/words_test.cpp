@@ -18,8 +18,6 @@ Json answered(const Folder& folder, std::vector<std::string> arguments, int stat
   return outcome.json();
 }
 
-double number(const Json& text) { return std::stod(text.get<std::string>()); }
-
 /// A case of equations without a Hamiltonian.
 std::string equations(const std::string& variables, const std::string& rates,
                       const std::string& more = "") {

@@ -25,8 +25,8 @@ std::string top(int n) {
          ")\"\n[[scene]]\nname = \"default\"\ninitial = { " + start + " }\nduration = \"2\"\n";
 }
 
-nlohmann::json integrated(const std::string& text, const std::vector<std::string>& more,
-                          const Environment& environment = {}) {
+nlohmann::json answered(const std::string& text, const std::vector<std::string>& more,
+                        const Environment& environment = {}) {
   std::vector<std::string> words{"integrate", "-", "--json"};
   words.insert(words.end(), more.begin(), more.end());
   const Outcome outcome = run(words, text, environment);
@@ -43,9 +43,9 @@ double distance(const nlohmann::json& a, const nlohmann::json& b) {
 }
 
 TEST(AutoMethod, ManyCompiledProductsAndFewDigitsAreForRungeKutta) {
-  const auto few = integrated(top(8), {"--tolerance", "1e-6"});
+  const auto few = answered(top(8), {"--tolerance", "1e-6"});
   EXPECT_EQ(few.at("method"), "dop853");
-  const auto many = integrated(top(8), {});
+  const auto many = answered(top(8), {});
   EXPECT_EQ(many.at("method"), "taylor");
   EXPECT_LT(distance(few, many), 1e-4);
   EXPECT_GT(distance(few, many), 1e-13) << "they were the same run";
@@ -56,22 +56,22 @@ TEST(AutoMethod, ManyCompiledProductsAndFewDigitsAreForRungeKutta) {
 
 TEST(AutoMethod, WhatNeedsNoCompilerStaysWithTables) {
   for (const char* tolerance : {"1e-3", "1e-6", "1e-12"})
-    EXPECT_EQ(integrated(top(5), {"--tolerance", tolerance}).at("method"), "taylor") << tolerance;
+    EXPECT_EQ(answered(top(5), {"--tolerance", tolerance}).at("method"), "taylor") << tolerance;
 }
 
 TEST(AutoMethod, BranchesAndConstantStepsStayWithTaylorSeries) {
-  EXPECT_EQ(integrated(top(8), {"--tolerance", "1e-6", "--step", "0.01"}).at("method"), "taylor");
+  EXPECT_EQ(answered(top(8), {"--tolerance", "1e-6", "--step", "0.01"}).at("method"), "taylor");
   std::string text = top(8);
   const std::string what = "hamiltonian = \"";
   text.replace(text.find(what), what.size(), what + "abs(M12) + ");
-  EXPECT_EQ(integrated(text, {"--tolerance", "1e-6"}).at("method"), "taylor");
+  EXPECT_EQ(answered(text, {"--tolerance", "1e-6"}).at("method"), "taylor");
 }
 
 TEST(AutoMethod, WithoutACompilerItIsTaylorSeriesAgain) {
   const Folder cache;
   const auto run =
-      integrated(top(8), {"--tolerance", "1e-6"},
-                 {{"PATH", "/nonexistent"}, {"CXX", ""}, {"CASIMIR_CACHE", cache.path().string()}});
+      answered(top(8), {"--tolerance", "1e-6"},
+               {{"PATH", "/nonexistent"}, {"CXX", ""}, {"CASIMIR_CACHE", cache.path().string()}});
   EXPECT_EQ(run.at("method"), "taylor");
   EXPECT_NE(run.at("warnings").dump().find("interpreted"), std::string::npos);
 }

@@ -15,8 +15,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-double number(const Json& text) { return std::stod(text.get<std::string>()); }
-
 /// A case of plain equations, with whatever follows the scene's name.
 std::string equations_case(const std::string& equations, const std::string& scene) {
   std::string names;

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-double number(const Json& json, const std::string& name) {
+double coordinate(const Json& json, const std::string& name) {
   return std::stod(json.at("state").at(name).get<std::string>());
 }
 
@@ -30,7 +30,7 @@ TEST_P(EverySet, CarriesTheMotionOfTheDirectionCosines) {
   const Json other = end_state({"--in", GetParam(), "--as", "direction-cosines"});
   ASSERT_EQ(own.at("state").size(), 12U);
   for (const auto& [name, value] : own.at("state").items())
-    EXPECT_NEAR(number(other, name), number(own, name), 1e-10) << name;
+    EXPECT_NEAR(coordinate(other, name), coordinate(own, name), 1e-10) << name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Coordinates, EverySet,
@@ -45,9 +45,9 @@ INSTANTIATE_TEST_SUITE_P(Coordinates, EverySet,
 TEST(Coordinates, AnswerInStereographicProjection) {
   const Json own = end_state({});
   const Json other = end_state({"--as", "stereographic"});
-  const double x = number(other, "x"), y = number(other, "y");
-  EXPECT_NEAR(2 * x / (x * x + y * y + 1), number(own, "gamma1"), 1e-14);
-  EXPECT_NEAR(2 * y / (x * x + y * y + 1), number(own, "gamma2"), 1e-14);
+  const double x = coordinate(other, "x"), y = coordinate(other, "y");
+  EXPECT_NEAR(2 * x / (x * x + y * y + 1), coordinate(own, "gamma1"), 1e-14);
+  EXPECT_NEAR(2 * y / (x * x + y * y + 1), coordinate(own, "gamma2"), 1e-14);
 }
 
 TEST(Coordinates, ClaimsHoldInOtherVariables) {

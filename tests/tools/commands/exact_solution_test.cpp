@@ -30,7 +30,7 @@ struct Setting {
 };
 
 /// "p", "p/q" or a decimal number.
-Real number(const std::string& text) {
+Real parsed(const std::string& text) {
   const std::size_t bar = text.find('/');
   if (bar == std::string::npos) return std::stold(text);
   return std::stold(text.substr(0, bar)) / std::stold(text.substr(bar + 1));
@@ -42,13 +42,13 @@ Setting setting_in(const std::string& file, const std::string& scene,
   for (const SceneText& text : read_case(file).scenes) {
     if (text.name.value != scene) continue;
     for (const auto& entry : text.parameters)
-      result.parameters[entry.first.value] = number(entry.second.value);
+      result.parameters[entry.first.value] = parsed(entry.second.value);
     for (const auto& entry : text.initial)
-      result.initial[entry.first.value] = number(entry.second.value);
+      result.initial[entry.first.value] = parsed(entry.second.value);
   }
   for (const std::string& text : replaced) {
     const std::size_t sign = text.find('=');
-    result.parameters[text.substr(0, sign)] = number(text.substr(sign + 1));
+    result.parameters[text.substr(0, sign)] = parsed(text.substr(sign + 1));
   }
   return result;
 }
@@ -92,7 +92,7 @@ using Solution = Values (*)(const Setting& setting, Real t);
 void expect_exact(Solution solution, const Setting& setting,
                   const std::vector<std::string>& durations) {
   for (const std::string& duration : durations)
-    EXPECT_LT(error_after(setting, duration, solution(setting, number(duration))), 1e-10L)
+    EXPECT_LT(error_after(setting, duration, solution(setting, parsed(duration))), 1e-10L)
         << setting.file << ", scene " << setting.scene << ", t = " << duration;
 }
 

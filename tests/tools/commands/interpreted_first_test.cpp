@@ -12,7 +12,7 @@
 namespace casimir::test {
 namespace {
 
-nlohmann::json integrated(const Folder& cache, std::vector<std::string> arguments) {
+nlohmann::json run_cold(const Folder& cache, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "integrate");
   arguments.emplace_back("--json");
   const Outcome outcome =
@@ -31,18 +31,18 @@ bool has_module(const Folder& cache) {
 
 TEST(InterpretedFirst, ShortRunsCompileNothing) {
   const Folder cache;
-  EXPECT_EQ(integrated(cache, {"lagrange-euler-angles"}).at("code"), "interpreted");
-  const auto stiff = integrated(cache, {"robertson"});
+  EXPECT_EQ(run_cold(cache, {"lagrange-euler-angles"}).at("code"), "interpreted");
+  const auto stiff = run_cold(cache, {"robertson"});
   EXPECT_EQ(stiff.at("code"), "interpreted");
   EXPECT_EQ(stiff.at("method"), "radau9");
-  EXPECT_EQ(integrated(cache, {"kovalevskaya"}).at("code"), "tables");
+  EXPECT_EQ(run_cold(cache, {"kovalevskaya"}).at("code"), "tables");
   EXPECT_FALSE(has_module(cache));
 }
 
 TEST(InterpretedFirst, LongRunsGoOverAndTheCacheChangesNoBit) {
   const Folder cache;
   const std::vector<std::string> asked{"lagrange-euler-angles", "--duration", "20000"};
-  const auto cold = integrated(cache, asked), warm = integrated(cache, asked);
+  const auto cold = run_cold(cache, asked), warm = run_cold(cache, asked);
   EXPECT_EQ(cold.at("code"), "interpreted, then compiled");
   EXPECT_EQ(warm.at("code"), "interpreted, then compiled");
   EXPECT_EQ(cold.at("from_cache"), false);
@@ -59,17 +59,17 @@ TEST(InterpretedFirst, ConstantStepsAreOneOrTheOther) {
   auto few = asked, many = asked;
   few.emplace_back("0.01");
   many.emplace_back("0.00004");
-  EXPECT_EQ(integrated(cache, few).at("code"), "interpreted");
-  EXPECT_EQ(integrated(cache, few).at("steps"), 1000);
-  const auto long_run = integrated(cache, many);
+  EXPECT_EQ(run_cold(cache, few).at("code"), "interpreted");
+  EXPECT_EQ(run_cold(cache, few).at("steps"), 1000);
+  const auto long_run = run_cold(cache, many);
   EXPECT_EQ(long_run.at("code"), "interpreted, then compiled");
   EXPECT_EQ(long_run.at("steps"), 250000);
 }
 
 TEST(Exact, HasTheStateOfTheReference) {
   const Folder cache;
-  const auto closed = integrated(cache, {"euler", "--method", "exact"});
-  const auto digits = integrated(cache, {"euler", "--digits", "20"});
+  const auto closed = run_cold(cache, {"euler", "--method", "exact"});
+  const auto digits = run_cold(cache, {"euler", "--digits", "20"});
   for (const auto& [name, value] : closed.at("state").items())
     EXPECT_NEAR(std::stod(value.get<std::string>()),
                 std::stod(digits.at("state").at(name).get<std::string>()), 2e-15)

@@ -8,10 +8,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 TEST(MapCommands, WhatDiscretiseWritesIsACase) {
   const Folder folder;
   const Outcome written = run_in(folder, {"discretise", "euler", "--kahan", "-o", "kahan.toml"});

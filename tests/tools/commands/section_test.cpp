@@ -10,11 +10,11 @@
 namespace casimir::test {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 const double kPi = std::acos(-1.);
 
-double number(const json& object, const char* name) {
+double field(const Json& object, const char* name) {
   return std::stod(object.at(name).get<std::string>());
 }
 
@@ -58,20 +58,20 @@ TEST(Section, HenonAndHeiles) {
   const Outcome outcome = section_of(kHenonHeiles, {"--energy", "1/12", "--orbits", "25",
                                                     "--points", "60", "--fixed-points", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const json result = outcome.json();
+  const Json result = outcome.json();
   EXPECT_EQ(result.at("orbits").size(), 25U);
-  EXPECT_LT(number(result, "off_level"), 1e-10);
-  for (const json& orbit : result.at("orbits"))
-    for (const json& point : orbit.at("crossings")) {
-      const double y = number(point, "u"), py = number(point, "v");
+  EXPECT_LT(field(result, "off_level"), 1e-10);
+  for (const Json& orbit : result.at("orbits"))
+    for (const Json& point : orbit.at("crossings")) {
+      const double y = field(point, "u"), py = field(point, "v");
       EXPECT_LE(py * py / 2 + y * y / 2 - y * y * y / 3, 1. / 12 + 1e-10);  // px^2 >= 0
     }
   // The four fixed points of this section at 1/12: three stable, one not, the latter and one
   // stable one on py = 0, the other two mirror images.
-  const json& cycles = result.at("cycles");
+  const Json& cycles = result.at("cycles");
   ASSERT_GE(cycles.size(), 4U);
   int stable = 0;
-  for (const json& cycle : cycles) stable += cycle.at("stable") ? 1 : 0;
+  for (const Json& cycle : cycles) stable += cycle.at("stable") ? 1 : 0;
   EXPECT_GE(stable, 3);
 }
 
@@ -85,10 +85,10 @@ TEST(Section, TheFixedPointsOfTheHeavyTopAreProved) {
       {"5.2186", {5.21863364, 11.795}},
       {"3.8563", {3.85632298, -2.01298}},
       {"4.9540", {4.95405306, -1.97774}}};
-  const json result = outcome.json();
+  const Json result = outcome.json();
   std::size_t proved = 0;
-  for (const json& cycle : result.at("cycles")) {
-    const json& validated = cycle.at("validated");
+  for (const Json& cycle : result.at("cycles")) {
+    const Json& validated = cycle.at("validated");
     ASSERT_EQ(validated.at("verdict"), "proved") << validated;
     const std::string low = validated.at("period").at(0), high = validated.at("period").at(1);
     const auto found = known.find(low.substr(0, 6));
@@ -120,12 +120,12 @@ TEST(Section, TheOtherDirectionIsTheMirrorImage) {
   const Outcome first = run_in(folder, up), second = run_in(folder, down);
   ASSERT_EQ(first.status, 0) << first.err;
   ASSERT_EQ(second.status, 0) << second.err;
-  const json a = first.json().at("orbits")[0].at("crossings"),
+  const Json a = first.json().at("orbits")[0].at("crossings"),
              b = second.json().at("orbits")[0].at("crossings");
   ASSERT_EQ(a.size(), 30U);
   for (std::size_t n = 0; n < 30; ++n) {
-    EXPECT_NEAR(number(a[n], "u"), number(b[n], "u"), 1e-9);
-    EXPECT_NEAR(number(a[n], "v"), number(b[n], "v"), 1e-9);
+    EXPECT_NEAR(field(a[n], "u"), field(b[n], "u"), 1e-9);
+    EXPECT_NEAR(field(a[n], "v"), field(b[n], "v"), 1e-9);
   }
 }
 
@@ -134,17 +134,17 @@ TEST(Section, AnAngleIsAPlaneAtEveryTurnAndPlottedOverOne) {
       kSphericalPendulum,
       {"--plane", "ph = 1", "--pair", "th", "p_th", "--orbits", "5", "--points", "40", "--json"});
   ASSERT_EQ(turns.status, 0) << turns.err;
-  const json every = turns.json();
-  for (const json& orbit : every.at("orbits")) EXPECT_EQ(orbit.at("points"), 40);
+  const Json every = turns.json();
+  for (const Json& orbit : every.at("orbits")) EXPECT_EQ(orbit.at("points"), 40);
   const Outcome plotted = section_of(
       kSphericalPendulum,
       {"--plane", "p_th", "--pair", "ph", "th", "--orbits", "5", "--points", "40", "--json"});
   ASSERT_EQ(plotted.status, 0) << plotted.err;
-  const json round = plotted.json();
-  for (const json& orbit : round.at("orbits"))
-    for (const json& point : orbit.at("crossings")) {
-      EXPECT_GE(number(point, "u"), 0);
-      EXPECT_LT(number(point, "u"), 2 * kPi);
+  const Json round = plotted.json();
+  for (const Json& orbit : round.at("orbits"))
+    for (const Json& point : orbit.at("crossings")) {
+      EXPECT_GE(field(point, "u"), 0);
+      EXPECT_LT(field(point, "u"), 2 * kPi);
     }
 }
 
@@ -197,8 +197,8 @@ TEST(Section, PointsOffTheLevelAreDroppedAndFail) {
                                "--points", "50", "--tolerance", "1e-6", "--json"});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.err.find("left its level"), std::string::npos) << outcome.err;
-  const json result = outcome.json();
-  EXPECT_LT(number(result, "off_level"), 1e-10);
+  const Json result = outcome.json();
+  EXPECT_LT(field(result, "off_level"), 1e-10);
   EXPECT_EQ(result.at("orbits")[0].at("status"), "drift_exceeded");
 }
 

@@ -9,10 +9,6 @@
 namespace casimir::test {
 namespace {
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// {M_i, M_j} and {M_i, g_j} of e(3) as a table, {M1,g2} as given.
 std::string e3_case(const std::string& m1_g2, const std::string& hamiltonian) {
   return "hamiltonian = \"" + hamiltonian +

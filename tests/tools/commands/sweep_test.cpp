@@ -12,7 +12,7 @@
 namespace casimir::test {
 namespace {
 
-std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
+std::vector<std::vector<std::string>> table_rows(const std::string& csv) {
   std::vector<std::vector<std::string>> rows;
   std::istringstream stream(csv);
   for (std::string line; std::getline(stream, line);) {
@@ -45,8 +45,8 @@ TEST(Sweep, GivesTheNumbersOfAnEnsemble) {
                             "20", "--output", "e.csv", "--quiet"})
                 .status,
             0);
-  const auto swept = rows_of(file_text(folder.path() / "s.csv"));
-  const auto members = rows_of(file_text(folder.path() / "e.csv"));
+  const auto swept = table_rows(file_text(folder.path() / "s.csv"));
+  const auto members = table_rows(file_text(folder.path() / "e.csv"));
   ASSERT_EQ(swept.size(), 10U);
   ASSERT_EQ(members.size(), 10U);
   EXPECT_EQ(swept[0][0] + swept[0][1] + swept[0][2] + swept[0][3], "pointrM1(0)status");
@@ -72,7 +72,7 @@ TEST(Sweep, ExponentsAreThoseOfALinearSaddle) {
             .status,
         0);
   EXPECT_EQ(file_text(folder.path() / "e1.csv"), file_text(folder.path() / "e3.csv"));
-  const auto rows = rows_of(file_text(folder.path() / "e1.csv"));
+  const auto rows = table_rows(file_text(folder.path() / "e1.csv"));
   ASSERT_EQ(rows.size(), 5U);
   ASSERT_EQ(rows[0][4], "exponent");
   EXPECT_NEAR(std::stod(rows[1][4]), 0, 1e-3);
@@ -94,7 +94,7 @@ TEST(Sweep, SectionsCountChaoticOrbits) {
       run_in(folder, {"sweep", file, "--over", "px=1/5,14/25", "--do", "section", "--orbits", "12",
                       "--points", "200", "--output", "s.csv", "--quiet"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const auto rows = rows_of(file_text(folder.path() / "s.csv"));
+  const auto rows = table_rows(file_text(folder.path() / "s.csv"));
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows[0][3], "orbits");
   EXPECT_EQ(rows[1][3] + " " + rows[1][4], "12 2400");
@@ -110,7 +110,7 @@ TEST(Sweep, GridValuesAreTheNearestToTheExactOnes) {
                             "--output", "s.csv", "--quiet"})
                 .status,
             0);
-  const auto rows = rows_of(file_text(folder.path() / "s.csv"));
+  const auto rows = table_rows(file_text(folder.path() / "s.csv"));
   ASSERT_EQ(rows.size(), 8U);
   const double exact[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7};
   for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(std::stod(rows[i + 1][1]), exact[i]);
@@ -123,7 +123,7 @@ TEST(Sweep, LetsAnInitialStateFollowAnAngle) {
       "--let",    "g2=0",         "--let",  "g3=cos(theta)", "--duration", "5",
       "--output", "s.csv",        "--quiet"};
   ASSERT_EQ(run_in(folder, arguments).status, 0);
-  EXPECT_EQ(rows_of(file_text(folder.path() / "s.csv")).size(), 6U);
+  EXPECT_EQ(table_rows(file_text(folder.path() / "s.csv")).size(), 6U);
   // Without it the constraint of the case is left, and that is said.
   const Outcome off = run_in(folder, {"sweep", "kovalevskaya", "--over", "g1=0:1:3"});
   EXPECT_EQ(off.status, 2);
@@ -232,7 +232,7 @@ TEST(Sweep, PointsThatCannotBeIntegratedAreToldAndTheRestIsThere) {
                                           "sigma=-1:1:3", "--duration", "1", "--output", "s.csv"});
   EXPECT_EQ(outcome.status, 5) << outcome.err;
   EXPECT_NE(outcome.err.find("sigma(0) = 1"), std::string::npos) << outcome.err;
-  EXPECT_EQ(rows_of(file_text(folder.path() / "s.csv")).size(), 4U);
+  EXPECT_EQ(table_rows(file_text(folder.path() / "s.csv")).size(), 4U);
 }
 
 int run_mpi(const Folder& folder, const std::vector<std::string>& arguments) {
@@ -286,7 +286,7 @@ TEST(Sweep, AsHdf5HasArraysOfTheGridsShape) {
   ASSERT_EQ(std::system(command.c_str()), 0);
   const std::string dump = file_text(folder.path() / "dump");
   EXPECT_NE(dump.find("( 3, 7 ) / ( 3, 7 )"), std::string::npos) << dump;
-  const auto rows = rows_of(file_text(folder.path() / "s.csv"));
+  const auto rows = table_rows(file_text(folder.path() / "s.csv"));
   const auto column =
       static_cast<std::size_t>(std::find(rows[0].begin(), rows[0].end(), "g1") - rows[0].begin());
   std::istringstream data(dump.substr(dump.find("DATA {") + 6));

@@ -32,8 +32,6 @@ Answered integrated(const std::string& text, std::vector<std::string> more = {})
   return {outcome.status, outcome.json()};
 }
 
-double number(const nlohmann::json& text) { return std::stod(text.get<std::string>()); }
-
 TEST(Trust, InvariantsBeyondTheRangeOfDoubleAreRight) {
   for (const auto& [size, duration, square] :
        {std::tuple{"200", "10*10^(-200)", "e+400"}, std::tuple{"(-200)", "10*10^200", "e-400"},

@@ -10,17 +10,17 @@
 namespace casimir::test {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 const double kPi = std::acos(-1.);
 
-double number(const json& object, const char* name) {
+double number(const Json& object, const char* name) {
   return std::stod(object.at(name).get<std::string>());
 }
 
 /// The chaotic scene of the heavy body, with cycles up to length 3: computed once.
-const json& figure_15() {
-  static const json kResult = run({"section", "euler-poisson", "--scene", "chaotic", "--orbits",
+const Json& figure_15() {
+  static const Json kResult = run({"section", "euler-poisson", "--scene", "chaotic", "--orbits",
                                    "40", "--points", "150", "--cycles", "3", "--json"})
                                   .json();
   return kResult;
@@ -46,12 +46,12 @@ const std::vector<Row> kRows{
 };
 
 /// How far a cycle is from a row, in l / Pi and L/G, for the best order of its points.
-double distance(const json& cycle, const Row& row) {
+double distance(const Json& cycle, const Row& row) {
   if (cycle.at("points").size() != row.points.size()) return 1;
   double farthest = 0;
   for (const auto& [l, x] : row.points) {
     double nearest = 1;
-    for (const json& point : cycle.at("points"))
+    for (const Json& point : cycle.at("points"))
       nearest = std::min(nearest, std::max(std::abs(number(point, "u") / kPi - l),
                                            std::abs(number(point, "v") - x)));
     farthest = std::max(farthest, nearest);
@@ -61,8 +61,8 @@ double distance(const json& cycle, const Row& row) {
 
 TEST(SectionFigures, CyclesOfFigure15) {
   for (const Row& row : kRows) {
-    const json* best = nullptr;
-    for (const json& cycle : figure_15().at("cycles"))
+    const Json* best = nullptr;
+    for (const Json& cycle : figure_15().at("cycles"))
       if (!best || distance(cycle, row) < distance(*best, row)) best = &cycle;
     ASSERT_NE(best, nullptr);
     EXPECT_LT(distance(*best, row), 1.1e-6) << row.points[0].first << ' ' << row.points[0].second;
@@ -76,9 +76,9 @@ TEST(SectionFigures, CyclesOfFigure15) {
 TEST(SectionFigures, EveryPointOfFigure15IsOnItsLevelAndTheCylinderIsCovered) {
   EXPECT_LT(number(figure_15(), "off_level"), 1e-10);
   double top = 0, bottom = 0;
-  for (const json& orbit : figure_15().at("orbits")) {
+  for (const Json& orbit : figure_15().at("orbits")) {
     EXPECT_EQ(orbit.at("points"), 150);
-    for (const json& point : orbit.at("crossings")) {
+    for (const Json& point : orbit.at("crossings")) {
       top = std::max(top, number(point, "v"));
       bottom = std::min(bottom, number(point, "v"));
       EXPECT_GE(number(point, "u"), 0);
@@ -97,8 +97,8 @@ TEST(SectionFigures, ExponentsOfSeaAndIslandsOfFigure15) {
       run_in(folder, {"section", "euler-poisson", "--scene", "chaotic", "--seeds", "seeds.csv",
                       "--points", "5200", "--json", "--output", "points.csv"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const json result = outcome.json();
-  const json &sea = result.at("orbits")[0], &island = result.at("orbits")[1];
+  const Json result = outcome.json();
+  const Json &sea = result.at("orbits")[0], &island = result.at("orbits")[1];
   EXPECT_TRUE(sea.at("chaotic"));
   EXPECT_FALSE(island.at("chaotic"));
   EXPECT_GT(number(sea, "exponent"), 0.05);
@@ -132,7 +132,7 @@ TEST(SectionFigures, AnotherLibraryCrossesAtTheSameTimes) {
   const Outcome outcome = run_in(folder, {"section", "euler-poisson", "--scene", "chaotic",
                                           "--seeds", "seeds.csv", "--points", "12", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const json orbit = outcome.json().at("orbits")[0];
+  const Json orbit = outcome.json().at("orbits")[0];
   boost::numeric::odeint::runge_kutta_fehlberg78<State> stepper;
   State x{0, 1, 2, 0, 1, 0};
   double t = 0;
@@ -150,7 +150,7 @@ TEST(SectionFigures, AnotherLibraryCrossesAtTheSameTimes) {
       }
       State there = x;
       stepper.do_step(heavy_body, there, t, high);
-      const json& crossing = orbit.at("crossings").at(found++);
+      const Json& crossing = orbit.at("crossings").at(found++);
       EXPECT_NEAR(number(crossing, "t"), t + high, 1e-9);
       EXPECT_NEAR(std::remainder(number(crossing, "u") - std::atan2(there[0], there[1]), 2 * kPi),
                   0, 1e-9);
@@ -174,11 +174,11 @@ TEST(SectionFigures, Figure15IsSymmetric) {
         .at("orbits")[0]
         .at("crossings");
   };
-  const json forth = section("u,v\n3.7,0.3\n", "6");
-  const json& last = forth.at(5);
+  const Json forth = section("u,v\n3.7,0.3\n", "6");
+  const Json& last = forth.at(5);
   char image[100];
   std::snprintf(image, sizeof image, "u,v\n%.17g,%.17g\n", number(last, "u"), -number(last, "v"));
-  const json back = section(image, "6");
+  const Json back = section(image, "6");
   for (std::size_t n = 0; n < 5; ++n) {
     EXPECT_NEAR(number(back.at(n), "u"), number(forth.at(4 - n), "u"), 1e-6);
     EXPECT_NEAR(number(back.at(n), "v"), -number(forth.at(4 - n), "v"), 1e-6);
@@ -189,13 +189,13 @@ TEST(SectionFigures, Figure14AreTheLevelLinesOfTheFreeTop) {
   const Outcome outcome = run({"section", "euler-e3", "--scene", "figure-1.4", "--orbits", "30",
                                "--points", "100", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const json result = outcome.json();
+  const Json result = outcome.json();
   EXPECT_EQ(result.at("chaotic"), 0);
   double highest_of_ovals = 0;
-  for (const json& orbit : result.at("orbits")) {
+  for (const Json& orbit : result.at("orbits")) {
     // (1-x^2)*(a1*sin(l)^2 + a2*cos(l)^2) + a3*x^2 is the same all along an orbit: 2 h / G^2.
     double least = 10, largest = 0, top = 0;
-    for (const json& point : orbit.at("crossings")) {
+    for (const Json& point : orbit.at("crossings")) {
       const double l = number(point, "u"), x = number(point, "v");
       const double level =
           (1 - x * x) * (2. / 3 * std::pow(std::sin(l), 2) + std::pow(std::cos(l), 2)) + x * x / 2;
@@ -218,8 +218,8 @@ TEST(SectionFigures, FixedPointsOfFigure14) {
                                "--points", "100", "--fixed-points", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   std::map<int, int> found;  // by l in units of Pi/2
-  const json result = outcome.json();
-  for (const json& cycle : result.at("cycles")) {
+  const Json result = outcome.json();
+  for (const Json& cycle : result.at("cycles")) {
     const double l = number(cycle.at("points")[0], "u"), x = number(cycle.at("points")[0], "v");
     const int quarter = static_cast<int>(std::lround(2 * l / kPi)) % 4;
     if (std::abs(x) > 0.99) continue;  // the poles, where l is no coordinate
