@@ -67,6 +67,12 @@ struct Specialisation {
   bool has_variational = false;
   bool taylor = false;
 
+  /// Of a map: then `rhs` has the next states, and whatever is said of derivatives with respect to
+  /// the time has no meaning.
+  bool of_map = false;
+  Program inverse;  ///< of a map: outputs are the states before
+  bool has_inverse = false;
+
   /// No inputs; outputs: initial values of the kept states, values of the run-time parameters, and
   /// the duration, 0 where the scene has none.
   Program start;

@@ -17,7 +17,8 @@ struct Method {
   bool fixed_step_ok = false;        ///< accepts Settings::fixed_step
   bool series = false;               ///< needs the recurrences of the system's Taylor coefficients
   bool splits = false;               ///< follows the flows of the parts of a Hamiltonian
-  bool closed_form = false;  ///< takes no steps: evaluates the solution of systems that have one
+  bool closed_form = false;     ///< takes no steps: evaluates the solution of systems that have one
+  bool quadratic_only = false;  ///< is defined for equations that are polynomials of degree two
   std::string_view outside = {};  ///< the library that does it, or empty: a kernel of our own
   std::string_view header = {};   ///< of the kernel, in kernels/; empty: a library calls rhs
   std::string_view entry = {};    ///< the function template of the kernel, called with <System ..>;

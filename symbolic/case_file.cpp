@@ -213,7 +213,8 @@ MapCaseFile Reader::map_case(const toml::table& root, CaseFile file) const {
            fmt::format("'{}' is about a flow, and the table {} makes this the case of a map", key,
                        result.map.value));
   };
-  for (const char* key : {"hamiltonian", "lagrangian", "equations", "lax"}) refuse(key);
+  for (const char* key : {"hamiltonian", "lagrangian", "equations", "lax", "superintegrable"})
+    refuse(key);
   if (table) result.next = entries(*table, "[map]");
   each(root, "map_step", [&](const toml::table& step, const std::string& what) {
     allow(step, what, {"expressions"});
@@ -250,6 +251,7 @@ CaseFile Reader::read_common(const toml::table& root) {
   result.book = plain(root, "book");
   for (const Text& tag : texts(root, "tags")) result.tags.push_back(one_line(tag.value));
   result.integrable = boolean(root, "integrable");
+  result.superintegrable = boolean(root, "superintegrable");
   result.hamiltonian = optional_text(root, "hamiltonian");
   result.lagrangian = optional_text(root, "lagrangian");
   const toml::node* space = root.get("phase_space");
@@ -271,9 +273,9 @@ CaseFile Reader::read_common(const toml::table& root) {
     result.invariant_relations.push_back(level(table, what));
   });
   each(root, "lax", [&](const toml::table& table, const std::string& what) {
-    allow(table, what, {"spectral", "L", "A"});
-    result.lax.push_back(
-        {optional_text(table, "spectral"), matrix(table, "L"), matrix(table, "A")});
+    allow(table, what, {"spectral", "L", "A", "on"});
+    result.lax.push_back({optional_text(table, "spectral"), matrix(table, "L"), matrix(table, "A"),
+                          texts(table, "on")});
   });
   if (!gives_next_values(root))
     each(root, "map", [&](const toml::table& table, const std::string& what) {
@@ -371,9 +373,8 @@ const CaseFile& common_part(const AnyCaseFile& any) {
 CaseError MapCaseFile::not_a_flow() const {
   return map.error(
       "this is the case of a map, and a flow is needed here: equations or a hamiltonian", 0,
-      "show, verify, search, degrees and integrate work with maps; [[map]] with double brackets "
-      "claims "
-      "that a map to another phase space is Poisson");
+      "show, verify, search, degrees, generate, integrate, conserve and section work with maps; "
+      "[[map]] with double brackets claims that a map to another phase space is Poisson");
 }
 
 CaseFile parse_case(const std::string& toml, const std::string& file) {

@@ -92,6 +92,7 @@ struct IdentityText {
 struct LaxText {
   std::optional<Text> spectral;
   std::vector<std::vector<Text>> l, a;
+  std::vector<Text> on;  ///< the level that it is one on; empty: everywhere
 };
 
 /// A right inverse of a map: this case's variables as functions of those of the map's target.
@@ -158,6 +159,7 @@ struct CaseFile {
   std::string book;  ///< section or appendix of the book, as "2.4"; may be empty
   std::vector<std::string> tags;
   bool integrable = false;
+  bool superintegrable = false;
   bool complex_numbers = false;  ///< some string has I as a word of its own
   std::optional<Text> hamiltonian;
   std::optional<Text> lagrangian;

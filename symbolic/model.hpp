@@ -65,7 +65,8 @@ struct Measure {
 struct LaxPair {
   std::optional<GiNaC::symbol> spectral;
   GiNaC::matrix l, a;
-  std::vector<GiNaC::ex> domain{};  ///< as of NamedExpression
+  std::vector<GiNaC::ex> domain{};    ///< as of NamedExpression
+  std::vector<NamedExpression> on{};  ///< it is one on this common zero level only; or empty
 };
 
 /// The default Poincare section: `function` = 0 crossed in one direction, and the plotted pair.
@@ -133,6 +134,7 @@ struct Model {
   std::string book;  ///< section or appendix of the book, as "2.4"; may be empty
   std::vector<std::string> tags;
   bool integrable = false;
+  bool superintegrable = false;  ///< more integrals than Liouville's theorem needs, not all commute
   bool complex_numbers = false;  ///< its expressions use I
 
   std::string phase_space;  ///< "e(3)", "canonical", "explicit brackets", "equations", ..

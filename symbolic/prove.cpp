@@ -232,7 +232,11 @@ std::vector<Proof> decide_claims(const Model& model, const std::vector<Claim>& c
 }
 
 bool counts(const Model& model, const Proof& proof) {
-  return !proof.note && (!proof.fact || model.integrable);
+  if (proof.note || !proof.fact) return !proof.note;
+  // Integrals that do not commute, and those that follow from others, are no fault there.
+  if (model.superintegrable)
+    return proof.kind == ClaimKind::rank || proof.kind == ClaimKind::liouville;
+  return model.integrable;
 }
 
 Verdict overall(const Model& model, const std::vector<Proof>& proofs) {

@@ -54,8 +54,8 @@ struct Proof {
   std::string name;
   Verdict verdict = Verdict::undecided;
   std::optional<std::size_t> rank;  ///< of the structure matrix, as far as it was found
-  bool fact = false;  ///< about the system; counts only where the file claims `integrable`
-  bool note = false;  ///< said beside the claims; never counts
+  bool fact = false;                ///< about the system; see `counts`
+  bool note = false;                ///< said beside the claims; never counts
   double seconds = 0;
   std::vector<std::string> on;  ///< the relations that define the level, as written
   std::string evidence;         ///< for what is proved: what was found, in words
@@ -104,7 +104,8 @@ Proof prove_claim(const Model& model, ClaimKind kind, const NamedExpression& f,
 std::vector<Proof> pending(const Model& model, const Candidates& candidates = {});
 
 /// Whether the verdict of the case depends on it: a claim, or a fact where the file claims
-/// integrability.
+/// integrability. Where it claims superintegrability, of the facts the rank of the bracket and the
+/// counts of integrals: those that do not commute or depend on others are named and do not count.
 bool counts(const Model& model, const Proof& proof);
 
 /// The worst verdict among the claims; facts count where the file claims integrability.

@@ -24,19 +24,22 @@ class CWriter {
   std::string run() const {
     std::string text = head_comment(spec_, true) + ownership_comment() + "#ifndef " + guard_ +
                        "\n#define " + guard_ + "\n\n" + includes() + constants();
-    text += function("rhs", "The time derivatives of the state.", spec_.rhs, {"dx"},
-                     context_.entries("dx", spec_.rhs, nullptr));
+    text += function(words_.rhs, words_.comment, spec_.rhs, {words_.target},
+                     context_.entries(words_.target, spec_.rhs, nullptr));
+    if (spec_.has_inverse) {
+      text += function("inverse", words_.inverse, spec_.inverse, {"previous"},
+                       context_.entries("previous", spec_.inverse, nullptr));
+    }
     if (!spec_.invariant_names.empty()) {
-      text += function(
-          "invariants", "Conserved along solutions: " + listed(spec_.invariant_names) + ".",
-          spec_.invariants, {"values"}, context_.entries("values", spec_.invariants, nullptr));
+      text += function("invariants", words_.conserved + listed(spec_.invariant_names) + ".",
+                       spec_.invariants, {"values"},
+                       context_.entries("values", spec_.invariants, nullptr));
       if (spec_.has_gradients) text += gradients();
     }
     if (spec_.has_jacobian) text += jacobian();
     if (spec_.has_variational) {
-      text += function("variational",
-                       "The rhs, and the derivative of a small deviation delta_x carried along.",
-                       spec_.variational, {"dx", "ddelta_x"}, context_.variational());
+      text += function(words_.variational, words_.deviation, spec_.variational,
+                       {words_.target, words_.deviation_target}, context_.variational());
     }
     return text + "#endif  // " + guard_ + "\n";
   }
@@ -49,7 +52,7 @@ class CWriter {
 
   std::string includes() const {
     const bool calls = needs_math_library(spec_) || calls_functions(spec_.gradients.program) ||
-                       calls_functions(spec_.variational);
+                       calls_functions(spec_.variational) || calls_functions(spec_.inverse);
     return calls ? "#include <math.h>\n\n" : "";
   }
 
@@ -112,8 +115,8 @@ class CWriter {
           table("int", "jacobian_columns", pattern.columns) +
           table("int", "jacobian_rows", pattern.rows) + "\n";
     }
-    text += function("jacobian", "J[i + dimension*j] = d(dx[i])/d(x[j]), all entries.",
-                     matrix.program, {"J"}, context_.entries("J", matrix.program, &matrix),
+    text += function("jacobian", words_.jacobian, matrix.program, {"J"},
+                     context_.entries("J", matrix.program, &matrix),
                      zeros("J", matrix, spec_.states.size()));
     if (!sparse_jacobian_) return text;
     return text + function("jacobian_entries",
@@ -165,6 +168,7 @@ class CWriter {
 
   const HeaderContext context_;
   const Specialisation& spec_ = context_.spec;
+  const MotionWords words_ = context_.words();
   const StatementStyle& style_ = context_.style;
   const std::string prefix_, guard_;
   const bool sparse_jacobian_;

@@ -43,12 +43,12 @@ class HeaderWriter {
     std::string text = codegen::head_comment(spec_, true) + codegen::ownership_comment() +
                        "#ifndef " + guard + "\n#define " + guard + "\n\n" + includes();
     text += "namespace " + scope + " {\n\n" + constants();
-    text += function({"rhs", "dx", "The time derivatives of the state.", spec_.rhs});
+    text += function({words_.rhs, words_.target, words_.comment, spec_.rhs});
+    if (spec_.has_inverse) text += function({"inverse", "previous", words_.inverse, spec_.inverse});
     if (!spec_.invariant_names.empty()) {
-      text +=
-          function({"invariants", "values",
-                    "Conserved along solutions: " + codegen::listed(spec_.invariant_names) + ".",
-                    spec_.invariants});
+      text += function({"invariants", "values",
+                        words_.conserved + codegen::listed(spec_.invariant_names) + ".",
+                        spec_.invariants});
     }
     if (spec_.has_gradients && !spec_.invariant_names.empty()) text += gradients();
     if (spec_.has_jacobian) text += jacobian();
@@ -56,8 +56,8 @@ class HeaderWriter {
     if (is_template_) text += start_function();
     if (spec_.has_variational) text += variational();
     if (spec_.taylor) text += codegen::taylor(context_);
-    return text + codegen::adapters(context_) + "}  // namespace " + scope + "\n\n#endif  // " +
-           guard + "\n";
+    if (!spec_.of_map) text += codegen::adapters(context_);
+    return text + "}  // namespace " + scope + "\n\n#endif  // " + guard + "\n";
   }
 
  private:
@@ -87,17 +87,18 @@ class HeaderWriter {
         head + prepared_struct() + head + "inline " + prepared_type() + " prepare(const " +
         context_.parameter_type() + "& p) { return " + prepared_type() + "(p); }\n\n";
     if (prepared_names_.empty())
-      return text + forwarded("rhs", "dx") + (spec_.has_jacobian ? forwarded("jacobian", "J") : "");
-    text += function({.name = "rhs",
-                      .target = "dx",
-                      .comment = "The time derivatives of the state.",
+      return text + forwarded(words_.rhs, words_.target) +
+             (spec_.has_jacobian ? forwarded("jacobian", "J") : "");
+    text += function({.name = words_.rhs,
+                      .target = words_.target,
+                      .comment = words_.comment,
                       .program = prepared_.rest[0],
                       .prepared = true});
     if (!spec_.has_jacobian) return text;
     const SparseProgram matrix{spec_.jacobian.entries, prepared_.rest[1]};
     return text + function({.name = "jacobian",
                             .target = "J",
-                            .comment = "J[i + dimension*j] = d(dx[i])/d(x[j]), all entries.",
+                            .comment = words_.jacobian,
                             .program = matrix.program,
                             .matrix = &matrix,
                             .columns = spec_.states.size(),
@@ -151,9 +152,8 @@ class HeaderWriter {
   std::string jacobian() const {
     const SparseProgram& matrix = spec_.jacobian;
     std::string text =
-        pattern() +
-        function({"jacobian", "J", "J[i + dimension*j] = d(dx[i])/d(x[j]), all entries.",
-                  matrix.program, &matrix, spec_.states.size(), "dimension * dimension"});
+        pattern() + function({"jacobian", "J", words_.jacobian, matrix.program, &matrix,
+                              spec_.states.size(), "dimension * dimension"});
     if (sparse_jacobian_) {
       text +=
           function({"jacobian_entries", "entries",
@@ -194,7 +194,8 @@ class HeaderWriter {
            std::ranges::any_of(spec_.invariants.code, is_function) ||
            std::ranges::any_of(spec_.gradients.program.code, is_function) ||
            std::ranges::any_of(spec_.jacobian.program.code, is_function) ||
-           std::ranges::any_of(spec_.variational.code, is_function);
+           std::ranges::any_of(spec_.variational.code, is_function) ||
+           std::ranges::any_of(spec_.inverse.code, is_function);
   }
 
   static std::string names_array(const std::string& name, const std::vector<std::string>& values) {
@@ -273,14 +274,14 @@ class HeaderWriter {
     const codegen::Slots slots = context_.variational();
     const std::string real = style_.real;
     const std::string unused = "[[maybe_unused]] ";
-    std::string text =
-        "// The rhs, and the derivative of a small deviation delta_x carried along.\n";
+    std::string text = codegen::comment_lines(words_.deviation);
     if (is_template_) text += "template <class Real>\n";
     text += codegen::wrapped(
-        "inline void variational(" + (spec_.uses_time ? unused + real + " t, " : "") + unused +
-        "const " + real + "* x, " + unused + "const " + real + "* delta_x, " +
+        "inline void " + words_.variational + "(" +
+        (spec_.uses_time ? unused + real + " t, " : "") + unused + "const " + real + "* x, " +
+        unused + "const " + real + "* delta_x, " +
         (context_.has_parameters() ? unused + "const " + context_.parameter_type() + "& p, " : "") +
-        real + "* dx, " + real + "* ddelta_x) {");
+        real + "* " + words_.target + ", " + real + "* " + words_.deviation_target + ") {");
     return text + "\n" + using_declarations(spec_.variational) +
            codegen::statements(spec_.variational, slots.sources, slots.names, slots.targets,
                                style_) +
@@ -313,6 +314,7 @@ class HeaderWriter {
   const bool sparse_jacobian_;
   const std::optional<std::string> name_;
   const Specialisation& spec_ = context_.spec;
+  const codegen::MotionWords words_ = context_.words();
   const StatementStyle& style_ = context_.style;
   const std::vector<std::string>& names_ = context_.names;
   const bool is_template_ = context_.is_template;

@@ -265,7 +265,8 @@ std::string codegen::head_comment(const Specialisation& spec, bool with_values) 
     text += comment_lines("State x[0.." + std::to_string(spec.states.size() - 1) +
                           "] =" + state_list(spec) + ".");
   }
-  text += comment_lines("Cost of rhs: " + cost_text(spec.specialised) +
+  text += comment_lines(std::string("Cost of ") + (spec.of_map ? "step: " : "rhs: ") +
+                        cost_text(spec.specialised) +
                         "; of the general case: " + cost_text(spec.general) + ".");
   if (!spec.hamiltonian.empty()) {
     text += comment_lines("dx/dt = {x, H},  H = " + spec.hamiltonian);

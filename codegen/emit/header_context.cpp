@@ -10,8 +10,12 @@ namespace casimir::codegen {
 namespace {
 
 /// What locals of a header must not be called, beside what Names knows of.
-std::vector<std::string> taken_names(Language language) {
+std::vector<std::string> taken_names(Language language, bool of_map) {
   std::vector<std::string> names{"state_names", "invariant_names", "initial_state"};
+  if (of_map) {
+    for (const char* name : {"step", "inverse", "next", "previous", "tangent", "delta_next"})
+      names.emplace_back(name);
+  }
   if (language == Language::cpp) return names;
   for (const FunctionRow& function : function_table()) {
     for (const char* suffix : {"f", "l"}) names.push_back(std::string(function.c_name) + suffix);
@@ -47,7 +51,7 @@ HeaderContext::HeaderContext(const Specialisation& specialisation, const HeaderO
     : spec(specialisation),
       is_template(options.scalar == Scalar::templated),
       style(style_for(options)) {
-  Names unique(taken_names(options.language));
+  Names unique(taken_names(options.language, specialisation.of_map));
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     sources.push_back("x[" + std::to_string(i) + "]");
     names.push_back(unique.unique(spec.states[i]));
@@ -58,6 +62,30 @@ HeaderContext::HeaderContext(const Specialisation& specialisation, const HeaderO
   }
   sources.push_back("t");
   names.push_back("t");
+}
+
+MotionWords HeaderContext::words() const {
+  if (!spec.of_map)
+    return {.rhs = "rhs",
+            .target = "dx",
+            .comment = "The time derivatives of the state.",
+            .variational = "variational",
+            .deviation_target = "ddelta_x",
+            .deviation = "The rhs, and the derivative of a small deviation delta_x carried along.",
+            .jacobian = "J[i + dimension*j] = d(dx[i])/d(x[j]), all entries.",
+            .conserved = "Conserved along solutions: ",
+            .inverse = ""};
+  return {.rhs = "step",
+          .target = "next",
+          .comment = "The next state. `next` is not `x`.",
+          .variational = "tangent",
+          .deviation_target = "delta_next",
+          .deviation = "The next state, and the image of a small deviation delta_x.",
+          .jacobian = "J[i + dimension*j] = d(next[i])/d(x[j]), all entries.",
+          .conserved = "What the case says that the map keeps: ",
+          .inverse =
+              "The state before x: inverse(step(x)) = x is proved, wherever both have "
+              "values. `previous` is not `x`."};
 }
 
 std::string HeaderContext::parameter_type() const {
@@ -104,13 +132,14 @@ Slots HeaderContext::variational() const {
   result.sources.assign(sources.begin(), sources.begin() + middle);
   result.names.assign(names.begin(), names.begin() + middle);
   Names more(names);
+  const MotionWords of_motion = words();
   for (std::size_t i = 0; i < n; ++i) {
     result.sources.push_back("delta_x[" + std::to_string(i) + "]");
     result.names.push_back(more.unique("delta_" + names[i]));
-    result.targets.push_back("dx[" + std::to_string(i) + "]");
+    result.targets.push_back(of_motion.target + "[" + std::to_string(i) + "]");
   }
   for (std::size_t i = 0; i < n; ++i)
-    result.targets.push_back("ddelta_x[" + std::to_string(i) + "]");
+    result.targets.push_back(of_motion.deviation_target + "[" + std::to_string(i) + "]");
   result.sources.insert(result.sources.end(), sources.begin() + middle, sources.end());
   result.names.insert(result.names.end(), names.begin() + middle, names.end());
   return result;

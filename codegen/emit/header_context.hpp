@@ -14,10 +14,20 @@ struct Slots {
   std::vector<std::string> sources, names, targets;
 };
 
+/// What the functions of a header are called, and what stands above them: of a flow or of a map.
+struct MotionWords {
+  std::string rhs, target, comment;
+  std::string variational, deviation_target, deviation;
+  std::string jacobian;   ///< the comment
+  std::string conserved;  ///< in front of the names of the invariants
+  std::string inverse;    ///< the comment of a map's inverse
+};
+
 /// What the parts of an emitted header share: its number type and its names.
 struct HeaderContext {
   HeaderContext(const Specialisation& specialisation, const HeaderOptions& options);
 
+  MotionWords words() const;
   bool has_parameters() const { return !spec.parameters.empty(); }
   /// "parameters", or "parameters<Real>" in a template.
   std::string parameter_type() const;

@@ -160,6 +160,7 @@ class Builder {
     model_.book = file_.book;
     model_.tags = file_.tags;
     model_.integrable = file_.integrable;
+    model_.superintegrable = file_.superintegrable;
     model_.phase_space = describe(file_.phase_space);
   }
 

@@ -32,6 +32,11 @@ class ClaimReader {
       throw file_.maps[0].name.error(
           "a Poisson map needs a bracket, which this phase space does not have");
     }
+    if (file_.superintegrable && (!model_.poisson || model_.time))
+      throw CaseError(
+          {file_.file, 1, 1},
+          "'superintegrable' counts integrals on the leaves of a bracket, and this case "
+          "has no bracket or depends on the time");
     model_.casimirs = read_named(file_.casimirs);
     model_.integrals = read_named(file_.integrals);
     for (const Text& text : file_.phase_space.constraints)
@@ -105,6 +110,7 @@ class ClaimReader {
       }
     }
     if (!text.spectral) pair.spectral.reset();
+    for (const Text& relation : text.on) pair.on.push_back(anonymous(relation));
     model_.lax_pairs.push_back(std::move(pair));
   }
 

@@ -39,8 +39,9 @@ std::string_view trimmed(std::string_view text) {
 }
 
 /// Those of the root keys that are no tables.
-constexpr std::string_view kRootValues[] = {"title",      "source",      "book",       "tags",
-                                            "integrable", "hamiltonian", "lagrangian", "map_sign"};
+constexpr std::string_view kRootValues[] = {"title",       "source",     "book",
+                                            "tags",        "integrable", "superintegrable",
+                                            "hamiltonian", "lagrangian", "map_sign"};
 
 }  // namespace
 
@@ -50,7 +51,7 @@ const std::vector<std::string>& root_keys() {
       "hamiltonian", "lagrangian", "phase_space", "parameters",  "definitions",
       "casimirs",    "integrals",  "equations",   "conditional", "invariant_relation",
       "lax",         "map",        "measure",     "identity",    "section",
-      "scene",       "map_sign",   "map_step",    "symmetry"};
+      "scene",       "map_sign",   "map_step",    "symmetry",    "superintegrable"};
   return keys;
 }
 

@@ -10,4 +10,14 @@ GiNaC::ex MapModel::composed(const GiNaC::ex& f) const {
   return substituted(f, image);
 }
 
+Model MapModel::as_field() const {
+  Model model = base;
+  model.poisson.reset();
+  model.frame.reset();
+  model.linear_bracket = false;
+  model.field = next;
+  model.domain = next_domain;
+  return model;
+}
+
 }  // namespace casimir

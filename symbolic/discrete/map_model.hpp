@@ -35,6 +35,10 @@ struct MapModel {
 
   /// f(x') for a function f of x.
   GiNaC::ex composed(const GiNaC::ex& f) const;
+
+  /// The map in the place of a flow's equations, for code that writes functions: the values that it
+  /// writes for dx/dt are the next ones.
+  Model as_field() const;
 };
 
 /// Reads every expression of the case file.

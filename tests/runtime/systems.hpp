@@ -177,7 +177,8 @@ Trajectory run(const std::string& name, const Settings& settings, std::vector<do
 inline std::vector<std::string> own_methods() {
   std::vector<std::string> names;
   for (const Method& method : methods())
-    if (method.outside.empty() && !method.series && !method.splits && !method.closed_form)
+    if (method.outside.empty() && !method.series && !method.splits && !method.closed_form &&
+        !method.quadratic_only)
       names.emplace_back(method.name);
   return names;
 }

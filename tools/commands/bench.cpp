@@ -108,8 +108,15 @@ BenchReport compare_methods_on_scenes(const Options& options) {
                      .several = options.all || options.case_names.size() > 1};
   Progress progress(!options.common.quiet);
   if (options.all) hold_all(options, progress, report);
-  for (const std::string& name : options.case_names)
-    report.contests.push_back(hold(load_case(name), options, progress));
+  for (const std::string& name : options.case_names) {
+    const AnyCaseFile any = load_any_case(name);
+    if (std::holds_alternative<MapCaseFile>(any))
+      throw UsageError(
+          "a map has no error to be measured: it is what it is; bench CASE --method kahan,midpoint "
+          "measures Kahan's map of a flow beside other methods, integrate and conserve iterate a "
+          "map");
+    report.contests.push_back(hold(std::get<CaseFile>(any), options, progress));
+  }
   return report;
 }
 

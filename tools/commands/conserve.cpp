@@ -17,6 +17,7 @@
 #include "tools/cli/progress.hpp"
 #include "tools/runs/atlas.hpp"
 #include "tools/runs/conserve_run.hpp"
+#include "tools/runs/map_run.hpp"
 #include "tools/runs/scene_values.hpp"
 
 namespace casimir::tools {
@@ -31,6 +32,7 @@ struct Options {
   PictureOptions print;
   std::string in, tag;
   std::vector<std::string> methods = conserving_methods();
+  bool methods_given = false;
   double bound = 1e-9;
   bool all = false;
 };
@@ -81,21 +83,55 @@ void conserve_case(const CaseFile& file, const Options& options,
   }
 }
 
+/// Of a map: what it claims to keep is watched along the iterates.
+void conserve_map_case(MapCaseFile file, const Options& options,
+                       const std::function<bool()>& give_up, const Share& share,
+                       std::vector<Row>& rows) {
+  const RunRequest asked = options.run.request();
+  const bool of_methods = options.methods_given || asked.rtol || asked.atol || asked.tolerance ||
+                          asked.step || asked.projects() || !options.in.empty();
+  if (of_methods || !options.plot.empty())
+    throw UsageError(
+        "a map is iterated: of the options --scene, --param, --initial, --duration, --bound and "
+        "--output have a meaning");
+  file.file = options.start.in(file.file);
+  const MapModel map = options.kept.map_model_of(file, options.common.parameter_values());
+  std::vector<const Scene*> scenes;
+  if (options.common.scene_given)
+    scenes.push_back(&map.base.scene(options.common.scene));
+  else
+    for (const Scene& scene : map.base.scenes) scenes.push_back(&map.base.scene(scene.name));
+  if (scenes.empty() && !options.all) map.base.scene("default");  // throws: there is none
+  for (const Scene* scene : scenes) {
+    share.bar.name(fmt::format("{}, {}", map.base.name, printable(scene->name)));
+    rows.push_back(conserve_map(map, *scene, asked.duration, options.bound, give_up));
+  }
+}
+
+void conserve_any_case(const AnyCaseFile& any, const Options& options,
+                       const std::function<bool()>& give_up, const Share& share,
+                       std::vector<Row>& rows, Picture* picture) {
+  if (const auto* map = std::get_if<MapCaseFile>(&any))
+    conserve_map_case(*map, options, give_up, share, rows);
+  else
+    conserve_case(std::get<CaseFile>(any), options, give_up, share, rows, picture);
+}
+
 std::vector<Row> conserve_cases(const Options& options, Picture& picture) {
   const std::function<bool()> give_up = time_limit(options.common.time_limit);
   std::vector<Row> rows;
   Progress bar(!options.common.quiet);
   bar.begin("conserve");
   if (!options.all) {
-    conserve_case(load_case(options.case_name), options, give_up, {bar}, rows,
-                  options.plot.empty() ? nullptr : &picture);
+    conserve_any_case(load_any_case(options.case_name), options, give_up, {bar}, rows,
+                      options.plot.empty() ? nullptr : &picture);
     return rows;
   }
-  const auto paths = bundled_flows(options.tag);
+  const auto paths = listed_cases(options.tag);
   const double part = 1 / static_cast<double>(paths.size());
   double before = 0;
   for (const auto& path : paths) {
-    conserve_case(read_case(path), options, give_up, {bar, before, part}, rows, nullptr);
+    conserve_any_case(read_any_case(path), options, give_up, {bar, before, part}, rows, nullptr);
     before += part;
   }
   return rows;
@@ -153,11 +189,12 @@ void register_conserve(CLI::App& program, Action& action) {
   command->add_option("--bound", options->bound, "Largest drift allowed (default 1e-9)")
       ->type_name("X")
       ->check(CLI::PositiveNumber);
-  command
-      ->add_option("--method", options->methods, "Methods to run (default: taylor,dop853,gauss8)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("A,B");
+  CLI::Option* methods = command
+                             ->add_option("--method", options->methods,
+                                          "Methods to run (default: taylor,dop853,gauss8)")
+                             ->delimiter(',')
+                             ->allow_extra_args(false)
+                             ->type_name("A,B");
   add_run_options(*command, options->run);
   options->kept.add_to(*command);
   add_csv_output(*command, options->output, "Write the rows to this CSV file");
@@ -167,7 +204,10 @@ void register_conserve(CLI::App& program, Action& action) {
                    "invariant, or with several methods a curve a method")
       ->type_name("FILE.svg|png|pdf");
   options->print.add_to(*command);
-  command->callback([options, &action] { action = [options] { return conserve(*options); }; });
+  command->callback([options, methods, &action] {
+    options->methods_given = methods->count() > 0;
+    action = [options] { return conserve(*options); };
+  });
 }
 
 }  // namespace casimir::tools

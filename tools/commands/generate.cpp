@@ -7,6 +7,8 @@
 #include <iostream>
 
 #include "codegen/emit_cpp.hpp"
+#include "codegen/specialise_map.hpp"
+#include "symbolic/discrete/map_inverse.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
@@ -37,13 +39,15 @@ struct Options {
   std::optional<std::string> name;
   std::string in;
   std::vector<std::string> with{"rhs", "invariants", "jacobian"};
+  bool with_given = false;
   std::vector<std::string> observe;
   Scalar scalar = Scalar::real64;
   Language language = Language::cpp;
 };
 
-const std::vector<std::string> kParts = {
-    "rhs", "invariants", "gradients", "jacobian", "sparse-jacobian", "variational", "taylor"};
+const std::vector<std::string> kParts = {"rhs",      "invariants",      "gradients",
+                                         "jacobian", "sparse-jacobian", "variational",
+                                         "taylor",   "inverse"};
 
 /// One of these names; the help has them in its text already, and shells that complete find them
 /// in the name of the check.
@@ -60,16 +64,12 @@ CLI::Validator key_of(const std::map<std::string, Value>& values) {
   return {check, "", fmt::format("{{{}}}", fmt::join(names, ","))};
 }
 
-int generate(const Options& options) {
-  if (options.output.empty() && options.common.json)
-    throw UsageError("generate --json needs --output FILE for the header");
-  const Model model =
-      in_variables(options.kept.model_of(options.start.in(load_case(options.case_name)),
-                                         options.common.parameter_values()),
-                   options.in);
-  const auto wanted = [&](const char* name) {
-    return std::find(options.with.begin(), options.with.end(), name) != options.with.end();
-  };
+bool wants(const Options& options, const char* name) {
+  return std::find(options.with.begin(), options.with.end(), name) != options.with.end();
+}
+
+SpecialiseOptions parts_of(const Options& options) {
+  const auto wanted = [&](const char* name) { return wants(options, name); };
   auto what = options.kept.in<SpecialiseOptions>();
   what.gradients = wanted("gradients");
   what.invariants = wanted("invariants") || what.gradients;
@@ -77,10 +77,46 @@ int generate(const Options& options) {
   what.taylor = wanted("taylor");
   what.variational = wanted("variational");
   if (!options.observe.empty()) what.observe = options.observe;
-  const Specialisation specialisation = specialise(model, model.scene(options.common.scene), what);
+  return what;
+}
+
+Specialisation of_flow(const CaseFile& file, const Options& options) {
+  if (wants(options, "inverse"))
+    throw UsageError("--with inverse is for maps: a flow is followed backwards by a negative time");
+  const Model model = in_variables(
+      options.kept.model_of(options.start.in(file), options.common.parameter_values()), options.in);
+  return specialise(model, model.scene(options.common.scene), parts_of(options));
+}
+
+/// The step, its inverse where one is found and proved, and its Jacobian.
+Specialisation of_map(MapCaseFile file, const Options& options) {
+  if (!options.in.empty()) throw UsageError("--in is for flows: a map stays in its variables");
+  if (wants(options, "taylor"))
+    throw UsageError("--with taylor is for flows: the time of a map is whole numbers");
+  file.file = options.start.in(file.file);
+  const MapModel map = options.kept.map_model_of(file, options.common.parameter_values());
+  const Scene& scene = map.base.scene(options.common.scene);
+  std::optional<std::vector<GiNaC::ex>> inverse;
+  const bool every_state = options.observe.empty() && scene.observe.empty();
+  if (wants(options, "inverse") || (!options.with_given && every_state))
+    inverse = discrete::proved_inverse(map);
+  if (wants(options, "inverse") && !inverse)
+    throw UsageError(
+        "no inverse of this map was found, which does not say that there is none: a [[symmetry]] "
+        "with reverses = true gives one, or leave 'inverse' out of --with");
+  return specialise_map(map, scene, parts_of(options), inverse);
+}
+
+int generate(const Options& options) {
+  if (options.output.empty() && options.common.json)
+    throw UsageError("generate --json needs --output FILE for the header");
+  const AnyCaseFile any = load_any_case(options.case_name);
+  const auto* map = std::get_if<MapCaseFile>(&any);
+  const Specialisation specialisation =
+      map ? of_map(*map, options) : of_flow(std::get<CaseFile>(any), options);
   const std::string header =
       emit_header(specialisation, {.scalar = options.scalar,
-                                   .sparse_jacobian = wanted("sparse-jacobian"),
+                                   .sparse_jacobian = wants(options, "sparse-jacobian"),
                                    .language = options.language,
                                    .name = options.name});
   if (options.output.empty()) {
@@ -91,7 +127,7 @@ int generate(const Options& options) {
   file.stream() << header;
   file.commit();
   if (options.common.json) {
-    print_json(nlohmann::ordered_json{{"case", model.name},
+    print_json(nlohmann::ordered_json{{"case", specialisation.case_name},
                                       {"scene", specialisation.scene},
                                       {"file", options.output},
                                       {"operations",
@@ -118,15 +154,18 @@ void register_generate(CLI::App& program, Action& action) {
   command
       ->add_option("-o,--output", options->output, "The header to write (default: standard output)")
       ->type_name("FILE");
-  command
-      ->add_option("--with", options->with,
-                   "Of rhs, invariants, gradients (of the invariants, which come with them), "
-                   "jacobian (dense, with its pattern), sparse-jacobian (its entries as well), "
-                   "variational, taylor (default: rhs,invariants,jacobian; rhs always)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(one_of(kParts).description("").name(one_of(kParts).get_description()))
-      ->type_name("A,B");
+  CLI::Option* with =
+      command
+          ->add_option(
+              "--with", options->with,
+              "Of rhs, invariants, gradients (of the invariants, which come with them), "
+              "jacobian (dense, with its pattern), sparse-jacobian (its entries as well), "
+              "variational, taylor, and for maps inverse (default: rhs,invariants,jacobian, of "
+              "a map the inverse too where one is found; rhs, the step of a map, always)")
+          ->delimiter(',')
+          ->allow_extra_args(false)
+          ->check(one_of(kParts).description("").name(one_of(kParts).get_description()))
+          ->type_name("A,B");
   command
       ->add_option("--observe", options->observe,
                    "States that must be computed; what they do not need is left out")
@@ -152,7 +191,10 @@ void register_generate(CLI::App& program, Action& action) {
                    "headers go into one program (default: that of the case)")
       ->type_name("IDENT");
   options->kept.add_to(*command);
-  command->callback([options, &action] { action = [options] { return generate(*options); }; });
+  command->callback([options, with, &action] {
+    options->with_given = with->count() > 0;
+    action = [options] { return generate(*options); };
+  });
 }
 
 }  // namespace casimir::tools

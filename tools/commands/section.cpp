@@ -15,6 +15,7 @@
 #include "tools/cli/progress.hpp"
 #include "tools/plot/gnuplot.hpp"
 #include "tools/runs/scene_values.hpp"
+#include "tools/section/map_section.hpp"
 #include "tools/section/picture.hpp"
 #include "tools/section/report.hpp"
 #include "tools/section/request.hpp"
@@ -32,7 +33,7 @@ struct Options {
   std::vector<std::string> outputs;
   PictureOptions print;
   std::size_t orbits = 40, points = 500, cycles = 0;
-  bool fixed_points = false, validated = false;
+  bool fixed_points = false, validated = false, tolerance_given = false;
   double tolerance = 1e-14;
   int jobs = 0;
 
@@ -70,9 +71,9 @@ void check_memory(const Options& options, std::size_t states) {
 /// One section from the options to the report.
 class Section {
  public:
-  explicit Section(const Options& options)
+  Section(const Options& options, const CaseFile& file)
       : options_(options),
-        file_(options.start.in(load_case(options.case_name))),
+        file_(options.start.in(file)),
         model_(model_of(file_, options.common.parameter_values())),
         problem_(section_problem(model_, model_.scene(options.common.scene),
                                  section_request(file_, model_, options.request))),
@@ -245,7 +246,7 @@ class Section {
     std::cout.flush();
     for (const std::string& path : options_.outputs) {
       if (is_picture_name(path))
-        draw_section(problem_, model_.title + ", " + problem_.level_text(), report.orbits,
+        draw_section(problem_.plotted, model_.title + ", " + problem_.level_text(), report.orbits,
                      report.cycles.cycles, options_.print.sheet(path));
       if (!options_.common.quiet && !options_.common.json)
         fmt::print("  wrote {}\n", printable(path, 200));
@@ -321,9 +322,24 @@ class Section {
   bool cut_short_ = false;  ///< by the time limit
 };
 
+/// Of a map the points of its orbits: there is no plane to cut them with.
+int section_of(MapCaseFile file, const Options& options) {
+  const SectionOptions& asked = options.request;
+  if (asked.energy || !asked.casimirs.empty() || asked.plane || asked.direction ||
+      options.longest_cycle() > 0 || options.tolerance_given || options.jobs > 0)
+    throw UsageError(
+        "a map needs no plane: its orbits are points already; of the options --scene, --param, "
+        "--initial, --orbits, --points, --seeds, --pair, --labels and --output have a meaning");
+  file.file = options.start.in(file.file);
+  return section_of_map({options.common, file, asked.pair, asked.labels, options.seeds,
+                         options.outputs, options.print, options.orbits, options.points});
+}
+
 int section(const Options& options) {
   check_usage(options);
-  return Section(options).run();
+  const AnyCaseFile any = load_any_case(options.case_name);
+  if (const auto* map = std::get_if<MapCaseFile>(&any)) return section_of(*map, options);
+  return Section(options, std::get<CaseFile>(any)).run();
 }
 
 void add_plane_options(CLI::App& command, SectionOptions& request) {
@@ -363,7 +379,8 @@ void register_section(CLI::App& program, Action& action) {
       "Every crossing of the surface in that direction is a point; each keeps energy and Casimir\n"
       "functions to 1e-10, or the exit status is 1. Angles are drawn over one period. A plane "
       "that\n"
-      "is an angle counts at every multiple of its period.");
+      "is an angle counts at every multiple of its period. Of a map the orbits themselves are\n"
+      "drawn, from the start of the scene and from others in a box about its orbit.");
   add_common(*command, options->common);
   options->start.add_to(*command);
   add_case(*command, options->case_name);
@@ -390,9 +407,10 @@ void register_section(CLI::App& program, Action& action) {
   command->add_flag("--fixed-points", options->fixed_points, "The same as --cycles 1");
   command->add_flag("--validated", options->validated,
                     "Prove each cycle: it exists, is alone nearby, and how it is stable");
-  command->add_option("--tolerance", options->tolerance, "Tolerance of a step (default 1e-14)")
-      ->type_name("X")
-      ->check(CLI::Range(1e-15, 1e-3));
+  CLI::Option* tolerance =
+      command->add_option("--tolerance", options->tolerance, "Tolerance of a step (default 1e-14)")
+          ->type_name("X")
+          ->check(CLI::Range(1e-15, 1e-3));
   command->add_option("--jobs", options->jobs, "Threads (default: all processors)")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
@@ -403,7 +421,10 @@ void register_section(CLI::App& program, Action& action) {
       ->allow_extra_args(false)
       ->type_name("FILE");
   options->print.add_to(*command);
-  command->callback([options, &action] { action = [options] { return section(*options); }; });
+  command->callback([options, tolerance, &action] {
+    options->tolerance_given = tolerance->count() > 0;
+    action = [options] { return section(*options); };
+  });
 }
 
 }  // namespace casimir::tools

@@ -50,7 +50,8 @@ std::vector<std::string> default_methods() {
   std::vector<std::string> names{kAutomatic};
   for (const Method& method : methods()) {
     const bool multistep = method.header.empty() && method.order == 0;
-    if (method.name != kAutomatic && !method.closed_form && (method.outside.empty() || multistep))
+    if (method.name != kAutomatic && !method.closed_form && !method.quadratic_only &&
+        (method.outside.empty() || multistep))
       names.emplace_back(method.name);
   }
   return names;

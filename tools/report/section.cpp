@@ -19,7 +19,7 @@ std::string section_svg(const CaseFile& file, const Model& model, const Scene& s
   if (orbits.empty()) return {};
   return page_svg(
       [&](const std::string& output) {
-        return section_script(problem, "", orbits, {}, {},
+        return section_script(problem.plotted, "", orbits, {}, {},
                               "svg size 640,520 dynamic background rgb 'white' font 'sans,15'",
                               output);
       },

@@ -61,7 +61,7 @@ Row conserve_scene(const Model& model, const Scene& scene, const Method& method,
           .method = std::string(method.name),
           .tolerance = settings.rtol};
   if (!suits(run, method)) {
-    row.end = RowEnd::does_not_split;
+    row.end = method.splits ? RowEnd::does_not_split : RowEnd::refused;
     row.refused = true;
     return row;
   }

@@ -15,13 +15,12 @@
 namespace casimir::tools {
 namespace {
 
-/// A number of steps; doubles hold whole numbers up to 2^53.
-std::uint64_t whole(double value, const std::string& what) {
-  constexpr double kMost = 9007199254740992.0;
-  if (!(value >= 0) || value > kMost || value != std::floor(value))
-    throw UsageError(
-        fmt::format("{} of a map is a whole number of steps, and {:g} is none", what, value));
-  return static_cast<std::uint64_t>(value);
+/// How many steps a scene has, or the command asks for.
+std::uint64_t steps_of(const Scene& scene, const std::optional<double>& asked) {
+  if (!asked) require_duration(scene);
+  const double duration = asked.value_or(
+      scene.duration ? GiNaC::ex_to<GiNaC::numeric>(scene.duration->evalf()).to_double() : 0);
+  return whole_steps(duration, "the duration");
 }
 
 void write(const std::string& path, const Iterated& run) {
@@ -79,18 +78,24 @@ void print(const MapModel& map, const Scene& scene, const Iterated& run) {
 
 }  // namespace
 
+/// Doubles hold whole numbers up to 2^53.
+std::uint64_t whole_steps(double value, const std::string& what) {
+  constexpr double kMost = 9007199254740992.0;
+  if (!(value >= 0) || value > kMost || value != std::floor(value))
+    throw UsageError(
+        fmt::format("{} of a map is a whole number of steps, and {:g} is none", what, value));
+  return static_cast<std::uint64_t>(value);
+}
+
 int iterate_map(const MapRunRequest& request) {
   const MapModel map = map_model_of(request.file, request.common.parameter_values());
   const Scene& scene = map.base.scene(request.common.scene);
-  if (!request.duration) require_duration(scene);
-  const double duration = request.duration.value_or(
-      scene.duration ? GiNaC::ex_to<GiNaC::numeric>(scene.duration->evalf()).to_double() : 0);
-  const std::uint64_t steps = whole(duration, "the duration");
+  const std::uint64_t steps = steps_of(scene, request.duration);
   if (request.every > 0 && request.output.empty())
     throw UsageError("--every needs --output FILE.csv");
   std::uint64_t every = 0;
   if (!request.output.empty())
-    every = request.every > 0 ? whole(request.every, "--every")
+    every = request.every > 0 ? whole_steps(request.every, "--every")
                               : std::max<std::uint64_t>(1, steps / 1000);
   const Iterated run = iterate(map, scene, steps, every, time_limit(request.common.time_limit));
   if (!request.output.empty()) write(request.output, run);
@@ -107,6 +112,24 @@ int iterate_map(const MapRunRequest& request) {
       "casimir: error: the iteration stopped after step {}: {}\n  state: {}\n", run.steps,
       run.finite ? "the time limit was reached" : "the next state is not finite", state);
   return run.finite ? kEnvironment : kNotContinued;
+}
+
+Row conserve_map(const MapModel& map, const Scene& scene, const std::optional<double>& duration,
+                 double bound, const std::function<bool()>& give_up) {
+  const Iterated run = iterate(map, scene, steps_of(scene, duration), 0, give_up);
+  Row row{.case_name = map.base.name, .scene = scene.name, .method = "map"};
+  for (const Iterated::Invariant& invariant : run.invariants)
+    row.drift = std::max(row.drift, invariant.drift);
+  row.seconds = run.seconds;
+  row.steps = row.evaluations = run.steps;
+  row.status = !run.finite ? Status::non_finite : run.stopped ? Status::stopped : Status::ok;
+  // Written so that a drift that is not a number fails too.
+  row.failed = row.status != Status::ok || !(row.drift <= bound);
+  if (row.status == Status::ok && row.failed) {
+    row.end = RowEnd::drifted;
+    row.bound = bound;
+  }
+  return row;
 }
 
 }  // namespace casimir::tools

@@ -69,7 +69,8 @@ double unit_of(const PlottedFunction& function) { return is_angle(function) ? kP
 
 class Drawing {
  public:
-  Drawing(const SectionProblem& problem, const Print& print) : problem_(problem), print_(print) {}
+  Drawing(const std::array<PlottedFunction, 2>& plotted, const Print& print)
+      : plotted_(plotted), print_(print) {}
 
   void add(const std::string& points, const std::string& style, const std::string& name) {
     if (points.empty()) return;
@@ -89,8 +90,8 @@ class Drawing {
     std::string text;
     for (const auto& place : places) {
       if (!std::isfinite(place[0]) || !std::isfinite(place[1])) continue;
-      text += fmt::format("{:.7g} {:.7g}\n", axes_[0].at(place[0]) / unit_of(problem_.plotted[0]),
-                          axes_[1].at(place[1]) / unit_of(problem_.plotted[1]));
+      text += fmt::format("{:.7g} {:.7g}\n", axes_[0].at(place[0]) / unit_of(plotted_[0]),
+                          axes_[1].at(place[1]) / unit_of(plotted_[1]));
     }
     return text;
   }
@@ -100,7 +101,7 @@ class Drawing {
       std::vector<double> values;
       for (const OrbitReport& orbit : orbits)
         for (const auto& place : orbit.places) values.push_back(place[k]);
-      axes_[k] = axis_of(problem_.plotted[k], std::move(values));
+      axes_[k] = axis_of(plotted_[k], std::move(values));
     }
   }
 
@@ -112,10 +113,10 @@ class Drawing {
       text += fmt::format("set title {} noenhanced\n",
                           quoted_lines(title, letters_across(print_, 0.9)));
     for (std::size_t k = 0; k < 2; ++k) {
-      const double unit = unit_of(problem_.plotted[k]);
+      const double unit = unit_of(plotted_[k]);
       text += fmt::format("set {0}label {1} noenhanced\nset {0}range [{2:.9g}:{3:.9g}]\n",
-                          k == 0 ? 'x' : 'y', quoted(label_of(problem_.plotted[k])),
-                          axes_[k].from / unit, axes_[k].to / unit);
+                          k == 0 ? 'x' : 'y', quoted(label_of(plotted_[k])), axes_[k].from / unit,
+                          axes_[k].to / unit);
     }
     text +=
         "set key outside bottom center horizontal samplen 1\nset border 15 lw 1\n"
@@ -125,7 +126,7 @@ class Drawing {
   }
 
  private:
-  const SectionProblem& problem_;
+  const std::array<PlottedFunction, 2>& plotted_;
   const Print& print_;
   std::array<Axis, 2> axes_;
   std::string blocks_, plots_;
@@ -176,23 +177,23 @@ void add_cycles(Drawing& drawing, const std::vector<Cycle>& cycles) {
 
 }  // namespace
 
-std::string section_script(const SectionProblem& problem, const std::string& title,
+std::string section_script(const std::array<PlottedFunction, 2>& plotted, const std::string& title,
                            const std::vector<OrbitReport>& orbits, const std::vector<Cycle>& cycles,
                            const Print& print, const std::string& terminal,
                            const std::string& output) {
-  Drawing drawing(problem, print);
+  Drawing drawing(plotted, print);
   drawing.bound(orbits);
   add_orbits(drawing, orbits, print);
   add_cycles(drawing, cycles);
   return drawing.script(title, terminal, output);
 }
 
-void draw_section(const SectionProblem& problem, const std::string& title,
+void draw_section(const std::array<PlottedFunction, 2>& plotted, const std::string& title,
                   const std::vector<OrbitReport>& orbits, const std::vector<Cycle>& cycles,
                   const Sheet& sheet) {
   check_plot_name(sheet.path);
   OutputFile picture(sheet.path);
-  draw_script(section_script(problem, title, orbits, cycles, sheet.print,
+  draw_script(section_script(plotted, title, orbits, cycles, sheet.print,
                              terminal_of(sheet, {1000, 700, 14}), picture.temporary().string()),
               picture);
   picture.commit();

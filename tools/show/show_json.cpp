@@ -72,6 +72,7 @@ void add_view(Json& json, const SystemView& view) {
   for (const LaxView& pair : view.lax_pairs) {
     Json entry = {{"L", texts(pair.l)}, {"A", texts(pair.a)}};
     if (pair.spectral) entry["spectral"] = pair.spectral->text;
+    if (!pair.on.empty()) entry["on"] = texts(pair.on);
     json["lax"].push_back(entry);
   }
 }

@@ -92,8 +92,12 @@ void print_lax_pair(const LaxView& pair) {
   constexpr double kPage = 60;
   const bool one = width_of(pair.l) + width_of(pair.a) <= kPage;
   const char* next = one ? ", \\qquad " : ",\n\\end{equation*}\n\\begin{equation*}\n";
-  fmt::print("\\begin{{equation*}}\n\\dot{{L}} = [L, A]{0}L = {1}{0}A = {2}\n\\end{{equation*}}\n",
-             next, pmatrix(pair.l), pmatrix(pair.a));
+  std::string level;
+  for (const Written& f : pair.on) level += latex(f.math) + " = ";
+  if (!level.empty()) level = next + level + "0";
+  fmt::print(
+      "\\begin{{equation*}}\n\\dot{{L}} = [L, A]{0}L = {1}{0}A = {2}{3}\n\\end{{equation*}}\n",
+      next, pmatrix(pair.l), pmatrix(pair.a), level);
 }
 
 /// A matrix of a Lax pair or of many variables is wider than a page of text.

@@ -110,8 +110,10 @@ void print_lax_pairs(const std::vector<LaxView>& pairs) {
                  i == 0 ? "[" : " ", fmt::join(texts(m[i]), ", "), i + 1 == m.size() ? "]" : ",");
   };
   for (const LaxView& pair : pairs) {
-    fmt::print("\nLax pair, dL/dt = [L, A]{}\n",
-               pair.spectral ? " for every " + pair.spectral->text : "");
+    fmt::print(
+        "\nLax pair, dL/dt = [L, A]{}{}\n",
+        pair.spectral ? " for every " + pair.spectral->text : "",
+        pair.on.empty() ? "" : fmt::format(" where {} = 0", fmt::join(texts(pair.on), " = ")));
     print("L", pair.l);
     print("A", pair.a);
   }

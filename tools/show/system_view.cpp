@@ -273,6 +273,7 @@ void Writer::add_lax_pairs(SystemView& view) const {
     if (pair.spectral) shown.spectral = notation_.name(*pair.spectral);
     shown.l = matrix(pair.l);
     shown.a = matrix(pair.a);
+    shown.on = expressions(pair.on);
   }
 }
 

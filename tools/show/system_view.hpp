@@ -30,6 +30,7 @@ using WrittenMatrix = std::vector<std::vector<Written>>;
 struct LaxView {
   std::optional<Written> spectral;  ///< the spectral parameter
   WrittenMatrix l, a;
+  std::vector<Written> on;  ///< the functions whose zero level it is one on
 };
 
 /// What `show` tells of a system. What a case does not have is empty.

@@ -52,6 +52,25 @@ void say_where(Proof& proof, const std::string& where,
   }
 }
 
+/// Those of the functions whose rows add nothing to the ones before them, at all of these points.
+std::vector<NamedExpression> dependent(const std::vector<NamedExpression>& functions,
+                                       const PolynomialRows& rows, std::vector<RealPoint>& points) {
+  std::vector<NamedExpression> result;
+  PolynomialRows chosen;
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    PolynomialRows more = chosen;
+    more.push_back(rows[i]);
+    const bool adds = std::any_of(points.begin(), points.end(), [&](RealPoint& point) {
+      return point.rank(more) > chosen.size();
+    });
+    if (adds)
+      chosen = std::move(more);
+    else
+      result.push_back(functions[i]);
+  }
+  return result;
+}
+
 void decide_independence(Prover& prover, Proof& proof,
                          const std::vector<NamedExpression>& functions) {
   const PolynomialRows slopes = gradients(prover, functions);
@@ -69,7 +88,7 @@ void decide_independence(Prover& prover, Proof& proof,
     }
     return candidates;
   };
-  const auto found = rank_with_conditions(prover, slopes, kernel);
+  auto found = rank_with_conditions(prover, slopes, kernel);
   if (!found) {
     proof.reason = "no point of the domain was found to take the gradients at";
   } else if (!found->uneven.empty()) {
@@ -87,6 +106,10 @@ void decide_independence(Prover& prover, Proof& proof,
         "only {} of the {} functions are independent: every larger minor of their gradients "
         "vanishes identically",
         found->rank, functions.size());
+    const std::vector<NamedExpression> others = dependent(functions, slopes, found->points);
+    if (!others.empty() && others.size() + found->rank == functions.size())
+      proof.reason += fmt::format("; {} depend{} on those before", listed(others),
+                                  others.size() == 1 ? "s" : "");
   } else {
     proof.reason = fmt::format("the gradients have rank {} at the points tried", found->rank);
   }
@@ -281,6 +304,55 @@ void decide_liouville(Prover& prover, Proof& proof) {
   prover.check_inhabited(proof, {});
 }
 
+/// More integrals that are independent on the generic leaf than Liouville's theorem needs; whether
+/// they commute is not asked. The rank of their flows counts them: on a leaf a flow vanishes
+/// exactly where the differential of its function does. That they are integrals are claims of their
+/// own.
+void decide_superintegrability(Prover& prover, Proof& proof) {
+  const std::vector<NamedExpression> functions = with_hamiltonian(prover.model(), {});
+  const auto leaf = bracket_rank(prover);
+  if (!leaf || !leaf->uneven.empty() || !leaf->exact) {
+    proof.reason =
+        !leaf ? "no point of the domain was found to take the rank of the bracket at"
+        : !leaf->uneven.empty()
+            ? leaf->uneven
+            : fmt::format("the leaves are only known to have dimension {} or more", leaf->rank);
+    return;
+  }
+  const std::size_t half = leaf->rank / 2;
+  PolynomialRows flows;
+  for (const NamedExpression& f : functions) flows.push_back(prover.flow(f.value));
+  auto found = flows.empty() ? std::nullopt : rank_with_conditions(prover, flows);
+  if (!found || !found->uneven.empty()) {
+    proof.reason = found ? found->uneven : "no point of the domain was found to take flows at";
+    return;
+  }
+  if (half == 0 || found->rank <= half) {
+    proof.reason =
+        fmt::format("leaves of dimension {} need more than {} independent integrals; {} known",
+                    leaf->rank, half, found->rank);
+    return;
+  }
+  proof.verdict = Verdict::proved;
+  const std::vector<NamedExpression> others = dependent(functions, flows, found->points);
+  std::vector<NamedExpression> chosen;
+  for (const NamedExpression& f : functions) {
+    if (std::none_of(others.begin(), others.end(),
+                     [&](const NamedExpression& other) { return other.name == f.name; }))
+      chosen.push_back(f);
+  }
+  proof.evidence = fmt::format(
+      "{} are independent on leaves of dimension {}, where {} would do{}{}", listed(chosen),
+      leaf->rank, half, found->rank + 1 == leaf->rank ? ": as many as there can be" : "",
+      found->points.empty() ? "" : " (at " + text_of(found->points) + ")");
+  if (!others.empty() && found->exact)
+    proof.evidence +=
+        fmt::format("; {} follow{} from them there", listed(others), others.size() == 1 ? "s" : "");
+  say_where(proof, leaf->where, leaf->nonzero);
+  say_where(proof, found->where != leaf->where ? found->where : "", found->nonzero);
+  prover.check_inhabited(proof, {});
+}
+
 }  // namespace
 
 std::vector<Claim> independence_claims(const Model& model) {
@@ -311,14 +383,19 @@ std::vector<Claim> rank_claims(const Model& model) {
 
 std::vector<Claim> liouville_claims(const Model& model) {
   if (!model.poisson || model.time) return {};
-  return {{ClaimKind::liouville,
-           "Liouville integrability",
-           true,
-           decide_liouville,
-           {},
-           values_of(with_hamiltonian(model, real_everywhere(model.casimirs))),
-           false,
-           Subject::bracket}};
+  std::vector<Claim> claims{{ClaimKind::liouville,
+                             "Liouville integrability",
+                             true,
+                             decide_liouville,
+                             {},
+                             values_of(with_hamiltonian(model, real_everywhere(model.casimirs))),
+                             false,
+                             Subject::bracket}};
+  if (!model.superintegrable) return claims;
+  claims.push_back(claims.front());
+  claims.back().name = "superintegrability";
+  claims.back().decide = decide_superintegrability;
+  return claims;
 }
 
 }  // namespace casimir

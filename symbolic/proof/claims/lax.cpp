@@ -78,7 +78,8 @@ Ranks ranks_of(Prover& prover, const std::vector<Polynomial>& known,
   return result;
 }
 
-/// The integrals that follow from a proved Lax pair; constants and repetitions left out.
+/// The integrals that follow from a proved Lax pair; constants and repetitions left out. On a level
+/// they are those of the motion there.
 std::vector<Polynomial> integrals_of(Prover& prover, const LaxPair& pair) {
   FunctionRing& ring = prover.ring();
   const unsigned n = pair.l.rows();
@@ -105,7 +106,10 @@ std::vector<Polynomial> integrals_of(Prover& prover, const LaxPair& pair) {
       });
       const bool known = std::any_of(result.begin(), result.end(),
                                      [&](const Polynomial& g) { return proportional(f, g); });
-      if (!constant && !known && prover.is_zero(prover.rate(f))) result.push_back(std::move(f));
+      if (constant || known) continue;
+      // On a level that is a theorem, see `decide_on_level`; without one it is checked again.
+      const bool kept = !pair.on.empty() || prover.is_zero(prover.rate(f));
+      if (kept) result.push_back(std::move(f));
     }
   }
   return result;
@@ -127,14 +131,49 @@ void describe_integrals(Prover& prover, Proof& proof, const LaxPair& pair) {
   if (model.hamiltonian && !model.time) known.push_back(prover.convert(*model.hamiltonian));
   for (const NamedExpression& f : real_everywhere(model.integrals))
     known.push_back(prover.convert(f.value));
-  proof.evidence = fmt::format("the characteristic polynomial gives {} integral{}", found.size(),
-                               found.size() == 1 ? "" : "s");
+  proof.evidence = fmt::format("the characteristic polynomial gives {} integral{}{}", found.size(),
+                               found.size() == 1 ? "" : "s",
+                               pair.on.empty() ? "" : " of the motion on the level");
+  // The gradients of functions on a level are independent of those of the level itself or not: that
+  // takes another count.
+  if (!pair.on.empty()) return;
   const Ranks ranks = ranks_of(prover, known, found);
   if (ranks.found) proof.evidence += fmt::format(", {} independent", *ranks.found);
   if (ranks.known && ranks.together) {
     proof.evidence += *ranks.together == *ranks.known ? "; all follow from the known ones"
                                                       : fmt::format("; {} beyond the known ones",
                                                                     *ranks.together - *ranks.known);
+  }
+}
+
+/// The equation on a level. Theorem: where the level is invariant and L is differentiable near it,
+/// dL/dt = [L, A] along each motion on it, so that the spectrum of L is constant along that motion.
+/// Without the invariance the equation on the level says nothing: motions leave it.
+void decide_on_level(Prover& prover, Proof& proof, const std::vector<Residual>& residuals,
+                     const LaxPair& pair) {
+  Proof invariance;
+  prover.decide_invariance(invariance, pair.on);
+  if (invariance.verdict != Verdict::proved) {
+    proof.verdict = invariance.verdict;
+    proof.reason =
+        (invariance.verdict == Verdict::refuted ? "the level is not invariant: "
+                                                : "the level is not shown to be invariant: ") +
+        invariance.reason;
+    proof.residual = invariance.residual;
+    proof.witness = invariance.witness;
+    proof.nonzero = invariance.nonzero;
+    return;
+  }
+  const Level level = prover.level(pair.on);
+  prover.decide(proof, residuals, level);
+  if (proof.verdict != Verdict::proved) return;
+  std::vector<NamedExpression> entries;
+  for (std::size_t k = 0; k < pair.l.nops(); ++k)
+    entries.push_back({"an entry of L", pair.l.op(k), {}, pair.domain});
+  if (!prover.is_smooth_on(proof, level, entries)) return;
+  for (const std::string& condition : invariance.where) {
+    if (std::find(proof.where.begin(), proof.where.end(), condition) == proof.where.end())
+      proof.where.push_back(condition);
   }
 }
 
@@ -161,7 +200,10 @@ void decide_lax(Prover& prover, Proof& proof, const LaxPair& pair) {
                            }});
     }
   }
-  prover.decide(proof, residuals, {});
+  if (pair.on.empty())
+    prover.decide(proof, residuals, {});
+  else
+    decide_on_level(prover, proof, residuals, pair);
   if (proof.verdict == Verdict::proved) {
     try {
       describe_integrals(prover, proof, pair);
@@ -186,6 +228,8 @@ std::vector<Claim> lax_claims(const Model& model) {
     for (const auto* list : {&model.casimirs, &model.integrals}) {
       for (const NamedExpression& f : real_everywhere(*list)) expressions.push_back(f.value);
     }
+    claims.back().on = names_of(model.lax_pairs[i].on);
+    for (const GiNaC::ex& value : values_of(model.lax_pairs[i].on)) expressions.push_back(value);
     for (const GiNaC::ex& part : model.lax_pairs[i].domain) expressions.push_back(part);
     for (const GiNaC::matrix* m : {&model.lax_pairs[i].l, &model.lax_pairs[i].a}) {
       for (std::size_t k = 0; k < m->nops(); ++k) expressions.push_back(m->op(k));

@@ -247,5 +247,76 @@ TEST(Claims, SquareOfAFunctionThatIsNotInvariantIsNotInvariant) {
   EXPECT_EQ(verdict("p^2"), Verdict::proved);
 }
 
+/// Whether f is an integral where g vanishes.
+Verdict test_conditional(const Model& model, const std::string& f, const std::string& g) {
+  Candidates candidates;
+  candidates.integrals = {{f, {"f", 1, 1}, f}};
+  candidates.on = {{g, {"g", 1, 1}, g}};
+  return prove(model, candidates).at(0).verdict;
+}
+
+const std::string kOscillator =
+    "hamiltonian = \"(p1^2 + p2^2 + q1^2 + q2^2)/2\"\n[phase_space]\n"
+    "variables = [\"q1\", \"q2\", \"p1\", \"p2\"]\ncanonical = true\n[integrals]\n"
+    "L = \"q1*p2 - q2*p1\"\n";
+
+// More integrals than degrees of freedom: those that do not commute are named and do not count.
+TEST(Superintegrable, CountsIndependentIntegralsOnly) {
+  const std::string more = "A = \"p1*p2 + q1*q2\"\nB = \"L^2 + A^2\"\n";
+  const Model claimed = model_of("superintegrable = true\n" + kOscillator + more);
+  const std::vector<Proof> proofs = prove(claimed);
+  EXPECT_EQ(overall(claimed, proofs), Verdict::proved);
+  const Proof count = proof_of(claimed, "liouville", "superintegrability");
+  EXPECT_EQ(count.verdict, Verdict::proved);
+  EXPECT_NE(count.evidence.find("as many as there can be"), std::string::npos) << count.evidence;
+  EXPECT_NE(count.evidence.find("B follows from them"), std::string::npos) << count.evidence;
+  EXPECT_EQ(proof_of(claimed, "involution", "{L, A}").verdict, Verdict::refuted);
+  const Proof dependent = proof_of(claimed, "independence");
+  EXPECT_EQ(dependent.verdict, Verdict::refuted);
+  EXPECT_NE(dependent.reason.find("B depends"), std::string::npos) << dependent.reason;
+  // The same integrals are too many for Liouville's theorem as `integrable` claims it.
+  const Model liouville = model_of("integrable = true\n" + kOscillator + more);
+  EXPECT_EQ(overall(liouville, prove(liouville)), Verdict::refuted);
+}
+
+// The twins: two integrals are no more than Liouville's theorem needs, whatever a third one is that
+// follows from them; a function that is no integral refutes the case as before.
+TEST(Superintegrable, NeedsOneMore) {
+  const Model two = model_of("superintegrable = true\n" + kOscillator + "B = \"L^2\"\n");
+  EXPECT_EQ(overall(two, prove(two)), Verdict::undecided);
+  EXPECT_EQ(proof_of(two, "liouville", "superintegrability").verdict, Verdict::undecided);
+  const Model wrong =
+      model_of("superintegrable = true\n" + kOscillator + "A = \"p1*p2 - q1*q2\"\n");
+  EXPECT_EQ(overall(wrong, prove(wrong)), Verdict::refuted);
+  EXPECT_THROW(model_of("superintegrable = true\n[phase_space]\nvariables = [\"x\"]\n"
+                        "[equations]\nx = \"x\"\n"),
+               CaseError);
+}
+
+std::string lax_on(const std::string& z, const std::string& more) {
+  return "[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n[equations]\nx = \"y + z\"\n"
+         "y = \"-x\"\nz = \"" +
+         z +
+         "\"\n[[lax]]\nL = [[\"x\", \"y\"], [\"y\", \"-x\"]]\n"
+         "A = [[\"0\", \"-1/2\"], [\"1/2\", \"0\"]]\n" +
+         more;
+}
+
+TEST(LaxOnALevel, HoldsWhereTheLevelIsInvariant) {
+  const Model model = model_of(lax_on("x*z", "on = [\"z\"]\n"));
+  const Proof proof = proof_of(model, "lax");
+  EXPECT_EQ(proof.verdict, Verdict::proved) << proof.reason;
+  EXPECT_EQ(proof.on, std::vector<std::string>{"z"});
+  ASSERT_EQ(proof.integrals.size(), 1U);
+  EXPECT_EQ(test_conditional(model, proof.integrals[0], "z"), Verdict::proved);
+  // Without the level, and on one that motions leave although the equation holds on it.
+  EXPECT_EQ(proof_of(model_of(lax_on("x*z", "")), "lax").verdict, Verdict::refuted);
+  const Proof leaves = proof_of(model_of(lax_on("x*z + x", "on = [\"z\"]\n")), "lax");
+  EXPECT_EQ(leaves.verdict, Verdict::refuted);
+  EXPECT_NE(leaves.reason.find("not invariant"), std::string::npos) << leaves.reason;
+  // On an invariant level where it does not hold.
+  EXPECT_EQ(proof_of(model_of(lax_on("0", "on = [\"z - 1\"]\n")), "lax").verdict, Verdict::refuted);
+}
+
 }  // namespace
 }  // namespace casimir

@@ -1,6 +1,10 @@
 // Maps on the command line: `discretise`, `degrees`, `search`, `integrate`, and what refuses them.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
 #include "tests/tools/program.hpp"
 
 namespace casimir::test {
@@ -90,9 +94,8 @@ TEST(MapCommands, OthersRefuseMaps) {
   for (const std::vector<std::string>& command : {std::vector<std::string>{"exponents", "lyness"},
                                                   {"obstruct", "lyness"},
                                                   {"equilibria", "lyness"},
-                                                  {"conserve", "lyness"},
-                                                  {"section", "lyness"},
-                                                  {"generate", "lyness", "-o", "x.hpp"},
+                                                  {"stress", "lyness"},
+                                                  {"sweep", "lyness"},
                                                   {"report", "lyness"},
                                                   {"bench", "lyness"},
                                                   {"verify", "lyness", "--in", "andoyer"},
@@ -105,6 +108,149 @@ TEST(MapCommands, OthersRefuseMaps) {
   EXPECT_EQ(run({"show", "lyness"}).status, 0);
   EXPECT_EQ(run({"show", "lyness", "--json"}).json().at("map").at("x"), "y");
   EXPECT_TRUE(has(run({"show", "lyness", "--format", "latex"}).out, "x'"));
+}
+
+// What is generated is the map: a program of its own that uses it comes back to where it was, and
+// has the state of `integrate`.
+TEST(MapCommands, GeneratedStepAndInverseUndoEachOther) {
+  const Folder folder;
+  const Outcome json = run_in(folder, {"generate", "kahan-euler", "-o", "k.hpp", "--with",
+                                       "inverse,jacobian,invariants,variational", "--json"});
+  ASSERT_EQ(json.status, 0) << json.err;
+  EXPECT_TRUE(json.json().at("functions").contains("step"));
+  EXPECT_TRUE(json.json().at("functions").contains("inverse"));
+  ASSERT_EQ(run_in(folder, {"generate", "kahan-euler", "-o", "k.h", "--language", "c"}).status, 0);
+  folder.write("main.cpp", R"(
+#include <cstdio>
+#include "k.hpp"
+namespace c {
+#include "k.h"
+}
+int main() {
+  namespace k = kahan_euler;
+  double x[3], y[3], z[3], w[3], J[9], v[3] = {1, 0, 0}, u[3];
+  for (int i = 0; i < 3; ++i) x[i] = k::initial_state[i];
+  k::step(x, y);
+  k::inverse(y, z);
+  c::kahan_euler_step(x, w);
+  k::jacobian(x, J);
+  k::tangent(x, v, w, u);
+  for (int i = 0; i < 3; ++i) {
+    std::printf("%.17g\n", y[i]);
+    if (!(z[i] - x[i] < 1e-14 && x[i] - z[i] < 1e-14) || w[i] != y[i]) return 1;
+    if (!(u[i] - J[i] < 1e-14 && J[i] - u[i] < 1e-14)) return 2;
+  }
+})");
+  const std::string command = "c++ -std=c++20 -Wall -Wextra -Werror " + (folder / "main.cpp") +
+                              " -o " + (folder / "main") + " && " + (folder / "main") + " > " +
+                              (folder / "out.txt");
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const Json state = run({"integrate", "kahan-euler", "--duration", "1", "--json"}).json();
+  std::istringstream lines(file_text(folder / "out.txt"));
+  for (const char* name : {"M1", "M2", "M3"}) {
+    double value = 0;
+    ASSERT_TRUE(lines >> value);
+    EXPECT_NEAR(value, std::stod(state.at("state").at(name).get<std::string>()), 1e-14);
+  }
+  // (x, y) -> (x^2, y) has no inverse, and none is said.
+  const std::string fold =
+      "[phase_space]\nvariables = [\"x\", \"y\"]\n[map]\nx = \"x^2\"\ny = \"y\"\n"
+      "[[scene]]\nname = \"default\"\ninitial = { x = \"2\", y = \"1\" }\n";
+  EXPECT_EQ(run({"generate", "-", "--with", "inverse"}, fold).status, 2);
+  const Outcome without = run({"generate", "-"}, fold);
+  EXPECT_EQ(without.status, 0) << without.err;
+  EXPECT_FALSE(has(without.out, "inverse"));
+  EXPECT_FALSE(has(without.out, "rhs"));
+  EXPECT_EQ(run({"generate", "lyness", "--with", "taylor"}).status, 2);
+  EXPECT_EQ(run({"generate", "euler", "--with", "inverse"}).status, 2);
+}
+
+TEST(MapCommands, ConserveWatchesWhatTheMapKeeps) {
+  const Json rows = run({"conserve", "--all", "--tag", "map", "--json"}).json();
+  EXPECT_EQ(rows.at("failed"), 0);
+  EXPECT_GE(rows.at("rows").size(), 8U);
+  const Json row = run({"conserve", "discrete-neumann", "--json"}).json().at("rows")[0];
+  EXPECT_EQ(row.at("method"), "map");
+  EXPECT_EQ(row.at("steps"), 1000);
+  // The twin: what the map does not keep drifts, also where it is kept on a level only and the
+  // scene begins on that.
+  std::string text = file_text(CASIMIR_SOURCE_DIR "/cases/maps/discrete-neumann.toml");
+  const std::string right = "y1^2 + M12^2/(j1^2 - j2^2)";
+  text.replace(text.find(right), right.size(), "y1^2 - M12^2/(j1^2 - j2^2)");
+  const Outcome wrong = run({"conserve", "-", "--json"}, text);
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_EQ(run({"conserve", "lyness", "--method", "taylor"}).status, 2);
+  EXPECT_EQ(run({"conserve", "lyness", "--plot", "x.svg"}).status, 2);
+}
+
+TEST(MapCommands, SectionFollowsOrbits) {
+  const Folder folder;
+  const Outcome outcome = run_in(folder, {"section", "mcmillan", "--orbits", "6", "--points", "300",
+                                          "--output", "o.csv", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json json = outcome.json();
+  EXPECT_EQ(json.at("orbits").size(), 6U);
+  EXPECT_EQ(json.at("crossings"), 1800);
+  EXPECT_EQ(json.at("regular"), 6);  // it has an integral
+  // Every line is a point of the orbit: q' = p, and the integral is that of the first.
+  std::istringstream lines(file_text(folder / "o.csv"));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "orbit,n,t,u,v,q,p");
+  int orbit = 0, last = 0;
+  double q = 0, p = 0, before = 0, first = 0;
+  char comma = 0;
+  double n = 0, t = 0, u = 0, v = 0;
+  std::size_t count = 0;
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    fields >> orbit >> comma >> n >> comma >> t >> comma >> u >> comma >> v >> comma >> q >>
+        comma >> p;
+    const double f = q * q * p * p + q * q + p * p - 2 * 1.6 * q * p;
+    if (orbit != last) first = f;
+    if (orbit == last) EXPECT_EQ(q, before);
+    EXPECT_NEAR(f, first, 1e-12);
+    EXPECT_EQ(u, q);
+    last = orbit;
+    before = p;
+    ++count;
+  }
+  EXPECT_EQ(count, 1800U);
+  // The standard map with a large parameter is chaotic, its orbits are not regular.
+  const std::string standard =
+      "[phase_space]\nvariables = [\"x\", \"y\"]\n[map]\nx = \"x + y + 7*sin(x)\"\n"
+      "y = \"y + 7*sin(x)\"\n[[scene]]\nname = \"default\"\n"
+      "initial = { x = \"1\", y = \"1/2\" }\n";
+  const Json chaos =
+      run({"section", "-", "--orbits", "1", "--pair", "sin(x)", "cos(y)", "--json"}, standard)
+          .json();
+  EXPECT_EQ(chaos.at("chaotic"), 1);
+  EXPECT_NEAR(std::stod(chaos.at("orbits")[0].at("exponent").get<std::string>()), std::log(3.5),
+              0.2);
+  EXPECT_EQ(run({"section", "lyness", "--energy", "1"}).status, 2);
+  EXPECT_EQ(run({"section", "lyness", "--plane", "x"}).status, 2);
+  EXPECT_EQ(run({"section", "lyness", "--cycles", "2"}).status, 2);
+}
+
+// Kahan's map as a method: of order 2, exactly the map that `discretise` writes, and nothing for
+// equations that are not quadratic.
+TEST(MapCommands, KahanIsAMethod) {
+  const Folder folder;
+  ASSERT_EQ(run_in(folder, {"discretise", "euler", "--kahan", "1/10", "-o", "k.toml"}).status, 0);
+  const Json map = run_in(folder, {"integrate", "./k.toml", "--duration", "100", "--json"}).json();
+  const Json flow = run_in(folder, {"integrate", "euler", "--method", "kahan", "--step", "1/10",
+                                    "--duration", "10", "--json"})
+                        .json();
+  EXPECT_EQ(flow.at("method"), "kahan");
+  for (const char* name : {"M1", "M2", "M3"})
+    EXPECT_NEAR(std::stod(flow.at("state").at(name).get<std::string>()),
+                std::stod(map.at("state").at(name).get<std::string>()), 1e-12);
+  const Outcome refused = run({"integrate", "euler-angles", "--method", "kahan"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(has(refused.err, "degree two")) << refused.err;
+  const Outcome bench = run({"bench", "lyness"});
+  EXPECT_EQ(bench.status, 2);
+  EXPECT_TRUE(has(bench.err, "--method kahan")) << bench.err;
 }
 
 }  // namespace

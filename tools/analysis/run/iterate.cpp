@@ -7,6 +7,7 @@
 
 #include "codegen/compile.hpp"
 #include "codegen/emit_cpp.hpp"
+#include "symbolic/expression/expression_size.hpp"
 
 namespace casimir {
 namespace {
@@ -17,15 +18,17 @@ double elapsed(IterationClock::time_point start) {
   return std::chrono::duration<double>(IterationClock::now() - start).count();
 }
 
-/// The map as the right-hand side of a system of equations, for code that writes functions: the
-/// values that it writes for dx/dt are the next ones.
-Model with_next_as_field(const MapModel& map) {
-  Model model = map.base;
-  model.poisson.reset();
-  model.frame.reset();
-  model.linear_bracket = false;
-  model.field = map.next;
-  model.domain = map.next_domain;
+/// The map as a field, whose integrals are also those of the levels that the scene begins on.
+Model with_integrals_of_level(const MapModel& map, const Scene& scene) {
+  Model model = map.as_field();
+  GiNaC::exmap start;
+  for (std::size_t i = 0; i < model.variables.size(); ++i)
+    start[model.variables[i]] = scene.initial.at(i);
+  const auto vanishes = [&](const NamedExpression& f) {
+    return substituted(model.at_parameters(f.value, scene), start).expand().is_zero();
+  };
+  for (const LevelClaim& claim : map.base.conditionals)
+    if (std::ranges::all_of(claim.on, vanishes)) model.integrals.push_back(claim.expression);
   return model;
 }
 
@@ -72,7 +75,7 @@ bool is_finite(const std::vector<double>& x) {
 
 Iterated iterate(const MapModel& map, const Scene& scene, std::uint64_t steps, std::uint64_t every,
                  const std::function<bool()>& give_up) {
-  const Model model = with_next_as_field(map);
+  const Model model = with_integrals_of_level(map, scene);
   const PreparedScene run = prepare(model, scene);
   Specialisation s = run.specialisation;
   s.has_jacobian = false;

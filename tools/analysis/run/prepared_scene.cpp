@@ -13,6 +13,7 @@
 #include "codegen/compile.hpp"
 #include "codegen/emit/number_literal.hpp"
 #include "codegen/emit_cpp.hpp"
+#include "codegen/quadratic.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/exact/closed_form.hpp"
 #include "runtime/exact/polynomial_field.hpp"
@@ -124,9 +125,20 @@ Splitting splitting_of(const PreparedScene& run) {
   return split(*run.split_source);
 }
 
+/// For any values of the parameters at run time: those of the scene are as good as others.
+bool is_quadratic(const PreparedScene& run) {
+  return quadratic_form(run.specialisation.rhs, run.parameters).has_value();
+}
+
 /// A module from the compiler.
+/// \throws ModelError  where the method is not defined for the equations.
 /// \throws CompilerMissing  without one; the text names the method that does not need it.
 CompiledModule compiled_module(const PreparedScene& run, const Method& method) {
+  if (method.quadratic_only && !is_quadratic(run))
+    throw ModelError(fmt::format(
+        "{} is defined for equations that are polynomials of degree two at most in the variables "
+        "and do not depend on the time, and these are not",
+        method.name));
   Specialisation s = run.specialisation;
   std::optional<Splitting> splitting;
   if (method.splits) splitting = splitting_of(run);
@@ -215,6 +227,7 @@ CompiledModule compile_always(const PreparedScene& run, const Method& method) {
 bool suits(const PreparedScene& run, const Method& method) {
   std::vector<cln::cl_F> start;
   if (method.closed_form) return recognised(run, start).form != nullptr;
+  if (method.quadratic_only) return is_quadratic(run);
   if (!method.splits) return true;
   try {
     splitting_of(run);

@@ -59,11 +59,12 @@ struct CompiledModule {
   bool compiled = true;      ///< false: table-driven or interpreted
   std::string warning = {};  ///< what the user should know about how it was made, or empty
 };
-/// \throws ModelError  where the method splits the Hamiltonian and it does not split.
+/// \throws ModelError  where the method splits the Hamiltonian and it does not split, or is defined
+///                     for quadratic equations and these are not.
 CompiledModule compile_for(const PreparedScene& run, const Method& method);
 
 /// Whether the method can do anything with the scene: those that split the Hamiltonian need one
-/// that splits.
+/// that splits, Kahan's map quadratic equations.
 bool suits(const PreparedScene& run, const Method& method);
 
 /// What `load` loads of a compiled object.

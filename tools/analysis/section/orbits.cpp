@@ -128,8 +128,9 @@ void check_level(const LevelSet& level, OrbitReport& report) {
   }
 }
 
-/// The growth after the first tenth, when a deviation has found its direction.
-void estimate_exponent(OrbitReport& report) {
+}  // namespace
+
+void judge_growth(OrbitReport& report) {
   const SectionOrbit& orbit = report.orbit;
   // One that runs to infinity is neither regular nor chaotic.
   report.judged =
@@ -142,8 +143,6 @@ void estimate_exponent(OrbitReport& report) {
   report.chaotic = growth > kLargestPower * std::log(orbit.times.back() / orbit.times[first]);
 }
 
-}  // namespace
-
 std::vector<OrbitReport> judged_orbits(const LevelSet& level, SectionResult result,
                                        const std::vector<Vector>& seeds) {
   std::vector<OrbitReport> reports;
@@ -152,7 +151,7 @@ std::vector<OrbitReport> judged_orbits(const LevelSet& level, SectionResult resu
     report.orbit = std::move(result.orbits[i]);
     report.seed = seeds[i];
     check_level(level, report);
-    estimate_exponent(report);
+    judge_growth(report);
     reports.push_back(std::move(report));
   }
   return reports;

@@ -76,4 +76,9 @@ inline constexpr double kOnLevel = 1e-10;
 std::vector<OrbitReport> judged_orbits(const LevelSet& level, SectionResult result,
                                        const std::vector<LevelSet::Vector>& seeds);
 
+/// Whether deviations grew faster than a power of time after the first tenth of the orbit, when
+/// they have found their direction. Evidence: a short orbit that sticks to a torus may pass for
+/// regular.
+void judge_growth(OrbitReport& report);
+
 }  // namespace casimir

@@ -22,20 +22,32 @@ std::vector<std::string> KeptParameters::names() const {
   return result;
 }
 
-Model KeptParameters::model_of(const CaseFile& file, const ParameterValues& given) const {
-  CaseFile chosen = file;
-  ParameterValues fixed;
+KeptParameters::Chosen KeptParameters::chosen(const CaseFile& file,
+                                              const ParameterValues& given) const {
+  Chosen result{file, {}};
   const std::vector<std::string> kept = names();
   for (const auto& [name, value] : given) {
     const bool declared = std::any_of(
         file.parameters.begin(), file.parameters.end(),
         [&, &wanted = name](const ParameterText& p) { return p.name.value == wanted.value; });
     if (declared && (all() || std::find(kept.begin(), kept.end(), name.value) != kept.end()))
-      set_in_scenes(chosen, &SceneText::parameters, name, value);
+      set_in_scenes(result.file, &SceneText::parameters, name, value);
     else
-      fixed.emplace_back(name, value);
+      result.fixed.emplace_back(name, value);
   }
-  return tools::model_of(chosen, fixed);
+  return result;
+}
+
+Model KeptParameters::model_of(const CaseFile& file, const ParameterValues& given) const {
+  const Chosen all = chosen(file, given);
+  return tools::model_of(all.file, all.fixed);
+}
+
+MapModel KeptParameters::map_model_of(const MapCaseFile& file, const ParameterValues& given) const {
+  const Chosen all = chosen(file.file, given);
+  MapCaseFile map = file;
+  map.file = all.file;
+  return tools::map_model_of(map, all.fixed);
 }
 
 }  // namespace casimir::tools

@@ -19,6 +19,9 @@ class KeptParameters {
   /// \throws CaseError
   Model model_of(const CaseFile& file, const ParameterValues& given) const;
 
+  /// The same for the case of a map.
+  MapModel map_model_of(const MapCaseFile& file, const ParameterValues& given) const;
+
   /// Sets `fold_parameters` and `keep_parameters`.
   template <class Options>
   Options in(Options options = {}) const {
@@ -28,6 +31,12 @@ class KeptParameters {
   }
 
  private:
+  /// A case with the values of kept parameters in its scenes, and the values of the others.
+  struct Chosen {
+    CaseFile file;
+    ParameterValues fixed;
+  };
+  Chosen chosen(const CaseFile& file, const ParameterValues& given) const;
   bool all() const;
   std::vector<std::string> names() const;
 

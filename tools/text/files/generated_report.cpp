@@ -22,15 +22,17 @@ struct Generated {
 };
 
 std::vector<Generated> functions_of(const Specialisation& s) {
-  std::vector<Generated> result{{"rhs", s.specialised}};
+  std::vector<Generated> result{{s.of_map ? "step" : "rhs", s.specialised}};
   const std::size_t n = s.states.size();
+  if (s.has_inverse) result.push_back({"inverse", count_operations(s.inverse)});
   if (!s.invariant_names.empty()) result.push_back({"invariants", count_operations(s.invariants)});
   if (s.has_gradients && !s.invariant_names.empty())
     result.push_back({"gradients", count_operations(s.gradients.program), &s.gradients,
                       n * s.invariant_names.size()});
   if (s.has_jacobian)
     result.push_back({"jacobian", count_operations(s.jacobian.program), &s.jacobian, n * n});
-  if (s.has_variational) result.push_back({"variational", count_operations(s.variational)});
+  if (s.has_variational)
+    result.push_back({s.of_map ? "tangent" : "variational", count_operations(s.variational)});
   return result;
 }
 
@@ -59,12 +61,13 @@ std::string generated_text(const Specialisation& specialisation) {
   if (!specialisation.parameters.empty())
     text +=
         fmt::format("  parameters {}, at run time\n", fmt::join(specialisation.parameters, " "));
-  text +=
-      fmt::format("  one right-hand side, general      {}\n", cost_text(specialisation.general));
-  text += fmt::format("  one right-hand side, specialised  {}\n",
+  const char* const one = specialisation.of_map ? "one step" : "one right-hand side";
+  text += fmt::format("  {:<33} {}\n", fmt::format("{}, general", one),
+                      cost_text(specialisation.general));
+  text += fmt::format("  {:<33} {}\n", fmt::format("{}, specialised", one),
                       cost_text(specialisation.specialised));
   for (const Generated& function : functions_of(specialisation)) {
-    if (function.name == "rhs") continue;
+    if (function.name == "rhs" || function.name == "step") continue;
     text += fmt::format("  {:<33} {}", function.name, cost_text(function.operations));
     if (function.matrix)
       text += fmt::format("; {} of {} entries", function.matrix->entries.size(), function.size);

@@ -37,9 +37,12 @@ void CaseReport::row(const Proof& proof) {
                           : proof.fact ? Section::facts
                                        : Section::claims;
   if (section == Section::facts && section_ != section)
-    fmt::print("\nfacts, which {}\n", model_.integrable
-                                          ? "count as claims: the case claims integrability"
-                                          : "do not count");
+    fmt::print("\nfacts, {}\n",
+               model_.superintegrable
+                   ? "of which the rank and the counts of integrals count: superintegrability is "
+                     "claimed"
+               : model_.integrable ? "which count as claims: the case claims integrability"
+                                   : "which do not count");
   if (section == Section::notes && section_ != section) fmt::print("\nbeside the claims\n");
   section_ = section;
   fmt::print("{}", proof.findings.empty() ? table_.row(proof) : table_.judgement(proof));

@@ -1,0 +1,181 @@
+#include "symbolic/discrete/map_inverse.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include "symbolic/discrete/modular_program.hpp"
+#include "symbolic/error.hpp"
+#include "symbolic/expression/expression_size.hpp"
+#include "symbolic/proof/run_claims.hpp"
+
+namespace casimir::discrete {
+namespace {
+
+using GiNaC::ex;
+using Inverse = std::vector<ex>;
+
+/// psi(phi(x)) = x, in the ring of the prover.
+bool is_proved_inverse(const MapModel& map, const Inverse& inverse) {
+  Claim claim{ClaimKind::map, "inverse", false, [&map, &inverse](Prover& prover, Proof& proof) {
+                std::vector<Residual> residuals;
+                for (std::size_t i = 0; i < inverse.size(); ++i) {
+                  const ex value = map.composed(inverse[i]) - map.base.variables[i];
+                  residuals.push_back({map.base.variables[i].get_name(), prover.convert(value),
+                                       [value] { return value; }});
+                }
+                prover.decide(proof, residuals, {});
+              }};
+  claim.expressions = map.next;
+  claim.expressions.insert(claim.expressions.end(), map.next_domain.begin(), map.next_domain.end());
+  for (const ex& previous : inverse) claim.expressions.push_back(map.composed(previous));
+  claim.subject = Subject::functions;
+  const Proof proof = decide_claims(map.base, {claim}, {}).front();
+  return proof.verdict == Verdict::proved && proof.where.empty();
+}
+
+/// Whether it is the inverse at a random point modulo the prime, which is soon seen.
+class Screen {
+ public:
+  explicit Screen(const MapModel& map) : map_(map), symbols_(map.base.variables) {
+    symbols_.insert(symbols_.end(), map.base.parameters.begin(), map.base.parameters.end());
+    const PrimeField field;
+    std::mt19937_64 random(24);
+    for (std::size_t i = 0; i < symbols_.size(); ++i) point_.push_back(field.random(random));
+    image_ = point_;
+    try {
+      const auto next = ModularProgram(symbols_, map.next).run(point_);
+      rational_ = next.has_value();
+      if (next) std::copy(next->begin(), next->end(), image_.begin());
+    } catch (const ModelError&) {
+      rational_ = false;  // the prover alone decides
+    }
+  }
+
+  bool passes(const Inverse& inverse) const {
+    if (!rational_) return true;
+    try {
+      const auto back = ModularProgram(symbols_, inverse).run(image_);
+      return back && std::equal(back->begin(), back->end(), point_.begin());
+    } catch (const ModelError&) {
+      return true;
+    }
+  }
+
+ private:
+  const MapModel& map_;
+  std::vector<GiNaC::symbol> symbols_;
+  std::vector<Element> point_, image_;
+  bool rational_ = false;
+};
+
+/// Variables one after the other: each from a next value that is a quotient of functions linear in
+/// it, the others in which are known.
+std::optional<Inverse> solved_in_turn(const MapModel& map) {
+  const auto& x = map.base.variables;
+  const std::size_t n = x.size();
+  std::vector<GiNaC::symbol> image;
+  for (const GiNaC::symbol& variable : x) image.emplace_back(variable.get_name() + "'");
+  std::vector<bool> used(n, false), solved(n, false);
+  GiNaC::exmap known;
+  for (std::size_t round = 0; round < n; ++round) {
+    bool found = false;
+    for (std::size_t j = 0; j < n && !found; ++j) {
+      if (used[j]) continue;
+      const ex parts = normal_form(substituted(map.next[j], known)).numer_denom();
+      const ex equation = (image[j] * parts.op(1) - parts.op(0)).expand();
+      std::vector<std::size_t> open;
+      for (std::size_t i = 0; i < n; ++i)
+        if (!solved[i] && equation.has(x[i])) open.push_back(i);
+      if (open.size() != 1 || !equation.is_polynomial(x[open[0]]) ||
+          equation.degree(x[open[0]]) != 1)
+        continue;
+      const std::size_t i = open[0];
+      known[x[i]] = normal_form(-equation.coeff(x[i], 0) / equation.coeff(x[i], 1));
+      used[j] = solved[i] = found = true;
+    }
+    if (!found) return std::nullopt;
+  }
+  GiNaC::exmap names;
+  for (std::size_t i = 0; i < n; ++i) names[image[i]] = x[i];
+  Inverse inverse;
+  for (std::size_t i = 0; i < n; ++i) inverse.push_back(substituted(known.at(x[i]), names));
+  return inverse;
+}
+
+/// S phi S, with the parameters that S gives.
+Inverse conjugate(const MapModel& map, const MapSymmetry& s) {
+  GiNaC::exmap at, back;
+  for (std::size_t i = 0; i < s.parameters.size(); ++i)
+    at[map.base.parameters[i]] = back[map.base.parameters[i]] = s.parameters[i];
+  for (std::size_t i = 0; i < s.variables.size(); ++i) {
+    at[map.base.variables[i]] = s.variables[i];
+  }
+  for (std::size_t i = 0; i < s.variables.size(); ++i)
+    back[map.base.variables[i]] = substituted(map.next[i], at);
+  Inverse inverse;
+  for (const ex& value : s.variables) inverse.push_back(substituted(value, back));
+  return inverse;
+}
+
+/// Reversing symmetries that the case gives, and those that many maps have.
+std::vector<MapSymmetry> reversals(const MapModel& map) {
+  const std::size_t n = map.base.variables.size();
+  constexpr std::size_t kFew = 6;
+  std::vector<MapSymmetry> result;
+  for (const MapSymmetry& s : map.symmetries)
+    if (s.reverses) result.push_back(s);
+  MapSymmetry identity{.name = "", .variables = {}, .parameters = {}, .reverses = true};
+  identity.variables.assign(map.base.variables.begin(), map.base.variables.end());
+  identity.parameters.assign(map.base.parameters.begin(), map.base.parameters.end());
+  result.push_back(identity);
+  for (std::size_t i = 0; i < identity.parameters.size(); ++i) {
+    result.push_back(identity);
+    result.back().parameters[i] = -identity.parameters[i];
+  }
+  for (std::size_t i = 0; n <= kFew && i < n; ++i) {
+    result.push_back(identity);
+    result.back().variables[i] = -identity.variables[i];
+    for (std::size_t j = 0; j < i; ++j) {
+      result.push_back(identity);
+      std::swap(result.back().variables[i], result.back().variables[j]);
+    }
+  }
+  return result;
+}
+
+std::optional<Inverse> inverse_of_one(const MapModel& map) {
+  const Screen screen(map);
+  const auto good = [&](const Inverse& inverse) {
+    return screen.passes(inverse) && is_proved_inverse(map, inverse);
+  };
+  // GiNaC's common denominators of large maps take longer than all else here.
+  constexpr double kMostTerms = 3000;
+  double terms = 0;
+  for (const ex& value : map.next) terms += most_terms(value);
+  if (terms < kMostTerms) {
+    if (auto inverse = solved_in_turn(map); inverse && good(*inverse)) return inverse;
+  }
+  for (const MapSymmetry& s : reversals(map)) {
+    Inverse inverse = conjugate(map, s);
+    if (good(inverse)) return inverse;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::vector<ex>> proved_inverse(const MapModel& map) {
+  if (map.steps.empty()) return inverse_of_one(map);
+  Inverse result(map.base.variables.begin(), map.base.variables.end());
+  for (const MapModel& step : map.steps) {
+    const std::optional<Inverse> of_step = inverse_of_one(step);
+    if (!of_step) return std::nullopt;
+    GiNaC::exmap after;
+    for (std::size_t i = 0; i < result.size(); ++i) after[map.base.variables[i]] = (*of_step)[i];
+    // The inverse of the first step is done last.
+    for (ex& value : result) value = substituted(value, after);
+  }
+  return result;
+}
+
+}  // namespace casimir::discrete
