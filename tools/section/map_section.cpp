@@ -144,7 +144,8 @@ class MapSection {
                                  {"status", to_string(orbit.orbit.status)},
                                  {"points", orbit.places.size()},
                                  {"exponent", exact_text(orbit.exponent)}};
-      one["chaotic"] = orbit.judged ? nlohmann::ordered_json(orbit.chaotic) : nullptr;
+      one["chaotic"] =
+          orbit.judged ? nlohmann::ordered_json(orbit.chaotic) : nlohmann::ordered_json(nullptr);
       one["seed"] = nlohmann::ordered_json::object();
       const auto& states = orbits_.specialisation().states;
       for (std::size_t i = 0; i < states.size(); ++i)

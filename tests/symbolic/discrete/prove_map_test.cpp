@@ -41,7 +41,10 @@ TEST(ProveMap, InversesOfTheBundledMapsAreFoundAndProved) {
     GiNaC::exmap point, image;
     int k = 3;
     for (const auto* list : {&map.base.variables, &map.base.parameters})
-      for (const GiNaC::symbol& s : *list) point[s] = GiNaC::numeric(++k, 7 + k % 3);
+      for (const GiNaC::symbol& s : *list) {
+        ++k;
+        point[s] = GiNaC::numeric(k, 7 + k % 3);
+      }
     for (const GiNaC::symbol& s : map.base.parameters) image[s] = point[s];
     const auto apply = [](const std::vector<GiNaC::ex>& functions, const GiNaC::exmap& at) {
       std::vector<GiNaC::ex> values;

@@ -226,27 +226,6 @@ TEST(Claims, TimeDependentIntegralNeedsItsExplicitDerivative) {
             Verdict::refuted);
 }
 
-}  // namespace
-}  // namespace casimir::test
-
-namespace casimir {
-namespace {
-
-// Its rate vanishes where q^2 does, and yet the motion leaves q = 0.
-TEST(Claims, SquareOfAFunctionThatIsNotInvariantIsNotInvariant) {
-  const std::string toml =
-      "hamiltonian = \"p^2/2\"\n[phase_space]\nvariables = [\"q\", \"p\"]\ncanonical = true\n";
-  const Model model = build_model(parse_case(toml, "test"));
-  const auto verdict = [&](const std::string& f) {
-    Candidates candidates;
-    candidates.invariant_relations = {{f, {"test", 1, 1}, f}};
-    return prove(model, candidates).at(0).verdict;
-  };
-  EXPECT_EQ(verdict("q^2"), Verdict::refuted);
-  EXPECT_EQ(verdict("q^2*(1 + p^2)"), Verdict::refuted);
-  EXPECT_EQ(verdict("p^2"), Verdict::proved);
-}
-
 /// Whether f is an integral where g vanishes.
 Verdict test_conditional(const Model& model, const std::string& f, const std::string& g) {
   Candidates candidates;
@@ -316,6 +295,27 @@ TEST(LaxOnALevel, HoldsWhereTheLevelIsInvariant) {
   EXPECT_NE(leaves.reason.find("not invariant"), std::string::npos) << leaves.reason;
   // On an invariant level where it does not hold.
   EXPECT_EQ(proof_of(model_of(lax_on("0", "on = [\"z - 1\"]\n")), "lax").verdict, Verdict::refuted);
+}
+
+}  // namespace
+}  // namespace casimir::test
+
+namespace casimir {
+namespace {
+
+// Its rate vanishes where q^2 does, and yet the motion leaves q = 0.
+TEST(Claims, SquareOfAFunctionThatIsNotInvariantIsNotInvariant) {
+  const std::string toml =
+      "hamiltonian = \"p^2/2\"\n[phase_space]\nvariables = [\"q\", \"p\"]\ncanonical = true\n";
+  const Model model = build_model(parse_case(toml, "test"));
+  const auto verdict = [&](const std::string& f) {
+    Candidates candidates;
+    candidates.invariant_relations = {{f, {"test", 1, 1}, f}};
+    return prove(model, candidates).at(0).verdict;
+  };
+  EXPECT_EQ(verdict("q^2"), Verdict::refuted);
+  EXPECT_EQ(verdict("q^2*(1 + p^2)"), Verdict::refuted);
+  EXPECT_EQ(verdict("p^2"), Verdict::proved);
 }
 
 }  // namespace

@@ -208,7 +208,9 @@ TEST(MapCommands, SectionFollowsOrbits) {
         comma >> p;
     const double f = q * q * p * p + q * q + p * p - 2 * 1.6 * q * p;
     if (orbit != last) first = f;
-    if (orbit == last) EXPECT_EQ(q, before);
+    if (orbit == last) {
+      EXPECT_EQ(q, before);
+    }
     EXPECT_NEAR(f, first, 1e-12);
     EXPECT_EQ(u, q);
     last = orbit;

@@ -39,15 +39,15 @@ KeptParameters::Chosen KeptParameters::chosen(const CaseFile& file,
 }
 
 Model KeptParameters::model_of(const CaseFile& file, const ParameterValues& given) const {
-  const Chosen all = chosen(file, given);
-  return tools::model_of(all.file, all.fixed);
+  const Chosen taken = chosen(file, given);
+  return tools::model_of(taken.file, taken.fixed);
 }
 
 MapModel KeptParameters::map_model_of(const MapCaseFile& file, const ParameterValues& given) const {
-  const Chosen all = chosen(file.file, given);
+  const Chosen taken = chosen(file.file, given);
   MapCaseFile map = file;
-  map.file = all.file;
-  return tools::map_model_of(map, all.fixed);
+  map.file = taken.file;
+  return tools::map_model_of(map, taken.fixed);
 }
 
 }  // namespace casimir::tools
