@@ -143,15 +143,16 @@ std::vector<MapSymmetry> reversals(const MapModel& map) {
   return result;
 }
 
-std::optional<Inverse> inverse_of_one(const MapModel& map) {
+std::optional<Inverse> inverse_of_one(const MapModel& map, double largest) {
+  double terms = 0;
+  for (const ex& value : map.next) terms += most_terms(value);
+  if (terms > largest) return std::nullopt;
   const Screen screen(map);
   const auto good = [&](const Inverse& inverse) {
     return screen.passes(inverse) && is_proved_inverse(map, inverse);
   };
   // GiNaC's common denominators of large maps take longer than all else here.
   constexpr double kMostTerms = 3000;
-  double terms = 0;
-  for (const ex& value : map.next) terms += most_terms(value);
   if (terms < kMostTerms) {
     if (auto inverse = solved_in_turn(map); inverse && good(*inverse)) return inverse;
   }
@@ -164,11 +165,11 @@ std::optional<Inverse> inverse_of_one(const MapModel& map) {
 
 }  // namespace
 
-std::optional<std::vector<ex>> proved_inverse(const MapModel& map) {
-  if (map.steps.empty()) return inverse_of_one(map);
+std::optional<std::vector<ex>> proved_inverse(const MapModel& map, double largest) {
+  if (map.steps.empty()) return inverse_of_one(map, largest);
   Inverse result(map.base.variables.begin(), map.base.variables.end());
   for (const MapModel& step : map.steps) {
-    const std::optional<Inverse> of_step = inverse_of_one(step);
+    const std::optional<Inverse> of_step = inverse_of_one(step, largest);
     if (!of_step) return std::nullopt;
     GiNaC::exmap after;
     for (std::size_t i = 0; i < result.size(); ++i) after[map.base.variables[i]] = (*of_step)[i];

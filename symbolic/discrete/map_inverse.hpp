@@ -17,7 +17,8 @@ namespace casimir::discrete {
 /// quotients linear in them, as in Henon's and Lyness' maps; S phi S for the reversing symmetries S
 /// of the case, the identity, the exchange of two variables, the change of one sign. A composition
 /// is inverted step by step.
+/// \param largest  nothing is tried for a map, or a step, of more terms than this
 /// \throws TooLarge
-std::optional<std::vector<GiNaC::ex>> proved_inverse(const MapModel& map);
+std::optional<std::vector<GiNaC::ex>> proved_inverse(const MapModel& map, double largest = 1e6);
 
 }  // namespace casimir::discrete

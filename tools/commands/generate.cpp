@@ -98,8 +98,12 @@ Specialisation of_map(MapCaseFile file, const Options& options) {
   const Scene& scene = map.base.scene(options.common.scene);
   std::optional<std::vector<GiNaC::ex>> inverse;
   const bool every_state = options.observe.empty() && scene.observe.empty();
-  if (wants(options, "inverse") || (!options.with_given && every_state))
+  // Where it was not asked for, it shall not take longer than all else.
+  constexpr double kFewTerms = 1000;
+  if (wants(options, "inverse"))
     inverse = discrete::proved_inverse(map);
+  else if (!options.with_given && every_state)
+    inverse = discrete::proved_inverse(map, kFewTerms);
   if (wants(options, "inverse") && !inverse)
     throw UsageError(
         "no inverse of this map was found, which does not say that there is none: a [[symmetry]] "

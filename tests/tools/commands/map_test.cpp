@@ -128,13 +128,13 @@ namespace c {
 }
 int main() {
   namespace k = kahan_euler;
-  double x[3], y[3], z[3], w[3], J[9], v[3] = {1, 0, 0}, u[3];
+  double x[3], y[3], z[3], w[3], J[9], v[3] = {1, 0, 0}, u[3], s[3];
   for (int i = 0; i < 3; ++i) x[i] = k::initial_state[i];
   k::step(x, y);
   k::inverse(y, z);
   c::kahan_euler_step(x, w);
   k::jacobian(x, J);
-  k::tangent(x, v, w, u);
+  k::tangent(x, v, s, u);
   for (int i = 0; i < 3; ++i) {
     std::printf("%.17g\n", y[i]);
     if (!(z[i] - x[i] < 1e-14 && x[i] - z[i] < 1e-14) || w[i] != y[i]) return 1;
@@ -166,9 +166,9 @@ int main() {
 }
 
 TEST(MapCommands, ConserveWatchesWhatTheMapKeeps) {
-  const Json rows = run({"conserve", "--all", "--tag", "map", "--json"}).json();
+  const Json rows = run({"conserve", "--all", "--tag", "qrt", "--json"}).json();
   EXPECT_EQ(rows.at("failed"), 0);
-  EXPECT_GE(rows.at("rows").size(), 8U);
+  EXPECT_EQ(rows.at("rows").size(), 3U);
   const Json row = run({"conserve", "discrete-neumann", "--json"}).json().at("rows")[0];
   EXPECT_EQ(row.at("method"), "map");
   EXPECT_EQ(row.at("steps"), 1000);
@@ -240,7 +240,7 @@ TEST(MapCommands, KahanIsAMethod) {
   const Folder folder;
   ASSERT_EQ(run_in(folder, {"discretise", "euler", "--kahan", "1/10", "-o", "k.toml"}).status, 0);
   const Json map = run_in(folder, {"integrate", "./k.toml", "--duration", "100", "--json"}).json();
-  const Json flow = run_in(folder, {"integrate", "euler", "--method", "kahan", "--step", "1/10",
+  const Json flow = run_in(folder, {"integrate", "euler", "--method", "kahan", "--step", "0.1",
                                     "--duration", "10", "--json"})
                         .json();
   EXPECT_EQ(flow.at("method"), "kahan");

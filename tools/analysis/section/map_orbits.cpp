@@ -13,6 +13,7 @@
 #include "runtime/evaluate.hpp"
 #include "symbolic/expression/decimal.hpp"
 #include "symbolic/expression/expression_size.hpp"
+#include "tools/analysis/error.hpp"
 
 namespace casimir {
 namespace {
@@ -46,6 +47,7 @@ Specialisation with_deviation(const Specialisation& s) {
   Specialisation twice = s;
   twice.rhs = s.variational;
   twice.invariants = {};
+  twice.invariants.inputs = s.variational.inputs;
   twice.invariant_names.clear();
   for (const std::string& name : s.states) twice.states.push_back("delta_" + name);
   return twice;
