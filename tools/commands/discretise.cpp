@@ -48,7 +48,9 @@ int discretise(const Options& options) {
     throw UsageError(
         "Moser's and Veselov's map solves a quadratic matrix equation in every step: it is no "
         "rational function, and this version has no other form of it; --kahan makes a rational map "
-        "of quadratic equations");
+        "of quadratic equations, and the cases discrete-lagrange and discrete-neumann are tops of "
+        "this "
+        "kind that have formulas");
   const bool is_kahan = options.kahan->count() > 0;
   const std::optional<Text> step = is_kahan ? step_of(options.kahan_step, "--kahan")
                                             : step_of(options.midpoint_step, "--midpoint");
