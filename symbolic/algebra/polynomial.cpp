@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "symbolic/algebra/factor_memory.hpp"
 #include "symbolic/algebra/flint_conversion.hpp"
 #include "symbolic/case/limits.hpp"
 #include "symbolic/error.hpp"
@@ -27,7 +28,10 @@ PolynomialRing::PolynomialRing(std::size_t variables) : size_(variables) {
   fmpq_mpoly_ctx_init(context_, static_cast<slong>(variables), ORD_DEGREVLEX);
 }
 
-PolynomialRing::~PolynomialRing() { fmpq_mpoly_ctx_clear(context_); }
+PolynomialRing::~PolynomialRing() {
+  FactorMemory::forget(*this);
+  fmpq_mpoly_ctx_clear(context_);
+}
 
 Polynomial PolynomialRing::constant(const cln::cl_RA& value) const {
   Polynomial result(*this);

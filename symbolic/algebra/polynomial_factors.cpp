@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "symbolic/algebra/factor_memory.hpp"
 #include "symbolic/algebra/flint_conversion.hpp"
 #include "symbolic/algebra/polynomial.hpp"
 #include "symbolic/error.hpp"
@@ -53,6 +54,7 @@ std::vector<std::pair<Polynomial, unsigned long>> Polynomial::factors() const {
     const cln::cl_RA number = content();
     return {{ring_->constant(number), 1}, {scaled(1 / number), 1}};
   }
+  if (auto known = FactorMemory::of(*this)) return *std::move(known);
   constexpr long kMostDegree = 200;
   constexpr double kMostBits = 10'000;  // at the degree of 200 some 0.2 s
   constexpr std::size_t kMostTerms = 20'000;
@@ -67,13 +69,17 @@ std::vector<std::pair<Polynomial, unsigned long>> Polynomial::factors() const {
   for (std::size_t i = 0; i < ring_->size(); ++i) {
     if (uses(i)) used.push_back(i);
   }
-  if (used.size() == ring_->size()) return own_factors();
-  const PolynomialRing small(used.size());
-  std::vector<std::size_t> places(ring_->size());
-  for (std::size_t k = 0; k < used.size(); ++k) places[used[k]] = k;
-  std::vector<std::pair<Polynomial, unsigned long>> result;
-  for (const auto& [factor, exponent] : moved_to(small, places).own_factors())
-    result.emplace_back(factor.moved_to(*ring_, used), exponent);
+  Factors result;
+  if (used.size() == ring_->size()) {
+    result = own_factors();
+  } else {
+    const PolynomialRing small(used.size());
+    std::vector<std::size_t> places(ring_->size());
+    for (std::size_t k = 0; k < used.size(); ++k) places[used[k]] = k;
+    for (const auto& [factor, exponent] : moved_to(small, places).own_factors())
+      result.emplace_back(factor.moved_to(*ring_, used), exponent);
+  }
+  FactorMemory::keep(*this, result);
   return result;
 }
 

@@ -2,9 +2,54 @@
 #include <cln/integer.h>
 #include <cln/rational.h>
 
+#include <algorithm>
+
 #include "symbolic/functions/function_ring.hpp"
 
 namespace casimir {
+namespace {
+
+/// The q-th root of `p` as a polynomial, for odd q.
+std::optional<Polynomial> odd_root(const Polynomial& p, unsigned long q) {
+  if (p.is_zero()) return std::nullopt;
+  Polynomial result = p.ring().constant(1);
+  for (const auto& [f, exponent] : p.factors()) {
+    if (!f.is_constant()) {
+      if (exponent % q != 0) return std::nullopt;
+      result *= f.pow(exponent / q);
+      continue;
+    }
+    const cln::cl_RA number = f.term_list()[0].first;
+    cln::cl_RA size = 0;
+    if (!cln::rootp(cln::abs(number), static_cast<int>(q), &size)) return std::nullopt;
+    result = result.scaled(cln::minusp(number) ? -size : size);
+  }
+  return result;
+}
+
+/// The polynomials T with D_q(T, n) = 2 a, where D_0 = 2, D_1 = T, D_(k+1) = T D_k - n D_(k-1).
+/// \param free  the place of a variable that a and n do not use
+std::vector<Polynomial> traces(const Polynomial& a, const Polynomial& n, unsigned long q,
+                               std::size_t free) {
+  constexpr std::size_t kMostTerms = 400;
+  const Polynomial t = a.ring().variable(free);
+  Polynomial before = a.ring().constant(2), dickson = t;
+  for (unsigned long k = 1; k < q; ++k) {
+    Polynomial next = t * dickson - n * before;
+    if (next.terms() > kMostTerms) return {};
+    before = std::move(dickson);
+    dickson = std::move(next);
+  }
+  std::vector<Polynomial> result;
+  for (const auto& [f, exponent] : (dickson - a.scaled(2)).factors()) {
+    if (f.degree(free) != 1) continue;
+    const std::vector<Polynomial> line = f.coefficients(free);
+    if (line[1].is_constant()) result.push_back(line[0].scaled(-1 / line[1].term_list()[0].first));
+  }
+  return result;
+}
+
+}  // namespace
 
 /// A square root of `p` as a polynomial in the generators, of either sign.
 std::optional<Polynomial> FunctionRing::square_root(const Polynomial& p) const {
@@ -62,52 +107,48 @@ std::optional<Polynomial> FunctionRing::denested(const Polynomial& radicand) {
   return std::nullopt;
 }
 
-/// P^(1/q) for a positive number P = A + B g with rational A and B, and g = sqrt(b): a root t + w g
-/// in the same field has the norm n with n^q = A^2 - B^2 b, and a trace t with D_q(t, n) = 2 A for
-/// Dickson's polynomial. What is found so is a root since its power is P, and it is the positive
-/// one by its sign, which balls certify.
+/// P^(1/q) for odd q and P = A + B g, where g = sqrt(b) is a root that A and B do not contain: a
+/// root r = t + w g with such t and w has the norm n with n^q = A^2 - B^2 b, and a trace T with
+/// D_q(T, n) = 2 A for Dickson's polynomial. What is found so is a root since its power is P, and
+/// it is the real one, of which there is one alone: P is positive if it is a number, and where a
+/// function P is negative its root has no value. So P must not be negative everywhere.
 std::optional<Polynomial> FunctionRing::denested_number(const Polynomial& radicand,
                                                         unsigned long q) {
   constexpr unsigned long kMostOrder = 16;
-  if (q % 2 == 0 || q > kMostOrder || ring_->size() == 0 || radicand.is_constant())
+  constexpr std::size_t kMostTerms = 60;
+  if (q % 2 == 0 || q > kMostOrder || radicand.is_constant() || radicand.terms() > kMostTerms)
     return std::nullopt;
-  std::optional<std::size_t> only;
-  for (std::size_t i = 0; i < ring_->size(); ++i) {
-    if (!radicand.uses(i)) continue;
-    if (only || i < symbols_.size()) return std::nullopt;
-    only = i;
-  }
-  const Generator& g = generators_[*only - symbols_.size()];
-  if (g.kind != Kind::root || g.order != 2 || !g.base.is_constant() || radicand.degree(*only) != 1)
-    return std::nullopt;
-  const std::vector<Polynomial> parts = radicand.coefficients(*only);
-  const auto number = [](const Polynomial& p) {
-    return p.is_zero() ? cln::cl_RA(0) : p.term_list()[0].first;
-  };
-  const cln::cl_RA a = number(parts[0]), b = number(parts[1]), base = number(g.base);
-  const cln::cl_RA norm = a * a - b * b * base;
-  cln::cl_RA n = 0;
-  if (!cln::rootp(cln::abs(norm), static_cast<int>(q), &n)) return std::nullopt;
-  if (cln::minusp(norm)) n = -n;
-  const Polynomial t = ring_->variable(0);
-  Polynomial before = ring_->constant(2), dickson = t;
-  for (unsigned long k = 1; k < q; ++k) {
-    Polynomial next = t * dickson - before.scaled(n);
-    before = std::move(dickson);
-    dickson = std::move(next);
-  }
-  const Polynomial equation = dickson - ring_->constant(2 * a);
-  for (const auto& [f, exponent] : equation.factors()) {
-    if (f.total_degree() != 1) continue;
-    const std::vector<Polynomial> line = f.coefficients(0);
-    const cln::cl_RA trace = -number(line[0]) / number(line[1]);
-    cln::cl_RA w = 0;
-    const cln::cl_RA square = (trace * trace - 4 * n) / base;
-    if (cln::minusp(square) || !cln::sqrtp(square, &w)) continue;
-    for (const int sign : {1, -1}) {
-      const Polynomial root = (ring_->constant(trace) + ring_->variable(*only).scaled(sign * w))
-                                  .scaled(cln::cl_RA(1) / 2);
-      if (sign_of_number(root) == 1 && reduced(power(root, q) - radicand).is_zero()) return root;
+  // In place of T, a symbol that is not there.
+  std::size_t free = 0;
+  while (free < symbols_.size() && radicand.uses(free)) ++free;
+  if (free == symbols_.size()) return std::nullopt;
+  for (std::size_t k = generators_.size(); k-- > 0;) {
+    const Generator& g = generators_[k];
+    const std::size_t place = symbols_.size() + k;
+    if (g.kind != Kind::root || g.order % 2 == 1 || !radicand.uses(place)) continue;
+    const std::vector<Polynomial> parts = radicand.coefficients(place);
+    const std::size_t middle = g.order / 2;
+    if (parts.size() != middle + 1 || g.base.uses(free)) continue;
+    if (std::any_of(parts.begin() + 1, parts.end() - 1,
+                    [](const Polynomial& part) { return !part.is_zero(); }))
+      continue;
+    const Polynomial norm =
+        reduced(checked_product(parts[0], parts[0]) -
+                checked_product(checked_product(parts[middle], parts[middle]), g.base));
+    const std::optional<Polynomial> n = odd_root(norm, q);
+    if (!n || n->uses(free)) continue;
+    for (const Polynomial& trace : traces(parts[0], *n, q, free)) {
+      Polynomial square = reduced(trace * trace - n->scaled(4));
+      if (!square.divide(g.base, &square)) continue;
+      const std::optional<Polynomial> w = square_root(square);
+      if (!w) continue;
+      for (const int sign : {1, -1}) {
+        const Polynomial root = (trace + (*w * ring_->variable(place).pow(middle)).scaled(sign))
+                                    .scaled(cln::cl_RA(1) / 2);
+        if (!reduced(power(root, q) - radicand).is_zero()) continue;
+        const std::optional<int> of_number = sign_of_number(radicand);
+        if (of_number ? *of_number > 0 : sign_of(radicand) >= 0) return root;
+      }
     }
   }
   return std::nullopt;

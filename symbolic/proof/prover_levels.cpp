@@ -424,11 +424,14 @@ void Prover::decide(Proof& proof, const std::vector<Residual>& residuals, const 
 
 void Prover::say_where_motion_is_unique(Proof& proof, const NamedExpression& f) {
   if (proof.verdict != Verdict::proved || ring_.is_polynomial()) return;
+  std::vector<Polynomial> open = ring_.radicand_factors(convert(f.value));
+  std::erase_if(open, [&](const Polynomial& p) { return ring_.is_nowhere_zero(p); });
+  if (open.empty()) return;
   std::vector<Polynomial> of_motion;
   for (const Polynomial& rate : field()) {
     for (Polynomial& p : ring_.radicand_factors(rate)) of_motion.push_back(std::move(p));
   }
-  for (const Polynomial& p : ring_.radicand_factors(convert(f.value))) {
+  for (const Polynomial& p : open) {
     const bool shared = std::find(of_motion.begin(), of_motion.end(), p) != of_motion.end();
     if (shared && !vanishes_nowhere_on(p, {})) proof.where.push_back(ring_.text(p) + " != 0");
   }

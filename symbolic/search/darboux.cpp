@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/case/limits.hpp"
 #include "symbolic/functions/short_text.hpp"
 #include "symbolic/search/darboux_integrals.hpp"
@@ -33,6 +34,7 @@ class DarbouxSearch {
     report_.complete = false;
     report_.reason = reason;
   }
+  bool set_cofactor(DarbouxPolynomial& result, const Polynomial& function);
   void add(const Branch& branch, const Polynomial& f, const Polynomial& k);
   Polynomial in_own_ring(const Polynomial& p) const;
   Polynomial monomial(const Monomials& list, std::size_t i) const;
@@ -154,6 +156,23 @@ std::vector<Polynomial> DarbouxSearch::coefficients(const Polynomial& p) const {
   return result;
 }
 
+/// Read off the rate by the equations of motion. The fields of the search are a multiple of them
+/// where these have denominators: that has the same Darboux polynomials, but other cofactors.
+bool DarbouxSearch::set_cofactor(DarbouxPolynomial& result, const Polynomial& function) {
+  Prover& prover = system_.prover();
+  const auto rate = prover.ring().lowest_terms(prover.convert(model_.rate(result.value)));
+  Polynomial top(system_.ring());
+  if (!rate.first.divide(function, &top)) return false;
+  const cln::cl_RA number = rate.second.content();
+  top = top.scaled(1 / number);
+  const Polynomial bottom = rate.second.scaled(1 / number);
+  const auto text = [&](const Polynomial& p) { return prover.ring().text(p); };
+  result.cofactor =
+      bottom.is_constant() ? text(top) : quotient_text(text(top), top.terms() > 1, text(bottom));
+  result.cofactor_value = system_.expression(top) / system_.expression(bottom);
+  return true;
+}
+
 void DarbouxSearch::add(const Branch& branch, const Polynomial& f, const Polynomial& k) {
   const Polynomial function = branch.reduced(f), cofactor = branch.reduced(k);
   if (cofactor.is_zero()) return;  // an integral
@@ -184,12 +203,10 @@ void DarbouxSearch::add(const Branch& branch, const Polynomial& f, const Polynom
   const Polynomial primitive = own->scaled(1 / own->content());
   result.value = system_.expression(primitive);
   result.text = short_text(system_.prover().ring(), primitive, system_.is_constant());
-  // The cofactor is read off the rate.
-  Polynomial rate(system_.ring()), quotient(system_.ring());
+  if (!set_cofactor(result, primitive)) return;
+  Polynomial rate(system_.ring()), quotient(system_.ring());  // of the search's own fields
   for (std::size_t i = 0; i < dimension_; ++i) rate += own->derivative(i) * system_.flow()[i];
   if (!rate.divide(*own, &quotient)) return;
-  result.cofactor = system_.prover().ring().text(quotient);
-  result.cofactor_value = system_.expression(quotient);
   const auto same = [&](const DarbouxPolynomial& other) { return other.text == result.text; };
   if (std::any_of(report_.found.begin(), report_.found.end(), same)) return;
   result.verdict =

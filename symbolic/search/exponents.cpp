@@ -15,6 +15,7 @@
 #include "symbolic/algebra/polynomial_roots.hpp"
 #include "symbolic/case/limits.hpp"
 #include "symbolic/expression/expression.hpp"
+#include "symbolic/search/generic_parameters.hpp"
 #include "symbolic/search/polynomial_system.hpp"
 #include "symbolic/search/quasi_homogeneous.hpp"
 #include "symbolic/search/system.hpp"
@@ -122,10 +123,8 @@ std::string Analysis::text(const Polynomial& p) const {
 std::string Analysis::quotient(const Polynomial& top, const Polynomial& bottom) const {
   const Polynomial common = Polynomial::gcd(top, bottom);
   Polynomial a = top, b = bottom;
-  if (!common.is_constant()) {
-    top.divide(common, &a);
-    bottom.divide(common, &b);
-  }
+  top.divide(common, &a);
+  bottom.divide(common, &b);
   if (b.is_constant()) return text(a.scaled(1 / b.term_list()[0].first));
   const cln::cl_RA content = b.content();
   a = a.scaled(1 / content);
@@ -488,6 +487,7 @@ void Analysis::find_balances() {
 ExponentReport kovalevskaya_exponents(const Model& model,
                                       const std::vector<std::pair<Text, Text>>& weights,
                                       const Watch& watch) {
+  check_parameters_are_free(model);
   return Analysis(model, weights, watch).run();
 }
 

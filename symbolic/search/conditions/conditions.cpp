@@ -8,6 +8,7 @@
 #include "symbolic/error.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/search/conditions/rank_conditions.hpp"
+#include "symbolic/search/conditions/special_model.hpp"
 #include "symbolic/search/conditions/special_sets.hpp"
 #include "symbolic/search/conditions/special_values.hpp"
 #include "symbolic/search/finder.hpp"
@@ -17,23 +18,6 @@ namespace {
 
 using GiNaC::ex;
 
-enum class Domain { inside, outside };
-
-/// An assumption where a parameter has a value; kept where it still says something.
-Domain put_assumptions(Model& model, const std::function<ex(const ex&)>& put) {
-  std::vector<Assumption> kept;
-  for (Assumption& a : model.assumptions) {
-    a.difference = put(a.difference);
-    if (!GiNaC::is_a<GiNaC::numeric>(a.difference.expand())) {
-      kept.push_back(a);
-    } else if (a.difference.expand().info(GiNaC::info_flags::rational) && !a.holds_at({})) {
-      return Domain::outside;
-    }
-  }
-  model.assumptions = std::move(kept);
-  return Domain::inside;
-}
-
 /// Whether the difference is zero where the symbols have these values; it need have no value there.
 bool vanishes_at(const ex& difference, const GiNaC::exmap& values) {
   try {
@@ -41,38 +25,6 @@ bool vanishes_at(const ex& difference, const GiNaC::exmap& values) {
   } catch (const GiNaC::pole_error&) {
     return false;
   }
-}
-
-/// The model where a parameter has a value, which may contain the others. Only what a search needs;
-/// empty where an assumption excludes the value.
-std::optional<Model> with_value(const Model& model, const GiNaC::symbol& parameter,
-                                const ex& value) {
-  const GiNaC::exmap map{{parameter, value}};
-  const auto put = [&](const ex& e) { return e.subs(map, GiNaC::subs_options::no_pattern); };
-  Model result = model;
-  std::erase_if(result.parameters, [&](const GiNaC::symbol& s) { return s.is_equal(parameter); });
-  if (put_assumptions(result, put) == Domain::outside) return std::nullopt;
-  if (result.hamiltonian) result.hamiltonian = put(*result.hamiltonian);
-  for (ex& rate : result.field) rate = put(rate);
-  for (auto* list : {&result.definitions, &result.casimirs, &result.integrals})
-    for (NamedExpression& f : *list) f.value = put(f.value);
-  if (result.poisson) {
-    std::vector<ex> upper;
-    for (std::size_t i = 0; i < result.poisson->dimension(); ++i)
-      for (std::size_t j = i + 1; j < result.poisson->dimension(); ++j)
-        upper.push_back(put((*result.poisson)(i, j)));
-    result.poisson = PoissonStructure(result.poisson->coordinates(), upper);
-  }
-  result.lax_pairs.clear();
-  result.maps.clear();
-  result.scenes.clear();
-  result.conditionals.clear();
-  result.invariant_relations.clear();
-  result.measures.clear();
-  result.identities.clear();
-  result.section.reset();
-  result.fixed.emplace_back(Text{parameter.get_name(), {}, {}}, value);
-  return result;
 }
 
 /// Values of some parameters, as a model is put to them.
@@ -184,7 +136,7 @@ ConditionFinder::Confirmed ConditionFinder::confirm(const Place& place, Conditio
       if (!next) return Confirmed::none;
       special = std::move(*next);
     }
-    if (meaningless(special)) return Confirmed::none;
+    if (contradict(special) || meaningless(special)) return Confirmed::none;
     Request request = request_;
     request.casimirs_are_integrals = true;
     GiNaC::exmap here;
@@ -204,13 +156,13 @@ ConditionFinder::Confirmed ConditionFinder::confirm(const Place& place, Conditio
       if (around) know(report_.conditions[i].found);
     }
     const Report found = find_integrals(special, request, watch_);
-    condition.found = found.found;
+    condition.found = additional(special, found.found, request.known);
     condition.verdict = found.complete ? Verdict::proved : Verdict::undecided;
     if (!found.complete) {
       leave_open(fmt::format("whether there is an additional one at {} is undecided: {}", where,
                              found.reason));
     }
-    if (found.found.empty()) return found.complete ? Confirmed::none : Confirmed::open;
+    if (condition.found.empty()) return found.complete ? Confirmed::none : Confirmed::open;
   } catch (const GiNaC::pole_error&) {
     return Confirmed::none;
   } catch (const ModelError& problem) {

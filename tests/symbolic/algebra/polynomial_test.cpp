@@ -181,5 +181,26 @@ TEST_F(Ring3, LinearFormsAreToldFromOthers) {
   EXPECT_FALSE(x_.scaled(cln::expt_pos(cln::cl_I(2), 40)).linear_form());
 }
 
+/// A product is found again, and so are its factors, scaled ones too; another ring in the same
+/// place of memory knows nothing of them.
+TEST(Factors, AreTheSameWhenTheyAreAskedForAgain) {
+  for (std::size_t variables = 2; variables < 6; ++variables) {
+    const PolynomialRing ring(variables);
+    const Polynomial x = ring.variable(0), y = ring.variable(variables - 1);
+    const Polynomial f = x * x + y * y, g = x * x - (y * y).scaled(2);
+    const Polynomial product = (f * f * g).scaled(cln::cl_RA(-3) / 2);
+    const auto first = product.factors();
+    EXPECT_EQ(product.factors(), first);
+    for (const Polynomial& own : {f, g, f.scaled(cln::cl_RA(-5) / 7)}) {
+      for (int k = 0; k < 2; ++k) {
+        const auto factors = own.factors();
+        ASSERT_EQ(factors.size(), 2U);
+        EXPECT_TRUE(factors[0].first.is_constant());
+        EXPECT_EQ(factors[0].first * factors[1].first, own);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace casimir

@@ -48,6 +48,21 @@ TEST(DarbouxIntegrals, OfTwoCofactorsInAWholeRatioAreRational) {
   EXPECT_EQ(texts(report, Kind::time_dependent).size(), 1U);
 }
 
+/// The search multiplies the equations by a, and by x: the cofactors are those of the equations.
+TEST(DarbouxIntegrals, OfEquationsWithDenominatorsAreOfTheEquationsAsTheyAre) {
+  const DarbouxReport logistic =
+      of_equations(R"(["x", "y"])", "x = \"x*(1 - x/a)\"\ny = \"y*(x - 1)\"\n", 1,
+                   "a = { assume = \"a > 0\" }\n");
+  ASSERT_FALSE(logistic.found.empty());
+  EXPECT_EQ(logistic.found[0].text, "x");
+  EXPECT_EQ(logistic.found[0].cofactor, "(-x + a)/(a)");
+  EXPECT_EQ(texts(logistic, Kind::time_dependent), Texts{"x*exp(-1*t)/(x - a)"});
+  // d(log|y|)/dt = 1/x: exp(x)/y is no integral.
+  const DarbouxReport line = of_equations(R"(["x", "y"])", "x = \"1\"\ny = \"y/x\"\n", 1);
+  EXPECT_TRUE(texts(line, Kind::integral).empty());
+  for (const search::DarbouxPolynomial& own : line.found) EXPECT_EQ(own.cofactor, "1/(x)");
+}
+
 /// A constant cofactor alone is no integral; the time is needed.
 TEST(DarbouxIntegrals, OfLorenzWithATwiceSNeedTheTime) {
   const DarbouxReport report = of_equations(

@@ -58,6 +58,16 @@ TEST(Exponents, OfEulersTopWithAVectorAreThoseOfTwiceItself) {
 }
 
 // An earlier Groebner basis lost the equation y1 = 0 here.
+/// For generic a there is the balance x = -1/(a^2 - 4), z = 0 ; where a = 2 there is none.
+TEST(Exponents, OfParametersThatObeyAnEquationAreRefused) {
+  const auto equations = [](const std::string& assumed) {
+    return "[phase_space]\nvariables = [\"x\", \"z\"]\n[parameters]\na = { assume = \"" + assumed +
+           "\" }\n[equations]\nx = \"(a^2 - 4)*x^2\"\nz = \"(a^2 - 4)*x*z\"\n";
+  };
+  EXPECT_THROW(search::kovalevskaya_exponents(model_of(equations("a^2 = 4")), {}), ModelError);
+  EXPECT_FALSE(search::kovalevskaya_exponents(model_of(equations("a > 2")), {}).balances.empty());
+}
+
 TEST(Exponents, WithoutABalanceSayNothing) {
   const auto report = search::kovalevskaya_exponents(
       build_model(read_case(CASIMIR_SOURCE_DIR "/cases/" + std::string("neumann") + ".toml")), {});

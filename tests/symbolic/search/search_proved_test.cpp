@@ -166,6 +166,50 @@ TEST(Proved, AFactorWithoutRealRootsIsNoValueAndAnIrrationalRootIsConfirmedOrLef
   EXPECT_TRUE(imaginary.conditions.empty());
 }
 
+/// dx/dt = a*x, dy/dt = b*y, with these assumptions: x^m*y^n is an integral where m*a + n*b = 0.
+std::string resonance(const std::string& a, const std::string& b) {
+  return "[phase_space]\nvariables = [\"x\", \"y\"]\n[parameters]\n" + a + "\n" + b +
+         "\n[equations]\nx = \"a*x\"\ny = \"b*y\"\n";
+}
+
+TEST(Proved, ValuesAgainstTheAssumptionsAreNone) {
+  const std::string a = "a = { assume = \"a > 0\" }", b = "b = { assume = \"b > 0\" }";
+  const auto none = conditions(resonance(a, b), 3, {"a", "b"});
+  EXPECT_TRUE(none.complete) << none.reason;
+  EXPECT_TRUE(none.conditions.empty());
+  const auto product =
+      conditions(resonance("a = {}", "b = { assume = \"a*b > 0\" }"), 2, {"a", "b"});
+  EXPECT_FALSE(places_of(product).contains("b = -a"));
+  // Without one of them, with the other sign, or with >= they are some.
+  for (const char* other :
+       {"b = {}", "b = { assume = \"b < 0\" }", "b = { assume = \"a*b < 0\" }"}) {
+    const auto some = conditions(resonance(a, other), 2, {"b"});
+    EXPECT_TRUE(some.complete) << some.reason;
+    EXPECT_EQ(places_of(some).count("b = -a"), 1) << other;
+  }
+  const auto edge =
+      conditions(resonance("a = { assume = \"a >= 0\" }", "b = { assume = \"b >= 0\" }"), 2, {"b"});
+  EXPECT_TRUE(places_of(edge).contains("b = 0"));
+}
+
+TEST(Proved, NorAreIrrationalOnesAgainstThem) {
+  const auto report = conditions(
+      "[phase_space]\nvariables = [\"x\", \"y\"]\n[parameters]\nn = { assume = \"n < 0\" }\n"
+      "[equations]\nx = \"1\"\ny = \"(n^2 - 2)*(y^2 + x)\"\n",
+      2, {"n"});
+  EXPECT_TRUE(report.complete) << report.reason;
+  EXPECT_EQ(places_of(report), (std::set<std::string>{"n = -sqrt(8)/2"}));
+}
+
+TEST(Proved, WhatIsThereForAllValuesIsNotAdditionalAtOne) {
+  // At a = 1/2 the generic integral is 7*y/2 + exp(7*x)/2 - 7*exp(x/2), which exp(7*x) hides.
+  search::Request request = up_to(1);
+  request.functions = {text("exp(7*x)")};
+  const auto report =
+      search::find_conditions(model_of(along_x("exp(n*x) - exp(7*x)")), request, {text("n")});
+  EXPECT_EQ(places_of(report), (std::set<std::string>{"n = 0"}));
+}
+
 search::Report on_level(const std::string& toml, int degree, const std::vector<std::string>& on) {
   search::Request request = up_to(degree);
   for (const std::string& f : on) request.on.push_back(text(f));

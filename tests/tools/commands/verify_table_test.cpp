@@ -96,6 +96,21 @@ TEST(VerifyTable, SummaryCountsWhatDecidesTheVerdict) {
       << out;
 }
 
+TEST(VerifyTable, SummaryNamesConditionsOnlyOfWhatIsProved) {
+  // The density log(x*y) is one on parts of the domain; 1/x is none at all.
+  const std::string text =
+      "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"x\"\n"
+      "y = \"-y\"\n[[measure]]\ndensity = \"log(x*y)\"\n";
+  const auto last_line = [](const std::string& out) { return lines_of(out).back(); };
+  const std::string proved = last_line(run({"verify", "-"}, text).out);
+  EXPECT_TRUE(proved.starts_with("proved")) << proved;
+  EXPECT_NE(proved.find(" where "), std::string::npos) << proved;
+  const std::string refuted =
+      last_line(run({"verify", "-"}, text + "[[measure]]\ndensity = \"1/x\"\n").out);
+  EXPECT_TRUE(refuted.starts_with("refuted")) << refuted;
+  EXPECT_EQ(refuted.find(" where "), std::string::npos) << refuted;
+}
+
 TEST(VerifyTable, RefutationShowsResidualWitnessAndValue) {
   const std::string good = "M1^2 + M2^2 + 2*M3^2 - 2*r*g1";
   const std::string bad = "M1^2 + M2^2 + 2*M3^2 + 2*r*g1";

@@ -27,6 +27,7 @@ Json to_json(const Model& model, const std::vector<Proof>& proofs, double second
 
 std::vector<std::string> conditions_of(const Model& model, const std::vector<Proof>& proofs) {
   std::vector<std::string> result;
+  if (overall(model, proofs) != Verdict::proved) return result;
   for (const Proof& proof : proofs) {
     if (!counts(model, proof)) continue;
     for (const std::string& condition : proof.where) {

@@ -13,7 +13,8 @@ namespace casimir::tools {
 nlohmann::ordered_json to_json(const Model& model, const std::vector<Proof>& proofs,
                                double seconds);
 
-/// What the verdict of the case depends on beyond its assumptions, each once: "a != 0".
+/// What the verdict of the case depends on beyond its assumptions, each once: "a != 0". Nothing,
+/// where that is not "proved": what refutes or stays open does so without the others' conditions.
 std::vector<std::string> conditions_of(const Model& model, const std::vector<Proof>& proofs);
 
 /// The findings of a judgement in words: "it is no Casimir function: ..".

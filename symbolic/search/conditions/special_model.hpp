@@ -1,0 +1,27 @@
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <optional>
+#include <vector>
+
+#include "symbolic/search/search.hpp"
+
+namespace casimir::search {
+
+/// The model where a parameter has a value, which may contain the others. Only what a search needs;
+/// empty where an assumption excludes the value.
+std::optional<Model> with_value(const Model& model, const GiNaC::symbol& parameter,
+                                const GiNaC::ex& value);
+
+/// Whether some assumption cannot hold where all others do, by the signs that these give: for no
+/// c > 0 is d = c where c - d vanishes nowhere, so that d > 0 holds nowhere. False says nothing.
+bool contradict(const Model& model);
+
+/// Those that are no linear combinations of the known ones, 1 and those before them, with numbers.
+/// The search compares them as polynomials in what it was given, where exp(7*x) is not exp(x/2)^14.
+/// \throws ModelError  for functions that cannot be converted, as the prover does
+std::vector<Found> additional(const Model& model, const std::vector<Found>& found,
+                              const std::vector<NamedExpression>& known);
+
+}  // namespace casimir::search
