@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "symbolic/obstruction/equation/parametric_function.hpp"
+
+namespace casimir::obstruction {
+
+/// Riemann's P equation, its coefficients functions of a real parameter c.
+struct RiemannFamily {
+  std::array<std::string, 3> points;        ///< its singular points, in print
+  std::array<RationalFunction, 3> squares;  ///< of the differences of exponents there, by c
+  ParameterConditions conditions;           ///< where one vanishes, nothing is said of c
+};
+
+/// y'' = r y as such an equation, if its denominator has no more than two zeros for almost every c
+/// and infinity is no irregular point. Two conjugate points have to have one difference.
+///
+/// Where none of the conditions vanishes, the equation at the number c is Riemann's with these
+/// differences: the denominators' leading coefficients, and the distances of the points, are among
+/// the conditions.
+std::optional<RiemannFamily> riemann_family(const ParametricFunction& r, const CurveNames& names);
+
+}  // namespace casimir::obstruction
