@@ -10,6 +10,7 @@
 #include "symbolic/obstruction/darboux_points.hpp"
 #include "symbolic/obstruction/equation/kimura.hpp"
 #include "symbolic/obstruction/equation/kovacic.hpp"
+#include "symbolic/obstruction/equation/lame.hpp"
 #include "symbolic/obstruction/homogeneous_table.hpp"
 
 namespace casimir::obstruction {
@@ -82,6 +83,14 @@ Examined examine_equation(const NormalEquation<RationalFunction>& equation, cons
     const bool is_sl2 = decision.galois == GaloisCase::sl2;
     if (decision.galois != GaloisCase::undecided && is_sl2 == solvable.has_value())
       throw std::logic_error("Kovacic's decision and Kimura's theorem contradict each other");
+  }
+  if (is_lame(equation.p, equation.q)) {
+    const auto may_be = lame_class(decision.singular.back().difference_squared.coefficient(0));
+    result.cases.emplace_back("Lame's equation", may_be.value_or("n is in none of its classes"));
+    const bool solvable =
+        decision.galois != GaloisCase::undecided && decision.galois != GaloisCase::sl2;
+    if (solvable && !may_be)
+      throw std::logic_error("Kovacic's decision and Lame's classes contradict each other");
   }
   if (!decision.solution.empty()) result.solution = polynomial_text(decision.solution, z);
   result.outcome = decision.galois == GaloisCase::undecided

@@ -69,8 +69,10 @@ class FamilySearch {
     const auto text = [&](const F& f) { return written(f, curve.names); };
     if (!seen_.insert(text(equation.reduced)).second) return;
     auto family = riemann_family(equation.reduced, curve.names);
+    if (!family) family = lame_family(equation.p, equation.q, equation.reduced, curve.names);
     if (!family) {
-      leave_out(plane, fmt::format("at {} the equation is not Riemann's with three singular points",
+      leave_out(plane, fmt::format("at {} the equation is neither Riemann's with three singular "
+                                   "points nor Lame's",
                                    curve.level));
       return;
     }
@@ -101,7 +103,7 @@ std::vector<RiemannFamily> shown_in(std::vector<FamilyEquation> equations, const
   for (FamilyEquation& equation : equations) {
     const bool nothing = says_nothing(equation.family);
     Examined& shown = equation.shown;
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = equation.family.lame ? 1 : 0; i < 3; ++i)
       shown.exponents.push_back(fmt::format("{}: difference of exponents sqrt({})",
                                             equation.family.points[i],
                                             equation.family.squares[i].text(name)));
@@ -145,7 +147,10 @@ void exclude_values(const HamiltonianSystem& system, std::vector<FamilyEquation>
   const std::vector<RiemannFamily> families = shown_in(std::move(equations), name, result);
   const Survivors found = survivors(families, name);
   if (!found.informative)
-    throw NotDecided("no equation with three singular points excludes a value of " + name);
+    throw NotDecided(
+        "no equation of Riemann with three singular points, and none of Lame, excludes a value "
+        "of " +
+        name);
   result.proved = true;
   for (const SurvivingValue& survivor : found.values) {
     FreeValue value{survivor.value.text(name), survivor.why, false, ""};

@@ -10,6 +10,7 @@
 
 #include "symbolic/obstruction/equation/kimura.hpp"
 #include "symbolic/obstruction/equation/kovacic.hpp"
+#include "symbolic/obstruction/equation/lame.hpp"
 
 namespace casimir::obstruction {
 namespace {
@@ -46,6 +47,10 @@ std::optional<cl_RA> simple_square(const RationalFunction& square, const RealRoo
 
 /// Of an irrational c.
 std::optional<std::string> kimura_condition(const RiemannFamily& family, const RealRoot& c) {
+  if (family.lame) {
+    const auto square = simple_square(family.squares[2], c);
+    return square ? lame_class(*square) : std::nullopt;
+  }
   long bound = 0;
   std::array<std::optional<cl_RA>, 3> simple;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -89,7 +94,7 @@ KimuraAt kimura_at(const RiemannFamily& family, const RealRoot& c) {
     for (std::size_t i = 0; i < 3; ++i)
       squares[i] =
           family.squares[i].numerator().at(*number) / family.squares[i].denominator().at(*number);
-    condition = kimura(squares);
+    condition = family.lame ? lame_class(squares[2]) : kimura(squares);
   } else {
     condition = kimura_condition(family, c);
   }
@@ -225,6 +230,13 @@ bool add_rows(const std::array<Difference, 3>& all, std::vector<Univariate>& res
 std::optional<std::vector<Univariate>> candidates(const RiemannFamily& family, const Cell& cell) {
   std::vector<Univariate> result;
   const auto all = differences_on(family, cell);
+  if (family.lame) {
+    const Difference& n = all[2];
+    if (!n.real || n.constant) return result;  // `says_nothing` knows the constant ones
+    if (!n.bound) return std::nullopt;
+    for (const int denominator : {1, 2, 3, 4, 5}) add_squares(n, 0, 1, denominator, result);
+    return result;
+  }
   const bool sums = add_odd_sums(all, family, result);
   const bool halves = add_two_halves(all, result);
   const bool rows = add_rows(all, result);
@@ -274,7 +286,14 @@ std::optional<std::string> solved_for_parameter(const RationalFunction& square,
   };
   const RationalFunction result(combination(below.coefficient(0), -above.coefficient(0)),
                                 combination(-below.coefficient(1), above.coefficient(1)));
-  return fmt::format("{} = {}", name, result.text("s"));
+  const auto enclosed = [](const Univariate& p) {
+    const std::string text = p.text("s");
+    return text.find_first_of(" /") == std::string::npos ? text : "(" + text + ")";
+  };
+  if (result.denominator().is_constant())
+    return fmt::format("{} = {}", name, result.numerator().text("s"));
+  return fmt::format("{} = {}/{}", name, enclosed(result.numerator()),
+                     enclosed(result.denominator()));
 }
 
 }  // namespace
@@ -296,6 +315,11 @@ std::string condition_text(const RiemannFamily& family, const std::string& name)
         "Schwarz's list",
         family.squares[0].text(name), family.squares[1].text(name), family.squares[2].text(name));
   std::string list;
+  if (family.lame) {
+    const auto solved = solved_for_parameter(family.squares[2], name);
+    return fmt::format("{} with s in Z/2, Z/3, Z/4 or Z/5 (Lame's equation, n = s - 1/2)",
+                       solved.value_or(family.squares[2].text(name) + " = s^2"));
+  }
   for (const cl_RA& r : residues(roots[0], roots[1]))
     list += (list.empty() ? "" : ", ") + text_of(r);
   if (list.empty()) return "never";

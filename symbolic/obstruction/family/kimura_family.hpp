@@ -9,7 +9,7 @@
 
 namespace casimir::obstruction {
 
-/// What Kimura's theorem says of one member of a family.
+/// What Kimura's theorem, or the list of Lame's classes, says of one member of a family.
 struct KimuraAt {
   bool known = false;     ///< no condition of the family vanishes there
   bool solvable = true;   ///< the identity component of the group; where not known, true

@@ -1,5 +1,6 @@
 #include "symbolic/obstruction/family/riemann_family.hpp"
 
+#include "symbolic/obstruction/equation/lame.hpp"
 #include "symbolic/obstruction/family/parameter_point.hpp"
 
 namespace casimir::obstruction {
@@ -70,6 +71,27 @@ std::optional<RiemannFamily> riemann_family(const F& r, const CurveNames& names)
   result.squares[2] = square_at_infinity(r);
   for (const RationalFunction& square : result.squares)
     result.conditions.nonzero(square.denominator());
+  return result;
+}
+
+std::optional<RiemannFamily> lame_family(const F& p, const F& q, const F& r,
+                                         const CurveNames& names) {
+  if (!is_lame(p, q)) return std::nullopt;
+  // No double root: the discriminant of b z^3 + .. does not vanish, nor does b.
+  const std::vector<Univariate> c = parameter_coefficients(p.denominator());
+  const Univariate &d0 = c[0], &d1 = c[1], &d2 = c[2], &d3 = c[3];
+  RiemannFamily result;
+  result.lame = true;
+  result.conditions.nonzero(d3);
+  result.conditions.nonzero(Univariate(18) * d3 * d2 * d1 * d0 - Univariate(4) * d2.pow(3) * d0 +
+                            d2.pow(2) * d1.pow(2) - Univariate(4) * d3 * d1.pow(3) -
+                            Univariate(27) * d3.pow(2) * d0.pow(2));
+  for (const F* f : {&p, &q, &r}) result.conditions.defined(*f);
+  const std::string root = written(F(p.denominator(), F(1).numerator()), names) + " = 0";
+  result.points = {root, root, names.z + " = infinity"};
+  const RationalFunction quarter(cln::cl_RA(1) / 4);
+  result.squares = {quarter, quarter, square_at_infinity(r)};
+  result.conditions.nonzero(result.squares[2].denominator());
   return result;
 }
 

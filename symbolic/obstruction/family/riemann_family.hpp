@@ -9,9 +9,10 @@
 
 namespace casimir::obstruction {
 
-/// Riemann's P equation, its coefficients functions of a real parameter c.
+/// Riemann's P equation, or Lame's, its coefficients functions of a real parameter c.
 struct RiemannFamily {
-  std::array<std::string, 3> points;        ///< its singular points, in print
+  bool lame = false;                  ///< Lame's: squares[2] is (n + 1/2)^2, the others are 1/4
+  std::array<std::string, 3> points;  ///< its singular points, in print
   std::array<RationalFunction, 3> squares;  ///< of the differences of exponents there, by c
   ParameterConditions conditions;           ///< where one vanishes, nothing is said of c
 };
@@ -23,5 +24,10 @@ struct RiemannFamily {
 /// differences: the denominators' leading coefficients, and the distances of the points, are among
 /// the conditions.
 std::optional<RiemannFamily> riemann_family(const ParametricFunction& r, const CurveNames& names);
+
+/// y'' + p y' + q y = 0, if it is Lame's equation for almost every c.
+/// \param r  of its reduced form
+std::optional<RiemannFamily> lame_family(const ParametricFunction& p, const ParametricFunction& q,
+                                         const ParametricFunction& r, const CurveNames& names);
 
 }  // namespace casimir::obstruction
