@@ -100,33 +100,44 @@ class SurfaceSearch {
   std::set<std::string> seen_, said_;
 };
 
-/// The functions that vanish on the surface that was asked for.
-std::vector<GiNaC::ex> functions_of(const Model& model, const ObstructionRequest& request) {
-  std::vector<GiNaC::ex> result;
+/// Where a curve is looked for, with the symbols of the parameters.
+struct Surfaces {
+  std::vector<GiNaC::ex> asked;                   ///< functions that vanish; empty: it is sought
+  std::vector<std::vector<GiNaC::ex>> relations;  ///< of the case's invariant relations
+};
+
+Surfaces surfaces_of(const Model& model, const ObstructionRequest& request) {
+  Surfaces result;
   for (const Text& text : request.along) {
     if (text.value.find('=') != std::string::npos) {
       const Identity equation = model.parse_identity(text);
-      result.push_back(equation.left - equation.right);
+      result.asked.push_back(equation.left - equation.right);
     } else {
-      result.push_back(model.parse(text));
+      result.asked.push_back(model.parse(text));
     }
+  }
+  for (const LevelClaim& claim : model.invariant_relations) {
+    result.relations.push_back({claim.expression.value});
+    for (const NamedExpression& other : claim.on) result.relations.back().push_back(other.value);
   }
   return result;
 }
 
-std::vector<InvariantPlane> planes_of(const HamiltonianSystem& system,
-                                      const std::vector<GiNaC::ex>& along) {
-  if (along.empty()) return invariant_planes(system);
-  std::vector<GiNaC::ex> functions;
-  for (const GiNaC::ex& f : along) functions.push_back(f.subs(system.numbers));
-  return {invariant_plane(system, functions)};
+std::vector<InvariantPlane> planes_of(const HamiltonianSystem& system, const Surfaces& surfaces) {
+  const auto numbered = [&](std::vector<GiNaC::ex> functions) {
+    for (GiNaC::ex& f : functions) f = f.subs(system.numbers);
+    return functions;
+  };
+  if (!surfaces.asked.empty()) return {invariant_plane(system, numbered(surfaces.asked))};
+  std::vector<std::vector<GiNaC::ex>> relations;
+  for (const auto& functions : surfaces.relations) relations.push_back(numbered(functions));
+  return invariant_planes(system, relations);
 }
 
-/// \param along  functions that vanish on the surface; empty: it is sought
-void decide(const HamiltonianSystem& system, const std::vector<GiNaC::ex>& along,
-            const search::Watch& watch, Obstruction& result) {
+void decide(const HamiltonianSystem& system, const Surfaces& along, const search::Watch& watch,
+            Obstruction& result) {
   result.parameters = system.parameters;
-  if (along.empty()) {
+  if (along.asked.empty()) {
     watch.begin("straight lines of a homogeneous potential");
     examine_straight_lines(system, result);
     if (result.proved) {
@@ -160,7 +171,7 @@ void with_reason(Obstruction& result, const Decision& decision) {
 }
 
 /// Which values of the free parameter survive.
-void decide_family(const HamiltonianSystem& system, const std::vector<GiNaC::ex>& along,
+void decide_family(const HamiltonianSystem& system, const Surfaces& along,
                    const search::Watch& watch, Obstruction& result) {
   result.parameters = system.parameters;
   result.free = system.free->get_name();
@@ -194,7 +205,7 @@ void decide_family(const HamiltonianSystem& system, const std::vector<GiNaC::ex>
 Obstruction find_obstruction(const Model& model, const ObstructionRequest& request,
                              const search::Watch& watch) {
   Obstruction result;
-  const std::vector<GiNaC::ex> along = functions_of(model, request);
+  const Surfaces along = surfaces_of(model, request);
   with_reason(result, [&] {
     const HamiltonianSystem system = hamiltonian_system(model, request.scene, request.free);
     if (system.variables.size() <= system.casimirs.size() + 2)

@@ -177,6 +177,16 @@ void add_parameter(const HamiltonianSystem& system, ParticularCurve<ParametricFu
 RationalFunction variable_of(const RationalFunction&) { return Univariate::variable(); }
 ParametricFunction variable_of(const ParametricFunction&) { return ParametricFunction::variable(); }
 
+/// An energy in print. GiNaC's order of factors changes from run to run.
+std::string energy_text(const HamiltonianSystem& system, const ex& energy) {
+  if (!system.free) return printed(energy);
+  using F = ParametricFunction;
+  const CurveField<F> field;
+  const std::vector<CurveElement<F>> values{CurveField<F>::constant(F::parameter())};
+  return written(CurveField<F>::rational(field.value(energy, {{*system.free, 0}}, values)),
+                 {"", system.free->get_name()});
+}
+
 /// The curve at an energy. \throws NotDecided  where it is none
 template <class F>
 ParticularCurve<F> make_curve(const HamiltonianSystem& system, const InvariantPlane& plane,
@@ -291,6 +301,10 @@ Solutions solutions_on(const HamiltonianSystem& system, const InvariantPlane& pl
     add_special_energies(system, *steps, z, energy, candidates);
     result.of.emplace_back(z, *steps);
   }
+  if (system.free)
+    std::sort(candidates.begin(), candidates.end(), [&](const ex& a, const ex& b) {
+      return energy_text(system, a) < energy_text(system, b);
+    });
   for (const ex& further : {ex(0), ex(1), system.hamiltonian.subs(system.start).normal()})
     candidates.push_back(further);
   for (const ex& e : candidates) {
@@ -341,7 +355,7 @@ std::string for_each_curve(const HamiltonianSystem& system, const InvariantPlane
     for (const ex& e : solutions.energies) {
       for (ParticularCurve<F>& curve :
            curves_at<F>(system, plane, solutions, energy == e, reason)) {
-        curve.level = fmt::format("H = {}{}", printed(e), levels.text);
+        curve.level = fmt::format("H = {}{}", energy_text(system, e), levels.text);
         visited = true;
         if (!visit(curve)) return {};
       }
