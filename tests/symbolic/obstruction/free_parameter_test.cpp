@@ -13,7 +13,7 @@
 #include "symbolic/obstruction/family/survivors.hpp"
 #include "symbolic/obstruction/obstruct.hpp"
 
-namespace casimir::obstruction {
+namespace casimir::obstruction::free_parameter_test {
 namespace {
 
 using cln::cl_RA;
@@ -327,4 +327,4 @@ TEST(RealRoots, AreInOrderAndEachOnce) {
 }
 
 }  // namespace
-}  // namespace casimir::obstruction
+}  // namespace casimir::obstruction::free_parameter_test
