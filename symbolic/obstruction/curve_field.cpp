@@ -10,8 +10,9 @@
 namespace casimir::obstruction {
 namespace {
 
-void add_to(CurveElement& sum, unsigned roots, const RationalFunction& value) {
-  RationalFunction& own = sum[roots];
+template <class F>
+void add_to(CurveElement<F>& sum, unsigned roots, const F& value) {
+  F& own = sum[roots];
   own = own + value;
   if (own.is_zero()) sum.erase(roots);
 }
@@ -30,92 +31,110 @@ cln::cl_RA rational_number(const GiNaC::ex& value) {
 
 }  // namespace
 
-CurveElement CurveField::constant(const RationalFunction& value) {
-  CurveElement result;
+template <class F>
+CurveElement<F> CurveField<F>::constant(const F& value) {
+  CurveElement<F> result;
   if (!value.is_zero()) result.emplace(0U, value);
   return result;
 }
 
-RationalFunction CurveField::square_of(unsigned roots) const {
-  RationalFunction result(1);
+template <class F>
+F CurveField<F>::square_of(unsigned roots) const {
+  F result(1);
   for (std::size_t i = 0; i < squares_.size(); ++i)
     if ((roots >> i & 1U) != 0) result = result * squares_[i];
   return result;
 }
 
-CurveElement CurveField::root_of(const RationalFunction& square) {
+template <class F>
+CurveElement<F> CurveField<F>::root_of(const F& square) {
   for (unsigned roots = 0; roots < 1U << squares_.size(); ++roots) {
-    const RationalFunction own = square_of(roots);
+    const F own = square_of(roots);
     if (const auto root = (square * own).square_root()) {
-      CurveElement result;
+      CurveElement<F> result;
       if (!root->is_zero()) result.emplace(roots, *root / own);
       return result;
     }
   }
   if (squares_.size() >= 4) throw NotDecided("more than four square roots along a curve");
+  conditions_->nonzero(square);
   squares_.push_back(square);
-  return {{1U << (squares_.size() - 1), RationalFunction(1)}};
+  return {{1U << (squares_.size() - 1), F(1)}};
 }
 
-CurveElement CurveField::sum(const CurveElement& a, const CurveElement& b) const {
-  CurveElement result = a;
-  for (const auto& [roots, value] : b) add_to(result, roots, value);
+template <class F>
+CurveElement<F> CurveField<F>::sum(const CurveElement<F>& a, const CurveElement<F>& b) const {
+  CurveElement<F> result = a;
+  for (const auto& [roots, value] : b) add_to<F>(result, roots, value);
   return result;
 }
 
-CurveElement CurveField::difference(const CurveElement& a, const CurveElement& b) const {
-  CurveElement result = a;
-  for (const auto& [roots, value] : b) add_to(result, roots, -value);
+template <class F>
+CurveElement<F> CurveField<F>::difference(const CurveElement<F>& a,
+                                          const CurveElement<F>& b) const {
+  CurveElement<F> result = a;
+  for (const auto& [roots, value] : b) add_to<F>(result, roots, -value);
   return result;
 }
 
-CurveElement CurveField::product(const CurveElement& a, const CurveElement& b) const {
-  CurveElement result;
+template <class F>
+CurveElement<F> CurveField<F>::product(const CurveElement<F>& a, const CurveElement<F>& b) const {
+  CurveElement<F> result;
   for (const auto& [left, x] : a)
-    for (const auto& [right, y] : b) add_to(result, left ^ right, x * y * square_of(left & right));
+    for (const auto& [right, y] : b)
+      add_to<F>(result, left ^ right, x * y * square_of(left & right));
   return result;
 }
 
-CurveElement CurveField::inverse(const CurveElement& a) const {
+template <class F>
+CurveElement<F> CurveField<F>::inverse(const CurveElement<F>& a) const {
   if (a.empty()) throw NotDecided("a denominator vanishes along the curve");
   const unsigned highest = a.rbegin()->first;
-  if (highest == 0) return constant(RationalFunction(1) / a.begin()->second);
+  if (highest == 0) {
+    conditions_->nonzero(a.begin()->second);
+    return constant(F(1) / a.begin()->second);
+  }
   unsigned root = 1;
   while (root <= highest / 2) root *= 2;
-  CurveElement conjugate = a;
+  CurveElement<F> conjugate = a;
   for (auto& [roots, value] : conjugate)
     if ((roots & root) != 0) value = -value;
   return product(conjugate, inverse(product(a, conjugate)));
 }
 
-CurveElement CurveField::power(const CurveElement& a, long exponent) const {
+template <class F>
+CurveElement<F> CurveField<F>::power(const CurveElement<F>& a, long exponent) const {
   if (exponent < 0) return power(inverse(a), -exponent);
   if (exponent > 1000) throw NotDecided("a power above 1000");
-  CurveElement result = constant(1);
+  CurveElement<F> result = constant(1);
   for (long i = 0; i < exponent; ++i) result = product(result, a);
   return result;
 }
 
-CurveElement CurveField::derivative(const CurveElement& a) const {
-  CurveElement result;
+template <class F>
+CurveElement<F> CurveField<F>::derivative(const CurveElement<F>& a) const {
+  CurveElement<F> result;
   for (const auto& [roots, value] : a) {
-    RationalFunction slope = value.derivative();
+    F slope = value.derivative();
     for (std::size_t i = 0; i < squares_.size(); ++i)
       if ((roots >> i & 1U) != 0)
-        slope = slope + value * squares_[i].derivative() / (RationalFunction(2) * squares_[i]);
-    add_to(result, roots, slope);
+        slope = slope + value * squares_[i].derivative() / (F(2) * squares_[i]);
+    add_to<F>(result, roots, slope);
   }
   return result;
 }
 
-RationalFunction CurveField::rational(const CurveElement& a) {
+template <class F>
+F CurveField<F>::rational(const CurveElement<F>& a) {
   if (a.empty()) return 0;
   if (a.rbegin()->first != 0) throw NotDecided("a coefficient is no rational function of z");
   return a.begin()->second;
 }
 
-CurveElement CurveField::value(const GiNaC::ex& expression, const GiNaC::exmap& symbols_to_index,
-                               const std::vector<CurveElement>& values) const {
+template <class F>
+CurveElement<F> CurveField<F>::value(const GiNaC::ex& expression,
+                                     const GiNaC::exmap& symbols_to_index,
+                                     const std::vector<CurveElement<F>>& values) const {
   using GiNaC::is_a;
   if (is_a<GiNaC::numeric>(expression)) return constant(rational_number(expression));
   if (is_a<GiNaC::symbol>(expression)) {
@@ -126,15 +145,15 @@ CurveElement CurveField::value(const GiNaC::ex& expression, const GiNaC::exmap& 
   }
   if (is_a<GiNaC::add>(expression) || is_a<GiNaC::mul>(expression)) {
     const bool is_sum = is_a<GiNaC::add>(expression);
-    CurveElement result = constant(is_sum ? 0 : 1);
+    CurveElement<F> result = constant(is_sum ? 0 : 1);
     for (const GiNaC::ex& part : expression) {
-      const CurveElement own = value(part, symbols_to_index, values);
+      const CurveElement<F> own = value(part, symbols_to_index, values);
       result = is_sum ? sum(result, own) : product(result, own);
     }
     return result;
   }
   if (is_a<GiNaC::power>(expression)) {
-    const CurveElement base = value(expression.op(0), symbols_to_index, values);
+    const CurveElement<F> base = value(expression.op(0), symbols_to_index, values);
     const cln::cl_RA exponent = rational_number(expression.op(1));
     const cln::cl_I above = cln::numerator(exponent);
     if (cln::integer_length(above) > 20) throw NotDecided("a power above 1000");
@@ -143,27 +162,28 @@ CurveElement CurveField::value(const GiNaC::ex& expression, const GiNaC::exmap& 
       const auto root = rational(base).square_root();
       if (!root || root->is_zero())
         throw NotDecided(fmt::format("{} is no square along the curve", printed(expression.op(0))));
-      const bool negative = cln::minusp(root->numerator().leading());
+      const bool negative = leads_with_minus(*root);
       return power(constant(negative ? -*root : *root), cln::cl_I_to_long(above));
     }
   }
   throw NotDecided(fmt::format("{} is no rational function along the curve", printed(expression)));
 }
 
-std::size_t reduce_rows(const CurveField& field, std::vector<std::vector<CurveElement>>& rows,
+template <class F>
+std::size_t reduce_rows(const CurveField<F>& field, std::vector<std::vector<CurveElement<F>>>& rows,
                         std::vector<std::size_t>* pivots) {
   std::size_t rank = 0;
   const std::size_t columns = rows.empty() ? 0 : rows.front().size();
   for (std::size_t column = 0; column < columns && rank < rows.size(); ++column) {
     std::size_t found = rank;
-    while (found < rows.size() && CurveField::is_zero(rows[found][column])) ++found;
+    while (found < rows.size() && CurveField<F>::is_zero(rows[found][column])) ++found;
     if (found == rows.size()) continue;
     std::swap(rows[rank], rows[found]);
-    const CurveElement scale = field.inverse(rows[rank][column]);
-    for (CurveElement& entry : rows[rank]) entry = field.product(entry, scale);
+    const CurveElement<F> scale = field.inverse(rows[rank][column]);
+    for (CurveElement<F>& entry : rows[rank]) entry = field.product(entry, scale);
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (i == rank || CurveField::is_zero(rows[i][column])) continue;
-      const CurveElement factor = rows[i][column];
+      if (i == rank || CurveField<F>::is_zero(rows[i][column])) continue;
+      const CurveElement<F> factor = rows[i][column];
       for (std::size_t j = 0; j < columns; ++j)
         rows[i][j] = field.difference(rows[i][j], field.product(factor, rows[rank][j]));
     }
@@ -172,5 +192,14 @@ std::size_t reduce_rows(const CurveField& field, std::vector<std::vector<CurveEl
   }
   return rank;
 }
+
+template class CurveField<RationalFunction>;
+template class CurveField<ParametricFunction>;
+template std::size_t reduce_rows(const CurveField<RationalFunction>&,
+                                 std::vector<std::vector<CurveElement<RationalFunction>>>&,
+                                 std::vector<std::size_t>*);
+template std::size_t reduce_rows(const CurveField<ParametricFunction>&,
+                                 std::vector<std::vector<CurveElement<ParametricFunction>>>&,
+                                 std::vector<std::size_t>*);
 
 }  // namespace casimir::obstruction

@@ -2,22 +2,44 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "symbolic/obstruction/curve_field.hpp"
 #include "symbolic/obstruction/equation/kovacic.hpp"
 
 namespace casimir::obstruction {
 namespace {
 
-/// A function of q1, q2 on the line (1, z), or (z, 1).
-RationalFunction on_line(const GiNaC::ex& function, const HomogeneousPotential& system,
-                         bool second_is_one) {
-  const CurveField field;
-  const CurveElement one = CurveField::constant(1);
-  const CurveElement z = CurveField::constant(Univariate::variable());
-  const GiNaC::exmap places{{system.q[0], 0}, {system.q[1], 1}};
-  return CurveField::rational(field.value(
-      function, places,
-      second_is_one ? std::vector<CurveElement>{z, one} : std::vector<CurveElement>{one, z}));
+bool is_rational(const GiNaC::ex& value) {
+  return GiNaC::is_a<GiNaC::numeric>(value) && GiNaC::ex_to<GiNaC::numeric>(value).is_rational();
+}
+
+/// A power that is no integer makes more than one branch.
+bool has_roots(const GiNaC::ex& expression) {
+  if (GiNaC::is_a<GiNaC::power>(expression) && !expression.op(1).info(GiNaC::info_flags::integer))
+    return true;
+  return std::any_of(expression.begin(), expression.end(), has_roots);
+}
+
+bool is_canonical(const HamiltonianSystem& system) {
+  const std::size_t n = system.variables.size() / 2;
+  for (std::size_t i = 0; i < 2 * n; ++i)
+    for (std::size_t j = 0; j < 2 * n; ++j) {
+      const int expected = j == i + n ? 1 : i == j + n ? -1 : 0;
+      if (!system.poisson[i][j].is_equal(expected)) return false;
+    }
+  return true;
+}
+
+CurveElement<RationalFunction> variable_on(const RationalFunction&) {
+  return CurveField<RationalFunction>::constant(Univariate::variable());
+}
+CurveElement<ParametricFunction> variable_on(const ParametricFunction&) {
+  return CurveField<ParametricFunction>::constant(ParametricFunction::variable());
+}
+void add_parameter(std::vector<CurveElement<RationalFunction>>&) {}
+void add_parameter(std::vector<CurveElement<ParametricFunction>>& values) {
+  values.push_back(CurveField<ParametricFunction>::constant(ParametricFunction::parameter()));
 }
 
 /// The value of a rational function at a root of an irreducible polynomial; none at a pole.
@@ -27,24 +49,7 @@ std::optional<Univariate> at_root(const RationalFunction& f, const Univariate& d
   return (f.numerator() * below.inverse(direction)).remainder(direction);
 }
 
-/// The derivatives of V along the lines in one of the two charts.
-struct Chart {
-  RationalFunction first, second, trace;
-
-  Chart(const HomogeneousPotential& system, bool second_is_one) {
-    const auto& [x, y] = system.q;
-    const GiNaC::ex& v = system.potential;
-    const auto divided = [](const RationalFunction& f, const cln::cl_RA& mass) {
-      return f / RationalFunction(mass);
-    };
-    first = divided(on_line(v.diff(x), system, second_is_one), system.mass[0]);
-    second = divided(on_line(v.diff(y), system, second_is_one), system.mass[1]);
-    trace = divided(on_line(v.diff(x, 2), system, second_is_one), system.mass[0]) +
-            divided(on_line(v.diff(y, 2), system, second_is_one), system.mass[1]);
-  }
-};
-
-/// V'(d) = gamma M d: the point is c = s d with gamma s^(k-2) = 1, and V''(c) = V''(d)/gamma.
+/// A V'(d) = gamma d: the point is c = s d with gamma s^(k-2) = 1, and V''(c) = V''(d)/gamma.
 void add_point(const HomogeneousPotential& system, const RationalFunction& gamma,
                const RationalFunction& trace, DarbouxPoint point, DarbouxPoints& result) {
   const auto scale = at_root(gamma, point.direction), sum = at_root(trace, point.direction);
@@ -60,6 +65,60 @@ void add_point(const HomogeneousPotential& system, const RationalFunction& gamma
 
 }  // namespace
 
+std::optional<HomogeneousPotential> homogeneous_potential(const HamiltonianSystem& system) {
+  if (system.variables.size() != 4 || !system.casimirs.empty() || !is_canonical(system))
+    return std::nullopt;
+  HomogeneousPotential result;
+  result.potential = system.hamiltonian;
+  for (std::size_t i = 0; i < 2; ++i) {
+    result.q[i] = system.variables[i];
+    for (std::size_t j = 0; j < 2; ++j) {
+      const GiNaC::symbol &p = system.variables[i + 2], &other = system.variables[j + 2];
+      const GiNaC::ex own = system.hamiltonian.diff(p).diff(other).normal();
+      for (const GiNaC::symbol& x : system.variables)
+        if (own.has(x)) return std::nullopt;
+      result.inverse_mass[i][j] = own;
+      result.potential -= own * p * other / 2;
+    }
+  }
+  const auto& a = result.inverse_mass;
+  if ((a[0][0] * a[1][1] - a[0][1] * a[1][0]).normal().is_zero()) return std::nullopt;
+  result.potential = result.potential.expand();
+  if (result.potential.has(system.variables[2]) || result.potential.has(system.variables[3]) ||
+      result.potential.is_zero() || has_roots(result.potential))
+    return std::nullopt;
+  const GiNaC::ex slope = result.q[0] * result.potential.diff(result.q[0]) +
+                          result.q[1] * result.potential.diff(result.q[1]);
+  const GiNaC::ex degree = (slope / result.potential).normal();
+  if (!is_rational(degree) || !degree.info(GiNaC::info_flags::integer)) return std::nullopt;
+  result.degree = GiNaC::ex_to<GiNaC::numeric>(degree).to_long();
+  if (result.degree == 0 || result.degree == 2 || result.degree == -2) return std::nullopt;
+  return result;
+}
+
+template <class F>
+DirectionChart<F>::DirectionChart(const HomogeneousPotential& system, bool second_is_one,
+                                  const std::optional<GiNaC::symbol>& parameter) {
+  const CurveField<F> field;
+  const CurveElement<F> one = CurveField<F>::constant(F(1)), z = variable_on(F());
+  GiNaC::exmap places{{system.q[0], 0}, {system.q[1], 1}};
+  std::vector<CurveElement<F>> values{second_is_one ? z : one, second_is_one ? one : z};
+  if (parameter) places[*parameter] = static_cast<int>(values.size());
+  add_parameter(values);
+  const auto value = [&](const GiNaC::ex& f) {
+    return CurveField<F>::rational(field.value(f, places, values));
+  };
+  const auto& a = system.inverse_mass;
+  const GiNaC::ex &v = system.potential, x = v.diff(system.q[0]), y = v.diff(system.q[1]);
+  first = value(a[0][0] * x + a[0][1] * y);
+  second = value(a[1][0] * x + a[1][1] * y);
+  trace = value(a[0][0] * x.diff(system.q[0]) + 2 * a[0][1] * x.diff(system.q[1]) +
+                a[1][1] * y.diff(system.q[1]));
+}
+
+template struct DirectionChart<RationalFunction>;
+template struct DirectionChart<ParametricFunction>;
+
 std::string DarbouxPoint::text(const HomogeneousPotential& system) const {
   const std::string x = system.q[0].get_name(), y = system.q[1].get_name();
   if (vertical) return x + " = 0";
@@ -74,7 +133,7 @@ std::string DarbouxPoint::eigenvalue_text() const { return eigenvalue.text("t");
 
 DarbouxPoints darboux_points(const HomogeneousPotential& system) {
   DarbouxPoints result;
-  const Chart chart(system, false);
+  const DirectionChart<RationalFunction> chart(system, false, std::nullopt);
   const RationalFunction z = RationalFunction(Univariate::variable());
   const RationalFunction across = chart.second - z * chart.first;
   if (across.is_zero()) {
@@ -86,7 +145,7 @@ DarbouxPoints darboux_points(const HomogeneousPotential& system) {
     point.direction = factor;
     add_point(system, chart.first, chart.trace, point, result);
   }
-  const Chart other(system, true);
+  const DirectionChart<RationalFunction> other(system, true, std::nullopt);
   if ((other.first - z * other.second).numerator().at(0) == 0) {
     DarbouxPoint point;
     point.vertical = true;

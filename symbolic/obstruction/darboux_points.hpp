@@ -7,20 +7,36 @@
 #include <string>
 #include <vector>
 
-#include "symbolic/obstruction/equation/univariate.hpp"
+#include "symbolic/obstruction/equation/parametric_function.hpp"
+#include "symbolic/obstruction/hamiltonian_system.hpp"
 
 namespace casimir::obstruction {
 
-/// A natural Hamiltonian (p1^2/m1 + p2^2/m2)/2 + V(q1, q2), V homogeneous, with rational numbers.
+/// A natural Hamiltonian p A p/2 + V(q1, q2), A symmetric and invertible, V homogeneous of an
+/// integer degree.
 struct HomogeneousPotential {
   std::array<GiNaC::symbol, 2> q;
-  std::array<cln::cl_RA, 2> mass;
+  std::array<std::array<GiNaC::ex, 2>, 2> inverse_mass;  ///< A: numbers, or functions of parameters
   GiNaC::ex potential;
   long degree = 0;
 };
 
-/// Conjugate points c with V'(c) = (m1 c1, m2 c2), given by their direction, and the eigenvalue of
-/// the matrix of second derivatives of V (divided by the masses) that is not degree - 1.
+/// The system as such a one, if it is one of two degrees of freedom whose potential is a rational
+/// function of a degree other than 0, 2 and -2.
+std::optional<HomogeneousPotential> homogeneous_potential(const HamiltonianSystem& system);
+
+/// The functions of the direction that decide about straight lines: in the chart (1, z), or (z, 1).
+template <class F>
+struct DirectionChart {
+  /// \param parameter  the free parameter, where F has one
+  DirectionChart(const HomogeneousPotential& system, bool second_is_one,
+                 const std::optional<GiNaC::symbol>& parameter);
+  F first, second;  ///< A V' in the direction
+  F trace;          ///< of A V''
+};
+
+/// Conjugate points c with A V'(c) = c, given by their direction, and the eigenvalue of A V''(c)
+/// that is not degree - 1.
 struct DarbouxPoint {
   bool vertical = false;  ///< in the direction (0, 1), else (1, t)
   Univariate direction;   ///< monic and irreducible, of which t is a root
@@ -33,7 +49,7 @@ struct DarbouxPoint {
 struct DarbouxPoints {
   std::vector<DarbouxPoint> points;
   std::vector<std::string> improper;  ///< directions in which V' vanishes; they give no line
-  bool all_directions = false;        ///< V depends on m1 q1^2 + m2 q2^2 only
+  bool all_directions = false;        ///< V depends on q A^(-1) q only
 };
 
 /// Finds them. \throws NotDecided  where V is no rational function

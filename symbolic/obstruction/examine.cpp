@@ -10,6 +10,7 @@
 #include "symbolic/obstruction/darboux_points.hpp"
 #include "symbolic/obstruction/equation/kimura.hpp"
 #include "symbolic/obstruction/equation/kovacic.hpp"
+#include "symbolic/obstruction/equation/lame.hpp"
 #include "symbolic/obstruction/homogeneous_table.hpp"
 
 namespace casimir::obstruction {
@@ -63,7 +64,7 @@ std::string equation_text(const RationalFunction& p, const RationalFunction& q,
 
 }  // namespace
 
-Examined examine_equation(const NormalEquation& equation, const std::string& z,
+Examined examine_equation(const NormalEquation<RationalFunction>& equation, const std::string& z,
                           const std::function<void()>& tick) {
   const LiouvillianResult decision = decide_liouvillian(equation.reduced, tick, z);
   Examined result;
@@ -83,6 +84,14 @@ Examined examine_equation(const NormalEquation& equation, const std::string& z,
     if (decision.galois != GaloisCase::undecided && is_sl2 == solvable.has_value())
       throw std::logic_error("Kovacic's decision and Kimura's theorem contradict each other");
   }
+  if (is_lame(equation.p, equation.q)) {
+    const auto may_be = lame_class(decision.singular.back().difference_squared.coefficient(0));
+    result.cases.emplace_back("Lame's equation", may_be.value_or("n is in none of its classes"));
+    const bool solvable =
+        decision.galois != GaloisCase::undecided && decision.galois != GaloisCase::sl2;
+    if (solvable && !may_be)
+      throw std::logic_error("Kovacic's decision and Lame's classes contradict each other");
+  }
   if (!decision.solution.empty()) result.solution = polynomial_text(decision.solution, z);
   result.outcome = decision.galois == GaloisCase::undecided
                        ? fmt::format("not decided: {}", decision.reason)
@@ -93,67 +102,14 @@ Examined examine_equation(const NormalEquation& equation, const std::string& z,
 
 namespace {
 
-std::optional<cln::cl_RA> rational_constant(const GiNaC::ex& value) {
-  if (!GiNaC::is_a<GiNaC::numeric>(value) || !GiNaC::ex_to<GiNaC::numeric>(value).is_rational())
-    return std::nullopt;
-  return cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(value).to_cl_N());
-}
-
-/// A power that is no integer makes more than one branch.
-bool has_roots(const GiNaC::ex& expression) {
-  if (GiNaC::is_a<GiNaC::power>(expression) && !expression.op(1).info(GiNaC::info_flags::integer))
-    return true;
-  for (const GiNaC::ex& part : expression)
-    if (has_roots(part)) return true;
-  return false;
-}
-
-bool is_canonical(const HamiltonianSystem& system) {
-  const std::size_t n = system.variables.size() / 2;
-  for (std::size_t i = 0; i < 2 * n; ++i)
-    for (std::size_t j = 0; j < 2 * n; ++j) {
-      const int expected = j == i + n ? 1 : i == j + n ? -1 : 0;
-      if (!system.poisson[i][j].is_equal(expected)) return false;
-    }
-  return true;
-}
-
-/// The system as a particle in a homogeneous potential, if it is one of two degrees of freedom.
-std::optional<HomogeneousPotential> homogeneous_potential(const HamiltonianSystem& system) {
-  if (system.variables.size() != 4 || !system.casimirs.empty() || !is_canonical(system))
-    return std::nullopt;
-  HomogeneousPotential result;
-  result.potential = system.hamiltonian;
-  for (std::size_t i = 0; i < 2; ++i) {
-    result.q[i] = system.variables[i];
-    const GiNaC::symbol& p = system.variables[i + 2];
-    const auto inverse = rational_constant(system.hamiltonian.diff(p, 2).normal());
-    if (!inverse || cln::zerop(*inverse)) return std::nullopt;
-    result.mass[i] = 1 / *inverse;
-    result.potential -= GiNaC::numeric(cln::cl_N(*inverse)) * p * p / 2;
-  }
-  result.potential = result.potential.expand();
-  if (result.potential.has(system.variables[2]) || result.potential.has(system.variables[3]) ||
-      has_roots(result.potential))
-    return std::nullopt;
-  const GiNaC::ex slope = result.q[0] * result.potential.diff(result.q[0]) +
-                          result.q[1] * result.potential.diff(result.q[1]);
-  if (result.potential.is_zero()) return std::nullopt;
-  const auto degree = rational_constant((slope / result.potential).normal());
-  if (!degree || cln::denominator(*degree) != 1) return std::nullopt;
-  result.degree = cln::cl_I_to_long(cln::numerator(*degree));
-  if (result.degree == 0 || result.degree == 2 || result.degree == -2) return std::nullopt;
-  return result;
-}
-
 /// What the theorem says of one Darboux point. A table's entry is rational for every degree.
 Examined examine_point(const HomogeneousPotential& system, const DarbouxPoint& point) {
   const long k = system.degree;
   Examined result;
   result.along = "the straight line " + point.text(system);
   result.level = fmt::format(
-      "(q1, q2) = phi(t)*c with V'(c) = M c and phi'^2/2 + phi^{0}/{0} = 1/{0}, "
-      "V homogeneous of degree {0}",
+      "(q1, q2) = phi(t)*c with A V'(c) = c and phi'^2/2 + phi^{0}/{0} = 1/{0}, "
+      "V homogeneous of degree {0}, p A p/2 the kinetic energy",
       k);
   result.nve =
       fmt::format("y'' = -lambda*phi^({})*y with lambda = {}", k - 2, point.eigenvalue_text());

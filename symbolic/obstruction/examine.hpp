@@ -11,7 +11,7 @@ namespace casimir::obstruction {
 
 /// Decides one normal variational equation; with three singular points that are rational numbers
 /// Kimura's theorem has to agree. \throws std::logic_error  if it does not
-Examined examine_equation(const NormalEquation& equation, const std::string& z,
+Examined examine_equation(const NormalEquation<RationalFunction>& equation, const std::string& z,
                           const std::function<void()>& tick);
 
 /// Adds what the straight lines of a homogeneous potential of two degrees of freedom show, where

@@ -16,7 +16,7 @@ bool is_rational(const GiNaC::ex& value) {
 }
 
 /// The values of the parameters in the scene.
-GiNaC::exmap numbers(const Model& model, const std::string& scene_name,
+GiNaC::exmap numbers(const Model& model, const std::string& scene_name, const std::string& free,
                      std::vector<std::pair<std::string, std::string>>& texts) {
   GiNaC::exmap result;
   for (const auto& [name, value] : model.fixed) {
@@ -24,12 +24,15 @@ GiNaC::exmap numbers(const Model& model, const std::string& scene_name,
     text << value;
     texts.emplace_back(name.value, text.str());
   }
-  if (model.parameters.empty()) return result;
+  std::vector<std::size_t> needed;
+  for (std::size_t i = 0; i < model.parameters.size(); ++i)
+    if (model.parameters[i].get_name() != free) needed.push_back(i);
+  if (needed.empty()) return result;
   if (model.scenes.empty())
     throw NotDecided(fmt::format("the parameter {} has no value: give one with --param",
-                                 model.parameters.front().get_name()));
+                                 model.parameters[needed.front()].get_name()));
   const Scene& scene = model.scene(scene_name);
-  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+  for (const std::size_t i : needed) {
     const std::string& name = model.parameters[i].get_name();
     if (!is_rational(scene.parameters[i]))
       throw NotDecided(
@@ -72,12 +75,16 @@ void check_jacobi(const HamiltonianSystem& system) {
 
 }  // namespace
 
-HamiltonianSystem hamiltonian_system(const Model& model, const std::string& scene) {
+HamiltonianSystem hamiltonian_system(const Model& model, const std::string& scene,
+                                     const std::string& free) {
   if (!model.poisson || !model.hamiltonian)
     throw NotDecided("the theorem is about Hamiltonian systems, and the case has no Hamiltonian");
   if (model.time) throw NotDecided("the theorem is about systems that do not depend on time");
   HamiltonianSystem result;
-  const GiNaC::exmap values = numbers(model, scene, result.parameters);
+  const GiNaC::exmap values = numbers(model, scene, free, result.parameters);
+  result.numbers = values;
+  for (const GiNaC::symbol& parameter : model.parameters)
+    if (parameter.get_name() == free) result.free = parameter;
   result.variables = model.variables;
   result.hamiltonian = model.hamiltonian->subs(values);
   for (const GiNaC::ex& rate : model.poisson->flow(*model.hamiltonian))
@@ -95,6 +102,28 @@ HamiltonianSystem hamiltonian_system(const Model& model, const std::string& scen
   if (place != model.scenes.end())
     for (std::size_t i = 0; i < n && i < place->initial.size(); ++i)
       if (is_rational(place->initial[i])) result.start[model.variables[i]] = place->initial[i];
+  return result;
+}
+
+HamiltonianSystem with_value(const HamiltonianSystem& system, const cln::cl_RA& value) {
+  if (!system.free) throw std::logic_error("the system has no free parameter");
+  const GiNaC::numeric number{cln::cl_N(value)};
+  const GiNaC::exmap is_value{{*system.free, number}};
+  HamiltonianSystem result = system;
+  result.free.reset();
+  result.numbers[*system.free] = number;
+  std::ostringstream text;
+  text << GiNaC::ex(number);
+  result.parameters.emplace_back(system.free->get_name(), text.str());
+  try {
+    result.hamiltonian = system.hamiltonian.subs(is_value);
+    for (GiNaC::ex& rate : result.rates) rate = rate.subs(is_value);
+    for (auto& row : result.poisson)
+      for (GiNaC::ex& bracket : row) bracket = bracket.subs(is_value);
+    for (auto& [name, casimir] : result.casimirs) casimir = casimir.subs(is_value);
+  } catch (const std::domain_error&) {
+    throw NotDecided("the equations have no value at that value of the parameter");
+  }
   return result;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cln/rational.h>
 #include <ginac/ginac.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,7 +12,7 @@
 
 namespace casimir::obstruction {
 
-/// A case with rational numbers for all its parameters.
+/// A case with rational numbers for all its parameters but at most one.
 struct HamiltonianSystem {
   std::vector<GiNaC::symbol> variables;
   std::vector<GiNaC::ex> rates;
@@ -18,15 +20,23 @@ struct HamiltonianSystem {
   GiNaC::ex hamiltonian;
   std::vector<std::pair<std::string, GiNaC::ex>> casimirs;
   std::vector<std::pair<std::string, std::string>> parameters;  ///< name and value
-  GiNaC::exmap start;  ///< the scene's initial values, where they are rational
+  GiNaC::exmap numbers;                                         ///< of the parameters
+  std::optional<GiNaC::symbol> free;  ///< the parameter that has no number
+  GiNaC::exmap start;                 ///< the scene's initial values, where they are rational
 
   /// The place of a variable in the list. \throws std::logic_error  if it is none
   std::size_t index(const GiNaC::ex& variable) const;
 };
 
 /// The case with the parameters of one of its scenes.
+/// \param free  the name of a parameter that keeps its symbol; empty for none
 /// \throws NotDecided  where it is not Hamiltonian, depends on time, or has a parameter without a
 ///                     rational value
-HamiltonianSystem hamiltonian_system(const Model& model, const std::string& scene);
+HamiltonianSystem hamiltonian_system(const Model& model, const std::string& scene,
+                                     const std::string& free = "");
+
+/// The system with a number for its free parameter.
+/// \throws NotDecided  where the equations have no value there
+HamiltonianSystem with_value(const HamiltonianSystem& system, const cln::cl_RA& value);
 
 }  // namespace casimir::obstruction

@@ -3,6 +3,7 @@
 #include <cln/integer_io.h>
 #include <cln/rational_io.h>
 
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -80,6 +81,67 @@ std::array<cl_RA, 3> straight_line_differences(long k, const cl_RA& lambda) {
   const cl_RA degree = k;
   return {1 / (degree * degree), over(1, 4),
           ((degree - 2) * (degree - 2) + 8 * degree * lambda) / (4 * degree * degree)};
+}
+
+namespace {
+
+/// The numbers lambda - 1 of the table between two bounds, but zero, in order. All rows grow with
+/// (start + step*p)^2 for degrees above 2.
+std::vector<cl_RA> entries(long k, const cl_RA& low, const cl_RA& high) {
+  std::set<cl_RA> result;
+  for (const Row& row : rows_of(k)) {
+    for (const int direction : {1, -1}) {
+      for (long p = direction > 0 ? 0 : -1;; p += direction) {
+        const cl_RA root = row.start + cl_RA(row.step * p);
+        const cl_RA value = row.constant + row.factor * root * root - 1;
+        // Beyond the vertex the values grow.
+        if (value > high && direction * root > 0) break;
+        if (value >= low && value <= high && !cln::zerop(value)) result.insert(value);
+      }
+    }
+  }
+  return {result.begin(), result.end()};
+}
+
+/// Lists of numbers whose inverses add up: the negative ones first, then positive ones, each in
+/// order.
+class RelationSearch {
+ public:
+  explicit RelationSearch(long k) : k_(k), negative_(entries(k, -k, 0)) { negatives(0, -1); }
+  std::vector<std::vector<cl_RA>> found;
+
+ private:
+  void negatives(std::size_t first, const cl_RA& rest) {
+    const long left = k_ - static_cast<long>(list_.size());
+    positives(left, rest, 0);
+    if (left == 0) return;
+    for (std::size_t i = first; i < negative_.size(); ++i) {
+      list_.push_back(negative_[i]);
+      negatives(i, rest - 1 / negative_[i]);
+      list_.pop_back();
+    }
+  }
+
+  /// `left` numbers of at least `least` whose inverses add up to the rest.
+  void positives(long left, const cl_RA& rest, const cl_RA& least) {
+    if (left == 0 && cln::zerop(rest)) found.push_back(list_);
+    if (left == 0 || rest <= 0) return;
+    const cl_RA low = 1 / rest;
+    for (const cl_RA& value : entries(k_, low > least ? low : least, left / rest)) {
+      list_.push_back(value);
+      positives(left - 1, rest - 1 / value, value);
+      list_.pop_back();
+    }
+  }
+
+  long k_;
+  std::vector<cl_RA> negative_, list_;
+};
+
+}  // namespace
+
+std::vector<std::vector<cl_RA>> darboux_relation_solutions(long k) {
+  return RelationSearch(k).found;
 }
 
 }  // namespace casimir::obstruction

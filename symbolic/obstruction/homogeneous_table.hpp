@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace casimir::obstruction {
 
@@ -18,5 +19,12 @@ std::optional<std::string> integrable_eigenvalue(long k, const cln::cl_RA& lambd
 /// The squares of the differences of exponents of the normal variational equation along that
 /// point's straight line: 1/k, 1/2, sqrt((k - 2)^2 + 8 k lambda)/(2 k).
 std::array<cln::cl_RA, 3> straight_line_differences(long k, const cln::cl_RA& lambda);
+
+/// The eigenvalues that all k points of a generic planar potential may have together, less 1: the
+/// lists of k numbers that are not zero, in order, with sum 1/number = -1 and number + 1 in the
+/// table (Maciejewski and Przybylska, Phys. Lett. A 327 (2004) 461). There are finitely many: a
+/// least positive number is at most n/rest, where n of them have to add up to the rest.
+/// \param k  3 or more
+std::vector<std::vector<cln::cl_RA>> darboux_relation_solutions(long k);
 
 }  // namespace casimir::obstruction

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <stdexcept>
 
 #include "symbolic/obstruction/equation/kovacic.hpp"
 
@@ -95,18 +96,24 @@ bool known(const std::vector<InvariantPlane>& list, const InvariantPlane& plane)
   });
 }
 
+/// Adds the surface on which the functions vanish, where there is one with a motion on it.
+void add_surface(const HamiltonianSystem& system, const std::vector<GiNaC::ex>& functions,
+                 std::vector<InvariantPlane>& result) {
+  try {
+    InvariantPlane plane = invariant_plane(system, functions);
+    if (plane.along.size() >= 2 && !known(result, plane)) result.push_back(std::move(plane));
+  } catch (const NotDecided&) {
+  } catch (const std::invalid_argument&) {
+    // GiNaC's, of what is no rational function.
+  }
+}
+
 void add_pairs(const HamiltonianSystem& system, std::vector<InvariantPlane>& result) {
   const std::size_t n = system.variables.size();
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < n; ++j) {
-      for (const int sign : {1, -1}) {
-        try {
-          const GiNaC::ex f = system.variables[i] - sign * system.variables[j];
-          InvariantPlane plane = invariant_plane(system, {f});
-          if (plane.along.size() >= 2 && !known(result, plane)) result.push_back(std::move(plane));
-        } catch (const NotDecided&) {
-        }
-      }
+      for (const int sign : {1, -1})
+        add_surface(system, {system.variables[i] - sign * system.variables[j]}, result);
     }
   }
 }
@@ -138,7 +145,8 @@ InvariantPlane invariant_plane(const HamiltonianSystem& system,
   return closed(system, std::move(values));
 }
 
-std::vector<InvariantPlane> invariant_planes(const HamiltonianSystem& system) {
+std::vector<InvariantPlane> invariant_planes(const HamiltonianSystem& system,
+                                             const std::vector<std::vector<GiNaC::ex>>& relations) {
   std::vector<InvariantPlane> result;
   const std::size_t n = system.variables.size();
   if (n > kMostVariables) throw NotDecided("more than ten variables: give a plane with --along");
@@ -157,6 +165,7 @@ std::vector<InvariantPlane> invariant_planes(const HamiltonianSystem& system) {
     }
   }
   if (n <= 6) add_pairs(system, result);
+  for (const auto& functions : relations) add_surface(system, functions, result);
   return result;
 }
 

@@ -29,7 +29,10 @@ InvariantPlane invariant_plane(const HamiltonianSystem& system,
                                const std::vector<GiNaC::ex>& functions);
 
 /// Coordinate planes that the motion keeps, smallest number of normal variables first; and in
-/// canonical variables those of equal and opposite pairs.
-std::vector<InvariantPlane> invariant_planes(const HamiltonianSystem& system);
+/// canonical variables those of equal and opposite pairs. Then the surfaces on which all functions
+/// of one of the lists vanish, where these can be solved.
+/// \param relations  as the case's invariant relations give them; they are checked here again
+std::vector<InvariantPlane> invariant_planes(const HamiltonianSystem& system,
+                                             const std::vector<std::vector<GiNaC::ex>>& relations);
 
 }  // namespace casimir::obstruction

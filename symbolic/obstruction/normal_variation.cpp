@@ -11,29 +11,32 @@ namespace casimir::obstruction {
 namespace {
 
 using GiNaC::ex;
-using Row = std::vector<CurveElement>;
-using Matrix = std::vector<Row>;
+template <class F>
+using Row = std::vector<CurveElement<F>>;
+template <class F>
+using Matrix = std::vector<Row<F>>;
 
 /// Derivatives on the surface in the coordinates xi = x - value (normal) and x (along).
+template <class F>
 class Linearisation {
  public:
   Linearisation(const HamiltonianSystem& system, const InvariantPlane& plane,
-                const ParticularCurve& curve)
+                const ParticularCurve<F>& curve)
       : system_(system), plane_(plane), curve_(curve) {}
 
-  CurveElement value(const ex& f) const {
+  CurveElement<F> value(const ex& f) const {
     return curve_.field.value(plane_.on(f), curve_.places, curve_.values);
   }
 
-  Row by_normal(const ex& f) const {
-    Row result;
+  Row<F> by_normal(const ex& f) const {
+    Row<F> result;
     for (const auto& [i, own] : plane_.normal)
       result.push_back(value(f.diff(system_.variables[i])));
     return result;
   }
 
-  Row by_along(const ex& f) const {
-    Row result;
+  Row<F> by_along(const ex& f) const {
+    Row<F> result;
     for (const std::size_t t : plane_.along) {
       ex slope = f.diff(system_.variables[t]);
       for (const auto& [i, own] : plane_.normal)
@@ -55,19 +58,22 @@ class Linearisation {
  private:
   const HamiltonianSystem& system_;
   const InvariantPlane& plane_;
-  const ParticularCurve& curve_;
+  const ParticularCurve<F>& curve_;
 };
 
-bool all_zero(const Row& row) {
-  return std::all_of(row.begin(), row.end(), [](const auto& e) { return CurveField::is_zero(e); });
+template <class F>
+bool all_zero(const Row<F>& row) {
+  return std::all_of(row.begin(), row.end(),
+                     [](const auto& e) { return CurveField<F>::is_zero(e); });
 }
 
 /// The matrix of the normal equations: the surface is invariant, so that nothing along it enters.
-Matrix normal_matrix(const Linearisation& lines, std::size_t count) {
-  Matrix result;
+template <class F>
+Matrix<F> normal_matrix(const Linearisation<F>& lines, std::size_t count) {
+  Matrix<F> result;
   for (std::size_t i = 0; i < count; ++i) {
     const ex rate = lines.normal_rate(i);
-    if (!CurveField::is_zero(lines.value(rate)) || !all_zero(lines.by_along(rate)))
+    if (!CurveField<F>::is_zero(lines.value(rate)) || !all_zero(lines.by_along(rate)))
       throw NotDecided("the surface is not invariant");
     result.push_back(lines.by_normal(rate));
   }
@@ -76,19 +82,20 @@ Matrix normal_matrix(const Linearisation& lines, std::size_t count) {
 
 /// The rank of the bracket along the curve. \throws NotDecided  where a function that the case calls
 /// a Casimir function has brackets there that do not vanish
-std::size_t bracket_rank(const HamiltonianSystem& system, const Linearisation& lines,
-                         const CurveField& field) {
+template <class F>
+std::size_t bracket_rank(const HamiltonianSystem& system, const Linearisation<F>& lines,
+                         const CurveField<F>& field) {
   for (const auto& [name, casimir] : system.casimirs)
     for (const auto& brackets : system.poisson) {
       ex own = 0;
       for (std::size_t j = 0; j < brackets.size(); ++j)
         own += brackets[j] * casimir.diff(system.variables[j]);
-      if (!CurveField::is_zero(lines.value(own)))
+      if (!CurveField<F>::is_zero(lines.value(own)))
         throw NotDecided(fmt::format("{} is no Casimir function", name));
     }
-  Matrix rows;
+  Matrix<F> rows;
   for (const auto& brackets : system.poisson) {
-    Row row;
+    Row<F> row;
     for (const ex& bracket : brackets) row.push_back(lines.value(bracket));
     rows.push_back(std::move(row));
   }
@@ -97,12 +104,13 @@ std::size_t bracket_rank(const HamiltonianSystem& system, const Linearisation& l
 
 /// Linear relations between the normal unknowns of what is tangent to the level of the Casimir
 /// functions: combinations of their gradients that have no part along the surface.
-Matrix tangency(const HamiltonianSystem& system, const InvariantPlane& plane,
-                const Linearisation& lines, const CurveField& field) {
-  Matrix rows;
+template <class F>
+Matrix<F> tangency(const HamiltonianSystem& system, const InvariantPlane& plane,
+                   const Linearisation<F>& lines, const CurveField<F>& field) {
+  Matrix<F> rows;
   for (const auto& [name, casimir] : system.casimirs) {
-    Row row = lines.by_along(casimir);
-    const Row normal = lines.by_normal(casimir);
+    Row<F> row = lines.by_along(casimir);
+    const Row<F> normal = lines.by_normal(casimir);
     row.insert(row.end(), normal.begin(), normal.end());
     rows.push_back(std::move(row));
   }
@@ -111,33 +119,35 @@ Matrix tangency(const HamiltonianSystem& system, const InvariantPlane& plane,
   if (rank != rows.size() || rank + leaf != system.variables.size())
     throw NotDecided("the Casimir functions of the case do not give the leaves along the curve");
   const auto width = static_cast<std::ptrdiff_t>(plane.along.size());
-  Matrix result;
-  for (const Row& row : rows)
-    if (all_zero(Row(row.begin(), row.begin() + width)))
+  Matrix<F> result;
+  for (const Row<F>& row : rows)
+    if (all_zero(Row<F>(row.begin(), row.begin() + width)))
       result.emplace_back(row.begin() + width, row.end());
   return result;
 }
 
 /// The unknowns that the relations leave free, and the matrix for them alone.
+template <class F>
 struct Reduced {
   std::vector<std::size_t> free;
-  Matrix matrix;
+  Matrix<F> matrix;
 };
 
-Reduced reduce(const CurveField& field, const Matrix& matrix, Matrix relations) {
+template <class F>
+Reduced<F> reduce(const CurveField<F>& field, const Matrix<F>& matrix, Matrix<F> relations) {
   // From the last unknown on: those of a list that come first are the momenta of bodies.
   std::vector<std::size_t> pivots;
-  for (Row& row : relations) std::reverse(row.begin(), row.end());
+  for (Row<F>& row : relations) std::reverse(row.begin(), row.end());
   reduce_rows(field, relations, &pivots);
-  for (Row& row : relations) std::reverse(row.begin(), row.end());
+  for (Row<F>& row : relations) std::reverse(row.begin(), row.end());
   for (std::size_t& pivot : pivots) pivot = matrix.size() - 1 - pivot;
-  Reduced result;
+  Reduced<F> result;
   for (std::size_t i = 0; i < matrix.size(); ++i)
     if (std::find(pivots.begin(), pivots.end(), i) == pivots.end()) result.free.push_back(i);
   for (const std::size_t i : result.free) {
-    Row row;
+    Row<F> row;
     for (const std::size_t j : result.free) {
-      CurveElement entry = matrix[i][j];
+      CurveElement<F> entry = matrix[i][j];
       for (std::size_t k = 0; k < pivots.size(); ++k)
         entry = field.difference(entry, field.product(matrix[i][pivots[k]], relations[k][j]));
       row.push_back(entry);
@@ -148,11 +158,13 @@ Reduced reduce(const CurveField& field, const Matrix& matrix, Matrix relations) 
 }
 
 /// Sets of unknowns that depend on one another: the parts of a block triangular form.
-std::vector<std::vector<std::size_t>> parts(const Matrix& matrix) {
+template <class F>
+std::vector<std::vector<std::size_t>> parts(const Matrix<F>& matrix) {
   const std::size_t n = matrix.size();
   std::vector<std::vector<bool>> reach(n, std::vector<bool>(n, false));
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j) reach[i][j] = i == j || !CurveField::is_zero(matrix[i][j]);
+    for (std::size_t j = 0; j < n; ++j)
+      reach[i][j] = i == j || !CurveField<F>::is_zero(matrix[i][j]);
   for (std::size_t k = 0; k < n; ++k)
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j)
@@ -172,34 +184,39 @@ std::vector<std::vector<std::size_t>> parts(const Matrix& matrix) {
 }
 
 /// y' = a y + b x, x' = c y + d x, made one equation for y; a, .., d by z.
-NormalEquation second_order(const CurveField& field, const CurveElement& a, const CurveElement& b,
-                            const CurveElement& c, const CurveElement& d) {
-  const CurveElement ratio = field.product(field.derivative(b), field.inverse(b));
-  CurveElement q = field.difference(field.product(a, d), field.product(b, c));
+template <class F>
+NormalEquation<F> second_order(const CurveField<F>& field, const CurveElement<F>& a,
+                               const CurveElement<F>& b, const CurveElement<F>& c,
+                               const CurveElement<F>& d) {
+  const CurveElement<F> ratio = field.product(field.derivative(b), field.inverse(b));
+  CurveElement<F> q = field.difference(field.product(a, d), field.product(b, c));
   q = field.sum(field.difference(q, field.derivative(a)), field.product(a, ratio));
-  const CurveElement p = field.difference({}, field.sum(field.sum(a, d), ratio));
-  NormalEquation result;
-  result.p = CurveField::rational(p);
-  result.q = CurveField::rational(q);
-  result.reduced = reduced_form(result.p, result.q);
+  const CurveElement<F> p = field.difference({}, field.sum(field.sum(a, d), ratio));
+  NormalEquation<F> result;
+  result.p = CurveField<F>::rational(p);
+  result.q = CurveField<F>::rational(q);
+  const F half = result.p * F(cln::cl_RA(1) / 2);
+  result.reduced = half * half + half.derivative() - result.q;
   return result;
 }
 
 /// Of the two unknowns the one whose equation is simpler. \throws NotDecided  where neither has one
 /// with coefficients in Q(z)
-NormalEquation equation_of(const CurveField& field, const Matrix& m, std::size_t i, std::size_t j) {
+template <class F>
+NormalEquation<F> equation_of(const CurveField<F>& field, const Matrix<F>& m, std::size_t i,
+                              std::size_t j) {
   const auto of = [&](std::size_t own, std::size_t other) {
     return second_order(field, m[own][own], m[own][other], m[other][own], m[other][other]);
   };
-  std::optional<NormalEquation> first;
+  std::optional<NormalEquation<F>> first;
   try {
     first = of(i, j);
   } catch (const NotDecided&) {
     return of(j, i);
   }
   try {
-    NormalEquation second = of(j, i);
-    const auto size = [](const NormalEquation& e) { return e.reduced.denominator().degree(); };
+    NormalEquation<F> second = of(j, i);
+    const auto size = [](const NormalEquation<F>& e) { return pole_count(e.reduced); };
     return size(second) < size(*first) ? second : *first;
   } catch (const NotDecided&) {
     return *first;
@@ -208,19 +225,20 @@ NormalEquation equation_of(const CurveField& field, const Matrix& m, std::size_t
 
 }  // namespace
 
-NormalVariation normal_variation(const HamiltonianSystem& system, const InvariantPlane& plane,
-                                 const ParticularCurve& curve) {
-  const CurveField& field = curve.field;
-  const Linearisation lines(system, plane, curve);
-  Reduced reduced = reduce(field, normal_matrix(lines, plane.normal.size()),
-                           tangency(system, plane, lines, field));
-  const CurveElement slowness = field.inverse(curve.speed);
-  for (Row& row : reduced.matrix)
-    for (CurveElement& entry : row) entry = field.product(entry, slowness);
+template <class F>
+NormalVariation<F> normal_variation(const HamiltonianSystem& system, const InvariantPlane& plane,
+                                    const ParticularCurve<F>& curve) {
+  const CurveField<F>& field = curve.field;
+  const Linearisation<F> lines(system, plane, curve);
+  Reduced<F> reduced = reduce(field, normal_matrix(lines, plane.normal.size()),
+                              tangency(system, plane, lines, field));
+  const CurveElement<F> slowness = field.inverse(curve.speed);
+  for (Row<F>& row : reduced.matrix)
+    for (CurveElement<F>& entry : row) entry = field.product(entry, slowness);
   const auto name = [&](std::size_t i) {
     return system.variables[plane.normal[reduced.free[i]].first].get_name();
   };
-  NormalVariation result;
+  NormalVariation<F> result;
   result.freedom = (system.variables.size() - system.casimirs.size()) / 2;
   for (const std::vector<std::size_t>& part : parts(reduced.matrix)) {
     if (part.size() == 1) continue;
@@ -229,7 +247,7 @@ NormalVariation normal_variation(const HamiltonianSystem& system, const Invarian
       continue;
     }
     try {
-      NormalEquation equation = equation_of(field, reduced.matrix, part[0], part[1]);
+      NormalEquation<F> equation = equation_of(field, reduced.matrix, part[0], part[1]);
       equation.unknowns = {name(part[0]), name(part[1])};
       result.equations.push_back(std::move(equation));
     } catch (const NotDecided& problem) {
@@ -238,5 +256,10 @@ NormalVariation normal_variation(const HamiltonianSystem& system, const Invarian
   }
   return result;
 }
+
+template NormalVariation<RationalFunction> normal_variation(
+    const HamiltonianSystem&, const InvariantPlane&, const ParticularCurve<RationalFunction>&);
+template NormalVariation<ParametricFunction> normal_variation(
+    const HamiltonianSystem&, const InvariantPlane&, const ParticularCurve<ParametricFunction>&);
 
 }  // namespace casimir::obstruction

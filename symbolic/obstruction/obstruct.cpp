@@ -9,6 +9,7 @@
 
 #include "symbolic/obstruction/equation/kovacic.hpp"
 #include "symbolic/obstruction/examine.hpp"
+#include "symbolic/obstruction/family/free_parameter.hpp"
 #include "symbolic/obstruction/hamiltonian_system.hpp"
 #include "symbolic/obstruction/invariant_plane.hpp"
 #include "symbolic/obstruction/normal_variation.hpp"
@@ -46,11 +47,12 @@ class SurfaceSearch {
     if (result_.proved) return;
     watch_.begin("along " + plane.text(system_));
     try {
-      const std::string reason = for_each_curve(system_, plane, [&](const ParticularCurve& curve) {
-        watch_.tick(0);
-        along_curve(plane, curve);
-        return !result_.proved;
-      });
+      const std::string reason = for_each_curve<RationalFunction>(
+          system_, plane, [&](const ParticularCurve<RationalFunction>& curve) {
+            watch_.tick(0);
+            along_curve(plane, curve);
+            return !result_.proved;
+          });
       if (!reason.empty()) leave_out(plane, reason);
     } catch (const NotDecided& problem) {
       leave_out(plane, problem.what());
@@ -66,8 +68,8 @@ class SurfaceSearch {
     if (said_.insert(line).second) result_.left_out.push_back(line);
   }
 
-  void along_curve(const InvariantPlane& plane, const ParticularCurve& curve) {
-    NormalVariation variation;
+  void along_curve(const InvariantPlane& plane, const ParticularCurve<RationalFunction>& curve) {
+    NormalVariation<RationalFunction> variation;
     try {
       variation = normal_variation(system_, plane, curve);
     } catch (const NotDecided& problem) {
@@ -77,9 +79,9 @@ class SurfaceSearch {
     for (const std::string& part : variation.left_out) leave_out(plane, part);
     if (variation.equations.empty() && variation.left_out.empty())
       leave_out(plane, "the variational equations are solved by quadratures");
-    for (const NormalEquation& equation : variation.equations) {
+    for (const NormalEquation<RationalFunction>& equation : variation.equations) {
       if (!seen_.insert(equation.reduced.text("z")).second) continue;
-      Examined examined = examine_equation(equation, curve.z, [&] { watch_.tick(0); });
+      Examined examined = examine_equation(equation, curve.names.z, [&] { watch_.tick(0); });
       examined.along = plane.text(system_);
       examined.level = curve.level;
       examined.curve = curve.equations;
@@ -98,32 +100,44 @@ class SurfaceSearch {
   std::set<std::string> seen_, said_;
 };
 
-std::vector<InvariantPlane> planes_of(const Model& model, const HamiltonianSystem& system,
-                                      const ObstructionRequest& request) {
-  if (request.along.empty()) return invariant_planes(system);
-  std::vector<GiNaC::ex> functions;
-  GiNaC::exmap values;
-  const Scene* scene = model.parameters.empty() ? nullptr : &model.scene(request.scene);
+/// Where a curve is looked for, with the symbols of the parameters.
+struct Surfaces {
+  std::vector<GiNaC::ex> asked;                   ///< functions that vanish; empty: it is sought
+  std::vector<std::vector<GiNaC::ex>> relations;  ///< of the case's invariant relations
+};
+
+Surfaces surfaces_of(const Model& model, const ObstructionRequest& request) {
+  Surfaces result;
   for (const Text& text : request.along) {
-    GiNaC::ex f;
     if (text.value.find('=') != std::string::npos) {
       const Identity equation = model.parse_identity(text);
-      f = equation.left - equation.right;
+      result.asked.push_back(equation.left - equation.right);
     } else {
-      f = model.parse(text);
+      result.asked.push_back(model.parse(text));
     }
-    functions.push_back(scene ? model.at_parameters(f, *scene) : f);
   }
-  return {invariant_plane(system, functions)};
+  for (const LevelClaim& claim : model.invariant_relations) {
+    result.relations.push_back({claim.expression.value});
+    for (const NamedExpression& other : claim.on) result.relations.back().push_back(other.value);
+  }
+  return result;
 }
 
-void decide(const Model& model, const ObstructionRequest& request, const search::Watch& watch,
+std::vector<InvariantPlane> planes_of(const HamiltonianSystem& system, const Surfaces& surfaces) {
+  const auto numbered = [&](std::vector<GiNaC::ex> functions) {
+    for (GiNaC::ex& f : functions) f = f.subs(system.numbers);
+    return functions;
+  };
+  if (!surfaces.asked.empty()) return {invariant_plane(system, numbered(surfaces.asked))};
+  std::vector<std::vector<GiNaC::ex>> relations;
+  for (const auto& functions : surfaces.relations) relations.push_back(numbered(functions));
+  return invariant_planes(system, relations);
+}
+
+void decide(const HamiltonianSystem& system, const Surfaces& along, const search::Watch& watch,
             Obstruction& result) {
-  const HamiltonianSystem system = hamiltonian_system(model, request.scene);
   result.parameters = system.parameters;
-  if (system.variables.size() <= system.casimirs.size() + 2)
-    throw NotDecided("a system with one degree of freedom has H, and needs no further integral");
-  if (request.along.empty()) {
+  if (along.asked.empty()) {
     watch.begin("straight lines of a homogeneous potential");
     examine_straight_lines(system, result);
     if (result.proved) {
@@ -133,7 +147,7 @@ void decide(const Model& model, const ObstructionRequest& request, const search:
     }
   }
   watch.begin("invariant surfaces");
-  const std::vector<InvariantPlane> planes = planes_of(model, system, request);
+  const std::vector<InvariantPlane> planes = planes_of(system, along);
   SurfaceSearch search(system, watch, result);
   for (const InvariantPlane& plane : planes) search.examine(plane);
   if (result.proved) return;
@@ -144,18 +158,63 @@ void decide(const Model& model, const ObstructionRequest& request, const search:
       "every equation that was examined has a solvable identity component, or was not decided");
 }
 
-}  // namespace
-
-Obstruction find_obstruction(const Model& model, const ObstructionRequest& request,
-                             const search::Watch& watch) {
-  Obstruction result;
+/// Runs a decision, and keeps why there is none.
+template <class Decision>
+void with_reason(Obstruction& result, const Decision& decision) {
   try {
-    decide(model, request, watch, result);
+    decision();
   } catch (const NotDecided& problem) {
     result.reason = problem.what();
   } catch (const std::invalid_argument&) {
     result.reason = "the equations are no rational functions";
   }
+}
+
+/// Which values of the free parameter survive.
+void decide_family(const HamiltonianSystem& system, const Surfaces& along,
+                   const search::Watch& watch, Obstruction& result) {
+  result.parameters = system.parameters;
+  result.free = system.free->get_name();
+  watch.begin("invariant surfaces");
+  std::vector<FamilyEquation> equations =
+      family_equations(system, planes_of(system, along), watch, result.left_out);
+  const auto examine = [&](const cln::cl_RA& value) {
+    Obstruction own;
+    with_reason(own, [&] { decide(with_value(system, value), along, watch, own); });
+    return own;
+  };
+  exclude_values(system, std::move(equations), examine, result);
+  result.theorem = kTheorem;
+  const bool planar = system.variables.size() == system.casimirs.size() + 4;
+  const std::string where =
+      system.casimirs.empty() ? "" : " on the level of the Casimir functions of one of the curves";
+  result.excluded =
+      planar ? fmt::format(
+                   "for every other real {}: every integral{} that is meromorphic in a "
+                   "neighbourhood of the curves and functionally independent of H",
+                   result.free, where)
+             : fmt::format(
+                   "for every other real {}: every set of {} functionally independent "
+                   "integrals in involution, H among them,{} that are meromorphic in a "
+                   "neighbourhood of the curves",
+                   result.free, (system.variables.size() - system.casimirs.size()) / 2, where);
+}
+
+}  // namespace
+
+Obstruction find_obstruction(const Model& model, const ObstructionRequest& request,
+                             const search::Watch& watch) {
+  Obstruction result;
+  const Surfaces along = surfaces_of(model, request);
+  with_reason(result, [&] {
+    const HamiltonianSystem system = hamiltonian_system(model, request.scene, request.free);
+    if (system.variables.size() <= system.casimirs.size() + 2)
+      throw NotDecided("a system with one degree of freedom has H, and needs no further integral");
+    if (system.free)
+      decide_family(system, along, watch, result);
+    else
+      decide(system, along, watch, result);
+  });
   return result;
 }
 

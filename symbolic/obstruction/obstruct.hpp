@@ -20,13 +20,31 @@ struct Examined {
   std::vector<std::pair<std::string, std::string>> cases;  ///< what was tried, and what came of it
   std::string solution;   ///< a polynomial for w = y'/y, where there is one
   std::string outcome;    ///< as "SL(2, C)"
+  std::string where;      ///< with a free parameter: what it is said of, as "a3 - 1 != 0"
   bool decisive = false;  ///< it proves that there is no further integral
   bool regular = true;    ///< no irregular singular point
+};
+
+/// A real value of the free parameter that no equation excludes for all values alike.
+struct FreeValue {
+  std::string value;      ///< as "1/4", or as "the root of c^2 - 2 near 1.41421"
+  std::string why;        ///< the conditions that hold
+  bool excluded = false;  ///< it is excluded when it is examined alone
+  std::string outcome;    ///< what came of that
+};
+
+/// Real values of the free parameter that are not excluded where all conditions hold.
+struct FreeSequence {
+  std::string range;                    ///< as "c > 0"
+  std::vector<std::string> conditions;  ///< as "12/c + 1/4 = (2*p + r)^2 for an integer p .."
 };
 
 /// Whether a further integral is excluded, and by what.
 struct Obstruction {
   bool proved = false;
+  std::string free;                     ///< the free parameter; empty without one
+  std::vector<FreeValue> values;        ///< that survive, in order
+  std::vector<FreeSequence> sequences;  ///< of values that survive
   std::vector<std::pair<std::string, std::string>> parameters;  ///< name and value
   std::string theorem;                                          ///< where proved: which
   std::string excluded;               ///< where proved: which integrals, and where
@@ -39,6 +57,7 @@ struct Obstruction {
 struct ObstructionRequest {
   std::string scene = "default";  ///< whose values the parameters have
   std::vector<Text> along;        ///< equations of an invariant surface; none: it is sought
+  std::string free = {};          ///< a parameter that keeps its symbol: which values survive?
 };
 
 /// Looks for a curve along which the identity component of the Galois group of the variational
@@ -54,6 +73,9 @@ struct ObstructionRequest {
 /// solvable identity component (`decide_liouvillian`). Where the equation has an irregular singular
 /// point, its coefficients are taken from the algebraic functions on the curve, and only integrals
 /// with algebraic coefficients there, such as rational ones, are excluded.
+///
+/// With a free parameter `proved` is about every real value of it but those in `values` and
+/// `sequences`; what is said of each equation holds where `Examined::where` does.
 /// \throws CaseError  for an equation of a surface that cannot be read
 Obstruction find_obstruction(const Model& model, const ObstructionRequest& request,
                              const search::Watch& watch = {});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 
 #include "symbolic/obstruction/equation/kovacic.hpp"
 
@@ -104,10 +105,24 @@ std::optional<Univariate> univariate(const ex& expression, const symbol& x) {
   return Univariate(coefficients);
 }
 
+/// The energies that are roots of factors of degree 1.
+void add_linear_roots(const ex& polynomial, const symbol& energy, std::vector<ex>& result) {
+  const ex product = GiNaC::factor(polynomial.expand());
+  const auto add = [&](const ex& power) {
+    const ex factor = GiNaC::is_a<GiNaC::power>(power) ? power.op(0) : power;
+    if (factor.is_polynomial(energy) && factor.degree(energy) == 1)
+      result.push_back((-factor.coeff(energy, 0) / factor.coeff(energy, 1)).normal());
+  };
+  if (GiNaC::is_a<GiNaC::mul>(product))
+    for (const ex& part : product) add(part);
+  else
+    add(product);
+}
+
 /// Rational energies at which two of the points z coincide where a radicand vanishes or is
 /// infinite.
-void add_special_energies(const std::vector<Step>& steps, const symbol& z, const symbol& energy,
-                          std::vector<ex>& result) {
+void add_special_energies(const HamiltonianSystem& system, const std::vector<Step>& steps,
+                          const symbol& z, const symbol& energy, std::vector<ex>& result) {
   ex product = 1;
   for (const Step& step : steps) {
     if (step.factor.is_zero()) continue;
@@ -116,7 +131,9 @@ void add_special_energies(const std::vector<Step>& steps, const symbol& z, const
       if (part.has(z)) product *= part;
   }
   product = product.expand();
-  if (!product.is_polynomial(GiNaC::lst{z, energy})) return;
+  GiNaC::lst symbols{z, energy};
+  if (system.free) symbols.append(*system.free);
+  if (!product.is_polynomial(symbols)) return;
   product = GiNaC::sqrfree(product, GiNaC::lst{z});
   ex radical = 1;
   if (GiNaC::is_a<GiNaC::mul>(product)) {
@@ -128,6 +145,10 @@ void add_special_energies(const std::vector<Step>& steps, const symbol& z, const
   if (!radical.is_polynomial(z) || radical.degree(z) < 1 || radical.degree(z) > 6) return;
   const ex discriminant =
       radical.degree(z) == 1 ? radical.lcoeff(z) : GiNaC::resultant(radical, radical.diff(z), z);
+  if (system.free) {
+    add_linear_roots(discriminant, energy, result);
+    return;
+  }
   const auto p = univariate(discriminant, energy);
   if (!p) return;
   for (const auto& [factor, exponent] : p->factors())
@@ -141,39 +162,67 @@ std::string printed(const ex& expression) {
   return text.str();
 }
 
+/// What is put in for the free parameter: nothing can be where functions have none.
+void add_parameter(const HamiltonianSystem& system, ParticularCurve<RationalFunction>&) {
+  if (system.free) throw std::logic_error("a free parameter has no place on this curve");
+}
+
+void add_parameter(const HamiltonianSystem& system, ParticularCurve<ParametricFunction>& curve) {
+  if (!system.free) return;
+  curve.names.parameter = system.free->get_name();
+  curve.places[*system.free] = static_cast<int>(curve.values.size());
+  curve.values.push_back(CurveField<ParametricFunction>::constant(ParametricFunction::parameter()));
+}
+
+RationalFunction variable_of(const RationalFunction&) { return Univariate::variable(); }
+ParametricFunction variable_of(const ParametricFunction&) { return ParametricFunction::variable(); }
+
+/// An energy in print. GiNaC's order of factors changes from run to run.
+std::string energy_text(const HamiltonianSystem& system, const ex& energy) {
+  if (!system.free) return printed(energy);
+  using F = ParametricFunction;
+  const CurveField<F> field;
+  const std::vector<CurveElement<F>> values{CurveField<F>::constant(F::parameter())};
+  return written(CurveField<F>::rational(field.value(energy, {{*system.free, 0}}, values)),
+                 {"", system.free->get_name()});
+}
+
 /// The curve at an energy. \throws NotDecided  where it is none
-ParticularCurve make_curve(const HamiltonianSystem& system, const InvariantPlane& plane,
-                           const std::vector<Step>& steps, const symbol& z, const ex& is_energy) {
-  ParticularCurve curve;
-  curve.z = z.get_name();
+template <class F>
+ParticularCurve<F> make_curve(const HamiltonianSystem& system, const InvariantPlane& plane,
+                              const std::vector<Step>& steps, const symbol& z,
+                              const ex& is_energy) {
+  ParticularCurve<F> curve;
+  curve.names.z = z.get_name();
   const std::size_t n = system.variables.size();
   for (std::size_t i = 0; i < n; ++i) curve.places[system.variables[i]] = static_cast<int>(i);
   curve.values.resize(n);
-  curve.values[system.index(z)] = CurveField::constant(Univariate::variable());
+  curve.values[system.index(z)] = CurveField<F>::constant(variable_of(F()));
+  add_parameter(system, curve);
   const auto value = [&](const ex& expression) {
     return curve.field.value(plane.on(expression).subs(is_energy), curve.places, curve.values);
   };
   for (const Step& step : steps) {
-    CurveElement own = value(step.base);
+    CurveElement<F> own = value(step.base);
     if (!step.factor.is_zero()) {
-      const RationalFunction square = CurveField::rational(value(step.radicand));
-      const CurveElement root = curve.field.root_of(square);
+      const F square = CurveField<F>::rational(value(step.radicand));
+      const CurveElement<F> root = curve.field.root_of(square);
       own = curve.field.sum(own, root);
-      curve.complexity += square.numerator().degree() + square.denominator().degree();
+      curve.complexity += total_degree(square);
       if (step.base.is_zero())
         curve.equations += fmt::format("{}{}^2 = {}", curve.equations.empty() ? "" : ", ",
-                                       step.variable.get_name(), square.text(curve.z));
+                                       step.variable.get_name(), written(square, curve.names));
     }
     curve.values[system.index(step.variable)] = own;
   }
   for (const auto& [i, normal] : plane.normal) curve.values[i] = value(normal);
   // It is an integral curve: every variable has its rate.
   curve.speed = value(system.rates[system.index(z)]);
-  if (CurveField::is_zero(curve.speed)) throw NotDecided("the motion on that level is at rest");
+  if (CurveField<F>::is_zero(curve.speed)) throw NotDecided("the motion on that level is at rest");
   for (std::size_t i = 0; i < n; ++i) {
-    const CurveElement own =
+    const CurveElement<F> own =
         curve.field.product(curve.speed, curve.field.derivative(curve.values[i]));
-    if (!CurveField::is_zero(curve.field.difference(own, value(system.rates[i]))))
+    if (!CurveField<F>::is_zero(curve.field.difference(own, value(system.rates[i]))))
       throw NotDecided("the level has a part that is no motion");
   }
   return curve;
@@ -211,6 +260,21 @@ std::vector<Levels> casimir_levels(const HamiltonianSystem& system, const Invari
   return result;
 }
 
+/// Square roots of even powers of a variable, as sqrt(y^2), are powers of it: the branch that the
+/// field of the curve takes too.
+struct RootsOfPowers : public GiNaC::map_function {
+  ex operator()(const ex& e) override {
+    const ex own = e.map(*this);
+    if (!GiNaC::is_a<GiNaC::power>(own) || own.op(1).info(GiNaC::info_flags::integer)) return own;
+    const ex &base = own.op(0), exponent = own.op(1);
+    if (!GiNaC::is_a<GiNaC::power>(base) || !GiNaC::is_a<symbol>(base.op(0)) ||
+        !base.op(1).info(GiNaC::info_flags::even) ||
+        !(2 * exponent).info(GiNaC::info_flags::integer))
+      return own;
+    return GiNaC::pow(base.op(0), base.op(1) * exponent);
+  }
+};
+
 /// The relations of a level solved for all variables but one, for each of these; and energies to
 /// try.
 struct Solutions {
@@ -221,7 +285,9 @@ struct Solutions {
 Solutions solutions_on(const HamiltonianSystem& system, const InvariantPlane& plane,
                        const std::vector<symbol>& along, const Levels& levels,
                        const symbol& energy) {
-  std::vector<ex> relations{(plane.on(system.hamiltonian) - energy).normal().numer().expand()};
+  RootsOfPowers without_roots;
+  const ex hamiltonian = without_roots(plane.on(system.hamiltonian));
+  std::vector<ex> relations{(hamiltonian - energy).normal().numer().expand()};
   for (const Relation& r : levels.relations)
     relations.push_back((r.function - r.value).normal().numer().expand());
   Solutions result;
@@ -232,28 +298,33 @@ Solutions solutions_on(const HamiltonianSystem& system, const InvariantPlane& pl
       if (!x.is_equal(z)) unknown.push_back(x);
     const auto steps = solve(relations, unknown);
     if (!steps) continue;
-    add_special_energies(*steps, z, energy, candidates);
+    add_special_energies(system, *steps, z, energy, candidates);
     result.of.emplace_back(z, *steps);
   }
+  if (system.free)
+    std::sort(candidates.begin(), candidates.end(), [&](const ex& a, const ex& b) {
+      return energy_text(system, a) < energy_text(system, b);
+    });
   for (const ex& further : {ex(0), ex(1), system.hamiltonian.subs(system.start).normal()})
     candidates.push_back(further);
   for (const ex& e : candidates) {
     const bool known = std::any_of(result.energies.begin(), result.energies.end(),
                                    [&](const ex& other) { return other.is_equal(e); });
-    if (!known && GiNaC::is_a<GiNaC::numeric>(e) && result.energies.size() < kMostEnergies)
-      result.energies.push_back(e);
+    const bool number = GiNaC::is_a<GiNaC::numeric>(e) || (system.free && e.has(*system.free));
+    if (!known && number && result.energies.size() < kMostEnergies) result.energies.push_back(e);
   }
   return result;
 }
 
 /// The curves of an energy, one for each variable that may be z, the simplest first.
-std::vector<ParticularCurve> curves_at(const HamiltonianSystem& system, const InvariantPlane& plane,
-                                       const Solutions& solutions, const ex& is_energy,
-                                       std::string& reason) {
-  std::vector<ParticularCurve> result;
+template <class F>
+std::vector<ParticularCurve<F>> curves_at(const HamiltonianSystem& system,
+                                          const InvariantPlane& plane, const Solutions& solutions,
+                                          const ex& is_energy, std::string& reason) {
+  std::vector<ParticularCurve<F>> result;
   for (const auto& [z, steps] : solutions.of) {
     try {
-      result.push_back(make_curve(system, plane, steps, z, is_energy));
+      result.push_back(make_curve<F>(system, plane, steps, z, is_energy));
     } catch (const NotDecided& problem) {
       reason = problem.what();
     } catch (const std::domain_error&) {
@@ -267,8 +338,9 @@ std::vector<ParticularCurve> curves_at(const HamiltonianSystem& system, const In
 
 }  // namespace
 
+template <class F>
 std::string for_each_curve(const HamiltonianSystem& system, const InvariantPlane& plane,
-                           const std::function<bool(const ParticularCurve&)>& visit) {
+                           const std::function<bool(const ParticularCurve<F>&)>& visit) {
   std::vector<symbol> along;
   for (const std::size_t i : plane.along) along.push_back(system.variables[i]);
   const symbol energy("E");
@@ -281,8 +353,9 @@ std::string for_each_curve(const HamiltonianSystem& system, const InvariantPlane
     }
     const Solutions solutions = solutions_on(system, plane, along, levels, energy);
     for (const ex& e : solutions.energies) {
-      for (ParticularCurve& curve : curves_at(system, plane, solutions, energy == e, reason)) {
-        curve.level = fmt::format("H = {}{}", printed(e), levels.text);
+      for (ParticularCurve<F>& curve :
+           curves_at<F>(system, plane, solutions, energy == e, reason)) {
+        curve.level = fmt::format("H = {}{}", energy_text(system, e), levels.text);
         visited = true;
         if (!visit(curve)) return {};
       }
@@ -290,5 +363,12 @@ std::string for_each_curve(const HamiltonianSystem& system, const InvariantPlane
   }
   return visited ? std::string() : reason;
 }
+
+template std::string for_each_curve(
+    const HamiltonianSystem&, const InvariantPlane&,
+    const std::function<bool(const ParticularCurve<RationalFunction>&)>&);
+template std::string for_each_curve(
+    const HamiltonianSystem&, const InvariantPlane&,
+    const std::function<bool(const ParticularCurve<ParametricFunction>&)>&);
 
 }  // namespace casimir::obstruction

@@ -11,16 +11,18 @@
 namespace casimir::obstruction {
 
 /// An integral curve of the equations: all variables as functions of one of them, z, in a field of
-/// functions on an algebraic curve. That it is one was checked by its equations.
+/// functions on an algebraic curve. That it is one was checked by its equations. F is
+/// RationalFunction, or where the system has a free parameter ParametricFunction.
+template <class F>
 struct ParticularCurve {
-  std::string z;          ///< the name of the variable
+  CurveNames names;       ///< of the variable and of the free parameter
   std::string level;      ///< as "H = 1, F1 = 1"
   std::string equations;  ///< as "py^2 = 2*z + 1"
-  CurveField field;
-  std::vector<CurveElement> values;  ///< of each variable
-  long complexity = 0;               ///< the degrees of the functions whose roots are taken
-  CurveElement speed;                ///< dz/dt, not zero
-  GiNaC::exmap places;               ///< of each symbol, the number of its value
+  CurveField<F> field;
+  std::vector<CurveElement<F>> values;  ///< of each variable
+  long complexity = 0;                  ///< the degrees of the functions whose roots are taken
+  CurveElement<F> speed;                ///< dz/dt, not zero
+  GiNaC::exmap places;                  ///< of each symbol, the number of its value
 };
 
 /// Levels of the energy and the Casimir functions and variables z for which the motion on a surface
@@ -28,7 +30,8 @@ struct ParticularCurve {
 /// and of each the simplest curve first.
 /// \param visit  is given each, and says whether to go on
 /// \return  why there was none, or what stopped it; empty if one was visited
+template <class F>
 std::string for_each_curve(const HamiltonianSystem& system, const InvariantPlane& plane,
-                           const std::function<bool(const ParticularCurve&)>& visit);
+                           const std::function<bool(const ParticularCurve<F>&)>& visit);
 
 }  // namespace casimir::obstruction

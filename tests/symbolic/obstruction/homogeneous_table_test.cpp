@@ -68,6 +68,28 @@ TEST(HomogeneousTable, DegreeTwoExcludesNothing) {
   EXPECT_TRUE(integrable_eigenvalue(-2, over(17, 19)));
 }
 
+using Lists = std::set<std::vector<cl_RA>>;
+
+Lists relation_solutions(long k) {
+  const auto found = darboux_relation_solutions(k);
+  return {found.begin(), found.end()};
+}
+
+TEST(DarbouxRelation, HasFourSolutionsForDegreeThree) {
+  EXPECT_EQ(
+      relation_solutions(3),
+      (Lists{
+          {-1, -1, 1}, {over(-7, 8), 14, 14}, {over(-2, 3), 4, 4}, {over(-2, 3), over(7, 3), 14}}));
+}
+
+TEST(DarbouxRelation, HasFiveSolutionsForDegreeFour) {
+  EXPECT_EQ(relation_solutions(4), (Lists{{-1, -1, 2, 2},
+                                          {over(-5, 8), 5, 5, 5},
+                                          {over(-5, 8), 2, 20, 20},
+                                          {over(-5, 8), over(27, 8), over(27, 8), 135},
+                                          {over(-5, 8), 2, 14, 35}}));
+}
+
 TEST(Kimura, SumsOfRootsAreDecidedExactly) {
   // sqrt(2) + 1 - sqrt(2) = 1, and 2 sqrt(2) - sqrt(8) + 3 = 3.
   EXPECT_TRUE(kimura({2, 1, 2}));

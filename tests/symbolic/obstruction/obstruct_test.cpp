@@ -142,6 +142,27 @@ TEST(Obstruct, ASurfaceMayBeGiven) {
   EXPECT_THROW(obstruction_of(model, {"w = 0"}), CaseError);
 }
 
+TEST(Obstruct, InvariantRelationsOfTheCaseAreSurfaces) {
+  // Henon and Heiles with c = -2, turned: no coordinate plane is invariant.
+  const auto turned = [](const char* relation) {
+    return build_model(parse_case(
+        fmt::format(
+            "title = \"A test\"\nsource = \"a test\"\nhamiltonian = \"(px^2 + py^2 + x^2 + "
+            "y^2)/2 + (3*x + 4*y)^2*(4*x - 3*y)/125 - 2*(4*x - 3*y)^3/375\"\n[phase_space]\n"
+            "variables = [\"x\", \"y\", \"px\", \"py\"]\ncanonical = true\n{}",
+            relation),
+        "test.toml"));
+  };
+  EXPECT_FALSE(refuted(turned("")));
+  const Obstruction answer =
+      obstruction_of(turned("[[invariant_relation]]\nname = \"a\"\nexpression = \"3*x + 4*y\"\n"));
+  ASSERT_TRUE(answer.proved);
+  EXPECT_EQ(answer.examined.back().along, "x = -4/3*y, px = -4/3*py");
+  // What is claimed is checked.
+  EXPECT_FALSE(
+      refuted(turned("[[invariant_relation]]\nname = \"a\"\nexpression = \"3*x + 5*y\"\n")));
+}
+
 TEST(Obstruct, AnIrregularPointExcludesRationalIntegralsOnly) {
   // z = y = exp-like motion: y'' = y along x = 0, and x'' = -(1 + y) x has an irregular point.
   const Obstruction answer =

@@ -40,6 +40,25 @@ TEST(Obstruct, IsUndecidedForAnIntegrableSystem) {
   EXPECT_EQ(run({"obstruct", "kovalevskaya"}).status, 3);
 }
 
+TEST(Obstruct, TellsWhatSurvivesOfAFreeParameter) {
+  const Folder folder;
+  const std::string file = folder.write("family.toml", kFamily);
+  const Outcome outcome = run_in(folder, {"obstruct", file, "--free", "c", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  const auto free = outcome.json().at("free");
+  EXPECT_EQ(free.at("parameter"), "c");
+  ASSERT_EQ(free.at("survivors").size(), 4u);
+  EXPECT_EQ(free.at("survivors").at(3).at("value"), "6");
+  EXPECT_EQ(free.at("excluded_alone").at(0).at("value"), "0");
+  EXPECT_EQ(free.at("sequences").size(), 1u);
+  const Outcome text = run_in(folder, {"obstruct", file, "--free", "c"});
+  EXPECT_NE(text.out.find("survives    c = 6"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("for every other real c"), std::string::npos);
+  // What has a value is not free, nor is what is no parameter.
+  EXPECT_EQ(run_in(folder, {"obstruct", file, "--free", "d"}).status, 2);
+  EXPECT_EQ(run_in(folder, {"obstruct", file, "--free", "c", "--param", "c=1"}).status, 2);
+}
+
 TEST(Obstruct, RefusesWhatIsNoSurface) {
   const Folder folder;
   const std::string file = folder.write("family.toml", kFamily);

@@ -251,10 +251,11 @@ class Case:
         """Balances and Kovalevskaya exponents."""
         return exponents_of(self._core.exponents(pairs_of(weights), time_limit, memory))
 
-    def obstruct(self, *, along=None, scene: str = "default", time_limit: float = 0,
+    def obstruct(self, *, along=None, free: str = "", scene: str = "default", time_limit: float = 0,
                  memory: float = 0) -> Obstruction:
-        """Whether the variational equations along a particular solution exclude a further integral."""
-        facts = self._core.obstruct(scene, texts_of(along), time_limit, memory)
+        """Whether the variational equations along a particular solution exclude a further integral;
+        with a free parameter, for which of its real values they do not."""
+        facts = self._core.obstruct(scene, texts_of(along), free, time_limit, memory)
         verdict = "proved" if facts.pop("proved") else "undecided"
         return Obstruction(verdict=verdict, **{**facts, "parameters": dict(facts["parameters"])})
 

@@ -259,6 +259,8 @@ class Obstruction:
     reason: str  #: where nothing is excluded: why
     parameters: dict[str, str]
     examined: list[dict[str, Any]]  #: the curves with their normal variational equations
+    survivors: list[dict[str, Any]]  #: real values of a free parameter that are not excluded alike
+    sequences: list[dict[str, Any]]  #: intervals in which only numbers survive that obey conditions
 
     def __bool__(self) -> bool:
         return _truth(self.verdict, "the obstruction")

@@ -200,11 +200,11 @@ py::object exponents(const Case& self, const Values& weights, double seconds, do
   });
 }
 
-py::object obstruct(const Case& self, const std::string& scene, const Names& along, double seconds,
-                    double memory) {
+py::object obstruct(const Case& self, const std::string& scene, const Names& along,
+                    const std::string& free, double seconds, double memory) {
   Interrupt interrupt;
   const auto find = [&] {
-    return obstruction::find_obstruction(self.model(), {scene, typed(along, "along")},
+    return obstruction::find_obstruction(self.model(), {scene, typed(along, "along"), free},
                                          watched(interrupt, seconds, memory));
   };
   return exactly(interrupt, find, [&](const obstruction::Obstruction& result) {
@@ -214,7 +214,15 @@ py::object obstruct(const Case& self, const std::string& scene, const Names& alo
                                "nve"_a = one.nve, "exponents"_a = one.exponents,
                                "cases"_a = one.cases, "solution"_a = one.solution,
                                "outcome"_a = one.outcome, "decisive"_a = one.decisive));
+    py::list survivors;
+    for (const obstruction::FreeValue& one : result.values)
+      survivors.append(py::dict("value"_a = one.value, "why"_a = one.why,
+                                "excluded"_a = one.excluded, "outcome"_a = one.outcome));
+    py::list sequences;
+    for (const obstruction::FreeSequence& one : result.sequences)
+      sequences.append(py::dict("range"_a = one.range, "conditions"_a = one.conditions));
     return py::dict("proved"_a = result.proved, "parameters"_a = result.parameters,
+                    "survivors"_a = survivors, "sequences"_a = sequences,
                     "theorem"_a = result.theorem, "excluded"_a = result.excluded,
                     "reason"_a = result.reason, "examined"_a = examined);
   });

@@ -23,6 +23,7 @@ nlohmann::ordered_json to_json(const Examined& examined) {
     json["cases"].push_back({{"case", what}, {"outcome", outcome}});
   if (!examined.solution.empty()) json["solution"] = examined.solution;
   json["group"] = examined.outcome;
+  if (!examined.where.empty()) json["where"] = examined.where;
   return json;
 }
 
@@ -45,6 +46,7 @@ void print_evidence(const Examined& examined) {
     print_line("", fmt::format("{}: {}", what, outcome));
   if (!examined.solution.empty()) print_line("w = y'/y", examined.solution);
   print_line("group", examined.outcome);
+  if (!examined.where.empty()) print_line("where", examined.where);
 }
 
 std::string parameters_text(const Obstruction& answer) {
@@ -54,6 +56,36 @@ std::string parameters_text(const Obstruction& answer) {
   return result;
 }
 
+/// What survives of a free parameter.
+void print_survivors(const Obstruction& answer) {
+  for (const obstruction::FreeValue& value : answer.values) {
+    print_line(value.excluded ? "alone" : "survives",
+               fmt::format("{} = {}: {}", answer.free, value.value,
+                           value.excluded ? value.outcome : value.why));
+  }
+  for (const obstruction::FreeSequence& sequence : answer.sequences) {
+    std::string conditions;
+    for (const std::string& condition : sequence.conditions)
+      conditions += (conditions.empty() ? "" : "; and ") + condition;
+    print_line("survive", fmt::format("with {}: {}", sequence.range, conditions));
+  }
+  if (answer.values.empty() && answer.sequences.empty())
+    print_line("survives", fmt::format("no real {}", answer.free));
+}
+
+nlohmann::ordered_json survivors_json(const Obstruction& answer) {
+  nlohmann::ordered_json json{{"parameter", answer.free}};
+  json["survivors"] = nlohmann::json::array();
+  json["excluded_alone"] = nlohmann::json::array();
+  for (const obstruction::FreeValue& value : answer.values)
+    json[value.excluded ? "excluded_alone" : "survivors"].push_back(
+        {{"value", value.value}, {"why", value.why}, {"outcome", value.outcome}});
+  json["sequences"] = nlohmann::json::array();
+  for (const obstruction::FreeSequence& sequence : answer.sequences)
+    json["sequences"].push_back({{"range", sequence.range}, {"conditions", sequence.conditions}});
+  return json;
+}
+
 }  // namespace
 
 nlohmann::ordered_json to_json(const Model& model, const Obstruction& answer, double seconds) {
@@ -61,7 +93,11 @@ nlohmann::ordered_json to_json(const Model& model, const Obstruction& answer, do
                               {"verdict", answer.proved ? "proved" : "undecided"}};
   json["parameters"] = nlohmann::json::object();
   for (const auto& [name, value] : answer.parameters) json["parameters"][name] = value;
-  if (answer.proved) {
+  if (!answer.free.empty() && answer.proved) {
+    json["free"] = survivors_json(answer);
+    json["theorem"] = answer.theorem;
+    json["excluded"] = answer.excluded;
+  } else if (answer.proved) {
     const Examined& decisive = answer.examined.back();
     json["along"] = decisive.along;
     json["level"] = decisive.level;
@@ -80,8 +116,9 @@ nlohmann::ordered_json to_json(const Model& model, const Obstruction& answer, do
 
 void print(const Model& model, const Obstruction& answer, double seconds, bool all) {
   const std::string parameters = parameters_text(answer);
-  fmt::print("{}: further integrals excluded?{}{}\n", model.name, parameters.empty() ? "" : " At ",
-             parameters);
+  fmt::print("{}: further integrals excluded?{}{}{}\n", model.name,
+             parameters.empty() ? "" : " At ", parameters,
+             answer.free.empty() ? "" : fmt::format(" For every real {}", answer.free));
   for (const Examined& examined : answer.examined) {
     if (examined.decisive || all) {
       print_evidence(examined);
@@ -92,10 +129,12 @@ void print(const Model& model, const Obstruction& answer, double seconds, bool a
   }
   if (!answer.proved || all)
     for (const std::string& line : answer.left_out) print_line("left out", line);
+  if (answer.proved && !answer.free.empty()) print_survivors(answer);
   if (answer.proved) {
     print_line("theorem", answer.theorem);
     print_line("excluded", answer.excluded);
-    fmt::print("not integrable: proved, {:.3f} s\n", seconds);
+    fmt::print("not integrable{}: proved, {:.3f} s\n",
+               answer.free.empty() ? "" : " where nothing survives", seconds);
   } else {
     fmt::print("undecided: {}, {:.3f} s\n", answer.reason, seconds);
   }
