@@ -386,7 +386,15 @@ class March {
     failure_ = CASIMIR_NON_FINITE;
     const bool vanished =
         magnitude(unit_) <= larger(kEpsilon * magnitude(t_), 0x1p-1000) || pieces_ > 0;
-    if (vanished) fail(CASIMIR_NON_FINITE);
+    if (vanished || creeps()) fail(CASIMIR_NON_FINITE);
+  }
+
+  /// Whether the coefficients leave the range of numbers again and again, every few steps: where
+  /// something that the equations divide by is beyond all doubles, only those in tiny units are
+  /// numbers, and steps of that size come to no end.
+  bool creeps() {
+    constexpr unsigned long long kOften = 300, kEveryFew = 4;
+    return ++shrunk_ > kOften && kEveryFew * shrunk_ > steps_;
   }
 
   __attribute__((cold, noinline)) void fail(int failure) {
@@ -422,6 +430,7 @@ class March {
   Pace pace_;
   double unit_ = 1, pieces_ = 0, scale_ = 0;
   unsigned long long steps_ = 0, rejected_ = 0, expansions_ = 0, evaluations_ = 0;
+  unsigned long long shrunk_ = 0;  // units
   int status_ = CASIMIR_OK, failure_ = CASIMIR_OK;
   bool there_ = false, fresh_ = false, cut_ = false, jumps_ = false;
   double part_ = Policy::kShorter;  // of a step that did not hold, what is tried next
