@@ -3,7 +3,6 @@
 #include <cln/integer.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "runtime/program/function_table.hpp"
@@ -15,15 +14,6 @@ namespace casimir::codegen {
 namespace {
 
 bool is_integer(const cln::cl_RA& value) { return cln::denominator(value) == 1; }
-
-/// Whether the power of a number is larger or smaller than what a double holds, so that it may not
-/// stand before the power of a sum that is neither: (1 - x^2/100)^2000.
-bool is_beyond_double(const cln::cl_RA& number, const cln::cl_RA& exponent) {
-  constexpr double kMost = 900;  // of 1022 bits
-  const double bits = static_cast<double>(cln::integer_length(cln::numerator(number))) -
-                      static_cast<double>(cln::integer_length(cln::denominator(number)));
-  return std::abs(bits * cln::double_approx(exponent)) > kMost;
-}
 
 cln::cl_RA exact_value(const GiNaC::ex& expression) {
   const auto& number = GiNaC::ex_to<GiNaC::numeric>(expression);
@@ -273,10 +263,6 @@ void Dag::multiply_in(const Scaled& base, const cln::cl_RA& exponent, cln::cl_RA
     coefficient = 0;
     return;
   }
-  if (is_integer(exponent) && base.node != kOne && is_beyond_double(base.coefficient, exponent)) {
-    factors.push_back({with_coefficients(base), exponent});
-    return;
-  }
   if (is_integer(exponent)) {
     coefficient = coefficient * cln::expt(base.coefficient, cln::numerator(exponent));
     for (const Factor& f : factors_of(base.node)) {
@@ -293,20 +279,16 @@ void Dag::multiply_in(const Scaled& base, const cln::cl_RA& exponent, cln::cl_RA
     throw ModelError("a root of the negative number " + text(base) +
                      " appears: every expression must be real");
   }
-  // The only sums that begin with a minus: radicands.
-  factors.push_back({with_coefficients({-1, base.node}), exponent});
-}
-
-NodeId Dag::with_coefficients(const Scaled& scaled) {
-  Node sum;
-  sum.kind = NodeKind::sum;
-  sum.terms = {scaled};
-  if ((*this)[scaled.node].kind == NodeKind::sum) {
-    sum.terms.clear();
-    for (const Scaled& t : (*this)[scaled.node].terms)
-      sum.terms.push_back({scaled.coefficient * t.coefficient, t.node});
+  Node negated;  // the only sums that begin with a minus: radicands
+  negated.kind = NodeKind::sum;
+  negated.terms = {{-1, base.node}};
+  if ((*this)[base.node].kind == NodeKind::sum) {
+    negated.terms.clear();
+    for (const Scaled& t : (*this)[base.node].terms) {
+      negated.terms.push_back({-t.coefficient, t.node});
+    }
   }
-  return intern(std::move(sum));
+  factors.push_back({intern(std::move(negated)), exponent});
 }
 
 void Dag::multiply_root(const cln::cl_RA& base, const cln::cl_RA& exponent, cln::cl_RA& coefficient,

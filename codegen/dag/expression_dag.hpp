@@ -98,8 +98,6 @@ class Dag {
   Scaled convert_new(const GiNaC::ex& expression);
   Scaled convert_function(const GiNaC::ex& expression);
   Scaled primitive_sum(std::vector<Scaled> terms);
-  /// The same as a sum that is not primitive.
-  NodeId with_coefficients(const Scaled& scaled);
   Scaled assemble(cln::cl_RA coefficient, std::vector<Factor> factors);
   void multiply_in(const Scaled& base, const cln::cl_RA& exponent, cln::cl_RA& coefficient,
                    std::vector<Factor>& factors);

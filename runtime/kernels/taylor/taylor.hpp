@@ -389,12 +389,11 @@ class March {
     if (vanished || creeps()) fail(CASIMIR_NON_FINITE);
   }
 
-  /// Whether the coefficients leave the range of numbers again and again, every few steps: where
-  /// something that the equations divide by is beyond all doubles, only those in tiny units are
-  /// numbers, and steps of that size come to no end.
+  /// Whether the coefficients leave the range of numbers every few steps.
   bool creeps() {
-    constexpr unsigned long long kOften = 300, kEveryFew = 4;
-    return ++shrunk_ > kOften && kEveryFew * shrunk_ > steps_;
+    const double shrunk = static_cast<double>(++shrunk_);
+    return shrunk > Policy::kOftenShrunk &&
+           Policy::kEveryFew * shrunk > static_cast<double>(steps_);
   }
 
   __attribute__((cold, noinline)) void fail(int failure) {

@@ -34,7 +34,7 @@ struct Measured {
     settings.duration = 10;
     const Entrant entrant{&spoilt, &method, settings, run.initial, run.parameters, {}};
     const std::vector<Sample> samples = measure({&entrant, 1}, truth, {.rounds = 1});
-    Row row{.method = "taylor"};
+    Row row;
     judge_row(row, samples.at(0), explained_error(entrant, samples.at(0), truth, 1), own);
     return row;
   }
