@@ -359,4 +359,13 @@ PreciseRun precise_run(const PreciseProblem& problem, int digits) {
   return Runner(problem, digits)();
 }
 
+double precise_run_bytes(const PreciseProblem& problem, int digits) {
+  // Functions have two more series each; coefficients have half of the bits on the average.
+  constexpr double kSeriesOfLine = 1.5, kPart = 0.5, kBitsOfByte = 8;
+  const auto lines = static_cast<double>(problem.rhs->code.size());
+  const double coefficient =
+      sizeof(BigFloat) + kPart * static_cast<double>(bits_for(digits)) / kBitsOfByte;
+  return kSeriesOfLine * lines * kOrderPerDigit * digits * coefficient;
+}
+
 }  // namespace casimir

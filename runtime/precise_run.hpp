@@ -58,4 +58,8 @@ struct PreciseRun {
 /// multiplication of the program and step.
 PreciseRun precise_run(const PreciseProblem& problem, int digits);
 
+/// How much memory such a run takes, roughly: a series for each line of the program, which grows
+/// like the square of the digits.
+double precise_run_bytes(const PreciseProblem& problem, int digits);
+
 }  // namespace casimir

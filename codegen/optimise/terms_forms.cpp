@@ -11,6 +11,9 @@ namespace {
 
 using Collected = std::map<Monomial, cln::cl_RA>;
 
+/// A sum to a higher power stays as it is: the numbers in its expansion have hundreds of digits.
+constexpr int kHighestPower = 100;
+
 int degree(const Monomial& monomial) {
   int result = 0;
   for (const VariablePower& l : monomial) result += l.exponent;
@@ -71,6 +74,7 @@ class Expander {
       const Polynomial& value = system_.variables[static_cast<std::size_t>(l.variable)].value;
       const std::optional<Collected> factor = collect(value);
       if (!factor) return std::nullopt;
+      if (factor->size() > 1 && l.exponent > kHighestPower) return std::nullopt;
       for (int i = 0; i < l.exponent; ++i) {
         if (result.size() * factor->size() > 4 * limit_) return std::nullopt;
         result = multiplied(result, *factor);

@@ -52,6 +52,8 @@ int whole_digits(double log10_error, int most) {
 }
 
 constexpr int kMoreDigits = 10;
+/// A search does not go on to runs that take more memory.
+constexpr double kMostBytes = 1e9;
 constexpr int kMostRounds = 8;
 
 /// The search for two runs that agree.
@@ -71,6 +73,7 @@ class Search {
       // Nothing in common: the loss is not known, only that it is more.
       working =
           best_.digits == 0 ? 2 * working : std::max(working + kMoreDigits, wanted_ + best_.lost);
+      if (precise_run_bytes(problem_, working) > kMostBytes) break;
     }
     return std::move(best_);
   }

@@ -178,7 +178,10 @@ void A::begin_order(int k) const {
 }
 
 cln::cl_F to_cln(const BigFloat& value, cln::float_format_t format) {
-  return cln::cl_float(value.rational(), format);
+  // Not by way of a rational number: that of exp(-10^12) would fill the memory.
+  Integer mantissa, exponent;
+  arf_get_fmpz_2exp(mantissa.value, exponent.value, value.mid());
+  return cln::scale_float(cln::cl_float(to_cln(mantissa), format), to_cln(exponent));
 }
 
 }  // namespace casimir

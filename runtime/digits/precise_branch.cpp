@@ -28,8 +28,9 @@ PreciseLook::PreciseLook(const Program& rhs, const std::vector<BigFloat>& state,
   std::vector<double> numbers, start;
   for (const BigFloat& value : parameters_) numbers.push_back(double_of(value));
   for (const BigFloat& value : state) start.push_back(double_of(value));
-  if (watch_.looks(numbers.data(), start.data()))
-    look_ = std::make_unique<StepLook>(watch_, start.size(), numbers.data(), start.data());
+  if (!watch_.looks(numbers.data(), start.data())) return;
+  look_ = std::make_unique<StepLook>(watch_, start.size(), numbers.data(), start.data());
+  look_->no_largest_number();
 }
 
 BigFloat PreciseLook::size(const PreciseStep& step) {

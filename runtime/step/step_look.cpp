@@ -203,9 +203,9 @@ bool StepLook::is_calm(const StepWatch::Watched& watched, std::size_t which, con
     case StepWatch::Kind::unit:
       return std::max(std::abs(least), std::abs(most)) + change < 1;
     case StepWatch::Kind::exponent:
-      return change < kResolved || most + change < negligible_;
+      return change < kResolved || most + change < negligible_ || least - change > beyond_;
     case StepWatch::Kind::both:
-      return change < kResolved;
+      return change < kResolved || std::max(least, -most) - change > beyond_;
     case StepWatch::Kind::power: {
       const double largest = std::max(std::abs(least), std::abs(most));
       const double below = largest - change;
@@ -343,7 +343,9 @@ double StepLook::resolved(const StepWatch::Watched& watched, std::size_t which) 
     double most = change[i];
     if (i > 0) most = std::max(most, change[i - 1]);
     if (i + 2 < kPlaces) most = std::max(most, change[i + 1]);
-    if (most > kResolved && std::max(u[i], u[i + 1]) + most > negligible) return kShorter;
+    const bool beyond = !is_divisor && std::min(u[i], u[i + 1]) - most > beyond_;
+    if (most > kResolved && std::max(u[i], u[i + 1]) + most > negligible && !beyond)
+      return kShorter;
   }
   return 1;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,9 @@ class StepLook {
   /// A run ends where something that is divided by passes zero, instead of going on behind it: for
   /// those that nobody warns of it.
   void end_at_poles() { ends_at_poles_ = true; }
+
+  /// The numbers of the run have no largest one, as those of many digits.
+  void no_largest_number() { beyond_ = std::numeric_limits<double>::infinity(); }
 
   /// 1 for a step that may be taken; or how much of it may be tried instead. A step that passes a
   /// branch is to end just behind it, at a distance that is 1e-12 of what the argument is in the
@@ -93,7 +97,10 @@ class StepLook {
   std::vector<double> sampled_[kPlaces];
   std::vector<double> changes_;  ///< of arguments, between the ends and the place between them
   std::vector<double> highest_;  ///< of the exponents of powers, so far
-  double negligible_ = 0;        ///< what an exponent has to be above
+  double negligible_ = 0;        ///< what an exponent has to be above ..
+  /// .. and below: e to this power is beyond all doubles, and what the equations do with infinity
+  /// is the same whatever the exponent.
+  double beyond_ = 711;
   double places_[kPlaces] = {};
   double shift_ = 0.5;
   bool ends_at_poles_ = false;

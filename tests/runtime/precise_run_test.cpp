@@ -55,6 +55,23 @@ TEST(PreciseRun, SquareReachesOneMillionToAllDigits) {
   }
 }
 
+TEST(PreciseRun, NumbersNextToNothingTakeNoMemory) {
+  const Precision precision(128);
+  const BigFloat tiny = Arithmetic<BigFloat>{}.function(Op::exp, BigFloat(cln::cl_R("-1e15")));
+  const cln::cl_F number = to_cln(tiny, cln::float_format(30));
+  // e^(-10^15) = 2^(-1.44e15)
+  EXPECT_NEAR(static_cast<double>(cln::float_exponent(number)), -1.4426950408889634e15, 2);
+}
+
+TEST(PreciseRun, TheMemoryOfARunGrowsWithTheSquareOfItsDigits) {
+  const Program program = pendulum();
+  const PreciseProblem swing = problem(program, {1, 0, 1});
+  const double few = precise_run_bytes(swing, 2000), many = precise_run_bytes(swing, 4000);
+  EXPECT_GT(few, 1e6);
+  EXPECT_GT(many, 3 * few);
+  EXPECT_LT(many, 4.1 * few);
+}
+
 TEST(PreciseRun, OneThousandDigits) {
   const Program program = riccati();
   const AgreedRun agreed = agreed_run(problem(program, {1, cln::cl_RA("1/4")}), 1000);

@@ -82,8 +82,9 @@ Row conserve_scene(const Model& model, const Scene& scene, const Method& method,
   row.evaluations = trajectory.evaluations;
   row.status = trajectory.status;
   if (trajectory.status == Status::ok && !scene.reference.empty() && !options.run.duration) {
+    // A run with many digits for a state that nobody asked for may take minutes and gigabytes.
     const ReferenceStateOrReason truth =
-        reference_state_of(scene, run, {.give_up = options.give_up});
+        reference_state_of(scene, run, {.only_the_file = true, .give_up = options.give_up});
     if (truth.truth) row.error = error_of(trajectory.state, *truth.truth);
   }
   row.refused = trajectory.status != Status::ok && may_be_refused(scene);

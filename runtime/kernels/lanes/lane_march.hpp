@@ -113,7 +113,7 @@ class March {
       carry_[i][lane] = 0;
     }
     time_[lane] = run_->t_begin;
-    time_carry_[lane] = steps_[lane] = rejected_[lane] = 0;
+    time_carry_[lane] = steps_[lane] = rejected_[lane] = shrunk_[lane] = 0;
     part_[lane] = Policy::kShorter;
     cut_[lane] = jumps_[lane] = 0;
     status_[lane] = failure_[lane] = CASIMIR_OK;
@@ -445,10 +445,12 @@ class March {
   /// The coefficients left the range of numbers: a smaller unit, or the end.
   __attribute__((cold, noinline)) void shrink_units(M lost) {
     rejected_ += lost ? all_lanes<V>(1) : V{};
+    shrunk_ += lost ? all_lanes<V>(1) : V{};
     unit_ = lost ? unit_ * Policy::kSmallerUnit : unit_;
     failure_ = lost ? all_lanes<V>(CASIMIR_NON_FINITE) : failure_;
     const V least = larger_of(kEpsilon * absolute(time_), all_lanes<V>(0x1p-1000));
-    const M vanished = lost & (absolute(unit_) <= least);
+    const M creeps = (shrunk_ > Policy::kOftenShrunk) & (Policy::kEveryFew * shrunk_ > steps_);
+    const M vanished = lost & ((absolute(unit_) <= least) | creeps);
     if (any(vanished)) fail(vanished, CASIMIR_NON_FINITE);
   }
 
@@ -476,8 +478,8 @@ class March {
   Series& series_;
   const double span_;
   V carry_[room], next_[room], next_carry_[room], rate_[room], here_[room];
-  V time_ = {}, time_carry_ = {}, unit_ = {}, steps_ = {}, rejected_ = {}, status_ = {},
-    failure_ = {}, part_ = all_lanes<V>(Policy::kShorter);
+  V time_ = {}, time_carry_ = {}, unit_ = {}, steps_ = {}, rejected_ = {}, shrunk_ = {},
+    status_ = {}, failure_ = {}, part_ = all_lanes<V>(Policy::kShorter);
   M active_ = {}, ended_ = {}, checked_ = {}, seen_enough_ = {}, cut_ = {}, jumps_ = {};
   long long member_[width];
   const double* rows_[room];

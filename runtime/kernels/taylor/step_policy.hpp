@@ -26,6 +26,10 @@ struct StepPolicy {
   static constexpr double kShorter = 0.5;
   /// The next unit where the coefficients leave the range of numbers, as a part of this one.
   static constexpr double kSmallerUnit = 0x1p-8;
+  /// A run creeps, and ends, whose unit was made smaller so often, and once in so few steps: where
+  /// something that the equations divide by is beyond all doubles, only the coefficients in tiny
+  /// units are numbers, and steps of that size come to no end.
+  static constexpr double kOftenShrunk = 300, kEveryFew = 4;
   /// A step of fewer roundings of the time than this is none.
   static constexpr double kLeastRoundings = 16;
   /// From which part of a unit down the coefficients in that unit do not tell how large a state is

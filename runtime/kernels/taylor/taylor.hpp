@@ -386,7 +386,14 @@ class March {
     failure_ = CASIMIR_NON_FINITE;
     const bool vanished =
         magnitude(unit_) <= larger(kEpsilon * magnitude(t_), 0x1p-1000) || pieces_ > 0;
-    if (vanished) fail(CASIMIR_NON_FINITE);
+    if (vanished || creeps()) fail(CASIMIR_NON_FINITE);
+  }
+
+  /// Whether the coefficients leave the range of numbers every few steps.
+  bool creeps() {
+    const double shrunk = static_cast<double>(++shrunk_);
+    return shrunk > Policy::kOftenShrunk &&
+           Policy::kEveryFew * shrunk > static_cast<double>(steps_);
   }
 
   __attribute__((cold, noinline)) void fail(int failure) {
@@ -422,6 +429,7 @@ class March {
   Pace pace_;
   double unit_ = 1, pieces_ = 0, scale_ = 0;
   unsigned long long steps_ = 0, rejected_ = 0, expansions_ = 0, evaluations_ = 0;
+  unsigned long long shrunk_ = 0;  // units
   int status_ = CASIMIR_OK, failure_ = CASIMIR_OK;
   bool there_ = false, fresh_ = false, cut_ = false, jumps_ = false;
   double part_ = Policy::kShorter;  // of a step that did not hold, what is tried next

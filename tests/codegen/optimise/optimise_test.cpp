@@ -101,6 +101,12 @@ class Optimise : public ::testing::Test {
   std::vector<std::string> names_{"x", "y", "z", "u", "v"};
 };
 
+/// The expansion of (1 - x/10)^2000 has terms of thousands of digits.
+TEST_F(Optimise, HighPowersOfSumsAreNotMultipliedOut) {
+  EXPECT_FALSE(expanded(system({pow(1 - s(0) / 10, 2000)}), 3000));
+  EXPECT_TRUE(expanded(system({pow(1 - s(0) / 10, 20)}), 3000));
+}
+
 TEST_F(Optimise, ProgramsEqualTheExpressionsExactly) {
   Points points;
   for (int round = 0; round < 60; ++round) {

@@ -125,6 +125,21 @@ struct VanDerPol {
   }
 };
 
+/// A pulse of area 2 at p, whose derivative is infinity by infinity far from there.
+struct FarPulse {
+  static constexpr int n = 2;
+  static void rhs(double, const double* y, const double* p, double* d) {
+    const double c = std::cosh(y[1] - p[0]);
+    d[0] = 1 / (c * c);
+    d[1] = 1;
+  }
+  static void jacobian(double, const double* y, const double* p, double* J) {
+    const double c = std::cosh(y[1] - p[0]);
+    J[0] = J[1] = J[3] = 0;
+    J[2] = -2 * std::sinh(y[1] - p[0]) * c / (c * c * c * c);
+  }
+};
+
 struct Scene {
   double duration;
   std::vector<double> reference;
@@ -177,6 +192,13 @@ TEST_P(Radau, RelaxationOscillation) {
   ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
   EXPECT_LT(worst_relative(orbit.state, kVanDerPol.reference), 1e-9);
   EXPECT_LT(orbit.steps, 5000u);
+}
+
+TEST_P(Radau, DerivativesThatAreNoNumbersDoNotEndARun) {
+  Settings settings = settings_of(400, 1e-9, 1e-9);
+  const Trajectory orbit = run<FarPulse>(GetParam(), settings, {0, 0}, {370});
+  ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
+  EXPECT_EQ(orbit.state[1], 400);
 }
 
 TEST_P(Radau, StepsDoNotGrowWithTheDamping) {

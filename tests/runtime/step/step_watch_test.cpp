@@ -10,6 +10,7 @@
 
 #include "runtime/integrate.hpp"
 #include "runtime/methods.hpp"
+#include "runtime/step/step_look.hpp"
 #include "runtime/uncompiled.hpp"
 #include "tests/runtime/programs.hpp"
 
@@ -258,6 +259,50 @@ TEST(Steps, SeeADipOfAModulusBetweenTheirEnds) {
   const Trajectory orbit = run(dip, {0}, 2);
   ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
   EXPECT_NEAR(orbit.state[0], whole + 2 * (2 * d * d * d - 2 * d * d * d / 3), 1e-13);
+}
+
+/// A step along which the clock goes on: x' = 1.
+casimir_step step_of_clock(const double* from, const double* to) {
+  return {.t0 = *from,
+          .t1 = *to,
+          .x0 = from,
+          .x1 = to,
+          .dense = [](const casimir_step*, double t, double* x) { *x = t; },
+          .data = nullptr,
+          .f0 = nullptr,
+          .f1 = nullptr};
+}
+
+/// 1/(1 + exp(10^7 ((x - 3)^2 - 1/100))) is nothing far from 3, where the exponential is infinity
+/// in double and changes by e^(10^7) in a step: but not where numbers have no largest one.
+TEST(Steps, DoNotResolveExponentialsBeyondAllDoubles) {
+  Builder lines({"x"});
+  const int u = lines.op(Op::sub, 0, lines.number(3));
+  const int gap = lines.op(Op::sub, lines.op(Op::mul, u, u), lines.number(cln::cl_RA(1) / 100));
+  const int e = lines.op(Op::exp, lines.op(Op::mul, lines.number(10000000), gap));
+  lines.output(lines.op(Op::div, lines.number(1), lines.op(Op::add, lines.number(1), e)));
+  const Program rhs = lines.program();
+  const StepWatch watch(rhs);
+  const double zero = 0, one = 1, two = 2, four = 4;
+  StepLook look(watch, 1, nullptr, &zero);
+  EXPECT_EQ(look(step_of_clock(&zero, &one)), 1);
+  EXPECT_LT(look(step_of_clock(&two, &four)), 1) << "the box lies in it";
+  StepLook many(watch, 1, nullptr, &zero);
+  many.no_largest_number();
+  EXPECT_LT(many(step_of_clock(&zero, &one)), 1);
+}
+
+/// 100 e^u/(1 + e^u)^2 where its square is beyond all doubles: only in tiny units are the
+/// coefficients numbers, and a run in steps of their size would not end.
+TEST(Steps, DoNotCreepWhereCoefficientsAreBeyondAllDoubles) {
+  Builder lines({"x"});
+  const int u = lines.op(Op::mul, lines.number(100), lines.time());
+  const int e = lines.op(Op::exp, u), one = lines.op(Op::add, lines.number(1), e);
+  const int above = lines.op(Op::mul, lines.number(100), e);
+  lines.output(lines.op(Op::div, above, lines.op(Op::mul, one, one)));
+  const Trajectory orbit = run(lines.program(), {0}, 6, true, -1);
+  EXPECT_EQ(orbit.status, Status::non_finite);
+  EXPECT_LT(orbit.steps, 200000U);
 }
 
 TEST(Steps, DoNotPassAPulseOver) {

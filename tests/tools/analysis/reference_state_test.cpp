@@ -30,6 +30,18 @@ TEST(ReferenceState, AnOwnRunHasTheExactStateToItsBound) {
   EXPECT_LT(std::abs(known.truth->rest[0]), 1e-16);
 }
 
+/// A run of our own may take minutes and gigabytes for states that nobody asked for.
+TEST(ReferenceState, WhatTheFileDoesNotHaveIsNotRunForWhereOnlyTheFileCounts) {
+  const Model without = one_equation("x", "1");
+  const ReferenceStateOrReason none = truth(without, {.only_the_file = true});
+  EXPECT_FALSE(none.truth);
+  EXPECT_EQ(none.digits, 0);
+  EXPECT_NE(none.reason.find("the case file has no reference state"), std::string::npos);
+  EXPECT_TRUE(truth(without).truth) << "the twin";
+  const Model with = one_equation("x", "1", "reference = { x = \"2.718281828459045235360287\" }\n");
+  EXPECT_TRUE(truth(with, {.only_the_file = true}).truth);
+}
+
 TEST(ReferenceState, AStateInTheFileIsCheckedAndAWrongOneIsNone) {
   // x = e^t at t = 1.
   const auto with = [](const std::string& value) {

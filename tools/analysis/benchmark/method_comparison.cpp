@@ -154,23 +154,8 @@ Row row_of(const MethodComparison& contest, const Ready& ready, const Entrant& e
           .steps = sample.steps,
           .evaluations = sample.evaluations,
           .status = sample.status};
-  if (!sample.refused.empty()) {
-    row.end = RowEnd::refused;
-    row.reason = sample.refused;
-  } else if (sample.too_slow) {
-    row.end = RowEnd::too_slow;
-    row.reason = "a run takes too much of the time for all";
-  } else if (sample.status == Status::ok) {
-    const double explained = explained_error(entrant, sample, truth, contest.conditioning);
-    if (!(sample.error <= explained)) {
-      row.reason =
-          fmt::format("tolerance and conditioning explain an error of {:.1e} at most", explained);
-      row.failed = ready.contender.own();
-    } else if (!(sample.error < kWrong)) {
-      row.reason = "the end state is another one; the tolerance is too coarse for this motion";
-    }
-    if (!row.reason.empty()) row.end = RowEnd::wrong;
-  }
+  judge_row(row, sample, explained_error(entrant, sample, truth, contest.conditioning),
+            ready.contender.own());
   return row;
 }
 
@@ -205,6 +190,26 @@ void measure_all(const std::vector<Ready>& ready, const Codes& codes, const Refe
 }
 
 }  // namespace
+
+void judge_row(Row& row, const Sample& sample, double explained, bool own) {
+  if (!sample.refused.empty()) {
+    row.end = RowEnd::refused;
+    row.reason = sample.refused;
+  } else if (sample.too_slow) {
+    row.end = RowEnd::too_slow;
+    row.reason = "a run takes too much of the time for all";
+  } else if (sample.status == Status::ok) {
+    // Written so that an error that is not a number has no explanation.
+    if (!(sample.error <= explained)) {
+      row.reason =
+          fmt::format("tolerance and conditioning explain an error of {:.1e} at most", explained);
+      row.failed = own;
+    } else if (!(sample.error < kWrong)) {
+      row.reason = "the end state is another one; the tolerance is too coarse for this motion";
+    }
+    if (!row.reason.empty()) row.end = RowEnd::wrong;
+  }
+}
 
 WorkPrecision MethodComparison::curve(const ComparedMethod& contender) const {
   std::vector<Measured> runs;

@@ -6,6 +6,7 @@
 
 #include "codegen/specialise.hpp"
 #include "runtime/equal_error.hpp"
+#include "runtime/work_precision.hpp"
 #include "symbolic/model.hpp"
 #include "tools/analysis/estimate/reference_state.hpp"
 #include "tools/analysis/row.hpp"
@@ -61,12 +62,18 @@ struct MethodComparison {
 /// Methods that a bench runs where none are named.
 const std::vector<std::string>& usual_methods();
 
+/// Writes into a row how its run ended and, for one that says ok, what its error is worth: it is
+/// `wrong` beyond what is explained, or at a tenth of a state's size, where nothing is left of the
+/// motion.
+/// \param explained  see `explained_error`
+/// \param own        a method of ours: then an error that nothing explains is a failure, and makes
+///                   the exit status of `bench` 1
+void judge_row(Row& row, const Sample& sample, double explained, bool own);
+
 /// Measures one scene: every method at every tolerance, our own on general code too, all in one
 /// interleaved run (see `measure`).
 ///
-/// A row whose end state is a tenth of a state's size off is "wrong", and so is one whose error is
-/// more than `explained_error`: no tolerance asked for it. Only the latter, by a method of our own,
-/// makes the row `failed`.
+/// Each row is judged by `judge_row`.
 /// \throws EnvironmentError  if nothing is left to be measured, with the reason of the first.
 MethodComparison compare_methods(const Model& model, const Scene& scene,
                                  const ComparisonOptions& options);

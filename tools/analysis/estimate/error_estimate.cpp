@@ -38,12 +38,23 @@ double distance(const std::vector<double>& a, const std::vector<double>& b,
   return largest;
 }
 
+/// More steps than a run with a hundredth of the tolerance has: one that takes so many follows
+/// something else than the first, such as the rounding of the equations, and may come to no end.
+unsigned long long steps_of_repeated(const Method& method, const Trajectory& trajectory) {
+  constexpr double kHundred = 100, kHighOrder = 8, kTimes = 3, kAlways = 10000;
+  const double order = method.order > 0 ? method.order : kHighOrder;
+  const auto first = static_cast<double>(trajectory.steps + trajectory.rejected);
+  return static_cast<unsigned long long>(kAlways + kTimes * std::pow(kHundred, 1 / order) * first);
+}
+
 /// Runs beside the one that is assessed.
 class Neighbours {
  public:
   Neighbours(const PreparedScene& run, const CompiledModule& compiled, const Method& method,
-             const Settings& settings, const std::vector<double>& sizes)
+             const Settings& settings, const Trajectory& trajectory,
+             const std::vector<double>& sizes)
       : run_(run), compiled_(compiled), method_(method), tight_(settings), sizes_(sizes) {
+    if (tight_.max_steps == 0) tight_.max_steps = steps_of_repeated(method, trajectory);
     // Only a run that is watched goes on where products of states are beyond all numbers.
     constexpr double kHuge = 1e130;
     tight_.monitor = std::ranges::max(sizes) > kHuge;
@@ -220,7 +231,7 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
   if (trajectory.status != Status::ok) return trust;
   const std::vector<double> sizes = sizes_of(trajectory);
   const std::size_t n = run.initial.size();
-  Neighbours neighbours(run, compiled, method, settings, sizes);
+  Neighbours neighbours(run, compiled, method, settings, trajectory, sizes);
   // Polynomials of low degree hide nothing from a step.
   const StepWatch* const watch = compiled.module.watch();
   const double* const numbers = run.parameters.empty() ? nullptr : run.parameters.data();

@@ -139,6 +139,9 @@ ReferenceStateOrReason compared(EndState& in_file, const EndState& own,
 ReferenceStateOrReason reference_state_of(const Scene& scene, const PreparedScene& run,
                                           const ReferenceOptions& options) {
   std::optional<EndState> in_file = state_in_file(scene, run);
+  if (!in_file && options.only_the_file)
+    return {.reason = "the case file has no reference state of all states that are integrated",
+            .failure = NoReference::not_reached};
   const std::vector<double> scale = state_sizes(run);
   EndState own;
   if (!in_file || options.check_the_file) own = own_run(run, options);

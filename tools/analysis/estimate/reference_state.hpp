@@ -35,6 +35,7 @@ struct ReferenceStateOrReason {
 struct ReferenceOptions {
   int digits = 30;              ///< of a run of our own
   bool check_the_file = false;  ///< by a run of our own, if it does not take too long
+  bool only_the_file = false;   ///< no run of our own where the file has no state for this one
   double longest = 60;          ///< seconds that a run of our own may take
   std::function<bool()> give_up = {};
 };

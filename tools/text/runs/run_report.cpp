@@ -111,8 +111,10 @@ std::string to_text(const std::vector<Row>& rows, bool with_error) {
 
 std::string advice(Status status) {
   switch (status) {
-    case Status::singularity:
     case Status::non_finite:
+      return "a number that the equations need has no value here, or is beyond all doubles: try "
+             "--digits 20 or other variables, or shorten --duration";
+    case Status::singularity:
       return "the motion has no value further on in these variables: shorten --duration, or use "
              "other variables";
     case Status::step_underflow:
