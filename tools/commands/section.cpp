@@ -19,6 +19,7 @@
 #include "tools/section/report.hpp"
 #include "tools/section/request.hpp"
 #include "tools/section/seeds.hpp"
+#include "tools/section/validated_section.hpp"
 #include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
@@ -33,6 +34,8 @@ struct Options {
   PictureOptions print;
   std::size_t orbits = 40, points = 500, cycles = 0;
   bool fixed_points = false, validated = false;
+  std::optional<std::string> duration;
+  bool of_many_orbits = false;  ///< an option was given that is about the orbits of a picture
   double tolerance = 1e-14;
   int jobs = 0;
 
@@ -52,8 +55,13 @@ void check_usage(const Options& options) {
       throw UsageError(fmt::format("'{}': an output's name must end in .csv, {}",
                                    printable(path, 200), kPictureNames));
   options.print.check(std::ranges::any_of(options.outputs, is_picture_name));
-  if (options.validated && options.longest_cycle() == 0)
-    throw UsageError("--validated proves cycles: it needs --cycles N or --fixed-points");
+  const bool one_orbit = options.validated && options.longest_cycle() == 0;
+  if (options.duration && !one_orbit)
+    throw UsageError("--duration is that of the one orbit of --validated without cycles");
+  if (one_orbit && (options.of_many_orbits || !options.outputs.empty()))
+    throw UsageError(
+        "--validated encloses the crossings of one orbit, that of the scene, or proves --cycles N: "
+        "alone it goes with --plane, --direction and --duration");
 }
 
 /// What is kept of all crossings: the state, the pair, time and growth.
@@ -321,8 +329,17 @@ class Section {
   bool cut_short_ = false;  ///< by the time limit
 };
 
+int crossings_of_scene(const Options& options) {
+  const CaseFile file = options.start.in(load_case(options.case_name));
+  const Model model = model_of(file, options.common.parameter_values());
+  const SectionProblem problem = section_problem(model, model.scene(options.common.scene),
+                                                 section_request(file, model, options.request));
+  return enclose_section(options.common, model, problem, options.duration);
+}
+
 int section(const Options& options) {
   check_usage(options);
+  if (options.validated && options.longest_cycle() == 0) return crossings_of_scene(options);
   return Section(options).run();
 }
 
@@ -389,7 +406,12 @@ void register_section(CLI::App& program, Action& action) {
       ->check(CLI::Range(1, 64));
   command->add_flag("--fixed-points", options->fixed_points, "The same as --cycles 1");
   command->add_flag("--validated", options->validated,
-                    "Prove each cycle: it exists, is alone nearby, and how it is stable");
+                    "Prove each cycle: it exists, is alone nearby, and how it is stable; without "
+                    "cycles enclose every crossing of the scene's orbit, none missed");
+  command
+      ->add_option("--duration", options->duration,
+                   "With --validated: up to this time (default: that of the scene)")
+      ->type_name("T");
   command->add_option("--tolerance", options->tolerance, "Tolerance of a step (default 1e-14)")
       ->type_name("X")
       ->check(CLI::Range(1e-15, 1e-3));
@@ -403,7 +425,11 @@ void register_section(CLI::App& program, Action& action) {
       ->allow_extra_args(false)
       ->type_name("FILE");
   options->print.add_to(*command);
-  command->callback([options, &action] { action = [options] { return section(*options); }; });
+  command->callback([options, &action, command] {
+    for (const char* name : {"--orbits", "--points", "--seeds", "--energy", "--casimir"})
+      options->of_many_orbits = options->of_many_orbits || command->count(name) > 0;
+    action = [options] { return section(*options); };
+  });
 }
 
 }  // namespace casimir::tools
