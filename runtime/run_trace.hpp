@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cln/rational.h>
+
 #include <array>
 #include <string>
 #include <vector>
@@ -38,5 +40,9 @@ struct RunTrace {
 
 /// Whether a text is a number of a trace, of a size that can be computed with.
 bool is_traced_number(const std::string& text);
+/// Its value. \throws std::invalid_argument  for what is none.
+cln::cl_RA traced_number(const std::string& text);
+/// The text of a double, exactly; it has to be finite.
+std::string traced_text(double value);
 
 }  // namespace casimir

@@ -73,7 +73,8 @@ class Checker {
     BallSet set = certificate::first_set(trace_, wide_);
     if (!starts_in(set)) result.fault = TraceFault::start;
     for (LevelBound& bound : bounds_) bound.begin(start_, set, wide_);
-    StepCheck check(flow_, bounds_, trace_.order, trace_.bits + kMoreBits, forwards_);
+    StepCheck check(flow_, bounds_, trace_.order, trace_.bits + kMoreBits, forwards_,
+                    settings.derivatives);
     ArbBall elapsed;
     BallMatrix total;
     for (std::size_t k = 0; k < trace_.steps.size() && result.fault == TraceFault::none; ++k) {
@@ -113,8 +114,7 @@ class Checker {
     const Vector& off = wide_ ? set.start : set.rest;
     for (std::size_t i = 0; i < start_.size(); ++i) {
       ArbBall by = start_[i] - set.middle[i];
-      if (wide_)
-        by = validated::widened(by, Arithmetic<ArbBall>::from(problem_.radii[i]));
+      if (wide_) by = validated::widened(by, Arithmetic<ArbBall>::from(problem_.radii[i]));
       if (!validated::contains(off[i], by)) return false;
     }
     return true;

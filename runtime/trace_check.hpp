@@ -39,7 +39,7 @@ struct TraceCheck {
 
 /// What is asked of `check_trace`.
 struct TraceCheckSettings {
-  bool derivatives = false;             ///< enclose them too
+  bool derivatives = false;            ///< enclose them too
   std::function<bool()> give_up = {};  ///< asked before each step; true ends the check
 };
 
@@ -50,7 +50,8 @@ struct TraceCheckSettings {
 ///     around the set is proved by |x_{N+1}(D)| h^{N+1} < R (see FlowPiece::encloses),
 ///   - x(h) lies in sum m_k h^k + x_{N+1}(D) h^{N+1} + (sum V_k h^k) (x - m), by the mean value
 ///     theorem, with Taylor coefficients m_k at the middle and V_k of the derivatives over X,
-///   - that is brought into the coordinates of the next set by an enclosed inverse of its frame, and
+///   - that is brought into the coordinates of the next set by an enclosed inverse of its frame,
+///   and
 ///     bounded by the integrals, of which it is for the caller to prove that they are some,
 ///   - and what comes out is in the next set.
 /// The right-hand side and its derivatives are the programs of the problem; the recurrences, the

@@ -218,8 +218,7 @@ class Runner {
     run_.starts_on_plane = crossings_->starts_on_plane();
     run_.crossings_until = run_.end.time;
     if (run_.status != ValidatedStatus::ok) {
-      const auto until =
-          validated::ends_of(ArbBall(crossings_->settled_until(Ball(elapsed_))));
+      const auto until = validated::ends_of(ArbBall(crossings_->settled_until(Ball(elapsed_))));
       const cln::cl_RA first = cln::plusp(until.low) ? until.low : cln::cl_RA(0);
       run_.crossings_until = forwards_ ? first : -first;
     }
@@ -254,8 +253,7 @@ class Runner {
     for (const Ball& m : set.middle) step.after.middle.push_back(exact(m));
     for (const Ball& c : set.carried.entries) step.after.carried.push_back(exact(c));
     for (const double b : set.frame.columns.entries) step.after.frame.push_back(exact(b));
-    for (const Ball& r : set.rest)
-      step.after.rest.push_back(certificate::size_text(ArbBall(r)));
+    for (const Ball& r : set.rest) step.after.rest.push_back(certificate::size_text(ArbBall(r)));
   }
 
   /// A box as large as all that the state has been is no statement.
@@ -340,9 +338,8 @@ ValidatedRun validated_run(const ValidatedProblem& problem, const ValidatedSetti
     const BallPrecision exact(bits_of(settings) + kDataBits);
     start = evaluate(problem.start, std::vector<ArbBall>{});
   }
-  ValidatedRun run = settings.digits == 0
-                         ? Runner<MidRad>(problem, settings, std::move(start))()
-                         : Runner<ArbBall>(problem, settings, std::move(start))();
+  ValidatedRun run = settings.digits == 0 ? Runner<MidRad>(problem, settings, std::move(start))()
+                                          : Runner<ArbBall>(problem, settings, std::move(start))();
   if (settings.trace && run.status == ValidatedStatus::ok)
     settings.trace->end = end_of(problem, *settings.trace);
   return run;

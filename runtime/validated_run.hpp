@@ -102,7 +102,7 @@ struct ValidatedRun {
   /// none is there twice. One at the start itself is not among them.
   std::vector<ValidatedCrossing> crossings;
   cln::cl_RA crossings_until = 0;  ///< that of `end`, where the status is ok
-  bool starts_on_plane = false;  ///< s may be zero at the start
+  bool starts_on_plane = false;    ///< s may be zero at the start
 
   /// The largest half width of the box at the end.
   double radius() const;

@@ -10,11 +10,11 @@ using BallMatrix = validated::Matrix<ArbBall>;
 
 /// The states m + C s + B r of a trace, with s and r around zero.
 struct BallSet {
-  Vector middle;      ///< m, exact
-  BallMatrix carried; ///< C, exact; no columns where the start is a point
-  Vector start;       ///< s
-  BallMatrix frame;   ///< B, exact
-  Vector rest;        ///< r
+  Vector middle;       ///< m, exact
+  BallMatrix carried;  ///< C, exact; no columns where the start is a point
+  Vector start;        ///< s
+  BallMatrix frame;    ///< B, exact
+  Vector rest;         ///< r
 
   std::size_t dimension() const { return middle.size(); }
 };

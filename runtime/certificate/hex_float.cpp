@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "runtime/run_trace.hpp"
+#include "runtime/validated/rational_ends.hpp"
 
 namespace casimir {
 namespace {
@@ -59,8 +60,8 @@ std::string arf_text(const arf_t number) {
   const bool negative = fmpz_sgn(mantissa) < 0;
   fmpz_abs(mantissa, mantissa);
   char* const digits = fmpz_get_str(nullptr, 16, mantissa);
-  std::string text = (negative ? "-0x" : "0x") + std::string(digits) + "p" +
-                     std::to_string(fmpz_get_si(exponent));
+  std::string text =
+      (negative ? "-0x" : "0x") + std::string(digits) + "p" + std::to_string(fmpz_get_si(exponent));
   flint_free(digits);
   fmpz_clear(mantissa);
   fmpz_clear(exponent);
@@ -108,4 +109,13 @@ ArbBall number_of(const std::string& text) {
 }
 
 }  // namespace certificate
+
+cln::cl_RA traced_number(const std::string& text) {
+  return validated::ends_of(certificate::number_of(text)).low;
+}
+
+std::string traced_text(double value) {
+  return certificate::middle_text(validated::ArbBall(value));
+}
+
 }  // namespace casimir

@@ -11,22 +11,23 @@
 
 namespace casimir::validated {
 
-/// Where solutions of a set pass a zero of a function s of the state and the time, each exactly once.
+/// Where solutions of a set pass a zero of a function s of the state and the time, each exactly
+/// once.
 template <class Ball>
 struct Passage {
-  Ball time;                ///< elapsed since the start
-  std::vector<Ball> states; ///< in that time
-  bool upwards = true;      ///< s goes from negative to positive while the run goes on
+  Ball time;                 ///< elapsed since the start
+  std::vector<Ball> states;  ///< in that time
+  bool upwards = true;       ///< s goes from negative to positive while the run goes on
 };
 
 /// Finds all zeros of s along all solutions of a set.
 ///
 /// The time is divided until on each part either s is certain not to vanish, or the derivative of s
-/// is certain to have one sign: then s is monotone along every solution there, and so it is on parts
-/// of the second kind that touch (at the time that they share both signs hold, so they are equal).
-/// Between two parts without zeros such a stretch has exactly one zero where s has different signs
-/// there, and none where they are equal. Where neither is certain, however short the part, nothing
-/// is said: solutions may touch the zero level there.
+/// is certain to have one sign: then s is monotone along every solution there, and so it is on
+/// parts of the second kind that touch (at the time that they share both signs hold, so they are
+/// equal). Between two parts without zeros such a stretch has exactly one zero where s has
+/// different signs there, and none where they are equal. Where neither is certain, however short
+/// the part, nothing is said: solutions may touch the zero level there.
 template <class Ball>
 class Crossings {
  public:
@@ -49,8 +50,7 @@ class Crossings {
   /// A step from `elapsed` on that the set is certain to make, before it does.
   /// \return  false where some solution may touch.
   bool step(Lohner<Ball>& lohner, const Ball& elapsed, const Ball& h) {
-    const auto [value, rate] =
-        values(lohner.piece().tube(), elapsed + from_zero_to(h));
+    const auto [value, rate] = values(lohner.piece().tube(), elapsed + from_zero_to(h));
     if (const int sign = sign_of(value)) {
       no_zero(sign);
       return true;
@@ -70,8 +70,8 @@ class Crossings {
 
   /// All of them, in their order.
   const std::vector<Passage<Ball>>& found() const { return found_; }
-  /// Whether s may be zero at the start: a zero there, or so near that the start cannot be told from
-  /// it, is not among them.
+  /// Whether s may be zero at the start: a zero there, or so near that the start cannot be told
+  /// from it, is not among them.
   bool starts_on_plane() const { return starts_on_; }
   /// Up to when all zeros are found, of a run that has come to `elapsed`; after a refusal that is
   /// where solutions may touch.
@@ -165,8 +165,8 @@ class Crossings {
     return true;
   }
 
-  /// Newton's method for all solutions of the set at once: each zero in the part is in what is left,
-  /// by the mean value theorem; nothing where there is none.
+  /// Newton's method for all solutions of the set at once: each zero in the part is in what is
+  /// left, by the mean value theorem; nothing where there is none.
   std::optional<Share> narrowed(const Step& step, Share share) {
     constexpr int kRounds = 8;
     for (int round = 0; round < kRounds; ++round) {
@@ -187,9 +187,7 @@ class Crossings {
     return share;
   }
 
-  static Ball hull(const Ball& a, const Ball& b) {
-    return widened(a, (b - a) + deviation_of(b));
-  }
+  static Ball hull(const Ball& a, const Ball& b) { return widened(a, (b - a) + deviation_of(b)); }
   static Passage<Ball> joined(const Passage<Ball>& a, const Passage<Ball>& b) {
     Passage<Ball> both{hull(a.time, b.time), {}, b.upwards};
     for (std::size_t i = 0; i < a.states.size(); ++i)

@@ -76,8 +76,8 @@ class Lohner {
   }
 
   const Doubleton<Ball>& set() const { return set_; }
-  /// Of the last step: log2 of the room of its rough enclosure, and for each integral the coordinate
-  /// that it was to make smaller, or -1.
+  /// Of the last step: log2 of the room of its rough enclosure, and for each integral the
+  /// coordinate that it was to make smaller, or -1.
   int room() const { return room_; }
   const std::vector<int>& columns() const { return columns_; }
   /// A box that contains the set.

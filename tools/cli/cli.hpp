@@ -66,11 +66,11 @@ void register_survey(CLI::App& program, Action& action);
 
 /// In the order in which the help shows them: a new command is one file and one line here.
 inline constexpr Register kCommands[] = {
-    register_list,       register_show,     register_verify,     register_search,
-    register_exponents,  register_obstruct, register_equilibria, register_generate,
-    register_integrate, register_check, register_section,  register_conserve,   register_bench,
-    register_stress,     register_report,   register_sweep,      register_survey,
-    register_discretise, register_degrees,  register_new,
+    register_list,      register_show,       register_verify,     register_search,
+    register_exponents, register_obstruct,   register_equilibria, register_generate,
+    register_integrate, register_check,      register_section,    register_conserve,
+    register_bench,     register_stress,     register_report,     register_sweep,
+    register_survey,    register_discretise, register_degrees,    register_new,
 };
 
 }  // namespace casimir::tools

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 
+#include "tools/analysis/certificate/certificate_file.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
@@ -36,10 +37,21 @@ std::string text_of_file(const std::string& path) {
   return text;
 }
 
-int check_certificate_file(const CheckOptions& options) {
-  if (!options.common.params.empty() || options.common.scene_given)
-    throw UsageError("--param and --scene have no meaning here: the certificate says what it is of");
-  const RunCertificate certificate = read_certificate(text_of_file(options.file), options.file);
+int check_cycles(const CheckOptions& options, const std::vector<CycleCertificate>& cycles) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto late = time_limit(options.common.time_limit);
+  CyclesReport report{cycles, {}, 0};
+  for (const CycleCertificate& cycle : cycles) report.checked.push_back(check_cycle(cycle, late));
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (options.common.json)
+    print_json(to_json(report));
+  else if (!options.common.quiet)
+    print_text(report);
+  if (report.holds()) return kDone;
+  return late && late() ? kEnvironment : kFailed;
+}
+
+int check_run(const CheckOptions& options, const RunCertificate& certificate) {
   const auto start = std::chrono::steady_clock::now();
   const CheckedCertificate checked =
       check_certificate(certificate, time_limit(options.common.time_limit));
@@ -54,15 +66,24 @@ int check_certificate_file(const CheckOptions& options) {
   return checked.check.fault == TraceFault::stopped ? kEnvironment : kFailed;
 }
 
+int check_certificate_file(const CheckOptions& options) {
+  if (!options.common.params.empty() || options.common.scene_given)
+    throw UsageError(
+        "--param and --scene have no meaning here: the certificate says what it is of");
+  const CertificateFile file = read_certificate(text_of_file(options.file), options.file);
+  return file.run ? check_run(options, *file.run) : check_cycles(options, file.cycles);
+}
+
 }  // namespace
 
 void register_check(CLI::App& program, Action& action) {
   auto options = std::make_shared<CheckOptions>();
-  CLI::App* command = program.add_subcommand(
-      "check", "Verify the certificate of an enclosure, step by step");
+  CLI::App* command =
+      program.add_subcommand("check", "Verify the certificate of an enclosure, step by step");
   command->footer(
       "Nothing in the file is believed: integrals are proved again, and every step is verified in\n"
-      "Arb's arithmetic. Exit status 0: all of it is proved; 1: it is not, and the first step that\n"
+      "Arb's arithmetic. Exit status 0: all of it is proved; 1: it is not, and the first step "
+      "that\n"
       "fails is named; 2: the file is malformed.");
   add_common(*command, options->common);
   command->add_option("FILE", options->file, "What integrate --validated --certificate has written")

@@ -15,6 +15,7 @@
 #include "tools/cli/progress.hpp"
 #include "tools/plot/gnuplot.hpp"
 #include "tools/runs/scene_values.hpp"
+#include "tools/section/cycle_file.hpp"
 #include "tools/section/picture.hpp"
 #include "tools/section/report.hpp"
 #include "tools/section/request.hpp"
@@ -28,7 +29,7 @@ namespace {
 struct Options {
   Common common;
   OtherStart start;
-  std::string case_name, seeds;
+  std::string case_name, seeds, certificate;
   SectionOptions request;
   std::vector<std::string> outputs;
   PictureOptions print;
@@ -58,6 +59,8 @@ void check_usage(const Options& options) {
   const bool one_orbit = options.validated && options.longest_cycle() == 0;
   if (options.duration && !one_orbit)
     throw UsageError("--duration is that of the one orbit of --validated without cycles");
+  if (!options.certificate.empty() && (!options.validated || one_orbit))
+    throw UsageError("--certificate is of cycles that are proved: --validated --cycles N");
   if (one_orbit && (options.of_many_orbits || !options.outputs.empty()))
     throw UsageError(
         "--validated encloses the crossings of one orbit, that of the scene, or proves --cycles N: "
@@ -112,6 +115,7 @@ class Section {
                                        report.cycles.cycles);
     }
     deliver(report);
+    if (!options_.certificate.empty()) write_certificates(report);
     return verdict(report);
   }
 
@@ -258,6 +262,16 @@ class Section {
       if (!options_.common.quiet && !options_.common.json)
         fmt::print("  wrote {}\n", printable(path, 200));
     }
+  }
+
+  void write_certificates(const SectionReport& report) const {
+    const std::size_t count = write_cycle_certificates(
+        options_.certificate, model_, model_.scene(options_.common.scene), problem_, report.proofs);
+    if (count < report.proved())
+      std::cerr << fmt::format("casimir: {} of {} proved cycles have no certificate\n",
+                               report.proved() - count, report.proved());
+    if (count > 0 && !options_.common.quiet && !options_.common.json)
+      fmt::print("  wrote {} certificates to {}\n", count, printable(options_.certificate, 200));
   }
 
   /// What went wrong, on stderr.
@@ -412,6 +426,11 @@ void register_section(CLI::App& program, Action& action) {
       ->add_option("--duration", options->duration,
                    "With --validated: up to this time (default: that of the scene)")
       ->type_name("T");
+  command
+      ->add_option("--certificate", options->certificate,
+                   "With --validated and cycles: write what proves them to this file, for casimir "
+                   "check")
+      ->type_name("FILE");
   command->add_option("--tolerance", options->tolerance, "Tolerance of a step (default 1e-14)")
       ->type_name("X")
       ->check(CLI::Range(1e-15, 1e-3));

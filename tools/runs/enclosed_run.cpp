@@ -10,7 +10,7 @@
 
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/expression/expression.hpp"
-#include "tools/analysis/certificate/run_certificate.hpp"
+#include "tools/analysis/certificate/certificate_file.hpp"
 #include "tools/analysis/run/validated.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"

@@ -36,7 +36,9 @@ struct CrossingReport {
     return static_cast<std::size_t>(
         std::ranges::count_if(proved.run.crossings, [this](const auto& c) { return wanted(c); }));
   }
-  std::string until() const { return decimal_ends({proved.run.crossings_until, proved.run.crossings_until}).first; }
+  std::string until() const {
+    return decimal_ends({proved.run.crossings_until, proved.run.crossings_until}).first;
+  }
   cln::cl_RA widest() const {
     cln::cl_RA largest = 0;
     for (const ValidatedCrossing& crossing : proved.run.crossings)
@@ -56,9 +58,8 @@ Json crossings_json(const CrossingReport& report) {
   Json list = Json::array();
   for (const ValidatedCrossing& crossing : run.crossings) {
     if (!report.wanted(crossing)) continue;
-    Json one = {{"n", list.size() + 1},
-                {"t", interval_json(crossing.time)},
-                {"enclosure", Json::object()}};
+    Json one = {
+        {"n", list.size() + 1}, {"t", interval_json(crossing.time)}, {"enclosure", Json::object()}};
     for (std::size_t i = 0; i < crossing.states.size(); ++i)
       one["enclosure"][report.proved.names[i]] = interval_json(crossing.states[i]);
     list.push_back(std::move(one));
@@ -104,9 +105,10 @@ void print_text(const CrossingReport& report) {
     const auto [low, high] = decimal_ends(crossing.time, 13);
     fmt::print("  {:>5}  t in [{}, {}]\n", ++n, low, high);
   }
-  fmt::print("  proved: {} crossings in 0 < t < {} and no other in this direction, each in its "
-             "interval\n",
-             n, report.until());
+  fmt::print(
+      "  proved: {} crossings in 0 < t < {} and no other in this direction, each in its "
+      "interval\n",
+      n, report.until());
   fmt::print("  the widest box of a state at one of them has the radius {}\n",
              decimal_above(report.widest()));
   if (run.starts_on_plane)

@@ -68,8 +68,7 @@ TEST(ValidatedCrossings, AreThoseOfTheClosedForm) {
       ASSERT_EQ(run.status, ValidatedStatus::ok) << run.reason;
       EXPECT_EQ(run.starts_on_plane, tenths == 0);
       EXPECT_EQ(run.crossings_until, run.end.time);
-      const std::vector<double> truth =
-          times_of(tenths / 10., cln::double_approx(run.end.time));
+      const std::vector<double> truth = times_of(tenths / 10., cln::double_approx(run.end.time));
       ASSERT_EQ(run.crossings.size(), truth.size()) << tenths;
       for (std::size_t i = 0; i < truth.size(); ++i) {
         EXPECT_TRUE(near_and_inside(run.crossings[i].time, truth[i], 1e-11)) << i;
@@ -142,7 +141,8 @@ TEST(ValidatedCrossings, OfABoxAreThoseOfItsMembers) {
       const double size = std::hypot(x, y), phase = std::atan2(x, y);
       const double first = std::asin(1 / size) - phase;
       EXPECT_TRUE(near_and_inside(run.crossings[0].time, first, 1e-3));
-      EXPECT_TRUE(near_and_inside(run.crossings[0].states[1], size * std::cos(first + phase), 1e-2));
+      EXPECT_TRUE(
+          near_and_inside(run.crossings[0].states[1], size * std::cos(first + phase), 1e-2));
     }
   }
 }
@@ -158,8 +158,8 @@ TEST(ValidatedCrossings, OfAFunctionOfTheTime) {
   ASSERT_EQ(run.status, ValidatedStatus::ok) << run.reason;
   ASSERT_EQ(run.crossings.size(), 31U);
   for (std::size_t i = 0; i < run.crossings.size(); ++i)
-    EXPECT_TRUE(near_and_inside(run.crossings[i].time,
-                                std::acos(-1.) * static_cast<double>(i + 1), 1e-10));
+    EXPECT_TRUE(
+        near_and_inside(run.crossings[i].time, std::acos(-1.) * static_cast<double>(i + 1), 1e-10));
 }
 
 }  // namespace

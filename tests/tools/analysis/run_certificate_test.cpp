@@ -1,5 +1,5 @@
 // Certificates of runs: what is true is checked, what was tampered with is not.
-#include "tools/analysis/certificate/run_certificate.hpp"
+#include "tools/analysis/certificate/certificate_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -126,9 +126,10 @@ TEST(RunCertificate, OfAllFunctionsAndOfManyDigitsIsChecked) {
 TEST(RunCertificate, ReadsBackAsItWasWritten) {
   for (const RunCertificate* certificate : {&of_a_point(), &of_a_box()}) {
     const std::string text = certificate_text(*certificate);
-    const RunCertificate read = read_certificate(text, "c.json");
-    EXPECT_EQ(certificate_text(read), text);
-    EXPECT_EQ(fault_of(read), TraceFault::none);
+    const CertificateFile read = read_certificate(text, "c.json");
+    ASSERT_TRUE(read.run);
+    EXPECT_EQ(certificate_text(*read.run), text);
+    EXPECT_EQ(fault_of(*read.run), TraceFault::none);
   }
 }
 
@@ -151,8 +152,8 @@ TEST(RunCertificate, ASmallerRadiusIsRefutedInItsStep) {
   ASSERT_GT(steps, 4U);
   for (const std::size_t step : {std::size_t{0}, steps / 2, steps - 1}) {
     for (std::size_t i = 0; i < 6; ++i) {
-      const CheckedCertificate zero = check_certificate(changed(
-          of_a_point(), [&](RunTrace& trace) { trace.steps[step].after.rest[i] = "0"; }));
+      const CheckedCertificate zero = check_certificate(
+          changed(of_a_point(), [&](RunTrace& trace) { trace.steps[step].after.rest[i] = "0"; }));
       EXPECT_EQ(zero.check.fault, TraceFault::outside);
       EXPECT_EQ(zero.check.step, step + 1);
     }
@@ -166,11 +167,10 @@ TEST(RunCertificate, ASmallerRadiusIsRefutedInItsStep) {
 
 TEST(RunCertificate, AMovedSetIsRefutedInItsStep) {
   for (const double by : {1e-12, -1e-12}) {
-    const CheckedCertificate moved =
-        check_certificate(changed(of_a_point(), [&](RunTrace& trace) {
-          std::string& x = trace.steps[3].after.middle[1];
-          x = text_of(value_of(x) + by);
-        }));
+    const CheckedCertificate moved = check_certificate(changed(of_a_point(), [&](RunTrace& trace) {
+      std::string& x = trace.steps[3].after.middle[1];
+      x = text_of(value_of(x) + by);
+    }));
     EXPECT_EQ(moved.check.fault, TraceFault::outside);
     EXPECT_EQ(moved.check.step, 4U);
   }

@@ -4,24 +4,25 @@
 #include <cmath>
 
 #include "tests/tools/program.hpp"
-#include "tools/analysis/certificate/run_certificate.hpp"
+#include "tools/analysis/certificate/certificate_file.hpp"
 
 namespace casimir::test {
 namespace {
 
 /// A certificate of a short run, in the folder.
 Outcome certify(const Folder& folder, std::vector<std::string> more) {
-  std::vector<std::string> arguments{"integrate",     "kovalevskaya", "--validated", "--certificate",
-                                     "run.json",      "--duration",   "3"};
+  std::vector<std::string> arguments{
+      "integrate", "kovalevskaya", "--validated", "--certificate", "run.json", "--duration", "3"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return run_in(folder, arguments);
 }
 
 TEST(CheckCommand, ChecksWhatIntegrateWrites) {
   const Folder folder;
-  for (const std::vector<std::string>& more :
-       {std::vector<std::string>{}, {"--initial-radius", "1e-6"}, {"--param", "r=1..1.001"},
-        {"--digits", "30"}}) {
+  for (const std::vector<std::string>& more : {std::vector<std::string>{},
+                                               {"--initial-radius", "1e-6"},
+                                               {"--param", "r=1..1.001"},
+                                               {"--digits", "30"}}) {
     const Outcome written = certify(folder, more);
     ASSERT_EQ(written.status, 0) << written.err;
     const Outcome outcome = run_in(folder, {"check", "run.json", "--json"});
@@ -32,8 +33,8 @@ TEST(CheckCommand, ChecksWhatIntegrateWrites) {
     EXPECT_EQ(checked.at("t"), "3");
     EXPECT_GT(checked.at("steps"), 5);
     EXPECT_EQ(checked.at("integrals").size(), 4U);
-    EXPECT_EQ(checked.at("enclosure").size(), more == std::vector<std::string>{"--param",
-                                                      "r=1..1.001"} ? 7U : 6U);
+    EXPECT_EQ(checked.at("enclosure").size(),
+              more == std::vector<std::string>{"--param", "r=1..1.001"} ? 7U : 6U);
   }
 }
 
@@ -98,7 +99,8 @@ duration = "40"
   EXPECT_EQ(proved.at("count_back"), down);
   for (std::size_t i = 0; i < up.size(); ++i) {
     const nlohmann::json& t = proved.at("crossings")[i].at("t");
-    const double low = std::stod(t[0].get<std::string>()), high = std::stod(t[1].get<std::string>());
+    const double low = std::stod(t[0].get<std::string>()),
+                 high = std::stod(t[1].get<std::string>());
     EXPECT_LT(s(low - 1e-9), 0);
     EXPECT_GT(s(high + 1e-9), 0);
     EXPECT_LT(high - low, 1e-10);

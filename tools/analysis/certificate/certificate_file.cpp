@@ -1,3 +1,5 @@
+#include "tools/analysis/certificate/certificate_file.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sodium.h>
@@ -11,7 +13,6 @@
 
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/expression/expression.hpp"
-#include "tools/analysis/certificate/run_certificate.hpp"
 
 namespace casimir {
 namespace {
@@ -155,29 +156,30 @@ TracedStep step_of(const Json& json, const std::string& path, std::size_t n, boo
   return step;
 }
 
-RunTrace trace_of(const Json& json, const CertificateReader& reader) {
+RunTrace trace_of(const Json& json, const std::string& path, const CertificateReader& reader) {
   constexpr std::size_t kMostStates = 1000;
   constexpr int kMostOrder = 2000, kMostBits = 20000;
   RunTrace trace;
-  trace.order = reader.whole(reader.entry(json, "", "order"), "/order", 1, kMostOrder);
-  trace.bits = reader.whole(reader.entry(json, "", "bits"), "/bits", 2, kMostBits);
-  const Json& start = reader.entry(json, "", "start");
-  reader.check_keys(start, "/start", {"middle", "off"});
-  trace.middle = reader.numbers(reader.entry(start, "/start", "middle"), "/start/middle", 0);
+  trace.order = reader.whole(reader.entry(json, path, "order"), path + "/order", 1, kMostOrder);
+  trace.bits = reader.whole(reader.entry(json, path, "bits"), path + "/bits", 2, kMostBits);
+  const Json& start = reader.entry(json, path, "start");
+  const std::string at = path + "/start";
+  reader.check_keys(start, at, {"middle", "off"});
+  trace.middle = reader.numbers(reader.entry(start, at, "middle"), at + "/middle", 0);
   const std::size_t n = trace.middle.size();
   if (n == 0 || n > kMostStates)
-    reader.malformed("/start/middle", fmt::format("1 to {} numbers", kMostStates));
-  trace.off = reader.numbers(reader.entry(start, "/start", "off"), "/start/off", n);
-  const Json& steps = reader.entry(json, "", "steps");
-  if (!steps.is_array() || steps.empty()) reader.malformed("/steps", "a list of steps");
+    reader.malformed(at + "/middle", fmt::format("1 to {} numbers", kMostStates));
+  trace.off = reader.numbers(reader.entry(start, at, "off"), at + "/off", n);
+  const Json& steps = reader.entry(json, path, "steps");
+  if (!steps.is_array() || steps.empty()) reader.malformed(path + "/steps", "a list of steps");
   for (std::size_t k = 0; k < steps.size(); ++k)
     trace.steps.push_back(
-        step_of(steps[k], fmt::format("/steps/{}", k), n, k + 1 == steps.size(), reader));
-  const Json& end = reader.entry(json, "", "end");
+        step_of(steps[k], fmt::format("{}/steps/{}", path, k), n, k + 1 == steps.size(), reader));
+  const Json& end = reader.entry(json, path, "end");
   if (!end.is_array() || end.size() != n)
-    reader.malformed("/end", fmt::format("a list of {} intervals", n));
+    reader.malformed(path + "/end", fmt::format("a list of {} intervals", n));
   for (std::size_t i = 0; i < n; ++i) {
-    const auto ends = reader.numbers(end[i], fmt::format("/end/{}", i), 2);
+    const auto ends = reader.numbers(end[i], fmt::format("{}/end/{}", path, i), 2);
     trace.end.push_back({ends[0], ends[1]});
   }
   return trace;
@@ -197,44 +199,19 @@ cln::cl_RA rational_of(const Json& json, const std::string& path, const Certific
   reader.malformed(path, "a fraction that is not negative, such as \"1/1000\"");
 }
 
-}  // namespace
-
-std::string with_digest(const std::string& text) {
-  return text + kDigestKey + digest_of(text) + kFileEnd;
-}
-
-std::string certificate_text(const RunCertificate& certificate) {
-  const RunTrace& trace = certificate.trace;
-  std::vector<std::string> radii;
-  for (const cln::cl_RA& radius : certificate.radii) radii.push_back(rational_text(radius));
+std::string trace_text(const RunTrace& trace) {
   std::string text = fmt::format(
-      "{{\"certificate\": \"run\", \"format\": {},\n\"case\": {}, \"scene\": {},\n"
-      "\"equations\": {},\n\"radii\": {},\n\"order\": {}, \"bits\": {},\n"
-      "\"start\": {{\"middle\": {}, \"off\": {}}},\n\"steps\": [\n",
-      kFormat, quoted_json(certificate.of_case), quoted_json(certificate.scene),
-      quoted_json(certificate.equations), list_text(radii), trace.order, trace.bits,
-      list_text(trace.middle), list_text(trace.off));
+      "\"order\": {}, \"bits\": {},\n\"start\": {{\"middle\": {}, \"off\": {}}},\n\"steps\": [\n",
+      trace.order, trace.bits, list_text(trace.middle), list_text(trace.off));
   for (std::size_t k = 0; k < trace.steps.size(); ++k)
     text += step_text(trace.steps[k]) + (k + 1 < trace.steps.size() ? ",\n" : "],\n");
-  return with_digest(text + fmt::format("\"end\": {}", Json(trace.end).dump()));
+  return text + fmt::format("\"end\": {}", Json(trace.end).dump());
 }
 
-RunCertificate read_certificate(const std::string& text, const std::string& file) {
-  const CertificateReader reader(file);
-  if (text.size() > kMostBytes) reader.malformed("/", "a file of at most 512 MiB");
-  const std::size_t length = std::string(kDigestKey).size() + 2 * kDigestBytes +
-                             std::string(kFileEnd).size();
-  const std::size_t body = text.size() < length ? 0 : text.size() - length;
-  if (text.compare(body, std::string(kDigestKey).size(), kDigestKey) != 0)
-    reader.malformed_at(text, text.size(), "a digest at the end: the file is not complete");
-  if (with_digest(text.substr(0, body)) != text)
-    reader.malformed_at(text, body + 2, "the digest of another text: the file has been changed");
-  const Json json = document_of(text, reader);
+RunCertificate run_of(const Json& json, const CertificateReader& reader) {
   reader.check_keys(json, "",
                     {"certificate", "format", "case", "scene", "equations", "radii", "order",
                      "bits", "start", "steps", "end", "digest"});
-  if (reader.text(json, "", "certificate") != "run") reader.malformed("/certificate", "\"run\"");
-  reader.whole(reader.entry(json, "", "format"), "/format", kFormat, kFormat);
   RunCertificate certificate;
   certificate.of_case = reader.text(json, "", "case");
   certificate.scene = reader.text(json, "", "scene");
@@ -243,8 +220,94 @@ RunCertificate read_certificate(const std::string& text, const std::string& file
   if (!radii.is_array()) reader.malformed("/radii", "a list");
   for (std::size_t i = 0; i < radii.size(); ++i)
     certificate.radii.push_back(rational_of(radii[i], fmt::format("/radii/{}", i), reader));
-  certificate.trace = trace_of(json, reader);
+  certificate.trace = trace_of(json, "", reader);
   return certificate;
+}
+
+CycleCertificate cycle_of(const Json& json, const std::string& path,
+                          const CertificateReader& reader) {
+  reader.check_keys(
+      json, path,
+      {"case", "equations", "plane", "levels", "closing", "radius", "inverse", "point", "box"});
+  CycleCertificate cycle;
+  cycle.of_case = reader.text(json, path, "case");
+  cycle.equations = reader.text(json, path, "equations");
+  cycle.plane = reader.text(json, path, "plane");
+  cycle.levels = reader.numbers(reader.entry(json, path, "levels"), path + "/levels", 0);
+  const Json& closing = reader.entry(json, path, "closing");
+  constexpr int kMostStates = 1000;
+  if (!closing.is_array()) reader.malformed(path + "/closing", "a list");
+  for (const Json& one : closing)
+    cycle.closing.push_back(reader.whole(one, path + "/closing", 0, kMostStates));
+  cycle.radius = reader.number(reader.entry(json, path, "radius"), path + "/radius");
+  cycle.inverse = reader.numbers(reader.entry(json, path, "inverse"), path + "/inverse", 0);
+  for (const char* key : {"point", "box"}) {
+    const Json& run = reader.entry(json, path, key);
+    const std::string at = path + "/" + key;
+    reader.check_keys(run, at, {"order", "bits", "start", "steps", "end"});
+    (key == std::string("point") ? cycle.point : cycle.box) = trace_of(run, at, reader);
+  }
+  return cycle;
+}
+
+}  // namespace
+
+std::string with_digest(const std::string& text) {
+  return text + kDigestKey + digest_of(text) + kFileEnd;
+}
+
+std::string certificate_text(const RunCertificate& certificate) {
+  std::vector<std::string> radii;
+  for (const cln::cl_RA& radius : certificate.radii) radii.push_back(rational_text(radius));
+  return with_digest(fmt::format(
+      "{{\"certificate\": \"run\", \"format\": {},\n\"case\": {}, \"scene\": {},\n"
+      "\"equations\": {},\n\"radii\": {},\n{}",
+      kFormat, quoted_json(certificate.of_case), quoted_json(certificate.scene),
+      quoted_json(certificate.equations), list_text(radii), trace_text(certificate.trace)));
+}
+
+std::string certificate_text(const std::vector<CycleCertificate>& cycles) {
+  std::string text =
+      fmt::format("{{\"certificate\": \"cycles\", \"format\": {},\n\"cycles\": [", kFormat);
+  for (std::size_t k = 0; k < cycles.size(); ++k) {
+    const CycleCertificate& cycle = cycles[k];
+    text += fmt::format(
+        "{}\n{{\"case\": {}, \"equations\": {},\n\"plane\": {}, \"levels\": {}, \"closing\": {}, "
+        "\"radius\": {},\n\"inverse\": {},\n\"point\": {{{}}},\n\"box\": {{{}}}}}",
+        k > 0 ? "," : "", quoted_json(cycle.of_case), quoted_json(cycle.equations),
+        quoted_json(cycle.plane), list_text(cycle.levels), Json(cycle.closing).dump(),
+        quoted_json(cycle.radius), list_text(cycle.inverse), trace_text(cycle.point),
+        trace_text(cycle.box));
+  }
+  return with_digest(text + "]");
+}
+
+CertificateFile read_certificate(const std::string& text, const std::string& file) {
+  const CertificateReader reader(file);
+  if (text.size() > kMostBytes) reader.malformed("/", "a file of at most 512 MiB");
+  const std::size_t length =
+      std::string(kDigestKey).size() + 2 * kDigestBytes + std::string(kFileEnd).size();
+  const std::size_t body = text.size() < length ? 0 : text.size() - length;
+  if (text.compare(body, std::string(kDigestKey).size(), kDigestKey) != 0)
+    reader.malformed_at(text, text.size(), "a digest at the end: the file is not complete");
+  if (with_digest(text.substr(0, body)) != text)
+    reader.malformed_at(text, body + 2, "the digest of another text: the file has been changed");
+  const Json json = document_of(text, reader);
+  if (!json.is_object()) reader.malformed("/", "an object");
+  const std::string kind = reader.text(json, "", "certificate");
+  reader.whole(reader.entry(json, "", "format"), "/format", kFormat, kFormat);
+  CertificateFile result;
+  if (kind == "run") {
+    result.run = run_of(json, reader);
+    return result;
+  }
+  if (kind != "cycles") reader.malformed("/certificate", "\"run\" or \"cycles\"");
+  reader.check_keys(json, "", {"certificate", "format", "cycles", "digest"});
+  const Json& cycles = reader.entry(json, "", "cycles");
+  if (!cycles.is_array() || cycles.empty()) reader.malformed("/cycles", "a list of cycles");
+  for (std::size_t k = 0; k < cycles.size(); ++k)
+    result.cycles.push_back(cycle_of(cycles[k], fmt::format("/cycles/{}", k), reader));
+  return result;
 }
 
 }  // namespace casimir

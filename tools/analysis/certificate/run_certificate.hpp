@@ -15,8 +15,8 @@ namespace casimir {
 struct RunCertificate {
   std::string of_case;  ///< what the equations were called
   std::string scene;    ///< what the start was called
-  /// The text of a case file with nothing in it but the variables, `[equations]`, `[integrals]` that
-  /// made the sets smaller, and one scene: start and duration.
+  /// The text of a case file with nothing in it but the variables, `[equations]`, `[integrals]`
+  /// that made the sets smaller, and one scene: start and duration.
   std::string equations;
   std::vector<cln::cl_RA> radii;  ///< by how much each initial value may be off; empty: by nothing
   RunTrace trace;                 ///< every step of the run
@@ -25,27 +25,14 @@ struct RunCertificate {
 /// The equations of a certificate as a model. \throws CaseError  for a text with anything else in it.
 Model model_of_certificate(const RunCertificate& certificate);
 
-/// A certificate as a file: JSON, with a line for each step and a digest (BLAKE2b, 32 bytes) of
-/// everything before it, so that what was changed on its way is told from what is false.
-std::string certificate_text(const RunCertificate& certificate);
-
-/// The end of a file of a certificate: `text` with its digest.
-std::string with_digest(const std::string& text);
-
-/// Reads such a file. It comes from a stranger: the size, the depth, every key and every number are
-/// checked. That it is well formed says nothing of its truth.
-/// \param file  names it in messages.
-/// \throws CaseError  for what is malformed, with the place and what was expected.
-RunCertificate read_certificate(const std::string& text, const std::string& file);
-
 /// What came of a certificate.
 struct CheckedCertificate {
   TraceCheck check;                ///< of the steps
   std::string unproved;            ///< an integral that is not proved to be one; nothing is checked
   std::vector<std::string> names;  ///< of the states
   std::vector<std::string> integrals;  ///< that were proved anew
-  GiNaC::ex duration;              ///< after which the box is that of the end
-  cln::cl_RA radius = 0;           ///< the largest half width of the box at the end
+  GiNaC::ex duration;                  ///< after which the box is that of the end
+  cln::cl_RA radius = 0;               ///< the largest half width of the box at the end
   /// Whether all that it says is proved.
   bool holds() const { return unproved.empty() && check.fault == TraceFault::none; }
 };

@@ -127,8 +127,7 @@ PreparedEnclosure prepare_enclosure(const Model& model, const Scene& scene,
   PreparedEnclosure prepared;
   prepared.specialisation = specialise(model, exact, what);
   prepared.names = prepared.specialisation.states;
-  for (const std::string& name : prepared.specialisation.parameters)
-    prepared.names.push_back(name);
+  for (const std::string& name : prepared.specialisation.parameters) prepared.names.push_back(name);
   prepared.problem = problem_of(model, options, prepared);
   return prepared;
 }

@@ -16,8 +16,8 @@ namespace casimir {
 
 /// What is asked of `enclose`.
 struct ValidatedOptions {
-  std::optional<GiNaC::ex> duration;  ///< an exact constant; without it that of the scene
-  cln::cl_RA initial_radius = 0;      ///< by how much each initial value may be off, on both sides
+  std::optional<GiNaC::ex> duration;   ///< an exact constant; without it that of the scene
+  cln::cl_RA initial_radius = 0;       ///< by how much each initial value may be off, on both sides
   std::vector<cln::cl_RA> radii = {};  ///< the same for each state, where it is not empty
   /// Parameters that may have any value of an interval around that of the scene, and how far it
   /// goes to both sides.

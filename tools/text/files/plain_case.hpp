@@ -7,8 +7,8 @@
 
 namespace casimir::tools {
 
-/// A system as a case file of nothing but equations, integrals and one scene, with the values of the
-/// parameters put in.
+/// A system as a case file of nothing but equations, integrals and one scene, with the values of
+/// the parameters put in.
 /// \param moving     parameters that become states at rest instead.
 /// \param states     those that are kept, in the order of the model; the others may not occur in
 ///                   their equations.

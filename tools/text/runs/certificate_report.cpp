@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "tools/cli/errors.hpp"
@@ -63,7 +64,7 @@ nlohmann::ordered_json to_json(const CertificateReport& report) {
       {"certificate", "run"},
       {"case", report.certificate.of_case},
       {"scene", report.certificate.scene},
-      {"verdict", checked.holds()                                ? "checked"
+      {"verdict", checked.holds()                              ? "checked"
                   : checked.check.fault == TraceFault::stopped ? "stopped"
                                                                : "refuted"},
       {"equations", report.certificate.equations},
@@ -110,6 +111,55 @@ void print_text(const CertificateReport& report) {
   }
   fmt::print("  proved: the state is in this box, whose radius is {}\n",
              decimal_above(checked.radius));
+}
+
+bool CyclesReport::holds() const {
+  return std::ranges::all_of(checked, [](const CheckedCycle& cycle) { return cycle.holds(); });
+}
+
+nlohmann::ordered_json to_json(const CyclesReport& report) {
+  nlohmann::ordered_json json = {{"certificate", "cycles"},
+                                 {"verdict", report.holds() ? "checked" : "refuted"},
+                                 {"cycles", nlohmann::ordered_json::array()}};
+  for (std::size_t k = 0; k < report.checked.size(); ++k) {
+    const CheckedCycle& cycle = report.checked[k];
+    nlohmann::ordered_json one = {{"case", report.certificates[k].of_case},
+                                  {"verdict", cycle.holds() ? "checked" : "refuted"},
+                                  {"equations", report.certificates[k].equations},
+                                  {"plane", report.certificates[k].plane}};
+    if (cycle.holds()) {
+      const auto [low, high] = decimal_ends(cycle.period);
+      one["period"] = {low, high};
+      one["enclosure"] = nlohmann::ordered_json::object();
+      for (std::size_t i = 0; i < cycle.state.size(); ++i) {
+        const auto [least, most] = decimal_ends(cycle.state[i]);
+        one["enclosure"][cycle.names[i]] = {least, most};
+      }
+    } else {
+      one["reason"] = cycle.reason;
+    }
+    json["cycles"].push_back(std::move(one));
+  }
+  json["seconds"] = report.seconds;
+  return json;
+}
+
+void print_text(const CyclesReport& report) {
+  fmt::print("{} certificates of cycles, looked through in {}\n", report.checked.size(),
+             duration_text(report.seconds));
+  for (std::size_t k = 0; k < report.checked.size(); ++k) {
+    const CheckedCycle& cycle = report.checked[k];
+    if (!cycle.holds()) {
+      fmt::print("  {:>3}  not proved: {}\n", k + 1, cycle.reason);
+      continue;
+    }
+    const auto [low, high] = decimal_ends(cycle.period, 13);
+    fmt::print("  {:>3}  proved: one orbit with a period in [{}, {}] through\n", k + 1, low, high);
+    for (std::size_t i = 0; i < cycle.state.size(); ++i) {
+      const auto [least, most] = decimal_ends(cycle.state[i], 13);
+      fmt::print("       {:<10} [{}, {}]\n", cycle.names[i], least, most);
+    }
+  }
 }
 
 }  // namespace casimir::tools
