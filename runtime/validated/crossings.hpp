@@ -51,10 +51,7 @@ class Crossings {
   /// \return  false where some solution may touch.
   bool step(Lohner<Ball>& lohner, const Ball& elapsed, const Ball& h) {
     const auto [value, rate] = values(lohner.piece().tube(), elapsed + from_zero_to(h));
-    if (const int sign = sign_of(value)) {
-      no_zero(sign);
-      return true;
-    }
+    if (const int sign = sign_of(value)) return no_zero(sign);
     return part({lohner, elapsed, h}, {0, 1});
   }
 
@@ -64,8 +61,7 @@ class Crossings {
     const auto [value, rate] = values(box, elapsed);
     const int sign = sign_of(value);
     if (sign == 0) return refuse(elapsed);
-    no_zero(sign);
-    return true;
+    return no_zero(sign);
   }
 
   /// All of them, in their order.
@@ -124,23 +120,26 @@ class Crossings {
     return false;
   }
 
-  void no_zero(int sign) {
-    if (open_ && last_sign_ != 0 && sign != last_sign_ && open_->passage) {
+  /// s has this sign on a part. \return  false where that contradicts what is known: it cannot be.
+  bool no_zero(int sign) {
+    const bool changes = last_sign_ != 0 && sign != last_sign_;
+    if (changes && (!open_ || !open_->passage)) return careless_ || refuse(Ball());
+    if (changes) {
       open_->passage->upwards = sign > 0;
       found_.push_back(std::move(*open_->passage));
     }
     open_.reset();
     last_sign_ = sign;
+    return true;
   }
 
   bool part(const Step& step, const Share& share) {
     const Ball after = step.h * ball_of(share);
     const Vector box = step.lohner.box_at(after);
     const auto [value, rate] = values(box, step.elapsed + after);
-    if (const int sign = sign_of(value)) {
-      no_zero(sign);
-      return true;
-    }
+    int sign = sign_of(value);
+    if (sign == 0) sign = sign_of(by_middle(step, share, rate));
+    if (sign != 0) return no_zero(sign);
     int rising = sign_of(rate);
     if (rising == 0 && careless_) rising = 1;
     if (rising != 0) return monotone(step, share, rising);
@@ -150,13 +149,21 @@ class Crossings {
     return part(step, {share.from, share.middle()}) && part(step, {share.middle(), share.to});
   }
 
+  /// s over a part by its value in the middle and its derivative: where that is small it is
+  /// narrower.
+  Ball by_middle(const Step& step, const Share& share, const Ball& rate) {
+    const Ball at = step.h * Ball(share.middle());
+    const Ball value = values(step.lohner.box_at(at), step.elapsed + at).first;
+    return value + rate * (step.h * Ball(MidRad(0, 0.5 * (share.to - share.from))));
+  }
+
   bool monotone(const Step& step, const Share& share, int sign) {
     const Ball over = step.elapsed + step.h * ball_of(share);
     if (!open_) open_ = Stretch{sign, over, {}};
     if (open_->sign != sign && !careless_) {  // cannot be: see above
       return refuse(over);
     }
-    const std::optional<Share> zero = narrowed(step, share);
+    const std::optional<Share> zero = narrowed(step, share, sign);
     if (!zero) return true;
     const Ball after = step.h * ball_of(*zero);
     Passage<Ball> here{step.elapsed + after, step.lohner.box_at(after), sign > 0};
@@ -165,24 +172,29 @@ class Crossings {
     return true;
   }
 
-  /// Newton's method for all solutions of the set at once: each zero in the part is in what is
-  /// left, by the mean value theorem; nothing where there is none.
-  std::optional<Share> narrowed(const Step& step, Share share) {
-    constexpr int kRounds = 8;
+  /// Narrows the times of the zeros of all solutions in a part where s is monotone: by the sign in
+  /// the middle, and by Newton's method with the mean value theorem; nothing where there is none.
+  std::optional<Share> narrowed(const Step& step, Share share, int rising) {
+    constexpr int kRounds = 60;
     for (int round = 0; round < kRounds; ++round) {
       const double middle = share.middle();
       const Ball at = step.h * Ball(middle), over = step.h * ball_of(share);
       const Ball value = values(step.lohner.box_at(at), step.elapsed + at).first;
+      if (!is_usable(value)) return share;
+      Share next = share;
+      const int sign = sign_of(value);
+      if (sign != 0) (sign == rising ? next.to : next.from) = middle;
       const Ball rate = values(step.lohner.box_at(over), step.elapsed + over).second * step.h;
-      if (sign_of(rate) == 0 || !is_usable(value)) return share;
-      const Ball by = value / rate;
-      if (!is_usable(by)) return share;
-      const double centre = middle - approximate(by), reach = radius_of(by) + kShareRounding;
-      const Share next{std::max(share.from, centre - reach), std::min(share.to, centre + reach)};
-      if (!(next.from <= next.to)) return std::nullopt;
-      const bool slow = next.to - next.from > 0.5 * (share.to - share.from);
+      if (sign_of(rate) != 0) {
+        const Ball by = value / rate;
+        if (!is_usable(by)) return next;
+        const double centre = middle - approximate(by), reach = radius_of(by) + kShareRounding;
+        next = {std::max(next.from, centre - reach), std::min(next.to, centre + reach)};
+        if (!(next.from <= next.to)) return std::nullopt;
+      }
+      const bool done = next.to - next.from > 0.9 * (share.to - share.from);
       share = next;
-      if (slow) break;
+      if (done) break;
     }
     return share;
   }

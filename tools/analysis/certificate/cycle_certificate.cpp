@@ -1,6 +1,7 @@
 #include "tools/analysis/certificate/cycle_certificate.hpp"
 
 #include <cln/float.h>
+#include <cln/integer.h>
 #include <cln/real.h>
 #include <fmt/format.h>
 
@@ -175,7 +176,7 @@ class CycleEquations {
   /// The number, and what is near it.
   static void set_level(arb_ptr ball, const std::string& text) {
     const cln::cl_RA value = traced_number(text);
-    const cln::cl_RA by = cln::abs(value) / cln::ash(cln::cl_I(1), 52);
+    const cln::cl_RA by = cln::abs(value) / cln::expt_pos(cln::cl_RA(2), 52);
     set_interval(ball, {value - by, value + by});
   }
 
