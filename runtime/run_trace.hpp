@@ -22,7 +22,7 @@ struct TracedSet {
 
 /// A step, and the set that it ends in.
 struct TracedStep {
-  std::string length;        ///< empty: what is left of the duration
+  std::string length;        ///< of the last step about: it takes what is left of the duration
   int room = 0;              ///< the rough enclosure leaves 2^room beside the Taylor polynomial
   std::vector<int> columns;  ///< for each integral the coordinate of r that it bounds, or -1
   TracedSet after;           ///< where the flow takes the set before to

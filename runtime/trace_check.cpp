@@ -71,7 +71,7 @@ class Checker {
   TraceCheck operator()(const TraceCheckSettings& settings) {
     TraceCheck result;
     BallSet set = certificate::first_set(trace_, wide_);
-    if (!starts_in(set)) result.fault = TraceFault::start;
+    if (!starts_in()) result.fault = TraceFault::start;
     for (LevelBound& bound : bounds_) bound.begin(start_, set, wide_);
     StepCheck check(flow_, bounds_, trace_.order, trace_.bits + kMoreBits, forwards_,
                     settings.derivatives);
@@ -109,28 +109,32 @@ class Checker {
 
  private:
   /// Each start of the problem is in the first set.
-  bool starts_in(const BallSet& set) const {
+  bool starts_in() const {
     const BallPrecision exact(trace_.bits + kExactBits);
-    const Vector& off = wide_ ? set.start : set.rest;
     for (std::size_t i = 0; i < start_.size(); ++i) {
-      ArbBall by = start_[i] - set.middle[i];
-      if (wide_) by = validated::widened(by, Arithmetic<ArbBall>::from(problem_.radii[i]));
-      if (!validated::contains(off[i], by)) return false;
+      ArbBall by = start_[i] - certificate::number_of(trace_.middle[i]);
+      arb_abs(by.raw(), by.raw());
+      if (wide_) by = by + Arithmetic<ArbBall>::from(problem_.radii[i]);
+      const ArbBall off = certificate::number_of(trace_.off[i]);
+      if (arb_le(by.raw(), off.raw()) == 0) return false;
     }
     return true;
   }
 
-  /// The last step, and no other, takes what is left of the duration.
+  /// The last step takes what is left of the duration, which its length has to be near to.
   bool length_of(const TracedStep& step, bool last, const ArbBall& elapsed, ArbBall& length) const {
-    if (step.length.empty() != last) return false;
-    if (last) {
-      const BallPrecision exact(trace_.bits + kExactBits);
-      length = duration_ - elapsed;
-      // An interval around zero would make the step one in both directions.
-      return arb_is_nonnegative(length.raw()) != 0;
-    }
     length = certificate::number_of(step.length);
-    return arb_is_positive(length.raw()) != 0;
+    if (!last) return arb_is_positive(length.raw()) != 0;
+    const BallPrecision exact(trace_.bits + kExactBits);
+    const ArbBall left = duration_ - elapsed;
+    // An interval around zero would make the step one in both directions.
+    if (arb_is_nonnegative(left.raw()) == 0) return false;
+    constexpr slong kNear = -40;
+    ArbBall off = left - length, most = duration_;
+    arb_abs(off.raw(), off.raw());
+    arb_mul_2exp_si(most.raw(), most.raw(), kNear);
+    length = left;
+    return arb_le(off.raw(), most.raw()) != 0;
   }
 
   void finish(TraceCheck& result, const BallSet& set, const BallMatrix& total) const {

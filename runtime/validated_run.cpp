@@ -201,7 +201,7 @@ class Runner {
     if (outcome != StepOutcome::taken)
       return stop(ValidatedStatus::no_enclosure, "the box has become too wide");
     ++run_.steps;
-    if (settings_.trace) trace_step(*settings_.trace, last ? nullptr : &h);
+    if (settings_.trace) trace_step(*settings_.trace, h);
     elapsed_ = last ? elapsed_ : next;
     done_ = last;
     if (done_ && crossings_ && !crossings_->finish(lohner_.box(), end_)) return touches();
@@ -242,11 +242,10 @@ class Runner {
       trace.off.push_back(certificate::size_text(ArbBall(s)));
   }
 
-  /// \param length  null: what is left.
-  void trace_step(RunTrace& trace, const Ball* length) const {
+  void trace_step(RunTrace& trace, const Ball& length) const {
     const validated::Doubleton<Ball>& set = lohner_.set();
     TracedStep& step = trace.steps.emplace_back();
-    if (length) step.length = certificate::middle_text(ArbBall(*length));
+    step.length = certificate::middle_text(ArbBall(length));
     step.room = lohner_.room();
     step.columns = lohner_.columns();
     const auto exact = [](const auto& number) { return certificate::middle_text(ArbBall(number)); };

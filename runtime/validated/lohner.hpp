@@ -28,8 +28,8 @@ struct StepSettings {
   bool forwards = true;
   /// For tests that see an enclosure fail: leaves x_{N+1} out.
   bool without_remainder = false;
-  /// Makes every set larger by 2^-20 of its size, so that other arithmetic, which rounds otherwise,
-  /// can verify each step.
+  /// Makes the rest of every set larger by 2^-20 of its size, of boxes by 2^-12, so that other
+  /// arithmetic, which rounds otherwise, can verify each step.
   bool with_reserve = false;
 };
 
@@ -232,8 +232,10 @@ class Lohner {
     set.rest = sum(set.rest, corrected(transposed_product(set.frame.columns, moved), set.frame));
   }
 
-  static void enlarge(Vector& rest) {
-    const Ball by(1 + 0x1p-20);
+  /// Where the start is a box the rest is what that leaves over, of second order: other bounds of
+  /// functions differ by more than rounding there.
+  void enlarge(Vector& rest) const {
+    const Ball by(1 + (set_.start.empty() ? 0x1p-20 : 0x1p-12));
     for (Ball& r : rest) r = symmetric(symmetric(r) * by);
   }
 

@@ -153,10 +153,20 @@ ValidatedMotion certified_motion(const Model& model, const Scene& given,
   }
 }
 
-void write_certificate(const std::string& path, const RunCertificate& certificate) {
+/// Nobody is handed a certificate that does not pass. \return  false, and says so, for such a one.
+bool write_certificate(const std::string& path, const RunCertificate& certificate) {
+  const CheckedCertificate checked = check_certificate(certificate);
+  if (!checked.holds()) {
+    std::cerr << fmt::format(
+        "casimir: no certificate was written: step {} of the run could not be verified in other "
+        "arithmetic\n  hint: a smaller start may help; the box itself is proved\n",
+        checked.check.step);
+    return false;
+  }
   OutputFile file(path);
   file.stream() << certificate_text(certificate);
   file.commit();
+  return true;
 }
 
 }  // namespace
@@ -200,8 +210,8 @@ int integrate_validated(const EnclosedRequest& request) {
       .digits = request.digits,
       .seconds = std::chrono::duration<double>(Clock::now() - start).count()};
   if (!request.output.empty()) write_boxes(request.output, report);
-  const bool certified = !request.certificate.empty() && motion.run.status == ValidatedStatus::ok;
-  if (certified) write_certificate(request.certificate, certificate);
+  const bool wanted = !request.certificate.empty() && motion.run.status == ValidatedStatus::ok;
+  const bool certified = wanted && write_certificate(request.certificate, certificate);
   if (request.common.json) {
     nlohmann::ordered_json json = to_json(report);
     if (certified) json["certificate"] = request.certificate;
@@ -215,6 +225,7 @@ int integrate_validated(const EnclosedRequest& request) {
       fmt::print("  wrote {} steps to {}\n", certificate.trace.steps.size(),
                  printable(request.certificate, 200));
   }
+  if (wanted && !certified) return kFailed;
   return say_if_it_stopped(report);
 }
 

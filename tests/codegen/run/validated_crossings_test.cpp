@@ -7,6 +7,7 @@
 #include <iomanip>
 
 #include "codegen/optimise/differentiate.hpp"
+#include "runtime/trace_check.hpp"
 #include "runtime/validated_run.hpp"
 #include "tests/runtime/programs.hpp"
 
@@ -165,6 +166,31 @@ TEST(ValidatedCrossings, OfAFunctionOfTheTime) {
   for (std::size_t i = 0; i < run.crossings.size(); ++i)
     EXPECT_TRUE(
         near_and_inside(run.crossings[i].time, std::acos(-1.) * static_cast<double>(i + 1), 1e-10));
+}
+
+/// Every step of a run is verified by other arithmetic, in both directions of the time.
+TEST(ValidatedTrace, OfARunIsVerifiedInBothDirections) {
+  for (const int duration : {9, -9}) {
+    for (const bool wide : {false, true}) {
+      ValidatedProblem problem = turning(duration);
+      if (wide) problem.radii = {cln::cl_RA(1) / 1000, 0};
+      RunTrace trace;
+      ValidatedSettings settings;
+      settings.trace = &trace;
+      ASSERT_EQ(validated_run(problem, settings).status, ValidatedStatus::ok);
+      TraceCheckSettings with_derivatives;
+      with_derivatives.derivatives = true;
+      const TraceCheck check = check_trace(problem, trace, with_derivatives);
+      ASSERT_EQ(check.fault, TraceFault::none) << check.step;
+      EXPECT_TRUE(near_and_inside(check.end[0], 5 * std::sin(duration), 1e-2));
+      const std::vector<double> rotation = {std::cos(duration), std::sin(duration),
+                                            -std::sin(duration), std::cos(duration)};
+      for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_TRUE(near_and_inside(check.derivatives[i], rotation[i], 1e-12)) << i;
+      trace.steps.back().after.middle[0] = "0x1p0";
+      EXPECT_EQ(check_trace(problem, trace).fault, TraceFault::outside);
+    }
+  }
 }
 
 }  // namespace

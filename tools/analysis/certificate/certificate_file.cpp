@@ -41,8 +41,7 @@ std::string quoted_json(const std::string& text) { return Json(text).dump(); }
 std::string list_text(const std::vector<std::string>& texts) { return Json(texts).dump(); }
 
 std::string step_text(const TracedStep& step) {
-  std::string text = "{";
-  if (!step.length.empty()) text += fmt::format("\"length\": {}, ", quoted_json(step.length));
+  std::string text = fmt::format("{{\"length\": {}, ", quoted_json(step.length));
   text += fmt::format("\"room\": {}, \"columns\": {}, \"middle\": {}, ", step.room,
                       Json(step.columns).dump(), list_text(step.after.middle));
   if (!step.after.carried.empty())
@@ -132,16 +131,13 @@ Json document_of(const std::string& text, const CertificateReader& reader) {
   }
 }
 
-TracedStep step_of(const Json& json, const std::string& path, std::size_t n, bool last,
+TracedStep step_of(const Json& json, const std::string& path, std::size_t n,
                    const CertificateReader& reader) {
   constexpr int kMostRoom = 100000;
   reader.check_keys(json, path,
                     {"length", "room", "columns", "middle", "carried", "frame", "rest"});
   TracedStep step;
-  if (json.contains("length")) step.length = reader.number(json["length"], path + "/length");
-  if (step.length.empty() != last)
-    reader.malformed(path + "/length",
-                     last ? "none: the last step ends at the duration" : "a length");
+  step.length = reader.number(reader.entry(json, path, "length"), path + "/length");
   step.room = reader.whole(reader.entry(json, path, "room"), path + "/room", -kMostRoom, kMostRoom);
   const Json& columns = reader.entry(json, path, "columns");
   if (!columns.is_array()) reader.malformed(path + "/columns", "a list");
@@ -173,8 +169,7 @@ RunTrace trace_of(const Json& json, const std::string& path, const CertificateRe
   const Json& steps = reader.entry(json, path, "steps");
   if (!steps.is_array() || steps.empty()) reader.malformed(path + "/steps", "a list of steps");
   for (std::size_t k = 0; k < steps.size(); ++k)
-    trace.steps.push_back(
-        step_of(steps[k], fmt::format("{}/steps/{}", path, k), n, k + 1 == steps.size(), reader));
+    trace.steps.push_back(step_of(steps[k], fmt::format("{}/steps/{}", path, k), n, reader));
   const Json& end = reader.entry(json, path, "end");
   if (!end.is_array() || end.size() != n)
     reader.malformed(path + "/end", fmt::format("a list of {} intervals", n));
