@@ -166,7 +166,7 @@ class Lohner {
       if (!is_usable(r)) return StepOutcome::no_enclosure;
     if (!contract(next, columns, end)) return StepOutcome::contradiction;
     recentre(next);
-    if (settings_.with_reserve) enlarge(next.rest);
+    if (settings_.with_reserve) enlarge(next);
     Vector box = next.hull();
     for (const Ball& x : box)
       if (!is_usable(x)) return StepOutcome::no_enclosure;
@@ -233,10 +233,15 @@ class Lohner {
   }
 
   /// Where the start is a box the rest is what that leaves over, of second order: other bounds of
-  /// functions differ by more than rounding there.
-  void enlarge(Vector& rest) const {
-    const Ball by(1 + (set_.start.empty() ? 0x1p-20 : 0x1p-12));
-    for (Ball& r : rest) r = symmetric(symmetric(r) * by);
+  /// functions differ by more than rounding there. An integral may make a coordinate as thin as the
+  /// rounding of other coordinates: some 2^-13 of a unit in the last place of the state is added.
+  void enlarge(Doubleton<Ball>& set) const {
+    double largest = 0;
+    for (const Ball& m : set.middle) largest = std::max(largest, std::abs(approximate(m)));
+    const Ball by(1 + (set.start.empty() ? 0x1p-20 : 0x1p-12));
+    const Ball floor = symmetric(
+        power_of_two<Ball>(67 - static_cast<int>(settings_.integral_bits)) * Ball(largest));
+    for (Ball& r : set.rest) r = widened(symmetric(symmetric(r) * by), floor);
   }
 
   StepSettings settings_;

@@ -100,10 +100,10 @@ bool measure(const Problem& problem, const std::filesystem::path& folder) {
   ValidatedOptions traced = options;
   RunTrace trace;
   traced.run.trace = &trace;
-  const PreparedEnclosure prepared = prepare_enclosure(model, scene, traced);
-  validated_run(prepared.problem, traced.run);
+  const PreparedEnclosure enclosure = prepare_enclosure(model, scene, traced);
+  validated_run(enclosure.problem, traced.run);
   const double written = seconds();
-  const bool checked = check_trace(prepared.problem, trace).fault == TraceFault::none;
+  const bool checked = check_trace(enclosure.problem, trace).fault == TraceFault::none;
   const double check = seconds() - written;
   const bool good = checked && run.status == ValidatedStatus::ok && run.radius() <= problem.bound;
   fmt::print(

@@ -20,6 +20,7 @@
 #include "tools/runs/atlas.hpp"
 #include "tools/runs/digits_run.hpp"
 #include "tools/text/files/plain_case.hpp"
+#include "tools/text/runs/certificate_report.hpp"
 #include "tools/text/runs/enclosure_report.hpp"
 
 namespace casimir::tools {
@@ -158,9 +159,9 @@ bool write_certificate(const std::string& path, const RunCertificate& certificat
   const CheckedCertificate checked = check_certificate(certificate);
   if (!checked.holds()) {
     std::cerr << fmt::format(
-        "casimir: no certificate was written: step {} of the run could not be verified in other "
-        "arithmetic\n  hint: a smaller start may help; the box itself is proved\n",
-        checked.check.step);
+        "casimir: no certificate was written: it could not be verified in other arithmetic: {}\n"
+        "  hint: a smaller start may help; the box itself is proved\n",
+        CertificateReport{certificate, checked}.reason());
     return false;
   }
   OutputFile file(path);

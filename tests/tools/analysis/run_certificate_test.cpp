@@ -44,7 +44,7 @@ y = "atan2(x, 2 + y^2) - cos(y) + tanh(x) + asin(y/(9 + y^2)) + (4 + x^2)^(1/3) 
 [[scene]]
 name = "default"
 initial = { x = "sqrt(2)", y = "-1/7" }
-duration = "Pi"
+duration = "Pi/8"
 )toml";
 
 RunCertificate certified(const std::string& equations, std::vector<cln::cl_RA> radii = {},
