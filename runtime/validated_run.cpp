@@ -7,6 +7,9 @@
 #include <optional>
 #include <stdexcept>
 
+#include "runtime/certificate/hex_float.hpp"
+#include "runtime/trace_check.hpp"
+#include "runtime/validated/crossings.hpp"
 #include "runtime/validated/lohner.hpp"
 #include "runtime/validated/rational_ends.hpp"
 
@@ -45,6 +48,7 @@ StepSettings step_settings(const ValidatedSettings& settings, bool forwards) {
   result.integral_bits = bits + 80;
   result.forwards = forwards;
   result.without_remainder = settings.without_remainder;
+  result.with_reserve = settings.trace != nullptr;
   return result;
 }
 
@@ -95,6 +99,7 @@ class Runner {
         precision_(bits_of(settings)),
         flow_(validated::joined(problem.rates, problem.jacobian, problem.entries)),
         integrals_(integrals_of(problem)),
+        order_(step_settings(settings, forwards_).order),
         lohner_(flow_, integrals_, step_settings(settings, forwards_)) {
     end_exact_ = forwards_ ? start.back() : -start.back();
     if (const auto rational = rational_end(problem.start)) {
@@ -109,6 +114,11 @@ class Runner {
       wide[i] = validated::symmetric(Arithmetic<Ball>::from(problem.radii[i]));
     end_ = validated::ball_from<Ball>(end_exact_);
     lohner_.begin(start, wide);
+    if (!problem.plane.outputs.empty()) {
+      crossings_.emplace(problem.plane, forwards_, settings.without_monotony);
+      crossings_->begin(lohner_.box());
+    }
+    if (settings.trace) trace_start(*settings.trace, bits_of(settings));
   }
 
   ValidatedRun operator()() {
@@ -183,6 +193,7 @@ class Runner {
 
   void advance(const Ball& h, bool last, double next) {
     record_samples(last, next);
+    if (crossings_ && !crossings_->step(lohner_, Ball(elapsed_), h)) return touches();
     const StepOutcome outcome = lohner_.advance(h);
     if (outcome == StepOutcome::contradiction)
       return stop(ValidatedStatus::contradiction,
@@ -190,10 +201,58 @@ class Runner {
     if (outcome != StepOutcome::taken)
       return stop(ValidatedStatus::no_enclosure, "the box has become too wide");
     ++run_.steps;
+    if (settings_.trace) trace_step(*settings_.trace, h);
     elapsed_ = last ? elapsed_ : next;
     done_ = last;
+    if (done_ && crossings_ && !crossings_->finish(lohner_.box(), end_)) return touches();
     if (!done_ && too_wide())
       stop(ValidatedStatus::no_enclosure, "the box has become as wide as the state is large");
+  }
+
+  void touches() {
+    done_ = false;
+    stop(ValidatedStatus::touching, "the solution may touch the surface without crossing it");
+  }
+
+  void record_crossings() {
+    run_.starts_on_plane = crossings_->starts_on_plane();
+    run_.crossings_until = run_.end.time;
+    if (run_.status != ValidatedStatus::ok) {
+      const auto until = validated::ends_of(ArbBall(crossings_->settled_until(Ball(elapsed_))));
+      const cln::cl_RA first = cln::plusp(until.low) ? until.low : cln::cl_RA(0);
+      run_.crossings_until = forwards_ ? first : -first;
+    }
+    for (const validated::Passage<Ball>& passage : crossings_->found()) {
+      ValidatedCrossing crossing;
+      crossing.time = validated::ends_of(ArbBall(forwards_ ? passage.time : -passage.time));
+      for (const Ball& x : passage.states)
+        crossing.states.push_back(validated::ends_of(ArbBall(x)));
+      crossing.upwards = passage.upwards == forwards_;
+      run_.crossings.push_back(std::move(crossing));
+    }
+  }
+
+  void trace_start(RunTrace& trace, long bits) const {
+    const validated::Doubleton<Ball>& set = lohner_.set();
+    trace = {};
+    trace.order = order_;
+    trace.bits = bits;
+    for (const Ball& m : set.middle) trace.middle.push_back(certificate::middle_text(ArbBall(m)));
+    for (const Ball& s : set.start.empty() ? set.rest : set.start)
+      trace.off.push_back(certificate::size_text(ArbBall(s)));
+  }
+
+  void trace_step(RunTrace& trace, const Ball& length) const {
+    const validated::Doubleton<Ball>& set = lohner_.set();
+    TracedStep& step = trace.steps.emplace_back();
+    step.length = certificate::middle_text(ArbBall(length));
+    step.room = lohner_.room();
+    step.columns = lohner_.columns();
+    const auto exact = [](const auto& number) { return certificate::middle_text(ArbBall(number)); };
+    for (const Ball& m : set.middle) step.after.middle.push_back(exact(m));
+    for (const Ball& c : set.carried.entries) step.after.carried.push_back(exact(c));
+    for (const double b : set.frame.columns.entries) step.after.frame.push_back(exact(b));
+    for (const Ball& r : set.rest) step.after.rest.push_back(certificate::size_text(ArbBall(r)));
   }
 
   /// A box as large as all that the state has been is no statement.
@@ -241,6 +300,7 @@ class Runner {
         (run_.samples.back().time != run_.end.time))
       run_.samples.push_back(run_.end);
     run_.contracted_by = lohner_.contracted_by();
+    if (crossings_) record_crossings();
   }
 
   const ValidatedSettings& settings_;
@@ -248,7 +308,9 @@ class Runner {
   BallPrecision precision_;
   validated::FlowProgram flow_;
   std::vector<validated::Integral> integrals_;
+  int order_;
   Lohner<Ball> lohner_;
+  std::optional<validated::Crossings<Ball>> crossings_;
   ArbBall end_exact_;
   cln::cl_RA end_time_;  ///< the same, where it is rational
   Ball end_;
@@ -275,8 +337,11 @@ ValidatedRun validated_run(const ValidatedProblem& problem, const ValidatedSetti
     const BallPrecision exact(bits_of(settings) + kDataBits);
     start = evaluate(problem.start, std::vector<ArbBall>{});
   }
-  if (settings.digits == 0) return Runner<MidRad>(problem, settings, std::move(start))();
-  return Runner<ArbBall>(problem, settings, std::move(start))();
+  ValidatedRun run = settings.digits == 0 ? Runner<MidRad>(problem, settings, std::move(start))()
+                                          : Runner<ArbBall>(problem, settings, std::move(start))();
+  if (settings.trace && run.status == ValidatedStatus::ok)
+    settings.trace->end = end_of(problem, *settings.trace);
+  return run;
 }
 
 }  // namespace casimir

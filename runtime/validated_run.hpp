@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/program.hpp"
+#include "runtime/run_trace.hpp"
 
 namespace casimir {
 
@@ -37,6 +38,9 @@ struct ValidatedProblem {
   /// By how much each state may be off at the start, on both sides; empty: by nothing.
   std::vector<cln::cl_RA> radii = {};
   std::vector<KnownIntegral> integrals = {};  ///< by which the box is made smaller
+  /// Where it has outputs: a function s of the states and the time, and its derivative by the time
+  /// along solutions. All zeros of s on the way are enclosed.
+  Program plane = {};
 };
 
 /// How an enclosure is made.
@@ -48,9 +52,14 @@ struct ValidatedSettings {
   cln::cl_RA sample_every = 0;       ///< > 0: boxes at its multiples
   /// Asked before each step with the share of the duration that is done; true ends the run.
   std::function<bool(double share)> give_up = {};
+  /// Where every step is written down, to be verified by others; the sets are then wider by some
+  /// 2^-20 of their size. Of a run whose status is ok.
+  RunTrace* trace = nullptr;
   /// Only for tests, which have to see that what is left out is missed: steps without their
   /// remainder, which makes every statement of the run false.
   bool without_remainder = false;
+  /// The same: takes s for monotone wherever it may vanish.
+  bool without_monotony = false;
 };
 
 /// States at a time, all of them within the box.
@@ -60,11 +69,20 @@ struct StateBox {
   std::vector<RationalInterval> states;  ///< one for each state, in their order
 };
 
+/// A zero of the function s of a problem: every solution from the start has exactly one within
+/// `time`, and its state is then in the box.
+struct ValidatedCrossing {
+  RationalInterval time;                 ///< contains that of each solution
+  std::vector<RationalInterval> states;  ///< one for each state, in their order
+  bool upwards = true;                   ///< s increases with the time
+};
+
 /// Why an enclosure ended before its time.
 enum class ValidatedStatus {
   ok,             ///< it reached its time
   no_enclosure,   ///< beyond the time of `end` none could be found
   contradiction,  ///< an integral excludes every state of the box: it is not one
+  touching,       ///< s may vanish without changing its sign
   max_steps,      ///< as many steps were made as were allowed
   stopped,        ///< `give_up` said so
 };
@@ -80,6 +98,11 @@ struct ValidatedRun {
   unsigned long long steps = 0;                  ///< that were made
   unsigned long long rejected = 0;               ///< that could not be enclosed at their length
   double seconds = 0;                            ///< that the run took
+  /// All zeros of s up to the time `crossings_until`, in the order of the run: none is missed, and
+  /// none is there twice. One at the start itself is not among them.
+  std::vector<ValidatedCrossing> crossings;
+  cln::cl_RA crossings_until = 0;  ///< that of `end`, where the status is ok
+  bool starts_on_plane = false;    ///< s may be zero at the start
 
   /// The largest half width of the box at the end.
   double radius() const;

@@ -28,6 +28,9 @@ struct StepSettings {
   bool forwards = true;
   /// For tests that see an enclosure fail: leaves x_{N+1} out.
   bool without_remainder = false;
+  /// Makes the rest of every set larger by 2^-20 of its size, of boxes by 2^-12, so that other
+  /// arithmetic, which rounds otherwise, can verify each step.
+  bool with_reserve = false;
 };
 
 /// The steps of a set along the flow, by Lohner's method.
@@ -73,6 +76,10 @@ class Lohner {
   }
 
   const Doubleton<Ball>& set() const { return set_; }
+  /// Of the last step: log2 of the room of its rough enclosure, and for each integral the
+  /// coordinate that it was to make smaller, or -1.
+  int room() const { return room_; }
+  const std::vector<int>& columns() const { return columns_; }
   /// A box that contains the set.
   const Vector& box() const { return box_; }
   const FlowPiece<Ball>& piece() const { return piece_; }
@@ -99,8 +106,8 @@ class Lohner {
   /// Tries whether a step of that length is enclosed; the next one that is proposed follows from
   /// how well. \return  by how much (log2) to shorten it; 0 if it is enclosed.
   double shortened_by(const Ball& h, bool is_full) {
-    const int exponent = static_cast<int>(std::floor(settings_.log2_error + log2_size_));
-    const double excess = piece_.encloses(h, symmetric(power_of_two<Ball>(exponent)));
+    room_ = static_cast<int>(std::floor(settings_.log2_error + log2_size_));
+    const double excess = piece_.encloses(h, symmetric(power_of_two<Ball>(room_)));
     const double share =
         std::isinf(excess) && excess > 0 ? 1 : (excess + kReserve) / (settings_.order + 1);
     if (excess <= 0) {
@@ -159,11 +166,13 @@ class Lohner {
       if (!is_usable(r)) return StepOutcome::no_enclosure;
     if (!contract(next, columns, end)) return StepOutcome::contradiction;
     recentre(next);
+    if (settings_.with_reserve) enlarge(next);
     Vector box = next.hull();
     for (const Ball& x : box)
       if (!is_usable(x)) return StepOutcome::no_enclosure;
     set_ = std::move(next);
     box_ = std::move(box);
+    columns_ = std::move(columns);
     return StepOutcome::taken;
   }
 
@@ -223,6 +232,18 @@ class Lohner {
     set.rest = sum(set.rest, corrected(transposed_product(set.frame.columns, moved), set.frame));
   }
 
+  /// Where the start is a box the rest is what that leaves over, of second order: other bounds of
+  /// functions differ by more than rounding there. An integral may make a coordinate as thin as the
+  /// rounding of other coordinates: some 2^-13 of a unit in the last place of the state is added.
+  void enlarge(Doubleton<Ball>& set) const {
+    double largest = 0;
+    for (const Ball& m : set.middle) largest = std::max(largest, std::abs(approximate(m)));
+    const Ball by(1 + (set.start.empty() ? 0x1p-20 : 0x1p-12));
+    const Ball floor = symmetric(
+        power_of_two<Ball>(67 - static_cast<int>(settings_.integral_bits)) * Ball(largest));
+    for (Ball& r : set.rest) r = widened(symmetric(symmetric(r) * by), floor);
+  }
+
   StepSettings settings_;
   FlowPiece<Ball> piece_;
   std::vector<Contractor<Ball>> contractors_;
@@ -231,6 +252,8 @@ class Lohner {
   Ball elapsed_;
   double log2_factor_ = -0.5, log2_size_ = 0;
   bool tangents_known_ = false;
+  int room_ = 0;
+  std::vector<int> columns_;
 };
 
 }  // namespace casimir::validated

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/trace_check.hpp"
 #include "symbolic/case_file.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "tools/analysis/run/validated.hpp"
@@ -21,7 +22,43 @@ struct Problem {
   double initial_radius;
   double bound;  ///< of the radius at the end
   bool quick;
+  const char* text = nullptr;  ///< of a case that is not bundled
 };
+
+constexpr const char* kHenonHeiles = R"toml(title = "Henon-Heiles"
+hamiltonian = "(px^2 + py^2 + x^2 + y^2)/2 + x^2*y - y^3/3"
+[phase_space]
+variables = ["x", "y", "px", "py"]
+canonical = true
+[[scene]]
+name = "default"
+initial = { x = "0", y = "1/10", px = "49057/100000", py = "0" }
+duration = "2000"
+)toml";
+constexpr const char* kLorenz = R"toml(title = "Lorenz"
+[phase_space]
+variables = ["x", "y", "z"]
+[equations]
+x = "10*(y - x)"
+y = "x*(28 - z) - y"
+z = "x*y - 8/3*z"
+[[scene]]
+name = "default"
+initial = { x = "15", y = "15", z = "36" }
+duration = "20"
+)toml";
+constexpr const char* kRoessler = R"toml(title = "Roessler"
+[phase_space]
+variables = ["x", "y", "z"]
+[equations]
+x = "-y - z"
+y = "x + y/5"
+z = "1/5 + z*(x - 57/10)"
+[[scene]]
+name = "default"
+initial = { x = "0", y = "-8.38", z = "0.0296" }
+duration = "100"
+)toml";
 
 const std::vector<Problem>& problems() {
   static const std::vector<Problem> all = {
@@ -30,6 +67,9 @@ const std::vector<Problem>& problems() {
       {"kovalevskaya", "default", "10000", 0, 4e-6, false},
       {"kovalevskaya", "default", "20", 1e-6, 1.8e-5, true},
       {"euler-poisson", "chaotic", "200", 0, 1e-5, true},
+      {"henon-heiles", "default", "2000", 0, 1e-7, true, kHenonHeiles},
+      {"lorenz", "default", "20", 0, 2.5e-4, true, kLorenz},
+      {"roessler", "default", "100", 0, 8e-7, true, kRoessler},
   };
   return all;
 }
@@ -38,7 +78,9 @@ double seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Whether the box is as narrow as it has to be.
 bool measure(const Problem& problem, const std::filesystem::path& folder) {
-  const Model model = build_model(read_case((folder / problem.file).string() + ".toml"));
+  const Model model =
+      build_model(problem.text ? parse_case(problem.text, problem.file)
+                               : read_case((folder / problem.file).string() + ".toml"));
   const Scene& scene = model.scene(problem.scene);
   ValidatedOptions options;
   options.duration = parse_real_constant({problem.duration, {"duration", 1, 1}, problem.duration});
@@ -54,10 +96,23 @@ bool measure(const Problem& problem, const std::filesystem::path& folder) {
   const ValidatedMotion motion = enclose(model, scene, options);
   const double spent = (seconds() - prepared) - (prepared - start);
   const ValidatedRun& run = motion.run;
-  const bool good = run.status == ValidatedStatus::ok && run.radius() <= problem.bound;
-  fmt::print("{:<14} {:<8} {:>6} {:>8.0e}  {:>9.2e} {:>9.0e} {:>8} {:>9.1f} ms  {}\n", problem.file,
-             problem.scene, problem.duration, problem.initial_radius, run.radius(), problem.bound,
-             run.steps, 1e3 * spent, good ? "ok" : "TOO WIDE: " + run.reason);
+  // The same with every step written down, and what it takes to verify them.
+  ValidatedOptions traced = options;
+  RunTrace trace;
+  traced.run.trace = &trace;
+  const PreparedEnclosure enclosure = prepare_enclosure(model, scene, traced);
+  validated_run(enclosure.problem, traced.run);
+  const double written = seconds();
+  const bool checked = check_trace(enclosure.problem, trace).fault == TraceFault::none;
+  const double check = seconds() - written;
+  const bool good = checked && run.status == ValidatedStatus::ok && run.radius() <= problem.bound;
+  fmt::print(
+      "{:<14} {:<8} {:>6} {:>8.0e}  {:>9.2e} {:>9.0e} {:>8} {:>9.1f} ms {:>9.1f} ms {:>5.1f}  {}\n",
+      problem.file, problem.scene, problem.duration, problem.initial_radius, run.radius(),
+      problem.bound, run.steps, 1e3 * spent, 1e3 * check, check / spent,
+      good      ? "ok"
+      : checked ? "TOO WIDE: " + run.reason
+                : "NOT CHECKED");
   return good;
 }
 
@@ -67,7 +122,8 @@ int main(int argc, char** argv) {
   const bool quick = argc > 1 && std::string(argv[1]) == "--quick";
   const std::filesystem::path folder = argc > (quick ? 2 : 1) ? argv[quick ? 2 : 1] : "cases";
   fmt::print(
-      "case           scene    duration  start     radius     bound    steps  processor time\n");
+      "case           scene    duration  start     radius     bound    steps  processor time       "
+      " check ratio\n");
   bool good = true;
   for (const Problem& problem : problems())
     if (problem.quick || !quick) good = measure(problem, folder) && good;

@@ -55,6 +55,7 @@ void register_equilibria(CLI::App& program, Action& action);
 void register_generate(CLI::App& program, Action& action);
 void register_integrate(CLI::App& program, Action& action);
 void register_conserve(CLI::App& program, Action& action);
+void register_check(CLI::App& program, Action& action);
 void register_section(CLI::App& program, Action& action);
 void register_bench(CLI::App& program, Action& action);
 void register_stress(CLI::App& program, Action& action);
@@ -65,11 +66,11 @@ void register_survey(CLI::App& program, Action& action);
 
 /// In the order in which the help shows them: a new command is one file and one line here.
 inline constexpr Register kCommands[] = {
-    register_list,       register_show,     register_verify,     register_search,
-    register_exponents,  register_obstruct, register_equilibria, register_generate,
-    register_integrate,  register_section,  register_conserve,   register_bench,
-    register_stress,     register_report,   register_sweep,      register_survey,
-    register_discretise, register_degrees,  register_new,
+    register_list,      register_show,       register_verify,     register_search,
+    register_exponents, register_obstruct,   register_equilibria, register_generate,
+    register_integrate, register_check,      register_section,    register_conserve,
+    register_bench,     register_stress,     register_report,     register_sweep,
+    register_survey,    register_discretise, register_degrees,    register_new,
 };
 
 }  // namespace casimir::tools

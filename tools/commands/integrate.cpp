@@ -43,7 +43,7 @@ struct Options {
   OtherStart start;
   MotionOptions picture;
   PictureOptions print;
-  std::string case_name, method = "auto", output, ensemble, in, as;
+  std::string case_name, method = "auto", output, ensemble, in, as, certificate;
   std::vector<std::string> observe;
   double every = 0;
   int jobs = 0;
@@ -259,7 +259,7 @@ int enclose_case(const Options& options) {
   return integrate_validated({options.common, options.run, options.kept, options.start,
                               options.case_name, options.in, options.as, options.method,
                               options.output, options.every, options.digits, options.initial_radius,
-                              options.observe});
+                              options.observe, options.certificate});
 }
 
 /// Of a map: its steps are iterated, and what is about methods and errors of steps has no meaning.
@@ -282,6 +282,7 @@ int integrate_case(const Options& options) {
   options.print.check(options.picture.wanted());
   if (options.validated) return enclose_case(options);
   if (options.initial_radius) throw UsageError("--initial-radius needs --validated");
+  if (!options.certificate.empty()) throw UsageError("--certificate needs --validated");
   for (const std::string& word : options.common.params)
     if (is_range(word)) throw UsageError("--param with a range of values needs --validated");
   if (options.picture.wanted() && (options.digits || !options.ensemble.empty()))
@@ -378,6 +379,10 @@ void register_integrate(CLI::App& program, Action& action) {
       ->add_option("--initial-radius", options->initial_radius,
                    "With --validated: every initial value may be off by so much")
       ->type_name("X");
+  command
+      ->add_option("--certificate", options->certificate,
+                   "With --validated: write every step to this file, for casimir check")
+      ->type_name("FILE");
   command->add_option("--jobs", options->jobs, "Threads for an ensemble (default: all processors)")
       ->type_name("N")
       ->check(CLI::PositiveNumber);

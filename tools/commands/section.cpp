@@ -15,11 +15,13 @@
 #include "tools/cli/progress.hpp"
 #include "tools/plot/gnuplot.hpp"
 #include "tools/runs/scene_values.hpp"
+#include "tools/section/cycle_file.hpp"
 #include "tools/section/map_section.hpp"
 #include "tools/section/picture.hpp"
 #include "tools/section/report.hpp"
 #include "tools/section/request.hpp"
 #include "tools/section/seeds.hpp"
+#include "tools/section/validated_section.hpp"
 #include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
@@ -28,12 +30,14 @@ namespace {
 struct Options {
   Common common;
   OtherStart start;
-  std::string case_name, seeds;
+  std::string case_name, seeds, certificate;
   SectionOptions request;
   std::vector<std::string> outputs;
   PictureOptions print;
   std::size_t orbits = 40, points = 500, cycles = 0;
   bool fixed_points = false, validated = false, tolerance_given = false;
+  std::optional<std::string> duration;
+  bool of_many_orbits = false;  ///< an option was given that is about the orbits of a picture
   double tolerance = 1e-14;
   int jobs = 0;
 
@@ -53,8 +57,15 @@ void check_usage(const Options& options) {
       throw UsageError(fmt::format("'{}': an output's name must end in .csv, {}",
                                    printable(path, 200), kPictureNames));
   options.print.check(std::ranges::any_of(options.outputs, is_picture_name));
-  if (options.validated && options.longest_cycle() == 0)
-    throw UsageError("--validated proves cycles: it needs --cycles N or --fixed-points");
+  const bool one_orbit = options.validated && options.longest_cycle() == 0;
+  if (options.duration && !one_orbit)
+    throw UsageError("--duration is that of the one orbit of --validated without cycles");
+  if (!options.certificate.empty() && (!options.validated || one_orbit))
+    throw UsageError("--certificate is of cycles that are proved: --validated --cycles N");
+  if (one_orbit && (options.of_many_orbits || !options.outputs.empty()))
+    throw UsageError(
+        "--validated encloses the crossings of one orbit, that of the scene, or proves --cycles N: "
+        "alone it goes with --plane, --direction and --duration");
 }
 
 /// What is kept of all crossings: the state, the pair, time and growth.
@@ -105,6 +116,7 @@ class Section {
                                        report.cycles.cycles);
     }
     deliver(report);
+    if (!options_.certificate.empty()) write_certificates(report);
     return verdict(report);
   }
 
@@ -253,6 +265,16 @@ class Section {
     }
   }
 
+  void write_certificates(const SectionReport& report) const {
+    const std::size_t count = write_cycle_certificates(
+        options_.certificate, model_, model_.scene(options_.common.scene), problem_, report.proofs);
+    if (count < report.proved())
+      std::cerr << fmt::format("casimir: {} of {} proved cycles have no certificate\n",
+                               report.proved() - count, report.proved());
+    if (count > 0 && !options_.common.quiet && !options_.common.json)
+      fmt::print("  wrote {} certificates to {}\n", count, printable(options_.certificate, 200));
+  }
+
   /// What went wrong, on stderr.
   int verdict(const SectionReport& report) const {
     const auto& orbits = report.orbits;
@@ -326,7 +348,8 @@ class Section {
 int section_of(MapCaseFile file, const Options& options) {
   const SectionOptions& asked = options.request;
   if (asked.energy || !asked.casimirs.empty() || asked.plane || asked.direction ||
-      options.longest_cycle() > 0 || options.tolerance_given || options.jobs > 0)
+      options.longest_cycle() > 0 || options.validated || options.duration ||
+      options.tolerance_given || options.jobs > 0)
     throw UsageError(
         "a map needs no plane: its orbits are points already; of the options --scene, --param, "
         "--initial, --orbits, --points, --seeds, --pair, --labels and --output have a meaning");
@@ -335,11 +358,21 @@ int section_of(MapCaseFile file, const Options& options) {
                          options.outputs, options.print, options.orbits, options.points});
 }
 
+int crossings_of_scene(const Options& options, const CaseFile& given) {
+  const CaseFile file = options.start.in(given);
+  const Model model = model_of(file, options.common.parameter_values());
+  const SectionProblem problem = section_problem(model, model.scene(options.common.scene),
+                                                 section_request(file, model, options.request));
+  return enclose_section(options.common, model, problem, options.duration);
+}
+
 int section(const Options& options) {
   check_usage(options);
   const AnyCaseFile any = load_any_case(options.case_name);
   if (const auto* map = std::get_if<MapCaseFile>(&any)) return section_of(*map, options);
-  return Section(options, std::get<CaseFile>(any)).run();
+  const CaseFile& file = std::get<CaseFile>(any);
+  if (options.validated && options.longest_cycle() == 0) return crossings_of_scene(options, file);
+  return Section(options, file).run();
 }
 
 void add_plane_options(CLI::App& command, SectionOptions& request) {
@@ -406,11 +439,20 @@ void register_section(CLI::App& program, Action& action) {
       ->check(CLI::Range(1, 64));
   command->add_flag("--fixed-points", options->fixed_points, "The same as --cycles 1");
   command->add_flag("--validated", options->validated,
-                    "Prove each cycle: it exists, is alone nearby, and how it is stable");
-  CLI::Option* tolerance =
-      command->add_option("--tolerance", options->tolerance, "Tolerance of a step (default 1e-14)")
-          ->type_name("X")
-          ->check(CLI::Range(1e-15, 1e-3));
+                    "Prove each cycle: it exists, is alone nearby, and how it is stable; without "
+                    "cycles enclose every crossing of the scene's orbit, none missed");
+  command
+      ->add_option("--duration", options->duration,
+                   "With --validated: up to this time (default: that of the scene)")
+      ->type_name("T");
+  command
+      ->add_option("--certificate", options->certificate,
+                   "With --validated and cycles: write what proves them to this file, for casimir "
+                   "check")
+      ->type_name("FILE");
+  CLI::Option* tolerance = command->add_option("--tolerance", options->tolerance, "Tolerance of a step (default 1e-14)")
+      ->type_name("X")
+      ->check(CLI::Range(1e-15, 1e-3));
   command->add_option("--jobs", options->jobs, "Threads (default: all processors)")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
@@ -421,8 +463,10 @@ void register_section(CLI::App& program, Action& action) {
       ->allow_extra_args(false)
       ->type_name("FILE");
   options->print.add_to(*command);
-  command->callback([options, tolerance, &action] {
+  command->callback([options, tolerance, &action, command] {
     options->tolerance_given = tolerance->count() > 0;
+    for (const char* name : {"--orbits", "--points", "--seeds", "--energy", "--casimir"})
+      options->of_many_orbits = options->of_many_orbits || command->count(name) > 0;
     action = [options] { return section(*options); };
   });
 }

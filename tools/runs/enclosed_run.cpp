@@ -10,13 +10,17 @@
 
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/expression/expression.hpp"
+#include "tools/analysis/certificate/certificate_file.hpp"
 #include "tools/analysis/run/validated.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
+#include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/runs/atlas.hpp"
 #include "tools/runs/digits_run.hpp"
+#include "tools/text/files/plain_case.hpp"
+#include "tools/text/runs/certificate_report.hpp"
 #include "tools/text/runs/enclosure_report.hpp"
 
 namespace casimir::tools {
@@ -118,6 +122,54 @@ int say_if_it_stopped(const EnclosureReport& report) {
   return run.status == ValidatedStatus::stopped ? kEnvironment : kNotContinued;
 }
 
+/// Encloses what the certificate says, in its own words, so that it is that which is proved.
+ValidatedMotion certified_motion(const Model& model, const Scene& given,
+                                 const ValidatedOptions& asked, RunCertificate& certificate) {
+  const PreparedEnclosure prepared = prepare_enclosure(model, given, asked);
+  Scene scene = given;
+  if (asked.duration) scene.duration = asked.duration;
+  std::vector<std::string> moving, integrals;
+  for (const auto& [name, radius] : asked.ranges) moving.push_back(name);
+  for (const KnownIntegral& known : prepared.problem.integrals) integrals.push_back(known.name);
+  certificate.of_case = model.name;
+  certificate.scene = scene.name;
+  certificate.radii = prepared.problem.radii;
+  ValidatedOptions options;
+  options.radii = certificate.radii;
+  options.run = asked.run;
+  options.run.trace = &certificate.trace;
+  for (;;) {
+    certificate.equations =
+        plain_case(model, scene, moving, prepared.specialisation.states, integrals);
+    const Model plain = model_of_certificate(certificate);
+    ValidatedMotion motion = enclose(plain, plain.scenes.front(), options);
+    // What needs the assumptions of the case is not proved without them: it is left out.
+    if (motion.doubts.empty()) {
+      motion.doubts = prepared.doubts;
+      return motion;
+    }
+    const PreparedEnclosure bare = prepare_enclosure(plain, plain.scenes.front(), options);
+    integrals.clear();
+    for (const KnownIntegral& known : bare.problem.integrals) integrals.push_back(known.name);
+  }
+}
+
+/// Nobody is handed a certificate that does not pass. \return  false, and says so, for such a one.
+bool write_certificate(const std::string& path, const RunCertificate& certificate) {
+  const CheckedCertificate checked = check_certificate(certificate);
+  if (!checked.holds()) {
+    std::cerr << fmt::format(
+        "casimir: no certificate was written: it could not be verified in other arithmetic: {}\n"
+        "  hint: a smaller start may help; the box itself is proved\n",
+        CertificateReport{certificate, checked}.reason());
+    return false;
+  }
+  OutputFile file(path);
+  file.stream() << certificate_text(certificate);
+  file.commit();
+  return true;
+}
+
 }  // namespace
 
 bool is_range(const std::string& word) { return word.find(kRangeMark) != std::string::npos; }
@@ -150,20 +202,31 @@ int integrate_validated(const EnclosedRequest& request) {
     progress.show(share);
     return late && late();
   };
-  const ValidatedMotion motion = enclose(model, scene, options);
+  RunCertificate certificate;
+  const ValidatedMotion motion = request.certificate.empty()
+                                     ? enclose(model, scene, options)
+                                     : certified_motion(model, scene, options, certificate);
   const EnclosureReport report{
       .motion = motion,
       .digits = request.digits,
       .seconds = std::chrono::duration<double>(Clock::now() - start).count()};
   if (!request.output.empty()) write_boxes(request.output, report);
+  const bool wanted = !request.certificate.empty() && motion.run.status == ValidatedStatus::ok;
+  const bool certified = wanted && write_certificate(request.certificate, certificate);
   if (request.common.json) {
-    print_json(to_json(report));
+    nlohmann::ordered_json json = to_json(report);
+    if (certified) json["certificate"] = request.certificate;
+    print_json(json);
   } else if (!request.common.quiet) {
     print_text(report);
     if (!request.output.empty())
       fmt::print("  wrote {} boxes to {}\n", motion.run.samples.size(),
                  printable(request.output, 200));
+    if (certified)
+      fmt::print("  wrote {} steps to {}\n", certificate.trace.steps.size(),
+                 printable(request.certificate, 200));
   }
+  if (wanted && !certified) return kFailed;
   return say_if_it_stopped(report);
 }
 

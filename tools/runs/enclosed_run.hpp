@@ -22,6 +22,7 @@ struct EnclosedRequest {
   std::optional<int> digits;
   std::optional<std::string> initial_radius;
   std::vector<std::string> observe;
+  std::string certificate;  ///< a file, or empty
 };
 
 /// Whether a value of `--param` is a range, as in r=1..1.001.

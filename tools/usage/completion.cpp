@@ -175,6 +175,9 @@ Lines option_names(const Typed& typed, const std::string& text) {
 }
 
 Lines positional_words(const Typed& typed, const std::string& text) {
+  const bool of_a_file = std::ranges::any_of(
+      typed.options, [](const DeclaredOption& option) { return option.positional == "FILE"; });
+  if (of_a_file && typed.case_argument.empty()) return {kFiles};
   const auto found = std::ranges::find_if(
       typed.options, [](const DeclaredOption& option) { return option.positional == "CASE"; });
   if (found == typed.options.end() || (!found->repeatable && !typed.case_argument.empty()))

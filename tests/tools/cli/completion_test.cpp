@@ -55,6 +55,7 @@ TEST(Completion, OptionsAreThoseOfTheCommand) {
 
 TEST(Completion, CasesAreTheBundledOnesAndThoseOfTheEnvironment) {
   EXPECT_EQ(offered({"verify", "steklov-e"}), (Words{":files", "steklov-euler-poisson"}));
+  EXPECT_EQ(offered({"check", "k"}), Words{":files"});
   const Folder folder;
   folder.write("steklov-extra.toml", "");
   EXPECT_TRUE(

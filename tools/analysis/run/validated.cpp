@@ -88,7 +88,7 @@ std::vector<KnownIntegral> known_integrals(const Model& model, const Specialisat
 }
 
 ValidatedProblem problem_of(const Model& model, const ValidatedOptions& options,
-                            ValidatedMotion& motion) {
+                            PreparedEnclosure& motion) {
   const Specialisation& s = motion.specialisation;
   ValidatedProblem problem;
   problem.rates = with_resting(s.rhs, s.parameters);
@@ -97,7 +97,9 @@ ValidatedProblem problem_of(const Model& model, const ValidatedOptions& options,
   problem.entries = jacobian.entries;
   problem.start = s.start;
   const bool wide = cln::plusp(options.initial_radius) || !options.ranges.empty();
-  if (wide) {
+  if (!options.radii.empty()) {
+    problem.radii = options.radii;
+  } else if (wide) {
     problem.radii.assign(s.states.size(), options.initial_radius);
     for (const std::string& name : s.parameters) {
       const auto range =
@@ -112,7 +114,8 @@ ValidatedProblem problem_of(const Model& model, const ValidatedOptions& options,
 
 }  // namespace
 
-ValidatedMotion enclose(const Model& model, const Scene& scene, const ValidatedOptions& options) {
+PreparedEnclosure prepare_enclosure(const Model& model, const Scene& scene,
+                                    const ValidatedOptions& options) {
   check_ranges(model, options);
   Scene exact = scene;
   if (options.duration) exact.duration = options.duration;
@@ -121,13 +124,22 @@ ValidatedMotion enclose(const Model& model, const Scene& scene, const ValidatedO
   what.observe = options.observe;
   what.jacobian = false;
   for (const auto& [name, radius] : options.ranges) what.keep_parameters.push_back(name);
+  PreparedEnclosure prepared;
+  prepared.specialisation = specialise(model, exact, what);
+  prepared.names = prepared.specialisation.states;
+  for (const std::string& name : prepared.specialisation.parameters) prepared.names.push_back(name);
+  prepared.problem = problem_of(model, options, prepared);
+  return prepared;
+}
+
+ValidatedMotion enclose(const Model& model, const Scene& scene, const ValidatedOptions& options) {
+  PreparedEnclosure prepared = prepare_enclosure(model, scene, options);
   ValidatedMotion motion;
-  motion.specialisation = specialise(model, exact, what);
-  motion.names = motion.specialisation.states;
-  for (const std::string& name : motion.specialisation.parameters) motion.names.push_back(name);
-  const ValidatedProblem problem = problem_of(model, options, motion);
+  motion.specialisation = std::move(prepared.specialisation);
+  motion.names = std::move(prepared.names);
+  motion.doubts = std::move(prepared.doubts);
   try {
-    motion.run = validated_run(problem, options.run);
+    motion.run = validated_run(prepared.problem, options.run);
   } catch (const std::domain_error& problem_of_data) {
     throw ModelError(fmt::format("scene \"{}\": its data have no certain value: {}",
                                  printable(scene.name), problem_of_data.what()));

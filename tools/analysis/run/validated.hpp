@@ -16,8 +16,9 @@ namespace casimir {
 
 /// What is asked of `enclose`.
 struct ValidatedOptions {
-  std::optional<GiNaC::ex> duration;  ///< an exact constant; without it that of the scene
-  cln::cl_RA initial_radius = 0;      ///< by how much each initial value may be off, on both sides
+  std::optional<GiNaC::ex> duration;   ///< an exact constant; without it that of the scene
+  cln::cl_RA initial_radius = 0;       ///< by how much each initial value may be off, on both sides
+  std::vector<cln::cl_RA> radii = {};  ///< the same for each state, where it is not empty
   /// Parameters that may have any value of an interval around that of the scene, and how far it
   /// goes to both sides.
   std::vector<std::pair<std::string, cln::cl_RA>> ranges = {};
@@ -35,6 +36,18 @@ struct ValidatedMotion {
   /// A sentence about each invariant that could not be used, since it is not proved.
   std::vector<std::string> doubts;
 };
+
+/// An enclosure before it is computed.
+struct PreparedEnclosure {
+  Specialisation specialisation;    ///< the programs that are enclosed
+  std::vector<std::string> names;   ///< as of ValidatedMotion
+  ValidatedProblem problem;         ///< with the integrals that are proved
+  std::vector<std::string> doubts;  ///< as of ValidatedMotion
+};
+
+/// What `enclose` encloses. \throws as it.
+PreparedEnclosure prepare_enclosure(const Model& model, const Scene& scene,
+                                    const ValidatedOptions& options = {});
 
 /// Encloses the solutions of a scene: initial values, parameters and duration are the exact numbers
 /// of the model. What is proved is said at ValidatedRun. It rests on the arithmetic of

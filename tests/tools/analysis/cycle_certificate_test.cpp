@@ -1,0 +1,95 @@
+// Certificates of cycles: Newton's method in balls, with the derivatives of the flow enclosed.
+#include "tools/analysis/certificate/cycle_certificate.hpp"
+
+#include <cln/float.h>
+#include <cln/real.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "tools/analysis/certificate/certificate_file.hpp"
+
+namespace casimir {
+namespace {
+
+/// Two oscillators; one of them is at rest, nearly.
+std::string oscillators(const std::string& stiffness) {
+  std::string text = R"toml(title = "Two"
+[phase_space]
+variables = ["x", "y", "u", "v"]
+[equations]
+x = "u"
+y = "v"
+u = "-x"
+v = "-STIFF*y"
+[integrals]
+H = "(u^2 + v^2 + x^2 + STIFF*y^2)/2"
+[[scene]]
+name = "cycle"
+initial = { x = "0", y = "1/1000000000000", u = "1", v = "0" }
+duration = "6283185307179/1000000000000"
+)toml";
+  const std::string mark = "STIFF";
+  for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark))
+    text.replace(at, mark.size(), stiffness);
+  return text;
+}
+
+const CycleCertificate& honest() {
+  static const CycleCertificate certificate =
+      certify_cycle("two", oscillators("2"), "x", {0.5}).value_or(CycleCertificate());
+  return certificate;
+}
+
+CheckedCycle tampered(const std::function<void(CycleCertificate&)>& change) {
+  CycleCertificate certificate = honest();
+  change(certificate);
+  return check_cycle(certificate);
+}
+
+TEST(CycleCertificates, OfAnOscillationIsChecked) {
+  const CheckedCycle checked = check_cycle(honest());
+  ASSERT_TRUE(checked.holds()) << checked.reason;
+  const double low = cln::double_approx(checked.period.low);
+  const double high = cln::double_approx(checked.period.high);
+  EXPECT_LE(low - 1e-15, 2 * std::acos(-1.));
+  EXPECT_GE(high + 1e-15, 2 * std::acos(-1.));
+  EXPECT_LT(high - low, 1e-10);
+  EXPECT_LE(checked.state[1].low, 0);
+  EXPECT_GE(checked.state[1].high, 0);
+  const std::string text = certificate_text(std::vector<CycleCertificate>{honest(), honest()});
+  const CertificateFile read = read_certificate(text, "c.json");
+  EXPECT_EQ(certificate_text(read.cycles), text);
+  EXPECT_TRUE(check_cycle(read.cycles.back()).holds());
+}
+
+/// With stiffness 4 every orbit of the level closes after 2 pi: none is alone.
+TEST(CycleCertificates, AMemberOfAFamilyHasNone) {
+  EXPECT_FALSE(certify_cycle("two", oscillators("4"), "x", {0.5}));
+}
+
+TEST(CycleCertificates, WhatIsNotTrueIsRefuted) {
+  ASSERT_TRUE(check_cycle(honest()).holds());
+  EXPECT_FALSE(tampered([](CycleCertificate& c) { c.levels[0] = "0x3p-2"; }).holds());
+  EXPECT_FALSE(tampered([](CycleCertificate& c) { c.plane = "x - 1/1000"; }).holds());
+  EXPECT_FALSE(tampered([](CycleCertificate& c) { c.inverse.assign(25, "0"); }).holds());
+  EXPECT_FALSE(tampered([](CycleCertificate& c) { c.radius = "0x1p-60"; }).holds());
+  EXPECT_FALSE(tampered([](CycleCertificate& c) { c.radius = "0"; }).holds());
+  EXPECT_FALSE(tampered([](CycleCertificate& c) { c.closing = {0, 0, 1}; }).holds());
+  EXPECT_FALSE(tampered([](CycleCertificate& c) { c.closing = {1, 2, 3}; }).holds());
+  EXPECT_FALSE(tampered([](CycleCertificate& c) { c.equations = oscillators("4"); }).holds());
+  EXPECT_FALSE(tampered([](CycleCertificate& c) { c.equations = oscillators("2.001"); }).holds());
+  EXPECT_FALSE(
+      tampered([](CycleCertificate& c) { c.point.steps.erase(c.point.steps.begin()); }).holds());
+  EXPECT_FALSE(tampered([](CycleCertificate& c) { c.box = c.point; }).holds());
+  EXPECT_FALSE(tampered([](CycleCertificate& c) { c.point = c.box; }).holds());
+  // The level is kept by no more than what is proved.
+  EXPECT_FALSE(tampered([](CycleCertificate& c) {
+                 c.equations.replace(c.equations.find("H = \"("), 6, "H = \"(x + ");
+               }).holds());
+}
+
+}  // namespace
+}  // namespace casimir

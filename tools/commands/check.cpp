@@ -1,0 +1,95 @@
+// casimir check: verifies a certificate of an enclosure, step by step.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include "tools/analysis/certificate/certificate_file.hpp"
+#include "tools/analysis/run/prepared_scene.hpp"
+#include "tools/cli/cli.hpp"
+#include "tools/cli/errors.hpp"
+#include "tools/cli/json_output.hpp"
+#include "tools/text/runs/certificate_report.hpp"
+
+namespace casimir::tools {
+namespace {
+
+struct CheckOptions {
+  Common common;
+  std::string file;
+};
+
+std::string text_of_file(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::error_code problem;
+  if (!stream || std::filesystem::is_directory(path, problem))
+    throw CaseError({path}, "the certificate does not exist or cannot be read");
+  constexpr std::size_t kPart = std::size_t{1} << 20, kMost = std::size_t{1} << 29;
+  std::string text;
+  while (stream && text.size() <= kMost) {
+    const std::size_t before = text.size();
+    text.resize(before + kPart);
+    stream.read(text.data() + before, static_cast<std::streamsize>(kPart));
+    text.resize(before + static_cast<std::size_t>(stream.gcount()));
+  }
+  return text;
+}
+
+int check_cycles(const CheckOptions& options, const std::vector<CycleCertificate>& cycles) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto late = time_limit(options.common.time_limit);
+  CyclesReport report{cycles, {}, 0};
+  for (const CycleCertificate& cycle : cycles) report.checked.push_back(check_cycle(cycle, late));
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (options.common.json)
+    print_json(to_json(report));
+  else if (!options.common.quiet)
+    print_text(report);
+  if (report.holds()) return kDone;
+  return late && late() ? kEnvironment : kFailed;
+}
+
+int check_run(const CheckOptions& options, const RunCertificate& certificate) {
+  const auto start = std::chrono::steady_clock::now();
+  const CheckedCertificate checked =
+      check_certificate(certificate, time_limit(options.common.time_limit));
+  const CertificateReport report{
+      certificate, checked,
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+  if (options.common.json)
+    print_json(to_json(report));
+  else if (!options.common.quiet)
+    print_text(report);
+  if (checked.holds()) return kDone;
+  return checked.check.fault == TraceFault::stopped ? kEnvironment : kFailed;
+}
+
+int check_certificate_file(const CheckOptions& options) {
+  if (!options.common.params.empty() || options.common.scene_given)
+    throw UsageError(
+        "--param and --scene have no meaning here: the certificate says what it is of");
+  const CertificateFile file = read_certificate(text_of_file(options.file), options.file);
+  return file.run ? check_run(options, *file.run) : check_cycles(options, file.cycles);
+}
+
+}  // namespace
+
+void register_check(CLI::App& program, Action& action) {
+  auto options = std::make_shared<CheckOptions>();
+  CLI::App* command =
+      program.add_subcommand("check", "Verify the certificate of an enclosure, step by step");
+  command->footer(
+      "Nothing in the file is believed: integrals are proved again, and every step is verified in\n"
+      "Arb's arithmetic. Exit status 0: all of it is proved; 1: it is not, and the first step "
+      "that\n"
+      "fails is named; 2: the file is malformed.");
+  add_common(*command, options->common);
+  command->add_option("FILE", options->file, "What integrate --validated --certificate has written")
+      ->required();
+  command->callback(
+      [options, &action] { action = [options] { return check_certificate_file(*options); }; });
+}
+
+}  // namespace casimir::tools

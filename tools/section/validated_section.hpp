@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "symbolic/model.hpp"
+#include "tools/analysis/section/problem.hpp"
+#include "tools/cli/cli.hpp"
+
+namespace casimir::tools {
+
+/// `section --validated` without cycles: every crossing of the orbit of a scene.
+/// \param duration  as typed, or that of the scene.
+/// \return exit status.
+int enclose_section(const Common& common, const Model& model, const SectionProblem& problem,
+                    const std::optional<std::string>& duration);
+
+}  // namespace casimir::tools
