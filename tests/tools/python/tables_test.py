@@ -2,6 +2,7 @@
 
 import csv
 import os
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -99,6 +100,29 @@ class Tables(unittest.TestCase):
         np.testing.assert_array_equal(arrays["axes/r"], [1, 1.5, 2])
         np.testing.assert_array_equal(arrays["M3"].ravel(), [float(row["M3"]) for row in rows])
         self.assertEqual(list(arrays["status"].ravel()), [row["status"] for row in rows])
+
+    def dump(self, *words):
+        done = subprocess.run(["h5dump", *words, "x.h5"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    @unittest.skipIf(shutil.which("h5dump") is None, "no h5dump")
+    def test_hdf5_has_the_same_numbers(self):
+        words = ("integrate", "euler", "--duration", "1", "--every", "0.25", "--quiet", "--output")
+        self.assertEqual(self.run_program(*words, "x.h5")[0], 0)
+        self.run_program(*words, "x.npz")
+        numbers = self.dump("-y", "-w", "1", "-m", "%.17g", "-d", "/M2").split("DATA {")[1].split("}")[0]
+        np.testing.assert_array_equal(np.load(self.folder / "x.npz")["M2"],
+                                      [float(text) for text in numbers.replace(",", " ").split()])
+        self.assertIn('"euler"', self.dump("-a", "/case"))
+
+    @unittest.skipIf(shutil.which("h5dump") is None, "no h5dump")
+    def test_hdf5_has_text_and_statuses(self):
+        (self.folder / "members.csv").write_text("M1\n1\n2\n")
+        self.run_program("integrate", "euler", "--ensemble", "members.csv", "--duration", "1", "--output", "x.h5")
+        self.assertRegex(self.dump("-d", "/status"), r"H5T_ENUM[\s\S]*DATA \{\s*\(0\): ok, ok")
+        self.run_program("integrate", "euler", "--duration", "1", "--digits", "30", "--every", "1", "--output", "x.h5")
+        self.assertRegex(self.dump("-d", "/M1"), r'"1", "0\.[0-9]{28,}')
 
     def test_rows_of_a_measurement(self):
         arrays, rows = self.both("conserve", "euler", "--scene", "default", "--method", "dop853,taylor")

@@ -337,7 +337,9 @@ void fill(std::vector<double>& into, std::size_t width, const Doubles& values,
 
 /// Members `from` to `to`, without the latter.
 Ensemble part_of(const Ensemble& all, std::size_t from, std::size_t to) {
-  Ensemble part{.states = all.states, .parameters = all.parameters};
+  Ensemble part;
+  part.states = all.states;
+  part.parameters = all.parameters;
   part.initial.assign(all.state(from), all.state(to));
   part.values.assign(all.values_of(from), all.values_of(to));
   return part;
