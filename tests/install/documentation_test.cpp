@@ -34,6 +34,29 @@ TEST(Manual, EveryPageIsCleanAndNamesEveryOption) {
     EXPECT_TRUE(shows(main.out, part)) << main.out;
 }
 
+TEST(Manual, OfCaseFilesIsCleanAndNamesEveryKey) {
+  const Installed installed;
+  const std::string page = "prefix/share/man/man5/casimir-case.5";
+  const Outcome checked = shell(
+      installed, "mandoc -T lint -W warning " + page + "\nman --warnings -E UTF-8 -l -Tutf8 -Z " +
+                     page + " >/dev/null\nMANWIDTH=500 man -l " + page + " | col -b >page\n");
+  EXPECT_EQ(checked.status, 0);
+  EXPECT_EQ(checked.out + checked.err, "");
+  const std::string shown = file_text(installed / "page");
+  // The keys that the reader allows, as its source has them.
+  const std::string reader = file_text(CASIMIR_SOURCE_DIR "/symbolic/case_file.cpp") +
+                             file_text(CASIMIR_SOURCE_DIR "/symbolic/case/toml_keys.cpp");
+  static const std::regex kList(R"((?:allow\([^;{]*|keys = )\{([^}]*)\})");
+  static const std::regex kKey("\"([a-zA-Z_]+)\"");
+  std::size_t keys = 0;
+  for (std::sregex_iterator list(reader.begin(), reader.end(), kList), end; list != end; ++list) {
+    const std::string names = (*list)[1].str();
+    for (std::sregex_iterator it(names.begin(), names.end(), kKey); it != end; ++it, ++keys)
+      EXPECT_TRUE(shows(shown, (*it)[1].str())) << (*it)[1].str();
+  }
+  EXPECT_GE(keys, 60U);
+}
+
 /// Types and functions need a comment, and every comment has to be one that Doxygen understands.
 /// Members of structs may be said by their names.
 TEST(Documentation, EveryTypeAndFunctionOfTheInterfaceIsDocumented) {

@@ -21,6 +21,10 @@ Solution solve(const Model& model, const Scene& scene, const SolveOptions& optio
       settings.give_up = [first = settings.give_up, &options] {
         return options.give_up() || (first && first());
       };
+    if (options.progress)
+      settings.progress = [&options, duration = std::abs(settings.duration)](double t) {
+        options.progress(duration > 0 ? std::abs(t) / duration : 1);
+      };
     if (options.dense) {
       // `auto` may begin anew with another method.
       solution.steps_ = {{settings.begin, solution.scene_->initial}};

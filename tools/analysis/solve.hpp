@@ -18,6 +18,8 @@ struct SolveOptions {
   double sample_every = 0;             ///< time between `trajectory().samples`; 0: none
   bool dense = false;                  ///< keep what the state at any time follows from
   std::function<bool()> give_up = {};  ///< asked after each step; true ends the run as `stopped`
+  /// Told after each step what share of the duration is behind; `auto` may begin anew.
+  std::function<void(double share)> progress = {};
 };
 
 /// A motion with all that is known of how far it can be believed.

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 
+#include "tools/cli/errors.hpp"
 #include "tools/runs/scene_values.hpp"
+#include "tools/tables/table.hpp"
 
 namespace casimir::tools {
 
@@ -44,12 +45,16 @@ void add_all(CLI::App& command, bool& all, std::string& tag, const std::string& 
 
 void add_csv_output(CLI::App& command, std::string& path, const std::string& text) {
   const auto check = [](const std::string& name) -> std::string {
-    const std::string ending = std::filesystem::path(name).extension().string();
-    if (ending.empty() || ending == ".csv") return {};
-    return fmt::format("'{}' is no name for what is written, which is CSV: FILE.csv is",
-                       printable(name, 200));
+    try {
+      check_table_name(name);
+    } catch (const UsageError& problem) {
+      return problem.what();
+    }
+    return {};
   };
-  command.add_option("--output", path, text)->type_name("FILE.csv")->check(check);
+  command.add_option("--output", path, text + ": .csv, .npz (NumPy) or .h5 (HDF5)")
+      ->type_name("FILE.csv")
+      ->check(check);
 }
 
 }  // namespace casimir::tools

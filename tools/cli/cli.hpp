@@ -34,7 +34,7 @@ void add_case(CLI::App& command, std::string& name);
 /// Adds `--all` and `--tag`: the bundled cases in place of one that is named.
 void add_all(CLI::App& command, bool& all, std::string& tag, const std::string& text);
 
-/// Adds `--output FILE.csv`. A name with another ending is refused: what is written is CSV.
+/// Adds `--output FILE.csv`, or .npz or .h5; other endings are refused: see `write_table`.
 void add_csv_output(CLI::App& command, std::string& path, const std::string& text);
 
 /// Runs after the command line has been read; its result is the exit status.

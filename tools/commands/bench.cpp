@@ -20,6 +20,8 @@
 #include "tools/cli/progress.hpp"
 #include "tools/runs/atlas.hpp"
 #include "tools/runs/scene_values.hpp"
+#include "tools/tables/table.hpp"
+#include "tools/text/runs/row_table.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -152,9 +154,7 @@ void print(const BenchReport& report, const Options& options) {
 void write_tables(const BenchReport& report, const Options& options) {
   for (const std::string& path : options.outputs) {
     if (is_page(path)) continue;
-    OutputFile file(path);
-    write_csv(file.stream(), report.rows());
-    file.commit();
+    write_table(path, table_of(report.rows()));
   }
 }
 
@@ -164,6 +164,8 @@ void check_usage(const Options& options) {
   if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
   if (options.run.asked.rtol || options.run.asked.atol)
     throw UsageError("bench runs at a range of tolerances: --tolerances X,Y, or --tolerance X");
+  for (const std::string& path : options.outputs)
+    if (!is_page(path)) check_table_name(path);
   options.print.check(!options.plot.empty());
   if (options.plot.empty()) return;
   check_plot_name(options.plot);
@@ -246,7 +248,8 @@ void register_bench(CLI::App& program, Action& action) {
   add_measurement_options(*command, options->contest, options->run);
   command
       ->add_option("--output", options->outputs,
-                   "Write the rows to a .csv file, or all of it to an .html page (repeatable)")
+                   "Write the rows to a .csv, .npz or .h5 file, or all of it to an .html page "
+                   "(repeatable)")
       ->allow_extra_args(false)
       ->type_name("FILE");
   command

@@ -13,12 +13,13 @@
 #include "tools/cli/options/kept_parameters.hpp"
 #include "tools/cli/options/picture_options.hpp"
 #include "tools/cli/options/run_options.hpp"
-#include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/runs/atlas.hpp"
 #include "tools/runs/conserve_run.hpp"
 #include "tools/runs/map_run.hpp"
 #include "tools/runs/scene_values.hpp"
+#include "tools/tables/table.hpp"
+#include "tools/text/runs/row_table.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -146,11 +147,7 @@ int conserve(const Options& options) {
   options.print.check(!options.plot.empty());
   Picture picture;
   const std::vector<Row> rows = conserve_cases(options, picture);
-  if (!options.output.empty()) {
-    OutputFile file(options.output);
-    write_csv(file.stream(), rows);
-    file.commit();
-  }
+  if (!options.output.empty()) write_table(options.output, table_of(rows));
   const auto failed =
       std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.failed; });
   if (options.common.json) {
@@ -197,7 +194,7 @@ void register_conserve(CLI::App& program, Action& action) {
                              ->type_name("A,B");
   add_run_options(*command, options->run);
   options->kept.add_to(*command);
-  add_csv_output(*command, options->output, "Write the rows to this CSV file");
+  add_csv_output(*command, options->output, "Write the rows to this file");
   command
       ->add_option("--plot", options->plot,
                    "Draw drift against time, of the default scene or that of --scene: a curve an "

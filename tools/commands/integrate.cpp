@@ -19,7 +19,6 @@
 #include "tools/cli/options/motion_options.hpp"
 #include "tools/cli/options/picture_options.hpp"
 #include "tools/cli/options/run_options.hpp"
-#include "tools/cli/output.hpp"
 #include "tools/cli/watched_run.hpp"
 #include "tools/runs/atlas.hpp"
 #include "tools/runs/digits_run.hpp"
@@ -27,6 +26,7 @@
 #include "tools/runs/ensemble_run.hpp"
 #include "tools/runs/map_run.hpp"
 #include "tools/runs/scene_values.hpp"
+#include "tools/tables/table.hpp"
 #include "tools/text/files/generated_report.hpp"
 #include "tools/text/runs/run_report.hpp"
 #include "tools/text/runs/trust_report.hpp"
@@ -83,21 +83,20 @@ class Answer {
   std::optional<Conversion> conversion_;
 };
 
-void write_samples(const std::string& path, const Answer& answer, const Trajectory& trajectory) {
-  OutputFile file(path);
-  file.stream() << "t";
-  for (const std::string& name : answer.names()) file.stream() << ',' << name;
-  file.stream() << '\n';
+void write_samples(const std::string& path, const Specialisation& s, const Answer& answer,
+                   const Trajectory& trajectory) {
+  std::vector<std::vector<double>> columns(answer.names().size());
   for (std::size_t k = 0; k < trajectory.samples.size(); ++k) {
-    file.stream() << exact_text(trajectory.sample_times[k]);
-    for (const double x : answer(trajectory.sample_times[k], trajectory.samples[k]))
-      file.stream() << ',' << exact_text(x);
-    file.stream() << '\n';
+    const auto state = answer(trajectory.sample_times[k], trajectory.samples[k]);
+    for (std::size_t i = 0; i < columns.size(); ++i) columns[i].push_back(state[i]);
   }
+  Table table{{{"t", trajectory.sample_times}}, {{"case", s.case_name}, {"scene", s.scene}}};
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    table.columns.push_back({answer.names()[i], std::move(columns[i])});
   if (trajectory.status != Status::ok)
-    file.stream() << "# stopped at t = " << exact_text(trajectory.time) << ": " << trajectory.reason
-                  << '\n';
-  file.commit();
+    table.note =
+        fmt::format("stopped at t = {}: {}", exact_text(trajectory.time), trajectory.reason);
+  write_table(path, table);
 }
 
 /// How the code of a run was made, in words.
@@ -325,7 +324,8 @@ int integrate_case(const Options& options) {
         options.every > 0 ? options.every : std::abs(settings_for(how.run, run).duration) / 1000;
   const AssessedRun judged = integrate_assessed(model, run, how);
   const RunWords words = words_of(judged, interrupted);
-  if (!options.output.empty()) write_samples(options.output, answer, judged.trajectory);
+  if (!options.output.empty())
+    write_samples(options.output, run.specialisation, answer, judged.trajectory);
   if (options.common.json) {
     print_json(to_json(model, run, answer, judged, words));
   } else if (!options.common.quiet) {
@@ -357,7 +357,7 @@ void register_integrate(CLI::App& program, Action& action) {
   add_projection(*command, options->run);
   add_as(*command, options->as);
   options->kept.add_to(*command);
-  add_csv_output(*command, options->output, "Write states to this CSV file");
+  add_csv_output(*command, options->output, "Write states to this file");
   command
       ->add_option("--every", options->every,
                    "Time between the states written (default: a thousandth of the duration) or "

@@ -21,6 +21,7 @@
 #include "tools/section/report.hpp"
 #include "tools/section/request.hpp"
 #include "tools/section/seeds.hpp"
+#include "tools/tables/table.hpp"
 #include "tools/section/validated_section.hpp"
 #include "tools/text/runs/run_report.hpp"
 
@@ -53,8 +54,10 @@ constexpr std::size_t kOrbitsOfTurn = 16, kTurns = 4;
 
 void check_usage(const Options& options) {
   for (const std::string& path : options.outputs)
-    if (!is_picture_name(path) && !path.ends_with(".csv"))
-      throw UsageError(fmt::format("'{}': an output's name must end in .csv, {}",
+    if (is_table_name(path))
+      check_table_name(path);
+    else if (!is_picture_name(path))
+      throw UsageError(fmt::format("'{}': an output's name must end in .csv, .npz, .h5, {}",
                                    printable(path, 200), kPictureNames));
   options.print.check(std::ranges::any_of(options.outputs, is_picture_name));
   const bool one_orbit = options.validated && options.longest_cycle() == 0;
@@ -248,7 +251,7 @@ class Section {
     bool table = false;
     for (const std::string& path : options_.outputs) {
       if (is_picture_name(path)) continue;
-      write_csv(report, path);
+      write_crossings(report, path);
       table = true;
     }
     if (options_.common.json)
@@ -458,8 +461,8 @@ void register_section(CLI::App& program, Action& action) {
       ->check(CLI::PositiveNumber);
   command
       ->add_option("--output,--plot", options->outputs,
-                   "Write the crossings to a .csv file, or draw them to an .svg, .png or .pdf file "
-                   "(repeatable)")
+                   "Write the crossings to a .csv, .npz or .h5 file, or draw them to an .svg, .png "
+                   "or .pdf file (repeatable)")
       ->allow_extra_args(false)
       ->type_name("FILE");
   options->print.add_to(*command);

@@ -26,6 +26,7 @@
 #include "tools/stress/matrix.hpp"
 #include "tools/stress/picture.hpp"
 #include "tools/stress/transport.hpp"
+#include "tools/tables/table.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -299,9 +300,7 @@ int stress(const Options& options) {
   Stress stress(options);
   const StressMatrix matrix = stress.run();
   if (!options.output.empty()) {
-    OutputFile file(options.output);
-    write_csv(file.stream(), matrix);
-    file.commit();
+    write_table(options.output, table_of(matrix));
   }
   if (options.common.json)
     print_json(to_json(matrix));
@@ -366,7 +365,7 @@ void register_stress(CLI::App& program, Action& action) {
   command->add_option("--jobs", options->jobs, "Runs at a time (default: all processors)")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
-  add_csv_output(*command, options->output, "Write a row for each cell to this CSV file");
+  add_csv_output(*command, options->output, "Write a row for each cell to this file");
   command->add_option("--plot", options->plot, "Draw the matrix")->type_name("FILE.svg|png|pdf");
   options->print.add_to(*command);
   command->callback([options, &action] { action = [options] { return stress(*options); }; });

@@ -311,8 +311,9 @@ void register_sweep(CLI::App& program, Action& action) {
       ->type_name("N")
       ->check(CLI::PositiveNumber);
   command
-      ->add_option("--output", options->output,
-                   "Write the results to this .csv, .h5 or .hdf5 file (default: CASE-sweep.csv)")
+      ->add_option(
+          "--output", options->output,
+          "Write the results to this .csv, .npz, .h5 or .hdf5 file (default: CASE-sweep.csv)")
       ->type_name("FILE");
   command->add_flag("--restart", options->restart, "Throw away the points that are done");
   command->callback([options, &action] { action = [options] { return sweep(*options); }; });

@@ -12,7 +12,7 @@ logs=$build/logs
 packages=(g++ cmake ninja-build pkg-config gnuplot-nox
   libginac-dev libcln-dev libeigen3-dev libflint-dev libflint-arb-dev
   libtomlplusplus-dev libcli11-dev
-  nlohmann-json3-dev libfmt-dev libsodium-dev libsundials-dev libboost-dev)
+  nlohmann-json3-dev libfmt-dev libsodium-dev libsundials-dev libboost-dev libzip-dev)
 
 say() { printf '%s\n' "$*"; }
 heading() { printf '\n== %s\n\n' "$*"; }

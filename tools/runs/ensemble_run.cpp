@@ -14,7 +14,7 @@
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
-#include "tools/cli/output.hpp"
+#include "tools/tables/table.hpp"
 #include "tools/text/files/ensemble_file.hpp"
 #include "tools/text/runs/run_report.hpp"
 #include "tools/text/runs/trust_report.hpp"
@@ -82,28 +82,36 @@ Ensemble members(const PreparedScene& run, const EnsembleFile& file) {
   return ensemble;
 }
 
-std::string csv_head(const Specialisation& s) {
-  std::string line = "member,status,t";
-  for (const std::string& name : s.states) line += "," + name;
-  for (const std::string& name : s.invariant_names) line += ",drift_" + name;
-  return line + ",steps\n";
-}
-
-void write_members(const std::string& path, const Report& report) {
-  OutputFile file(path);
-  file.stream() << csv_head(report.spec());
-  for (std::size_t i = 0; i < report.result.members.size(); ++i) {
-    const MemberResult& member = report.result.members[i];
-    std::string line =
-        fmt::format("{},{},{}", i + 1, to_string(member.status), exact_text(member.time));
-    for (const double x : member.state) line += "," + exact_text(x);
-    for (const InvariantRecord& record : member.invariants) line += "," + exact_text(record.drift);
-    // A member whose turn never came has no invariants.
-    for (std::size_t k = member.invariants.size(); k < report.spec().invariant_names.size(); ++k)
-      line += ",";
-    file.stream() << line << ',' << member.steps << '\n';
+Table table_of(const Report& report) {
+  const Specialisation& s = report.spec();
+  const std::vector<MemberResult>& members = report.result.members;
+  std::vector<std::int64_t> numbers, steps;
+  std::vector<Status> statuses;
+  std::vector<double> times;
+  using Gaps = std::vector<std::optional<double>>;
+  std::vector<Gaps> states(s.states.size()), drifts(s.invariant_names.size());
+  for (const MemberResult& member : members) {
+    numbers.push_back(static_cast<std::int64_t>(numbers.size()) + 1);
+    steps.push_back(static_cast<std::int64_t>(member.steps));
+    statuses.push_back(member.status);
+    times.push_back(member.time);
+    // A member whose turn never came has neither.
+    for (std::size_t i = 0; i < states.size(); ++i)
+      states[i].push_back(i < member.state.size() ? std::optional(member.state[i]) : std::nullopt);
+    for (std::size_t k = 0; k < drifts.size(); ++k)
+      drifts[k].push_back(k < member.invariants.size()
+                              ? std::optional<double>(member.invariants[k].drift)
+                              : std::nullopt);
   }
-  file.commit();
+  Table table{
+      {{"member", std::move(numbers)}, {"status", choices_of(statuses)}, {"t", std::move(times)}},
+      {{"case", s.case_name}, {"scene", s.scene}, {"method", std::string(report.method.name)}}};
+  for (std::size_t i = 0; i < states.size(); ++i)
+    table.columns.push_back({s.states[i], std::move(states[i])});
+  for (std::size_t k = 0; k < drifts.size(); ++k)
+    table.columns.push_back({"drift_" + s.invariant_names[k], std::move(drifts[k])});
+  table.columns.push_back({"steps", std::move(steps)});
+  return table;
 }
 
 Json to_json(const Specialisation& s, std::size_t number, const MemberResult& member) {
@@ -263,7 +271,7 @@ int integrate_ensemble(const EnsembleRequest& request) {
   const std::vector<std::string> warnings =
       warnings_on(kernel, check_members(run, method, settings, ensemble, result));
   const Report report{run, method, settings, kernel, result, warnings};
-  if (!request.output.empty()) write_members(request.output, report);
+  if (!request.output.empty()) write_table(request.output, table_of(report));
   if (request.common.json) {
     print_json(to_json(report));
   } else if (!request.common.quiet) {

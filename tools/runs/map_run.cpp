@@ -9,7 +9,7 @@
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
-#include "tools/cli/output.hpp"
+#include "tools/tables/table.hpp"
 #include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
@@ -23,17 +23,16 @@ std::uint64_t steps_of(const Scene& scene, const std::optional<double>& asked) {
   return whole_steps(duration, "the duration");
 }
 
-void write(const std::string& path, const Iterated& run) {
-  OutputFile file(path);
-  file.stream() << "t";
-  for (const std::string& name : run.names) file.stream() << ',' << name;
-  file.stream() << '\n';
-  for (std::size_t k = 0; k < run.samples.size(); ++k) {
-    file.stream() << run.sample_steps[k];
-    for (const double x : run.samples[k]) file.stream() << ',' << exact_text(x);
-    file.stream() << '\n';
+Table table_of(const MapModel& map, const Scene& scene, const Iterated& run) {
+  std::vector<std::int64_t> steps;
+  for (const auto step : run.sample_steps) steps.push_back(static_cast<std::int64_t>(step));
+  Table table{{{"t", std::move(steps)}}, {{"case", map.base.name}, {"scene", scene.name}}};
+  for (std::size_t i = 0; i < run.names.size(); ++i) {
+    std::vector<double> column;
+    for (const std::vector<double>& state : run.samples) column.push_back(state[i]);
+    table.columns.push_back({run.names[i], std::move(column)});
   }
-  file.commit();
+  return table;
 }
 
 nlohmann::ordered_json to_json(const MapModel& map, const Scene& scene, const Iterated& run) {
@@ -98,7 +97,7 @@ int iterate_map(const MapRunRequest& request) {
     every = request.every > 0 ? whole_steps(request.every, "--every")
                               : std::max<std::uint64_t>(1, steps / 1000);
   const Iterated run = iterate(map, scene, steps, every, time_limit(request.common.time_limit));
-  if (!request.output.empty()) write(request.output, run);
+  if (!request.output.empty()) write_table(request.output, table_of(map, scene, run));
   if (request.common.json)
     print_json(to_json(map, scene, run));
   else if (!request.common.quiet)

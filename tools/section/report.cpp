@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/cli/output.hpp"
+#include "tools/tables/table.hpp"
 #include "tools/text/runs/enclosure_report.hpp"
 #include "tools/text/runs/run_report.hpp"
 
@@ -167,22 +167,34 @@ std::size_t SectionReport::proved() const {
   return static_cast<std::size_t>(std::ranges::count(proofs, true, &ProvedCycle::proved));
 }
 
-void write_csv(const SectionReport& report, const std::string& path) {
-  OutputFile file(path);
-  std::string line = "orbit,n,t,u,v";
-  for (const std::string& name : spec_of(report).states) line += "," + name;
-  file.stream() << line << '\n';
+void write_crossings(const SectionReport& report, const std::string& path) {
+  std::vector<std::int64_t> orbits, numbers;
+  std::vector<double> times, u, v;
   const std::size_t n = report.problem.states();
+  std::vector<std::vector<double>> states(n);
   for (std::size_t k = 0; k < report.orbits.size(); ++k) {
     const OrbitReport& orbit = report.orbits[k];
     for (std::size_t i = 0; i < orbit.places.size(); ++i) {
-      line = fmt::format("{},{},{},{},{}", k + 1, i + 1, exact_text(orbit.orbit.times[i]),
-                         exact_text(orbit.places[i][0]), exact_text(orbit.places[i][1]));
-      for (std::size_t j = 0; j < n; ++j) line += "," + exact_text(orbit.orbit.states[i * n + j]);
-      file.stream() << line << '\n';
+      orbits.push_back(static_cast<std::int64_t>(k) + 1);
+      numbers.push_back(static_cast<std::int64_t>(i) + 1);
+      times.push_back(orbit.orbit.times[i]);
+      u.push_back(orbit.places[i][0]);
+      v.push_back(orbit.places[i][1]);
+      for (std::size_t j = 0; j < n; ++j) states[j].push_back(orbit.orbit.states[i * n + j]);
     }
   }
-  file.commit();
+  Table table{{{"orbit", std::move(orbits)},
+               {"n", std::move(numbers)},
+               {"t", std::move(times)},
+               {"u", std::move(u)},
+               {"v", std::move(v)}},
+              {{"case", spec_of(report).case_name},
+               {"scene", spec_of(report).scene},
+               {"level", report.problem.level_text()},
+               {"plane", report.problem.plane_text}}};
+  for (std::size_t j = 0; j < n; ++j)
+    table.columns.push_back({spec_of(report).states[j], std::move(states[j])});
+  write_table(path, table);
 }
 
 Json to_json(const SectionReport& report, bool points) {

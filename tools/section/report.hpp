@@ -31,8 +31,8 @@ struct SectionReport {
   std::size_t proved() const;
 };
 
-/// orbit,n,t,u,v and the variables.
-void write_csv(const SectionReport& report, const std::string& path);
+/// A table of orbit, n, t, u, v and the variables, as the name of the file says.
+void write_crossings(const SectionReport& report, const std::string& path);
 
 /// \param points  with the crossings.
 nlohmann::ordered_json to_json(const SectionReport& report, bool points);

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ostream>
+
+#include "tools/text/runs/row_table.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -25,8 +26,6 @@ std::string word(const StressCell& cell) {
       return to_string(cell.verdict);
   }
 }
-
-std::string number(double value) { return std::isnan(value) ? "" : exact_text(value); }
 
 }  // namespace
 
@@ -114,19 +113,33 @@ nlohmann::ordered_json to_json(const StressMatrix& matrix) {
   return json;
 }
 
-void write_csv(std::ostream& stream, const StressMatrix& matrix) {
-  stream << "case,scene,method,tolerance,error,drift,seconds,steps,evaluations,status,verdict,"
-            "extreme,reason\n";
+Table table_of(const StressMatrix& matrix) {
+  std::vector<Row> rows;
+  std::vector<std::string> verdicts, kinds, reasons;
   for (const StressMatrix::Line& line : matrix.lines) {
     for (const StressCell& cell : line.cells) {
-      const Row& row = cell.row;
-      stream << fmt::format("{},{},{},{:g},{},{},{:.6g},{},{},{},{},{},{}\n",
-                            csv_field(row.case_name), csv_field(row.scene), row.method,
-                            row.tolerance, number(row.error), number(row.drift), row.seconds,
-                            row.steps, row.evaluations, status_text(row), to_string(cell.verdict),
-                            line.extreme, csv_field(row.reason));
+      rows.push_back(cell.row);
+      verdicts.push_back(to_string(cell.verdict));
+      kinds.push_back(line.extreme);
+      reasons.push_back(cell.row.reason);
     }
   }
+  Table table = table_of(rows);
+  std::erase_if(table.columns, [](const Column& column) {
+    return column.name == "code" || column.name == "spread" || column.name == "rounds";
+  });
+  // A run that did not begin has no drift.
+  for (Column& column : table.columns) {
+    if (column.name != "drift") continue;
+    std::vector<std::optional<double>> drifts;
+    for (const Row& row : rows)
+      drifts.push_back(std::isnan(row.drift) ? std::nullopt : std::optional(row.drift));
+    column.cells = std::move(drifts);
+  }
+  table.columns.push_back({"verdict", std::move(verdicts)});
+  table.columns.push_back({"extreme", std::move(kinds)});
+  table.columns.push_back({"reason", std::move(reasons)});
+  return table;
 }
 
 }  // namespace casimir::tools

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <iosfwd>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "tools/analysis/stress/cell.hpp"
+#include "tools/tables/table.hpp"
 #include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
@@ -42,7 +42,7 @@ std::string complaints(const StressMatrix& matrix);
 /// {"rows": [..], "failed": N, "counts": {..}}.
 nlohmann::ordered_json to_json(const StressMatrix& matrix);
 
-/// case,scene,method,tolerance,error,drift,seconds,steps,evaluations,status,verdict,extreme,reason
-void write_csv(std::ostream& stream, const StressMatrix& matrix);
+/// The same rows as a table, without what only a bench has.
+Table table_of(const StressMatrix& matrix);
 
 }  // namespace casimir::tools

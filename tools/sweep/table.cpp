@@ -5,12 +5,34 @@
 #include "symbolic/error.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/output.hpp"
+#include "tools/tables/table.hpp"
 #include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
 namespace {
 
-bool is_hdf5(const std::string& path) { return path.ends_with(".h5") || path.ends_with(".hdf5"); }
+/// The axes, then an array of the grid's shape for each column.
+Table arrays_of(const SweepTable& sweep) {
+  Table table;
+  std::vector<std::size_t> shape;
+  std::string names;
+  for (const Axis& axis : sweep.grid.axes) {
+    shape.push_back(axis.values.size());
+    names += (names.empty() ? "" : ",") + axis_title(axis);
+    table.columns.push_back({"axes/" + axis_title(axis), axis.values});
+  }
+  for (std::size_t c = 0; c < sweep.columns.size(); ++c) {
+    std::vector<double> numbers;
+    for (const PointResult& row : sweep.rows) numbers.push_back(row.values[c]);
+    table.columns.push_back({sweep.columns[c], std::move(numbers), shape});
+  }
+  std::vector<Status> statuses;
+  for (const PointResult& row : sweep.rows) statuses.push_back(row.status);
+  table.columns.push_back({"status", choices_of(statuses), shape});
+  table.facts = {
+      {"case", sweep.case_name}, {"scene", sweep.scene}, {"method", sweep.method}, {"axes", names}};
+  return table;
+}
 
 void write_csv(const std::string& path, const SweepTable& table) {
   OutputFile file(path);
@@ -37,21 +59,15 @@ std::string axis_title(const Axis& axis) {
 }
 
 void check_sweep_output(const std::string& path) {
-  if (is_hdf5(path)) {
-    if (hdf5_version().empty())
-      throw SystemError(
-          "casimir was built without HDF5; install it with: apt-get install libhdf5-dev, and build "
-          "again, or write a .csv file");
-    return;
-  }
-  if (!path.ends_with(".csv"))
-    throw UsageError(
-        fmt::format("'{}': a sweep's name must end in .csv, .h5 or .hdf5", printable(path, 200)));
+  if (!is_table_name(path))
+    throw UsageError(fmt::format("'{}': a sweep's name must end in .csv, .npz, .h5 or .hdf5",
+                                 printable(path, 200)));
+  check_table_name(path);
 }
 
 void write_sweep(const std::string& path, const SweepTable& table) {
-  if (is_hdf5(path))
-    write_hdf5(path, table);
+  if (is_array_name(path))
+    write_table(path, arrays_of(table));
   else
     write_csv(path, table);
 }

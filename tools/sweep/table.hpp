@@ -17,22 +17,17 @@ struct SweepTable {
   std::vector<PointResult> rows;
 };
 
-/// Throws SystemError for a file that this program cannot write, before any work is done for it.
-/// \throws UsageError  for a name that ends in neither .csv nor .h5 or .hdf5
+/// Refuses, before any work is done for it, what this program cannot write.
+/// \throws UsageError   for a name that ends in none of .csv, .npz, .h5 and .hdf5
+/// \throws SystemError  where it was built without the library for it
 void check_sweep_output(const std::string& path);
 
 /// One line a point: its number from 1, the values of the axes (an initial value as `M1(0)`), the
-/// status, then the columns. Or, if the name says so, HDF5: an array of the grid's shape for each.
+/// status, then the columns. Or, if the name says so, arrays: one of the grid's shape for each.
 /// \throws SystemError
 void write_sweep(const std::string& path, const SweepTable& table);
 
 /// `M1(0)` for an axis of initial values; else its name.
 std::string axis_title(const Axis& axis);
-
-/// The HDF5 that this program was built with, or empty.
-std::string hdf5_version();
-
-/// \throws SystemError  also where there is no HDF5
-void write_hdf5(const std::string& path, const SweepTable& table);
 
 }  // namespace casimir::tools

@@ -4,11 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 
 #include "symbolic/error.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/output.hpp"
+#include "tools/usage/case_page.hpp"
 #include "tools/usage/completion.hpp"
 #include "tools/usage/manual.hpp"
 
@@ -60,8 +63,15 @@ std::optional<int> run_helper(const CLI::App& program, const std::vector<std::st
       std::cout << line << '\n';
     return kDone;
   }
-  if (words.size() == 3 && words[0] == "manual") {
-    for (const auto& [name, text] : manual_pages(program, version, words[2])) {
+  if ((words.size() == 3 || words.size() == 4) && words[0] == "manual") {
+    auto pages = manual_pages(program, version, words[2]);
+    if (words.size() == 4) {
+      std::ifstream markdown(words[3], std::ios::binary);
+      if (!markdown) throw SystemError("cannot read the reference of case files");
+      pages["casimir-case.5"] =
+          case_page({std::istreambuf_iterator<char>(markdown), {}}, version, words[2]);
+    }
+    for (const auto& [name, text] : pages) {
       OutputFile file(std::filesystem::path(words[1]) / name);
       file.stream() << text;
       file.commit();

@@ -9,35 +9,15 @@
 #include <vector>
 
 #include "tools/usage/option.hpp"
+#include "tools/usage/roff.hpp"
 
 namespace casimir::tools {
 namespace {
 
-/// Text as roff prints it literally; a hyphen-minus stays one, for those who copy it.
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '\\')
-      result += "\\e";
-    else if (c == '-')
-      result += "\\-";
-    else
-      result += c;
-  }
-  return result;
-}
-
-/// The same as lines of their own: a dot or an apostrophe at the beginning is no request.
-std::string paragraph(const std::string& text) {
-  std::istringstream lines(text);
-  std::string result;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.empty()) continue;
-    if (line.front() == '.' || line.front() == '\'') result += "\\&";
-    result += escaped(line) + "\n";
-  }
-  return result;
-}
+using roff::bold;
+using roff::heading;
+using roff::italic;
+using roff::paragraph;
 
 /// Text whose lines are laid out already stays as it is; other text is filled.
 std::string prose(const std::string& text) {
@@ -45,22 +25,9 @@ std::string prose(const std::string& text) {
   return laid_out ? ".nf\n" + paragraph(text) + ".fi\n" : paragraph(text);
 }
 
-std::string bold(const std::string& text) { return "\\fB" + escaped(text) + "\\fR"; }
-std::string italic(const std::string& text) { return "\\fI" + escaped(text) + "\\fR"; }
-
 /// A tagged paragraph.
 std::string item(const std::string& tag, const std::string& text) {
   return ".TP\n" + tag + "\n" + paragraph(text);
-}
-
-std::string heading(const std::string& name, const std::string& title, const std::string& version,
-                    const std::string& date) {
-  std::string upper;
-  for (const char c : name) upper += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  return fmt::format(
-      ".\\\" Made from the definitions of the command line: do not edit.\n"
-      ".TH {} 1 \"{}\" \"casimir {}\" \"User Commands\"\n.SH NAME\n{} \\- {}\n",
-      escaped(upper), date, version, escaped(name), escaped(title));
 }
 
 std::string sentence_of(const std::string& text) {
@@ -118,6 +85,7 @@ std::string see_also(const std::vector<const CLI::App*>& commands, const CLI::Ap
   for (const CLI::App* command : commands) {
     if (command != but) names.push_back(bold("casimir-" + command->get_name()) + "(1)");
   }
+  names.emplace_back("\\fBcasimir\\-case\\fR(5)");
   return fmt::format(".SH SEE ALSO\n{}\n", fmt::join(names, ",\n"));
 }
 
@@ -126,7 +94,7 @@ std::string command_page(const CLI::App& program, const CLI::App& command,
   const std::vector<DeclaredOption> options = declared_options(command);
   const std::string description = command.get_description();
   std::string text =
-      heading("casimir-" + command.get_name(), sentence_of(description), version, date);
+      heading("casimir-" + command.get_name(), sentence_of(description), 1, version, date);
   text += ".SH SYNOPSIS\n" + bold("casimir " + command.get_name()) + " [" + italic("OPTIONS") + "]";
   std::string arguments;
   for (const DeclaredOption& option : options) {
@@ -145,7 +113,7 @@ std::string command_page(const CLI::App& program, const CLI::App& command,
 std::string main_page(const CLI::App& program, const std::string& version,
                       const std::string& date) {
   std::string text =
-      heading("casimir", "an integrability workbench for Hamiltonian systems", version, date);
+      heading("casimir", "an integrability workbench for Hamiltonian systems", 1, version, date);
   text += ".SH SYNOPSIS\n" + bold("casimir") + " " + italic("COMMAND") + " [" + italic("CASE") +
           "] [" + italic("OPTIONS") + "]\n";
   text += ".SH DESCRIPTION\n" + paragraph(program.get_description());

@@ -1,5 +1,6 @@
 """The Python package as its users see it. Run by CTest with PYTHONPATH set to the build tree."""
 
+import contextlib
 import doctest
 import math
 import pickle
@@ -9,6 +10,7 @@ import sys
 import threading
 import time
 import unittest
+import warnings
 from fractions import Fraction
 from pathlib import Path
 
@@ -225,6 +227,84 @@ class Runs(unittest.TestCase):
         x, y, u, v = orbit.states.T
         np.testing.assert_allclose((u**2 + v**2 + x**2 + y**2) / 2 + x**2 * y - y**3 / 3, 1 / 8, atol=1e-10)
 
+    def test_compiled_code_may_call_the_right_hand_side(self):
+        import ctypes
+
+        system = casimir.load("kovalevskaya").system()
+        y = np.array([0.3, -0.2, 0.5, 0.1, 0.7, -0.4])
+        function, data = system._core.address(None)
+        pointer, context = ctypes.pythonapi.PyCapsule_GetPointer, ctypes.pythonapi.PyCapsule_GetPointer
+        pointer.restype, pointer.argtypes = ctypes.c_void_p, [ctypes.py_object, ctypes.c_char_p]
+        signature = b"void (double, double *, double *, void *)"
+        doubles = ctypes.POINTER(ctypes.c_double)
+        call = ctypes.CFUNCTYPE(None, ctypes.c_double, doubles, doubles, ctypes.c_void_p)(pointer(function, signature))
+        rates = np.empty(6)
+        call(0.0, y.ctypes.data_as(doubles), rates.ctypes.data_as(doubles), context(data, None))
+        np.testing.assert_array_equal(rates, system.rhs(0, y))
+        with self.assertRaises(casimir.RequestError) as caught:
+            system._core.address("M4")
+        self.assertIn("M1", str(caught.exception))
+
+    def test_scipy_integrates_a_rate_after_the_system_is_gone(self):
+        try:
+            from scipy.integrate import quad
+        except ImportError:
+            self.skipTest("no SciPy")
+        driven = casimir.Case(equations={"x": "x^2*cos(t)"}, variables=["x"], time="t", initial={"x": 1}, duration=1)
+        rate = driven.system().low_level("x")
+        self.assertAlmostEqual(quad(rate, 0, 3)[0], 9, delta=1e-12)  # without a time it is 0
+        self.assertAlmostEqual(quad(rate, 0, 3, args=(math.pi / 3,))[0], 4.5, delta=1e-12)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            self.assertTrue(math.isnan(quad(rate, 0, 3, args=(0.0, 1.0))[0]))  # too many numbers
+
+    def test_progress_is_told(self):
+        top = casimir.load("kovalevskaya")
+        for work in (lambda tell: top.integrate(duration=2000, tolerance=1e-12, progress=tell),
+                     lambda tell: top.ensemble(np.tile(top.system().initial, (300, 1)), duration=20, progress=tell),
+                     lambda tell: top.section(orbits=4, points=50, progress=tell)):
+            shares = []
+            work(shares.append)
+            self.assertEqual(shares[-1], 1)
+            self.assertTrue(all(0 <= share <= 1 for share in shares))
+
+    def test_a_bar_of_tqdm_fills(self):
+        class Bar:
+            n, total = 0, None
+
+            def update(self, more):
+                self.n += more
+
+        bar = Bar()
+        casimir.load("kovalevskaya").integrate(duration=10, progress=bar)
+        self.assertEqual(bar.n, 1)
+
+    def test_what_progress_raises_ends_the_run(self):
+        def stop(share):
+            raise KeyError("enough")
+
+        top = casimir.load("kovalevskaya")
+        begun = time.monotonic()
+        with self.assertRaises(KeyError):
+            top.integrate(duration=1e8, tolerance=1e-14, progress=stop)
+        self.assertLess(time.monotonic() - begun, 10)
+
+    def test_parts_of_an_ensemble_are_the_whole(self):
+        top = casimir.load("kovalevskaya")
+        many = top.system().initial + 0.01 * np.random.default_rng(2).standard_normal((200, 6))
+        whole, parts = top.ensemble(many, duration=3), top.ensemble(many, duration=3, progress=lambda share: None)
+        np.testing.assert_array_equal(whole.y, parts.y)
+        self.assertEqual(whole.status, parts.status)
+
+    def test_results_are_tables_in_notebooks(self):
+        top = casimir.load("kovalevskaya")
+        cut = top.section(orbits=2, points=5)
+        bare = casimir.Case(hamiltonian="(M1^2 + M2^2 + 2*M3^2)/2 - g1", algebra="e(3)")
+        for result, part in ((top.integrate(duration=1), "drift of H"), (cut, "crossings"), (bare.search(2), "proved"),
+                             (top.exponents(), "exponents"), (top.ensemble([top.system().initial], duration=1), "ok")):
+            self.assertTrue(result._repr_html_().startswith("<table>"))
+            self.assertIn(part, result._repr_html_())
+
     def test_equilibria(self):
         pendulum = casimir.Case(hamiltonian="p^2/2 - cos(q)", variables=["q", "p"], canonical=True,
                                 initial={"q": 1, "p": 0}, duration=1)
@@ -261,9 +341,13 @@ def load_tests(loader, tests, ignore):
     readme = Path(__file__).resolve().parents[3] / "README.md"
     tests.addTests(doctest.DocFileSuite(str(readme), module_relative=False))
     tests.addTests(doctest.DocTestSuite(casimir))
-    for name in ("_case", "_exact"):
+    for name in ("_case", "_exact", "_html", "_progress"):
         tests.addTests(doctest.DocTestSuite(sys.modules[f"casimir.{name}"], optionflags=doctest.ELLIPSIS,
                                             extraglobs={"casimir": casimir}))
+    with contextlib.suppress(ImportError):
+        import scipy.integrate  # noqa: F401
+
+        tests.addTests(doctest.DocTestSuite(sys.modules["casimir._system"]))
     return tests
 
 

@@ -3,7 +3,8 @@
 namespace casimir {
 
 std::vector<OrbitReport> domain_orbits(const LevelSet& level, const OrbitCutter& cutter,
-                                       std::size_t orbits, std::size_t points) {
+                                       std::size_t orbits, std::size_t points,
+                                       const std::function<void(double)>& progress) {
   const SectionProblem& problem = level.problem();
   std::vector<LevelSet::Vector> known;
   if (problem.on_scene)
@@ -14,7 +15,7 @@ std::vector<OrbitReport> domain_orbits(const LevelSet& level, const OrbitCutter&
   std::vector<LevelSet::Vector> seeds;
   for (const PlacedPoint& point : centred(level, domain, spread_out(level, domain, orbits)))
     seeds.push_back(point.x);
-  return judged_orbits(level, cutter.orbits(seeds, points), seeds);
+  return judged_orbits(level, cutter.orbits(seeds, points, progress), seeds);
 }
 
 }  // namespace casimir

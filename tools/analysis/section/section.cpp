@@ -16,7 +16,7 @@ PoincareSection section(const Model& model, const Scene& scene, const PoincareOp
   const LevelSet level(*result.problem);
   const OrbitCutter cutter(*result.problem, {options.tolerance, options.jobs, options.give_up},
                            options.orbits * options.points);
-  result.orbits = domain_orbits(level, cutter, options.orbits, options.points);
+  result.orbits = domain_orbits(level, cutter, options.orbits, options.points, options.progress);
   return result;
 }
 

@@ -13,8 +13,9 @@ struct PoincareOptions {
   SectionRequest request = {};  ///< plane, level, plotted pair; without it those of the case
   std::size_t orbits = 40, points = 500;
   double tolerance = 1e-14;
-  int jobs = 0;                        ///< threads; 0: one for each processor
-  std::function<bool()> give_up = {};  ///< asked now and then; true ends it
+  int jobs = 0;                                     ///< threads; 0: one for each processor
+  std::function<bool()> give_up = {};               ///< asked now and then; true ends it
+  std::function<void(double share)> progress = {};  ///< told now and then what share is done
 };
 
 /// Orbits on one level of energy and Casimir functions, cut with a plane.

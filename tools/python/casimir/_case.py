@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Union
 
 from . import _core
 from ._errors import RequestError
 from ._exact import Expression, is_float, pairs_of, text_of, texts_of
+from ._progress import Progress, told
 from ._results import (
     Condition,
     Conditions,
@@ -26,7 +26,16 @@ from ._results import (
     exponents_of,
     proof_of,
     search_of,
+    solution_of,
 )
+from ._system import System
+from ._text import case_text
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+#: One expression, or several.
+Expressions = Union[Expression, Iterable[Expression], None]
 
 #: The variables of algebras that have usual names for them.
 _USUAL = {
@@ -103,7 +112,7 @@ class Case:
                 "brackets": brackets,
             }
             values = parameters if isinstance(parameters, Mapping) else {str(one): None for one in parameters}
-            text = _toml(
+            text = case_text(
                 title or name, hamiltonian, equations, space, values, assume or {},
                 {"definitions": definitions, "casimirs": casimirs, "integrals": integrals},
                 integrable, initial, duration,
@@ -192,7 +201,8 @@ class Case:
 
     # Proofs and searches.
 
-    def verify(self, integral=None, *, casimir=None, invariant_relation=None, identity=None, on=None,
+    def verify(self, integral: Expressions = None, *, casimir: Expressions = None,
+               invariant_relation: Expressions = None, identity: Expressions = None, on: Expressions = None,
                time_limit: float = 0) -> Verification:
         """Proves or refutes every claim of the case, or these candidates instead.
 
@@ -214,9 +224,9 @@ class Case:
             [proof_of(one) for one in proofs if one["note"]],
         )
 
-    def search(self, degree: int, *, casimirs: bool = False, on=None, functions=None,
-               weights: Mapping[str, Expression] | None = None, free=None, time_limit: float = 0,
-               memory: float = 0) -> Search | Conditions:
+    def search(self, degree: int, *, casimirs: bool = False, on: Expressions = None,
+               functions: Expressions = None, weights: Mapping[str, Expression] | None = None,
+               free: Expressions = None, time_limit: float = 0, memory: float = 0) -> Search | Conditions:
         """All polynomial integrals up to a degree, less those that follow from the known ones.
 
         :param casimirs: Casimir functions instead.
@@ -251,7 +261,7 @@ class Case:
         """Balances and Kovalevskaya exponents."""
         return exponents_of(self._core.exponents(pairs_of(weights), time_limit, memory))
 
-    def obstruct(self, *, along=None, free: str = "", scene: str = "default", time_limit: float = 0,
+    def obstruct(self, *, along: Expressions = None, free: str = "", scene: str = "default", time_limit: float = 0,
                  memory: float = 0) -> Obstruction:
         """Whether the variational equations along a particular solution exclude a further integral;
         with a free parameter, for which of its real values they do not."""
@@ -261,7 +271,8 @@ class Case:
 
     # Numbers.
 
-    def generate(self, *, scene: str = "default", keep=(), observe=None, jacobian: bool = True,
+    def generate(self, *, scene: str = "default", keep: Iterable[str] = (),
+                 observe: Iterable[str] | None = None, jacobian: bool = True,
                  variational: bool = False, taylor: bool = False, language: str = "c++",
                  name: str | None = None) -> str:
         """The equations of a scene as a header in C++20 or C99 that needs nothing else.
@@ -275,11 +286,11 @@ class Case:
         return self._core.generate(scene, list(keep), None if observe is None else list(observe), jacobian,
                                    variational, taylor, language, name)
 
-    def integrate(self, t_eval=None, *, initial: Mapping[str, Expression] | None = None,
+    def integrate(self, t_eval: ArrayLike | None = None, *, initial: Mapping[str, Expression] | None = None,
                   duration: float | None = None, scene: str = "default", method: str = "auto",
                   tolerance: float | None = None, rtol: float | None = None, atol: float | None = None,
                   observe: Sequence[str] | None = None, project: bool = False, time_limit: float = 0,
-                  **parameters: Expression) -> Solution:
+                  progress: Progress = None, **parameters: Expression) -> Solution:
         """Integrates a scene from time 0.
 
         :param t_eval: times of the states wanted, shape (m,); without it those of the steps.
@@ -288,6 +299,9 @@ class Case:
         :param method: 'auto', or one of `casimir.methods()`.
         :param tolerance: sets `rtol` and `atol`.
         :param project: onto every invariant that is proved.
+        :param time_limit: in seconds; what was reached by then is returned, and is no success. 0: none.
+        :param progress: told the share that is done: a function of it, or a bar of tqdm. `auto` may
+            begin anew. What it raises ends the run.
         :param parameters: other values than those of the scene, as r=2.
         :returns: t (m,), y (n, m), sol, success, .., drift, trust, warnings.
 
@@ -304,19 +318,27 @@ class Case:
         if times is not None and duration is None:
             duration = float(times[numpy.abs(times).argmax()])
         motion = _core.integrate(case._core, scene, method, duration, tolerance, rtol, atol, observe, project,
-                                 time_limit)
-        return _solution(motion, times)
+                                 time_limit, told(progress))
+        return solution_of(motion, times)
 
-    def ensemble(self, initial, *, variables: Sequence[str] | None = None, parameters: Mapping[str, Any] | None = None,
+    def ensemble(self, initial: ArrayLike, *, variables: Sequence[str] | None = None,
+                 parameters: Mapping[str, Any] | None = None,
                  duration: float | None = None, scene: str = "default", method: str = "taylor",
                  tolerance: float | None = None, rtol: float | None = None, atol: float | None = None,
-                 jobs: int = 0, time_limit: float = 0) -> Ensemble:
+                 jobs: int = 0, time_limit: float = 0, progress: Progress = None) -> Ensemble:
         """Integrates many initial states at once, several in the lanes of a register, on all cores.
 
         :param initial: array (members, n), with a column for each variable.
         :param variables: the names of the columns, where these are only some of the variables.
         :param parameters: arrays (members,) by name.
         :param jobs: threads; 0: one for each processor.
+        :param progress: told the share of the members that are done: a function of it, or a bar of tqdm.
+        :returns: y (members, n), t (members,), drift (members,) for each invariant, status, steps.
+
+        >>> top = load("kovalevskaya")
+        >>> many = top.system().initial + [[0], [0], [0]]
+        >>> top.ensemble(many, parameters={"r": [1, 2, 3]}, duration=1).y.shape
+        (3, 6)
         """
         import numpy
 
@@ -326,7 +348,7 @@ class Case:
         for column, name in enumerate(names):
             values[:, column] = parameters[name]
         answer = _core.ensemble(self._core, scene, method, initial, list(variables or self.variables), values,
-                                names, duration, tolerance, rtol, atol, jobs, time_limit)
+                                names, duration, tolerance, rtol, atol, jobs, time_limit, told(progress))
         drift = answer["drift"]
         return Ensemble(
             y=answer["states"], t=answer["t"], status=answer["status"],
@@ -343,26 +365,34 @@ class Case:
         return System(_core.System(self._core, scene, method, list(keep)))
 
     @property
-    def rhs(self):
+    def rhs(self) -> Callable[..., Any]:
         """The right-hand side of the scene 'default' as a function f(t, y), for SciPy's solvers."""
         return self.system().rhs
 
     def section(self, *, plane: Expression | None = None, direction: str | None = None,
                 plot: Sequence[Expression] = (), energy: float | None = None,
                 casimirs: Mapping[str, float] | None = None, orbits: int = 40, points: int = 500,
-                tolerance: float = 1e-14, scene: str = "default", jobs: int = 0) -> Section:
+                tolerance: float = 1e-14, scene: str = "default", jobs: int = 0,
+                progress: Progress = None) -> Section:
         """A Poincare section on one level of energy and Casimir functions.
 
         :param plane: a function that vanishes there; without it that of the case.
         :param direction: 'up' or 'down'.
         :param plot: two functions of the state.
         :param energy, casimirs: the level; without them that of the scene.
+        :param orbits, points: how many, and the crossings of each.
+        :param progress: told the share of the crossings that are there: a function of it, or a bar of tqdm.
+        :returns: orbits with points (count, 2), times (count,) and states (count, n).
+
+        >>> cut = load("kovalevskaya").section(orbits=3, points=5)
+        >>> cut[0].points.shape
+        (5, 2)
         """
         if direction not in (None, "up", "down"):
             raise RequestError(f"{direction!r} is no direction: 'up' and 'down' are")
         facts = _core.section(self._core, scene, None if plane is None else text_of(plane),
                               None if direction is None else direction == "up", [text_of(one) for one in plot],
-                              energy, list((casimirs or {}).items()), orbits, points, tolerance, jobs)
+                              energy, list((casimirs or {}).items()), orbits, points, tolerance, jobs, told(progress))
         return Section(**{**facts, "orbits": [Orbit(**one) for one in facts["orbits"]]})
 
     def equilibria(self, scene: str = "default") -> list[Equilibrium]:
@@ -370,127 +400,6 @@ class Case:
         return [Equilibrium(**one) for one in _core.equilibria(self._core, scene)["equilibria"]]
 
 
-class System:
-    """A compiled scene. States are arrays (n,) in the order of `names`."""
-
-    def __init__(self, core: _core.System):
-        self._core = core
-
-    @property
-    def names(self) -> list[str]:
-        """Of the entries of a state."""
-        return self._core.names
-
-    @property
-    def parameter_names(self) -> list[str]:
-        """Of the parameters that stay arguments."""
-        return self._core.parameter_names
-
-    @property
-    def invariant_names(self) -> list[str]:
-        """Of the entries of `invariants`."""
-        return self._core.invariant_names
-
-    @property
-    def initial(self):
-        """The start of the scene."""
-        import numpy
-
-        return numpy.array(self._core.initial)
-
-    def rhs(self, t: float, y, parameters=None):
-        """dy/dt."""
-        return self._core.rhs(t, y, parameters)
-
-    def jacobian(self, t: float, y, parameters=None):
-        """The derivatives of `rhs` by the state, shape (n, n)."""
-        return self._core.jacobian(t, y, parameters)
-
-    def invariants(self, t: float, y, parameters=None):
-        """The Hamiltonian, the Casimir functions and the integrals at a state."""
-        return self._core.invariants(t, y, parameters)
-
-    def flow(self, y, duration: float, tolerance: float | None = None, parameters=None):
-        """The state after a time, by the method of the system at this tolerance (1e-12).
-
-        :raises RequestError: where the motion does not go on so long.
-        """
-        return self._core.flow(y, duration, tolerance, parameters)
-
-
 def _restored(text: str, file: str, parameters, initial, rounded: bool) -> Case:
     core = _core.Case.from_text(text, file)
     return Case._of(core.with_values(parameters, initial, rounded) if parameters or initial else core)
-
-
-def _solution(motion: _core.Motion, times) -> Solution:
-    import numpy
-
-    facts = motion.facts()
-
-    def sol(t):
-        """The state at a time, shape (n,), or at times (k,), shape (n, k)."""
-        asked = numpy.asarray(t, dtype=float)
-        states = motion.at(asked.ravel())
-        return states[:, 0] if asked.ndim == 0 else states
-
-    if times is None:
-        t, y = motion.steps()
-    else:
-        reached = facts["time"]
-        t = times[(times <= reached) if reached >= 0 else (times >= reached)]
-        y = motion.at(t)
-    invariants = motion.invariants()
-    ok = motion.ok
-    return Solution(
-        t=t, y=y, sol=sol, success=ok, status=0 if ok else -1, reason=facts["status"],
-        message="The end of the run was reached." if ok else facts["reason"],
-        nfev=facts["evaluations"], njev=facts["jacobians"], nlu=0, t_events=None, y_events=None,
-        names=motion.names, method=facts["method"], rtol=facts["rtol"], atol=facts["atol"],
-        steps=facts["steps"], rejected=facts["rejected"], seconds=facts["seconds"],
-        drift={name: record["drift"] for name, record in invariants.items()}, invariants=invariants,
-        trust=motion.trust(), warnings=facts["warnings"], advice=facts["advice"], left_out=facts["left_out"],
-    )
-
-
-def _quoted(value: str) -> str:
-    return json.dumps(value, ensure_ascii=False)
-
-
-def _table(head: str, entries: Mapping[str, Any]) -> list[str]:
-    return [f"\n[{head}]"] + [f"{_quoted(str(name))} = {_quoted(text_of(value))}" for name, value in entries.items()]
-
-
-def _toml(title, hamiltonian, equations, space, parameters, assume, named, integrable, initial, duration) -> str:
-    lines = [f"title = {_quoted(title)}"]
-    if integrable:
-        lines.append("integrable = true")
-    if hamiltonian is not None:
-        lines.append(f"hamiltonian = {_quoted(text_of(hamiltonian))}")
-    lines.append("\n[phase_space]")
-    brackets = space.pop("brackets")
-    for key, value in space.items():
-        if value is not None:
-            lines.append(f"{key} = {'true' if value is True else json.dumps(value, ensure_ascii=False)}")
-    if brackets is not None:
-        lines += _table("phase_space.brackets", brackets)
-    if parameters:
-        lines.append("\n[parameters]")
-        for name in parameters:
-            condition = f" assume = {_quoted(assume[name])} " if name in assume else ""
-            lines.append(f"{_quoted(name)} = {{{condition}}}")
-    for head, entries in {**named, "equations": equations}.items():
-        if entries:
-            lines += _table(head, entries)
-    if initial is not None:
-        values = {name: value for name, value in parameters.items() if value is not None}
-
-        def inline(entries):
-            return "{ " + ", ".join(f"{_quoted(n)} = {_quoted(text_of(v))}" for n, v in entries.items()) + " }"
-
-        lines += ["\n[[scene]]", 'name = "default"', f"initial = {inline(initial)}"]
-        if values:
-            lines.append(f"parameters = {inline(values)}")
-        if duration is not None:
-            lines.append(f"duration = {_quoted(text_of(duration))}")
-    return "\n".join(lines) + "\n"

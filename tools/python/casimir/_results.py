@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -9,12 +10,17 @@ from typing import Any, overload
 
 from ._errors import UndecidedError
 from ._exact import number_of
+from ._html import table
 
 
 def _truth(verdict: str, what: str) -> bool:
     if verdict == "undecided":
         raise UndecidedError(f"{what} is undecided, which is neither true nor false: ask for .verdict")
     return verdict == "proved"
+
+
+def _listed(values: dict[str, Any]) -> str:
+    return ", ".join(f"{name} = {value}" for name, value in values.items())
 
 
 @dataclass(frozen=True)
@@ -103,19 +109,14 @@ class Verification(Sequence[Proof]):
         return "\n".join([f"<{self.verdict}>"] + [f"  {proof}" for proof in self.proofs])
 
     def _repr_html_(self) -> str:
-        import html
-
         rows = []
         for proof in self.proofs:
             note = proof.evidence if proof.verdict == "proved" else proof.reason
             if proof.witness is not None:
-                point = ", ".join(f"{name} = {value}" for name, value in proof.witness.point.items())
-                note = f"{proof.witness.value} at {point}"
+                note = f"{proof.witness.value} at {_listed(proof.witness.point)}"
             where = f" where {', '.join(proof.where)}" if proof.where else ""
-            cells = (proof.verdict + where, proof.kind, proof.name, note)
-            rows.append("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in cells) + "</tr>")
-        head = "<tr><th>verdict</th><th>claim</th><th></th><th>evidence</th></tr>"
-        return f"<table>{head}{''.join(rows)}</table>"
+            rows.append((proof.verdict + where, proof.kind, proof.name, note))
+        return table(["verdict", "claim", "", "evidence"], rows)
 
 
 @dataclass(frozen=True)
@@ -157,6 +158,16 @@ class Search(Sequence[Found]):
         """'proved' where what was found is all there is, else 'undecided'."""
         return "proved" if self.complete else "undecided"
 
+    def _repr_html_(self) -> str:
+        said = "proved: there is no other" if self.complete else f"undecided: {self.reason}"
+        rows = [(one.degree, (_maths(one.latex),), one.verdict) for one in self.found]
+        return table(["degree", "integral", "verdict"], rows, said)
+
+
+def _maths(latex: str) -> str:
+    """What notebooks typeset inside of HTML."""
+    return "$" + html.escape(latex) + "$"
+
 
 def search_of(facts: dict[str, Any]) -> Search:
     """The object for what the C++ side says of a search."""
@@ -193,6 +204,13 @@ class Conditions(Sequence[Condition]):
     def verdict(self) -> str:
         """'proved' where there is no other, else 'undecided'."""
         return "proved" if self.complete else "undecided"
+
+    def _repr_html_(self) -> str:
+        said = "proved: there is no other" if self.complete else f"undecided: {self.reason}"
+        rows = [(one.relation + " = 0" if one.relation else _listed(one.parameters),
+                 (", ".join(_maths(found.latex) for found in one.found),), one.verdict)
+                for one in self.conditions]
+        return table(["where", "integrals", "verdict"], rows, said)
 
 
 @dataclass(frozen=True)
@@ -239,6 +257,11 @@ class Exponents:
     generic: list[str]
     conclusions: list[str]  #: with the theorem used
 
+    def _repr_html_(self) -> str:
+        rows = [(_listed(one.coefficients), ", ".join(exponent.text for exponent in one.exponents))
+                for one in self.balances]
+        return table(["balance", "exponents"], rows, "; ".join(self.conclusions))
+
 
 def exponents_of(facts: dict[str, Any]) -> Exponents:
     """The object for what the C++ side says of the analysis."""
@@ -264,6 +287,10 @@ class Obstruction:
 
     def __bool__(self) -> bool:
         return _truth(self.verdict, "the obstruction")
+
+    def _repr_html_(self) -> str:
+        rows = [("excluded", self.excluded), ("theorem", self.theorem), ("reason", self.reason)]
+        return table(["verdict", self.verdict], [row for row in rows if row[1]])
 
 
 @dataclass(frozen=True)
@@ -310,7 +337,13 @@ class Section(Sequence[Orbit]):
     def __len__(self) -> int:
         return len(self.orbits)
 
-    def plot(self, ax=None, **style):
+    def _repr_html_(self) -> str:
+        rows = [(number, len(orbit.points), {None: "", True: "yes", False: "no"}[orbit.chaotic], orbit.status)
+                for number, orbit in enumerate(self.orbits, 1)]
+        return table(["orbit", "crossings", "chaotic", "status"], rows,
+                     f"{self.plane}{'' if '=' in self.plane else ' = 0'}, {self.level}")
+
+    def plot(self, ax: Any = None, **style: Any) -> Any:
         """Draws the crossings on axes of matplotlib, chaotic orbits in grey, and returns the axes."""
         if ax is None:
             from matplotlib import pyplot
@@ -349,6 +382,13 @@ class Solution(dict):
         lines = [f"{key:>12}: {self[key]!r}" for key in ("success", "message", "method", "t", "y", "drift", "trust")]
         return "\n".join(lines + [f"{'warning':>12}: {warning}" for warning in self.warnings])
 
+    def _repr_html_(self) -> str:
+        rows = [(name, float(value)) for name, value in zip(self.names, self.y[:, -1])]
+        rows += [(f"drift of {name}", float(value)) for name, value in self.drift.items()]
+        rows += [("warning", warning) for warning in self.warnings]
+        end = float(self.t[-1]) if len(self.t) else 0.0
+        return table(["", f"t = {end:.6g}"], rows, f"{self.method}: {self.message}")
+
 
 @dataclass(frozen=True)
 class Ensemble:
@@ -367,3 +407,39 @@ class Ensemble:
     def success(self) -> bool:
         """Whether every member reached its end."""
         return all(status == "ok" for status in self.status)
+
+    def _repr_html_(self) -> str:
+        kinds = sorted(set(self.status))
+        rows = [(kind, self.status.count(kind)) for kind in kinds]
+        return table(["status", "members"], rows, f"{len(self.status)} members in {self.seconds:.3g} s")
+
+
+def solution_of(motion: Any, times) -> Solution:
+    """The object for what the C++ side says of a run."""
+    import numpy
+
+    facts = motion.facts()
+
+    def sol(t):
+        """The state at a time, shape (n,), or at times (k,), shape (n, k)."""
+        asked = numpy.asarray(t, dtype=float)
+        states = motion.at(asked.ravel())
+        return states[:, 0] if asked.ndim == 0 else states
+
+    if times is None:
+        t, y = motion.steps()
+    else:
+        reached = facts["time"]
+        t = times[(times <= reached) if reached >= 0 else (times >= reached)]
+        y = motion.at(t)
+    invariants = motion.invariants()
+    ok = motion.ok
+    return Solution(
+        t=t, y=y, sol=sol, success=ok, status=0 if ok else -1, reason=facts["status"],
+        message="The end of the run was reached." if ok else facts["reason"],
+        nfev=facts["evaluations"], njev=facts["jacobians"], nlu=0, t_events=None, y_events=None,
+        names=motion.names, method=facts["method"], rtol=facts["rtol"], atol=facts["atol"],
+        steps=facts["steps"], rejected=facts["rejected"], seconds=facts["seconds"],
+        drift={name: record["drift"] for name, record in invariants.items()}, invariants=invariants,
+        trust=motion.trust(), warnings=facts["warnings"], advice=facts["advice"], left_out=facts["left_out"],
+    )

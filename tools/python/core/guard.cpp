@@ -30,6 +30,24 @@ bool Interrupt::operator()() {
   return true;
 }
 
+void Interrupt::show(double share) {
+  if (!told_ || raised_ || std::this_thread::get_id() != owner_ || Clock::now() < next_show_)
+    return;
+  next_show_ = Clock::now() + std::chrono::milliseconds(50);
+  const py::gil_scoped_acquire python;
+  try {
+    progress_(share);
+  } catch (py::error_already_set& error) {
+    error_.emplace(std::move(error));
+    raised_ = true;
+  }
+}
+
+void Interrupt::finish() {
+  raise();
+  if (told_) progress_(1.0);
+}
+
 void Interrupt::raise() {
   if (!error_) return;
   py::error_already_set error = std::move(*error_);

@@ -22,10 +22,21 @@ class ExactAlgebra {
   std::unique_lock<std::recursive_mutex> lock_;
 };
 
-/// Looks for Ctrl-C on behalf of work that runs without Python's lock. Only the thread that made it
-/// can see one, as in Python itself; others are told.
+/// Looks for Ctrl-C on behalf of work that runs without Python's lock, and tells Python how far the
+/// work is. Only the thread that made it can see and tell, as in Python itself; others are told.
 class Interrupt {
  public:
+  /// \param progress  None, or a function of the share that is done, from 0 to 1. What it raises ends
+  ///                  the work, and is raised there.
+  explicit Interrupt(pybind11::object progress = pybind11::none())
+      : progress_(std::move(progress)), told_(!progress_.is_none()) {}
+
+  /// Whether anybody wants to be told.
+  bool told() const { return told_; }
+  /// Called often, tells twenty times in a second.
+  void show(double share);
+  /// All is done. With Python's lock. \throws pybind11::error_already_set  as `raise` does.
+  void finish();
   /// Whether Python's signal handlers raised: asked often, looks twenty times in a second.
   bool operator()();
   /// \throws pybind11::error_already_set  where they did. With Python's lock.
@@ -34,6 +45,9 @@ class Interrupt {
  private:
   using Clock = std::chrono::steady_clock;
   std::thread::id owner_ = std::this_thread::get_id();
+  pybind11::object progress_;
+  bool told_;
+  Clock::time_point next_show_ = Clock::now();
   Clock::time_point next_ = Clock::now() + std::chrono::milliseconds(50);
   std::atomic<bool> raised_ = false;
   std::optional<pybind11::error_already_set> error_;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/run/ensemble_kernel.hpp"
@@ -142,9 +144,9 @@ class Motion {
 
 Motion integrate(const std::shared_ptr<Case>& self, const std::string& scene,
                  const std::string& method, Choice duration, Choice tolerance, Choice rtol,
-                 Choice atol, const std::optional<Names>& observe, bool project,
-                 double time_limit) {
-  Interrupt interrupt;
+                 Choice atol, const std::optional<Names>& observe, bool project, double time_limit,
+                 const py::object& progress) {
+  Interrupt interrupt(progress);
   SolveOptions options;
   options.method = method;
   options.run = request(duration, tolerance, rtol, atol);
@@ -153,13 +155,14 @@ Motion integrate(const std::shared_ptr<Case>& self, const std::string& scene,
   options.dense = true;
   options.time_limit = time_limit;
   options.give_up = [&] { return interrupt(); };
+  if (interrupt.told()) options.progress = [&](double share) { interrupt.show(share); };
   std::optional<Motion> motion;
   {
     const ExactAlgebra guard;
     const Model& model = self->model();
     motion.emplace(self, settled([&] { return solve(model, model.scene(scene), options); }));
   }
-  interrupt.raise();
+  interrupt.finish();
   return std::move(*motion);
 }
 
@@ -204,6 +207,9 @@ class System {
     const Doubles by_columns = evaluated(compiled_->module.functions().jacobian, n * n, t, x, p);
     return by_columns.attr("reshape")(n, n).attr("T");
   }
+
+  /// The right-hand side as an address in C, with what it needs: see `low_level`.
+  py::tuple address(const std::optional<std::string>& component, const py::object& keeper) const;
 
   /// The state after a time.
   Doubles flow(const Doubles& x, double duration, Choice tolerance,
@@ -255,6 +261,56 @@ class System {
   std::unique_ptr<CompiledModule> compiled_;
 };
 
+/// What a function in C is given beside its numbers: a compiled right-hand side.
+struct RightHandSide {
+  py::object keeper;  ///< the system, whose module holds the code
+  const std::function<ModuleFunctions::Evaluation>* rhs;
+  std::vector<double> parameters;
+  std::size_t states;
+  std::size_t component;  ///< which rate is asked for, where only one is
+};
+
+/// The rates at a time and a state: nothing is thrown, since the caller is in C.
+void rates_in_c(double t, double* x, double* rates, void* data) {
+  const auto& of = *static_cast<const RightHandSide*>(data);
+  (*of.rhs)(t, x, of.parameters.data(), rates);
+}
+
+/// One rate at n numbers, those of a state, with the time behind them or 0.
+double rate_in_c(int n, double* x, void* data) {
+  const auto& of = *static_cast<const RightHandSide*>(data);
+  const auto given = static_cast<std::size_t>(n);
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (given != of.states && given != of.states + 1) return kNone;
+  thread_local std::vector<double> rates;
+  rates.resize(of.states);
+  (*of.rhs)(given > of.states ? x[of.states] : 0, x, of.parameters.data(), rates.data());
+  return rates[of.component];
+}
+
+py::tuple System::address(const std::optional<std::string>& component,
+                          const py::object& keeper) const {
+  std::size_t place = 0;
+  if (component) {
+    const auto found = std::ranges::find(names(), *component);
+    if (found == names().end())
+      throw RequestError("'" + printable(*component) +
+                         "' is not a variable: " + suggest_or_list(*component, names()));
+    place = static_cast<std::size_t>(found - names().begin());
+  }
+  const auto& rhs = compiled_->module.functions().rhs;
+  auto* const data = new RightHandSide{keeper, &rhs, run_->parameters, names().size(), place};
+  const py::capsule context(data, [](void* held) { delete static_cast<RightHandSide*>(held); });
+  // SciPy reads the signature from the name of the capsule, which has to stay.
+  if (component)
+    return py::make_tuple(
+        py::capsule(reinterpret_cast<void*>(&rate_in_c), "double (int, double *, void *)"),
+        context);
+  return py::make_tuple(py::capsule(reinterpret_cast<void*>(&rates_in_c),
+                                    "void (double, double *, double *, void *)"),
+                        context);
+}
+
 /// Where each column of `names` goes among `known`.
 /// \throws RequestError  with the nearest name.
 std::vector<std::size_t> places_of(const Names& names, const Names& known, const char* what) {
@@ -279,17 +335,44 @@ void fill(std::vector<double>& into, std::size_t width, const Doubles& values,
           from(row, static_cast<py::ssize_t>(column));
 }
 
+/// Members `from` to `to`, without the latter.
+Ensemble part_of(const Ensemble& all, std::size_t from, std::size_t to) {
+  Ensemble part;
+  part.states = all.states;
+  part.parameters = all.parameters;
+  part.initial.assign(all.state(from), all.state(to));
+  part.values.assign(all.values_of(from), all.values_of(to));
+  return part;
+}
+
+/// The members in parts, so that somebody can be told how far it is: what becomes of a member
+/// depends on no other.
+template <class Integrate>
+EnsembleResult in_parts(const Ensemble& all, const Integrate& integrate, Interrupt& watch) {
+  constexpr std::size_t kParts = 64, kLeast = 64;  // several times the lanes of all cores
+  const std::size_t size = std::max(kLeast, all.size() / kParts);
+  EnsembleResult result;
+  for (std::size_t from = 0; from < all.size(); from += size) {
+    EnsembleResult part = integrate(part_of(all, from, std::min(from + size, all.size())));
+    std::ranges::move(part.members, std::back_inserter(result.members));
+    result.seconds += part.seconds;
+    result.jobs = std::max(result.jobs, part.jobs);
+    watch.show(static_cast<double>(result.members.size()) / static_cast<double>(all.size()));
+  }
+  return result;
+}
+
 /// Many members at once. \param initial  a row for each, with a column for each of `variables`.
 /// \param values  likewise for `parameters`.
 py::dict ensemble(const Case& self, const std::string& scene, const std::string& method,
                   const Doubles& initial, const Names& variables, const Doubles& values,
                   const Names& parameters, Choice duration, Choice tolerance, Choice rtol,
-                  Choice atol, int jobs, double seconds) {
+                  Choice atol, int jobs, double seconds, const py::object& progress) {
   if (initial.ndim() != 2 || values.ndim() != 2 || initial.shape(0) != values.shape(0) ||
       static_cast<std::size_t>(initial.shape(1)) != variables.size() ||
       static_cast<std::size_t>(values.shape(1)) != parameters.size())
     throw RequestError("an ensemble is a row for each member and a column for each name");
-  Interrupt interrupt;
+  Interrupt interrupt(progress);
   const auto count = static_cast<std::size_t>(initial.shape(0));
   Ensemble members;
   EnsembleResult result;
@@ -320,13 +403,16 @@ py::dict ensemble(const Case& self, const std::string& scene, const std::string&
     settings.give_up = [&, late = time_limit(seconds)] { return interrupt() || (late && late()); };
     settings.invariant_terms = nullptr;
     const EnsembleKernel kernel = ensemble_kernel(run, by, count, true);
-    result = settled([&] {
-      return kernel.lanes ? integrate_in_lanes(members, *kernel.lanes, s.invariants, settings, jobs)
-                          : integrate_members(members, kernel.module_for_thread, by, s.invariants,
+    const auto integrated = [&](const Ensemble& some) {
+      return kernel.lanes ? integrate_in_lanes(some, *kernel.lanes, s.invariants, settings, jobs)
+                          : integrate_members(some, kernel.module_for_thread, by, s.invariants,
                                               settings, jobs);
+    };
+    result = settled([&] {
+      return interrupt.told() ? in_parts(members, integrated, interrupt) : integrated(members);
     });
   }
-  interrupt.raise();
+  interrupt.finish();
   Doubles ends({count, members.states}), drift({count, invariants.size()});
   Doubles times(static_cast<py::ssize_t>(count));
   py::list status;
@@ -370,6 +456,10 @@ void bind_motion(py::module_& module) {
       .def("rhs", &System::rhs)
       .def("jacobian", &System::jacobian)
       .def("invariants", &System::invariants)
+      .def("address",
+           [](const py::object& self, const std::optional<std::string>& component) {
+             return self.cast<const System&>().address(component, self);
+           })
       .def("flow", &System::flow);
   module.def("integrate", &integrate);
   module.def("ensemble", &ensemble);

@@ -44,16 +44,17 @@ py::dict section(const Case& self, const std::string& scene,
                  const std::optional<std::string>& plane, const std::optional<bool>& upwards,
                  const Names& pair, std::optional<double> energy,
                  const std::vector<std::pair<std::string, double>>& casimirs, std::size_t orbits,
-                 std::size_t points, double tolerance, int jobs) {
+                 std::size_t points, double tolerance, int jobs, const py::object& progress) {
   if (!pair.empty() && pair.size() != 2)
     throw RequestError("a section shows two functions of the state");
-  Interrupt interrupt;
+  Interrupt interrupt(progress);
   PoincareOptions options;
   options.orbits = orbits;
   options.points = points;
   options.tolerance = tolerance;
   options.jobs = jobs;
   options.give_up = [&] { return interrupt(); };
+  if (interrupt.told()) options.progress = [&](double share) { interrupt.show(share); };
   py::dict result;
   {
     const ExactAlgebra guard;
@@ -76,7 +77,7 @@ py::dict section(const Case& self, const std::string& scene,
         "labels"_a = py::make_tuple(cut.problem->plotted[0].label, cut.problem->plotted[1].label),
         "names"_a = cut.problem->run.specialisation.states);
   }
-  interrupt.raise();
+  interrupt.finish();
   return result;
 }
 

@@ -11,8 +11,8 @@
 
 #include "runtime/evaluate.hpp"
 #include "runtime/program/term_size.hpp"
-#include "tools/cli/output.hpp"
 #include "tools/show/notation.hpp"
+#include "tools/tables/table.hpp"
 #include "tools/text/files/generated_report.hpp"
 #include "tools/text/runs/run_report.hpp"
 
@@ -244,21 +244,23 @@ void print_text(const DigitsReport& report) {
 void write_samples(const std::string& path, const DigitsReport& report) {
   const AgreedRun& agreed = report.agreed;
   const std::size_t checked = agreed.checked ? agreed.check.samples.size() : 0;
-  OutputFile file(path);
-  file.stream() << "t";
-  for (const std::string& name : report.spec.states) file.stream() << ',' << name;
-  file.stream() << '\n';
+  const std::vector<std::string>& states = report.spec.states;
+  std::vector<std::string> times;
+  std::vector<std::vector<std::string>> columns(states.size());
   for (std::size_t k = 0; k < agreed.run.samples.size(); ++k) {
     const bool same_time =
         k < checked && agreed_digits(agreed.check.sample_times[k], agreed.run.sample_times[k],
                                      report.digits) == report.digits;
-    file.stream() << decimal_text(agreed.run.sample_times[k], report.digits);
-    for (const std::string& text : sure_texts(
-             agreed.run.samples[k], same_time ? &agreed.check.samples[k] : nullptr, report.digits))
-      file.stream() << ',' << text;
-    file.stream() << '\n';
+    times.push_back(decimal_text(agreed.run.sample_times[k], report.digits));
+    const auto texts = sure_texts(agreed.run.samples[k],
+                                  same_time ? &agreed.check.samples[k] : nullptr, report.digits);
+    for (std::size_t i = 0; i < states.size(); ++i) columns[i].push_back(texts[i]);
   }
-  file.commit();
+  Table table{{{"t", std::move(times)}},
+              {{"case", report.spec.case_name}, {"scene", report.spec.scene}}};
+  for (std::size_t i = 0; i < states.size(); ++i)
+    table.columns.push_back({states[i], std::move(columns[i])});
+  write_table(path, table);
 }
 
 }  // namespace casimir::tools

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "tools/cli/output.hpp"
+#include "tools/tables/table.hpp"
 #include "tools/text/files/generated_report.hpp"
 #include "tools/text/runs/run_report.hpp"
 
@@ -211,24 +211,25 @@ void print_text(const EnclosureReport& report) {
 
 void write_boxes(const std::string& path, const EnclosureReport& report) {
   const ValidatedMotion& motion = report.motion;
-  OutputFile file(path);
-  file.stream() << "t";
-  for (const std::string& name : motion.names)
-    file.stream() << ',' << name << "_low," << name << "_high";
-  file.stream() << '\n';
+  std::vector<std::string> times;
+  std::vector<std::vector<std::string>> ends(2 * motion.names.size());
   for (const StateBox& box : motion.run.samples) {
     const cln::cl_RA& t = box.time;
-    file.stream() << (cln::zerop(t) ? "0" : middle_text({t, t}, least_digits(report)));
-    for (const RationalInterval& x : box.states) {
-      const auto [low, high] = decimal_ends(x, least_digits(report));
-      file.stream() << ',' << low << ',' << high;
+    times.push_back(cln::zerop(t) ? "0" : middle_text({t, t}, least_digits(report)));
+    for (std::size_t i = 0; i < motion.names.size(); ++i) {
+      const auto [low, high] = decimal_ends(box.states[i], least_digits(report));
+      ends[2 * i].push_back(low);
+      ends[2 * i + 1].push_back(high);
     }
-    file.stream() << '\n';
   }
+  const Specialisation& s = motion.specialisation;
+  Table table{{{"t", std::move(times)}}, {{"case", s.case_name}, {"scene", s.scene}}};
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    table.columns.push_back(
+        {motion.names[i / 2] + (i % 2 == 0 ? "_low" : "_high"), std::move(ends[i])});
   if (motion.run.status != ValidatedStatus::ok)
-    file.stream() << "# enclosed up to t = " << report.time() << " only: " << motion.run.reason
-                  << '\n';
-  file.commit();
+    table.note = fmt::format("enclosed up to t = {} only: {}", report.time(), motion.run.reason);
+  write_table(path, table);
 }
 
 }  // namespace casimir::tools

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ostream>
 
 namespace casimir::tools {
 namespace {
@@ -65,18 +64,6 @@ Json to_json(const std::vector<Row>& rows) {
     if (!row.reason.empty()) list.back()["reason"] = row.reason;
   }
   return {{"rows", list}, {"failed", failed}};
-}
-
-void write_csv(std::ostream& stream, const std::vector<Row>& rows) {
-  stream << "case,scene,method,code,tolerance,error,drift,seconds,spread,rounds,steps,evaluations,"
-            "status\n";
-  for (const Row& row : rows) {
-    stream << fmt::format("{},{},{},{},{:g},{},{},{:.6g},{:.3g},{},{},{},{}\n",
-                          csv_field(row.case_name), csv_field(row.scene), row.method, row.code,
-                          row.tolerance, std::isnan(row.error) ? "" : exact_text(row.error),
-                          exact_text(row.drift), row.seconds, row.spread, row.rounds, row.steps,
-                          row.evaluations, csv_field(status_text(row)));
-  }
 }
 
 std::string to_text(const std::vector<Row>& rows, bool with_error) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -17,9 +16,6 @@ std::string status_text(const Row& row);
 
 /// {"rows": [..], "failed": N}.
 nlohmann::ordered_json to_json(const std::vector<Row>& rows);
-
-/// The same columns as CSV.
-void write_csv(std::ostream& stream, const std::vector<Row>& rows);
 
 /// A table for people. Case and scene stand in lines of their own.
 std::string to_text(const std::vector<Row>& rows, bool with_error);

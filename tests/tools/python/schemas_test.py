@@ -1,0 +1,125 @@
+"""Every command's JSON is what its schema in tools/schemas says. CASIMIR_PROGRAM is run."""
+
+import copy
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import jsonschema
+
+FOLDER = Path(__file__).resolve().parents[3] / "tools" / "schemas"
+
+BLOWUP = """title = "x"
+[phase_space]
+variables = ["x"]
+[equations]
+x = "x^2"
+[[scene]]
+name = "default"
+initial = { x = "1" }
+duration = "2"
+"""
+FAMILY = """title = "x"
+hamiltonian = "(px^2 + py^2 + x^2 + y^2)/2 + x^2*y + c*y^3/3"
+[phase_space]
+variables = ["x", "y", "px", "py"]
+canonical = true
+[parameters]
+c = {}
+"""
+
+#: For each schema command lines, without --json, with the statuses that they may end with.
+COMMANDS = {
+    "list": [("list",), ("list", "--tag", "map")],
+    "show": [("show", "kovalevskaya"), ("show", "euler-lax"), ("show", "./blowup.toml")],
+    "show-map": [("show", "mcmillan")],
+    "verify": [("verify", "kovalevskaya"), ("verify", "euler", "--integral", "M1"), ("verify", "mcmillan"),
+               ("verify", "kovalevskaya", "--time-limit", "0.000001")],
+    "verify-all": [("verify", "--all", "--tag", "map")],
+    "search": [("search", "euler", "--degree", "2"), ("search", "lagrange", "--degree", "2", "--casimirs")],
+    "search-free": [("search", "./family.toml", "--degree", "3", "--free", "c")],
+    "search-darboux": [("search", "./blowup.toml", "--degree", "2", "--darboux")],
+    "exponents": [("exponents", "kovalevskaya"), ("exponents", "henon-heiles")],
+    "obstruct": [("obstruct", "henon-heiles"), ("obstruct", "euler-poisson")],
+    "degrees": [("degrees", "mcmillan")],
+    "discretise": [("discretise", "euler", "--kahan", "-o", "kahan.toml")],
+    "equilibria": [("equilibria", "euler"), ("equilibria", "euler", "--validated")],
+    "generate": [("generate", "euler", "-o", "euler.hpp")],
+    "integrate": [("integrate", "euler", "--duration", "1"), ("integrate", "./blowup.toml"),
+                  ("integrate", "euler", "--duration", "1", "--method", "taylor", "--observe", "M1")],
+    "integrate-digits": [("integrate", "euler", "--duration", "1", "--digits", "30")],
+    "integrate-validated": [("integrate", "euler", "--duration", "1", "--validated")],
+    "integrate-map": [("integrate", "mcmillan", "--duration", "10")],
+    "integrate-ensemble": [("integrate", "euler", "--ensemble", "members.csv", "--duration", "1")],
+    "conserve": [("conserve", "euler", "--method", "taylor", "--duration", "1")],
+    "section": [("section", "euler-poisson", "--scene", "chaotic", "--orbits", "2", "--points", "5")],
+    "bench": [("bench", "euler", "--tolerances", "1e-6", "--method", "taylor", "--budget", "0.01", "--duration", "1")],
+    "stress": [("stress", "solvable-algebra", "--method", "taylor")],
+    "sweep": [("sweep", "euler", "--over", "a1=1:2:2", "--duration", "1", "--output", "sweep.csv")],
+    "survey": [("survey", "euler", "lagrange")],
+    "new": [("new", "mytop")],
+    "error": [("verify", "nothing"), ("verify", "euler", "--foo"), ("verify", "euler", "--integral", "M1+"),
+              ("show", "-")],
+}
+
+
+class Schemas(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        folder = Path(cls.temporary.name)
+        (folder / "blowup.toml").write_text(BLOWUP)
+        (folder / "family.toml").write_text(FAMILY)
+        (folder / "members.csv").write_text("M1\n1\n2\n")
+        cls.documents = {
+            name: [cls.document(folder, words) for words in lines] for name, lines in COMMANDS.items()
+        }
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    @staticmethod
+    def document(folder, words):
+        done = subprocess.run([os.environ["CASIMIR_PROGRAM"], *words, "--json"], cwd=folder, capture_output=True,
+                              text=True, stdin=subprocess.DEVNULL)
+        try:
+            return json.loads(done.stdout)
+        except json.JSONDecodeError:
+            raise AssertionError(f"{words}: {done.returncode}\n{done.stdout[:200]}{done.stderr}") from None
+
+    @staticmethod
+    def schema(name):
+        return json.loads((FOLDER / f"{name}.json").read_text())
+
+    def test_each_is_a_schema_and_has_documents(self):
+        names = sorted(path.stem for path in FOLDER.glob("*.json"))
+        self.assertEqual(names, sorted(COMMANDS))
+        for name in names:
+            jsonschema.Draft202012Validator.check_schema(self.schema(name))
+
+    def test_documents_are_valid(self):
+        for name, documents in self.documents.items():
+            validator = jsonschema.Draft202012Validator(self.schema(name))
+            for words, document in zip(COMMANDS[name], documents):
+                with self.subTest(name, words=words):
+                    self.assertEqual([f"{e.json_path}: {e.message[:200]}" for e in validator.iter_errors(document)], [])
+
+    def test_what_a_schema_asks_for_cannot_be_left_out(self):
+        for name, documents in self.documents.items():
+            schema = self.schema(name)
+            for key in schema["required"]:
+                broken = copy.deepcopy(documents[0])
+                del broken[key]
+                self.assertFalse(jsonschema.Draft202012Validator(schema).is_valid(broken), f"{name} without {key}")
+
+    def test_documents_of_one_command_are_none_of_another(self):
+        for name, other in (("verify", "integrate"), ("integrate", "verify"), ("section", "sweep"), ("list", "error")):
+            self.assertFalse(jsonschema.Draft202012Validator(self.schema(other)).is_valid(self.documents[name][0]))
+
+
+if __name__ == "__main__":
+    unittest.main()
