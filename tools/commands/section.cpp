@@ -21,8 +21,8 @@
 #include "tools/section/report.hpp"
 #include "tools/section/request.hpp"
 #include "tools/section/seeds.hpp"
-#include "tools/tables/table.hpp"
 #include "tools/section/validated_section.hpp"
+#include "tools/tables/table.hpp"
 #include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
@@ -453,9 +453,10 @@ void register_section(CLI::App& program, Action& action) {
                    "With --validated and cycles: write what proves them to this file, for casimir "
                    "check")
       ->type_name("FILE");
-  CLI::Option* tolerance = command->add_option("--tolerance", options->tolerance, "Tolerance of a step (default 1e-14)")
-      ->type_name("X")
-      ->check(CLI::Range(1e-15, 1e-3));
+  CLI::Option* tolerance =
+      command->add_option("--tolerance", options->tolerance, "Tolerance of a step (default 1e-14)")
+          ->type_name("X")
+          ->check(CLI::Range(1e-15, 1e-3));
   command->add_option("--jobs", options->jobs, "Threads (default: all processors)")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
