@@ -66,8 +66,11 @@ std::string plain_case(const Model& model, const Scene& scene,
   if (model.time) text += fmt::format("time = {}\n", toml_string(model.time->get_name()));
   text += fmt::format("\n[equations]\n{}", fmt::join(equations, ""));
   if (!integrals.empty()) text += "\n[integrals]\n";
-  for (const std::string& name : integrals)
-    text += fmt::format("{} = {}\n", name, text_of(function_named(model, name)));
+  for (const std::string& name : integrals) {
+    // The energy is called H also where that is a variable.
+    const std::string key = is_in(states, name) || is_in(moving, name) ? name + "_energy" : name;
+    text += fmt::format("{} = {}\n", key, text_of(function_named(model, name)));
+  }
   return text + fmt::format("\n[[scene]]\nname = {}\ninitial = {{ {} }}\nduration = {}\n",
                             toml_string(scene.name), fmt::join(initial, ", "),
                             text_of(*scene.duration));
