@@ -90,8 +90,7 @@ int iterate_map(const MapRunRequest& request) {
   const MapModel map = map_model_of(request.file, request.common.parameter_values());
   const Scene& scene = map.base.scene(request.common.scene);
   const std::uint64_t steps = steps_of(scene, request.duration);
-  if (request.every > 0 && request.output.empty())
-    throw UsageError("--every needs --output FILE.csv");
+  if (request.every > 0 && request.output.empty()) throw UsageError("--every needs --output FILE");
   std::uint64_t every = 0;
   if (!request.output.empty())
     every = request.every > 0 ? whole_steps(request.every, "--every")

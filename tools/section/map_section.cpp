@@ -14,6 +14,7 @@
 #include "tools/cli/progress.hpp"
 #include "tools/plot/gnuplot.hpp"
 #include "tools/section/picture.hpp"
+#include "tools/tables/table.hpp"
 #include "tools/text/files/ensemble_file.hpp"
 #include "tools/text/runs/run_report.hpp"
 
@@ -106,22 +107,25 @@ class MapSection {
   }
 
   void write(const std::string& path) const {
-    OutputFile file(path);
     const auto& states = orbits_.specialisation().states;
-    std::string line = "orbit,n,t,u,v";
-    for (const std::string& name : states) line += "," + name;
-    file.stream() << line << '\n';
+    std::vector<std::int64_t> orbits, numbers;
+    std::vector<double> u, v;
+    std::vector<std::vector<double>> values(states.size());
     for (std::size_t k = 0; k < reports_.size(); ++k) {
       const OrbitReport& orbit = reports_[k];
       for (std::size_t i = 0; i < orbit.places.size(); ++i) {
-        line = fmt::format("{},{},{},{},{}", k + 1, i + 1, i + 1, exact_text(orbit.places[i][0]),
-                           exact_text(orbit.places[i][1]));
+        orbits.push_back(static_cast<std::int64_t>(k + 1));
+        numbers.push_back(static_cast<std::int64_t>(i + 1));
+        u.push_back(orbit.places[i][0]);
+        v.push_back(orbit.places[i][1]);
         for (std::size_t j = 0; j < states.size(); ++j)
-          line += "," + exact_text(orbit.orbit.states[i * states.size() + j]);
-        file.stream() << line << '\n';
+          values[j].push_back(orbit.orbit.states[i * states.size() + j]);
       }
     }
-    file.commit();
+    Table table{{{"orbit", orbits}, {"n", numbers}, {"t", numbers}, {"u", u}, {"v", v}}};
+    for (std::size_t j = 0; j < states.size(); ++j)
+      table.columns.push_back({states[j], std::move(values[j])});
+    write_table(path, table);
   }
 
   nlohmann::ordered_json json() const {
