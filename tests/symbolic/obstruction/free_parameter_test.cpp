@@ -21,7 +21,7 @@ using Texts = std::vector<std::string>;
 
 const Univariate c = Univariate::variable();
 
-cl_RA over(long a, long b) { return cl_RA(a) / b; }
+cl_RA quotient(long a, long b) { return cl_RA(a) / b; }
 
 /// A case with one parameter that has no number.
 Model family(const std::string& hamiltonian, const std::string& parameter,
@@ -33,7 +33,7 @@ Model family(const std::string& hamiltonian, const std::string& parameter,
       "test.toml"));
 }
 
-Model top() {
+Model one_axis_top() {
   return build_model(parse_case(
       "title = \"A test\"\nsource = \"a test\"\n"
       "hamiltonian = \"(M1^2 + M2^2 + a3*M3^2)/2 + g1\"\n[phase_space]\n"
@@ -74,7 +74,7 @@ Texts surviving(const std::vector<RiemannFamily>& families) {
 }
 
 TEST(FreeParameter, ZiglinsTheoremOfTheHeavyTop) {
-  const Obstruction answer = freely(top());
+  const Obstruction answer = freely(one_axis_top());
   ASSERT_TRUE(answer.proved);
   EXPECT_TRUE(answer.sequences.empty());
   // Euler and Lagrange, Kovalevskaya, Goryachev and Chaplygin; 1/4 fails on another level.
@@ -119,14 +119,14 @@ TEST(FreeParameter, LamesClassesOfHenonAndHeilesWithAnotherFrequency) {
                       "1/2)"),
             conditions.end());
   RiemannFamily lame =
-      riemann(RationalFunction(over(1, 4)), RationalFunction(over(1, 4)),
+      riemann(RationalFunction(quotient(1, 4)), RationalFunction(quotient(1, 4)),
               (RationalFunction(c) + RationalFunction(48)) / RationalFunction(4 * c));
   lame.lame = true;
   for (const cl_RA& value : {cl_RA(1), cl_RA(2), cl_RA(6), cl_RA(16)})
     EXPECT_TRUE(kimura_at(lame, RealRoot(value)).solvable) << value;
-  for (const cl_RA& value : {cl_RA(-1), cl_RA(3), cl_RA(7), over(1, 2)})
+  for (const cl_RA& value : {cl_RA(-1), cl_RA(3), cl_RA(7), quotient(1, 2)})
     EXPECT_FALSE(kimura_at(lame, RealRoot(value)).solvable) << value;
-  EXPECT_TRUE(kimura_at(lame, RealRoot(over(432, 7))).solvable);  // s = 2/3
+  EXPECT_TRUE(kimura_at(lame, RealRoot(quotient(432, 7))).solvable);  // s = 2/3
 }
 
 TEST(FreeParameter, SwingingAtwoodsMachine) {
@@ -173,7 +173,7 @@ TEST(FreeParameter, AFamilyThatIsIntegrableIsLeftAlone) {
 
 TEST(FreeParameter, EveryNumberAgreesWithTheFamily) {
   // What the family excludes is excluded when it is given as a number, by Kovacic's algorithm.
-  const Model model = top();
+  const Model model = one_axis_top();
   for (const char* a3 : {"3", "1/2", "-1", "7/8", "11", "22", "9/4"}) {
     const Model numbered = build_model(
         parse_case(fmt::format("title = \"A test\"\nsource = \"a test\"\n"
@@ -190,26 +190,26 @@ TEST(FreeParameter, EveryNumberAgreesWithTheFamily) {
 TEST(FreeParameter, AWrongNameIsNoParameter) {
   ObstructionRequest request;
   request.free = "b";
-  EXPECT_FALSE(find_obstruction(top(), request).proved);
+  EXPECT_FALSE(find_obstruction(one_axis_top(), request).proved);
 }
 
 TEST(Survivors, IrrationalNumbersAreDecidedExactly) {
-  const RationalFunction half(over(1, 4)), quarter(over(1, 16));
+  const RationalFunction half(quotient(1, 4)), quarter(quotient(1, 16));
   // sqrt(c^2 - 2) with 1/2 and 1/4: on a bounded cell c^2 - 2 = (j/4)^2, j odd, survive.
   const RiemannFamily family = riemann(half, quarter, RationalFunction(c * c - 2));
   const auto at = [&](const Univariate& polynomial) {
     const auto roots = real_roots(polynomial);
     return kimura_at(family, roots.back()).solvable;
   };
-  EXPECT_TRUE(at(c * c - Univariate(2 + over(1, 16))));   // 1/4
-  EXPECT_TRUE(at(c * c - Univariate(2 + over(1, 4))));    // 1/2
-  EXPECT_TRUE(at(c * c - Univariate(2 + over(1, 9))));    // 1/3
-  EXPECT_FALSE(at(c * c - Univariate(2 + over(1, 25))));  // 1/5
+  EXPECT_TRUE(at(c * c - Univariate(2 + quotient(1, 16))));   // 1/4
+  EXPECT_TRUE(at(c * c - Univariate(2 + quotient(1, 4))));    // 1/2
+  EXPECT_TRUE(at(c * c - Univariate(2 + quotient(1, 9))));    // 1/3
+  EXPECT_FALSE(at(c * c - Univariate(2 + quotient(1, 25))));  // 1/5
   EXPECT_FALSE(at(c * c - 3));                            // 1
   EXPECT_FALSE(at(c * c - 5));                            // sqrt(3)
   // A sum of two irrational differences: sqrt(c) + sqrt(c - 1) = 1 + 2 n.
   const RiemannFamily sums = riemann(RationalFunction(c), RationalFunction(c - 1),
-                                     RationalFunction(over(1, 3)) * RationalFunction(c));
+                                     RationalFunction(quotient(1, 3)) * RationalFunction(c));
   for (const RealRoot& root : real_roots(product_of_sums(3, sums.squares).numerator()))
     EXPECT_TRUE(kimura_at(sums, root).solvable) << root.text("c");
   EXPECT_FALSE(kimura_at(sums, real_roots(c * c - 5).back()).solvable);
@@ -230,7 +230,7 @@ TEST(Survivors, TheProductOfSumsVanishesWhereASumIsThatInteger) {
 
 TEST(Survivors, BoundsNeedTheTurningPoints) {
   // c(2 - c)*9 is 0 at both ends of (0, 2), and 9 between: sqrt = 5/2 is taken twice.
-  const RiemannFamily family = riemann(RationalFunction(over(1, 4)), RationalFunction(over(1, 9)),
+  const RiemannFamily family = riemann(RationalFunction(quotient(1, 4)), RationalFunction(quotient(1, 9)),
                                        RationalFunction(9 * c * (2 - c)));
   const Texts found = surviving({family});
   EXPECT_GT(
@@ -239,10 +239,10 @@ TEST(Survivors, BoundsNeedTheTurningPoints) {
       0);
   // Every one is where Kimura's theorem has it, on a fine grid of rational numbers.
   for (long n = 1; n < 200; ++n) {
-    const cl_RA square = 9 * over(n, 100) * (2 - over(n, 100));
-    const bool solvable = kimura({over(1, 4), over(1, 9), square}).has_value();
+    const cl_RA square = 9 * quotient(n, 100) * (2 - quotient(n, 100));
+    const bool solvable = kimura({quotient(1, 4), quotient(1, 9), square}).has_value();
     const bool listed =
-        std::find(found.begin(), found.end(), Univariate(over(n, 100)).text("c")) != found.end();
+        std::find(found.begin(), found.end(), Univariate(quotient(n, 100)).text("c")) != found.end();
     EXPECT_EQ(solvable, listed) << n;
   }
 }
@@ -257,14 +257,14 @@ TEST(Survivors, ImaginaryDifferencesThatCancelAreFound) {
 }
 
 TEST(Survivors, NothingIsSaidWhereAConditionVanishes) {
-  RiemannFamily family = riemann(RationalFunction(over(1, 4)), RationalFunction(over(1, 9)),
-                                 RationalFunction(over(2, 1)));
+  RiemannFamily family = riemann(RationalFunction(quotient(1, 4)), RationalFunction(quotient(1, 9)),
+                                 RationalFunction(quotient(2, 1)));
   EXPECT_TRUE(surviving({family}).empty());
   family.conditions.nonzero(c * c - 2);
   EXPECT_EQ(surviving({family}).size(), 2u);
   // Another family may decide there.
-  EXPECT_TRUE(surviving({family, riemann(RationalFunction(over(1, 4)), RationalFunction(over(1, 9)),
-                                         RationalFunction(over(3, 1)))})
+  EXPECT_TRUE(surviving({family, riemann(RationalFunction(quotient(1, 4)), RationalFunction(quotient(1, 9)),
+                                         RationalFunction(quotient(3, 1)))})
                   .empty());
 }
 
@@ -321,7 +321,7 @@ TEST(RealRoots, AreInOrderAndEachOnce) {
   EXPECT_TRUE(std::is_sorted(roots.begin(), roots.end()));
   EXPECT_EQ(roots[2].rational(), cl_RA(1));
   EXPECT_TRUE(roots[4].is_root_of(c * c - 2));
-  const RationalInterval value = roots[4].value(RationalFunction(c * c), over(1, 1000000));
+  const RationalInterval value = roots[4].value(RationalFunction(c * c), quotient(1, 1000000));
   EXPECT_LE(value.low, 2);
   EXPECT_GE(value.high, 2);
 }
