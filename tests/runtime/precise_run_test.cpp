@@ -1,6 +1,7 @@
 // Multiprecision runs against closed forms, and what they say where there is no end to reach.
 #include <cln/float_io.h>
 #include <cln/input.h>
+#include <cln/integer_io.h>
 #include <cln/real_io.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 #include <cmath>
 
 #include "runtime/digits/agreed_run.hpp"
+#include "runtime/digits/big_float.hpp"
 #include "tests/runtime/programs.hpp"
 
 namespace casimir::test {
@@ -57,7 +59,8 @@ TEST(PreciseRun, SquareReachesOneMillionToAllDigits) {
 
 TEST(PreciseRun, NumbersNextToNothingTakeNoMemory) {
   const Precision precision(128);
-  const BigFloat tiny = Arithmetic<BigFloat>{}.function(Op::exp, BigFloat(cln::cl_R("-1e15")));
+  const BigFloat tiny =
+      Arithmetic<BigFloat>{}.function(Op::exp, BigFloat(cln::cl_I("-1000000000000000")));
   const cln::cl_F number = to_cln(tiny, cln::float_format(30));
   // e^(-10^15) = 2^(-1.44e15)
   EXPECT_NEAR(static_cast<double>(cln::float_exponent(number)), -1.4426950408889634e15, 2);
