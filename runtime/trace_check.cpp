@@ -25,7 +25,7 @@ bool is_wide(const ValidatedProblem& problem) {
   return std::ranges::any_of(problem.radii, [](const cln::cl_RA& r) { return !cln::zerop(r); });
 }
 
-bool fits(const TracedSet& set, std::size_t n, bool wide) {
+bool set_fits(const TracedSet& set, std::size_t n, bool wide) {
   return set.middle.size() == n && set.frame.size() == n * n && set.rest.size() == n &&
          set.carried.size() == (wide ? n * n : 0);
 }
@@ -41,7 +41,7 @@ bool has_shape(const ValidatedProblem& problem, const RunTrace& trace) {
       trace.steps.empty())
     return false;
   return std::ranges::all_of(trace.steps, [&](const TracedStep& step) {
-    return fits(step.after, n, is_wide(problem)) && std::abs(step.room) <= kMostRoom &&
+    return set_fits(step.after, n, is_wide(problem)) && std::abs(step.room) <= kMostRoom &&
            step.columns.size() == problem.integrals.size() &&
            std::ranges::all_of(step.columns, [&](int c) { return c >= -1 && c < whole; });
   });

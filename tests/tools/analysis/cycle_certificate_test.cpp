@@ -37,20 +37,20 @@ duration = "6283185307179/1000000000000"
   return text;
 }
 
-const CycleCertificate& honest() {
+const CycleCertificate& oscillation() {
   static const CycleCertificate certificate =
       certify_cycle("two", oscillators("2"), "x", {0.5}).value_or(CycleCertificate());
   return certificate;
 }
 
 CheckedCycle tampered(const std::function<void(CycleCertificate&)>& change) {
-  CycleCertificate certificate = honest();
+  CycleCertificate certificate = oscillation();
   change(certificate);
   return check_cycle(certificate);
 }
 
 TEST(CycleCertificates, OfAnOscillationIsChecked) {
-  const CheckedCycle checked = check_cycle(honest());
+  const CheckedCycle checked = check_cycle(oscillation());
   ASSERT_TRUE(checked.holds()) << checked.reason;
   const double low = cln::double_approx(checked.period.low);
   const double high = cln::double_approx(checked.period.high);
@@ -59,7 +59,8 @@ TEST(CycleCertificates, OfAnOscillationIsChecked) {
   EXPECT_LT(high - low, 1e-10);
   EXPECT_LE(checked.state[1].low, 0);
   EXPECT_GE(checked.state[1].high, 0);
-  const std::string text = certificate_text(std::vector<CycleCertificate>{honest(), honest()});
+  const std::string text =
+      certificate_text(std::vector<CycleCertificate>{oscillation(), oscillation()});
   const CertificateFile read = read_certificate(text, "c.json");
   EXPECT_EQ(certificate_text(read.cycles), text);
   EXPECT_TRUE(check_cycle(read.cycles.back()).holds());
@@ -71,7 +72,7 @@ TEST(CycleCertificates, AMemberOfAFamilyHasNone) {
 }
 
 TEST(CycleCertificates, WhatIsNotTrueIsRefuted) {
-  ASSERT_TRUE(check_cycle(honest()).holds());
+  ASSERT_TRUE(check_cycle(oscillation()).holds());
   EXPECT_FALSE(tampered([](CycleCertificate& c) { c.levels[0] = "0x3p-2"; }).holds());
   EXPECT_FALSE(tampered([](CycleCertificate& c) { c.plane = "x - 1/1000"; }).holds());
   EXPECT_FALSE(tampered([](CycleCertificate& c) { c.inverse.assign(25, "0"); }).holds());

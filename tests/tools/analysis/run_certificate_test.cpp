@@ -224,7 +224,7 @@ TEST(RunCertificate, ARoughEnclosureThatIsNoneIsRefuted) {
 
 /// Whatever is changed: what is accepted is true. x = 1/(1 - t) is 5 at t = 4/5.
 TEST(RunCertificate, NothingFalseIsAccepted) {
-  const RunCertificate honest = certified(R"toml(title = "Riccati"
+  const RunCertificate grown = certified(R"toml(title = "Riccati"
 [phase_space]
 variables = ["x", "y"]
 [equations]
@@ -235,14 +235,14 @@ name = "default"
 initial = { x = "1", y = "1" }
 duration = "4/5"
 )toml");
-  ASSERT_EQ(fault_of(honest), TraceFault::none);
+  ASSERT_EQ(fault_of(grown), TraceFault::none);
   std::mt19937 random(11);
   const auto below = [&](std::size_t n) {
     return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
   };
   int refuted = 0;
   for (int trial = 0; trial < 200; ++trial) {
-    const CheckedCertificate checked = check_certificate(changed(honest, [&](RunTrace& trace) {
+    const CheckedCertificate checked = check_certificate(changed(grown, [&](RunTrace& trace) {
       TracedStep& step = trace.steps[below(trace.steps.size())];
       std::vector<std::string>* lists[] = {&step.after.middle, &step.after.rest, &step.after.frame,
                                            &trace.middle, &trace.off};
