@@ -33,8 +33,9 @@ TEST(CheckCommand, ChecksWhatIntegrateWrites) {
     EXPECT_EQ(checked.at("t"), "3");
     EXPECT_GT(checked.at("steps"), 5);
     EXPECT_EQ(checked.at("integrals").size(), 4U);
-    EXPECT_EQ(checked.at("enclosure").size(),
-              more == std::vector<std::string>{"--param", "r=1..1.001"} ? 7U : 6U);
+    // A parameter with a range is a state at rest.
+    const bool ranged = !more.empty() && more.front() == "--param";
+    EXPECT_EQ(checked.at("enclosure").size(), ranged ? 7U : 6U);
   }
 }
 
