@@ -25,12 +25,12 @@ class Integer {
   fmpz_t value_;
 };
 
-class Factors {
+class FlintFactors {
  public:
-  Factors() { fmpz_factor_init(value_); }
-  ~Factors() { fmpz_factor_clear(value_); }
-  Factors(const Factors&) = delete;
-  Factors& operator=(const Factors&) = delete;
+  FlintFactors() { fmpz_factor_init(value_); }
+  ~FlintFactors() { fmpz_factor_clear(value_); }
+  FlintFactors(const FlintFactors&) = delete;
+  FlintFactors& operator=(const FlintFactors&) = delete;
   fmpz_factor_struct* get() { return value_; }
   void add_to(PrimeFactors& result, slong count, slong exponent) const {
     for (slong i = 0; i < count; ++i)
@@ -72,7 +72,7 @@ class Splitter {
 
  private:
   bool split_word(const fmpz* n, slong exponent) {
-    Factors factors;
+    FlintFactors factors;
     fmpz_factor(factors.get(), n);
     factors.add_to(result_, factors.get()->num, exponent);
     return true;
@@ -110,7 +110,7 @@ std::optional<PrimeFactors> prime_factors(const cln::cl_I& n) {
   constexpr std::size_t kMostBits = 4096;
   constexpr slong kSmallPrimes = 3512;  // all that FLINT has a table of
   if (n <= 0 || cln::integer_length(n) > kMostBits) return std::nullopt;
-  Factors small;
+  FlintFactors small;
   PrimeFactors result;
   const bool complete = fmpz_factor_trial(small.get(), Integer(n).get(), kSmallPrimes) != 0;
   const slong count = small.get()->num;

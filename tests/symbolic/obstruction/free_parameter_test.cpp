@@ -205,8 +205,8 @@ TEST(Survivors, IrrationalNumbersAreDecidedExactly) {
   EXPECT_TRUE(at(c * c - Univariate(2 + quotient(1, 4))));    // 1/2
   EXPECT_TRUE(at(c * c - Univariate(2 + quotient(1, 9))));    // 1/3
   EXPECT_FALSE(at(c * c - Univariate(2 + quotient(1, 25))));  // 1/5
-  EXPECT_FALSE(at(c * c - 3));                            // 1
-  EXPECT_FALSE(at(c * c - 5));                            // sqrt(3)
+  EXPECT_FALSE(at(c * c - 3));                                // 1
+  EXPECT_FALSE(at(c * c - 5));                                // sqrt(3)
   // A sum of two irrational differences: sqrt(c) + sqrt(c - 1) = 1 + 2 n.
   const RiemannFamily sums = riemann(RationalFunction(c), RationalFunction(c - 1),
                                      RationalFunction(quotient(1, 3)) * RationalFunction(c));
@@ -230,8 +230,9 @@ TEST(Survivors, TheProductOfSumsVanishesWhereASumIsThatInteger) {
 
 TEST(Survivors, BoundsNeedTheTurningPoints) {
   // c(2 - c)*9 is 0 at both ends of (0, 2), and 9 between: sqrt = 5/2 is taken twice.
-  const RiemannFamily family = riemann(RationalFunction(quotient(1, 4)), RationalFunction(quotient(1, 9)),
-                                       RationalFunction(9 * c * (2 - c)));
+  const RiemannFamily family =
+      riemann(RationalFunction(quotient(1, 4)), RationalFunction(quotient(1, 9)),
+              RationalFunction(9 * c * (2 - c)));
   const Texts found = surviving({family});
   EXPECT_GT(
       std::count_if(found.begin(), found.end(),
@@ -241,8 +242,8 @@ TEST(Survivors, BoundsNeedTheTurningPoints) {
   for (long n = 1; n < 200; ++n) {
     const cl_RA square = 9 * quotient(n, 100) * (2 - quotient(n, 100));
     const bool solvable = kimura({quotient(1, 4), quotient(1, 9), square}).has_value();
-    const bool listed =
-        std::find(found.begin(), found.end(), Univariate(quotient(n, 100)).text("c")) != found.end();
+    const bool listed = std::find(found.begin(), found.end(),
+                                  Univariate(quotient(n, 100)).text("c")) != found.end();
     EXPECT_EQ(solvable, listed) << n;
   }
 }
@@ -263,9 +264,10 @@ TEST(Survivors, NothingIsSaidWhereAConditionVanishes) {
   family.conditions.nonzero(c * c - 2);
   EXPECT_EQ(surviving({family}).size(), 2u);
   // Another family may decide there.
-  EXPECT_TRUE(surviving({family, riemann(RationalFunction(quotient(1, 4)), RationalFunction(quotient(1, 9)),
-                                         RationalFunction(quotient(3, 1)))})
-                  .empty());
+  EXPECT_TRUE(
+      surviving({family, riemann(RationalFunction(quotient(1, 4)), RationalFunction(quotient(1, 9)),
+                                 RationalFunction(quotient(3, 1)))})
+          .empty());
 }
 
 /// r of Riemann's P equation with the points 0, 1 - c and infinity.
