@@ -100,7 +100,7 @@ TEST(Section, TheFixedPointsOfTheHeavyTopAreProved) {
     ++proved;
   }
   EXPECT_GE(proved, 4U);
-  EXPECT_EQ(run({"section", "euler-poisson", "--validated"}).status, 2);
+  EXPECT_EQ(run({"section", "euler-poisson", "--validated", "--orbits", "3"}).status, 2);
 }
 
 TEST(Section, TheOtherDirectionIsTheMirrorImage) {
@@ -189,7 +189,7 @@ TEST(Section, SystemsWithoutASectionAreRefused) {
   refused({"section", "euler-poisson", "--casimir", "F3=1"}, "did you mean 'F1'");
   refused({"section", "euler-poisson", "--casimir", "F1"}, "NAME=VALUE");
   refused({"section", "euler-poisson", "--energy", "M1"}, "--energy:1:1");
-  refused({"section", "euler-poisson", "--output", "a.gif"}, ".csv, .svg, .png or .pdf");
+  refused({"section", "euler-poisson", "--output", "a.gif"}, ".csv, .npz, .h5, .svg, .png or .pdf");
 }
 
 TEST(Section, PointsOffTheLevelAreDroppedAndFail) {
