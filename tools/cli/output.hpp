@@ -33,6 +33,11 @@ class OutputFile {
   bool done_ = false;
 };
 
+/// Whether the name of an output says that a page is meant: .html or .htm.
+inline bool is_page_name(const std::string& path) {
+  return path.ends_with(".html") || path.ends_with(".htm");
+}
+
 /// Installs the handlers of SIGINT, SIGTERM and SIGHUP: they end the compiler if it runs, remove
 /// half-written files and exit with 130 (143 for SIGTERM, 129 for SIGHUP). So it is, with 141,
 /// where nobody reads standard output any more; other broken pipes, and files that have grown to

@@ -26,7 +26,7 @@
 namespace casimir::tools {
 namespace {
 
-struct Options {
+struct BenchArguments {
   Common common;
   KeptParameters kept;
   OtherStart start;
@@ -39,8 +39,6 @@ struct Options {
   ComparisonOptions contest{.tolerances = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10,
                                            1e-11, 1e-12, 1e-13, 1e-14, 1e-15}};
 };
-
-bool is_page(const std::string& path) { return path.ends_with(".html") || path.ends_with(".htm"); }
 
 /// What it means for a command about one case that there is no reference state.
 Exit exit_of(NoReference failure) {
@@ -67,7 +65,7 @@ MethodComparison not_held(const std::string& name, const std::string& scene,
   return contest;
 }
 
-MethodComparison hold(const CaseFile& file, const Options& options, Progress& progress) {
+MethodComparison hold(const CaseFile& file, const BenchArguments& options, Progress& progress) {
   const Model model = in_variables(
       options.kept.model_of(options.start.in(file), options.common.parameter_values()), options.in);
   const Scene& scene = model.scene(options.common.scene);
@@ -84,7 +82,7 @@ MethodComparison hold(const CaseFile& file, const Options& options, Progress& pr
 }
 
 /// Every bundled case. One that has no such scene, or a file that is no case, is told and skipped.
-void hold_all(const Options& options, Progress& progress, BenchReport& report) {
+void hold_all(const BenchArguments& options, Progress& progress, BenchReport& report) {
   const auto paths = bundled_flows(options.tag);
   if (paths.empty())
     throw SystemError("no bundled cases were found; CASIMIR_CASES can name their folder");
@@ -105,7 +103,7 @@ void hold_all(const Options& options, Progress& progress, BenchReport& report) {
   }
 }
 
-BenchReport compare_methods_on_scenes(const Options& options) {
+BenchReport compare_methods_on_scenes(const BenchArguments& options) {
   BenchReport report{.machine = this_machine(),
                      .several = options.all || options.case_names.size() > 1};
   Progress progress(!options.common.quiet);
@@ -142,7 +140,7 @@ void write_page(const BenchReport& report, const std::string& path) {
   if (!problem.empty()) throw SystemError(problem);
 }
 
-void print(const BenchReport& report, const Options& options) {
+void print_comparison(const BenchReport& report, const BenchArguments& options) {
   if (options.common.json || options.format == "json") {
     print_json(to_json(report));
   } else if (!options.common.quiet) {
@@ -151,21 +149,21 @@ void print(const BenchReport& report, const Options& options) {
   std::cout.flush();
 }
 
-void write_tables(const BenchReport& report, const Options& options) {
+void write_tables(const BenchReport& report, const BenchArguments& options) {
   for (const std::string& path : options.outputs) {
-    if (is_page(path)) continue;
+    if (is_page_name(path)) continue;
     write_table(path, table_of(report.rows()));
   }
 }
 
-void check_usage(const Options& options) {
+void check_usage(const BenchArguments& options) {
   if (options.all == !options.case_names.empty())
     throw UsageError("bench needs either a CASE or --all");
   if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
   if (options.run.asked.rtol || options.run.asked.atol)
     throw UsageError("bench runs at a range of tolerances: --tolerances X,Y, or --tolerance X");
   for (const std::string& path : options.outputs)
-    if (!is_page(path)) check_table_name(path);
+    if (!is_page_name(path)) check_table_name(path);
   options.print.check(!options.plot.empty());
   if (options.plot.empty()) return;
   check_plot_name(options.plot);
@@ -173,7 +171,7 @@ void check_usage(const Options& options) {
     throw UsageError("--plot draws one CASE; --output FILE.html draws them all");
 }
 
-int bench(Options options) {
+int bench(BenchArguments options) {
   check_usage(options);
   if (options.run.asked.tolerance) options.contest.tolerances = {*options.run.asked.tolerance};
   options.contest.give_up = time_limit(options.common.time_limit);
@@ -185,11 +183,11 @@ int bench(Options options) {
     std::cerr << "casimir: error: " << contest.no_reference << '\n';
     return exit_of(contest.failure);
   }
-  print(report, options);
+  print_comparison(report, options);
   if (!options.plot.empty())
     draw(picture_of(report.contests.front()), options.print.sheet(options.plot));
   for (const std::string& path : options.outputs)
-    if (is_page(path)) write_page(report, path);
+    if (is_page_name(path)) write_page(report, path);
   const std::vector<Row> rows = report.rows();
   const bool failed =
       std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.failed; });
@@ -230,7 +228,7 @@ void add_measurement_options(CLI::App& command, ComparisonOptions& options, RunO
 }  // namespace
 
 void register_bench(CLI::App& program, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BenchArguments>();
   CLI::App* command =
       program.add_subcommand("bench", "Error against run time, beside other libraries");
   command->footer(

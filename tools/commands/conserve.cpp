@@ -24,7 +24,7 @@
 namespace casimir::tools {
 namespace {
 
-struct Options {
+struct ConserveArguments {
   Common common;
   RunOptions run;
   KeptParameters kept;
@@ -50,7 +50,7 @@ struct Share {
   double before = 0, part = 1;
 };
 
-void conserve_case(const CaseFile& file, const Options& options,
+void conserve_case(const CaseFile& file, const ConserveArguments& options,
                    const std::function<bool()>& give_up, const Share& share, std::vector<Row>& rows,
                    Picture* picture) {
   const Model model = in_variables(
@@ -85,7 +85,7 @@ void conserve_case(const CaseFile& file, const Options& options,
 }
 
 /// Of a map: what it claims to keep is watched along the iterates.
-void conserve_map_case(MapCaseFile file, const Options& options,
+void conserve_map_case(MapCaseFile file, const ConserveArguments& options,
                        const std::function<bool()>& give_up, const Share& share,
                        std::vector<Row>& rows) {
   const RunRequest asked = options.run.request();
@@ -109,7 +109,7 @@ void conserve_map_case(MapCaseFile file, const Options& options,
   }
 }
 
-void conserve_any_case(const AnyCaseFile& any, const Options& options,
+void conserve_any_case(const AnyCaseFile& any, const ConserveArguments& options,
                        const std::function<bool()>& give_up, const Share& share,
                        std::vector<Row>& rows, Picture* picture) {
   if (const auto* map = std::get_if<MapCaseFile>(&any))
@@ -118,7 +118,7 @@ void conserve_any_case(const AnyCaseFile& any, const Options& options,
     conserve_case(std::get<CaseFile>(any), options, give_up, share, rows, picture);
 }
 
-std::vector<Row> conserve_cases(const Options& options, Picture& picture) {
+std::vector<Row> conserve_cases(const ConserveArguments& options, Picture& picture) {
   const std::function<bool()> give_up = time_limit(options.common.time_limit);
   std::vector<Row> rows;
   Progress bar(!options.common.quiet);
@@ -138,7 +138,7 @@ std::vector<Row> conserve_cases(const Options& options, Picture& picture) {
   return rows;
 }
 
-int conserve(const Options& options) {
+int conserve(const ConserveArguments& options) {
   if (options.all == !options.case_name.empty())
     throw UsageError("conserve needs either a CASE or --all");
   if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
@@ -175,7 +175,7 @@ int conserve(const Options& options) {
 }  // namespace
 
 void register_conserve(CLI::App& program, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ConserveArguments>();
   CLI::App* command = program.add_subcommand(
       "conserve", "Check the drift of the Hamiltonian, Casimirs and integrals along every scene");
   add_common(*command, options->common);

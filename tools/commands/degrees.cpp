@@ -20,7 +20,7 @@ namespace {
 
 using discrete::Growth;
 
-struct Options {
+struct DegreesArguments {
   Common common;
   std::string case_name;
   std::string tag;
@@ -28,7 +28,7 @@ struct Options {
   bool kahan = false, all = false;
 };
 
-std::string words_of(const Growth& growth) {
+std::string growth_words(const Growth& growth) {
   switch (growth.kind) {
     case Growth::Kind::polynomial:
       return growth.formula.empty()
@@ -45,20 +45,20 @@ std::string words_of(const Growth& growth) {
   return "not clear from so few iterates (--iterates)";
 }
 
-void print(const std::string& name, const std::vector<int>& degrees, const Growth& growth,
-           bool kahan, double seconds) {
+void print_degrees(const std::string& name, const std::vector<int>& degrees, const Growth& growth,
+                   bool kahan, double seconds) {
   fmt::print("{}{}: degrees of the iterates on a general line\n", name,
              kahan ? ", Kahan's map" : "");
   fmt::print("  {}\n", fmt::join(degrees, " "));
-  fmt::print("growth: {}\n", words_of(growth));
+  fmt::print("growth: {}\n", growth_words(growth));
   fmt::print(
       "evidence and no proof: computed modulo 2^61 - 1 for random parameters, and the next degree "
       "is not known; {:.3f} s\n",
       seconds);
 }
 
-nlohmann::ordered_json to_json(const std::string& name, const std::vector<int>& degrees,
-                               const Growth& growth, bool kahan, double seconds) {
+nlohmann::ordered_json degrees_json(const std::string& name, const std::vector<int>& degrees,
+                                    const Growth& growth, bool kahan, double seconds) {
   nlohmann::ordered_json json{
       {"case", name},
       {"map", kahan ? "kahan" : "case"},
@@ -80,7 +80,8 @@ nlohmann::ordered_json to_json(const std::string& name, const std::vector<int>& 
 }
 
 /// A row of the table of all bundled flows; none for one that Kahan's map is not defined for.
-std::optional<nlohmann::ordered_json> kahan_row(const CaseFile& file, const Options& options,
+std::optional<nlohmann::ordered_json> kahan_row(const CaseFile& file,
+                                                const DegreesArguments& options,
                                                 const search::Watch& watch) {
   std::vector<int> found;
   const auto start = std::chrono::steady_clock::now();
@@ -92,11 +93,11 @@ std::optional<nlohmann::ordered_json> kahan_row(const CaseFile& file, const Opti
     return std::nullopt;
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  return to_json(file.name, found, discrete::growth_of(found), true, seconds.count());
+  return degrees_json(file.name, found, discrete::growth_of(found), true, seconds.count());
 }
 
 /// Which of the bundled flows seem to keep their integrability under Kahan's map.
-int all_degrees(const Options& options) {
+int all_degrees(const DegreesArguments& options) {
   if (!options.kahan) throw UsageError("--all is about flows: it needs --kahan");
   SearchWatch watch(options.common, "all cases");
   nlohmann::ordered_json rows = nlohmann::json::array();
@@ -130,7 +131,7 @@ int all_degrees(const Options& options) {
   return kDone;
 }
 
-int degrees(const Options& options) {
+int degrees(const DegreesArguments& options) {
   if (options.all == !options.case_name.empty())
     throw UsageError("degrees needs either a CASE or --all");
   if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
@@ -157,9 +158,9 @@ int degrees(const Options& options) {
     const Growth growth = discrete::growth_of(found);
     const std::string name = common_part(file).name;
     if (options.common.json)
-      print_json(to_json(name, found, growth, options.kahan, seconds));
+      print_json(degrees_json(name, found, growth, options.kahan, seconds));
     else if (!options.common.quiet)
-      print(name, found, growth, options.kahan, seconds);
+      print_degrees(name, found, growth, options.kahan, seconds);
     return kDone;
   });
 }
@@ -167,7 +168,7 @@ int degrees(const Options& options) {
 }  // namespace
 
 void register_degrees(CLI::App& program, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DegreesArguments>();
   CLI::App* command = program.add_subcommand(
       "degrees", "Degree growth of the iterates of a map, as evidence of integrability");
   add_common(*command, options->common);

@@ -16,7 +16,7 @@
 namespace casimir::tools {
 namespace {
 
-struct Options {
+struct DiscretiseArguments {
   Common common;
   std::string case_name, output;
   CLI::Option* kahan = nullptr;
@@ -38,7 +38,7 @@ std::optional<GiNaC::ex> value_of(const std::optional<Text>& step) {
   return value;
 }
 
-int discretise(const Options& options) {
+int discretise(const DiscretiseArguments& options) {
   const std::size_t chosen =
       options.kahan->count() + options.midpoint->count() + (options.moser_veselov ? 1 : 0);
   if (chosen != 1)
@@ -86,7 +86,7 @@ int discretise(const Options& options) {
 }  // namespace
 
 void register_discretise(CLI::App& program, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DiscretiseArguments>();
   CLI::App* command = program.add_subcommand(
       "discretise", "A flow's map as a case file: Kahan's, or the midpoint rule");
   add_common(*command, options->common);

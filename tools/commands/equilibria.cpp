@@ -19,7 +19,7 @@
 namespace casimir::tools {
 namespace {
 
-struct Options {
+struct EquilibriaArguments {
   Common common;
   std::string case_name, in;
   bool validated = false;
@@ -49,7 +49,7 @@ nlohmann::ordered_json ends(const RationalInterval& interval) {
   return {low, high};
 }
 
-nlohmann::ordered_json to_json(const Model& model, const ProvedEquilibrium& proof) {
+nlohmann::ordered_json equilibria_json(const Model& model, const ProvedEquilibrium& proof) {
   if (!proof.proved) return {{"verdict", "undecided"}, {"reason", proof.reason}};
   nlohmann::ordered_json json{{"verdict", "proved"},
                               {"radius", decimal_above(proof.radius)},
@@ -63,8 +63,8 @@ nlohmann::ordered_json to_json(const Model& model, const ProvedEquilibrium& proo
   return json;
 }
 
-nlohmann::ordered_json to_json(const Model& model, const Scene& scene, const Answer& answer,
-                               double seconds) {
+nlohmann::ordered_json equilibria_json(const Model& model, const Scene& scene, const Answer& answer,
+                                       double seconds) {
   const EquilibriumReport& report = answer.report;
   nlohmann::ordered_json json{{"case", model.name},
                               {"scene", scene.name},
@@ -89,7 +89,8 @@ nlohmann::ordered_json to_json(const Model& model, const Scene& scene, const Ans
     own["family"] = e.family;
     own["degenerate"] = e.degenerate;
     own["residual"] = number(e.residual);
-    if (const ProvedEquilibrium* proof = answer.proof(k)) own["validated"] = to_json(model, *proof);
+    if (const ProvedEquilibrium* proof = answer.proof(k))
+      own["validated"] = equilibria_json(model, *proof);
     json["equilibria"].push_back(own);
   }
   return json;
@@ -100,7 +101,7 @@ std::string rounded(double value, double scale) {
   return std::abs(value) <= 1e-7 * scale ? "0" : fmt::format("{:.6g}", value);
 }
 
-void print(const ProvedEquilibrium& proof) {
+void print_equilibria(const ProvedEquilibrium& proof) {
   if (!proof.proved) {
     fmt::print("  not proved: {}\n", proof.reason);
     return;
@@ -112,7 +113,8 @@ void print(const ProvedEquilibrium& proof) {
                  : fmt::format("proved to be {}", to_string(proof.stability)));
 }
 
-void print(const Model& model, const Scene& scene, const Answer& answer, double seconds) {
+void print_equilibria(const Model& model, const Scene& scene, const Answer& answer,
+                      double seconds) {
   const EquilibriumReport& report = answer.report;
   constexpr std::size_t kMost = 12;
   fmt::print("{}, scene '{}'{}{}\n", model.name, scene.name,
@@ -145,7 +147,7 @@ void print(const Model& model, const Scene& scene, const Answer& answer, double 
                state);
     if (!e.velocities.empty()) fmt::print("  velocity {:.6g}\n", fmt::join(e.velocities, ", "));
     fmt::print("  eigenvalues {}: {}\n", values, stability(e));
-    if (proof != nullptr) print(*proof);
+    if (proof != nullptr) print_equilibria(*proof);
   }
   if (report.equilibria.size() > kMost)
     fmt::print("... and {} more; --json has them all\n", report.equilibria.size() - kMost);
@@ -154,7 +156,7 @@ void print(const Model& model, const Scene& scene, const Answer& answer, double 
   if (!answer.proofs.empty()) fmt::print("{} of them proved to exist\n", answer.proved());
 }
 
-int equilibria(const Options& options) {
+int equilibria(const EquilibriaArguments& options) {
   const Model model = in_variables(
       model_of(load_case(options.case_name), options.common.parameter_values()), options.in);
   const Scene& scene = model.scene(options.common.scene);
@@ -165,9 +167,9 @@ int equilibria(const Options& options) {
     if (options.validated) answer.proofs = enclose_equilibria(model, scene, answer.report);
     const double seconds = watch.end();
     if (options.common.json)
-      print_json(to_json(model, scene, answer, seconds));
+      print_json(equilibria_json(model, scene, answer, seconds));
     else if (!options.common.quiet)
-      print(model, scene, answer, seconds);
+      print_equilibria(model, scene, answer, seconds);
     return answer.proofs.empty() || answer.proved() > 0 ? kDone : kNotContinued;
   });
 }
@@ -175,7 +177,7 @@ int equilibria(const Options& options) {
 }  // namespace
 
 void register_equilibria(CLI::App& program, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<EquilibriaArguments>();
   CLI::App* command = program.add_subcommand(
       "equilibria", "Equilibria and relative equilibria of a scene, with eigenvalues");
   add_common(*command, options->common);

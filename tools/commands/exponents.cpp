@@ -21,7 +21,7 @@ namespace {
 using search::Balance;
 using search::Exponent;
 
-struct Options {
+struct ExponentsArguments {
   Common common;
   std::string case_name, in;
   std::vector<std::string> weights;
@@ -44,7 +44,7 @@ const char* kind_name(Exponent::Kind kind) {
   return "numeric";
 }
 
-nlohmann::ordered_json to_json(const Exponent& e) {
+nlohmann::ordered_json exponents_json(const Exponent& e) {
   nlohmann::ordered_json json{
       {"kind", kind_name(e.kind)}, {"value", e.text}, {"multiplicity", e.multiplicity}};
   if (e.solutions > 1) json["solutions"] = e.solutions;
@@ -53,8 +53,8 @@ nlohmann::ordered_json to_json(const Exponent& e) {
   return json;
 }
 
-nlohmann::ordered_json to_json(const Model& model, const search::ExponentReport& report,
-                               std::size_t starts, double seconds) {
+nlohmann::ordered_json exponents_json(const Model& model, const search::ExponentReport& report,
+                                      std::size_t starts, double seconds) {
   nlohmann::ordered_json json{{"case", model.name}, {"weights", nlohmann::json::object()}};
   for (const auto& [name, weight] : report.weights) json["weights"][name] = weight;
   json["left_out"] = report.left_out;
@@ -66,7 +66,7 @@ nlohmann::ordered_json to_json(const Model& model, const search::ExponentReport&
     own["free"] = balance.free;
     if (balance.family > 0) own["family"] = balance.family;
     own["exponents"] = nlohmann::json::array();
-    for (const Exponent& e : balance.exponents) own["exponents"].push_back(to_json(e));
+    for (const Exponent& e : balance.exponents) own["exponents"].push_back(exponents_json(e));
     json["balances"].push_back(own);
   }
   json["conclusions"] = report.conclusions;
@@ -100,8 +100,8 @@ std::string exponent_text(const Exponent& e) {
   return text;
 }
 
-void print(const Model& model, const search::ExponentReport& report, std::size_t starts,
-           double seconds) {
+void print_exponents(const Model& model, const search::ExponentReport& report, std::size_t starts,
+                     double seconds) {
   fmt::print("{}: solutions x_i = c_i/(t - t0)^g_i\n", model.name);
   std::string line;
   for (const auto& [name, weight] : report.weights)
@@ -154,7 +154,7 @@ std::size_t complete_numerically(search::ExponentReport& report, const search::W
   return found.starts;
 }
 
-int exponents(const Options& options) {
+int exponents(const ExponentsArguments& options) {
   const Model model = in_variables(
       model_of(load_case(options.case_name), options.common.parameter_values()), options.in);
   if (options.common.scene_given) model.scene(options.common.scene);
@@ -171,9 +171,9 @@ int exponents(const Options& options) {
     const std::size_t starts = report.complete ? 0 : complete_numerically(report, watch.watch());
     const double seconds = watch.end();
     if (options.common.json)
-      print_json(to_json(model, report, starts, seconds));
+      print_json(exponents_json(model, report, starts, seconds));
     else if (!options.common.quiet)
-      print(model, report, starts, seconds);
+      print_exponents(model, report, starts, seconds);
     return report.complete || starts > 0 ? kDone : kUndecided;
   });
 }
@@ -181,7 +181,7 @@ int exponents(const Options& options) {
 }  // namespace
 
 void register_exponents(CLI::App& program, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExponentsArguments>();
   CLI::App* command = program.add_subcommand(
       "exponents", "Kovalevskaya-Painleve analysis: balances and Kovalevskaya exponents");
   add_common(*command, options->common);

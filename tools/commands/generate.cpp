@@ -31,7 +31,7 @@ const std::map<std::string, Scalar> kScalars = {{"double", Scalar::real64},
 
 const std::map<std::string, Language> kLanguages = {{"c++", Language::cpp}, {"c", Language::c}};
 
-struct Options {
+struct GenerateArguments {
   Common common;
   KeptParameters kept;
   OtherStart start;
@@ -64,11 +64,11 @@ CLI::Validator key_of(const std::map<std::string, Value>& values) {
   return {check, "", fmt::format("{{{}}}", fmt::join(names, ","))};
 }
 
-bool wants(const Options& options, const char* name) {
+bool wants(const GenerateArguments& options, const char* name) {
   return std::find(options.with.begin(), options.with.end(), name) != options.with.end();
 }
 
-SpecialiseOptions parts_of(const Options& options) {
+SpecialiseOptions parts_of(const GenerateArguments& options) {
   const auto wanted = [&](const char* name) { return wants(options, name); };
   auto what = options.kept.in<SpecialiseOptions>();
   what.gradients = wanted("gradients");
@@ -80,7 +80,7 @@ SpecialiseOptions parts_of(const Options& options) {
   return what;
 }
 
-Specialisation of_flow(const CaseFile& file, const Options& options) {
+Specialisation of_flow(const CaseFile& file, const GenerateArguments& options) {
   if (wants(options, "inverse"))
     throw UsageError("--with inverse is for maps: a flow is followed backwards by a negative time");
   const Model model = in_variables(
@@ -89,7 +89,7 @@ Specialisation of_flow(const CaseFile& file, const Options& options) {
 }
 
 /// The step, its inverse where one is found and proved, and its Jacobian.
-Specialisation of_map(MapCaseFile file, const Options& options) {
+Specialisation of_map(MapCaseFile file, const GenerateArguments& options) {
   if (!options.in.empty()) throw UsageError("--in is for flows: a map stays in its variables");
   if (wants(options, "taylor"))
     throw UsageError("--with taylor is for flows: the time of a map is whole numbers");
@@ -111,7 +111,7 @@ Specialisation of_map(MapCaseFile file, const Options& options) {
   return specialise_map(map, scene, parts_of(options), inverse);
 }
 
-int generate(const Options& options) {
+int generate(const GenerateArguments& options) {
   if (options.output.empty() && options.common.json)
     throw UsageError("generate --json needs --output FILE for the header");
   const AnyCaseFile any = load_any_case(options.case_name);
@@ -148,7 +148,7 @@ int generate(const Options& options) {
 }  // namespace
 
 void register_generate(CLI::App& program, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<GenerateArguments>();
   CLI::App* command = program.add_subcommand(
       "generate", "Write a self-contained C++20 or C99 header specialised to a scene");
   add_common(*command, options->common);

@@ -36,7 +36,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct IntegrateArguments {
   Common common;
   RunOptions run;
   KeptParameters kept;
@@ -53,9 +53,9 @@ struct Options {
 };
 
 /// What is shown: the states themselves, or in the variables of `--as`.
-class Answer {
+class ComputedAnswer {
  public:
-  Answer(const Model& model, const PreparedScene& run, const std::string& as)
+  ComputedAnswer(const Model& model, const PreparedScene& run, const std::string& as)
       : names_(run.specialisation.states) {
     if (as.empty()) return;
     if (names_.size() != model.variables.size())
@@ -83,7 +83,7 @@ class Answer {
   std::optional<Conversion> conversion_;
 };
 
-void write_samples(const std::string& path, const Specialisation& s, const Answer& answer,
+void write_samples(const std::string& path, const Specialisation& s, const ComputedAnswer& answer,
                    const Trajectory& trajectory) {
   std::vector<std::vector<double>> columns(answer.names().size());
   for (std::size_t k = 0; k < trajectory.samples.size(); ++k) {
@@ -120,8 +120,8 @@ struct CodeOfRun {
   }
 };
 
-Json to_json(const Model& model, const PreparedScene& run, const Answer& answer,
-             const AssessedRun& judged, const RunWords& words) {
+Json run_json(const Model& model, const PreparedScene& run, const ComputedAnswer& answer,
+              const AssessedRun& judged, const RunWords& words) {
   const Specialisation& s = run.specialisation;
   const Trajectory& trajectory = judged.trajectory;
   Json json = {{"case", model.name},
@@ -156,7 +156,7 @@ Json to_json(const Model& model, const PreparedScene& run, const Answer& answer,
   json["code"] = code.name;
   json["left_out"] = left_out_json(s);
   json["warnings"] = words.warnings;
-  json["trust"] = tools::to_json(judged.trust);
+  json["trust"] = to_json(judged.trust);
   if (trajectory.status != Status::ok) {
     json["stopped"] = {{"time", exact_text(trajectory.time)},
                        {"reason", trajectory.reason},
@@ -165,8 +165,8 @@ Json to_json(const Model& model, const PreparedScene& run, const Answer& answer,
   return json;
 }
 
-void print_text(const PreparedScene& run, const Answer& answer, const AssessedRun& judged,
-                const RunWords& words) {
+void print_run(const PreparedScene& run, const ComputedAnswer& answer, const AssessedRun& judged,
+               const RunWords& words) {
   const Specialisation& s = run.specialisation;
   const Trajectory& trajectory = judged.trajectory;
   fmt::print("{}, scene '{}', {} at tolerance {:g}\n", s.case_name, printable(s.scene),
@@ -213,7 +213,7 @@ int report_stop(const PreparedScene& run, const AssessedRun& judged, const RunWo
   return trajectory.status == Status::stopped ? kEnvironment : kNotContinued;
 }
 
-SceneOptions scene_options(const Options& options) {
+SceneOptions scene_options(const IntegrateArguments& options) {
   auto how = options.kept.in<SceneOptions>();
   if (options.general) {
     how.fold_parameters = false;
@@ -223,7 +223,7 @@ SceneOptions scene_options(const Options& options) {
   return how;
 }
 
-int integrate_members_of(const Options& options) {
+int integrate_members_of(const IntegrateArguments& options) {
   if (!options.in.empty() || !options.as.empty())
     throw UsageError("--in and --as do not go with --ensemble");
   if (options.run.asked.projects()) throw UsageError("--project does not go with --ensemble");
@@ -236,14 +236,14 @@ int integrate_members_of(const Options& options) {
 
 /// Before anything is integrated: what cannot be drawn is bad input, and so are its names.
 void check_picture(const Model& model, const Scene& scene, const PreparedScene& run,
-                   const Options& options) {
+                   const IntegrateArguments& options) {
   if (!options.picture.wanted()) return;
   const Motion start{.names = run.specialisation.states, .times = {0.0}, .states = {run.initial}};
   options.picture.picture(model, scene, start);
 }
 
 void draw_motion(const Model& model, const Scene& scene, const PreparedScene& run,
-                 const AssessedRun& judged, const Options& options) {
+                 const AssessedRun& judged, const IntegrateArguments& options) {
   if (!options.picture.wanted()) return;
   draw(options.picture.picture(model, scene, motion_of(run, judged, options.every)),
        options.print.sheet(options.picture.file()));
@@ -251,7 +251,7 @@ void draw_motion(const Model& model, const Scene& scene, const PreparedScene& ru
     fmt::print("  drew {}\n", printable(options.picture.file(), 200));
 }
 
-int enclose_case(const Options& options) {
+int enclose_case(const IntegrateArguments& options) {
   if (options.picture.wanted()) throw UsageError("--plot does not go with --validated");
   if (!options.ensemble.empty()) throw UsageError("--ensemble does not go with --validated");
   if (options.general) throw UsageError("--general does not go with --validated");
@@ -262,7 +262,7 @@ int enclose_case(const Options& options) {
 }
 
 /// Of a map: its steps are iterated, and what is about methods and errors of steps has no meaning.
-int iterate_case(const MapCaseFile& file, const Options& options) {
+int iterate_case(const MapCaseFile& file, const IntegrateArguments& options) {
   const RunRequest asked = options.run.request();
   const bool of_methods = options.method != "auto" || asked.rtol || asked.atol || asked.tolerance ||
                           asked.step || asked.projects();
@@ -276,7 +276,7 @@ int iterate_case(const MapCaseFile& file, const Options& options) {
   return iterate_map({options.common, started, asked.duration, options.output, options.every});
 }
 
-int integrate_case(const Options& options) {
+int integrate_case(const IntegrateArguments& options) {
   options.picture.check();
   options.print.check(options.picture.wanted());
   if (options.validated) return enclose_case(options);
@@ -306,7 +306,7 @@ int integrate_case(const Options& options) {
   const Scene& scene = model.scene(options.common.scene);
   method_named(options.method);  // throws where there is none
   const PreparedScene run = prepare(model, scene, scene_options(options));
-  const Answer answer(model, run, options.as);
+  const ComputedAnswer answer(model, run, options.as);
   if (options.every > 0 && options.output.empty() && !options.picture.wanted())
     throw UsageError("--every needs --output FILE.csv or --plot FILE.svg");
   check_picture(model, scene, run, options);
@@ -327,9 +327,9 @@ int integrate_case(const Options& options) {
   if (!options.output.empty())
     write_samples(options.output, run.specialisation, answer, judged.trajectory);
   if (options.common.json) {
-    print_json(to_json(model, run, answer, judged, words));
+    print_json(run_json(model, run, answer, judged, words));
   } else if (!options.common.quiet) {
-    print_text(run, answer, judged, words);
+    print_run(run, answer, judged, words);
     if (!options.output.empty())
       fmt::print("  wrote {} states to {}\n", judged.trajectory.samples.size(),
                  printable(options.output, 200));
@@ -344,7 +344,7 @@ int integrate_case(const Options& options) {
 }  // namespace
 
 void register_integrate(CLI::App& program, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<IntegrateArguments>();
   CLI::App* command = program.add_subcommand(
       "integrate", "Compile the specialised module of a scene and integrate it");
   add_common(*command, options->common);

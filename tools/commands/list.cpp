@@ -14,7 +14,7 @@
 namespace casimir::tools {
 namespace {
 
-struct Options {
+struct ListArguments {
   Common common;
   std::string tag;
 };
@@ -38,7 +38,7 @@ std::vector<std::string> scene_names(const Model& model) {
   return names;
 }
 
-int list(const Options& options) {
+int list(const ListArguments& options) {
   nlohmann::ordered_json cases = nlohmann::json::array();
   for (const std::filesystem::path& path : listed_cases(options.tag)) {
     const AnyCaseFile file = read_any_case(path);
@@ -78,7 +78,7 @@ int list(const Options& options) {
 }  // namespace
 
 void register_list(CLI::App& program, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ListArguments>();
   CLI::App* command = program.add_subcommand("list", "The bundled cases");
   add_common(*command, options->common);
   command->add_option("--tag", options->tag, "Only cases with this tag")->type_name("TAG");

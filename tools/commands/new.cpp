@@ -15,7 +15,7 @@
 namespace casimir::tools {
 namespace {
 
-struct Options {
+struct NewArguments {
   Common common;
   std::string name, output;
   std::string algebra = "so(3)";
@@ -23,7 +23,7 @@ struct Options {
   bool force = false;
 };
 
-NewCase system_for(const Options& options) {
+NewCase system_for(const NewArguments& options) {
   if (options.canonical > 0) return new_canonical(options.canonical);
   if (options.equations > 0) return new_equations(options.equations);
   if (const auto algebra = find_lie_algebra(options.algebra)) return new_on_algebra(*algebra);
@@ -32,7 +32,7 @@ NewCase system_for(const Options& options) {
                   lie_algebra_hint(options.algebra));
 }
 
-int create(const Options& options) {
+int create(const NewArguments& options) {
   std::string stem = options.name;
   if (stem.ends_with(".toml")) stem.resize(stem.size() - 5);
   const bool plain =
@@ -60,7 +60,7 @@ int create(const Options& options) {
 }  // namespace
 
 void register_new(CLI::App& program, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<NewArguments>();
   CLI::App* command = program.add_subcommand("new", "Write a commented case file to start from");
   add_common(*command, options->common);
   command->add_option("NAME", options->name, "Name of the new case")->required();

@@ -18,7 +18,7 @@
 namespace casimir::tools {
 namespace {
 
-struct Options {
+struct ObstructArguments {
   Common common;
   std::string case_name, in, free;
   std::vector<std::string> along;
@@ -30,7 +30,7 @@ bool is_parameter(const Model& model, const std::string& name) {
                      [&](const GiNaC::symbol& p) { return p.get_name() == name; });
 }
 
-int obstruct(const Options& options) {
+int obstruct(const ObstructArguments& options) {
   const Model model = in_variables(
       model_of(load_case(options.case_name), options.common.parameter_values()), options.in);
   if (options.common.scene_given) model.scene(options.common.scene);
@@ -54,7 +54,7 @@ int obstruct(const Options& options) {
 }  // namespace
 
 void register_obstruct(CLI::App& program, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ObstructArguments>();
   CLI::App* command = program.add_subcommand(
       "obstruct", "Prove that there is no further integral, for the parameters of a scene");
   add_common(*command, options->common);

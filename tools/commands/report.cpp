@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <set>
@@ -15,6 +14,7 @@
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/stopwatch.hpp"
 #include "tools/report/index.hpp"
 #include "tools/report/page.hpp"
 #include "tools/runs/atlas.hpp"
@@ -25,10 +25,9 @@
 namespace casimir::tools {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct ReportArguments {
   Common common;
   OtherStart start;
   std::string case_name, output, in, tag;
@@ -37,12 +36,6 @@ struct Options {
 };
 
 constexpr double kBudget = 4, kBudgetOfMany = 0.5;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-bool is_page(const std::string& path) { return path.ends_with(".html") || path.ends_with(".htm"); }
 
 /// The text of a case file; empty where it cannot be read a second time.
 std::string text_of(const CaseFile& file) {
@@ -53,7 +46,7 @@ std::string text_of(const CaseFile& file) {
 }
 
 /// The options that change what a command is about, as they were typed.
-std::vector<std::string> repeated_options(const Options& options) {
+std::vector<std::string> repeated_options(const ReportArguments& options) {
   std::vector<std::string> result;
   for (const std::string& value : options.common.params) {
     result.emplace_back("--param");
@@ -69,7 +62,7 @@ std::vector<std::string> repeated_options(const Options& options) {
 }
 
 /// A page that has been written.
-struct Written {
+struct WrittenPage {
   IndexEntry entry;
   Machine machine;
   Json json;
@@ -91,8 +84,8 @@ std::vector<std::string> drawn(const Pictures& pictures) {
   return names;
 }
 
-Json to_json(const Model& model, const Findings& findings, const Pictures& pictures,
-             const std::string& path, double seconds) {
+Json page_json(const Model& model, const Findings& findings, const Pictures& pictures,
+               const std::string& path, double seconds) {
   const Tally tally = tally_of(model, findings.proofs);
   Json json = {
       {"case", model.name},
@@ -111,9 +104,10 @@ Json to_json(const Model& model, const Findings& findings, const Pictures& pictu
 }
 
 /// Investigates a case and writes its page.
-Written write_report(const CaseFile& bare, const Options& options, const std::string& path,
-                     PageSource source, double time_limit, Progress& progress) {
-  const auto start = Clock::now();
+WrittenPage write_report(const CaseFile& bare, const ReportArguments& options,
+                         const std::string& path, PageSource source, double time_limit,
+                         Progress& progress) {
+  const Stopwatch watch;
   const CaseFile file = options.start.in(bare);
   const Model model = in_variables(model_of(file, options.common.parameter_values()), options.in);
   ReportOptions what{.scene = options.common.scene, .time_limit = time_limit};
@@ -132,11 +126,11 @@ Written write_report(const CaseFile& bare, const Options& options, const std::st
   source.case_text = text_of(file);
   page.stream() << report_page(model, findings, pictures, source);
   page.commit();
-  Written written{.entry = entry_of(model, findings, std::filesystem::path(path).filename()),
-                  .machine = findings.machine,
-                  .json = to_json(model, findings, pictures, path, seconds_since(start)),
-                  .status = findings.exit_status(),
-                  .problems = findings.problems};
+  WrittenPage written{.entry = entry_of(model, findings, std::filesystem::path(path).filename()),
+                      .machine = findings.machine,
+                      .json = page_json(model, findings, pictures, path, watch.seconds()),
+                      .status = findings.exit_status(),
+                      .problems = findings.problems};
   if (!pictures.problem.empty()) {
     written.problems.push_back(pictures.problem);
     if (written.status == kDone) written.status = kEnvironment;
@@ -151,13 +145,13 @@ void say_problems(const std::vector<std::string>& problems) {
     if (said.insert(problem).second) std::cerr << "casimir: error: " << problem << '\n';
 }
 
-int report_one(const Options& options) {
+int report_one(const ReportArguments& options) {
   const CaseFile file = load_case(options.case_name);
   const std::string path = options.output.empty() ? file.name + ".html" : options.output;
-  if (!is_page(path))
+  if (!is_page_name(path))
     throw UsageError(fmt::format("'{}': a report's name must end in .html", printable(path, 200)));
   Progress progress(!options.common.quiet);
-  const Written written =
+  const WrittenPage written =
       write_report(file, options, path, {options.case_name, repeated_options(options), {}, {}},
                    options.common.time_limit, progress);
   if (options.common.json) {
@@ -178,10 +172,10 @@ struct Place {
   std::filesystem::path folder, index;
 };
 
-Place place_of(const Options& options) {
+Place place_of(const ReportArguments& options) {
   const std::filesystem::path output = options.output.empty() ? "report" : options.output;
-  const Place place = is_page(output.string()) ? Place{output.parent_path(), output}
-                                               : Place{output, output / "index.html"};
+  const Place place = is_page_name(output.string()) ? Place{output.parent_path(), output}
+                                                    : Place{output, output / "index.html"};
   std::error_code problem;
   if (!place.folder.empty()) std::filesystem::create_directories(place.folder, problem);
   if (problem)
@@ -190,7 +184,7 @@ Place place_of(const Options& options) {
   return place;
 }
 
-std::vector<CaseFile> ordered_cases(const Options& options) {
+std::vector<CaseFile> ordered_cases(const ReportArguments& options) {
   std::vector<CaseFile> files = tagged_cases(options.tag);
   if (files.empty())
     throw SystemError("no bundled cases were found; CASIMIR_CASES can name their folder");
@@ -213,16 +207,16 @@ int worst(int a, int b) {
 /// The pages of all cases, one after the other, and the index over them.
 class Reports {
  public:
-  explicit Reports(const Options& options)
+  explicit Reports(const ReportArguments& options)
       : options_(options), place_(place_of(options)), progress_(!options.common.quiet) {}
 
   void add(const CaseFile& file) {
     double left = 0;
     if (options_.common.time_limit > 0)
-      left = std::max(options_.common.time_limit - seconds_since(start_), 1e-3);
+      left = std::max(options_.common.time_limit - watch_.seconds(), 1e-3);
     const std::string path = (place_.folder / (file.name + ".html")).string();
     try {
-      const Written written = write_report(
+      const WrittenPage written = write_report(
           file, options_, path,
           {file.name, repeated_options(options_), {}, place_.index.filename().string()}, left,
           progress_);
@@ -248,8 +242,8 @@ class Reports {
     index.stream() << index_page(entries_, machine_);
     index.commit();
     if (options_.common.json) {
-      print_json(Json{
-          {"cases", cases_}, {"index", place_.index.string()}, {"seconds", seconds_since(start_)}});
+      print_json(
+          Json{{"cases", cases_}, {"index", place_.index.string()}, {"seconds", watch_.seconds()}});
     } else if (!options_.common.quiet) {
       fmt::print("wrote {}: {} cases\n", printable(place_.index.string(), 200), entries_.size());
     }
@@ -267,10 +261,10 @@ class Reports {
     status_ = worst(status_, kBadInput);
   }
 
-  const Options& options_;
+  const ReportArguments& options_;
   Place place_;
   Progress progress_;
-  Clock::time_point start_ = Clock::now();
+  Stopwatch watch_;
   std::vector<IndexEntry> entries_;
   std::vector<std::string> problems_;
   Json cases_ = Json::array();
@@ -278,7 +272,7 @@ class Reports {
   int status_ = kDone;
 };
 
-int report_all(const Options& options) {
+int report_all(const ReportArguments& options) {
   const std::vector<CaseFile> files = ordered_cases(options);
   Reports reports(options);
   for (const CaseFile& file : files) {
@@ -290,7 +284,7 @@ int report_all(const Options& options) {
   return reports.end();
 }
 
-int report(const Options& options) {
+int report(const ReportArguments& options) {
   if (options.all == !options.case_name.empty())
     throw UsageError("report needs either a CASE or --all");
   if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
@@ -302,7 +296,7 @@ int report(const Options& options) {
 }  // namespace
 
 void register_report(CLI::App& program, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportArguments>();
   CLI::App* command = program.add_subcommand(
       "report", "One page about a case: equations, proofs, code, drift, error against run time");
   command->footer(

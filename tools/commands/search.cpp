@@ -22,7 +22,7 @@
 namespace casimir::tools {
 namespace {
 
-struct Options {
+struct SearchArguments {
   Common common;
   std::string case_name, in;
   int degree = 0;
@@ -33,17 +33,18 @@ struct Options {
 };
 
 /// How many of the options that ask for something else than integrals were given.
-int kinds_of(const Options& o) {
+int kinds_of(const SearchArguments& o) {
   return int{o.darboux} + int{o.casimirs} + int{o.fields} + int{o.bivectors} + int{o.hamiltonian} +
          int{o.bihamiltonian} + int{o.forms || o.tensors > 0};
 }
 
-bool is_structure(const Options& o) {
+bool is_structure(const SearchArguments& o) {
   return o.fields || o.bivectors || o.forms || o.tensors > 0 || o.hamiltonian || o.bihamiltonian;
 }
 
 template <class Report>
-int answer(const Options& options, const Model& model, const Report& report, SearchWatch& watch) {
+int answer(const SearchArguments& options, const Model& model, const Report& report,
+           SearchWatch& watch) {
   const double seconds = watch.end();
   if (options.common.json)
     print_json(to_json(model, options.degree, report, seconds));
@@ -53,7 +54,7 @@ int answer(const Options& options, const Model& model, const Report& report, Sea
 }
 
 /// Of a map: what `search` asks of flows beyond the degree has no meaning there.
-int search_map_case(const MapCaseFile& file, const Options& options) {
+int search_map_case(const MapCaseFile& file, const SearchArguments& options) {
   if (!options.in.empty() || options.casimirs || options.darboux || is_structure(options) ||
       !options.on.empty() || !options.functions.empty() || !options.weights.empty() ||
       !options.free.empty())
@@ -70,7 +71,7 @@ int search_map_case(const MapCaseFile& file, const Options& options) {
 }
 
 /// Tensors and brackets.
-int search_structure(const Options& options, const Model& model, SearchWatch& watch) {
+int search_structure(const SearchArguments& options, const Model& model, SearchWatch& watch) {
   if (options.hamiltonian)
     return answer(options, model, structure::find_brackets(model, options.degree, watch.watch()),
                   watch);
@@ -84,7 +85,7 @@ int search_structure(const Options& options, const Model& model, SearchWatch& wa
                 watch);
 }
 
-int search_case(const Options& options) {
+int search_case(const SearchArguments& options) {
   const AnyCaseFile file = load_any_case(options.case_name);
   if (const auto* map = std::get_if<MapCaseFile>(&file)) return search_map_case(*map, options);
   const Model model = in_variables(
@@ -106,7 +107,7 @@ int search_case(const Options& options) {
                 watch);
 }
 
-int search(const Options& options) {
+int search(const SearchArguments& options) {
   if (kinds_of(options) > 1)
     throw UsageError(
         "of --casimirs, --darboux, --fields, --bivectors, --tensors (with --forms), --hamiltonian "
@@ -127,7 +128,7 @@ int search(const Options& options) {
                             [&] { return search_case(options); });
 }
 
-void add_structure_options(CLI::App& command, Options& options) {
+void add_structure_options(CLI::App& command, SearchArguments& options) {
   command.add_flag("--fields", options.fields, "Vector fields that commute with the motion");
   command.add_flag("--bivectors", options.bivectors, "Bivectors that the motion keeps");
   command
@@ -146,7 +147,7 @@ void add_structure_options(CLI::App& command, Options& options) {
 }  // namespace
 
 void register_search(CLI::App& program, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SearchArguments>();
   CLI::App* command =
       program.add_subcommand("search", "Find all polynomial integrals up to a degree");
   add_common(*command, options->common);

@@ -28,7 +28,7 @@
 namespace casimir::tools {
 namespace {
 
-struct Options {
+struct SectionArguments {
   Common common;
   OtherStart start;
   std::string case_name, seeds, certificate;
@@ -52,7 +52,7 @@ constexpr std::size_t kStarts = 400;
 /// Orbits are begun in turns, of so many at least: they fill the registers of some cores.
 constexpr std::size_t kOrbitsOfTurn = 16, kTurns = 4;
 
-void check_usage(const Options& options) {
+void check_usage(const SectionArguments& options) {
   for (const std::string& path : options.outputs)
     if (is_table_name(path))
       check_table_name(path);
@@ -72,7 +72,7 @@ void check_usage(const Options& options) {
 }
 
 /// What is kept of all crossings: the state, the pair, time and growth.
-void check_memory(const Options& options, std::size_t states) {
+void check_memory(const SectionArguments& options, std::size_t states) {
   constexpr double kMost = 4e9;
   const double bytes = 8. * static_cast<double>(options.orbits) *
                        static_cast<double>(options.points) * static_cast<double>(states + 4);
@@ -85,7 +85,7 @@ void check_memory(const Options& options, std::size_t states) {
 /// One section from the options to the report.
 class Section {
  public:
-  Section(const Options& options, const CaseFile& file)
+  Section(const SectionArguments& options, const CaseFile& file)
       : options_(options),
         file_(options.start.in(file)),
         model_(model_of(file_, options.common.parameter_values())),
@@ -335,7 +335,7 @@ class Section {
     std::cerr << text << '\n';
   }
 
-  const Options& options_;
+  const SectionArguments& options_;
   const CaseFile file_;
   const Model model_;
   const SectionProblem problem_;
@@ -348,7 +348,7 @@ class Section {
 };
 
 /// Of a map the points of its orbits: there is no plane to cut them with.
-int section_of(MapCaseFile file, const Options& options) {
+int section_of(MapCaseFile file, const SectionArguments& options) {
   const SectionOptions& asked = options.request;
   if (asked.energy || !asked.casimirs.empty() || asked.plane || asked.direction ||
       options.longest_cycle() > 0 || options.validated || options.duration ||
@@ -361,7 +361,7 @@ int section_of(MapCaseFile file, const Options& options) {
                          options.outputs, options.print, options.orbits, options.points});
 }
 
-int crossings_of_scene(const Options& options, const CaseFile& given) {
+int crossings_of_scene(const SectionArguments& options, const CaseFile& given) {
   const CaseFile file = options.start.in(given);
   const Model model = model_of(file, options.common.parameter_values());
   const SectionProblem problem = section_problem(model, model.scene(options.common.scene),
@@ -369,7 +369,7 @@ int crossings_of_scene(const Options& options, const CaseFile& given) {
   return enclose_section(options.common, model, problem, options.duration);
 }
 
-int section(const Options& options) {
+int section(const SectionArguments& options) {
   check_usage(options);
   const AnyCaseFile any = load_any_case(options.case_name);
   if (const auto* map = std::get_if<MapCaseFile>(&any)) return section_of(*map, options);
@@ -408,7 +408,7 @@ void add_plane_options(CLI::App& command, SectionOptions& request) {
 }  // namespace
 
 void register_section(CLI::App& program, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SectionArguments>();
   CLI::App* command = program.add_subcommand(
       "section", "Poincare section: many orbits on one energy and Casimir level");
   command->footer(

@@ -18,7 +18,7 @@
 namespace casimir::tools {
 namespace {
 
-struct Options {
+struct ShowArguments {
   Common common;
   std::string case_name;
   std::string in;
@@ -28,7 +28,7 @@ struct Options {
 };
 
 /// The initial states of the scenes in other variables, exactly and as numbers.
-int show_scenes_as(const Model& model, const Options& options) {
+int show_scenes_as(const Model& model, const ShowArguments& options) {
   const Conversion conversion(model, bundled_atlas(), options.as);
   nlohmann::ordered_json scenes = nlohmann::json::array();
   for (const Scene& scene : model.scenes) {
@@ -58,7 +58,7 @@ int show_scenes_as(const Model& model, const Options& options) {
 
 /// \param motion  a model, or a map
 template <class Motion>
-int show_motion(const Motion& model, const Options& options) {
+int show_motion(const Motion& model, const ShowArguments& options) {
   if (options.common.json || options.format == "json") {
     print_json(show_json(model));
   } else if (options.format == "latex") {
@@ -69,7 +69,7 @@ int show_motion(const Motion& model, const Options& options) {
   return kDone;
 }
 
-int show(const Options& options) {
+int show(const ShowArguments& options) {
   if (options.standalone && options.format != "latex")
     throw UsageError("--standalone is a whole document of LaTeX: it needs --format latex");
   const AnyCaseFile file = load_any_case(options.case_name);
@@ -87,7 +87,7 @@ int show(const Options& options) {
 }  // namespace
 
 void register_show(CLI::App& program, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ShowArguments>();
   CLI::App* command = program.add_subcommand(
       "show", "The bracket, the Hamiltonian, the equations, what is claimed");
   add_common(*command, options->common);

@@ -31,7 +31,7 @@
 namespace casimir::tools {
 namespace {
 
-struct Options {
+struct StressArguments {
   Common common;
   std::vector<std::string> cases, methods;
   std::string tag, in, output, plot;
@@ -90,8 +90,8 @@ struct Entry {
 };
 
 /// The command line of one cell.
-std::vector<std::string> words_of(const Entry& entry, const std::string& method,
-                                  const Options& options) {
+std::vector<std::string> run_words(const Entry& entry, const std::string& method,
+                                   const StressArguments& options) {
   std::vector<std::string> words = {
       "casimir", "integrate",       entry.source->path,
       "--scene", entry.scene->name, "--method",
@@ -123,7 +123,7 @@ int integrate_instead(std::vector<std::string> words) {
 
 class Stress {
  public:
-  explicit Stress(const Options& options) : options_(options) {}
+  explicit Stress(const StressArguments& options) : options_(options) {}
 
   StressMatrix run() {
     Progress progress(!options_.common.quiet);
@@ -233,7 +233,7 @@ class Stress {
 
   Job cell_job(const Entry& entry, const StressMatrix::Column& column) const {
     return {[this, &entry, &column] {
-              return integrate_instead(words_of(entry, column.method, options_));
+              return integrate_instead(run_words(entry, column.method, options_));
             },
             2 * options_.cell_limit + kCompiling};
   }
@@ -271,7 +271,7 @@ class Stress {
   /// Seconds that a compiler may take.
   static constexpr double kCompiling = 60;
 
-  const Options& options_;
+  const StressArguments& options_;
   std::function<bool()> give_up_ = time_limit(options_.common.time_limit);
   Progress* progress_ = nullptr;
   std::vector<Source> sources_;
@@ -281,7 +281,7 @@ class Stress {
   bool out_of_time_ = false;
 };
 
-void print(const StressMatrix& matrix) {
+void print_matrix(const StressMatrix& matrix) {
   std::cout << to_text(matrix) << complaints(matrix);
   fmt::print("{} cells: {} right, {} warned, {} refused, {} coarse, {} wrong",
              matrix.lines.size() * matrix.columns.size(), matrix.count(Judgement::right),
@@ -292,7 +292,7 @@ void print(const StressMatrix& matrix) {
   fmt::print("\n");
 }
 
-int stress(const Options& options) {
+int stress(const StressArguments& options) {
   if (options.all == !options.cases.empty()) throw UsageError("stress needs either CASES or --all");
   if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
   if (!options.plot.empty()) check_plot_name(options.plot);
@@ -305,7 +305,7 @@ int stress(const Options& options) {
   if (options.common.json)
     print_json(to_json(matrix));
   else if (!options.common.quiet)
-    print(matrix);
+    print_matrix(matrix);
   if (!options.plot.empty()) draw_matrix(matrix, options.print.sheet(options.plot));
   if (matrix.failed() > 0) return kFailed;
   if (stress.out_of_time()) throw SystemError("the time limit was reached");
@@ -332,7 +332,7 @@ constexpr const char* kDescription =
 }  // namespace
 
 void register_stress(CLI::App& program, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<StressArguments>();
   CLI::App* command = program.add_subcommand("stress", kDescription);
   add_common(*command, options->common);
   add_in(*command, options->in);

@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <optional>
 
@@ -16,15 +15,14 @@
 #include "tools/cli/options/choices.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/stopwatch.hpp"
 #include "tools/text/files/marked_file.hpp"
 #include "tools/text/proofs/survey_table.hpp"
 
 namespace casimir::tools {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-struct Options {
+struct SurveyArguments {
   Common common;
   std::vector<std::string> cases;
   std::string tag, output;
@@ -42,7 +40,7 @@ SceneWork work_of(const Model& model, const Scene& scene) {
   }
 }
 
-SurveyRow survey_one(const CaseFile& file, const Options& options, double seconds) {
+SurveyRow survey_one(const CaseFile& file, const SurveyArguments& options, double seconds) {
   const Model model = model_of(file, options.common.parameter_values());
   const std::vector<Proof> proofs = prove_within(seconds, model, {}, [](const Proof&) {});
   SurveyRow row{.case_name = model.name,
@@ -60,7 +58,7 @@ SurveyRow survey_one(const CaseFile& file, const Options& options, double second
   return row;
 }
 
-std::vector<CaseFile> chosen_cases(const Options& options) {
+std::vector<CaseFile> chosen_cases(const SurveyArguments& options) {
   if (options.cases.empty()) return tagged_cases(options.tag);
   if (!options.tag.empty()) throw UsageError("--tag takes no CASE");
   std::vector<CaseFile> files;
@@ -68,15 +66,16 @@ std::vector<CaseFile> chosen_cases(const Options& options) {
   return files;
 }
 
-std::vector<SurveyRow> survey_rows(const std::vector<CaseFile>& files, const Options& options) {
-  const auto start = Clock::now();
+std::vector<SurveyRow> survey_rows(const std::vector<CaseFile>& files,
+                                   const SurveyArguments& options) {
+  const Stopwatch watch;
   Progress progress(!options.common.quiet);
   progress.begin("survey");
   std::vector<SurveyRow> rows;
   for (const CaseFile& file : files) {
     double left = 0;
     if (options.common.time_limit > 0) {
-      const double spent = std::chrono::duration<double>(Clock::now() - start).count();
+      const double spent = watch.seconds();
       left = std::max(options.common.time_limit - spent, 1e-3);
     }
     rows.push_back(survey_one(file, options, left));
@@ -87,7 +86,7 @@ std::vector<SurveyRow> survey_rows(const std::vector<CaseFile>& files, const Opt
 }
 
 /// The format asked for, or else the one that the name of the output tells.
-std::string format_of(const Options& options) {
+std::string format_of(const SurveyArguments& options) {
   const bool markdown = options.output.ends_with(".md");
   const std::string by_name = markdown                           ? "markdown"
                               : options.output.ends_with(".csv") ? "csv"
@@ -109,7 +108,7 @@ int exit_status(const std::vector<SurveyRow>& rows) {
   return has(Verdict::refuted) ? kFailed : has(Verdict::undecided) ? kUndecided : kDone;
 }
 
-int survey(const Options& options) {
+int survey(const SurveyArguments& options) {
   const std::string format = format_of(options);
   std::optional<MarkedFile> page;  // refused before any work is done for it
   if (options.output.ends_with(".md")) page.emplace(options.output, "survey");
@@ -140,7 +139,7 @@ int survey(const Options& options) {
 }  // namespace
 
 void register_survey(CLI::App& program, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SurveyArguments>();
   CLI::App* command = program.add_subcommand(
       "survey", "A table of all cases: what is proved, and the operations that specialising saves");
   add_common(*command, options->common);

@@ -34,7 +34,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct SweepArguments {
   Common common;
   OtherStart start;
   RunOptions run;
@@ -58,7 +58,7 @@ struct Prepared {
   const Method* method = nullptr;
   Settings settings;
 
-  Prepared(const Options& options, const CaseFile& file)
+  Prepared(const SweepArguments& options, const CaseFile& file)
       : model(model_of(file, options.common.parameter_values())),
         grid(read_grid(options.over, options.lets, model)),
         scene(&model.scene(options.common.scene)),
@@ -83,8 +83,8 @@ struct Prepared {
 };
 
 /// What is done at each point: a new one is a file in `sweep/` and a line here.
-std::unique_ptr<SweepTask> task_of(const Options& options, const CaseFile& file, const Prepared& p,
-                                   const GridPoints& places) {
+std::unique_ptr<SweepTask> task_of(const SweepArguments& options, const CaseFile& file,
+                                   const Prepared& p, const GridPoints& places) {
   if (options.task == kSection)
     return std::make_unique<Sections>(p.model, *p.scene, places, section_request(file, p.model),
                                       options.orbits, options.points, kSectionTolerance);
@@ -105,7 +105,7 @@ std::map<std::string, std::size_t> counts_of(const std::vector<PointResult>& row
 }
 
 struct Report {
-  const Options& options;
+  const SweepArguments& options;
   const Prepared& prepared;
   const Ranks& ranks;
   const SweepOutcome& outcome;
@@ -115,7 +115,7 @@ struct Report {
   std::string warning;
 };
 
-Json to_json(const Report& report) {
+Json sweep_json(const Report& report) {
   const Prepared& p = report.prepared;
   Json json = {{"case", p.model.name},
                {"scene", p.scene->name},
@@ -143,7 +143,7 @@ Json to_json(const Report& report) {
   return json;
 }
 
-void print_text(const Report& report) {
+void print_sweep(const Report& report) {
   const Prepared& p = report.prepared;
   const SweepOutcome& outcome = report.outcome;
   fmt::print("{}, scene '{}', {} at tolerance {:g}, {} point{}\n", p.model.name,
@@ -202,7 +202,7 @@ int verdict(const Report& report, bool interrupted) {
   return kNotContinued;
 }
 
-int sweep_in(const Ranks& ranks, const Options& options) {
+int sweep_in(const Ranks& ranks, const SweepArguments& options) {
   if (options.over.empty())
     throw UsageError("sweep needs a grid: --over NAME=FROM:TO:N, such as --over r=1:2:11");
   if (ranks.size() > 1 && options.case_name == "-")
@@ -244,13 +244,13 @@ int sweep_in(const Ranks& ranks, const Options& options) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
       integrations ? integrations->warning() : std::string{}};
   if (options.common.json)
-    print_json(to_json(report));
+    print_json(sweep_json(report));
   else if (!options.common.quiet)
-    print_text(report);
+    print_sweep(report);
   return verdict(report, interrupted);
 }
 
-int sweep(const Options& options) {
+int sweep(const SweepArguments& options) {
   const MpiRanks ranks;
   try {
     return sweep_in(ranks, options);
@@ -264,7 +264,7 @@ int sweep(const Options& options) {
 }  // namespace
 
 void register_sweep(CLI::App& program, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SweepArguments>();
   CLI::App* command = program.add_subcommand(
       "sweep", "Integrate over a grid of parameters or initial states, resumably");
   command->footer(

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -16,6 +15,7 @@
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/output.hpp"
+#include "tools/cli/stopwatch.hpp"
 #include "tools/runs/atlas.hpp"
 #include "tools/text/proofs/proof_report.hpp"
 #include "tools/text/proofs/verify_report.hpp"
@@ -23,9 +23,7 @@
 namespace casimir::tools {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-struct Options {
+struct VerifyArguments {
   Common common;
   std::string case_name;
   std::string in, tag;
@@ -34,17 +32,13 @@ struct Options {
   std::string certificate;
 };
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 std::vector<Text> texts(const std::vector<std::string>& values, const std::string& option) {
   std::vector<Text> result;
   for (const std::string& value : values) result.push_back({value, {option, 1, 1}, value});
   return result;
 }
 
-Candidates candidates_of(const Options& options) {
+Candidates candidates_of(const VerifyArguments& options) {
   return {texts(options.integrals, "--integral"),
           texts(options.casimirs, "--casimir"),
           texts(options.invariant_relations, "--invariant-relation"),
@@ -75,7 +69,7 @@ void check_certificate_name(const std::string& path) {
 }
 
 /// Only what is proved has a certificate. What is said of it in JSON: null where none was written.
-nlohmann::ordered_json write_certificate(const Model& model, const Options& options,
+nlohmann::ordered_json write_certificate(const Model& model, const VerifyArguments& options,
                                          const std::vector<Proof>& proofs) {
   if (overall(model, proofs) != Verdict::proved) {
     std::cerr << "casimir: no certificate was written: not every claim is proved\n";
@@ -99,17 +93,17 @@ nlohmann::ordered_json write_certificate(const Model& model, const Options& opti
 /// Proves one case; its lines appear as they are decided, unless only a summary or JSON is wanted.
 /// \param motion  the model, or the map that it is the base of
 template <class Motion>
-Verified verify_motion(const Model& model, const Motion& motion, const Options& options,
+Verified verify_motion(const Model& model, const Motion& motion, const VerifyArguments& options,
                        double time_limit, bool lines) {
   if (options.common.scene_given) model.scene(options.common.scene);
-  const auto start = Clock::now();
+  const Stopwatch watch;
   std::optional<CaseReport> report;
   if (lines) report.emplace(model, pending(motion, candidates_of(options)));
   const std::vector<Proof> proofs =
       prove_within(time_limit, motion, candidates_of(options), [&](const Proof& proof) {
         if (report) report->row(proof);
       });
-  const double seconds = seconds_since(start);
+  const double seconds = watch.seconds();
   if (report) report->end(proofs, seconds);
   const CaseOutcome outcome = outcome_of(model, proofs, seconds);
   nlohmann::ordered_json json = to_json(model, proofs, seconds);
@@ -117,7 +111,7 @@ Verified verify_motion(const Model& model, const Motion& motion, const Options& 
   return {outcome, std::move(json)};
 }
 
-Verified verify_one(const AnyCaseFile& file, const Options& options, double time_limit,
+Verified verify_one(const AnyCaseFile& file, const VerifyArguments& options, double time_limit,
                     bool lines) {
   const ParameterValues fixed = options.common.parameter_values();
   if (const auto* map_file = std::get_if<MapCaseFile>(&file)) {
@@ -135,8 +129,8 @@ int exit_status(Verdict verdict) {
   return verdict == Verdict::proved ? kDone : verdict == Verdict::refuted ? kFailed : kUndecided;
 }
 
-int verify_all(const Options& options) {
-  const auto start = Clock::now();
+int verify_all(const VerifyArguments& options) {
+  const Stopwatch watch;
   const std::vector<std::filesystem::path> paths = listed_cases(options.tag);
   if (paths.empty())
     throw SystemError("no bundled cases were found; CASIMIR_CASES can name their folder");
@@ -147,7 +141,7 @@ int verify_all(const Options& options) {
   for (const std::filesystem::path& path : paths) {
     double left = 0;
     if (options.common.time_limit > 0)
-      left = std::max(options.common.time_limit - seconds_since(start), 1e-3);
+      left = std::max(options.common.time_limit - watch.seconds(), 1e-3);
     const Verified result = verify_one(read_any_case(path), options, left, false);
     if (result.outcome.verdict == Verdict::refuted) worst = Verdict::refuted;
     if (result.outcome.verdict == Verdict::undecided && worst == Verdict::proved)
@@ -155,15 +149,15 @@ int verify_all(const Options& options) {
     if (report) report->row(result.outcome);
     cases.push_back(result.json);
   }
-  if (report) report->end(worst, seconds_since(start));
+  if (report) report->end(worst, watch.seconds());
   if (options.common.json) {
     print_json(nlohmann::ordered_json{
-        {"cases", cases}, {"verdict", to_string(worst)}, {"seconds", seconds_since(start)}});
+        {"cases", cases}, {"verdict", to_string(worst)}, {"seconds", watch.seconds()}});
   }
   return exit_status(worst);
 }
 
-int verify(const Options& options) {
+int verify(const VerifyArguments& options) {
   if (options.all && !options.case_name.empty()) throw UsageError("--all takes no CASE");
   if (!options.all && options.case_name.empty()) throw UsageError("verify needs a CASE, or --all");
   if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
@@ -187,7 +181,7 @@ int verify(const Options& options) {
 }  // namespace
 
 void register_verify(CLI::App& program, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<VerifyArguments>();
   CLI::App* command =
       program.add_subcommand("verify", "Prove or refute the claims of a case, or candidates");
   add_common(*command, options->common);
