@@ -19,10 +19,13 @@ class MapOrbits {
   MapOrbits(const MapModel& map, const Scene& scene, const std::vector<FunctionText>& pair,
             std::function<bool()> give_up);
 
+  /// The map with the numbers of the scene.
   const Specialisation& specialisation() const { return run_.specialisation; }
+  /// The pair, with labels.
   const std::array<PlottedFunction, 2>& plotted() const { return plotted_; }
   /// The start of the scene.
   std::vector<double> start() const { return run_.initial; }
+  /// Whether `give_up` says so.
   bool interrupted() const { return give_up_ && give_up_(); }
   /// The step and a deviation, compiled.
   const CompiledModule& step() const { return step_; }
