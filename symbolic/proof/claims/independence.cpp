@@ -306,10 +306,13 @@ void decide_liouville(Prover& prover, Proof& proof) {
 
 /// More integrals that are independent on the generic leaf than Liouville's theorem needs; whether
 /// they commute is not asked. The rank of their flows counts them: on a leaf a flow vanishes
-/// exactly where the differential of its function does. That they are integrals are claims of their
-/// own.
+/// exactly where the differential of its function does. A function that is not proved to be an
+/// integral is not counted, however independent it is.
 void decide_superintegrability(Prover& prover, Proof& proof) {
-  const std::vector<NamedExpression> functions = with_hamiltonian(prover.model(), {});
+  std::vector<NamedExpression> functions = with_hamiltonian(prover.model(), {});
+  std::erase_if(functions, [&](const NamedExpression& f) {
+    return !prover.is_zero(prover.rate(prover.convert(f.value)));
+  });
   const auto leaf = bracket_rank(prover);
   if (!leaf || !leaf->uneven.empty() || !leaf->exact) {
     proof.reason =

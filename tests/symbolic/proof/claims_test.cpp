@@ -267,6 +267,8 @@ TEST(Superintegrable, NeedsOneMore) {
   const Model wrong =
       model_of("superintegrable = true\n" + kOscillator + "A = \"p1*p2 - q1*q2\"\n");
   EXPECT_EQ(overall(wrong, prove(wrong)), Verdict::refuted);
+  // Three functions are independent there, of which one is no integral.
+  EXPECT_EQ(proof_of(wrong, "liouville", "superintegrability").verdict, Verdict::undecided);
   EXPECT_THROW(model_of("superintegrable = true\n[phase_space]\nvariables = [\"x\"]\n"
                         "[equations]\nx = \"x\"\n"),
                CaseError);
