@@ -36,7 +36,7 @@ bool is_proved_inverse(const MapModel& map, const Inverse& inverse) {
 /// Whether it is the inverse at a random point modulo the prime, which is soon seen.
 class Screen {
  public:
-  explicit Screen(const MapModel& map) : map_(map), symbols_(map.base.variables) {
+  explicit Screen(const MapModel& map) : symbols_(map.base.variables) {
     symbols_.insert(symbols_.end(), map.base.parameters.begin(), map.base.parameters.end());
     const PrimeField field;
     std::mt19937_64 random(24);
@@ -62,7 +62,6 @@ class Screen {
   }
 
  private:
-  const MapModel& map_;
   std::vector<GiNaC::symbol> symbols_;
   std::vector<Element> point_, image_;
   bool rational_ = false;
