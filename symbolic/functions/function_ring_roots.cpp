@@ -3,7 +3,6 @@
 #include <cln/rational.h>
 
 #include <algorithm>
-#include <functional>
 #include <numeric>
 
 #include "symbolic/algebra/integer_factors.hpp"
@@ -13,39 +12,6 @@
 namespace casimir {
 
 using GiNaC::ex;
-
-namespace {
-
-/// Of the factors under a root of odd order q, powers that stand before it, of those that have no
-/// positive sign; they are taken out of `factors`, the constant of which comes first. (f^2)^q is a
-/// power of what is never negative. And (f g ..)^q comes out where all that stays is never
-/// negative: then f g .. is not either where the root is real, or the root is zero.
-std::vector<std::pair<Polynomial, unsigned long>> odd_powers(
-    std::vector<std::pair<Polynomial, unsigned long>>& factors, unsigned long q,
-    const std::function<bool(const Polynomial&)>& is_open) {
-  std::vector<std::pair<Polynomial, unsigned long>> outside;
-  bool rest_has_sign = true;
-  for (auto& [f, exponent] : factors) {
-    if (f.is_constant()) {
-      rest_has_sign = rest_has_sign && cln::plusp(f.term_list()[0].first);
-      continue;
-    }
-    if (!is_open(f)) continue;
-    const unsigned long twice = exponent / (2 * q);
-    if (twice > 0) outside.emplace_back(f, 2 * twice);
-    exponent -= 2 * q * twice;
-    const unsigned long stays = exponent >= q ? exponent - q : exponent;
-    rest_has_sign = rest_has_sign && stays % 2 == 0;
-  }
-  for (auto& [f, exponent] : factors) {
-    if (!rest_has_sign || f.is_constant() || exponent < q || !is_open(f)) continue;
-    outside.emplace_back(f, 1);
-    exponent -= q;
-  }
-  return outside;
-}
-
-}  // namespace
 
 /// A power of a root as a factor that its relation hides: a + b u is u (a' u^(q-1) + b) where a is
 /// a' u^q. Without it x^2 + y^2 + x r would not be r (r + x).
@@ -150,13 +116,8 @@ Polynomial FunctionRing::root(const Polynomial& p, unsigned long q) {
     radicand = checked_product(radicand, power(f, k * q - exponent));
   }
   radicand = checked_product(radicand, top);
-  auto factors = factors_of(radicand);
+  const auto factors = factors_of(radicand);
   if (even) imply_radicand(factors, false);
-  if (!even) {
-    for (const auto& [f, times] :
-         odd_powers(factors, q, [&](const Polynomial& f) { return known_sign(f) <= 0; }))
-      factor = checked_product(factor, power(f, times));
-  }
   Polynomial inside = ring_->constant(1);
   bool negative = false;
   for (const auto& [f, exponent] : factors) {

@@ -63,20 +63,6 @@ TEST_F(Relations, HalvesOfInverseFunctions) {
   EXPECT_FALSE(zero("sin(atan2(y, x)/2) - sqrt((1 - x/sqrt(x^2 + y^2))/2)"));
 }
 
-TEST_F(Relations, PowersLeaveRootsOfOddOrderWhereNoBranchMatters) {
-  EXPECT_TRUE(zero("(x^3)^(1/3) - x"));  // real for x >= 0
-  EXPECT_TRUE(zero("(x^6)^(1/3) - x^2"));
-  EXPECT_TRUE(zero("(x^5)^(1/3) - x*(x^2)^(1/3)"));
-  EXPECT_TRUE(zero("(x^3*y^3)^(1/3) - x*y"));
-  EXPECT_TRUE(zero("(8*x^7*y^6)^(1/3) - 2*y^2*x^2*x^(1/3)"));
-  // At x = -8 the left side is 16, and x^(1/3) has no value.
-  EXPECT_FALSE(zero("(x^4)^(1/3) - x*x^(1/3)"));
-  EXPECT_FALSE(zero("(x^3*y)^(1/3) - x*y^(1/3)"));
-  EXPECT_FALSE(zero("(x^6)^(1/3) + x^2"));
-  // A principal value: at x = -1 it is (1 + sqrt(3)*I)/2.
-  EXPECT_FALSE(zero("(x^3)^(1/3)*I - x*I"));
-}
-
 TEST_F(Relations, OddRootsOfSumsWithARoot) {
   EXPECT_TRUE(zero("(2 + sqrt(5))^(1/3) - (1 + sqrt(5))/2"));
   EXPECT_TRUE(zero("(2 + sqrt(5))^(1/3) - (sqrt(5) - 2)^(1/3) - 1"));
