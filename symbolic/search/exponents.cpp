@@ -308,11 +308,7 @@ std::optional<Balance> Analysis::balance_of(const Branch& branch) {
   std::set<std::size_t> free;
   for (std::size_t i = 0; i < dimension_; ++i) {
     Polynomial top = ring_.variable(i), bottom = ring_.constant(1);
-    for (const SolvedUnknown& s : branch.solved) {
-      if (!top.uses(s.place)) continue;
-      bottom = bottom * s.denominator.pow(static_cast<unsigned long>(top.degree(s.place)));
-      top = substituted(top, s.place, s.numerator, s.denominator);
-    }
+    for (const SolvedUnknown& s : branch.solved) put(s, top, bottom);
     if (!top.is_zero()) zero = false;
     balance.is_nonzero.push_back(!top.is_zero());
     for (std::size_t v = 0; v < dimension_; ++v)

@@ -250,6 +250,15 @@ Polynomial substituted(const Polynomial& p, std::size_t place, const Polynomial&
   return result;
 }
 
+void put(const SolvedUnknown& solved, Polynomial& top, Polynomial& bottom) {
+  const auto power = [&](const Polynomial& of) {
+    return solved.denominator.pow(static_cast<unsigned long>(of.degree(solved.place)));
+  };
+  const Polynomial below = power(top), above = power(bottom);
+  top = substituted(top, solved.place, solved.numerator, solved.denominator) * above;
+  bottom = substituted(bottom, solved.place, solved.numerator, solved.denominator) * below;
+}
+
 Polynomial determinant_without_sign(std::vector<std::vector<Polynomial>> m,
                                     const PolynomialRing& ring) {
   Polynomial previous = ring.constant(1);

@@ -48,6 +48,10 @@ std::vector<Branch> solve_system(std::vector<Polynomial> equations,
 Polynomial substituted(const Polynomial& p, std::size_t place, const Polynomial& numerator,
                        const Polynomial& denominator);
 
+/// Puts the value of an unknown into the fraction top/bottom, in both parts: the denominator of an
+/// unknown solved before may use this one as well.
+void put(const SolvedUnknown& solved, Polynomial& top, Polynomial& bottom);
+
 /// The determinant up to its sign, by Bareiss's elimination without fractions.
 Polynomial determinant_without_sign(std::vector<std::vector<Polynomial>> matrix,
                                     const PolynomialRing& ring);

@@ -68,6 +68,24 @@ TEST(Exponents, OfParametersThatObeyAnEquationAreRefused) {
   EXPECT_FALSE(search::kovalevskaya_exponents(model_of(equations("a > 2")), {}).balances.empty());
 }
 
+TEST(Exponents, OfABalanceStandBesideItsValuesOnly) {
+  // y1' = 3*y1^3, y2' = -2*y2^3 for y1 = 2*x1 + x2, y2 = x1 + x2: the equations are solved
+  // for x1 over 6*x2^2 - 1 first, and for x2 then. "x1 = -5/2/(6*x2^2 - 1), x2 = 1" was printed.
+  const auto report = search::kovalevskaya_exponents(
+      model_of("title = \"t\"\n[phase_space]\nvariables = [\"x1\", \"x2\"]\n[equations]\n"
+               "x1 = \"3*(2*x1 + x2)^3 + 2*(x1 + x2)^3\"\n"
+               "x2 = \"-4*(x1 + x2)^3 - 3*(2*x1 + x2)^3\"\n"),
+      {});
+  std::size_t plain = 0;
+  for (const auto& balance : report.balances) {
+    const auto& values = balance.coefficients;
+    if (values.at(1).second == "x2") continue;
+    ++plain;
+    EXPECT_EQ(values.at(0).second.find("x2"), std::string::npos) << values.at(0).second;
+  }
+  EXPECT_GE(plain, 1U);
+}
+
 TEST(Exponents, WithoutABalanceSayNothing) {
   const auto report = search::kovalevskaya_exponents(
       build_model(read_case(CASIMIR_SOURCE_DIR "/cases/" + std::string("neumann") + ".toml")), {});
