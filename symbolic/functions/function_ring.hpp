@@ -206,6 +206,10 @@ class FunctionRing {
   /// vanishes, as y*|y| and x^(3/2) are.
   bool is_smooth_across(const Polynomial& p, const Polynomial& f) const;
 
+  /// Whether `p` has the factor `f` under its roots in |f| alone, and no inverse function: then it
+  /// is differentiable along a curve on which f keeps its sign, or stays zero.
+  bool is_rough_in_absolute_value_alone(const Polynomial& p, const Polynomial& f) const;
+
   /// Whether `p` depends on one of the first `coordinates` symbols, through generators too.
   bool depends_on_first(const Polynomial& p, std::size_t coordinates) const;
   /// The same for one symbol.

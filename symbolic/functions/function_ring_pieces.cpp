@@ -182,6 +182,20 @@ bool FunctionRing::is_smooth_across(const Polynomial& p, const Polynomial& f) co
   });
 }
 
+bool FunctionRing::is_rough_in_absolute_value_alone(const Polynomial& p,
+                                                    const Polynomial& f) const {
+  const std::vector<std::size_t> used = generators_in({p});
+  return std::all_of(used.begin(), used.end(), [&](std::size_t g) {
+    const Generator& own = generators_[g];
+    if (own.kind == Kind::function) return false;
+    if (own.kind != Kind::root && own.kind != Kind::absolute) return true;
+    Polynomial quotient(*ring_);
+    if (!fraction(own.base).first.divide(f, &quotient)) return true;
+    return own.kind == Kind::absolute && own.base.divide(f * f, &quotient) &&
+           quotient.is_constant();
+  });
+}
+
 /// Sums, products, quotients, sines, cosines and exponentials of entire functions are meromorphic
 /// on all of C^n, which is connected: what is not zero at one point is zero on no open set. An
 /// extension of their field by roots whose radicands are independent modulo powers (Kummer) is a

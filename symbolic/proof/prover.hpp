@@ -100,11 +100,22 @@ class Prover {
   /// not vanish, or the level on which they do is invariant too.
   void decide_invariance(Proof& proof, const std::vector<NamedExpression>& functions);
 
-  /// Whether `f` is differentiable at every point of the level, as far as this can be told; if not,
-  /// `proof` is left undecided for this reason.
-  /// \param continuous  no angle may jump either, by a whole turn that a derivative does not see
+  /// What is asked of functions on a level.
+  enum class Smooth {
+    everywhere,    ///< differentiable at each of its points, in all directions
+    along_motion,  ///< differentiable along every motion on it
+    without_jumps  ///< this, and no angle jumps, by a whole turn that a derivative does not see
+  };
+
+  /// Whether the functions are smooth on the level, as far as this can be told; if not, `proof` is
+  /// left undecided for this reason.
   bool is_smooth_on(Proof& proof, const Level& level, const std::vector<NamedExpression>& list,
-                    bool continuous = false);
+                    Smooth smooth = Smooth::everywhere);
+  /// Does the motion keep the sign of `u`, and u = 0? Theorem: u(t) = u(0)*exp(int c dt) where
+  /// du/dt = c*u along a solution with c continuous. Then |u| is differentiable along it, and has
+  /// the rate c*|u|. Hypothesis: the denominator of c vanishes nowhere on the level, or the motion
+  /// divides by it.
+  bool keeps_sign(const Polynomial& u, const Level& level);
 
   /// Fills in verdict, evidence, residual, reason and witness: are all residuals zero on the level,
   /// wherever the functions of the claim have real values? A claim about nothing is not proved.

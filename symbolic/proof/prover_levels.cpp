@@ -232,27 +232,6 @@ bool Prover::in_ideal(const Residual& residual, const Level& level) {
   });
 }
 
-bool Prover::is_smooth_on(Proof& proof, const Level& level,
-                          const std::vector<NamedExpression>& list, bool continuous) {
-  if (ring_.is_polynomial()) return true;
-  for (const NamedExpression& f : list) {
-    const Polynomial& value = convert(f.value);
-    for (const Polynomial& radicand : ring_.radicand_factors(value, continuous)) {
-      if (ring_.is_smooth_across(value, radicand)) continue;
-      // What only the claim divides by, the motion passes: x/|x| is 1 until it is -1.
-      const Divisors which = continuous ? Divisors::of_motion : Divisors::all;
-      if (vanishes_nowhere_on(radicand, level, which)) continue;
-      proof.verdict = Verdict::undecided;
-      proof.evidence.clear();
-      proof.reason = fmt::format(
-          "{} need not be differentiable where {} = 0, which is not excluded on the level", f.name,
-          ring_.text(radicand));
-      return false;
-    }
-  }
-  return true;
-}
-
 void Prover::decide_invariance_once(Proof& proof, std::vector<NamedExpression> functions) {
   const Proof blank = proof;
   constexpr int kRounds = 4;
@@ -261,7 +240,8 @@ void Prover::decide_invariance_once(Proof& proof, std::vector<NamedExpression> f
     const std::vector<Residual> rates = level_rates(own);
     proof = blank;
     decide_on(proof, rates, own);
-    if (proof.verdict != Verdict::proved || !is_smooth_on(proof, own, functions_of(own), true))
+    if (proof.verdict != Verdict::proved ||
+        !is_smooth_on(proof, own, functions_of(own), Smooth::without_jumps))
       return;
     const std::size_t before = functions.size();
     for (const Residual& rate : rates) {

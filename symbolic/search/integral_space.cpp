@@ -12,6 +12,19 @@
 namespace casimir::search {
 namespace {
 
+/// The prime of a search. Where a level is given, one modulo which it has points: x^2 - 2*y^2 = 0
+/// has none but zero for half of the primes.
+Modulus modulus_for(const System& system, const LevelPoints& level) {
+  constexpr std::size_t kPrimes = 64;
+  for (std::size_t i = 0; i < kPrimes && level.possible(); ++i) {
+    std::mt19937_64 random(11);
+    const Modulus modulus = Modulus::nth(i);
+    const std::optional<Point> constants = system.random_point(modulus, random);
+    if (constants && level.draw(modulus, random, *constants)) return modulus;
+  }
+  return usable_modulus(system);
+}
+
 /// One search: the null space modulo a prime at a random point of the parameters, and what of it is
 /// new.
 class Run {
@@ -20,11 +33,11 @@ class Run {
       : system_(system),
         problem_(problem),
         watch_(watch),
-        modulus_(usable_modulus(system)),
+        level_(system, problem.on, problem.fields.places),
+        modulus_(problem.on.empty() ? usable_modulus(system) : modulus_for(system, level_)),
         random_(11),
         ansatz_(problem.weights.size()),
         span_(modulus_),
-        level_(system, problem.on, problem.fields.places),
         generators_(problem.known) {}
 
   Solution run();
@@ -52,6 +65,7 @@ class Run {
   const System& system_;
   const Problem& problem_;
   const Watch& watch_;
+  LevelPoints level_;
   Modulus modulus_;
   std::mt19937_64 random_;
   Monomials ansatz_;
@@ -64,7 +78,6 @@ class Run {
   std::size_t nullity_ = 0;
   std::vector<Point> points_;
   Span span_;
-  LevelPoints level_;
   std::vector<Generator> generators_;
   std::vector<std::vector<Residue>> generator_values_;
   Solution solution_;
@@ -136,7 +149,9 @@ void Run::draw_points(std::size_t count) {
     std::optional<Point> point = problem_.on.empty()
                                      ? system_.random_point(modulus_, random_, &constants_)
                                      : level_.draw(modulus_, random_, constants_);
-    if (!point) throw ModelError("no points of the level were found modulo a prime");
+    if (!point)
+      throw ModelError(
+          "no points of the level were found modulo any of the primes that were tried");
     points_.push_back(std::move(*point));
   }
 }

@@ -28,7 +28,9 @@ void decide_on_invariant_level(Prover& prover, Proof& proof, const std::vector<R
   if (invariance.verdict == Verdict::proved) {
     const Level level = prover.level(on);
     prover.decide(proof, residuals, level);
-    if (proof.verdict == Verdict::proved && !prover.is_smooth_on(proof, level, {f})) return;
+    if (proof.verdict == Verdict::proved &&
+        !prover.is_smooth_on(proof, level, {f}, Prover::Smooth::along_motion))
+      return;
     for (const std::string& condition : invariance.where) {
       if (std::find(proof.where.begin(), proof.where.end(), condition) == proof.where.end())
         proof.where.push_back(condition);

@@ -127,7 +127,8 @@ TEST(Levels, MeetRootsThatAreDifferentiable) {
   EXPECT_EQ(conditional("sin(x)", "y + x*sqrt(x^2)"), Verdict::proved);
   EXPECT_NE(conditional("sqrt(x)", "y + sqrt(x)"), Verdict::proved);
   EXPECT_NE(conditional("1 + sqrt(x)", "y + x^(3/2)"), Verdict::proved);
-  EXPECT_NE(conditional("x", "y + sqrt(x^2)"), Verdict::proved);
+  // |x| stays zero on x = 0.
+  EXPECT_EQ(conditional("x", "y + sqrt(x^2)"), Verdict::proved);
 }
 
 /// On y = 0 and x < 0 dF/dt is |x| - x, though the derivative of the root has 1/sqrt(y) in it.
@@ -146,6 +147,32 @@ TEST(Levels, MeetRootsWhoseDerivativesSayNoMore) {
 }
 
 /// y = 0 and y = 1 solve the equations, and the functions change with x there.
+TEST(Levels, MeetAbsoluteValuesOfWhatKeepsItsSign) {
+  // z where x, y and z have these rates, on a level.
+  const auto verdict = [](const std::string& x, const std::string& y, const std::string& z,
+                          const std::string& level, const std::string& f = "z") {
+    return proof_in_case("conditional",
+                         equations("[equations]\nx = \"" + x + "\"\ny = \"" + y + "\"\nz = \"" + z +
+                                   "\"\n[[conditional]]\nname = \"C\"\nexpression = \"" + f +
+                                   "\"\non = [\"" + level + "\"]\n"))
+        .verdict;
+  };
+  const std::string half = "abs(x) - x";
+  EXPECT_EQ(verdict("x", "1", half, half), Verdict::proved);
+  EXPECT_EQ(verdict("x", "1", half, "2*(sqrt(x^2) - x)"), Verdict::proved);
+  EXPECT_EQ(verdict("x*(y + z^2)", "1", half, half), Verdict::proved);
+  EXPECT_EQ(verdict("x", "1", half, half, "z + abs(x) - x"), Verdict::proved);
+  // The half-space x >= 0 is left.
+  EXPECT_NE(verdict("-1", "1", half, half), Verdict::proved);
+  EXPECT_NE(verdict("-sqrt(abs(x))", "1", half, half), Verdict::proved);
+  EXPECT_NE(verdict("-abs(x)^(1/3)", "1", half, half), Verdict::proved);
+  EXPECT_NE(verdict("x - y", "1", half, half), Verdict::proved);
+  // It is kept, but z grows on it; or z is another root of x, which has no rate at zero.
+  EXPECT_EQ(verdict("x", "1", "abs(x) + x", half), Verdict::refuted);
+  EXPECT_NE(verdict("x", "1", half, half, "z + abs(y) - y"), Verdict::proved);
+  EXPECT_NE(verdict("x", "1", "y", "y*abs(x)"), Verdict::proved);
+}
+
 TEST(Integrals, AreNoneWhereARootInTheMotionVanishes) {
   const auto where = [](const std::string& rate, const std::string& f) {
     const Proof proof =

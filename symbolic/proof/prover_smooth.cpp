@@ -1,0 +1,40 @@
+// Whether functions may be differentiated on a level.
+#include <fmt/format.h>
+
+#include "symbolic/proof/prover.hpp"
+
+namespace casimir {
+
+bool Prover::keeps_sign(const Polynomial& u, const Level& level) {
+  const auto [top, bottom] = ring_.lowest_terms(rate(u));
+  Polynomial cofactor(ring_.ring());
+  return (top.is_zero() || top.divide(u, &cofactor)) &&
+         vanishes_nowhere_on(bottom, level, Divisors::of_motion);
+}
+
+bool Prover::is_smooth_on(Proof& proof, const Level& level,
+                          const std::vector<NamedExpression>& list, Smooth smooth) {
+  if (ring_.is_polynomial()) return true;
+  const bool continuous = smooth == Smooth::without_jumps;
+  for (const NamedExpression& f : list) {
+    const Polynomial& value = convert(f.value);
+    for (const Polynomial& radicand : ring_.radicand_factors(value, continuous)) {
+      if (ring_.is_smooth_across(value, radicand)) continue;
+      // What only the claim divides by, the motion passes: x/|x| is 1 until it is -1.
+      const Divisors which = continuous ? Divisors::of_motion : Divisors::all;
+      if (vanishes_nowhere_on(radicand, level, which)) continue;
+      if (smooth != Smooth::everywhere && ring_.is_rough_in_absolute_value_alone(value, radicand) &&
+          keeps_sign(radicand, level))
+        continue;
+      proof.verdict = Verdict::undecided;
+      proof.evidence.clear();
+      proof.reason = fmt::format(
+          "{} need not be differentiable where {} = 0, which is not excluded on the level", f.name,
+          ring_.text(radicand));
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace casimir
