@@ -131,7 +131,7 @@ Case empty_domain(Random& random) {
       f = f + s * (absolute(v) - v);
       break;
     case 1:
-      f = random.one_in(2) ? s : f * s;
+      f = random.one_in(2) || f.is_number() ? s : f * s;  // 0*s is 0, which has a domain
       break;
     case 2:
       f = f + s;

@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
   app.add_option("--count", request.count, "how many claims");
   app.add_option("--seed", request.seed, "of the random numbers");
   app.add_option("--first", request.first, "index of the first claim");
-  app.add_option("--seconds", request.seconds, "allowed for one claim");
+  app.add_option("--seconds", request.seconds, "of processor time, allowed for one claim");
   app.add_option("--show", request.show, "how many failures of one sort are shown");
   app.add_option("--family", request.family, "only claims of this family are counted");
   app.add_option("--shrink", request.shrink, "seconds for making a failing claim smaller");

@@ -8,7 +8,7 @@ namespace casimir::adversary {
 /// What to run.
 struct Request {
   std::uint64_t count = 10000, seed = 1, first = 0;
-  double seconds = 120;
+  double seconds = 120;  ///< of processor time, for one claim
   int show = 1;
   std::string family{};
   bool print = false;
