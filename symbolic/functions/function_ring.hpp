@@ -324,6 +324,8 @@ class FunctionRing {
                       bool strict);
   void keep_product(const std::vector<std::pair<Polynomial, unsigned long>>& factors, bool strict);
   void imply_between(const Polynomial& v);
+  void imply_divisor(const Polynomial& bottom);
+  bool may_vanish(const Polynomial& f) const;
   bool is_sum_of_squares(const Polynomial& p) const;
   bool is_never_negative(std::size_t place) const;
   bool is_never_zero(std::size_t place) const;
@@ -336,6 +338,7 @@ class FunctionRing {
   static constexpr int kSignsInSum = 3;  ///< known signs that are added up to find another
   std::optional<bool> is_not_negative(const Polynomial& p, int depth = kSignsInSum) const;
   Polynomial zeros_of_variable(std::size_t place) const;
+  std::vector<Polynomial> zeros_of_terms(const Polynomial& p) const;
   std::optional<int> sign_of_number(const Polynomial& p) const;
   int sign_of(const Polynomial& p) const;
   std::optional<Polynomial> square_root(const Polynomial& p) const;
@@ -402,7 +405,8 @@ class FunctionRing {
   };
   static bool keep(std::vector<Implied>& list, const GiNaC::ex& value, bool strict);
   std::vector<Implied> implied_;
-  std::vector<Implied> products_;  ///< the same, where no single sign followed when it was met
+  std::vector<GiNaC::ex> divisors_;  ///< of radicands, irreducible: where one vanishes is no value
+  std::vector<Implied> products_;    ///< the same, where no single sign followed when it was met
   /// For a monomial in an angle or exponent: the least common denominator of its coefficients.
   std::vector<std::pair<GiNaC::ex, cln::cl_I>> units_;
   /// For a radicand: the least common multiple of the orders of its roots.

@@ -148,25 +148,34 @@ std::optional<bool> FunctionRing::is_not_negative(const Polynomial& p, int depth
 std::vector<Polynomial> FunctionRing::real_zeros(const Polynomial& p) const {
   if (complex_ && !generators_.empty()) return {p};
   for (const Polynomial& side : {p, -p}) {
-    std::vector<Polynomial> zeros;
-    const auto terms = side.term_list();
-    const bool squares = std::all_of(terms.begin(), terms.end(), [&](const auto& term) {
-      return sign_of_term(term.first, term.second) > 0;
-    });
-    if (!squares) {
-      if (auto completed = squares_of_quadratic(side)) return *completed;
-      continue;
+    std::pair<cln::cl_RA, std::vector<unsigned long>> bad;
+    if (const auto positive = not_negative_by_terms(side, &bad)) {
+      if (*positive) return {ring_->constant(1)};
+      return zeros_of_terms(side);
     }
-    for (const auto& [coefficient, exponents] : terms) {
-      Polynomial product = ring_->constant(1);
-      for (std::size_t i = 0; i < exponents.size(); ++i) {
-        if (exponents[i] > 0 && !is_never_zero(i)) product *= zeros_of_variable(i);
-      }
-      zeros.push_back(std::move(product));
-    }
-    return zeros;
+    if (auto completed = squares_of_quadratic(side)) return *completed;
   }
   return {p};
+}
+
+/// Of a sum of terms that are not negative, and of products m of sines and cosines with numbers c
+/// whose absolute values add up to the constant: the sum of |c| + c*m.
+std::vector<Polynomial> FunctionRing::zeros_of_terms(const Polynomial& p) const {
+  std::vector<Polynomial> zeros;
+  for (const auto& [coefficient, exponents] : p.term_list()) {
+    Polynomial product = ring_->constant(1);
+    if (sign_of_term(coefficient, exponents) <= 0) {
+      for (std::size_t i = 0; i < exponents.size(); ++i)
+        product *= ring_->variable(i).pow(exponents[i]);
+      zeros.push_back(cln::minusp(coefficient) ? ring_->constant(1) - product
+                                               : ring_->constant(1) + product);
+      continue;
+    }
+    for (std::size_t i = 0; i < exponents.size(); ++i)
+      if (exponents[i] > 0 && !is_never_zero(i)) product *= zeros_of_variable(i);
+    if (!product.is_constant()) zeros.push_back(std::move(product));
+  }
+  return zeros;
 }
 
 /// What vanishes where a variable of the ring does: of a root or an absolute value, its radicand.

@@ -117,7 +117,10 @@ Polynomial FunctionRing::root(const Polynomial& p, unsigned long q) {
   }
   radicand = checked_product(radicand, top);
   const auto factors = factors_of(radicand);
-  if (even) imply_radicand(factors, false);
+  if (even) {
+    imply_divisor(bottom);
+    imply_radicand(factors, false);
+  }
   Polynomial inside = ring_->constant(1);
   bool negative = false;
   for (const auto& [f, exponent] : factors) {

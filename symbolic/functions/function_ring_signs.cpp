@@ -73,7 +73,7 @@ void FunctionRing::read_sign(const Polynomial& p, int sign, Reading reading, boo
     const int known = factors[k].second % 2 == 0 ? 1 : known_sign(f);
     if (factors[k].second % 2 == 1) ++odd;
     if (known == 0) unknown.push_back(f);
-    if (known != 0 && !known_nonzero(f)) others_vanish = true;
+    if (known != 0 && may_vanish(f)) others_vanish = true;
     if (known < 0) sign = -sign;
   }
   if ((odd == 1) != (reading == Reading::first) || others_vanish) return;
@@ -200,6 +200,20 @@ void FunctionRing::imply_between(const Polynomial& v) {
   }
 }
 
+/// A radicand with this denominator, in lowest terms, has no value where that vanishes. So the
+/// factor is kept apart from what makes roots real: it is a condition that is printed.
+void FunctionRing::imply_divisor(const Polynomial& bottom) {
+  if (complex_ || built_) return;
+  for (const auto& [f, exponent] : bottom.factors())
+    if (!f.is_constant() && may_vanish(f)) divisors_.push_back(expression(f));
+}
+
+bool FunctionRing::may_vanish(const Polynomial& f) const {
+  return !known_nonzero(f) && std::none_of(divisors_.begin(), divisors_.end(), [&](const auto& d) {
+    return d.is_equal(expression(f)) || d.is_equal(expression(-f));
+  });
+}
+
 /// Of a product of which several signs are not known yet: it is read again when more is.
 void FunctionRing::keep_product(const std::vector<std::pair<Polynomial, unsigned long>>& factors,
                                 bool strict) {
@@ -233,7 +247,7 @@ void FunctionRing::imply_radicand(const std::vector<std::pair<Polynomial, unsign
         continue;
       }
     }
-    others_vanish = others_vanish || (!strict && !known_nonzero(f));
+    others_vanish = others_vanish || (!strict && may_vanish(f));
   }
   if (unknown != nullptr && !others_vanish) imply_sign(*unknown, sign, strict);
   if (unknown == nullptr && strict && odd == 1) {

@@ -247,8 +247,8 @@ Case half_space(Random& random) {
 Case squared_level(Random& random) {
   const bool stays = random.one_in(2);
   const Expr power = pow(x, random.between(2, 3));
-  const Expr f =
-      random.of(std::vector<Expr>{power, power * (1 + pow(y, 2)), 1 - cos(x), power * y});
+  const Expr f = random.of(std::vector<Expr>{power, power * (1 + pow(y, 2)), 1 - cos(x) + pow(x, 2),
+                                             power * y});  // 1 - cos(x) alone is zero at 2*Pi, too
   const bool whole = contains(f, "y") && f.node().arguments.back().node().op == Op::symbol;
   Case claim = on_level(Kind::invariant_relation, "level-squared", f, {});
   claim.system.equations = {(stays ? x : Expr(1)) * random.of(std::vector<Expr>{1, exp(z)}), y * z,
