@@ -12,12 +12,12 @@ namespace casimir {
 
 inline void to_fmpz(fmpz_t result, const cln::cl_I& value) {
   constexpr std::size_t kWord = 62;  // fits into a long with its sign
-  const std::size_t length = cln::integer_length(value);
+  const cln::cl_I size = cln::abs(value);
+  const std::size_t length = cln::integer_length(size);  // of -2^62 it is one less than of 2^62
   if (length < kWord) {
     fmpz_set_si(result, cln::cl_I_to_long(value));
     return;
   }
-  const cln::cl_I size = cln::abs(value);
   fmpz_zero(result);
   for (std::size_t word = (length + kWord - 1) / kWord; word-- > 0;) {
     const cln::cl_I part = cln::ldb(size, cln::cl_byte(kWord, word * kWord));

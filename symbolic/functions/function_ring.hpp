@@ -338,6 +338,7 @@ class FunctionRing {
   static constexpr int kSignsInSum = 3;  ///< known signs that are added up to find another
   std::optional<bool> is_not_negative(const Polynomial& p, int depth = kSignsInSum) const;
   Polynomial zeros_of_variable(std::size_t place) const;
+  std::optional<Polynomial> logarithm_of_reciprocal(const Polynomial& p, unsigned long tag);
   std::vector<Polynomial> zeros_of_terms(const Polynomial& p) const;
   std::optional<int> sign_of_number(const Polynomial& p) const;
   int sign_of(const Polynomial& p) const;

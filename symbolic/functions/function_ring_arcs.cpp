@@ -6,7 +6,9 @@
 //   asin(-u) = -asin(u), acos(-u) = Pi - acos(u), asin(u) + acos(u) = Pi/2,
 //   atan(1/u) = Pi/2 - atan(u) for u > 0 and -Pi/2 - atan(u) for u < 0,
 //   atan2(y, x) = atan(y/x) for x > 0, atan2(t y, t x) = atan2(y, x) for t > 0,
-//   asin(u/sqrt(1 + u^2)) = atan(u).
+//   asin(u/sqrt(1 + u^2)) = atan(u),
+//   2*atan(u/(1 + sqrt(1 + u^2))) = atan(u), 2*atan(|u|) = acos((1 - u^2)/(1 + u^2)),
+//   2*asin(sqrt((1 - u)/2)) = acos(u): of one of the two the sine and cosine are those of twice it.
 // The signs come in by the roots in the sines and cosines, which know no more than is declared.
 // atan2(-y, x) = -atan2(y, x) is not among them: on the cut both are Pi.
 #include <algorithm>
@@ -21,6 +23,9 @@ namespace {
 struct Range {
   int low, high;
   bool has_low, has_high;  ///< whether the ends belong to it
+
+  /// Of the function times a positive number.
+  Range times(int factor) const { return {low * factor, high * factor, has_low, has_high}; }
 };
 
 /// Whether a - sign*b - quarters is zero wherever it is a whole number of turns.
@@ -47,9 +52,12 @@ std::optional<Polynomial> FunctionRing::known_inverse(const GiNaC::function& f) 
                    : name == "atan" ? kArcTangent
                                     : kArcTangentOfTwo;
   const auto range = [&](const GiNaC::ex& value, unsigned long kind) {
-    if (kind == kArcSine) return Range{-1, 1, true, true};
-    if (kind == kArcCosine) return Range{0, 2, true, true};
-    if (kind == kArcTangent) return Range{-1, 1, false, false};
+    const int sign = sign_of(convert(value.op(0)));
+    if (kind == kArcCosine) return Range{sign < 0 ? 1 : 0, sign > 0 ? 1 : 2, true, true};
+    if (kind == kArcSine || kind == kArcTangent) {
+      const bool ends = kind == kArcSine;
+      return Range{sign > 0 ? 0 : -1, sign < 0 ? 0 : 1, sign > 0 || ends, sign < 0 || ends};
+    }
     if (sign_of(convert(value.op(1))) > 0) return Range{-1, 1, true, true};
     return Range{-2, 2, false, true};
   };
@@ -64,6 +72,17 @@ std::optional<Polynomial> FunctionRing::known_inverse(const GiNaC::function& f) 
     if (kind == kArcTangent) return Squares{square, one, one + square};
     const Polynomial x = convert(value.op(1));
     return Squares{square, checked_product(x, x), checked_product(x, x) + square};
+  };
+  const auto doubled = [&](const Squares& s) {  // sin(2a) = 2 sin(a) cos(a)
+    const Polynomial difference = s.cosine - s.sine;
+    return Squares{checked_product(s.sine, s.cosine).scaled(4),
+                   checked_product(difference, difference), checked_product(s.bottom, s.bottom)};
+  };
+  const auto multiple = [&](const std::pair<Polynomial, Polynomial>& of, int times) {
+    const auto& [sine, cosine] = of;
+    if (times == 1) return of;
+    return std::pair(checked_product(sine, cosine).scaled(2),
+                     checked_product(cosine, cosine) - checked_product(sine, sine));
   };
   /// The arguments of `other` have values where those of f have.
   const auto has_values = [&](std::size_t other) {
@@ -89,25 +108,34 @@ std::optional<Polynomial> FunctionRing::known_inverse(const GiNaC::function& f) 
       continue;
     // The squares of the sines come without roots.
     const Squares a = squares(f, tag), b = squares(generators_[g].value, other);
-    const auto equal = [&](const Polynomial& p, const Polynomial& q) {
-      return numerator(checked_product(p, b.bottom) - checked_product(q, a.bottom)).is_zero();
-    };
-    if (!equal(a.sine, b.sine) && !equal(a.sine, b.cosine)) continue;
-    const auto [s1, c1] = inverse_sine_cosine({Kind::function, f, one, tag, {}, 1});
-    const auto [s2, c2] = inverse_sine_cosine(Generator(generators_[g]));
-    for (const int sign : {1, -1}) {
-      const Polynomial s = s2.scaled(sign);
-      const std::array turned = {std::pair(s, c2), std::pair(c2, -s), std::pair(-s, -c2),
-                                 std::pair(-c2, s)};
-      for (int k = 0; k < 4; ++k) {
-        const int quarters = k == 3 ? -1 : k;
-        const auto& [sine, cosine] = turned[static_cast<std::size_t>(k)];
-        if (!is_one_turn_only(range(f, tag), range(generators_[g].value, other), sign, quarters) ||
-            !numerator(s1 - sine).is_zero() || !numerator(c1 - cosine).is_zero() || !has_values(g))
-          continue;
-        const Polynomial angle = ring_->variable(symbols_.size() + g).scaled(sign);
-        if (quarters == 0) return angle;
-        return angle + convert(GiNaC::Pi).scaled(cln::cl_RA(quarters) / 2);
+    for (const auto& [times, others] : {std::pair(1, 1), std::pair(1, 2), std::pair(2, 1)}) {
+      const Squares of_f = times == 2 ? doubled(a) : a, of_other = others == 2 ? doubled(b) : b;
+      const auto equal = [&, first = of_f.sine](const Polynomial& second) {
+        return numerator(checked_product(first, of_other.bottom) -
+                         checked_product(second, of_f.bottom))
+            .is_zero();
+      };
+      if (!equal(of_other.sine) && !equal(of_other.cosine)) continue;
+      const auto [s1, c1] =
+          multiple(inverse_sine_cosine({Kind::function, f, one, tag, {}, 1}), times);
+      const auto [s2, c2] = multiple(inverse_sine_cosine(Generator(generators_[g])), others);
+      const Range own = range(f, tag).times(times);
+      const Range its = range(generators_[g].value, other).times(others);
+      for (const int sign : {1, -1}) {
+        const Polynomial s = s2.scaled(sign);
+        const std::array turned = {std::pair(s, c2), std::pair(c2, -s), std::pair(-s, -c2),
+                                   std::pair(-c2, s)};
+        for (int k = 0; k < 4; ++k) {
+          const int quarters = k == 3 ? -1 : k;
+          const auto& [sine, cosine] = turned[static_cast<std::size_t>(k)];
+          if (!is_one_turn_only(own, its, sign, quarters) || !numerator(s1 - sine).is_zero() ||
+              !numerator(c1 - cosine).is_zero() || !has_values(g))
+            continue;
+          const Polynomial angle =
+              ring_->variable(symbols_.size() + g).scaled(cln::cl_RA(sign * others) / times);
+          if (quarters == 0) return angle;
+          return angle + convert(GiNaC::Pi).scaled(cln::cl_RA(quarters) / (2 * times));
+        }
       }
     }
   }

@@ -103,6 +103,29 @@ std::optional<Polynomial> FunctionRing::logarithm_of_generator(const Polynomial&
   return std::nullopt;
 }
 
+/// log|p| = log|c| - log|b| where a logarithm of b is known and p*b is a number c: then b vanishes
+/// nowhere that p does not, and both have values at the same points. So log(w - x) is
+/// -log(w + x) for w = sqrt(x^2 + 1).
+/// \param tag  of log(p) or log|p|; the former has a value where p > 0, as log(b) where b > 0
+std::optional<Polynomial> FunctionRing::logarithm_of_reciprocal(const Polynomial& p,
+                                                                unsigned long tag) {
+  if (complex_ || p.is_constant()) return std::nullopt;
+  for (std::size_t g = 0; g < generators_.size(); ++g) {
+    const Generator& own = generators_[g];
+    const bool is_logarithm =
+        own.kind == Kind::function &&
+        (own.order == kLogOfAbsolute || (own.order == kLogarithm && tag == kLogarithm));
+    if (!is_logarithm || own.base.is_constant()) continue;
+    const auto [top, bottom] = lowest_terms(checked_product(p, own.base));
+    if (!top.is_constant() || !bottom.is_constant() || top.is_zero()) continue;
+    const cln::cl_RA number = cln::abs(top.term_list()[0].first / bottom.term_list()[0].first);
+    const Polynomial of_number =
+        logarithm(GiNaC::log(ex(GiNaC::numeric(number))), ring_->constant(number));
+    return of_number - ring_->variable(symbols_.size() + g);
+  }
+  return std::nullopt;
+}
+
 /// log(p) as a sum of logarithms of primes and of irreducible factors, each positive where that is
 /// known, so that log(x*y) = log(x) + log(y).
 Polynomial FunctionRing::logarithm(const ex& whole, const Polynomial& p) {
@@ -111,6 +134,7 @@ Polynomial FunctionRing::logarithm(const ex& whole, const Polynomial& p) {
     std::size_t index = 0;
     if (find(Kind::function, base, tag, &index) != nullptr)
       return ring_->variable(symbols_.size() + index);
+    if (const auto reciprocal = logarithm_of_reciprocal(base, tag)) return *reciprocal;
     const Polynomial over = inverse(base);
     return generator(Kind::function, value, base, tag,
                      [&](const Polynomial& slope) { return slope * over; });

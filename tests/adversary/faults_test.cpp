@@ -62,6 +62,7 @@ constexpr Known kFaults[] = {
     {"complex-inverse-root", "identity", "root of L^2 y", Truth::no},
     {"crash-on-simpler-level", "invariant_relation", "R", Truth::yes},
     {"crash-on-zero", "conditional", "C", Truth::no},
+    {"number-of-62-bits", "invariant_relation", "R", Truth::no},
     {"definition-named-H", "integral", "F", Truth::no},
     {"facts-abs", "liouville", "", Truth::no},
     {"facts-asin-acos", "independence", "", Truth::no},

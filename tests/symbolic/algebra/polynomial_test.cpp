@@ -22,6 +22,27 @@ TEST_F(Ring3, ArithmeticIsExact) {
   EXPECT_EQ(ring_.constant(huge).scaled(1 / huge), one_);
 }
 
+/// -2^62 and -2^124 were 0: a negative number may be longer than the count of its bits says.
+TEST_F(Ring3, KeepsNumbersOfEveryLengthAndSign) {
+  constexpr int kLongest = 200;
+  for (int k = 0; k <= kLongest; ++k) {
+    for (const int beside : {-1, 0, 1}) {
+      for (const int sign : {1, -1}) {
+        const cln::cl_I number = sign * (cln::ash(cln::cl_I(1), k) + beside);
+        if (number == 0) continue;
+        TermCollector collector(ring_);
+        collector.add(number, {1, 0, 0});
+        collector.add(1, {0, 1, 0});
+        const Polynomial sum = collector.finish();
+        EXPECT_EQ(sum.terms(), 2U) << number;
+        EXPECT_EQ(sum.evaluate({1, 0, 0}), number);
+        EXPECT_EQ(x_.scaled(number) + y_, sum) << number;
+        EXPECT_EQ(x_.scaled(1 / cln::cl_RA(number)).evaluate({1, 0, 0}), 1 / cln::cl_RA(number));
+      }
+    }
+  }
+}
+
 TEST_F(Ring3, EvaluatesAndDifferentiates) {
   const Polynomial p = x_.pow(3) * y_ + z_.scaled(cln::cl_RA(1) / 2);
   EXPECT_EQ(p.evaluate({2, 3, 5}), 24 + cln::cl_RA(5) / 2);

@@ -210,6 +210,28 @@ TEST_F(Relations, LogarithmsOfRootsAndExponentials) {
   EXPECT_THROW(zero("log(sin(x)^2 + cos(x)^2 - 1)"), ModelError);
 }
 
+TEST_F(Relations, InverseFunctionsOfTwiceOthers) {
+  for (const std::string same :
+       {"2*atan(x/(1 + sqrt(1 + x^2))) - atan(x)", "acos((1 - x^2)/(1 + x^2)) - 2*atan(sqrt(x^2))",
+        "2*asin(sqrt((1 - x)/2)) - acos(x)", "acos(2*x^2 - 1) - 2*acos(sqrt(x^2))",
+        "acos(1 - 2*x^2) - 2*asin(sqrt(x^2))", "atan(x) - 2*atan(x/(1 + sqrt(1 + x^2)))"})
+    EXPECT_TRUE(zero(same)) << same;
+  // The sines and cosines are equal, but the angles differ by a whole turn somewhere, or in sign.
+  for (const std::string other :
+       {"acos((1 - x^2)/(1 + x^2)) - 2*atan(x)", "acos(2*x^2 - 1) - 2*acos(x)",
+        "atan(2*x/(1 - x^2)) - 2*atan(x)", "asin(2*x/(1 + x^2)) - 2*atan(x)",
+        "atan2(2*x*y, x^2 - y^2) - 2*atan2(y, x)", "2*asin(sqrt((1 - x)/2)) + acos(x)",
+        "asin(2*x*sqrt(1 - x^2)) - 2*asin(x)"})
+    EXPECT_FALSE(zero(other)) << other;
+}
+
+TEST_F(Relations, LogarithmsOfReciprocals) {
+  EXPECT_TRUE(zero("log(sqrt(x^2 + 1) - x) + log(sqrt(x^2 + 1) + x)"));
+  EXPECT_TRUE(zero("log(sqrt(x^2 + 4) + x*y/y) + log(sqrt(x^2 + 4) - x) - 2*log(2)"));
+  EXPECT_FALSE(zero("log(sqrt(x^2 + 4) + x) + log(sqrt(x^2 + 4) - x)"));
+  EXPECT_FALSE(zero("log(sqrt(x^2 + 1) - x) - log(sqrt(x^2 + 1) + x)"));
+}
+
 TEST_F(Relations, DerivativesOfPartsOfAngles) {
   for (const std::string v :
        {"atan2(y, x)", "atan2(x*t, y - x)", "atan(x*y)", "asin(x)", "acos(x)"}) {
