@@ -104,7 +104,7 @@ class Cutter {
       member = again_.back();
       again_.pop_back();
     } else {
-      member = shared_.work.next();
+      member = shared_.work.next(0);
     }
     if (member < 0) return member;
     const RunningOrbit& orbit = shared_.orbits[static_cast<std::size_t>(member)];
