@@ -5,6 +5,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "runtime/ensemble.hpp"
@@ -40,6 +41,8 @@ class EnsembleWork {
  private:
   /// The members of one absolute tolerance, in their order.
   struct Share {
+    Share(double tolerance, std::vector<std::size_t> who)
+        : atol(tolerance), members(std::move(who)) {}
     double atol;
     std::vector<std::size_t> members;
     std::atomic<std::size_t> next = 0;
