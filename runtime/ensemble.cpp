@@ -44,6 +44,8 @@ class Feed {
     (*static_cast<Feed*>(self)->look_)(*trial, parts);
   }
   bool looks() const { return look_.has_value(); }
+  /// Goes on with the members of another absolute tolerance.
+  void take_from(std::size_t share) { share_ = share; }
 
  private:
   bool looks_at_any(const StepWatch& watch) const {
@@ -54,7 +56,7 @@ class Feed {
   }
 
   long long next_member(double* x, const double** numbers) {
-    const long long member = work_.next();
+    const long long member = work_.next(share_);
     if (member < 0) return member;
     const Ensemble& ensemble = work_.ensemble();
     const auto index = static_cast<std::size_t>(member);
@@ -84,6 +86,7 @@ class Feed {
   EndCheck check_;
   std::optional<LaneLook> look_;
   unsigned calls_ = 0;
+  std::size_t share_ = 0;
 };
 
 }  // namespace
@@ -102,14 +105,17 @@ EnsembleResult integrate_in_lanes(const Ensemble& ensemble, const LaneKernel& ke
     casimir_ensemble run = {};
     run.t_end = settings.duration;
     run.rtol = settings.rtol;
-    run.atol = settings.atol;
     run.max_steps = settings.max_steps;
     run.next = Feed::next;
     run.done = Feed::done;
     run.give_up = Feed::give_up;
     run.look = feed.looks() ? Feed::look : nullptr;
     run.source = &feed;
-    kernel.run(&run);
+    for (std::size_t share = 0; share < work.shares(); ++share) {
+      feed.take_from(share);
+      run.atol = work.atol(share);
+      kernel.run(&run);
+    }
     lock.lock();  // until the feed is gone
   });
   work.result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
@@ -133,15 +139,18 @@ EnsembleResult integrate_members(const Ensemble& ensemble,
     own.invariant_terms = nullptr;
     own.invariants = nullptr;
     own.give_up = [&] { return work.give_up(calls); };
-    for (long long next; (next = work.next()) >= 0;) {
-      const auto member = static_cast<std::size_t>(next);
-      const double *const x = ensemble.state(member), *const p = ensemble.values_of(member);
-      const Trajectory trajectory =
-          integrate(module, method, own, {x, x + ensemble.states}, {p, p + ensemble.parameters});
-      MemberResult& result = work.result.members[member];
-      result = {trajectory.status, trajectory.time,    trajectory.state, {},
-                trajectory.steps,  trajectory.rejected};
-      check(member, result);
+    for (std::size_t share = 0; share < work.shares(); ++share) {
+      own.atol = work.atol(share);
+      for (long long next; (next = work.next(share)) >= 0;) {
+        const auto member = static_cast<std::size_t>(next);
+        const double *const x = ensemble.state(member), *const p = ensemble.values_of(member);
+        const Trajectory trajectory =
+            integrate(module, method, own, {x, x + ensemble.states}, {p, p + ensemble.parameters});
+        MemberResult& result = work.result.members[member];
+        result = {trajectory.status, trajectory.time,    trajectory.state, {},
+                  trajectory.steps,  trajectory.rejected};
+        check(member, result);
+      }
     }
     lock.lock();  // until the check is gone
   });

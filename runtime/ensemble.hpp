@@ -15,6 +15,9 @@ struct Ensemble {
   std::size_t parameters = 0;   ///< run-time parameters of a member, m
   std::vector<double> initial;  ///< n for each member, one member after the other
   std::vector<double> values;   ///< m for each member
+  /// Absolute tolerance of each member, in the place of that of the settings; empty: theirs.
+  /// Members of one tolerance share registers, so that few different ones are better than many.
+  std::vector<double> atol = {};
 
   /// The number of members.
   std::size_t size() const { return states > 0 ? initial.size() / states : 0; }
@@ -22,6 +25,10 @@ struct Ensemble {
   const double* state(std::size_t member) const { return initial.data() + member * states; }
   /// Its parameters.
   const double* values_of(std::size_t member) const { return values.data() + member * parameters; }
+  /// Its absolute tolerance, where the settings have that of the others.
+  double atol_of(std::size_t member, double of_settings) const {
+    return atol.empty() ? of_settings : atol[member];
+  }
 };
 
 /// What came of a member: see Trajectory. Its invariants are compared at the end of the run, not at

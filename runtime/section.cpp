@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <mutex>
 #include <new>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "runtime/ensemble/ensemble_work.hpp"
 #include "runtime/ensemble/lane_look.hpp"
 #include "runtime/ensemble/part_of_step.hpp"
+#include "runtime/section/plane_watch.hpp"
 #include "runtime/section/section_orbit.hpp"
 #include "runtime/taylor/jet_layout.hpp"
 
@@ -29,7 +31,9 @@ constexpr double kEndOfTime = 1e15;
 /// The series of the function has converged where its last two terms are not larger. The zeros of
 /// it are then made exact; see RunningOrbit.
 constexpr double kTail = 1e-10;
-constexpr int kMostParts = 1024;
+/// How short a part of a step may become, and how many there may be of one step.
+constexpr std::int64_t kMostParts = std::int64_t{1} << 40;
+constexpr int kMostPartsOfStep = 4096;
 
 /// What the threads share.
 struct Cutting {
@@ -38,6 +42,7 @@ struct Cutting {
   const SectionSettings& settings;
   const PlaneOfOrbit& plane;
   const JetLayout& layout;
+  std::optional<StepWatch> plane_watch;
   std::vector<double> numbers;  ///< what the kernel wants of every orbit
   std::vector<RunningOrbit> orbits;
   std::atomic<std::size_t> found = 0;
@@ -65,10 +70,13 @@ class Cutter {
         kernel_(jet_kernel(shared.kernel.lanes)),
         memory_(new (std::align_val_t(64)) double[static_cast<std::size_t>(
             tables_.rows * (CASIMIR_MOST_JET_ORDER + 1) * shared.kernel.lanes)]) {
-    if (!shared.kernel.watch) return;
     const std::lock_guard lock(exact_constants_guard());
-    look_.emplace(*shared.kernel.watch, shared.work.ensemble().states, shared.kernel.lanes,
-                  [](long long) { return nullptr; });
+    const auto looks = [&](const StepWatch& watch) {
+      return LaneLook(watch, shared.work.ensemble().states, shared.kernel.lanes,
+                      [](long long) { return nullptr; });
+    };
+    if (shared.kernel.watch) look_.emplace(looks(*shared.kernel.watch));
+    if (shared.plane_watch) plane_look_.emplace(looks(*shared.plane_watch));
   }
 
   void run() {
@@ -104,7 +112,7 @@ class Cutter {
       member = again_.back();
       again_.pop_back();
     } else {
-      member = shared_.work.next();
+      member = shared_.work.next(0);
     }
     if (member < 0) return member;
     const RunningOrbit& orbit = shared_.orbits[static_cast<std::size_t>(member)];
@@ -115,37 +123,43 @@ class Cutter {
 
   void observe(const casimir_lane_step& step) {
     kernel_(&tables_, &step, memory_.get(), &range_);
-    const auto converged = [&](int lane) { return range_.tail[lane] <= kTail; };
     std::array<bool, 8> in_parts{};
     for (int lane = 0; lane < step.lanes; ++lane) {
       if (!step.held[lane] || step.member[lane] < 0) continue;
-      if (converged(lane))
+      if (is_fine(step, lane))
         step.finished[lane] = see(step, lane) ? -1 : 0;
       else
         in_parts[static_cast<std::size_t>(lane)] = true;
     }
     for (int lane = 0; lane < step.lanes; ++lane)
-      if (in_parts[static_cast<std::size_t>(lane)])
-        step.finished[lane] = see_in_parts(step, lane) ? -1 : 0;
+      if (in_parts[static_cast<std::size_t>(lane)]) {
+        parts_left_ = kMostPartsOfStep;
+        step.finished[lane] = see_in_parts(step, lane, 0, 1) ? -1 : 0;
+      }
   }
 
-  /// As many parts of a step as the series of the function needs. What is done to a lane does not
-  /// depend on the others.
-  bool see_in_parts(const casimir_lane_step& whole, int lane) {
-    int parts = 2;
-    bool fine = false;
-    for (; !fine && parts < kMostParts; parts *= fine ? 1 : 2) {
-      fine = true;
-      for (int which = 0; which < parts && fine; ++which) {
-        kernel_(&tables_, &part_.take(whole, which, parts), memory_.get(), &range_);
-        fine = range_.tail[lane] <= kTail;
-      }
-    }
-    if (!fine) shared_.orbits[static_cast<std::size_t>(whole.member[lane])].doubt();
-    for (int which = 0; which < parts; ++which) {
-      const casimir_lane_step& step = part_.take(whole, which, parts);
+  /// Whether the series that the kernel has worked on is the function of the plane all along the
+  /// step.
+  bool is_fine(const casimir_lane_step& step, int lane) {
+    return range_.tail[lane] <= kTail && (!plane_look_ || plane_look_->of_lane(step, lane) >= 1);
+  }
+
+  /// Both halves of a part of a step, in halves themselves as often as the series of the function
+  /// needs it. What is done to a lane does not depend on the others. Whether the orbit has seen
+  /// enough.
+  bool see_in_parts(const casimir_lane_step& whole, int lane, std::int64_t which,
+                    std::int64_t parts) {
+    for (std::int64_t half = 2 * which; half < 2 * which + 2; ++half) {
+      // One at a time: its step is that of the next as well.
+      const casimir_lane_step& step = part_.take(whole, half, 2 * parts);
       kernel_(&tables_, &step, memory_.get(), &range_);
-      if (see(step, lane)) return true;
+      const bool given_up = --parts_left_ < 0 || !std::isfinite(range_.tail[lane]);
+      if (given_up) shared_.orbits[static_cast<std::size_t>(whole.member[lane])].doubt();
+      if (given_up || is_fine(step, lane)) {
+        if (see(step, lane)) return true;
+      } else if (2 * parts < kMostParts && see_in_parts(whole, lane, half, 2 * parts)) {
+        return true;
+      }  // else about a corner: the next part begins behind it
     }
     return false;
   }
@@ -184,7 +198,8 @@ class Cutter {
   const std::unique_ptr<double[], AlignedDelete> memory_;
   casimir_jet_range range_ = {};
   PartOfStep part_;
-  std::optional<LaneLook> look_;
+  int parts_left_ = 0;
+  std::optional<LaneLook> look_, plane_look_;
   std::vector<long long> again_;
   unsigned calls_ = 0;
 };
@@ -211,6 +226,7 @@ SectionResult cut(const LaneKernel& kernel, const SectionPlane& plane,
                  .settings = settings,
                  .plane = place,
                  .layout = layout,
+                 .plane_watch = watch_of_plane(plane.function, settings.states, seed_size),
                  .numbers = numbers_of(kernel),
                  .orbits = {}};
   for (std::size_t i = 0; i < ensemble.size(); ++i)

@@ -81,14 +81,16 @@ class Signatures {
   std::vector<int> of_variable_;
 };
 
-/// The cheapest of the programs considered; of equals the first.
+/// The cheapest of the programs considered, of those whose numbers doubles have if there are any;
+/// of equals the first.
 class Choice {
  public:
   Choice(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs)
       : inputs_(inputs), outputs_(outputs) {}
 
   void consider(Program candidate) {
-    const int cost = weight(count_operations(candidate));
+    const std::pair cost(std::ranges::any_of(candidate.constants, beyond_range),
+                         weight(count_operations(candidate)));
     if (best_ && cost >= least_) return;
     best_ = std::move(candidate);
     least_ = cost;
@@ -96,7 +98,7 @@ class Choice {
 
   /// The structure of the expressions and, while it is not too long, their expansion.
   void consider_forms_of(const Dag& dag, const std::vector<Scaled>& expressions) {
-    const TermSystem structural = system_of(dag, inputs_.size(), expressions);
+    const TermSystem structural = within_range(system_of(dag, inputs_.size(), expressions));
     consider_factored(structural);
     consider(structural);
     const std::size_t limit =
@@ -124,7 +126,7 @@ class Choice {
   const std::vector<std::string>& outputs_;
   Signatures signatures_;
   std::optional<Program> best_;
-  int least_ = 0;
+  std::pair<bool, int> least_;  ///< numbers that doubles do not have, and operations
 };
 
 bool same(const std::vector<Scaled>& a, const std::vector<Scaled>& b) {

@@ -1,5 +1,11 @@
-// rescaled: TermSystem -> TermSystem.
+// rescaled and within_range: TermSystem -> TermSystem.
+#include <cln/integer.h>
+#include <cln/rational.h>
+#include <cln/real.h>
+
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <utility>
 
 #include "codegen/optimise/terms.hpp"
@@ -71,6 +77,24 @@ cln::cl_RA best_scale(const TermSystem& system, std::size_t sum, const Sum& abou
   return best;
 }
 
+/// The root of a positive number: exactly, where it is rational, else to eight bits.
+cln::cl_RA root_of(const cln::cl_RA& number, int degree) {
+  cln::cl_RA exact;
+  if (cln::rootp(number, cln::cl_I(degree), &exact)) return exact;
+  const auto log2_of = [](const cln::cl_I& whole) {
+    constexpr long kMantissa = 60;
+    const long more = std::max(0L, static_cast<long>(cln::integer_length(whole)) - kMantissa);
+    return static_cast<double>(more) +
+           std::log2(cln::double_approx(cln::cl_I(cln::ash(whole, -more))));
+  };
+  const double log2 =
+      (log2_of(cln::numerator(number)) - log2_of(cln::denominator(number))) / degree;
+  constexpr int kBits = 8;
+  const auto whole = static_cast<int>(std::floor(log2));
+  const auto part = static_cast<long>(std::lround(std::exp2(log2 - whole + kBits)));
+  return cln::cl_RA(part) * cln::expt(cln::cl_RA(2), whole - kBits);
+}
+
 }  // namespace
 
 TermSystem rescaled(TermSystem system) {
@@ -83,6 +107,43 @@ TermSystem rescaled(TermSystem system) {
     for (const Use& use : sums[v].uses) {
       cln::cl_RA& c = system.variables[use.polynomial].value[use.term].coefficient;
       c = c / cln::expt(scale, use.exponent);
+    }
+  }
+  return system;
+}
+
+bool beyond_range(const cln::cl_RA& number) {
+  constexpr long kMostBits = 600;  // doubles have 1000, and some are left for what it multiplies
+  return number != 0 &&
+         std::abs(static_cast<long>(cln::integer_length(cln::numerator(number))) -
+                  static_cast<long>(cln::integer_length(cln::denominator(number)))) > kMostBits;
+}
+
+TermSystem within_range(TermSystem system) {
+  for (std::size_t v = 0; v < system.variables.size(); ++v) {
+    for (std::size_t t = 0; t < system.variables[v].value.size(); ++t) {
+      const Term term = system.variables[v].value[t];
+      if (!beyond_range(term.coefficient) || term.monomial.empty()) continue;
+      const std::size_t place = static_cast<std::size_t>(
+          std::ranges::max_element(term.monomial, {}, &VariablePower::exponent) -
+          term.monomial.begin());
+      const VariablePower power = term.monomial[place];
+      if (power.exponent == 1) continue;
+      const cln::cl_RA scale = root_of(cln::abs(term.coefficient), power.exponent);
+      const Variable& base = system.variables[static_cast<std::size_t>(power.variable)];
+      if (base.constant) continue;
+      Variable scaled;
+      scaled.kind = Variable::Kind::polynomial;
+      scaled.value = {{scale, {{power.variable, 1}}}};
+      if (base.kind == Variable::Kind::polynomial) {
+        scaled.value = base.value;
+        for (Term& inner : scaled.value) inner.coefficient = inner.coefficient * scale;
+      }
+      const int added = system.add(std::move(scaled));
+      Term& used = system.variables[v].value[t];
+      used.coefficient = used.coefficient / cln::expt(scale, power.exponent);
+      used.monomial.erase(used.monomial.begin() + static_cast<std::ptrdiff_t>(place));
+      used.monomial.push_back({added, power.exponent});
     }
   }
   return system;

@@ -67,6 +67,14 @@ TermSystem flattened(TermSystem system);
 /// x + 1/10.
 TermSystem rescaled(TermSystem system);
 
+/// Whether a number is so large or so small that doubles do not have it, or hardly.
+bool beyond_range(const cln::cl_RA& number);
+
+/// The same with numbers that doubles have, as far as they belong to a power: of (u + 2000)^2000
+/// times 2000^(-2000), which is how GiNaC writes (u/2000 + 1)^2000, this. Another power than a
+/// whole one is left a factor.
+TermSystem within_range(TermSystem system);
+
 /// A product of two monomials.
 Monomial multiply(const Monomial& a, const Monomial& b);
 

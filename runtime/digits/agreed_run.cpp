@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "runtime/program/zero_states.hpp"
+
 namespace casimir {
 namespace {
 
@@ -60,7 +62,17 @@ constexpr int kMostRounds = 8;
 class Search {
  public:
   Search(PreciseProblem problem, int digits, const std::function<void(int)>& begin)
-      : problem_(std::move(problem)), wanted_(digits), begin_(begin) {}
+      : problem_(std::move(problem)), wanted_(digits), begin_(begin) {
+    // Rounding would take these off 0, and no two runs would ever agree in what it leaves there.
+    const std::vector<cln::cl_R> start = problem_.start(digits);
+    std::vector<bool> zero;
+    for (std::size_t i = 0; i < problem_.rhs->outputs.size(); ++i)
+      zero.push_back(cln::zerop(start[i]));
+    rhs_ = at_rest(*problem_.rhs, states_that_stay_zero(*problem_.rhs, zero));
+    problem_.rhs = &rhs_;
+  }
+  Search(const Search&) = delete;
+  Search& operator=(const Search&) = delete;
 
   AgreedRun operator()() {
     find_loss();
@@ -151,6 +163,7 @@ class Search {
   }
 
   PreciseProblem problem_;
+  Program rhs_;  ///< of the problem, at rest where the solution is
   int wanted_;
   const std::function<void(int)>& begin_;
   AgreedRun best_;

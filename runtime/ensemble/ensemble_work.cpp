@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <stdexcept>
 #include <thread>
 
 #include "runtime/evaluate.hpp"
@@ -16,12 +18,19 @@ EnsembleWork::EnsembleWork(const Ensemble& ensemble, const Settings& settings)
   result.members.resize(ensemble.size());
   for (std::size_t i = 0; i < ensemble.size(); ++i)
     result.members[i].state.assign(ensemble.state(i), ensemble.state(i) + ensemble.states);
+  if (!ensemble.atol.empty() && ensemble.atol.size() != ensemble.size())
+    throw std::invalid_argument("an ensemble has an absolute tolerance for each member or none");
+  std::map<double, std::vector<std::size_t>> of_atol;
+  for (std::size_t i = 0; i < ensemble.size(); ++i)
+    of_atol[ensemble.atol_of(i, settings.atol)].push_back(i);
+  for (auto& [atol, members] : of_atol) shares_.emplace_back(atol, std::move(members));
 }
 
-long long EnsembleWork::next() {
-  if (stop_) return -1;
-  const std::size_t member = next_++;
-  return member < ensemble_.size() ? static_cast<long long>(member) : -1;
+long long EnsembleWork::next(std::size_t share) {
+  if (stop_ || share >= shares_.size()) return -1;
+  Share& from = shares_[share];
+  const std::size_t place = from.next++;
+  return place < from.members.size() ? static_cast<long long>(from.members[place]) : -1;
 }
 
 bool EnsembleWork::give_up(unsigned& calls) {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <atomic>
+#include <deque>
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "runtime/ensemble.hpp"
@@ -17,8 +19,14 @@ class EnsembleWork {
  public:
   EnsembleWork(const Ensemble& ensemble, const Settings& settings);
 
-  /// The next member that nobody has, or -1.
-  long long next();
+  /// How many absolute tolerances the members have.
+  std::size_t shares() const { return shares_.size(); }
+
+  /// The absolute tolerance of a share.
+  double atol(std::size_t share) const { return shares_[share].atol; }
+
+  /// The next member of a share that nobody has, or -1.
+  long long next(std::size_t share);
 
   /// Whether all shall end: asks the settings now and then.
   bool give_up(unsigned& calls);
@@ -31,11 +39,20 @@ class EnsembleWork {
   EnsembleResult result;
 
  private:
+  /// The members of one absolute tolerance, in their order.
+  struct Share {
+    Share(double tolerance, std::vector<std::size_t> who)
+        : atol(tolerance), members(std::move(who)) {}
+    double atol;
+    std::vector<std::size_t> members;
+    std::atomic<std::size_t> next = 0;
+  };
+
   void fail(std::exception_ptr problem);
 
   const Ensemble& ensemble_;
   const Settings& settings_;
-  std::atomic<std::size_t> next_ = 0;
+  std::deque<Share> shares_;
   std::atomic<bool> stop_ = false;
   std::mutex guard_;
   std::exception_ptr problem_;

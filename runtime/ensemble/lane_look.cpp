@@ -104,4 +104,19 @@ void LaneLook::operator()(const casimir_lane_step& trial, double* parts) {
   }
 }
 
+double LaneLook::of_lane(const casimir_lane_step& trial, int lane) {
+  const auto place = static_cast<std::size_t>(lane);
+  for (std::size_t i = 0; i < states_; ++i) x0_[i] = trial.rows[i][lane];
+  Lane& own = lanes_[place];
+  if (own.member != trial.member[lane]) {
+    own.member = trial.member[lane];
+    own.look.begin(parameters_(own.member), x0_.data());
+  }
+  const Seen seen{trial, lane, states_};
+  const double t0 = trial.t[lane], t1 = t0 + trial.taken[lane] * trial.unit[lane];
+  const casimir_step step{t0, t1, x0_.data(), x1_.data(), &state_at, &seen, nullptr, nullptr};
+  state_at(&step, t1, x1_.data());
+  return own.look(step);
+}
+
 }  // namespace casimir

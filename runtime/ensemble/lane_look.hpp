@@ -20,6 +20,9 @@ class LaneLook {
   /// \param parts  for each lane that is to take the step, what StepLook says.
   void operator()(const casimir_lane_step& trial, double* parts);
 
+  /// What StepLook says of the step of one lane, or of a part of it. The others are left alone.
+  double of_lane(const casimir_lane_step& trial, int lane);
+
  private:
   struct Lane {
     StepLook look;

@@ -5,7 +5,8 @@
 
 namespace casimir {
 
-const casimir_lane_step& PartOfStep::take(const casimir_lane_step& whole, int which, int parts) {
+const casimir_lane_step& PartOfStep::take(const casimir_lane_step& whole, std::int64_t which,
+                                          std::int64_t parts) {
   const auto lanes = static_cast<std::size_t>(whole.lanes),
              entries = static_cast<std::size_t>(whole.order + 1) * lanes,
              states = static_cast<std::size_t>(whole.states);
@@ -23,8 +24,8 @@ const casimir_lane_step& PartOfStep::take(const casimir_lane_step& whole, int wh
                 *const memory = aligned(memory_);
   std::vector<double> from(lanes);
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    from[lane] = whole.taken[lane] * which / parts;
-    lengths[lane] = whole.taken[lane] / parts;
+    from[lane] = whole.taken[lane] * static_cast<double>(which) / static_cast<double>(parts);
+    lengths[lane] = whole.taken[lane] / static_cast<double>(parts);
     times[lane] = whole.t[lane] + from[lane] * whole.unit[lane];
   }
   for (std::size_t i = 0; i < states; ++i) {

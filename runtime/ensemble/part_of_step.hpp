@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "runtime/module_abi.h"
@@ -11,7 +12,8 @@ namespace casimir {
 class PartOfStep {
  public:
   /// Part `which` of `parts` equal ones. The step and its part must live as long as they are used.
-  const casimir_lane_step& take(const casimir_lane_step& whole, int which, int parts);
+  const casimir_lane_step& take(const casimir_lane_step& whole, std::int64_t which,
+                                std::int64_t parts);
 
  private:
   casimir_lane_step step_ = {};

@@ -44,6 +44,7 @@ void RunningOrbit::join(const LaneOfStep& step, const PlaneOfOrbit& plane) {
     shift_ += plane.period * std::round((last_ - (first + shift_)) / plane.period);
   } else if (std::abs(first - last_) > kJump * span_of(step)) {
     cell_ = first > 0 ? 0 : -1;
+    doubt();
   }
 }
 

@@ -71,15 +71,8 @@ class Parser {
 
   /// What people mean who write this character where no expression has it.
   std::string hint_for(char c) const {
-    if (c == '=')
-      return "an expression stands here and no equation: A = B is the zero level of A - (B)";
-    if (c == '<' || c == '>' || c == '!')
-      return "an expression stands here and no condition: conditions stand in 'assume' and "
-             "'domain'";
     if (c == '(' || is_name_part(c)) return "write products with '*'";
-    if (c == '[' || c == ']') return "only round parentheses group, as in 2*(x + y)";
-    if (c == '|') return "|x| is written abs(x)";
-    if (static_cast<unsigned char>(c) < 0x80) return {};
+    if (static_cast<unsigned char>(c) < 0x80) return spelling_of_sign(text_.value, at_);
     const std::string spelling = spelling_of_character(character());
     return spelling.empty() ? "names consist of the ASCII letters, digits and '_'" : spelling;
   }

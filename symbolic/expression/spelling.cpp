@@ -95,6 +95,39 @@ std::string spelling_of_character(std::string_view character) {
   return ours.empty() ? std::string{} : fmt::format("'{}' is written {}", character, ours);
 }
 
+std::string spelling_of_sign(std::string_view text, std::size_t at) {
+  const auto is_digit_at = [&](std::size_t i) {
+    return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])) != 0;
+  };
+  switch (at < text.size() ? text[at] : '\0') {
+    case '!':
+      if (at + 1 >= text.size() || text[at + 1] != '=')
+        return "there are no factorials: 5! is written 120, and x! has no name here";
+      [[fallthrough]];
+    case '<':
+    case '>':
+      return "an expression stands here and no condition: conditions stand in 'assume' and "
+             "'domain'";
+    case '=':
+      return "an expression stands here and no equation: A = B is the zero level of A - (B)";
+    case '[':
+    case ']':
+      return "only round parentheses group, as in 2*(x + y)";
+    case '|':
+      return "|x| is written abs(x)";
+    case ',': {
+      if (at == 0 || !is_digit_at(at - 1) || !is_digit_at(at + 1)) return {};
+      std::size_t from = at, to = at + 1;
+      while (from > 0 && is_digit_at(from - 1)) --from;
+      while (is_digit_at(to)) ++to;
+      return fmt::format("decimals have a point: {}.{}", text.substr(from, at - from),
+                         text.substr(at + 1, to - at - 1));
+    }
+    default:
+      return {};
+  }
+}
+
 std::string spelling_of_latex(std::string_view text) {
   for (std::size_t at = text.find('\\'); at < text.size(); at = text.find('\\', at + 1)) {
     const auto begin = text.begin() + static_cast<std::ptrdiff_t>(at) + 1;

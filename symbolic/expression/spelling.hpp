@@ -18,6 +18,10 @@ std::string spelling_of_name(std::string_view name);
 /// not. `character` is one UTF-8 sequence.
 std::string spelling_of_character(std::string_view character);
 
+/// What the ASCII character at `at` means to people who write it where no expression has it, as
+/// "decimals have a point: 1.5" for the comma of `1,5`; empty for one that has no other meaning.
+std::string spelling_of_sign(std::string_view text, std::size_t at);
+
 /// For the first LaTeX command in `text`, a backslash and a word, as "\frac{a}{b} is written
 /// (a)/(b)"; empty where there is none. TOML reads \f and its like in a string as control
 /// characters, so what is searched is the line of the file.

@@ -57,6 +57,22 @@ TEST(PreciseRun, SquareReachesOneMillionToAllDigits) {
   }
 }
 
+/// Rounding takes x off 0, and no two runs agree in what it leaves there: they once went on to 280
+/// digits. x' = y (z a) - z (y a), with a rounded, and a rotation of y and z.
+TEST(PreciseRun, StatesThatStayZeroTakeNoMoreDigits) {
+  Builder b({"x", "y", "z"});
+  const int a = b.number(cln::cl_RA("1/7"));
+  const auto mul = [&](int p, int q) { return b.op(Op::mul, p, q); };
+  b.output(b.op(Op::add, b.op(Op::sub, mul(1, mul(2, a)), mul(2, mul(1, a))), 0));
+  b.output(b.op(Op::neg, 2));
+  b.output(b.op(Op::add, 1, 0));
+  const Program program = b.program();
+  const AgreedRun agreed = agreed_run(problem(program, {0, 1, cln::cl_RA("1/3"), 20}), 30);
+  EXPECT_EQ(agreed.digits, 30);
+  EXPECT_EQ(agreed.runs, 2);
+  EXPECT_TRUE(cln::zerop(agreed.run.state[0]));
+}
+
 TEST(PreciseRun, NumbersNextToNothingTakeNoMemory) {
   const Precision precision(128);
   const BigFloat tiny =

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/ensemble.hpp"
 #include "runtime/integrate.hpp"
 #include "runtime/methods.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
@@ -29,6 +30,15 @@ struct RunRequest {
 /// \throws CaseError  where neither the request nor the scene has a duration.
 Settings settings_for(const RunRequest& request, const PreparedScene& run,
                       double default_tolerance = 1e-10);
+
+/// Gives each member of an ensemble an absolute tolerance in units of its own initial state, where
+/// `settings_for` takes that of the scene: a member that is a thousand millionth of the scene would
+/// be all tolerance, and one of a tiny scene that is not has no digits to ask for below its own.
+/// They are in powers of 16, so that few members have one of their own; within 16 of the scene's
+/// they are the scene's. Nothing is done where the request names an absolute tolerance.
+/// \param settings  as `settings_for` made them
+void scale_tolerances(const RunRequest& request, const PreparedScene& run, const Settings& settings,
+                      Ensemble& ensemble);
 
 /// The method of that name; "auto" is resolved.
 /// \throws RequestError  with the nearest name.

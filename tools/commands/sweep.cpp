@@ -28,6 +28,7 @@
 #include "tools/sweep/mpi_ranks.hpp"
 #include "tools/sweep/table.hpp"
 #include "tools/text/runs/run_report.hpp"
+#include "tools/text/runs/trust_report.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -94,7 +95,8 @@ std::unique_ptr<SweepTask> task_of(const SweepArguments& options, const CaseFile
     return std::make_unique<LyapunovExponents>(p.model, *p.scene, p.run, places, *p.method,
                                                p.settings);
   }
-  return std::make_unique<Integrations>(p.run, places, *p.method, p.settings, p.grid.points());
+  return std::make_unique<Integrations>(p.run, places, *p.method, p.settings, p.grid.points(),
+                                        options.run.request());
 }
 
 /// How often each status occurs.
@@ -112,7 +114,7 @@ struct Report {
   std::string output;
   int threads = 1, lanes = 1;
   double seconds = 0;
-  std::string warning;
+  std::vector<std::string> warnings = {};
 };
 
 Json sweep_json(const Report& report) {
@@ -138,8 +140,7 @@ Json sweep_json(const Report& report) {
   json["jobs"] = report.threads;
   json["lanes"] = report.lanes;
   json["seconds"] = report.seconds;
-  json["warnings"] = Json::array();
-  if (!report.warning.empty()) json["warnings"].push_back(report.warning);
+  json["warnings"] = report.warnings;
   return json;
 }
 
@@ -160,7 +161,7 @@ void print_sweep(const Report& report) {
                                          : std::string{});
   for (const auto& [status, count] : counts_of(outcome.rows))
     fmt::print("  {:<16} {:>8}\n", status, count);
-  if (!report.warning.empty()) fmt::print("  warning: {}\n", report.warning);
+  for (const std::string& warning : report.warnings) fmt::print("  warning: {}\n", warning);
   if (outcome.complete) fmt::print("  wrote {}\n", printable(report.output, 200));
 }
 
@@ -202,6 +203,17 @@ int verdict(const Report& report, bool interrupted) {
   return kNotContinued;
 }
 
+/// On how the points were integrated, and on those that were integrated again by themselves.
+std::vector<std::string> warnings_on(const Integrations& task, const SweepOutcome& outcome) {
+  std::vector<std::string> warnings;
+  if (!task.warning().empty()) warnings.push_back(task.warning());
+  if (!outcome.complete) return warnings;
+  for (const CheckedMember& point : task.check(outcome.rows))
+    for (const std::string& warning : warnings_of(point.trust))
+      warnings.push_back(fmt::format("point {}: {}", point.member + 1, warning));
+  return warnings;
+}
+
 int sweep_in(const Ranks& ranks, const SweepArguments& options) {
   if (options.over.empty())
     throw UsageError("sweep needs a grid: --over NAME=FROM:TO:N, such as --over r=1:2:11");
@@ -233,16 +245,15 @@ int sweep_in(const Ranks& ranks, const SweepArguments& options) {
   const bool interrupted = interrupt_held();
   hold_interrupts(false);
   if (!ranks.speaks()) return kDone;
-  const Report report{
-      options,
-      p,
-      ranks,
-      outcome,
-      output,
-      options.jobs > 0 ? options.jobs : ranks.processors(),
-      integrations ? integrations->lanes() : 1,
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-      integrations ? integrations->warning() : std::string{}};
+  Report report{options,
+                p,
+                ranks,
+                outcome,
+                output,
+                options.jobs > 0 ? options.jobs : ranks.processors(),
+                integrations ? integrations->lanes() : 1,
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+  if (integrations) report.warnings = warnings_on(*integrations, outcome);
   if (options.common.json)
     print_json(sweep_json(report));
   else if (!options.common.quiet)

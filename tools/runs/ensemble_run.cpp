@@ -255,7 +255,8 @@ int integrate_ensemble(const EnsembleRequest& request) {
   Settings settings = settings_for(request.run.request(), run);
   settings.give_up = time_limit(request.common.time_limit);
   settings.invariant_terms = nullptr;
-  const Ensemble ensemble = members(run, file);
+  Ensemble ensemble = members(run, file);
+  scale_tolerances(request.run.request(), run, settings, ensemble);
   const EnsembleKernel kernel =
       ensemble_kernel(run, method, ensemble.size(), !(settings.fixed_step > 0));
   EnsembleResult result;

@@ -107,6 +107,23 @@ TEST_F(Optimise, HighPowersOfSumsAreNotMultipliedOut) {
   EXPECT_TRUE(expanded(system({pow(1 - s(0) / 10, 20)}), 3000));
 }
 
+/// GiNaC writes (x/2000 + 1)^2000 as (x + 2000)^2000/2000^2000: neither is a number that doubles
+/// have. The value stays exactly what it was.
+TEST_F(Optimise, HighPowersHaveNumbersThatDoublesHave) {
+  const GiNaC::numeric n = 2000;
+  const std::vector<ex> all{pow(s(0) / n + 1, n), 7 * pow(1 - pow(s(1) / 10, 2), n),
+                            pow(s(2) / 10, 3000) + s(3), 5 * pow(s(0) + s(1) / 3, 1500)};
+  Points points;
+  for (const ex& e : all) {
+    const Program program = optimise({e});
+    for (const cln::cl_RA& constant : program.constants) EXPECT_FALSE(beyond_range(constant)) << e;
+    const std::vector<cln::cl_RA> at = point(points);
+    EXPECT_EQ(exact(program, at)[0], value(e, at)) << e;
+  }
+  EXPECT_TRUE(beyond_range(cln::expt(cln::cl_RA(2000), -2000)));
+  EXPECT_FALSE(beyond_range(cln::expt(cln::cl_RA(10), -100)));
+}
+
 TEST_F(Optimise, ProgramsEqualTheExpressionsExactly) {
   Points points;
   for (int round = 0; round < 60; ++round) {

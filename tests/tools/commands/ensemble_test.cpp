@@ -153,6 +153,26 @@ TEST(EnsembleFile, WhatRoundingDecidesIsAWarning) {
   EXPECT_TRUE(calm.json().at("warnings").empty()) << calm.json().at("warnings");
 }
 
+/// The absolute tolerance is in units of each start: that of the scene would be all of the small
+/// ones. They are members of one linear system, so each is the first, made smaller.
+TEST(EnsembleFile, SmallMembersHaveAllTheirDigits) {
+  const Folder folder;
+  write(folder, "line.toml",
+        "[phase_space]\nvariables = [\"x\", \"v\"]\n[equations]\nx = \"v\"\nv = \"-x\"\n"
+        "[[scene]]\nname = \"default\"\ninitial = { x = \"1\", v = \"0\" }\nduration = \"20\"\n");
+  for (const char* method : {"taylor", "gauss8"}) {
+    const Outcome all = members(folder, "x\n1\n1e-3\n1e-10\n1e-15\n1e-40\n1\n",
+                                {"integrate", "line.toml", "--json", "--method", method});
+    ASSERT_EQ(all.status, 0) << all.err;
+    const std::vector<double> starts{1, 1e-3, 1e-10, 1e-15, 1e-40, 1};
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      const std::string x = all.json().at("members")[i].at("state").at("x");
+      EXPECT_NEAR(std::stod(x) / starts[i], std::cos(20), 1e-7) << method << ' ' << starts[i];
+    }
+    EXPECT_TRUE(all.json().at("warnings").empty()) << all.json().at("warnings");
+  }
+}
+
 TEST(EnsembleFile, BadOnesAreRefusedAtTheirPlace) {
   const Folder folder;
   for (const BadFile& bad : {BadFile{"M1,gg3\n1,2\n", "members.csv:1:4: error:", "mean 'g3'"},

@@ -1,9 +1,10 @@
 // casimir section: other systems than those of the book's figures, files, and what is refused.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <map>
-
 #include <cmath>
+#include <map>
+#include <sstream>
 
 #include "tests/tools/program.hpp"
 
@@ -236,6 +237,42 @@ TEST(Section, SeedsOffTheLevelAreRefused) {
       run_in(folder, {"section", "euler-poisson", "--scene", "chaotic", "--seeds", "none.csv"});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(outcome.err.find("no motion on this level"), std::string::npos) << outcome.err;
+}
+
+/// Functions that are something else where an orbit is for a moment only: a series about the
+/// beginning of a step knows nothing of that, and crossings were missed without a word. x = cos(t).
+TEST(Section, NoCrossingOfANarrowPlaneIsMissed) {
+  const Folder folder;
+  folder.write("pair.toml",
+               "hamiltonian = \"(px^2 + x^2)/2 + (py^2 + 2*y^2)/2\"\n"
+               "[phase_space]\nvariables = [\"x\", \"y\", \"px\", \"py\"]\ncanonical = true\n"
+               "[[scene]]\nname = \"default\"\nduration = \"1\"\n"
+               "initial = { x = \"1\", y = \"1\", px = \"0\", py = \"0\" }\n");
+  folder.write("seed.csv", "x,y,px,py\n1,1,0,0\n");
+  for (const double width : {1e-2, 1e-4, 1e-6}) {
+    const double half = width * std::sqrt(std::log(2.));
+    const struct {
+      std::string plane;
+      double down, up;  ///< where x is at a crossing, on its way down and up
+    } planes[] = {{fmt::format("exp(-((x - 1/3)/{:f})^2) - 1/2", width), half, -half},
+                  {fmt::format("abs(x - 1/3) - {:f}", width), -width, width}};
+    for (const auto& [plane, down, up] : planes) {
+      const Outcome outcome =
+          run_in(folder, {"section", "pair.toml", "--plane", plane, "--pair", "y", "py", "--seeds",
+                          "seed.csv", "--points", "8", "--output", "out.csv"});
+      ASSERT_EQ(outcome.status, 0) << plane << outcome.err;
+      EXPECT_EQ(outcome.out.find("warning"), std::string::npos) << outcome.out;
+      std::istringstream table(file_text(folder.path() / "out.csv"));
+      std::string line;
+      std::getline(table, line);
+      for (int n = 0; std::getline(table, line); ++n) {
+        const double time = std::stod(line.substr(line.find(',', line.find(',') + 1) + 1));
+        const double place = std::acos(1. / 3 + (n % 2 == 0 ? down : up));
+        const double turn = 2 * kPi * (n / 2);
+        EXPECT_NEAR(time, turn + (n % 2 == 0 ? place : 2 * kPi - place), 1e-9) << plane;
+      }
+    }
+  }
 }
 
 TEST(Section, PicturesAreDrawn) {

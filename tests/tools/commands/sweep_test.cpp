@@ -57,6 +57,42 @@ TEST(Sweep, GivesTheNumbersOfAnEnsemble) {
   }
 }
 
+constexpr const char* kLine =
+    "[phase_space]\nvariables = [\"x\", \"v\"]\n[parameters]\na = {}\n"
+    "[equations]\nx = \"v\"\nv = \"a*x\"\n"
+    "[[scene]]\nname = \"default\"\nparameters = { a = \"-1\" }\n"
+    "initial = { x = \"1\", v = \"0\" }\nduration = \"20\"\n";
+
+/// The absolute tolerance of the scene would be all of the small ones: x = x(0) cos(t).
+TEST(Sweep, SmallPointsHaveAllTheirDigits) {
+  const Folder folder;
+  folder.write("line.toml", kLine);
+  const Outcome swept = run_in(
+      folder, {"sweep", "line.toml", "--over", "x=1,1e-10,1e-15,1e-40", "--output", "s.csv"});
+  ASSERT_EQ(swept.status, 0) << swept.err;
+  const auto rows = table_rows(file_text(folder.path() / "s.csv"));
+  ASSERT_EQ(rows.size(), 5U);
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    EXPECT_NEAR(std::stod(rows[i][4]) / std::stod(rows[i][1]), std::cos(20), 1e-7) << rows[i][1];
+}
+
+/// Points have no estimate each: what is doubtful shows where some are integrated again.
+TEST(Sweep, WhatRoundingDecidesIsAWarning) {
+  const Folder folder;
+  folder.write("line.toml", kLine);
+  const auto warnings = [&](const std::string& duration) {
+    const Outcome swept =
+        run_in(folder, {"sweep", "line.toml", "--param", "a=1", "--over", "x=1,2", "--let", "v=-x",
+                        "--duration", duration, "--output", "s.csv", "--restart", "--json"});
+    EXPECT_EQ(swept.status, 0) << swept.err;
+    return swept.json().at("warnings");
+  };
+  const auto grown = warnings("50");
+  ASSERT_EQ(grown.size(), 2U) << grown;
+  EXPECT_NE(grown[1].get<std::string>().find("point 2: "), std::string::npos) << grown;
+  EXPECT_TRUE(warnings("2").empty());
+}
+
 // Of the motion near the saddle of x'' = a x: the exponent is the root of a.
 TEST(Sweep, ExponentsAreThoseOfALinearSaddle) {
   const Folder folder;

@@ -10,17 +10,6 @@
 namespace casimir {
 namespace {
 
-/// The first, the last and one between them of those that reached the end.
-std::set<std::size_t> chosen(const EnsembleResult& result) {
-  constexpr double kGoldenSection = 0.6180339887498949;
-  std::vector<std::size_t> ended;
-  for (std::size_t i = 0; i < result.members.size(); ++i)
-    if (result.members[i].status == Status::ok) ended.push_back(i);
-  if (ended.empty()) return {};
-  const double between = kGoldenSection * static_cast<double>(ended.size());
-  return {ended.front(), ended[static_cast<std::size_t>(between)], ended.back()};
-}
-
 PreparedScene scene_of(const PreparedScene& run, const Ensemble& ensemble, std::size_t member) {
   PreparedScene own = run;
   const double *const x = ensemble.state(member), *const p = ensemble.values_of(member);
@@ -40,17 +29,31 @@ CompiledModule module_of(const PreparedScene& own, const Method& method) {
 
 }  // namespace
 
+std::vector<std::size_t> members_to_check(std::size_t members,
+                                          const std::function<bool(std::size_t)>& ended) {
+  constexpr double kGoldenSection = 0.6180339887498949;
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < members; ++i)
+    if (ended(i)) all.push_back(i);
+  if (all.empty()) return {};
+  const double between = kGoldenSection * static_cast<double>(all.size());
+  const std::set<std::size_t> some{all.front(), all[static_cast<std::size_t>(between)], all.back()};
+  return {some.begin(), some.end()};
+}
+
 std::vector<CheckedMember> check_members(const PreparedScene& run, const Method& method,
                                          const Settings& settings, const Ensemble& ensemble,
                                          const EnsembleResult& result, double budget) {
   constexpr double kPart = 0.1;
   std::vector<CheckedMember> checked;
-  for (const std::size_t member : chosen(result)) {
+  const auto ended = [&](std::size_t i) { return result.members[i].status == Status::ok; };
+  for (const std::size_t member : members_to_check(result.members.size(), ended)) {
     const PreparedScene own = scene_of(run, ensemble, member);
     const Method& how = method.series ? *find_method("taylor") : method;
     const CompiledModule compiled = module_of(own, how);
     Settings alone = settings;
     alone.monitor = true;
+    alone.atol = ensemble.atol_of(member, settings.atol);
     alone.give_up = time_limit(budget);
     const Trajectory again = integrate(compiled.module, how, alone, own.initial, own.parameters);
     if (again.status == Status::stopped) break;  // the others take as long

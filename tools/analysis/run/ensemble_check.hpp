@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "runtime/ensemble.hpp"
@@ -13,10 +14,15 @@ struct CheckedMember {
   ErrorEstimate trust;  ///< of the end state that it has in the ensemble
 };
 
+/// The members that are checked: the first, the last and one between them of those that reached the
+/// end, in their order.
+/// \param ended  whether a member of this number reached it
+std::vector<std::size_t> members_to_check(std::size_t members,
+                                          const std::function<bool(std::size_t)>& ended);
+
 /// Integrates some members again by themselves, as far as that takes no more than about `budget`
-/// seconds, with an estimate of their errors: the first, the last and one between them of those
-/// that reached the end. Members have no estimate of their own, and what rounding or a step does to
-/// one of them it mostly does to its neighbours as well.
+/// seconds, with an estimate of their errors: `members_to_check`. Members have no estimate of their
+/// own, and what rounding or a step does to one of them it mostly does to its neighbours as well.
 /// \param run  what the members are, but for their initial states and parameters.
 std::vector<CheckedMember> check_members(const PreparedScene& run, const Method& method,
                                          const Settings& settings, const Ensemble& ensemble,

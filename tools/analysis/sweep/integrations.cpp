@@ -13,11 +13,12 @@
 namespace casimir {
 
 Integrations::Integrations(const PreparedScene& run, const GridPoints& places, const Method& method,
-                           const Settings& settings, std::size_t points)
+                           const Settings& settings, std::size_t points, RunRequest asked)
     : run_(run),
       places_(places),
       method_(method),
       settings_(settings),
+      asked_(std::move(asked)),
       kernel_(ensemble_kernel(run, method, points, !(settings.fixed_step > 0))) {}
 
 std::vector<std::string> Integrations::columns() const {
@@ -30,27 +31,52 @@ std::vector<std::string> Integrations::columns() const {
 }
 
 std::string Integrations::fingerprint() const {
-  std::string text = fmt::format("integrate {} {} rtol {} atol {} step {} duration {} max {}\n",
-                                 method_.name, CASIMIR_VERSION, exact_text(settings_.rtol),
-                                 exact_text(settings_.atol), exact_text(settings_.fixed_step),
-                                 exact_text(settings_.duration), settings_.max_steps);
+  std::string text =
+      fmt::format("integrate {} {} rtol {} atol {}{} step {} duration {} max {}\n", method_.name,
+                  CASIMIR_VERSION, exact_text(settings_.rtol), exact_text(settings_.atol),
+                  asked_.atol ? "" : " in units of each start", exact_text(settings_.fixed_step),
+                  exact_text(settings_.duration), settings_.max_steps);
   text += emit_module(run_.specialisation, {}, false);
   for (const double x : run_.initial) text += exact_text(x) + " ";
   for (const double p : run_.parameters) text += exact_text(p) + " ";
   return text;
 }
 
-std::vector<PointResult> Integrations::run(const std::vector<std::size_t>& points, int threads,
-                                           const std::function<bool()>& give_up) const {
-  const Specialisation& s = run_.specialisation;
+Ensemble Integrations::members(const std::vector<std::size_t>& points) const {
   Ensemble ensemble;
-  ensemble.states = s.states.size();
+  ensemble.states = run_.specialisation.states.size();
   ensemble.parameters = run_.parameters.size();
   for (const std::size_t point : points) {
     const auto [state, parameters] = places_.at(point);
     ensemble.initial.insert(ensemble.initial.end(), state.begin(), state.end());
     ensemble.values.insert(ensemble.values.end(), parameters.begin(), parameters.end());
   }
+  scale_tolerances(asked_, run_, settings_, ensemble);
+  return ensemble;
+}
+
+std::vector<CheckedMember> Integrations::check(const std::vector<PointResult>& rows) const {
+  const std::size_t states = run_.specialisation.states.size();
+  const std::vector<std::size_t> points =
+      members_to_check(rows.size(), [&](std::size_t i) { return rows[i].status == Status::ok; });
+  EnsembleResult result;
+  for (const std::size_t point : points) {
+    const auto state = rows[point].values.begin() + 1;  // behind the time
+    MemberResult& member = result.members.emplace_back();
+    member.status = Status::ok;
+    member.time = rows[point].values.front();
+    member.state.assign(state, state + static_cast<std::ptrdiff_t>(states));
+  }
+  std::vector<CheckedMember> checked =
+      check_members(run_, method_, settings_, members(points), result);
+  for (CheckedMember& member : checked) member.member = points[member.member];
+  return checked;
+}
+
+std::vector<PointResult> Integrations::run(const std::vector<std::size_t>& points, int threads,
+                                           const std::function<bool()>& give_up) const {
+  const Specialisation& s = run_.specialisation;
+  const Ensemble ensemble = members(points);
   Settings settings = settings_;
   settings.give_up = give_up;
   EnsembleResult done;

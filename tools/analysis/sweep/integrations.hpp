@@ -1,7 +1,7 @@
 #pragma once
 
+#include "tools/analysis/run/ensemble_check.hpp"
 #include "tools/analysis/run/ensemble_kernel.hpp"
-
 #include "tools/analysis/run_request.hpp"
 #include "tools/analysis/sweep/grid_point.hpp"
 #include "tools/analysis/sweep/task.hpp"
@@ -13,13 +13,20 @@ namespace casimir {
 class Integrations : public SweepTask {
  public:
   /// All of these outlive it.
+  /// \param asked  where it names no absolute tolerance, each point has one of its own: see
+  ///               `scale_tolerances`
   Integrations(const PreparedScene& run, const GridPoints& places, const Method& method,
-               const Settings& settings, std::size_t points);
+               const Settings& settings, std::size_t points, RunRequest asked = {});
 
   std::vector<std::string> columns() const override;
   std::string fingerprint() const override;
   std::vector<PointResult> run(const std::vector<std::size_t>& points, int threads,
                                const std::function<bool()>& give_up) const override;
+
+  /// Integrates some of the points that reached the end again by themselves, with an estimate of
+  /// their errors: see `check_members`.
+  /// \param rows  what `run` gave for all points of the grid, in their order
+  std::vector<CheckedMember> check(const std::vector<PointResult>& rows) const;
 
   /// How many points one register holds.
   int lanes() const { return kernel_.lanes ? kernel_.lanes->lanes : 1; }
@@ -27,10 +34,13 @@ class Integrations : public SweepTask {
   const std::string& warning() const { return kernel_.warning; }
 
  private:
+  Ensemble members(const std::vector<std::size_t>& points) const;
+
   const PreparedScene& run_;
   const GridPoints& places_;
   const Method& method_;
   const Settings& settings_;
+  RunRequest asked_;
   EnsembleKernel kernel_;
 };
 

@@ -399,11 +399,13 @@ py::dict ensemble(const Case& self, const std::string& scene, const std::string&
     fill(members.values, members.parameters, values,
          places_of(parameters, s.parameters, "a parameter"));
     const Method& by = method_named(method);
-    Settings settings = settings_for(request(duration, tolerance, rtol, atol), run);
+    const RunRequest asked = request(duration, tolerance, rtol, atol);
+    Settings settings = settings_for(asked, run);
     settings.give_up = [&, late = time_limit(seconds)] { return interrupt() || (late && late()); };
     settings.invariant_terms = nullptr;
     const EnsembleKernel kernel = ensemble_kernel(run, by, count, true);
-    const auto integrated = [&](const Ensemble& some) {
+    const auto integrated = [&](Ensemble some) {
+      scale_tolerances(asked, run, settings, some);
       return kernel.lanes ? integrate_in_lanes(some, *kernel.lanes, s.invariants, settings, jobs)
                           : integrate_members(some, kernel.module_for_thread, by, s.invariants,
                                               settings, jobs);
