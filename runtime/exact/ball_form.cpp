@@ -62,7 +62,7 @@ bool settled(const std::vector<Ball>& state, double* x) {
     largest = std::max(largest, std::abs(validated::approximate(at)));
   }
   for (std::size_t i = 0; i < state.size(); ++i) {
-    x[i] = validated::approximate(state[i]);
+    x[i] = arb_contains_zero(state[i].raw()) != 0 ? 0 : validated::approximate(state[i]);
     if (validated::radius_of(state[i]) > std::max(kOfItself * std::abs(x[i]), kOfLargest * largest))
       return false;
   }
@@ -172,6 +172,8 @@ Ball theta_two_slope(const Ball& y, const Ball& tau_height) {
   thetas(values, {Ball(0.), y}, tau_height);
   return values.get(3).im / values.get(2).re;
 }
+
+double BallForm::error() const { return kRoundedError; }
 
 void BallForm::at(const TwoDoubles& elapsed, double* x) const {
   if (elapsed.high == 0) {

@@ -88,6 +88,7 @@ class BallForm : public ClosedForm {
   void at(const TwoDoubles& elapsed, double* x) const override;
   double period() const override { return period_; }
   double horizon() const override { return horizon_; }
+  double error() const override;
 
  private:
   std::vector<double> start_;

@@ -22,6 +22,7 @@ class AtRest : public ClosedForm {
   }
   double period() const override { return std::numeric_limits<double>::infinity(); }
   double horizon() const override { return std::numeric_limits<double>::infinity(); }
+  double error() const override { return kRoundedError; }
 
  private:
   std::vector<double> state_;

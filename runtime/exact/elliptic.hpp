@@ -53,6 +53,7 @@ class JacobiFunctions {
   const cln::cl_F& complement() const { return m1_; }
   /// The quarter period K.
   const cln::cl_F& quarter() const { return quarter_; }
+  double four_quarters() const { return four_quarters_; }
   /// The u from -2 K to 2 K with sn u = sine and cn u = cosine, of a point on the unit circle.
   cln::cl_F inverse(const cln::cl_F& sine, const cln::cl_F& cosine) const;
 

@@ -42,6 +42,8 @@ class Weierstrass {
   bool separatrix() const { return kind_ == Kind::hyperbolic; }
   double rate() const { return rate_; }
   double g2() const { return g2_; }
+  /// The largest that Jacobi's functions are asked for.
+  double argument() const { return separatrix() ? kSeparatrixHorizon : functions_.four_quarters(); }
 
  private:
   using Kind = RealLattice::Kind;
@@ -130,6 +132,10 @@ class Biermann : public ClosedForm {
   double horizon() const override {
     return function_.separatrix() ? kSeparatrixHorizon / (2 * function_.rate())
                                   : std::numeric_limits<double>::infinity();
+  }
+  double error() const override {
+    constexpr double kOfQuotient = 10;  // of two values of the function
+    return kOfQuotient * evaluated_error(function_.argument());
   }
 
  private:

@@ -27,6 +27,11 @@ cln::cl_F undecided_part(const cln::cl_F& like);
 /// digits than double has.
 inline constexpr double kSeparatrixHorizon = 200;
 
+/// Of a state that is right but for its last digit.
+inline constexpr double kRoundedError = 0x1p-53;
+/// Of what is evaluated in double precision at an argument of that size.
+inline double evaluated_error(double argument) { return 8 * kRoundedError * (1 + argument); }
+
 /// Beside what a number of some size is taken for zero.
 cln::cl_F vanishing_part(const cln::cl_F& like);
 /// Whether the coefficients of two fields agree, as far as the digits tell. That they differ by

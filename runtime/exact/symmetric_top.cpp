@@ -248,19 +248,16 @@ class TurningPart {
         r_(exact::known(top.r)),
         a_(exact::known(top.a)),
         E_(exact::known(of.E)) {
-    const N *const e = lattice.roots, zero = of.p - of.p, one = cln::cl_float(cln::cl_RA(1), zero);
-    const auto between = [&](const N& value) { return std::min(one, std::max(zero, value)); };
+    const N* const e = lattice.roots;
     // p = e3 + (e2 - e3) sn^2 on the motion, and e1 - (e1 - e2) sn^2 of 1 - m beside it.
-    const N sine = between((of.p - e[2]) / (e[1] - e[2]));
-    const N there = between((e[0] - of.zero_of_M) / (e[0] - e[1]));
-    const auto on_branch = [&](const JacobiFunctions& functions, const N& square, const N& sign) {
-      const N cosine = cln::sqrt(one - square);
-      return functions.inverse(cln::sqrt(square), cln::minusp(sign) ? -cosine : cosine);
-    };
-    start_ = exact::known(on_branch(lattice.functions, sine, of.p_slope) /
-                          (lattice.rate * lattice.period));
+    const N unit = lattice.rate * lattice.period;
+    start_ = exact::known(
+        argument(lattice.functions, {of.p - e[2], e[1] - of.p, e[0] - of.p}, of.p_slope) / unit);
     const JacobiFunctions beside(lattice.functions.complement(), lattice.functions.parameter());
-    const N up = on_branch(beside, there, one) / (lattice.rate * lattice.period);
+    const N& there = of.zero_of_M;
+    const N up =
+        argument(beside, {e[0] - there, there - e[1], there - e[2]}, cln::abs(of.slope_there)) /
+        unit;
     up_ = exact::known(cln::minusp(of.slope_there) ? -up : up);
     const validated::BallPrecision precision(kFormBits);
     turn_ = -((P_ + exact::known(top.B)) / Ball(2.)) - theta_two_slope(up_, tau_height_) / period_;
@@ -275,6 +272,24 @@ class TurningPart {
   }
 
  private:
+  /// Of a point of the curve between two roots, its distances from these and from the third.
+  struct Between {
+    N first, second, third;
+  };
+  /// The u with sn(u)^2 = first / (first + second) and the slope 2 (first + second) sn cn
+  /// sqrt(third) there, which has digits where the distances have lost them.
+  static N argument(const JacobiFunctions& functions, const Between& at, const N& slope) {
+    const N one = cln::cl_float(cln::cl_RA(1), slope), two = one + one, four = two + two;
+    const N width = at.first + at.second;
+    const N product = slope * slope / (four * width * width * at.third);  // sn^2 cn^2
+    const N rest = one - four * product;
+    const N smaller = two * product / (one + (cln::plusp(rest) ? cln::sqrt(rest) : rest - rest));
+    const bool begins = at.first < at.second;
+    const N small = cln::sqrt(smaller), large = cln::sqrt(one - smaller);
+    const N sine = begins ? small : large, cosine = begins ? large : small;
+    return functions.inverse(sine, cln::minusp(slope) ? -cosine : cosine);
+  }
+
   struct Pulse {
     ComplexBall value, slope;
   };

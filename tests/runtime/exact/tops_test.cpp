@@ -207,6 +207,20 @@ TEST(ClosedTop, SphericalPendulumsAndOtherOrders) {
   EXPECT_LT(error(turned.program(), {0, e3, e1, third, 2, half}, 50), kClose);
 }
 
+// What is zero along a motion stays so, and is no small number.
+TEST(ClosedTop, StaysInItsPlane) {
+  const Program program = top({1, half, 0, 1});
+  for (const Rational& speed : {Rational(1) / 1000000, half, Rational(2), Rational(3)})
+    for (const Start& x :
+         {Start{0, speed, 0, 0, 0, 1}, Start{0, speed, 0, Rational(3) / 5, 0, Rational(4) / 5}}) {
+      if (speed == 2 && x[5] == 1) continue;  // its separatrix has the horizon that it has
+      const std::vector<double> state = closed_state(program, x, 30);
+      EXPECT_EQ(state[0], 0);
+      EXPECT_EQ(state[2], 0);
+      EXPECT_EQ(state[4], 0);
+    }
+}
+
 TEST(ClosedTop, AMillionPeriods) {
   // Against the same program with many digits over one period, from the state a million periods on:
   // the energy and both Casimir functions, and the state a period later.
