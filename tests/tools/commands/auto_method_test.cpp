@@ -88,6 +88,11 @@ TEST(AutoMethod, LongRunsAreByTheClosedFormWhereThereIsOne) {
   EXPECT_GT(estimate(stepped), 1e-14);
   EXPECT_LT(distance(closed, stepped), estimate(closed) + estimate(stepped));
   EXPECT_EQ(answered(gyrostat("3000"), {}).at("method"), "taylor");
+  const Folder folder;
+  const std::string table = (folder.path() / "t.csv").string();
+  EXPECT_EQ(answered(gyrostat("1000000"), {"--every", "100", "--output", table}).at("method"),
+            "taylor")
+      << "so many samples take less by steps";
   EXPECT_EQ(answered(gyrostat("1000000", " + M1^4/1000"), {"--tolerance", "1e-6"}).at("method"),
             "taylor");
 }

@@ -125,7 +125,8 @@ class Judge {
 
   /// \return  whether the run was long, and there is a closed form that reaches its end.
   bool run_closed_form() {
-    const Settings settings = settings_for(options_.run, run_, kSmoothTolerance);
+    Settings settings = settings_for(options_.run, run_, kSmoothTolerance);
+    settings.sample_every = options_.sample_every;
     if (options_.run.projects() || !closed_form_pays(run_, settings)) return false;
     const Method& method = *find_method("exact");
     if (!suits(run_, method)) return false;
