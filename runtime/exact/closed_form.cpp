@@ -22,6 +22,7 @@ class AtRest : public ClosedForm {
   }
   double period() const override { return std::numeric_limits<double>::infinity(); }
   double horizon() const override { return std::numeric_limits<double>::infinity(); }
+  double error() const override { return kRoundedError; }
 
  private:
   std::vector<double> state_;
@@ -33,6 +34,48 @@ Recognised at_rest(const Motion& motion) { return {std::make_shared<AtRest>(moti
 
 cln::cl_F undecided_part(const cln::cl_F& like) {
   return cln::scale_float(cln::cl_float(cln::cl_RA(1), like), -900);
+}
+
+cln::cl_F vanishing_part(const cln::cl_F& like) {
+  return cln::scale_float(cln::cl_float(cln::cl_RA(1), like), -700);
+}
+
+bool same_field(const std::vector<ExactPolynomial>& a, const std::vector<ExactPolynomial>& b) {
+  for (std::size_t rate = 0; rate < a.size(); ++rate) {
+    cln::cl_F size = cln::cl_float(cln::cl_RA(0), cln::float_format(kExactDigits));
+    ExactPolynomial rest = a[rate];
+    for (const auto& [exponents, factor] : a[rate])
+      size = std::max(size, cln::cl_F(cln::abs(factor)));
+    for (const auto& [exponents, factor] : b[rate]) {
+      size = std::max(size, cln::cl_F(cln::abs(factor)));
+      const auto [at, fresh] = rest.try_emplace(exponents, -factor);
+      if (!fresh) at->second = at->second - factor;
+    }
+    for (const auto& [exponents, factor] : rest)
+      if (cln::abs(factor) > size * undecided_part(size)) return false;
+  }
+  return true;
+}
+
+std::vector<cln::cl_F> start_rates(const Motion& motion) {
+  std::vector<cln::cl_F> rates;
+  for (const ExactPolynomial& field : motion.field) {
+    cln::cl_F sum = motion.zero();
+    for (const auto& [exponents, factor] : field) {
+      cln::cl_F term = factor;
+      for (std::size_t i = 0; i < motion.states(); ++i)
+        for (int e = 0; e < exponents[3 * i]; ++e) term = term * motion.initial[i];
+      sum = sum + term;
+    }
+    rates.push_back(sum);
+  }
+  return rates;
+}
+
+bool rests(const Motion& motion) {
+  const std::vector<cln::cl_F> rates = start_rates(motion);
+  return std::all_of(rates.begin(), rates.end(),
+                     [](const cln::cl_F& rate) { return cln::zerop(rate); });
 }
 
 }  // namespace exact
@@ -105,7 +148,8 @@ Recognised closed_form(const Program& rhs, const std::vector<cln::cl_F>& initial
             "the equations are no polynomials in the states and in their sines and cosines"};
   const exact::Motion motion{*field, initial};
   std::string reasons;
-  for (const auto recognise : {exact::free_body, exact::pendulum, exact::polynomial_force}) {
+  for (const auto recognise : {exact::free_body, exact::gyrostat, exact::symmetric_top,
+                               exact::pendulum, exact::polynomial_force}) {
     Recognised found = recognise(motion);
     if (found.form) return found;
     reasons += (reasons.empty() ? "" : "; ") + found.reason;

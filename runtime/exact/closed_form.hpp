@@ -23,6 +23,9 @@ class ClosedForm {
   /// From where on the numbers that the form was made of do not say on which side of a separatrix
   /// the motion is; infinite elsewhere.
   virtual double horizon() const = 0;
+  /// About how much the state is off at most, in parts of the largest values on the way: what is
+  /// left of rounding, since the form is made of the exact numbers of the scene.
+  virtual double error() const = 0;
 };
 
 /// A closed form, or why there is none.
@@ -43,6 +46,11 @@ struct Recognised {
 /// - q' = a p, p' = b sin q + c cos q: the pendulum.
 /// - q' = a p, p' = a polynomial of degree three or less in q, where the motion is bounded: all
 ///   solutions of one degree of freedom that are elliptic functions of the time.
+/// - x' = x * (A x + k) with a vector product, a symmetric matrix A and a vector k: the gyrostat.
+/// - Of six states, a momentum M and a direction g, each in the order of the axes, with one axis
+///   (3 here) along which nothing but g_3 changes: M_1' = P M_2 + r g_2, M_2' = -P M_1 - r g_1,
+///   M_3' = 0, g_1' = B g_2 - a g_3 M_2, g_2' = -B g_1 + a g_3 M_1, g_3' = a (g_1 M_2 - g_2 M_1),
+///   P and B of the form number + number * M_3: the symmetric top and the spherical pendulum.
 ///
 /// \param initial  the state at the start, with `kExactDigits` digits.
 Recognised closed_form(const Program& rhs, const std::vector<cln::cl_F>& initial);

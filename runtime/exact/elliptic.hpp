@@ -48,8 +48,12 @@ class JacobiFunctions {
   /// At 4 K part, for part from -1/2 to 1/2. The amplitude is the one from -Pi to Pi.
   Values at_part(double part) const;
 
+  /// m and 1 - m.
+  const cln::cl_F& parameter() const { return m_; }
+  const cln::cl_F& complement() const { return m1_; }
   /// The quarter period K.
   const cln::cl_F& quarter() const { return quarter_; }
+  double four_quarters() const { return four_quarters_; }
   /// The u from -2 K to 2 K with sn u = sine and cn u = cosine, of a point on the unit circle.
   cln::cl_F inverse(const cln::cl_F& sine, const cln::cl_F& cosine) const;
 

@@ -65,6 +65,9 @@ class FreeBody : public ClosedForm {
     return separatrix_ ? (kSeparatrixHorizon - std::abs(start_)) / rate_
                        : std::numeric_limits<double>::infinity();
   }
+  double error() const override {
+    return evaluated_error(separatrix_ ? kSeparatrixHorizon : functions_.four_quarters());
+  }
 
  private:
   Axes axes_;

@@ -86,6 +86,10 @@ class Pendulum : public ClosedForm {
                ? (kSeparatrixHorizon - std::abs(start_)) / std::abs(signed_rate_)
                : std::numeric_limits<double>::infinity();
   }
+  double error() const override {
+    return evaluated_error(kind_ == Kind::separatrix ? kSeparatrixHorizon
+                                                     : functions_.four_quarters());
+  }
 
  private:
   enum class Kind { swing, round, separatrix };

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "runtime/exact/real_lattice.hpp"
 #include "runtime/exact/shapes.hpp"
 
 namespace casimir::exact {
@@ -20,58 +21,7 @@ N times(int k, const N& a) { return cln::cl_float(cln::cl_RA(k), a) * a; }
 /// of p'^2 = 4 p^3 - g2 p - g3 with a pole at 0 (Abramowitz & Stegun 18.9).
 class Weierstrass {
  public:
-  Weierstrass(const N& g2, const N& g3) {
-    const N zero = cln::cl_float(cln::cl_RA(0), g2), one = cln::cl_float(cln::cl_RA(1), g2);
-    const auto number = [&](int value) { return cln::cl_float(cln::cl_RA(value), g2); };
-    const N three = number(3), four = number(4), two = number(2);
-    g2_ = cln::double_approx(g2);
-    // s^3 = p s + q for the roots e of 4 s^3 - g2 s - g3.
-    const N p = g2 / four, q = g3 / four;
-    const N left = q * q / four, right = p * p * p / number(27);
-    const N discriminant = right - left;
-    const N size = cln::abs(right) + left;
-    if (cln::zerop(size)) {  // 1 / t^2
-      kind_ = Kind::rational;
-      return;
-    }
-    if (cln::abs(discriminant) < undecided_part(size) * size) {
-      const N e = cln::minusp(q) ? -cln::sqrt(p / three) : cln::sqrt(p / three);
-      // The double root is -e, the other 2 e: p = -e + 3 |e| / sin^2 or, with e < 0, / sinh^2.
-      kind_ = cln::plusp(e) ? Kind::circular : Kind::hyperbolic;
-      low_ = cln::double_approx(-e);
-      height_ = cln::double_approx(three * cln::abs(e));
-      rate_ = cln::double_approx(cln::sqrt(three * cln::abs(e)));
-      if (kind_ == Kind::circular) {
-        const N turn = cln::sqrt(three * cln::abs(e)) / cln::pi(g2);
-        phase_ = Phase(turn, zero);
-        period_ = cln::double_approx(one / turn);
-      }
-      return;
-    }
-    if (cln::plusp(discriminant)) {
-      const N angle = cln::cl_float(cln::atan(q / two, cln::sqrt(discriminant)), g2) / three;
-      const N scale = two * cln::sqrt(p / three), third = two * cln::pi(g2) / three;
-      N e[3];
-      for (int k = 0; k < 3; ++k)
-        e[k] = scale * cln::cl_float(cln::cos(angle - number(k) * third), g2);
-      std::sort(e, e + 3, [](const N& a, const N& b) { return a > b; });
-      kind_ = Kind::three;
-      functions_ = JacobiFunctions((e[1] - e[2]) / (e[0] - e[2]), (e[0] - e[1]) / (e[0] - e[2]));
-      low_ = cln::double_approx(e[2]);
-      const N rate = cln::sqrt(e[0] - e[2]);
-      set(e[0] - e[2], rate, rate / (two * functions_.quarter()), zero);
-    } else {
-      const N root = cln::sqrt(-discriminant);
-      const N e = cube_root(q / two + root) + cube_root(q / two - root);
-      const N h = cln::sqrt(three * e * e - p);
-      kind_ = Kind::one;
-      const N part = three * e / (four * h), half = one / two;
-      functions_ = JacobiFunctions(half - part, half + part);
-      low_ = cln::double_approx(e);
-      const N rate = two * cln::sqrt(h);
-      set(h, rate, rate / (four * functions_.quarter()), zero);
-    }
-  }
+  Weierstrass(const N& g2, const N& g3) : Weierstrass(g2, RealLattice(g2, g3)) {}
 
   struct Values {
     double p, slope;
@@ -92,21 +42,23 @@ class Weierstrass {
   bool separatrix() const { return kind_ == Kind::hyperbolic; }
   double rate() const { return rate_; }
   double g2() const { return g2_; }
+  /// The largest that Jacobi's functions are asked for.
+  double argument() const { return separatrix() ? kSeparatrixHorizon : functions_.four_quarters(); }
 
  private:
-  enum class Kind { three, one, hyperbolic, circular, rational };
+  using Kind = RealLattice::Kind;
 
-  static N cube_root(const N& a) {
-    if (cln::zerop(a)) return a;
-    const N size = cln::exp(cln::ln(cln::abs(a)) / cln::cl_float(cln::cl_RA(3), a));
-    return cln::minusp(a) ? -size : size;
-  }
-
-  void set(const N& height, const N& rate, const N& turns, const N& zero) {
-    height_ = cln::double_approx(height);
-    rate_ = cln::double_approx(rate);
-    phase_ = Phase(turns, zero);
-    period_ = cln::double_approx(cln::cl_float(cln::cl_RA(1), turns) / turns);
+  Weierstrass(const N& g2, const RealLattice& lattice)
+      : kind_(lattice.kind),
+        low_(cln::double_approx(lattice.low)),
+        height_(cln::double_approx(lattice.height)),
+        rate_(cln::double_approx(lattice.rate)),
+        g2_(cln::double_approx(g2)),
+        functions_(lattice.functions) {
+    if (!lattice.periodic()) return;
+    const N one = cln::cl_float(cln::cl_RA(1), g2), zero = cln::cl_float(cln::cl_RA(0), g2);
+    phase_ = Phase(one / lattice.period, zero);
+    period_ = cln::double_approx(lattice.period);
   }
 
   Values at(double t, double u) const {
@@ -180,6 +132,10 @@ class Biermann : public ClosedForm {
   double horizon() const override {
     return function_.separatrix() ? kSeparatrixHorizon / (2 * function_.rate())
                                   : std::numeric_limits<double>::infinity();
+  }
+  double error() const override {
+    constexpr double kOfQuotient = 10;  // of two values of the function
+    return kOfQuotient * evaluated_error(function_.argument());
   }
 
  private:

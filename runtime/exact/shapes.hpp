@@ -27,6 +27,21 @@ cln::cl_F undecided_part(const cln::cl_F& like);
 /// digits than double has.
 inline constexpr double kSeparatrixHorizon = 200;
 
+/// Of a state that is right but for its last digit.
+inline constexpr double kRoundedError = 0x1p-53;
+/// Of what is evaluated in double precision at an argument of that size.
+inline double evaluated_error(double argument) { return 8 * kRoundedError * (1 + argument); }
+
+/// Beside what a number of some size is taken for zero.
+cln::cl_F vanishing_part(const cln::cl_F& like);
+/// Whether the coefficients of two fields agree, as far as the digits tell. That they differ by
+/// less changes the motion by less than any digit that is given.
+bool same_field(const std::vector<ExactPolynomial>& a, const std::vector<ExactPolynomial>& b);
+/// The rates at the start.
+std::vector<cln::cl_F> start_rates(const Motion& motion);
+/// Whether all of them are zero; fields without sines and cosines only.
+bool rests(const Motion& motion);
+
 /// Of a motion that is none.
 Recognised at_rest(const Motion& motion);
 
@@ -34,5 +49,7 @@ Recognised at_rest(const Motion& motion);
 Recognised free_body(const Motion& motion);
 Recognised pendulum(const Motion& motion);
 Recognised polynomial_force(const Motion& motion);
+Recognised gyrostat(const Motion& motion);
+Recognised symmetric_top(const Motion& motion);
 
 }  // namespace casimir::exact

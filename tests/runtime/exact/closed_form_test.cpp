@@ -14,23 +14,12 @@
 #include <string>
 #include <vector>
 
-#include "runtime/digits/agreed_run.hpp"
-#include "runtime/exact/polynomial_field.hpp"
 #include "runtime/uncompiled.hpp"
+#include "tests/runtime/exact/forms.hpp"
 #include "tests/runtime/programs.hpp"
 
 namespace casimir::test {
 namespace {
-
-using Rational = cln::cl_RA;
-using Start = std::vector<Rational>;
-
-std::vector<cln::cl_F> exact(const Start& start) {
-  std::vector<cln::cl_F> result;
-  for (const Rational& x : start)
-    result.push_back(cln::cl_float(x, cln::float_format(kExactDigits)));
-  return result;
-}
 
 /// x_i' = c_i x_j x_k.
 Program body(const Start& c) {
@@ -64,32 +53,8 @@ Program force(const Rational& a, const Start& f) {
   return b.program();
 }
 
-/// The error of the closed form after that time, against a run with twenty digits.
-double error(const Program& program, const Start& start, const Rational& duration) {
-  const Recognised found = closed_form(program, exact(start));
-  EXPECT_TRUE(found.form) << found.reason;
-  if (!found.form) return 1;
-  PreciseProblem problem;
-  problem.rhs = &program;
-  problem.start = [&](int) {
-    std::vector<cln::cl_R> all(start.begin(), start.end());
-    all.push_back(duration);
-    return all;
-  };
-  const AgreedRun truth = agreed_run(problem, 20);
-  EXPECT_EQ(truth.run.status, Status::ok) << truth.run.reason;
-  std::vector<double> x(start.size());
-  const double t = cln::double_approx(duration);
-  found.form->at({t, cln::double_approx(duration - cln::rational(cln::cl_DF(t)))}, x.data());
-  double size = 1, worst = 0;
-  for (const cln::cl_F& at : truth.run.state)
-    size = std::max(size, std::abs(cln::double_approx(at)));
-  for (std::size_t i = 0; i < x.size(); ++i)
-    worst = std::max(worst, std::abs(x[i] - cln::double_approx(truth.run.state[i])) / size);
-  return worst;
-}
-
-constexpr double kClose = 2e-14;
+/// Of what is evaluated in double precision.
+constexpr double kRounded = 2e-14;
 
 TEST(ClosedForm, FreeBodiesOfEveryKind) {
   const Rational half = Rational(1) / 2, third = Rational(1) / 3;
@@ -100,20 +65,20 @@ TEST(ClosedForm, FreeBodiesOfEveryKind) {
          {Start{1, half, third}, Start{-1, half, third}, Start{third, -1, 1},
           Start{third, half, -1}, Start{0, 1, -half}, Start{1, 0, half}, Start{-half, 1, 0}})
       for (const Rational& t : {Rational(1) / 10, Rational(7), Rational(-100) / 3})
-        EXPECT_LT(error(body(c), x, t), kClose) << c[0] << ' ' << c[1] << ' ' << x[0] << ' ' << t;
+        EXPECT_LT(error(body(c), x, t), kRounded) << c[0] << ' ' << c[1] << ' ' << x[0] << ' ' << t;
 }
 
 TEST(ClosedForm, EqualMoments) {
-  EXPECT_LT(error(body({1, -1, 0}), {1, 2, 3}, 50), kClose);
-  EXPECT_LT(error(body({0, 2, -2}), {-1, 2, 3}, 50), kClose);
+  EXPECT_LT(error(body({1, -1, 0}), {1, 2, 3}, 50), kRounded);
+  EXPECT_LT(error(body({0, 2, -2}), {-1, 2, 3}, 50), kRounded);
   EXPECT_EQ(error(body({0, 0, 0}), {1, 2, 3}, 50), 0);
 }
 
 // y^2 = A^2 m with m = 1: (1, 0, 1) of (1, -2, 1) is on the separatrix.
 TEST(ClosedForm, SeparatricesOfTheFreeBody) {
   for (const Start& x : {Start{1, 0, 1}, Start{-1, 0, 1}, Start{1, 0, -1}, Start{-1, 0, -1}})
-    for (const int t : {3, -10}) EXPECT_LT(error(body({1, -2, 1}), x, t), kClose);
-  EXPECT_LT(error(body({1, -2, 1}), {-3, 2, 3}, 3), kClose);
+    for (const int t : {3, -10}) EXPECT_LT(error(body({1, -2, 1}), x, t), kRounded);
+  EXPECT_LT(error(body({1, -2, 1}), {-3, 2, 3}, 3), kRounded);
   const Recognised found = closed_form(body({1, -2, 1}), exact({1, 0, 1}));
   EXPECT_TRUE(std::isfinite(found.form->horizon()));
 }
@@ -140,8 +105,8 @@ TEST(ClosedForm, Pendulums) {
                          Start{0, 2}, Start{0, -2}, Start{20, -5}})
     for (const Rational& t : {Rational(1) / 10, Rational(9), Rational(-40)}) {
       if (x[0] == 0 && cln::abs(x[1]) == 2 && cln::abs(t) > 10) continue;  // the separatrix
-      EXPECT_LT(error(pendulum(1, -1, 0), x, t), kClose) << x[0] << ' ' << x[1] << ' ' << t;
-      EXPECT_LT(error(pendulum(-2, Rational(1) / 3, half), x, t), 4 * kClose)
+      EXPECT_LT(error(pendulum(1, -1, 0), x, t), kRounded) << x[0] << ' ' << x[1] << ' ' << t;
+      EXPECT_LT(error(pendulum(-2, Rational(1) / 3, half), x, t), 4 * kRounded)
           << x[0] << ' ' << x[1];
     }
 }
@@ -164,11 +129,11 @@ TEST(ClosedForm, PolynomialForces) {
            Case{{Rational(1) / 10, -1, half, -half}, {half, 1}},
        })
     for (const Rational& t : {Rational(1) / 1000, Rational(1), Rational(-30)})
-      EXPECT_LT(error(force(1, f), x, t), 10 * kClose) << f.size() << ' ' << x[0] << ' ' << t;
-  EXPECT_LT(error(force(-3, {0, half, 0, 2}), {1, 1}, 9), 10 * kClose);
+      EXPECT_LT(error(force(1, f), x, t), 10 * kRounded) << f.size() << ' ' << x[0] << ' ' << t;
+  EXPECT_LT(error(force(-3, {0, half, 0, 2}), {1, 1}, 9), 10 * kRounded);
   // Separatrices: of two wells q = sqrt(2) sech t, and of the cubic potential.
-  EXPECT_LT(error(force(1, {0, -1, 1}), {0, 0}, 3), kClose);
-  EXPECT_LT(error(force(1, {0, 1, 0, -2}), {1, 0}, 5), 10 * kClose);
+  EXPECT_LT(error(force(1, {0, -1, 1}), {0, 0}, 3), kRounded);
+  EXPECT_LT(error(force(1, {0, 1, 0, -2}), {1, 0}, 5), 10 * kRounded);
 }
 
 // The whole turns are taken off exactly: a million periods later nothing is lost.
@@ -240,7 +205,7 @@ TEST(ClosedForm, RunsFromTheStartAndFromElsewhere) {
   ASSERT_EQ(whole.samples.size(), 5u);
   settings.duration = 7.5;
   const Trajectory rest = integrate(module, *find_method("exact"), settings, whole.samples[1]);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(rest.state[i], whole.state[i], kClose);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(rest.state[i], whole.state[i], kRounded);
 }
 
 }  // namespace

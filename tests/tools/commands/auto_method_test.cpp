@@ -67,6 +67,36 @@ TEST(AutoMethod, BranchesAndConstantStepsStayWithTaylorSeries) {
   EXPECT_EQ(answered(text, {"--tolerance", "1e-6"}).at("method"), "taylor");
 }
 
+/// A body with a rotor, for that long.
+std::string gyrostat(const std::string& duration, const std::string& more = "") {
+  return "hamiltonian = \"(M1^2 + M2^2/2 + M3^2/3)/2 + M1/10 + M2/5 + M3/3" + more +
+         "\"\n[phase_space]\nvariables = [\"M1\", \"M2\", \"M3\"]\nalgebra = \"so(3)\"\n"
+         "[[scene]]\nname = \"default\"\ninitial = { M1 = \"1\", M2 = \"1/2\", M3 = \"1/3\" }\n"
+         "duration = \"" +
+         duration + "\"\n";
+}
+
+TEST(AutoMethod, LongRunsAreByTheClosedFormWhereThereIsOne) {
+  const auto closed = answered(gyrostat("1000000"), {});
+  EXPECT_EQ(closed.at("method"), "exact");
+  const auto stepped = answered(gyrostat("1000000"), {}, {{"CASIMIR_CLOSED_FORMS", "off"}});
+  EXPECT_EQ(stepped.at("method"), "taylor");
+  const auto estimate = [](const nlohmann::json& run) {
+    return std::stod(run.at("trust").at("error_estimate").get<std::string>());
+  };
+  EXPECT_LT(estimate(closed), 1e-15);
+  EXPECT_GT(estimate(stepped), 1e-14);
+  EXPECT_LT(distance(closed, stepped), estimate(closed) + estimate(stepped));
+  EXPECT_EQ(answered(gyrostat("3000"), {}).at("method"), "taylor");
+  const Folder folder;
+  const std::string table = (folder.path() / "t.csv").string();
+  EXPECT_EQ(answered(gyrostat("1000000"), {"--every", "100", "--output", table}).at("method"),
+            "taylor")
+      << "so many samples take less by steps";
+  EXPECT_EQ(answered(gyrostat("1000000", " + M1^4/1000"), {"--tolerance", "1e-6"}).at("method"),
+            "taylor");
+}
+
 TEST(AutoMethod, WithoutACompilerItIsTaylorSeriesAgain) {
   const Folder cache;
   const auto run =

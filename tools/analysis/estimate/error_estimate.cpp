@@ -7,6 +7,7 @@
 #include "runtime/step/step_watch.hpp"
 #include "tools/analysis/estimate/growth_of_changes.hpp"
 #include "tools/analysis/estimate/rounding_of_rates.hpp"
+#include "tools/analysis/run/closed_form_error.hpp"
 #include "tools/analysis/run/taylor_path.hpp"
 
 namespace casimir {
@@ -225,10 +226,38 @@ bool ErrorEstimate::died_out() const {
   return beyond_double && conditioning * kUnitRoundoff < kSpoiled;
 }
 
+namespace {
+
+/// A closed form is made of the exact numbers of the scene and takes no steps: neither rounding the
+/// data nor what grows on the way is an error of it.
+ErrorEstimate assess_closed_form(const PreparedScene& run, double error, const Method& method,
+                                 const Settings& settings, const Trajectory& trajectory) {
+  ErrorEstimate trust;
+  const std::vector<double> sizes = sizes_of(trajectory);
+  const std::optional<Conditioning> flow =
+      conditioning(run, settings, trajectory.time, sizes, false);
+  trust.known = true;
+  trust.conditioning = flow ? flow->at_end : 1;
+  trust.on_the_way = flow ? flow->on_the_way() : 1;
+  trust.error_estimate = error;
+  if (flow && flow->followed > 0 && flow->followed < 0.99 * std::abs(trajectory.time))
+    trust.followed = flow->followed;
+  // Where another method gets there, what it says must agree as far as its own errors go.
+  const CrossCheck check =
+      cross_check(run, method, settings, trajectory, end_sizes(run, trajectory), trust.on_the_way);
+  trust.error_estimate = std::max(trust.error_estimate, check.distance);
+  return trust;
+}
+
+}  // namespace
+
 ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, const Method& method,
                      const Settings& settings, const Trajectory& trajectory, double budget) {
   ErrorEstimate trust;
   if (trajectory.status != Status::ok) return trust;
+  if (method.closed_form)
+    if (const std::optional<double> error = closed_form_error(run))
+      return assess_closed_form(run, *error, method, settings, trajectory);
   const std::vector<double> sizes = sizes_of(trajectory);
   const std::size_t n = run.initial.size();
   Neighbours neighbours(run, compiled, method, settings, trajectory, sizes);

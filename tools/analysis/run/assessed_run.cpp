@@ -103,6 +103,7 @@ class Judge {
   }
 
   void run_chosen_method() {
+    if (run_closed_form()) return;
     prepare_smooth(settings_for(options_.run, run_, kSmoothTolerance));
     SmoothnessWatch smoothness(*result_.compiled, run_, result_.settings.duration);
     *smoothness_ = &smoothness;
@@ -120,6 +121,24 @@ class Judge {
       run_it();
       if (!options_.run.tolerance && !options_.run.atol) try_small_states();
     }
+  }
+
+  /// \return  whether the run was long, and there is a closed form that reaches its end.
+  bool run_closed_form() {
+    Settings settings = settings_for(options_.run, run_, kSmoothTolerance);
+    settings.sample_every = options_.sample_every;
+    if (options_.run.projects() || !closed_form_pays(run_, settings)) return false;
+    const Method& method = *find_method("exact");
+    if (!suits(run_, method)) return false;
+    try {
+      prepare(method, settings);
+      run_it();
+    } catch (const RequestError&) {  // so close to a separatrix that its numbers do not suffice
+      result_ = {};
+      return false;
+    }
+    result_.chosen = "the run is long, and its solution is known in closed form";
+    return true;
   }
 
   /// 1/(1 + exp(10^5 x)) is as good as 0 where the exponential is beyond all doubles; the

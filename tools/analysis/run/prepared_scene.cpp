@@ -22,6 +22,7 @@
 #include "runtime/taylor/program_layout.hpp"
 #include "runtime/taylor/quadratic_targets.hpp"
 #include "runtime/uncompiled.hpp"
+#include "tools/analysis/run/closed_form_error.hpp"
 #include "tools/analysis/run/interpreted_first.hpp"
 #include "tools/analysis/run/taylor_path.hpp"
 
@@ -207,6 +208,13 @@ CompiledModule exact_module(const PreparedScene& run) {
 }
 
 }  // namespace
+
+std::optional<double> closed_form_error(const PreparedScene& run) {
+  std::vector<cln::cl_F> start;
+  const Recognised found = recognised(run, start);
+  if (!found.form) return std::nullopt;
+  return found.form->error();
+}
 
 CompiledModule compile_for(const PreparedScene& run, const Method& method) {
   const auto start = Clock::now();
