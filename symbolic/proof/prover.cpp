@@ -84,7 +84,6 @@ void Prover::begin_claim(const std::vector<ex>& expressions, Subject subject) {
   divisors_.reset();
   motion_divisors_.reset();
   claim_inhabited_.reset();
-  known_levels_.clear();
 }
 
 const Level& Prover::level(const std::vector<NamedExpression>& on) {
@@ -93,8 +92,14 @@ const Level& Prover::level(const std::vector<NamedExpression>& on) {
   };
   for (const KnownLevel& known : known_levels_) {
     if (known.in_branch == in_branch_ &&
-        std::equal(on.begin(), on.end(), known.on.begin(), known.on.end(), same))
+        std::equal(on.begin(), on.end(), known.on.begin(), known.on.end(), same)) {
+      // What it divides by counts for each claim.
+      for (const NamedExpression& whole : on) {
+        for (const auto& [f, numerator] : level_functions(whole))
+          if (!f.value.is_equal(whole.value)) convert(f.value);
+      }
       return known.level;
+    }
   }
   known_levels_.push_back({on, in_branch_, make_level(on)});
   return known_levels_.back().level;

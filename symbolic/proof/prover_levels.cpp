@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "symbolic/algebra/where_defined.hpp"
 #include "symbolic/expression/expression_size.hpp"
@@ -19,7 +20,7 @@ constexpr GroebnerLimits kSmallBasis{200, 60, 2000};
 /// says more than the normal form of the ring, that s^2 = 0.
 std::vector<Polynomial> square_relations(const FunctionRing& ring) {
   std::vector<Polynomial> relations;
-  for (std::size_t i = ring.symbols().size(); i < ring.ring().size(); ++i) {
+  for (std::size_t i = ring.symbols().size(); i < ring.end_of_generators(); ++i) {
     const Polynomial square = ring.ring().variable(i) * ring.ring().variable(i);
     const Polynomial relation = square - ring.numerator(square);
     // Not so for 1/d, whose numerator is another function.
@@ -120,10 +121,14 @@ const std::vector<Polynomial>& Prover::explicit_divisors(Divisors which) {
   known.emplace();
   const auto add_polynomial = [&](const Polynomial& p) {
     for (const auto& [f, exponent] : ring_.lowest_terms(p).first.factors()) {
-      if (!f.is_constant()) known->push_back(f);
+      if (!f.is_constant() && std::find(known->begin(), known->end(), f) == known->end())
+        known->push_back(f);
     }
   };
-  const auto add = [&](const ex& base) { add_polynomial(ring_.convert(base)); };
+  std::unordered_set<ex> seen;
+  const auto add = [&](const ex& base) {
+    if (seen.insert(base).second) add_polynomial(ring_.convert(base));
+  };
   const std::vector<ex> motion = with_dynamics(model_, {}, subject_);
   for (const ex& expression : which == Divisors::all ? domain_ : motion) {
     for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
@@ -154,8 +159,9 @@ bool Prover::vanishes_nowhere_on(const Polynomial& p, const Level& level, Diviso
   const auto kept_from_zero = [&](const Polynomial& f) {
     if (ring_.is_nowhere_zero(f)) return true;
     const auto& divisors = explicit_divisors(which);
+    const Polynomial minus = -f;
     return std::any_of(divisors.begin(), divisors.end(),
-                       [&](const Polynomial& d) { return d == f || d == -f; });
+                       [&](const Polynomial& d) { return d == f || d == minus; });
   };
   const auto never = [&](const Polynomial& f) {
     if (f.is_constant()) return !f.is_zero();
@@ -435,59 +441,6 @@ void Prover::say_where_motion_is_unique(Proof& proof, const NamedExpression& f) 
     const bool shared = std::find(of_motion.begin(), of_motion.end(), p) != of_motion.end();
     if (shared && !vanishes_nowhere_on(p, {})) proof.where.push_back(ring_.text(p) + " != 0");
   }
-}
-
-/// A claim about nothing says so: for all points of the empty set everything is true. So does one
-/// that differentiates functions which have real values on the edge of their domain alone, as
-/// sqrt(-x^2) has.
-void Prover::check_inhabited(Proof& proof, const Level& own) {
-  if (proof.verdict != Verdict::proved) return;
-  const bool everywhere = ring_.is_polynomial() && model_.assumptions.empty();
-  static const std::vector<ex> kNothing;
-  const std::vector<ex>& domain = ring_.is_polynomial() ? kNothing : domain_;
-  if (own.empty()) {
-    if (everywhere) return;
-    if (!all_inhabited_)
-      all_inhabited_ = real_points_.any(ring_.is_polynomial() ? kNothing : all_, true).has_value();
-    if (*all_inhabited_) return;
-    if (!claim_inhabited_)
-      claim_inhabited_ = real_points_.any(domain, subject_ != Subject::functions).has_value();
-    if (*claim_inhabited_) return;
-  } else if (RealLevelPoints(ring_, real_points_, points_).exists(own, domain)) {
-    return;
-  }
-  proof.verdict = Verdict::undecided;
-  proof.evidence.clear();
-  proof.reason = own.empty()
-                     ? "no real point was found inside the assumptions at which all functions of "
-                       "the claim have real values: it may be about nothing"
-                     : "no real point of the level was found inside the assumptions at which all "
-                       "functions of the claim have real values: it may be about nothing";
-}
-
-void Prover::say_conditions(Proof& proof) {
-  // x^n is read as exp(n*log(x)), though for whole n it has values for x < 0 too.
-  for (const ex& expression : proof.verdict == Verdict::proved ? domain_ : std::vector<ex>{}) {
-    for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
-      if (!GiNaC::is_a<GiNaC::power>(*part) || GiNaC::is_a<GiNaC::numeric>(part->op(1))) continue;
-      const Polynomial base = ring_.convert(part->op(0));
-      const bool assumed = base.is_constant() || ring_.is_assumed_positive(base);
-      const std::string condition = ring_.text(base) + " > 0";
-      const bool said =
-          std::find(proof.where.begin(), proof.where.end(), condition) != proof.where.end();
-      if (!assumed && !said) proof.where.push_back(condition);
-    }
-  }
-  proof.nonzero.clear();
-  proof.positive.clear();
-  const std::vector<Polynomial> denominators = ring_.denominators();
-  for (std::size_t k = 0; k < divided_by_.size(); ++k) {
-    if (divided_by_[k] && !ring_.is_nowhere_zero(denominators[k]))
-      proof.nonzero.push_back(ring_.text(denominators[k]));
-  }
-  // The ring meets them in an order that differs from one process to the next.
-  std::sort(proof.nonzero.begin(), proof.nonzero.end());
-  for (const Polynomial& p : ring_.implied_positive()) proof.positive.push_back(ring_.text(p));
 }
 
 }  // namespace casimir
