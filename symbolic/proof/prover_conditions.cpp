@@ -44,12 +44,23 @@ void add_bases(const ex& expression, std::vector<ex>& bases) {
   for (std::size_t i = 0; i < expression.nops(); ++i) add_bases(expression.op(i), bases);
 }
 
+/// False where no expression that was converted has a power whose exponent is no number and whose
+/// base is no constant: it is made of a logarithm or, where the base is one, of an exponential.
+bool may_have_open_powers(const FunctionRing& ring) {
+  using Kind = FunctionRing::Origin::Kind;
+  if (ring.is_complex()) return true;
+  for (std::size_t g = ring.symbols().size(); g < ring.end_of_generators(); ++g) {
+    const Kind kind = ring.origin(g).kind;
+    if (kind == Kind::logarithm || kind == Kind::exponential) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void Prover::say_conditions(Proof& proof) {
-  // x^n is read as exp(n*log(x)), though for whole n it has values for x < 0 too. Polynomials have
-  // no such powers.
-  const bool any = proof.verdict == Verdict::proved && !ring_.is_polynomial();
+  // x^n is read as exp(n*log(x)), though for whole n it has values for x < 0 too.
+  const bool any = proof.verdict == Verdict::proved && may_have_open_powers(ring_);
   for (const ex& expression : any ? domain_ : std::vector<ex>{}) {
     std::vector<ex> bases;
     add_bases(expression, bases);
