@@ -16,19 +16,6 @@ using GiNaC::ex;
 constexpr std::size_t kMaxResidualText = 2000;
 constexpr GroebnerLimits kSmallBasis{200, 60, 2000};
 
-/// What holds between the functions everywhere, as c^2 - (1 - s^2): on a level such as c = 1 it
-/// says more than the normal form of the ring, that s^2 = 0.
-std::vector<Polynomial> square_relations(const FunctionRing& ring) {
-  std::vector<Polynomial> relations;
-  for (std::size_t i = ring.symbols().size(); i < ring.end_of_generators(); ++i) {
-    const Polynomial square = ring.ring().variable(i) * ring.ring().variable(i);
-    const Polynomial relation = square - ring.numerator(square);
-    // Not so for 1/d, whose numerator is another function.
-    if (!relation.is_zero() && ring.numerator(relation).is_zero()) relations.push_back(relation);
-  }
-  return relations;
-}
-
 std::vector<NamedExpression> functions_of(const Level& level) {
   std::vector<NamedExpression> result;
   for (std::size_t i = 0; i < level.functions.size(); ++i)
@@ -37,6 +24,20 @@ std::vector<NamedExpression> functions_of(const Level& level) {
 }
 
 }  // namespace
+
+const std::vector<Polynomial>& Prover::square_relations() {
+  const std::size_t end = ring_.end_of_generators();
+  if (square_relations_.first == end) return square_relations_.second;
+  square_relations_ = {end, {}};
+  for (std::size_t i = ring_.symbols().size(); i < end; ++i) {
+    const Polynomial square = ring_.ring().variable(i) * ring_.ring().variable(i);
+    const Polynomial relation = square - ring_.numerator(square);
+    // Not so for 1/d, whose numerator is another function.
+    if (!relation.is_zero() && ring_.numerator(relation).is_zero())
+      square_relations_.second.push_back(relation);
+  }
+  return square_relations_.second;
+}
 
 std::string shortened(std::string text, std::size_t terms) {
   if (text.size() <= kMaxResidualText) return text;
@@ -93,7 +94,7 @@ Level Prover::make_level(const std::vector<NamedExpression>& on) {
   });
   if (result.solved.empty() && !result.empty()) {
     std::vector<Polynomial> ideal = result.numerators;
-    const std::vector<Polynomial> identities = square_relations(ring_);
+    const std::vector<Polynomial>& identities = square_relations();
     ideal.insert(ideal.end(), identities.begin(), identities.end());
     result.basis = groebner_basis(ideal, in_branch_ ? kSmallBasis : GroebnerLimits{});
   }
@@ -152,17 +153,26 @@ const std::vector<Polynomial>& Prover::explicit_divisors(Divisors which) {
   return *known;
 }
 
+bool Prover::is_kept_from_zero(const Polynomial& f, Divisors which) {
+  for (const KeptFromZero& known : kept_from_zero_)
+    if (known.which == which && known.function == f) return known.kept;
+  bool kept = ring_.is_nowhere_zero(f);
+  if (!kept) {
+    const auto& divisors = explicit_divisors(which);
+    const Polynomial minus = -f;
+    kept = std::any_of(divisors.begin(), divisors.end(),
+                       [&](const Polynomial& d) { return d == f || d == minus; });
+  }
+  constexpr std::size_t kMostKept = 100;
+  if (kept_from_zero_.size() < kMostKept) kept_from_zero_.push_back({which, f, kept});
+  return kept;
+}
+
 /// A factor vanishes nowhere there that the assumptions keep from zero, that is divided by, or that
 /// has no zero in common with the level: then the ideal of both contains 1, or something else that
 /// vanishes nowhere (the easy half of Hilbert's Nullstellensatz).
 bool Prover::vanishes_nowhere_on(const Polynomial& p, const Level& level, Divisors which) {
-  const auto kept_from_zero = [&](const Polynomial& f) {
-    if (ring_.is_nowhere_zero(f)) return true;
-    const auto& divisors = explicit_divisors(which);
-    const Polynomial minus = -f;
-    return std::any_of(divisors.begin(), divisors.end(),
-                       [&](const Polynomial& d) { return d == f || d == minus; });
-  };
+  const auto kept_from_zero = [&](const Polynomial& f) { return is_kept_from_zero(f, which); };
   const auto never = [&](const Polynomial& f) {
     if (f.is_constant()) return !f.is_zero();
     const auto factors = f.factors();
@@ -174,7 +184,7 @@ bool Prover::vanishes_nowhere_on(const Polynomial& p, const Level& level, Diviso
   for (const auto& [f, exponent] : p.factors()) {
     if (f.is_constant() || kept_from_zero(f)) continue;
     std::vector<Polynomial> ideal = level.numerators;
-    const std::vector<Polynomial> identities = square_relations(ring_);
+    const std::vector<Polynomial>& identities = square_relations();
     ideal.insert(ideal.end(), identities.begin(), identities.end());
     const std::vector<Polynomial> zeros = ring_.real_zeros(f);
     ideal.insert(ideal.end(), zeros.begin(), zeros.end());
