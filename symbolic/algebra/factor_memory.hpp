@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -10,19 +11,28 @@ namespace casimir {
 
 using Factors = std::vector<std::pair<Polynomial, unsigned long>>;
 
-/// The factors that were found in a ring: a proof asks for those of the same few polynomials again
-/// and again, and each time FLINT would find them anew. They are forgotten with their ring.
-/// Several threads may use rings of their own.
+/// The factors that were found in a ring, which owns this: a proof asks for those of the same few
+/// polynomials again and again, and each time FLINT would find them anew. Several threads may ask
+/// for those of one ring.
 class FactorMemory {
  public:
+  /// \param p  of the ring
   /// \return  what `keep` was given for this polynomial, or what follows from it
-  static std::optional<Factors> of(const Polynomial& p);
+  std::optional<Factors> of(const Polynomial& p) const;
 
+  /// \param p  of the ring
   /// \param factors  irreducible, the constant one first; they are known to be so from then on
-  static void keep(const Polynomial& p, const Factors& factors);
+  void keep(const Polynomial& p, const Factors& factors);
 
-  /// Where the ring ends.
-  static void forget(const PolynomialRing& ring);
+ private:
+  struct Entry {
+    Polynomial whole;
+    Factors factors;
+  };
+  const Entry* find(const Polynomial& p) const;
+
+  mutable std::mutex guard_;
+  std::vector<Entry> entries_;
 };
 
 }  // namespace casimir

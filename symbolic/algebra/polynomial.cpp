@@ -24,12 +24,13 @@ void count_product(const Polynomial& a, const Polynomial& b) {
 
 }  // namespace
 
-PolynomialRing::PolynomialRing(std::size_t variables) : size_(variables) {
+PolynomialRing::PolynomialRing(std::size_t variables)
+    : size_(variables), factor_memory_(std::make_unique<FactorMemory>()) {
   fmpq_mpoly_ctx_init(context_, static_cast<slong>(variables), ORD_DEGREVLEX);
 }
 
 PolynomialRing::~PolynomialRing() {
-  FactorMemory::forget(*this);
+  factor_memory_.reset();  // its polynomials need the context
   fmpq_mpoly_ctx_clear(context_);
 }
 

@@ -14,6 +14,7 @@
 namespace casimir {
 
 class Polynomial;
+class FactorMemory;
 
 /// Q[x_1, .., x_n] with sparse distributed polynomials in degree-reverse-lexicographic order.
 /// Must outlive its polynomials.
@@ -28,9 +29,12 @@ class PolynomialRing {
   Polynomial constant(const cln::cl_RA& value) const;
   Polynomial variable(std::size_t i) const;
   const fmpq_mpoly_ctx_struct* context() const { return context_; }
+  /// The factors that were found in this ring; may be used from several threads.
+  FactorMemory& factor_memory() const { return *factor_memory_; }
 
  private:
   std::size_t size_;
+  std::unique_ptr<FactorMemory> factor_memory_;
   fmpq_mpoly_ctx_t context_;
 };
 

@@ -54,7 +54,7 @@ std::vector<std::pair<Polynomial, unsigned long>> Polynomial::factors() const {
     const cln::cl_RA number = content();
     return {{ring_->constant(number), 1}, {scaled(1 / number), 1}};
   }
-  if (auto known = FactorMemory::of(*this)) return *std::move(known);
+  if (auto known = ring_->factor_memory().of(*this)) return *std::move(known);
   constexpr long kMostDegree = 200;
   constexpr double kMostBits = 10'000;  // at the degree of 200 some 0.2 s
   constexpr std::size_t kMostTerms = 20'000;
@@ -79,7 +79,7 @@ std::vector<std::pair<Polynomial, unsigned long>> Polynomial::factors() const {
     for (const auto& [factor, exponent] : moved_to(small, places).own_factors())
       result.emplace_back(factor.moved_to(*ring_, used), exponent);
   }
-  FactorMemory::keep(*this, result);
+  ring_->factor_memory().keep(*this, result);
   return result;
 }
 

@@ -1,6 +1,7 @@
 // What a FunctionRing knows of the places where its functions are not analytic.
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "symbolic/functions/function_ring.hpp"
 
@@ -74,15 +75,40 @@ bool FunctionRing::is_real_everywhere(const Polynomial& p) const {
   });
 }
 
+namespace {
+
+/// Divides both by their greatest common divisor, which has the leading coefficient 1. The same few
+/// denominators come again and again, and their factors are remembered.
+void cancel(Polynomial& top, Polynomial& bottom) {
+  constexpr std::size_t kMostTerms = 100;
+  constexpr long kMostDegree = 50;
+  if (bottom.terms() > kMostTerms || bottom.total_degree() > kMostDegree) {
+    const Polynomial common = Polynomial::gcd(top, bottom);
+    top.divide(common, &top);
+    bottom.divide(common, &bottom);
+    return;
+  }
+  Polynomial quotient(top.ring());
+  for (const auto& [f, exponent] : bottom.factors()) {
+    if (f.is_constant()) continue;
+    const Polynomial factor = f.scaled(1 / f.term_list()[0].first);
+    for (unsigned long k = 0; k < exponent && top.divide(factor, &quotient); ++k) {
+      std::swap(top, quotient);
+      bottom.divide(factor, &bottom);
+    }
+  }
+}
+
+}  // namespace
+
 std::pair<Polynomial, Polynomial> FunctionRing::lowest_terms(const Polynomial& p) const {
   if (generators_.empty()) return {p, ring_->constant(1)};
   const auto [unreduced_top, unreduced_bottom] = fraction(reduced(p));
   Polynomial top = reduced(unreduced_top);
   Polynomial bottom = reduced(unreduced_bottom);
   if (top.is_zero()) return {top, ring_->constant(1)};
-  const Polynomial common = Polynomial::gcd(top, bottom);
-  top.divide(common, &top);
-  bottom.divide(common, &bottom);
+  if (bottom.is_constant()) return {std::move(top), std::move(bottom)};
+  cancel(top, bottom);
   return {std::move(top), std::move(bottom)};
 }
 

@@ -84,7 +84,7 @@ void Prover::begin_claim(const std::vector<ex>& expressions, Subject subject) {
   divisors_.reset();
   motion_divisors_.reset();
   claim_inhabited_.reset();
-  known_levels_.clear();
+  kept_from_zero_.clear();
 }
 
 const Level& Prover::level(const std::vector<NamedExpression>& on) {
@@ -93,8 +93,14 @@ const Level& Prover::level(const std::vector<NamedExpression>& on) {
   };
   for (const KnownLevel& known : known_levels_) {
     if (known.in_branch == in_branch_ &&
-        std::equal(on.begin(), on.end(), known.on.begin(), known.on.end(), same))
+        std::equal(on.begin(), on.end(), known.on.begin(), known.on.end(), same)) {
+      // What it divides by counts for each claim.
+      for (const NamedExpression& whole : on) {
+        for (const auto& [f, numerator] : level_functions(whole))
+          if (!f.value.is_equal(whole.value)) convert(f.value);
+      }
       return known.level;
+    }
   }
   known_levels_.push_back({on, in_branch_, make_level(on)});
   return known_levels_.back().level;
@@ -116,14 +122,24 @@ const std::vector<Prover::LevelFunction>& Prover::level_functions(const NamedExp
 }
 
 const Polynomial& Prover::convert(const ex& expression) {
-  if (!ring_.is_polynomial()) {
-    // What cancels in the sum was divided by all the same.
-    for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
-      if (GiNaC::is_a<GiNaC::power>(*part) || GiNaC::is_a<GiNaC::function>(*part))
-        used(ring_.convert(*part));
-    }
+  if (ring_.is_polynomial()) return ring_.convert(expression);
+  const auto known = denominators_of_.find(expression);
+  if (known != denominators_of_.end()) {
+    const std::vector<bool>& marks = known->second;
+    divided_by_.resize(std::max(divided_by_.size(), marks.size()));
+    for (std::size_t i = 0; i < marks.size(); ++i) divided_by_[i] = divided_by_[i] || marks[i];
+    return ring_.convert(expression);
   }
-  return used(ring_.convert(expression));
+  std::vector<bool> marks;
+  // What cancels in the sum was divided by all the same.
+  for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
+    if (GiNaC::is_a<GiNaC::power>(*part) || GiNaC::is_a<GiNaC::function>(*part))
+      ring_.mark_denominators(used(ring_.convert(*part)), marks);
+  }
+  const Polynomial& result = used(ring_.convert(expression));
+  ring_.mark_denominators(result, marks);
+  denominators_of_.emplace(expression, std::move(marks));
+  return result;
 }
 
 const std::vector<Polynomial>& Prover::field() const {

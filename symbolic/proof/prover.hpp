@@ -83,7 +83,7 @@ class Prover {
   Polynomial divergence() const;
   std::vector<Polynomial> gradient(const Polynomial& f) const;
 
-  /// The common zeros of functions; each one once for a claim, since factors and bases cost time.
+  /// The common zeros of functions; each one once, since factors and bases cost time.
   const Level& level(const std::vector<NamedExpression>& on);
   /// Residuals that say that the level is invariant.
   std::vector<Residual> level_rates(const Level& level);
@@ -175,6 +175,11 @@ class Prover {
   /// Whether `p` vanishes at no point of the level at which the claim says something.
   bool vanishes_nowhere_on(const Polynomial& p, const Level& level, Divisors which = Divisors::all);
   const std::vector<Polynomial>& explicit_divisors(Divisors which);
+  /// Whether an irreducible function vanishes nowhere, or is divided by; kept for this claim.
+  bool is_kept_from_zero(const Polynomial& f, Divisors which);
+  /// What holds between the functions everywhere, as c^2 - (1 - s^2): on a level such as c = 1 it
+  /// says more than the normal form of the ring, that s^2 = 0.
+  const std::vector<Polynomial>& square_relations();
   std::optional<Witness> witness(const Polynomial& rest, const Residual& residual,
                                  const Level& level);
   void say_conditions(Proof& proof);
@@ -187,6 +192,8 @@ class Prover {
   std::vector<Polynomial> brackets_;
   std::vector<Polynomial> field_;
   std::unordered_map<GiNaC::ex, std::vector<Polynomial>> flows_;
+  /// Of what was converted: which of the ring's denominators it has.
+  std::unordered_map<GiNaC::ex, std::vector<bool>> denominators_of_;
   std::map<std::pair<GiNaC::ex, GiNaC::ex>, Polynomial, ExpressionPairLess> known_brackets_;
   PointSearch points_;
   std::optional<GiNaC::symbol> spectral_;
@@ -194,8 +201,16 @@ class Prover {
   std::vector<GiNaC::ex> claim_, domain_, all_;
   std::optional<std::vector<Polynomial>> divisors_, motion_divisors_;
   Subject subject_;
+  struct KeptFromZero {
+    Divisors which;
+    Polynomial function;
+    bool kept;
+  };
+  std::vector<KeptFromZero> kept_from_zero_;
+  /// With the end of the generators that they are about.
+  std::pair<std::size_t, std::vector<Polynomial>> square_relations_;
   std::optional<bool> all_inhabited_, claim_inhabited_;
-  /// A level of this claim, by its functions and by how much work it was worth.
+  /// A level, by its functions and by how much work it was worth.
   struct KnownLevel {
     std::vector<NamedExpression> on;
     bool in_branch;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "symbolic/algebra/where_defined.hpp"
 #include "symbolic/expression/expression_size.hpp"
@@ -15,19 +16,6 @@ using GiNaC::ex;
 constexpr std::size_t kMaxResidualText = 2000;
 constexpr GroebnerLimits kSmallBasis{200, 60, 2000};
 
-/// What holds between the functions everywhere, as c^2 - (1 - s^2): on a level such as c = 1 it
-/// says more than the normal form of the ring, that s^2 = 0.
-std::vector<Polynomial> square_relations(const FunctionRing& ring) {
-  std::vector<Polynomial> relations;
-  for (std::size_t i = ring.symbols().size(); i < ring.ring().size(); ++i) {
-    const Polynomial square = ring.ring().variable(i) * ring.ring().variable(i);
-    const Polynomial relation = square - ring.numerator(square);
-    // Not so for 1/d, whose numerator is another function.
-    if (!relation.is_zero() && ring.numerator(relation).is_zero()) relations.push_back(relation);
-  }
-  return relations;
-}
-
 std::vector<NamedExpression> functions_of(const Level& level) {
   std::vector<NamedExpression> result;
   for (std::size_t i = 0; i < level.functions.size(); ++i)
@@ -36,6 +24,20 @@ std::vector<NamedExpression> functions_of(const Level& level) {
 }
 
 }  // namespace
+
+const std::vector<Polynomial>& Prover::square_relations() {
+  const std::size_t end = ring_.end_of_generators();
+  if (square_relations_.first == end) return square_relations_.second;
+  square_relations_ = {end, {}};
+  for (std::size_t i = ring_.symbols().size(); i < end; ++i) {
+    const Polynomial square = ring_.ring().variable(i) * ring_.ring().variable(i);
+    const Polynomial relation = square - ring_.numerator(square);
+    // Not so for 1/d, whose numerator is another function.
+    if (!relation.is_zero() && ring_.numerator(relation).is_zero())
+      square_relations_.second.push_back(relation);
+  }
+  return square_relations_.second;
+}
 
 std::string shortened(std::string text, std::size_t terms) {
   if (text.size() <= kMaxResidualText) return text;
@@ -92,7 +94,7 @@ Level Prover::make_level(const std::vector<NamedExpression>& on) {
   });
   if (result.solved.empty() && !result.empty()) {
     std::vector<Polynomial> ideal = result.numerators;
-    const std::vector<Polynomial> identities = square_relations(ring_);
+    const std::vector<Polynomial>& identities = square_relations();
     ideal.insert(ideal.end(), identities.begin(), identities.end());
     result.basis = groebner_basis(ideal, in_branch_ ? kSmallBasis : GroebnerLimits{});
   }
@@ -120,10 +122,14 @@ const std::vector<Polynomial>& Prover::explicit_divisors(Divisors which) {
   known.emplace();
   const auto add_polynomial = [&](const Polynomial& p) {
     for (const auto& [f, exponent] : ring_.lowest_terms(p).first.factors()) {
-      if (!f.is_constant()) known->push_back(f);
+      if (!f.is_constant() && std::find(known->begin(), known->end(), f) == known->end())
+        known->push_back(f);
     }
   };
-  const auto add = [&](const ex& base) { add_polynomial(ring_.convert(base)); };
+  std::unordered_set<ex> seen;
+  const auto add = [&](const ex& base) {
+    if (seen.insert(base).second) add_polynomial(ring_.convert(base));
+  };
   const std::vector<ex> motion = with_dynamics(model_, {}, subject_);
   for (const ex& expression : which == Divisors::all ? domain_ : motion) {
     for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
@@ -147,16 +153,26 @@ const std::vector<Polynomial>& Prover::explicit_divisors(Divisors which) {
   return *known;
 }
 
+bool Prover::is_kept_from_zero(const Polynomial& f, Divisors which) {
+  for (const KeptFromZero& known : kept_from_zero_)
+    if (known.which == which && known.function == f) return known.kept;
+  bool kept = ring_.is_nowhere_zero(f);
+  if (!kept) {
+    const auto& divisors = explicit_divisors(which);
+    const Polynomial minus = -f;
+    kept = std::any_of(divisors.begin(), divisors.end(),
+                       [&](const Polynomial& d) { return d == f || d == minus; });
+  }
+  constexpr std::size_t kMostKept = 100;
+  if (kept_from_zero_.size() < kMostKept) kept_from_zero_.push_back({which, f, kept});
+  return kept;
+}
+
 /// A factor vanishes nowhere there that the assumptions keep from zero, that is divided by, or that
 /// has no zero in common with the level: then the ideal of both contains 1, or something else that
 /// vanishes nowhere (the easy half of Hilbert's Nullstellensatz).
 bool Prover::vanishes_nowhere_on(const Polynomial& p, const Level& level, Divisors which) {
-  const auto kept_from_zero = [&](const Polynomial& f) {
-    if (ring_.is_nowhere_zero(f)) return true;
-    const auto& divisors = explicit_divisors(which);
-    return std::any_of(divisors.begin(), divisors.end(),
-                       [&](const Polynomial& d) { return d == f || d == -f; });
-  };
+  const auto kept_from_zero = [&](const Polynomial& f) { return is_kept_from_zero(f, which); };
   const auto never = [&](const Polynomial& f) {
     if (f.is_constant()) return !f.is_zero();
     const auto factors = f.factors();
@@ -168,7 +184,7 @@ bool Prover::vanishes_nowhere_on(const Polynomial& p, const Level& level, Diviso
   for (const auto& [f, exponent] : p.factors()) {
     if (f.is_constant() || kept_from_zero(f)) continue;
     std::vector<Polynomial> ideal = level.numerators;
-    const std::vector<Polynomial> identities = square_relations(ring_);
+    const std::vector<Polynomial>& identities = square_relations();
     ideal.insert(ideal.end(), identities.begin(), identities.end());
     const std::vector<Polynomial> zeros = ring_.real_zeros(f);
     ideal.insert(ideal.end(), zeros.begin(), zeros.end());
@@ -415,59 +431,6 @@ void Prover::say_where_motion_is_unique(Proof& proof, const NamedExpression& f) 
     const bool shared = std::find(of_motion.begin(), of_motion.end(), p) != of_motion.end();
     if (shared && !vanishes_nowhere_on(p, {})) proof.where.push_back(ring_.text(p) + " != 0");
   }
-}
-
-/// A claim about nothing says so: for all points of the empty set everything is true. So does one
-/// that differentiates functions which have real values on the edge of their domain alone, as
-/// sqrt(-x^2) has.
-void Prover::check_inhabited(Proof& proof, const Level& own) {
-  if (proof.verdict != Verdict::proved) return;
-  const bool everywhere = ring_.is_polynomial() && model_.assumptions.empty();
-  static const std::vector<ex> kNothing;
-  const std::vector<ex>& domain = ring_.is_polynomial() ? kNothing : domain_;
-  if (own.empty()) {
-    if (everywhere) return;
-    if (!all_inhabited_)
-      all_inhabited_ = real_points_.any(ring_.is_polynomial() ? kNothing : all_, true).has_value();
-    if (*all_inhabited_) return;
-    if (!claim_inhabited_)
-      claim_inhabited_ = real_points_.any(domain, subject_ != Subject::functions).has_value();
-    if (*claim_inhabited_) return;
-  } else if (RealLevelPoints(ring_, real_points_, points_).exists(own, domain)) {
-    return;
-  }
-  proof.verdict = Verdict::undecided;
-  proof.evidence.clear();
-  proof.reason = own.empty()
-                     ? "no real point was found inside the assumptions at which all functions of "
-                       "the claim have real values: it may be about nothing"
-                     : "no real point of the level was found inside the assumptions at which all "
-                       "functions of the claim have real values: it may be about nothing";
-}
-
-void Prover::say_conditions(Proof& proof) {
-  // x^n is read as exp(n*log(x)), though for whole n it has values for x < 0 too.
-  for (const ex& expression : proof.verdict == Verdict::proved ? domain_ : std::vector<ex>{}) {
-    for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
-      if (!GiNaC::is_a<GiNaC::power>(*part) || GiNaC::is_a<GiNaC::numeric>(part->op(1))) continue;
-      const Polynomial base = ring_.convert(part->op(0));
-      const bool assumed = base.is_constant() || ring_.is_assumed_positive(base);
-      const std::string condition = ring_.text(base) + " > 0";
-      const bool said =
-          std::find(proof.where.begin(), proof.where.end(), condition) != proof.where.end();
-      if (!assumed && !said) proof.where.push_back(condition);
-    }
-  }
-  proof.nonzero.clear();
-  proof.positive.clear();
-  const std::vector<Polynomial> denominators = ring_.denominators();
-  for (std::size_t k = 0; k < divided_by_.size(); ++k) {
-    if (divided_by_[k] && !ring_.is_nowhere_zero(denominators[k]))
-      proof.nonzero.push_back(ring_.text(denominators[k]));
-  }
-  // The ring meets them in an order that differs from one process to the next.
-  std::sort(proof.nonzero.begin(), proof.nonzero.end());
-  for (const Polynomial& p : ring_.implied_positive()) proof.positive.push_back(ring_.text(p));
 }
 
 }  // namespace casimir

@@ -6,7 +6,8 @@
 namespace casimir {
 
 bool Prover::is_zero(const Polynomial& p) {
-  if (ring_.is_polynomial() || ring_.reduced(p).is_zero()) return ring_.reduced(p).is_zero();
+  const bool zero = ring_.reduced(p).is_zero();
+  if (zero || ring_.is_polynomial()) return zero;
   return ring_.numerator(p).is_zero() && has_no_zero_divisors({{p}});
 }
 

@@ -17,43 +17,45 @@
 #include "symbolic/algebra/where_defined.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/proof/parameter_minors.hpp"
+#include "symbolic/proof/parameter_sets.hpp"
 
 namespace casimir {
 namespace {
 
 using Indices = std::vector<std::size_t>;
 
-/// A parameter that is zero, or equal to another one.
-struct SimpleForm {
-  Polynomial form;
-  std::size_t place;
-  std::optional<std::size_t> equal_to;
-};
-
-/// Equations for parameters, each solved for one of them by the others.
-struct Equations {
-  std::vector<Polynomial> forms;
-  std::vector<std::pair<std::size_t, Polynomial>> values{};
-};
+/// Which variables of the ring occur in a matrix.
+std::vector<bool> used_variables(const PolynomialRows& rows) {
+  std::vector<bool> used;
+  for (const auto& row : rows) {
+    for (const Polynomial& p : row) {
+      if (p.is_constant()) continue;
+      used.resize(p.ring().size());
+      for (std::size_t i = 0; i < used.size(); ++i) used[i] = used[i] || p.uses(i);
+    }
+  }
+  return used;
+}
 
 class SpecialParameters {
  public:
   SpecialParameters(Prover& prover, const PolynomialRows& rows, std::size_t rank)
       : prover_(prover), ring_(prover.ring()), rows_(rows), rank_(rank) {
-    const auto used = [&](const auto& property) {
-      return std::any_of(rows.begin(), rows.end(), [&](const auto& row) {
-        return std::any_of(row.begin(), row.end(), property);
-      });
-    };
+    if (prover.model().parameters.empty()) return;
+    const std::vector<bool> used = used_variables(rows);  // of none, where all are constant
+    // What depends on a parameter is one of the entries exactly where it is this sum.
+    Polynomial sum(ring());
+    for (std::size_t i = 0; i < used.size(); ++i)
+      if (used[i]) sum += ring().variable(i);
     for (std::size_t i = 0; i < prover.model().parameters.size(); ++i) {
       const std::size_t place = prover.dimension() + i;
-      if (used([&](const Polynomial& p) { return ring_.depends_on(p, place); }))
-        places_.push_back(place);
+      if (ring_.depends_on(sum, place)) places_.push_back(place);
     }
+    if (places_.empty()) return;
     // Functions of parameters, such as sin(a), have special values as well.
     for (std::size_t g = ring_.symbols().size(); g < ring_.end_of_generators(); ++g) {
       const Polynomial own = ring().variable(g);
-      if (!depends_on_parameters(own) || !used([&](const auto& p) { return p.uses(g); })) continue;
+      if (!used[g] || !depends_on_parameters(own)) continue;
       if (!depends_on_others(own)) constants_.push_back(g);
       if (ring_.origin(g).kind != FunctionRing::Origin::Kind::inverse) with_functions_ = true;
     }
@@ -106,19 +108,14 @@ class SpecialParameters {
   bool is_never_identically_zero(const Polynomial& f) const;
   void say_that_others_are_open();
   std::vector<Polynomial> common_factors() const;
-  std::vector<SimpleForm> simple_forms() const;
-  bool may_vanish(const SimpleForm& a, const SimpleForm& b,
-                  const std::vector<MinorModulo>& minors) const;
-  std::optional<Equations> solved(const std::vector<Polynomial>& forms) const;
-  static Polynomial reduced(Polynomial p, const Equations& set);
-  bool is_common_zero(const Equations& set) const;
+  bool is_common_zero(const ParameterEquations& set) const;
   bool lowers_rank(const std::function<bool(std::vector<GiNaC::ex>&)>& put, bool* tried);
   bool is_solvable(const Polynomial& f, std::size_t place) const;
   bool put_zero(const Polynomial& f, std::vector<GiNaC::ex>& coordinates, bool larger) const;
   bool is_excluded_at_zero(const Polynomial& parameter) const;
   void look_at_factor(const Polynomial& f, Zeros zeros);
   void look_at_pairs();
-  void look_at_set(const Equations& set);
+  void look_at_set(const ParameterEquations& set);
   void add(const std::string& condition) {
     if (std::find(found_.begin(), found_.end(), condition) == found_.end())
       found_.push_back(condition);
@@ -135,13 +132,14 @@ class SpecialParameters {
   std::vector<Polynomial> minors_;       ///< with numbers for everything else
   std::vector<Polynomial> factors_;      ///< whose zeros were looked at
   std::vector<Polynomial> excluded_;     ///< those of them that are conditions
-  std::vector<Equations> sets_;
+  std::vector<ParameterEquations> sets_;
   std::optional<MatrixModulo> modular_rows_;  ///< made when it is first needed
   std::vector<std::string> found_;
 };
 
 Polynomial SpecialParameters::at_numbers(const Polynomial& p,
                                          const std::vector<cln::cl_RA>& numbers) const {
+  if (p.is_constant()) return p;
   TermCollector result(ring());
   for (auto [number, exponents] : p.term_list()) {
     for (std::size_t i = 0; i < exponents.size(); ++i) {
@@ -208,69 +206,9 @@ std::vector<Polynomial> SpecialParameters::common_factors() const {
   return result;
 }
 
-std::vector<SimpleForm> SpecialParameters::simple_forms() const {
-  std::vector<SimpleForm> result;
-  for (const std::size_t p : places_) {
-    const Polynomial v = ring().variable(p);
-    result.push_back({v, p, std::nullopt});
-    for (const std::size_t q : places_)
-      if (q < p) result.push_back({v - ring().variable(q), p, q});
-  }
-  return result;
-}
-
-/// False where some minor is not zero at a point at which both forms are.
-bool SpecialParameters::may_vanish(const SimpleForm& a, const SimpleForm& b,
-                                   const std::vector<MinorModulo>& minors) const {
-  std::vector<std::uint64_t> point(ring().size());
-  for (std::size_t i = 0; i < point.size(); ++i) point[i] = 7 * i + 3;
-  const auto wanted = [&](const SimpleForm& form) {
-    return form.equal_to ? point[*form.equal_to] : 0;
-  };
-  // Twice, since the second form may change what the first one has set.
-  for (const SimpleForm* form : {&a, &b, &a, &b}) {
-    const std::uint64_t value = wanted(*form), known = point[form->place];
-    for (const std::size_t p : places_)
-      if (p == form->place || (value == 0 && point[p] == known)) point[p] = value;
-  }
-  if (point[a.place] != wanted(a) || point[b.place] != wanted(b)) return true;
-  return std::none_of(minors.begin(), minors.end(),
-                      [&](const MinorModulo& minor) { return minor.is_nonzero_at(point); });
-}
-
-Polynomial SpecialParameters::reduced(Polynomial p, const Equations& set) {
-  for (const auto& [place, value] : set.values) {
-    Polynomial sum(p.ring()), power = p.ring().constant(1);
-    for (const Polynomial& c : p.coefficients(place)) {
-      sum += c * power;
-      power *= value;
-    }
-    p = std::move(sum);
-  }
-  return p;
-}
-
-/// Linear equations, one after the other; empty where one contradicts the others.
-std::optional<Equations> SpecialParameters::solved(const std::vector<Polynomial>& forms) const {
-  Equations set{forms};
-  for (const Polynomial& form : forms) {
-    const Polynomial own = reduced(form, set);
-    if (own.is_zero()) continue;
-    if (own.total_degree() != 1) return std::nullopt;
-    const auto place = std::find_if(places_.begin(), places_.end(),
-                                    [&](std::size_t p) { return own.degree(p) == 1; });
-    if (place == places_.end()) return std::nullopt;
-    const std::vector<Polynomial> parts = own.coefficients(*place);
-    const Polynomial value = parts[0].scaled(-1 / parts[1].term_list()[0].first);
-    for (auto& [earlier, old] : set.values) old = reduced(old, {{}, {{*place, value}}});
-    set.values.emplace_back(*place, value);
-  }
-  return set;
-}
-
-bool SpecialParameters::is_common_zero(const Equations& set) const {
+bool SpecialParameters::is_common_zero(const ParameterEquations& set) const {
   return !minors_.empty() && std::all_of(minors_.begin(), minors_.end(),
-                                         [&](const auto& m) { return reduced(m, set).is_zero(); });
+                                         [&](const auto& m) { return set.reduced(m).is_zero(); });
 }
 
 /// Whether the rank is smaller at all points that `put` leads to; `tried` becomes whether there are
@@ -280,17 +218,26 @@ bool SpecialParameters::lowers_rank(const std::function<bool(std::vector<GiNaC::
   constexpr int kTrials = 3, kDraws = 200;
   static const std::vector<GiNaC::ex> kNothing;
   const auto& domain = ring_.is_polynomial() ? kNothing : prover_.domain();
+  // Then every point is admitted, and need not be made where a rank modulo a prime decides.
+  const bool everywhere = ring_.is_polynomial() && prover_.model().assumptions.empty();
+  const auto has_full_rank = [&](const std::vector<GiNaC::ex>& coordinates) {
+    if (ring_.is_polynomial() && !modular_rows_) modular_rows_.emplace(rows_);
+    return modular_rows_ && modular_rows_->rank_at(coordinates) >= rank_;
+  };
   int admitted = 0;
   for (int k = 0; k < kDraws && admitted < kTrials; ++k) {
     std::vector<GiNaC::ex> coordinates = prover_.real_points().draw();
     try {
       if (!put(coordinates)) continue;
+      if (everywhere && has_full_rank(coordinates)) {
+        *tried = true;
+        return false;
+      }
       RealPoint point = prover_.real_points().at(std::move(coordinates));
       if (!prover_.real_points().admits(point, domain)) continue;
       ++admitted;
       *tried = true;
-      if (ring_.is_polynomial() && !modular_rows_) modular_rows_.emplace(rows_);
-      if (modular_rows_ && modular_rows_->rank_at(point.coordinates()) >= rank_) return false;
+      if (!everywhere && has_full_rank(point.coordinates())) return false;
       if (point.rank(rows_) >= rank_) return false;
     } catch (const NotCertified&) {
     }
@@ -441,10 +388,10 @@ void SpecialParameters::look_at_pairs() {
   if (linear) {
     const std::vector<Polynomial> basis = groebner_basis(simple, kLimits);
     if (basis.size() > 1) {
-      if (const auto set = solved(basis)) look_at_set(*set);
+      if (const auto set = solved_for_parameters(basis, places_)) look_at_set(*set);
     }
   }
-  const std::vector<SimpleForm> forms = simple_forms();
+  const std::vector<ParameterForm> forms = parameter_forms(ring(), places_);
   std::vector<MinorModulo> modular;
   for (const Polynomial& m : minors_) {
     try {
@@ -452,20 +399,27 @@ void SpecialParameters::look_at_pairs() {
     } catch (const std::domain_error&) {  // it excludes nothing, then
     }
   }
+  // Where a condition excludes one form, it excludes both together.
+  std::vector<bool> excluded;
+  for (const ParameterForm& f : forms)
+    excluded.push_back(std::any_of(excluded_.begin(), excluded_.end(), [&](const Polynomial& e) {
+      return e == f.form || e == -f.form;
+    }));
   for (std::size_t i = 0; i < forms.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (!may_vanish(forms[j], forms[i], modular)) continue;
-      const auto set = solved({forms[j].form, forms[i].form});
+      if (excluded[i] || excluded[j]) continue;
+      if (!may_all_vanish(forms[j], forms[i], places_, ring(), modular)) continue;
+      const auto set = solved_for_parameters({forms[j].form, forms[i].form}, places_);
       if (set && is_common_zero(*set)) look_at_set(*set);
     }
   }
 }
 
-void SpecialParameters::look_at_set(const Equations& set) {
+void SpecialParameters::look_at_set(const ParameterEquations& set) {
   if (set.values.size() < 2) return;
-  const auto vanishes = [&](const Polynomial& f) { return reduced(f, set).is_zero(); };
+  const auto vanishes = [&](const Polynomial& f) { return set.reduced(f).is_zero(); };
   if (std::any_of(excluded_.begin(), excluded_.end(), vanishes)) return;
-  for (const Equations& known : sets_)
+  for (const ParameterEquations& known : sets_)
     if (std::all_of(known.forms.begin(), known.forms.end(), vanishes)) return;
   Polynomial squares(ring());
   std::string text;

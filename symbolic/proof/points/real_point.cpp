@@ -3,6 +3,8 @@
 #include <cln/rational.h>
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <sstream>
 
 #include "symbolic/algebra/rational_matrix.hpp"
@@ -25,6 +27,64 @@ double size_of(const Ball& ball) {
   arf_clear(bound);
   return size > 0 ? size : 1e-300;
 }
+
+/// Values of polynomials at one point: each power of a variable is taken once for all of them.
+class PolynomialBalls {
+ public:
+  /// \param variable  the value of each variable of the ring
+  PolynomialBalls(const PolynomialRing& ring, long bits,
+                  std::function<const Ball&(std::size_t)> variable)
+      : bits_(bits),
+        variable_(std::move(variable)),
+        powers_(ring.size()),
+        exponents_(ring.size()) {}
+
+  /// With integers for coefficients, over one denominator at the end.
+  Ball operator()(const Polynomial& p) {
+    const fmpz_mpoly_struct* terms = p.raw()->zpoly;
+    Ball total;
+    for (slong k = 0; k < terms->length; ++k) {
+      fmpz_mpoly_get_term_exp_ui(exponents_.data(), terms, k, p.ring().context()->zctx);
+      const Ball* product = monomial();
+      if (product == nullptr)
+        acb_add_fmpz(total.raw(), total.raw(), terms->coeffs + k, bits_);
+      else
+        acb_addmul_fmpz(total.raw(), product->raw(), terms->coeffs + k, bits_);
+    }
+    const fmpq* content = p.raw()->content;
+    if (fmpz_is_one(fmpq_numref(content)) == 0)
+      acb_mul_fmpz(total.raw(), total.raw(), fmpq_numref(content), bits_);
+    if (fmpz_is_one(fmpq_denref(content)) == 0)
+      acb_div_fmpz(total.raw(), total.raw(), fmpq_denref(content), bits_);
+    return total;
+  }
+
+ private:
+  /// With the exponents that were read last; null for 1.
+  const Ball* monomial() {
+    const Ball* product = nullptr;
+    for (std::size_t i = 0; i < exponents_.size(); ++i) {
+      if (exponents_[i] == 0) continue;
+      const Ball& factor = power(i, exponents_[i]);
+      if (product != nullptr) acb_mul(product_.raw(), product->raw(), factor.raw(), bits_);
+      product = product == nullptr ? &factor : &product_;
+    }
+    return product;
+  }
+
+  const Ball& power(std::size_t place, unsigned long exponent) {
+    if (exponent == 1) return variable_(place);
+    const auto [known, fresh] = powers_[place].try_emplace(exponent);
+    if (fresh) acb_pow_ui(known->second.raw(), variable_(place).raw(), exponent, bits_);
+    return known->second;
+  }
+
+  long bits_;
+  std::function<const Ball&(std::size_t)> variable_;
+  std::vector<std::map<unsigned long, Ball>> powers_;  ///< of each variable, as they are needed
+  std::vector<unsigned long> exponents_;
+  Ball product_;
+};
 
 }  // namespace
 
@@ -54,35 +114,28 @@ const Ball& RealPoint::variable(std::size_t place) {
 }
 
 Ball RealPoint::value(const Polynomial& p) {
-  const long bits = evaluator_.bits();
-  Ball total;
-  Ball power;
-  for (const auto& [coefficient, exponents] : p.term_list()) {
-    Ball term(coefficient, bits);
-    for (std::size_t i = 0; i < exponents.size(); ++i) {
-      if (exponents[i] == 0) continue;
-      acb_pow_ui(power.raw(), variable(i).raw(), exponents[i], bits);
-      acb_mul(term.raw(), term.raw(), power.raw(), bits);
-    }
-    acb_add(total.raw(), total.raw(), term.raw(), bits);
-  }
-  return total;
+  return PolynomialBalls(ring_->ring(), evaluator_.bits(),
+                         [this](std::size_t i) -> const Ball& { return variable(i); })(p);
 }
 
 std::vector<std::vector<Ball>> RealPoint::values(const PolynomialRows& rows) {
+  PolynomialBalls value_of(ring_->ring(), evaluator_.bits(),
+                           [this](std::size_t i) -> const Ball& { return variable(i); });
   std::vector<std::vector<Ball>> result;
   for (const auto& row : rows) {
     result.emplace_back();
-    for (const Polynomial& entry : row) result.back().push_back(value(entry));
+    for (const Polynomial& entry : row) result.back().push_back(value_of(entry));
   }
   return result;
 }
 
 RealPoint::Values RealPoint::values(const std::vector<Polynomial>& vector) {
   Values result;
+  PolynomialBalls ball_of(ring_->ring(), evaluator_.bits(),
+                          [this](std::size_t i) -> const Ball& { return variable(i); });
   for (const Polynomial& p : vector) {
     if (exact_.empty())
-      result.balls.push_back(value(p));
+      result.balls.push_back(ball_of(p));
     else
       result.exact.push_back(p.is_zero() ? 0 : p.evaluate(exact_));
   }

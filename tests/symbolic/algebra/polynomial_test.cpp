@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
+#include "symbolic/algebra/factor_memory.hpp"
 #include "symbolic/algebra/ideal.hpp"
 
 namespace casimir {
@@ -200,6 +203,26 @@ TEST_F(Ring3, LinearFormsAreToldFromOthers) {
   EXPECT_FALSE((x_ + y_ * z_).linear_form());
   EXPECT_FALSE((x_ + y_ * y_).linear_form());
   EXPECT_FALSE(x_.scaled(cln::expt_pos(cln::cl_I(2), 40)).linear_form());
+}
+
+TEST(Factors, AreKeptByTheirOwnRingForAllThreads) {
+  const PolynomialRing ring(3), other(3);
+  const auto product = [](const PolynomialRing& own, long k) {
+    const Polynomial x = own.variable(0), y = own.variable(1), z = own.variable(2);
+    return (x * y * z + own.constant(k)) * (x * x * y + y * z * z - own.constant(2 * k + 1));
+  };
+  std::vector<std::thread> threads;
+  std::vector<int> right(4, 0);
+  for (std::size_t t = 0; t < right.size(); ++t) {
+    threads.emplace_back([&, t] {
+      for (long k = 1; k <= 30; ++k) right[t] += product(ring, k).factors().size() == 3 ? 1 : 0;
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(right, std::vector<int>(4, 30));
+  EXPECT_TRUE(ring.factor_memory().of(product(ring, 7)).has_value());
+  EXPECT_FALSE(ring.factor_memory().of(product(ring, 31)).has_value());
+  EXPECT_FALSE(other.factor_memory().of(product(other, 7)).has_value());
 }
 
 /// A product is found again, and so are its factors, scaled ones too; another ring in the same
