@@ -252,7 +252,8 @@ Polynomial substituted(const Polynomial& p, std::size_t place, const Polynomial&
 
 void put(const SolvedUnknown& solved, Polynomial& top, Polynomial& bottom) {
   const auto power = [&](const Polynomial& of) {
-    return solved.denominator.pow(static_cast<unsigned long>(of.degree(solved.place)));
+    const long degree = of.uses(solved.place) ? of.degree(solved.place) : 0;  // of zero it is -1
+    return solved.denominator.pow(static_cast<unsigned long>(degree));
   };
   const Polynomial below = power(top), above = power(bottom);
   top = substituted(top, solved.place, solved.numerator, solved.denominator) * above;

@@ -54,10 +54,39 @@ Point point_of(const Witness& witness) {
   return point;
 }
 
+std::vector<std::string> split(const std::string& text, const std::string& by) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t end = 0; (end = text.find(by, begin)) != std::string::npos;
+       begin = end + by.size())
+    parts.push_back(text.substr(begin, end - begin));
+  parts.push_back(text.substr(begin));
+  return parts;
+}
+
+/// The conditions of a rank: its pieces are alternatives. Empty where one is said in words, as that
+/// it holds around a point.
+std::optional<std::vector<Alternatives>> pieces_of(const Proof& proof) {
+  std::vector<Alternatives> result;
+  for (const std::string& condition : proof.where) {
+    if (condition.find_first_of("<>=") == std::string::npos) return std::nullopt;
+    if (condition.find("connected") != std::string::npos) return std::nullopt;
+    Alternatives& alternatives = result.emplace_back();
+    for (const std::string& part : split(condition, ", or ")) {
+      alternatives.emplace_back();
+      for (const std::string& inequality : split(part, " and "))
+        alternatives.back().push_back(parse_assumption(inequality));
+    }
+  }
+  return result;
+}
+
 /// Whether what is said to be proved fails where it is said to hold.
 bool fails(const Case& claim, const Proof& proof, Random& random) {
-  if (claim.kind == Kind::rank)
-    return examine_rank(claim, number_in(proof.name), random) == Finding::fails;
+  if (claim.kind == Kind::rank) {
+    const auto where = pieces_of(proof);
+    return where && examine_rank(claim, number_in(proof.name), random, *where) == Finding::fails;
+  }
   if (claim.truth == Truth::yes) return false;
   const std::vector<Assumption> conditions = conditions_of(proof);
   if (conditions.empty()) return true;

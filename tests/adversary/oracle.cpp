@@ -197,9 +197,19 @@ std::string examine_witness(const Case& claim, const Point& point) {
   }
 }
 
-Finding examine_rank(const Case& claim, std::size_t expected, Random& random) {
+Finding examine_rank(const Case& claim, std::size_t expected, Random& random,
+                     const std::vector<Alternatives>& where) {
   Sampler sampler(claim, {}, true, random);
+  const auto is_claimed = [&](const Point& point) {
+    return std::all_of(where.begin(), where.end(), [&](const Alternatives& alternatives) {
+      return std::any_of(alternatives.begin(), alternatives.end(), [&](const auto& part) {
+        return std::all_of(part.begin(), part.end(),
+                           [&](const Assumption& a) { return holds(a, point); });
+      });
+    });
+  };
   return over_points(sampler, [&](const Point& point) {
+    if (!is_claimed(point)) return Sign::zero;
     return rank(At(claim, point).structure()) == expected ? Sign::zero : Sign::nonzero;
   });
 }

@@ -30,7 +30,12 @@ Finding examine(const Case& claim, Random& random, const std::vector<Assumption>
 /// \return empty if so, else what is wrong with the point
 std::string examine_witness(const Case& claim, const Point& point);
 
-/// The number N of "rank N" is the rank of the bracket at almost every point.
-Finding examine_rank(const Case& claim, std::size_t rank, Random& random);
+/// Of a condition: one of these parts, each with all of its inequalities.
+using Alternatives = std::vector<std::vector<Assumption>>;
+
+/// The number N of "rank N" is the rank of the bracket at almost every point at which all
+/// conditions hold.
+Finding examine_rank(const Case& claim, std::size_t rank, Random& random,
+                     const std::vector<Alternatives>& where);
 
 }  // namespace casimir::adversary

@@ -59,6 +59,16 @@ TEST(Exponents, OfEulersTopWithAVectorAreThoseOfTwiceItself) {
 
 // An earlier Groebner basis lost the equation y1 = 0 here.
 /// For generic a there is the balance x = -1/(a^2 - 4), z = 0 ; where a = 2 there is none.
+TEST(Exponents, OfABalanceWithAZeroAreFound) {
+  const auto report = search::kovalevskaya_exponents(
+      model_of("title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n[equations]\n"
+               "x = \"x^3\"\ny = \"(y - z)^3 + (z - 2*(y - z))^3/2 + 2*(y - z)^3\"\n"
+               "z = \"(z - 2*(y - z))^3/2 + 2*(y - z)^3\"\n"),
+      {});
+  EXPECT_TRUE(report.complete);
+  EXPECT_EQ(report.balances.size(), 7U);
+}
+
 TEST(Exponents, OfParametersThatObeyAnEquationAreRefused) {
   const auto equations = [](const std::string& assumed) {
     return "[phase_space]\nvariables = [\"x\", \"z\"]\n[parameters]\na = { assume = \"" + assumed +
