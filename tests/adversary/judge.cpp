@@ -31,16 +31,6 @@ const Proof* proof_of(const Case& claim, const std::vector<Proof>& proofs) {
   return last;
 }
 
-/// Conditions that a proof names, so that it says nothing elsewhere.
-template <typename AnyProof>
-std::vector<Assumption> conditions_of(const AnyProof& proof) {
-  std::vector<Assumption> conditions;
-  if constexpr (requires { proof.where; }) {
-    for (const auto& text : proof.where) conditions.push_back(parse_assumption(text));
-  }
-  return conditions;
-}
-
 std::size_t number_in(const std::string& name) {
   const std::size_t place = name.find_last_of(' ') + 1;
   std::size_t number = 0;
@@ -64,19 +54,37 @@ std::vector<std::string> split(const std::string& text, const std::string& by) {
   return parts;
 }
 
-/// The conditions of a rank: its pieces are alternatives. Empty where one is said in words, as that
-/// it holds around a point.
-std::optional<std::vector<Alternatives>> pieces_of(const Proof& proof) {
+/// Conditions that a proof names, so that it says nothing elsewhere: pieces are alternatives. Empty
+/// where one is said in words, as that it holds around a point.
+template <typename AnyProof>
+std::optional<std::vector<Alternatives>> pieces_of(const AnyProof& proof) {
   std::vector<Alternatives> result;
+  if constexpr (!requires { proof.where; }) return result;
   for (const std::string& condition : proof.where) {
-    if (condition.find_first_of("<>=") == std::string::npos) return std::nullopt;
-    if (condition.find("connected") != std::string::npos) return std::nullopt;
+    const bool inequalities = condition.find_first_of("<>=") != std::string::npos;
+    if (!inequalities || condition.find("around") != std::string::npos) return std::nullopt;
     Alternatives& alternatives = result.emplace_back();
     for (const std::string& part : split(condition, ", or ")) {
       alternatives.emplace_back();
       for (const std::string& inequality : split(part, " and "))
         alternatives.back().push_back(parse_assumption(inequality));
     }
+  }
+  return result;
+}
+
+/// One part of each condition, in every way.
+std::vector<std::vector<Assumption>> all_parts(const std::vector<Alternatives>& conditions) {
+  std::vector<std::vector<Assumption>> result{{}};
+  for (const Alternatives& alternatives : conditions) {
+    std::vector<std::vector<Assumption>> longer;
+    for (const std::vector<Assumption>& begun : result) {
+      for (const std::vector<Assumption>& part : alternatives) {
+        longer.push_back(begun);
+        longer.back().insert(longer.back().end(), part.begin(), part.end());
+      }
+    }
+    result = std::move(longer);
   }
   return result;
 }
@@ -88,10 +96,14 @@ bool fails(const Case& claim, const Proof& proof, Random& random) {
     return where && examine_rank(claim, number_in(proof.name), random, *where) == Finding::fails;
   }
   if (claim.truth == Truth::yes) return false;
-  const std::vector<Assumption> conditions = conditions_of(proof);
-  if (conditions.empty()) return true;
-  const Finding left = examine(claim, random, conditions);
-  return left == Finding::fails || (claim.truth == Truth::nothing && left == Finding::nowhere);
+  const auto where = pieces_of(proof);
+  if (!where) return false;
+  if (where->empty()) return true;
+  const std::vector<std::vector<Assumption>> parts = all_parts(*where);
+  return std::any_of(parts.begin(), parts.end(), [&](const std::vector<Assumption>& part) {
+    const Finding left = examine(claim, random, part);
+    return left == Finding::fails || (claim.truth == Truth::nothing && left == Finding::nowhere);
+  });
 }
 
 /// Whether what a witness shows is too small for the 40 digits of the oracle, as exp(-9^3) is.
