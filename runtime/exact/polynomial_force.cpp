@@ -28,14 +28,15 @@ class Weierstrass {
   };
   /// Nothing near the poles, which are the whole periods. `t` becomes the time from the nearest.
   std::optional<Values> operator()(TwoDoubles& t) const {
+    double part = 0;  // of the period
     if (kind_ != Kind::rational && kind_ != Kind::hyperbolic) {
-      part_ = phase_.after(t).part;
-      t = {part_ * period_, 0};
+      part = phase_.after(t).part;
+      t = {part * period_, 0};
     }
     constexpr double kNear = 1e-7;
     const double u = rate_ * t.high;
     if (std::abs(u) < kNear) return std::nullopt;
-    return at(t.high, u);
+    return at(t.high, u, part);
   }
 
   double period() const { return period_; }
@@ -61,7 +62,7 @@ class Weierstrass {
     period_ = cln::double_approx(lattice.period);
   }
 
-  Values at(double t, double u) const {
+  Values at(double t, double u, double part) const {
     if (kind_ == Kind::rational) return {1 / (t * t), -2 / (t * t * t)};
     if (kind_ == Kind::hyperbolic || kind_ == Kind::circular) {
       const bool turns = kind_ == Kind::circular;
@@ -70,10 +71,10 @@ class Weierstrass {
       return {low_ + height_ / (s * s), -2 * rate_ * height_ * inverse / (s * s)};
     }
     if (kind_ == Kind::three) {  // half a period of sn^2: a quarter of its argument to each side
-      const auto [sn, cn, dn, am] = functions_.at_part(part_ / 2);
+      const auto [sn, cn, dn, am] = functions_.at_part(part / 2);
       return {low_ + height_ / (sn * sn), -2 * rate_ * height_ * cn * dn / (sn * sn * sn)};
     }
-    const auto [sn, cn, dn, am] = functions_.at_part(part_);
+    const auto [sn, cn, dn, am] = functions_.at_part(part);
     const double rest = cn > 0 ? sn * sn / (1 + cn) : 1 - cn;  // 1 - cn
     return {low_ + height_ * (1 + cn) / rest, -2 * rate_ * height_ * sn * dn / (rest * rest)};
   }
@@ -81,7 +82,6 @@ class Weierstrass {
   Kind kind_ = Kind::rational;
   double low_ = 0, height_ = 0, rate_ = 1, g2_ = 0;
   double period_ = std::numeric_limits<double>::infinity();
-  mutable double part_ = 0;
   JacobiFunctions functions_;
   Phase phase_;
 };
