@@ -17,7 +17,7 @@ void add_to(CurveElement<F>& sum, unsigned roots, const F& value) {
   if (own.is_zero()) sum.erase(roots);
 }
 
-std::string printed(const GiNaC::ex& expression) {
+std::string first_letters(const GiNaC::ex& expression) {
   std::ostringstream text;
   text << expression;
   return text.str().substr(0, 60);
@@ -25,7 +25,7 @@ std::string printed(const GiNaC::ex& expression) {
 
 cln::cl_RA rational_number(const GiNaC::ex& value) {
   if (!GiNaC::is_a<GiNaC::numeric>(value) || !GiNaC::ex_to<GiNaC::numeric>(value).is_rational())
-    throw NotDecided(fmt::format("the number {} is not rational", printed(value)));
+    throw NotDecided(fmt::format("the number {} is not rational", first_letters(value)));
   return cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(value).to_cl_N());
 }
 
@@ -140,7 +140,7 @@ CurveElement<F> CurveField<F>::value(const GiNaC::ex& expression,
   if (is_a<GiNaC::symbol>(expression)) {
     const auto place = symbols_to_index.find(expression);
     if (place == symbols_to_index.end())
-      throw NotDecided(fmt::format("{} has no number", printed(expression)));
+      throw NotDecided(fmt::format("{} has no number", first_letters(expression)));
     return values[static_cast<std::size_t>(GiNaC::ex_to<GiNaC::numeric>(place->second).to_int())];
   }
   if (is_a<GiNaC::add>(expression) || is_a<GiNaC::mul>(expression)) {
@@ -161,12 +161,14 @@ CurveElement<F> CurveField<F>::value(const GiNaC::ex& expression,
     if (cln::denominator(exponent) == 2) {
       const auto root = rational(base).square_root();
       if (!root || root->is_zero())
-        throw NotDecided(fmt::format("{} is no square along the curve", printed(expression.op(0))));
+        throw NotDecided(
+            fmt::format("{} is no square along the curve", first_letters(expression.op(0))));
       const bool negative = leads_with_minus(*root);
       return power(constant(negative ? -*root : *root), cln::cl_I_to_long(above));
     }
   }
-  throw NotDecided(fmt::format("{} is no rational function along the curve", printed(expression)));
+  throw NotDecided(
+      fmt::format("{} is no rational function along the curve", first_letters(expression)));
 }
 
 template <class F>

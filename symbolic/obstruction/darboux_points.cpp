@@ -10,10 +10,6 @@
 namespace casimir::obstruction {
 namespace {
 
-bool is_rational(const GiNaC::ex& value) {
-  return GiNaC::is_a<GiNaC::numeric>(value) && GiNaC::ex_to<GiNaC::numeric>(value).is_rational();
-}
-
 /// A power that is no integer makes more than one branch.
 bool has_roots(const GiNaC::ex& expression) {
   if (GiNaC::is_a<GiNaC::power>(expression) && !expression.op(1).info(GiNaC::info_flags::integer))
@@ -37,8 +33,8 @@ CurveElement<RationalFunction> variable_on(const RationalFunction&) {
 CurveElement<ParametricFunction> variable_on(const ParametricFunction&) {
   return CurveField<ParametricFunction>::constant(ParametricFunction::variable());
 }
-void add_parameter(std::vector<CurveElement<RationalFunction>>&) {}
-void add_parameter(std::vector<CurveElement<ParametricFunction>>& values) {
+void append_parameter(std::vector<CurveElement<RationalFunction>>&) {}
+void append_parameter(std::vector<CurveElement<ParametricFunction>>& values) {
   values.push_back(CurveField<ParametricFunction>::constant(ParametricFunction::parameter()));
 }
 
@@ -90,7 +86,8 @@ std::optional<HomogeneousPotential> homogeneous_potential(const HamiltonianSyste
   const GiNaC::ex slope = result.q[0] * result.potential.diff(result.q[0]) +
                           result.q[1] * result.potential.diff(result.q[1]);
   const GiNaC::ex degree = (slope / result.potential).normal();
-  if (!is_rational(degree) || !degree.info(GiNaC::info_flags::integer)) return std::nullopt;
+  if (!GiNaC::is_a<GiNaC::numeric>(degree) || !degree.info(GiNaC::info_flags::integer))
+    return std::nullopt;
   result.degree = GiNaC::ex_to<GiNaC::numeric>(degree).to_long();
   if (result.degree == 0 || result.degree == 2 || result.degree == -2) return std::nullopt;
   return result;
@@ -104,7 +101,7 @@ DirectionChart<F>::DirectionChart(const HomogeneousPotential& system, bool secon
   GiNaC::exmap places{{system.q[0], 0}, {system.q[1], 1}};
   std::vector<CurveElement<F>> values{second_is_one ? z : one, second_is_one ? one : z};
   if (parameter) places[*parameter] = static_cast<int>(values.size());
-  add_parameter(values);
+  append_parameter(values);
   const auto value = [&](const GiNaC::ex& f) {
     return CurveField<F>::rational(field.value(f, places, values));
   };

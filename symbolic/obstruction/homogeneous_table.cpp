@@ -15,17 +15,17 @@ namespace {
 using cln::cl_RA;
 
 /// lambda = constant + factor*(start + step*p)^2.
-struct Row {
+struct TableRow {
   cl_RA constant, factor, start;
   int step;
 };
 
 cl_RA over(long numerator, long denominator) { return cl_RA(numerator) / denominator; }
 
-std::vector<Row> rows_of(long k) {
+std::vector<TableRow> rows_of(long k) {
   // p + p(p-1)k/2 and ((k-1)/k + p(p+1)k)/2 with completed squares.
-  std::vector<Row> rows{{-over((k - 2) * (k - 2), 8 * k), over(k, 2), over(2 - k, 2 * k), 1},
-                        {over(k - 1, 2 * k) - over(k, 8), over(k, 2), over(1, 2), 1}};
+  std::vector<TableRow> rows{{-over((k - 2) * (k - 2), 8 * k), over(k, 2), over(2 - k, 2 * k), 1},
+                             {over(k - 1, 2 * k) - over(k, 8), over(k, 2), over(1, 2), 1}};
   const long sign = k < 0 ? -1 : 1;
   const auto add = [&](const cl_RA& constant, const cl_RA& factor, int start, int step) {
     rows.push_back({constant, sign * factor, start, step});
@@ -55,7 +55,7 @@ std::vector<Row> rows_of(long k) {
   return rows;
 }
 
-std::string described(const Row& row, const cl_RA& p) {
+std::string described(const TableRow& row, const cl_RA& p) {
   std::ostringstream text;
   text << row.constant << (cln::minusp(row.factor) ? " - " : " + ") << cln::abs(row.factor) << "*("
        << row.start << " + " << row.step << "*p)^2 with p = " << p;
@@ -66,7 +66,7 @@ std::string described(const Row& row, const cl_RA& p) {
 
 std::optional<std::string> integrable_eigenvalue(long k, const cl_RA& lambda) {
   if (k == 2 || k == -2) return "any, for degree 2 and -2";
-  for (const Row& row : rows_of(k)) {
+  for (const TableRow& row : rows_of(k)) {
     const auto root = square_root((lambda - row.constant) / row.factor);
     if (!root) continue;
     for (const int sign : {1, -1}) {
@@ -89,7 +89,7 @@ namespace {
 /// (start + step*p)^2 for degrees above 2.
 std::vector<cl_RA> entries(long k, const cl_RA& low, const cl_RA& high) {
   std::set<cl_RA> result;
-  for (const Row& row : rows_of(k)) {
+  for (const TableRow& row : rows_of(k)) {
     for (const int direction : {1, -1}) {
       for (long p = direction > 0 ? 0 : -1;; p += direction) {
         const cl_RA root = row.start + cl_RA(row.step * p);

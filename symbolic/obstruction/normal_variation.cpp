@@ -235,8 +235,8 @@ NormalVariation<F> normal_variation(const HamiltonianSystem& system, const Invar
   const CurveElement<F> slowness = field.inverse(curve.speed);
   for (Row<F>& row : reduced.matrix)
     for (CurveElement<F>& entry : row) entry = field.product(entry, slowness);
-  const auto name = [&](std::size_t i) {
-    return system.variables[plane.normal[reduced.free[i]].first].get_name();
+  const auto name = [&, &free = reduced.free](std::size_t i) {
+    return system.variables[plane.normal[free[i]].first].get_name();
   };
   NormalVariation<F> result;
   result.freedom = (system.variables.size() - system.casimirs.size()) / 2;

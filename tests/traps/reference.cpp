@@ -16,35 +16,45 @@ constexpr Real kUnseen = 1e-17L;
 /// The right-hand side of a scene and its limit, with the parameters in place.
 class Field {
  public:
-  explicit Field(const Scene& scene) : n_(scene.variables.size()), formulas_(make(scene)) {
+  explicit Field(const Scene& scene)
+      : n_(scene.variables.size()),
+        rates_(formulas(scene, scene.equations)),
+        limit_(formulas(scene, {scene.limit.empty() ? scene.duration : scene.limit})) {
     inputs_.resize(n_ + 1);
     for (const auto& [name, value] : scene.parameters) inputs_.push_back(constant(value));
-    outputs_.resize(n_ + 1);
+    outputs_.resize(n_);
   }
 
   const State& operator()(Real t, const State& x) {
-    std::copy(x.begin(), x.end(), inputs_.begin());
-    inputs_[n_] = t;
-    formulas_(inputs_.data(), outputs_.data());
-    ++evaluations;
+    evaluate(rates_, t, x, outputs_.data());
     return outputs_;
   }
-  Real limit(Real t, const State& x) { return (*this)(t, x)[n_]; }
+  /// By formulas of its own: they often have a power, and are asked for once in a step.
+  Real limit(Real t, const State& x) {
+    Real result = 0;
+    evaluate(limit_, t, x, &result);
+    return result;
+  }
 
   unsigned long long evaluations = 0;
 
  private:
-  static Formulas make(const Scene& scene) {
+  static Formulas formulas(const Scene& scene, const Texts& texts) {
     Texts symbols = scene.variables;
     symbols.push_back(scene.time.empty() ? "time_of_the_limit" : scene.time);
     for (const auto& entry : scene.parameters) symbols.push_back(entry.first);
-    Texts texts = scene.equations;
-    texts.push_back(scene.limit.empty() ? scene.duration : scene.limit);
     return Formulas(symbols, scene.definitions, texts);
   }
 
+  void evaluate(Formulas& asked, Real t, const State& x, Real* results) {
+    std::copy(x.begin(), x.end(), inputs_.begin());
+    inputs_[n_] = t;
+    asked(inputs_.data(), results);
+    ++evaluations;
+  }
+
   std::size_t n_;
-  Formulas formulas_;
+  Formulas rates_, limit_;
   State inputs_, outputs_;
 };
 

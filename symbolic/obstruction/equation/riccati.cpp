@@ -170,7 +170,7 @@ std::optional<Univariate> monic_polynomial(const RationalFunction& theta, const 
   return result;
 }
 
-constexpr long kLargestDegree = 1000;
+constexpr long kLargestDegreeOfCaseOne = 1000;
 constexpr std::size_t kMostPlaces = 14;
 
 /// Every choice at every place, one after the other.
@@ -206,7 +206,8 @@ class Choices {
     ++sums_;
     if (cln::denominator(d) != 1 || cln::minusp(d)) return;
     ++degrees_;
-    if (d > kLargestDegree) throw NotDecided("a polynomial of case 1 may have a degree above 1000");
+    if (d > kLargestDegreeOfCaseOne)
+      throw NotDecided("a polynomial of case 1 may have a degree above 1000");
     const auto p = monic_polynomial(theta, r_, cln::cl_I_to_long(cln::numerator(d)));
     if (p) found_ = theta + RationalFunction(p->derivative(), *p);
   }

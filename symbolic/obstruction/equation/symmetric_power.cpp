@@ -12,7 +12,7 @@
 namespace casimir::obstruction {
 namespace {
 
-constexpr long kLargestDegree = 1500;
+constexpr long kLargestDegreeOfPower = 1500;
 constexpr mp_limb_t kPrime = 4611686018427387847UL;  // the largest below 2^62
 
 /// The orders that a combination of products of m solutions may have at a singular point, as a
@@ -140,7 +140,7 @@ InvariantSearch rational_invariant(const RationalFunction& r,
     }
   }
   if (degree < 0) return {{}, fmt::format("the orders leave the degree {} < 0", degree)};
-  if (degree > kLargestDegree)
+  if (degree > kLargestDegreeOfPower)
     throw NotDecided(
         fmt::format("an invariant of degree {} may have a numerator of degree {}", m, degree));
   const auto p = kernel(recursion(r, singular, orders, m), degree, tick);
