@@ -165,8 +165,8 @@ TEST(Verify, CtrlCExitsWith130WithinASecond) {
 
 TEST(Integrate, CtrlCLeavesTheStatesSoFarInTheFile) {
   const Folder folder;
-  const pid_t child = start({"integrate", "euler", "--duration", "1e9", "--output", "states.csv",
-                             "--every", "1e3", "--json"},
+  const pid_t child = start({"integrate", "euler", "--method", "taylor", "--duration", "1e9",
+                             "--output", "states.csv", "--every", "1e3", "--json"},
                             folder);
   std::this_thread::sleep_for(std::chrono::milliseconds(1000));
   kill(child, SIGINT);
@@ -182,7 +182,8 @@ TEST(Integrate, CtrlCLeavesTheStatesSoFarInTheFile) {
 
 TEST(Integrate, CtrlCWithoutAFileExitsWith130) {
   const Folder folder;
-  const pid_t child = start({"integrate", "euler", "--duration", "1e9"}, folder);
+  const pid_t child =
+      start({"integrate", "euler", "--method", "taylor", "--duration", "1e9"}, folder);
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   kill(child, SIGINT);
   EXPECT_EQ(finish(child, folder).status, 130);

@@ -94,7 +94,7 @@ TEST(Exact, GoesByTheEquationsAndNotByNames) {
       "[[scene]]\nname = \"default\"\ninitial = { u = \"1\", v = \"1/2\", w = \"1/3\" }\n"
       "duration = \"5\"\n";
   folder.write("a.toml", head + "u = \"v*w\"\nv = \"-2*u*w\"\nw = \"u*v\"\n" + scene);
-  folder.write("b.toml", head + "u = \"v*w + v\"\nv = \"-2*u*w - u\"\nw = \"u*v\"\n" + scene);
+  folder.write("b.toml", head + "u = \"v*w + u\"\nv = \"-2*u*w - u\"\nw = \"u*v\"\n" + scene);
   EXPECT_EQ(run_in(folder, {"integrate", "./a.toml", "--method", "exact"}).status, 0);
   EXPECT_EQ(run_in(folder, {"integrate", "./b.toml", "--method", "exact"}).status, 2);
 }
