@@ -1,5 +1,7 @@
 #include "symbolic/algebra/polynomial.hpp"
 
+#include <cln/integer.h>
+#include <cln/integer_io.h>
 #include <gtest/gtest.h>
 
 #include <thread>
