@@ -160,11 +160,17 @@ std::vector<Polynomial> FunctionRing::radicand_factors(const Polynomial& p, bool
                      (generator.order == kArcSine || generator.order == kArcCosine);
     // By the relations: with v = sqrt(1 - y) it is y, of which the motion may have a root as well.
     if (arc) add(numerator(one - generator.base * generator.base));
-    // atan2 jumps on its cut, y = 0 and x < 0; where y is zero all over, at x = 0.
-    if (cuts && generator.kind == Kind::function && generator.order == kArcTangentOfTwo) {
+    if (!cuts || generator.kind != Kind::function) continue;
+    // atan(1/x) jumps by half a turn where x passes zero.
+    if (generator.order == kArcTangent) add(fraction(generator.base).second);
+    // atan2 jumps on its cut, y = 0 and x < 0; where y is zero all over, at x = 0; and at poles of
+    // both, atan2(1, 1/x) as atan(x) does not.
+    if (generator.order == kArcTangentOfTwo) {
       const Polynomial& y = known_.at(generator.value.op(0));
       const Polynomial& x = known_.at(generator.value.op(1));
       if (known_sign(x) <= 0 || !known_nonzero(x)) add(numerator(y).is_zero() ? x : y);
+      add(fraction(y).second);
+      add(fraction(x).second);
     }
   }
   return result;

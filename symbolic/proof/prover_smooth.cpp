@@ -23,6 +23,10 @@ bool Prover::is_smooth_on(Proof& proof, const Level& level,
       // What only the claim divides by, the motion passes: x/|x| is 1 until it is -1.
       const Divisors which = continuous ? Divisors::of_motion : Divisors::all;
       if (vanishes_nowhere_on(radicand, level, which)) continue;
+      // Unless what is not zero never becomes it: x/|x| stays 1 where dx/dt = x.
+      if (continuous && vanishes_nowhere_on(radicand, level, Divisors::all) &&
+          keeps_sign(radicand, level))
+        continue;
       if (smooth != Smooth::everywhere && ring_.is_rough_in_absolute_value_alone(value, radicand) &&
           keeps_sign(radicand, level))
         continue;

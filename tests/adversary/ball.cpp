@@ -8,8 +8,13 @@ Ball Ball::ratio(long numerator, long denominator) {
   return result;
 }
 
+namespace {
+
+constexpr slong kDigitsInBits = 133;  // 40 digits
+
+}  // namespace
+
 bool Ball::is_tiny() const {
-  constexpr slong kDigitsInBits = 133;  // 40 digits
   if (!is_finite() || is_nonzero()) return false;
   mag_t size;
   mag_init(size);
@@ -17,6 +22,10 @@ bool Ball::is_tiny() const {
   const bool tiny = mag_cmp_2exp_si(size, -kDigitsInBits) < 0;
   mag_clear(size);
   return tiny;
+}
+
+bool Ball::is_sharp() const {
+  return is_finite() && (is_tiny() || acb_rel_accuracy_bits(value_) > kDigitsInBits);
 }
 
 Ball Ball::middle() const {

@@ -34,6 +34,8 @@ class Ball {
   bool is_nonzero() const { return acb_contains_zero(value_) == 0; }
   /// It may be zero, and is known to 40 digits: zero as far as 60 digits can tell.
   bool is_tiny() const;
+  /// It is known to 40 digits. An angle next to the cut of atan2 is not.
+  bool is_sharp() const;
   bool is_exact_zero() const { return acb_is_zero(value_) != 0; }
   bool is_positive() const { return arb_is_positive(real()) != 0; }
   bool is_negative() const { return arb_is_negative(real()) != 0; }

@@ -17,7 +17,11 @@ class Stepper {
 
   State rate(const Point& point) const {
     State f = At(case_, point).field();
-    for (Ball& ball : f) ball = ball.middle();
+    for (Ball& ball : f) {
+      // On a cut the middle is the mean of two branches, and the orbit that of neither.
+      if (!ball.is_sharp()) throw Unknown();
+      ball = ball.middle();
+    }
     return f;
   }
 

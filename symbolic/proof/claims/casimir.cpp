@@ -1,6 +1,8 @@
 // Casimir functions: {x_i, C} = 0 for every coordinate, and so {F, C} = 0 for every F.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "symbolic/proof/claims/claim.hpp"
 
 namespace casimir {
@@ -29,6 +31,12 @@ Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>
           values_of(on, f),
           false,
           Subject::bracket};
+}
+
+bool is_casimir(Prover& prover, const NamedExpression& f) {
+  const std::vector<Polynomial>& flow = prover.flow(f.value);
+  return std::all_of(flow.begin(), flow.end(),
+                     [&](const Polynomial& rate) { return prover.is_zero(rate); });
 }
 
 std::vector<Claim> casimir_claims(const Model& model) {

@@ -77,6 +77,8 @@ std::string hamiltonian_name(const Model& model);
 
 /// {x_i, f} for every coordinate, on a level if one is given.
 Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
+/// Whether f commutes with every coordinate.
+bool is_casimir(Prover& prover, const NamedExpression& f);
 /// df/dt = 0, on an invariant level if one is given (kind "conditional" then).
 Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
 /// What else can be said of a candidate: Casimir function, dependent on the known integrals,

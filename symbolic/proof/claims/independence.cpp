@@ -142,7 +142,10 @@ void decide_rank(Prover& prover, Proof& proof) {
     proof.reason = found->uneven;
     return;
   }
-  const PolynomialRows casimirs = gradients(prover, real_everywhere(prover.model().casimirs));
+  // One of the case's own claims may be refuted: what is not one is not counted.
+  std::vector<NamedExpression> known = real_everywhere(prover.model().casimirs);
+  std::erase_if(known, [&](const NamedExpression& f) { return !is_casimir(prover, f); });
+  const PolynomialRows casimirs = gradients(prover, known);
   const std::size_t independent = independent_rows(prover, casimirs);
   proof.name = fmt::format("rank {}", found->rank);
   proof.rank = found->rank;

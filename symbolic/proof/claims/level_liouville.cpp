@@ -40,12 +40,6 @@ bool in_involution(Prover& prover, const Functions& functions, const Level& leve
   return true;
 }
 
-bool is_casimir(Prover& prover, const NamedExpression& f) {
-  const std::vector<Polynomial>& flow = prover.flow(f.value);
-  return std::all_of(flow.begin(), flow.end(),
-                     [&](const Polynomial& rate) { return prover.is_zero(rate); });
-}
-
 void decide(Prover& prover, Proof& proof, const Functions& on) {
   if (!std::all_of(on.begin(), on.end(),
                    [&](const NamedExpression& f) { return is_casimir(prover, f); })) {

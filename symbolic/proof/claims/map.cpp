@@ -24,6 +24,51 @@ void say_where_it_leads(Prover& prover, Proof& proof, const PoissonMap& map) {
   }
 }
 
+GiNaC::exmap image_point(const PoissonMap& map) {
+  GiNaC::exmap point;
+  for (std::size_t i = 0; i < map.expressions.size(); ++i)
+    point[map.target.coordinates()[i]] = map.expressions[i];
+  return point;
+}
+
+std::vector<GiNaC::ex> composed(const std::vector<GiNaC::ex>& functions, const GiNaC::exmap& at) {
+  std::vector<GiNaC::ex> result;
+  for (const GiNaC::ex& f : functions) result.push_back(substituted(f, at));
+  return result;
+}
+
+/// What is said of the image, at phi(x): it has to vanish on this case's constraints.
+std::vector<std::pair<std::string, GiNaC::ex>> image_defects(const PoissonMap& map) {
+  const GiNaC::exmap image = image_point(map);
+  std::vector<std::pair<std::string, GiNaC::ex>> defects;
+  for (const NamedExpression& f : map.image)
+    defects.emplace_back(fmt::format("{} on the image", f.name), substituted(f.value, image));
+  return defects;
+}
+
+std::vector<Residual> residuals_of(Prover& prover,
+                                   const std::vector<std::pair<std::string, GiNaC::ex>>& defects) {
+  std::vector<Residual> residuals;
+  for (const auto& [label, defect] : defects)
+    residuals.push_back({label, prover.convert(defect), [value = defect] { return value; }});
+  return residuals;
+}
+
+/// Whether the map leads where it is said to lead. Where it has inverses, their claims say so.
+bool leads_to_its_image(Prover& prover, Proof& proof, const PoissonMap& map) {
+  if (map.image.empty() || !map.inverses.empty()) return true;
+  std::vector<NamedExpression> level = map.on;
+  for (const NamedExpression& f : prover.model().constraints) level.push_back(f);
+  Proof own = proof;
+  prover.decide(own, residuals_of(prover, image_defects(map)), prover.level(level));
+  if (own.verdict == Verdict::proved) {
+    proof.where = own.where;
+    return true;
+  }
+  proof = std::move(own);
+  return false;
+}
+
 void decide_map(Prover& prover, Proof& proof, const PoissonMap& map) {
   const std::vector<GiNaC::ex> target = map.composed_brackets();
   const auto& y = map.target.coordinates();
@@ -44,26 +89,13 @@ void decide_map(Prover& prover, Proof& proof, const PoissonMap& map) {
   }
   const Level level = prover.level(map.on);
   prover.decide(proof, residuals, level);
-  if (proof.verdict != Verdict::proved) return;
+  if (proof.verdict != Verdict::proved || !leads_to_its_image(prover, proof, map)) return;
   say_where_it_leads(prover, proof, map);
   if (level.empty()) return;
   std::vector<NamedExpression> functions;
   for (std::size_t i = 0; i < y.size(); ++i)
     functions.push_back({y[i].get_name(), map.expressions[i], {}});
   prover.is_smooth_on(proof, level, functions);
-}
-
-GiNaC::exmap image_point(const PoissonMap& map) {
-  GiNaC::exmap point;
-  for (std::size_t i = 0; i < map.expressions.size(); ++i)
-    point[map.target.coordinates()[i]] = map.expressions[i];
-  return point;
-}
-
-std::vector<GiNaC::ex> composed(const std::vector<GiNaC::ex>& functions, const GiNaC::exmap& at) {
-  std::vector<GiNaC::ex> result;
-  for (const GiNaC::ex& f : functions) result.push_back(substituted(f, at));
-  return result;
 }
 
 /// The functions that have to vanish on this case's constraints for `inverse` to be what it is said
@@ -86,8 +118,7 @@ std::vector<std::pair<std::string, GiNaC::ex>> inverse_defects(const Model& mode
   for (const NamedExpression& constraint : model.constraints)
     defects.emplace_back(fmt::format("{} at the inverse", constraint.name),
                          substituted(constraint.value, lift));
-  for (const NamedExpression& f : map.image)
-    defects.emplace_back(fmt::format("{} on the image", f.name), substituted(f.value, image));
+  for (auto& defect : image_defects(map)) defects.push_back(std::move(defect));
   return defects;
 }
 
@@ -105,10 +136,8 @@ Claim inverse_claim(const Model& model, std::size_t index, std::size_t branch) {
   claim.decide = [index, branch](Prover& prover, Proof& proof) {
     const Model& owner = prover.model();
     const PoissonMap& own = owner.maps[index];
-    std::vector<Residual> residuals;
-    for (const auto& [label, defect] : inverse_defects(owner, own, own.inverses[branch]))
-      residuals.push_back({label, prover.convert(defect), [value = defect] { return value; }});
-    prover.decide(proof, residuals, prover.level(owner.constraints));
+    prover.decide(proof, residuals_of(prover, inverse_defects(owner, own, own.inverses[branch])),
+                  prover.level(owner.constraints));
   };
   return claim;
 }
@@ -119,6 +148,7 @@ std::vector<GiNaC::ex> expressions_of(const PoissonMap& map) {
   for (const GiNaC::ex& bracket : map.composed_brackets()) expressions.push_back(bracket);
   // What GiNaC simplified away: sqrt(q)^2 is q only where q >= 0.
   expressions.insert(expressions.end(), map.domain.begin(), map.domain.end());
+  for (const auto& [label, defect] : image_defects(map)) expressions.push_back(defect);
   return expressions;
 }
 

@@ -97,6 +97,24 @@ TEST(Levels, AreThoseOfSimplerFunctionsWithTheSameRealZeros) {
     EXPECT_EQ(on_level(level, "x").verdict, Verdict::refuted) << level;
 }
 
+/// Only on one side of its pole is an arctangent what its rate says that it stays.
+TEST(Levels, AreLeftWhereAnAngleJumpsAtAPoleOfItsArgument) {
+  const auto relation = [](const std::string& rate, const std::string& expression) {
+    return proof_in_case("invariant_relation",
+                         equations("[equations]\nx = \"" + rate +
+                                   "\"\ny = \"0\"\nz = \"0\"\n[[invariant_relation]]\nname = "
+                                   "\"R\"\nexpression = \"" +
+                                   expression + "\"\n"))
+        .verdict;
+  };
+  for (const char* half_turn : {"atan(x) + atan(1/x) - Pi/2", "atan2(1/x, 1) + atan(x) - Pi/2",
+                                "atan2(1, 1/x) - atan(x)", "sqrt(x^2)/x - 1"}) {
+    EXPECT_NE(relation("1", half_turn), Verdict::proved) << half_turn;
+    EXPECT_EQ(relation("x", half_turn), Verdict::proved) << half_turn;  // x = 0 is not reached
+  }
+  EXPECT_EQ(relation("1", "atan2(1, 1/(1 + x^2)) - atan(1 + x^2) + y"), Verdict::proved);
+}
+
 /// The rate of x^2 vanishes on x = 0, whatever that of x is.
 TEST(Levels, OfSquaresAreLeftWhereTheirRootsAre) {
   const auto relation = [](const std::string& rate, const std::string& f) {
@@ -312,6 +330,19 @@ TEST(Facts, HoldOnEachPiece) {
   }
 }
 
+TEST(Facts, DoNotCountRefutedCasimirFunctions) {
+  const std::string so3 =
+      "hamiltonian = \"M1\"\n[phase_space]\nvariables = [\"M1\",\"M2\",\"M3\"]\nalgebra = "
+      "\"so(3)\"\n[casimirs]\n";
+  const auto rank = [&](const std::string& casimirs) {
+    return proof_in_case("rank", so3 + casimirs).evidence;
+  };
+  EXPECT_NE(rank("C = \"M1^2 + M2^2 + M3^2\"\n").find(" 1 independent Casimir function;"),
+            std::string::npos);
+  EXPECT_NE(rank("C = \"M1^2 + M2^2\"\n").find(" 0 independent Casimir functions;"),
+            std::string::npos);
+}
+
 TEST(Facts, DoNotTakeGeneratorsForIndependent) {
   for (const char* zero :
        {"p2*(2*sin(asin(p2/10)/2 + acos(p2/10)/2)^2 - 1)",
@@ -443,6 +474,21 @@ TEST(Maps, LeadIntoTheDomainOfTheTarget) {
   EXPECT_TRUE(inside.where.empty());
   EXPECT_NE(map("u > 0", "u", "-exp(q)").verdict, Verdict::proved);
   EXPECT_EQ(map("u < 1", "2", "q").verdict, Verdict::refuted);
+}
+
+TEST(Maps, LeadWhereTheyAreSaidToLeadAlsoWithoutAnInverse) {
+  const auto map = [](const std::string& constraints, const std::string& image) {
+    return proof_in_case("map",
+                         "hamiltonian = \"p\"\n[phase_space]\n" + constraints +
+                             "variables = [\"q\",\"p\"]\ncanonical = true\n"
+                             "[[map]]\nname = \"M\"\nto = { variables = [\"u\",\"v\",\"w\"], "
+                             "brackets = { \"u,v\" = \"1\" } }\nimage = [\"" +
+                             image + "\"]\nexpressions = { u = \"q\", v = \"p\", w = \"3\" }\n");
+  };
+  EXPECT_EQ(map("", "w - 3").verdict, Verdict::proved);
+  EXPECT_EQ(map("", "w - 2").verdict, Verdict::refuted);
+  EXPECT_EQ(map("", "u - v").verdict, Verdict::refuted);
+  EXPECT_EQ(map("constraints = [\"q - p\"]\n", "u - v").verdict, Verdict::proved);
 }
 
 }  // namespace
