@@ -80,6 +80,7 @@ double bits_of_base(const ex& base) {
   return value && !value->is_zero() ? std::abs(std::log2(GiNaC::abs(*value).to_double())) : 0;
 }
 
+/// Parts that are shared are put in once.
 class Substitution : public GiNaC::map_function {
  public:
   explicit Substitution(const GiNaC::exmap& values) : values_(values) {}
@@ -87,12 +88,16 @@ class Substitution : public GiNaC::map_function {
   ex operator()(const ex& e) override {
     if (const auto it = values_.find(e); it != values_.end()) return it->second;
     if (e.nops() == 0) return e;
-    if (GiNaC::is_a<GiNaC::power>(e)) return checked_power((*this)(e.op(0)), (*this)(e.op(1)));
-    return e.map(*this);
+    if (const auto it = known_.find(e); it != known_.end()) return it->second;
+    const ex result = GiNaC::is_a<GiNaC::power>(e)
+                          ? checked_power((*this)(e.op(0)), (*this)(e.op(1)))
+                          : e.map(*this);
+    return known_.emplace(e, result).first->second;
   }
 
  private:
   const GiNaC::exmap& values_;
+  std::unordered_map<ex, ex> known_;
 };
 
 }  // namespace

@@ -43,14 +43,16 @@ void FunctionRing::build(const std::vector<ex>& expressions) {
     signs_.clear();
     nonzero_.clear();
     generators_.clear();
+    probes_ = {};
     ring_ = std::make_unique<PolynomialRing>(symbols_.size() + capacity_);
     try {
       read_signs();
-      const std::size_t before = implied_.size() + products_.size();
+      const std::size_t signs = implied_.size(), products = products_.size();
       for (const ex& e : expressions) convert(e);
       // What roots and logarithms imply may give a meaning to what is assumed, or to each other.
-      const bool more = implied_.size() + products_.size() > before;
-      if (!more || implied_.size() + products_.size() + assumptions_.size() < 2) {
+      const std::size_t known = implied_.size() + products_.size();
+      const bool more = implied_.size() > signs || (known > signs + products && tell_more_signs());
+      if (!more || known + assumptions_.size() < 2) {
         built_ = true;
         return;
       }

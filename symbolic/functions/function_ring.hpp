@@ -2,6 +2,7 @@
 
 #include <ginac/ginac.h>
 
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -226,6 +227,9 @@ class FunctionRing {
   };
   Pieces pieces(const std::vector<Polynomial>& functions) const;
 
+  /// Points at which functions are told apart by their values before algebra is asked.
+  static constexpr std::size_t kProbes = 8;
+
  private:
   enum class Kind { sine, cosine, exponential, root, inverse, absolute, imaginary, function };
   struct Generator {
@@ -316,6 +320,7 @@ class FunctionRing {
   enum class Reading { first, second };
   void read_signs();
   void read_all(Reading reading);
+  bool tell_more_signs();
   void read_assumption(const Assumption& assumption, Reading reading);
   void read_sign(const Polynomial& p, int sign, Reading reading, bool implied, bool strict);
   void add_sign(const Polynomial& f, int sign, bool implied, bool strict);
@@ -371,6 +376,13 @@ class FunctionRing {
   std::optional<Polynomial> square_root_by_pi(const Polynomial& top, const Polynomial& bottom);
   std::pair<Polynomial, Polynomial> without_roots(Polynomial p) const;
   std::optional<Polynomial> known_inverse(const GiNaC::function& f);
+  /// The value of `p` at one of them, as exact as doubles are; not a number where it has no real
+  /// one.
+  double probe(const Polynomial& p, std::size_t point) const;
+  double probe_generator(std::size_t g, std::size_t point) const;
+  double probe_new(std::size_t index, std::size_t point) const;
+  /// Whether two values at that point are of different functions; false where one is no number.
+  static bool differ(double a, double b);
   Polynomial logarithm(const GiNaC::ex& whole, const Polynomial& p);
   std::optional<Polynomial> logarithm_of_generator(const Polynomial& f);
   Polynomial exponential(const Polynomial& exponent);
@@ -391,6 +403,8 @@ class FunctionRing {
   /// I occurs: roots and logarithms need not be real then. Nothing is made of these before that is
   /// looked for.
   bool complex_ = true;
+  /// Of the generators at each.
+  mutable std::array<std::vector<std::optional<double>>, kProbes> probes_;
   bool built_ = false;  ///< what is converted from then on says no more of signs
   struct Sign {
     Polynomial of;

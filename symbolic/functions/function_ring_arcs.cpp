@@ -13,6 +13,7 @@
 // atan2(-y, x) = -atan2(y, x) is not among them: on the cut both are Pi.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "symbolic/functions/function_ring.hpp"
 
@@ -78,6 +79,15 @@ std::optional<Polynomial> FunctionRing::known_inverse(const GiNaC::function& f) 
     return Squares{checked_product(s.sine, s.cosine).scaled(4),
                    checked_product(difference, difference), checked_product(s.bottom, s.bottom)};
   };
+  // The square of the sine, with which the same comparisons are made at a point first.
+  const auto square_at_point = [&](const GiNaC::ex& value, unsigned long kind, std::size_t point) {
+    const double v = probe(convert(value.op(0)), point);
+    if (kind == kArcSine) return v * v;
+    if (kind == kArcCosine) return 1 - v * v;
+    const double x = kind == kArcTangent ? 1 : probe(convert(value.op(1)), point);
+    return v * v / (x * x + v * v);
+  };
+  const auto doubled_at_point = [](double square) { return 4 * square * (1 - square); };
   const auto multiple = [&](const std::pair<Polynomial, Polynomial>& of, int times) {
     const auto& [sine, cosine] = of;
     if (times == 1) return of;
@@ -106,9 +116,21 @@ std::optional<Polynomial> FunctionRing::known_inverse(const GiNaC::function& f) 
     if (other != kArcSine && other != kArcCosine && other != kArcTangent &&
         other != kArcTangentOfTwo)
       continue;
-    // The squares of the sines come without roots.
-    const Squares a = squares(f, tag), b = squares(generators_[g].value, other);
+    const auto may_agree = [&](int times, int others) {
+      for (std::size_t point = 0; point < kProbes; ++point) {
+        const double own = square_at_point(f, tag, point);
+        const double its = square_at_point(generators_[g].value, other, point);
+        if (!std::isfinite(own) || !std::isfinite(its)) continue;
+        const double s1 = times == 2 ? doubled_at_point(own) : own;
+        const double s2 = others == 2 ? doubled_at_point(its) : its;
+        return !differ(s1, s2) || !differ(s1, 1 - s2);
+      }
+      return true;
+    };
     for (const auto& [times, others] : {std::pair(1, 1), std::pair(1, 2), std::pair(2, 1)}) {
+      if (!may_agree(times, others)) continue;
+      // The squares of the sines come without roots.
+      const Squares a = squares(f, tag), b = squares(generators_[g].value, other);
       const Squares of_f = times == 2 ? doubled(a) : a, of_other = others == 2 ? doubled(b) : b;
       const auto equal = [&, first = of_f.sine](const Polynomial& second) {
         return numerator(checked_product(first, of_other.bottom) -

@@ -33,6 +33,18 @@ void FunctionRing::read_all(Reading reading) {
   }
 }
 
+/// Whether the products say more now that everything has been converted.
+bool FunctionRing::tell_more_signs() {
+  const std::size_t before = signs_.size() + nonzero_.size();
+  for (const Reading reading : {Reading::first, Reading::second}) {
+    for (std::size_t i = 0; i < products_.size(); ++i) {
+      const Implied product = products_[i];
+      read_sign(convert(product.value), 1, reading, true, product.strict);
+    }
+  }
+  return signs_.size() + nonzero_.size() > before;
+}
+
 /// The first reading is of the inequalities that give the sign of a single factor, the second is of
 /// those that rest on signs already known.
 void FunctionRing::read_assumption(const Assumption& assumption, Reading reading) {

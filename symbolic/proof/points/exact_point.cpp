@@ -4,6 +4,7 @@
 #include <cln/rational_io.h>
 
 #include <optional>
+#include <unordered_map>
 
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/expression/elementary.hpp"
@@ -22,11 +23,19 @@ std::string over(const std::string& text, const cln::cl_RA& factor) {
 
 }  // namespace
 
-/// Replaces sines, cosines, tangents and exponentials of the point's angles by their values.
+/// Replaces sines, cosines, tangents and exponentials of the point's angles by their values, those
+/// that are shared once.
 struct ExactPoint::Functions : public GiNaC::map_function {
   explicit Functions(const ExactPoint& point) : point_(point) {}
 
   ex operator()(const ex& e) override {
+    if (e.nops() == 0) return e;
+    if (const auto it = known_.find(e); it != known_.end()) return it->second;
+    return known_.emplace(e, fresh(e)).first->second;
+  }
+
+ private:
+  ex fresh(const ex& e) {
     if (GiNaC::is_a<GiNaC::power>(e)) return checked_power((*this)(e.op(0)), (*this)(e.op(1)));
     const ex inner = e.map(*this);
     if (!GiNaC::is_a<GiNaC::function>(inner)) return inner;
@@ -46,7 +55,6 @@ struct ExactPoint::Functions : public GiNaC::map_function {
     return circle->imag() / circle->real();
   }
 
- private:
   /// The product of value^k over the terms k * factor * symbol of the argument, if it has no
   /// others.
   template <class Argument>
@@ -66,6 +74,7 @@ struct ExactPoint::Functions : public GiNaC::map_function {
   }
 
   const ExactPoint& point_;
+  std::unordered_map<ex, ex> known_;
 };
 
 ExactPoint::ExactPoint(const FunctionRing& ring, const std::vector<cln::cl_RA>& point,
