@@ -12,6 +12,7 @@
 #include "symbolic/case/limits.hpp"
 #include "symbolic/expression/decimal.hpp"
 #include "symbolic/expression/elementary.hpp"
+#include "symbolic/expression/expression_range.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/expression/name_characters.hpp"
 #include "symbolic/expression/spelling.hpp"
@@ -199,7 +200,8 @@ class Parser {
       q.bits += exponent.bits;
       if (base.value.is_zero()) fail_at(offset, "zero to a power that is not a number");
     }
-    q.value = evaluated(offset, [&] { return principal_power(base.value, exponent.value); });
+    q.value = real_value(
+        evaluated(offset, [&] { return principal_power(base.value, exponent.value); }), offset);
     if (!exponent.value.info(GiNaC::info_flags::nonnegint)) add_part(q.value);
     return checked(q, offset);
   }
@@ -221,6 +223,22 @@ class Parser {
     if (!reciprocal) return GiNaC::pow(base, exponent);
     return factor * GiNaC::pow(inner.op(0), exponent) /
            GiNaC::pow(GiNaC::pow(inner.op(0), 2), exponent);
+  }
+
+  /// GiNaC gives log(-3) and sqrt(-4) complex values. Where numbers are real they have none, and an
+  /// expression with one is about nothing. Only what is a constant becomes complex.
+  ex real_value(ex value, std::size_t offset) const {
+    if (names_.complex_numbers() || imaginary_unit_) return value;
+    bool complex = false;
+    for (auto part = value.preorder_begin(); part != value.preorder_end(); ++part) {
+      if (GiNaC::is_a<GiNaC::symbol>(*part)) return value;
+      complex = complex || (GiNaC::is_exactly_a<GiNaC::numeric>(*part) &&
+                            !GiNaC::ex_to<GiNaC::numeric>(*part).is_real());
+    }
+    if (complex)
+      fail_at(offset, "this has no real value",
+              "roots and logarithms are those of real numbers unless the case has I");
+    return value;
   }
 
   /// Runs one GiNaC operation that may meet a pole.
@@ -309,7 +327,10 @@ class Parser {
       unknown_function(word, start);
     }
     if (word == "Pi") return {GiNaC::Pi, 1, 0, 1};
-    if (word == "I") return {GiNaC::I, 1, 0, 1};
+    if (word == "I") {
+      imaginary_unit_ = true;
+      return {GiNaC::I, 1, 0, 1};
+    }
     if (const Quantity* known = names_.find(word)) {
       for (const ex& part : known->parts ? *known->parts : std::vector<ex>{}) add_part(part);
       return *known;
@@ -424,10 +445,13 @@ class Parser {
     // GiNaC says 0, but no direction leads to the origin.
     if (function.name == "atan2" && first.value.is_zero() && last.value.is_zero())
       fail_at(start, "this has no value: atan2(0, 0)");
-    q.value = evaluated(start, [&] {
-      return function.name == "sqrt" ? principal_power(first.value, GiNaC::numeric(1, 2))
-                                     : function.apply(first.value, last.value);
-    });
+    q.value = real_value(evaluated(start,
+                                   [&] {
+                                     return function.name == "sqrt"
+                                                ? principal_power(first.value, GiNaC::numeric(1, 2))
+                                                : function.apply(first.value, last.value);
+                                   }),
+                         start);
     if (!function.everywhere) add_part(q.value);
     return checked(q, start);
   }
@@ -442,9 +466,12 @@ class Parser {
   std::size_t at_;
   std::size_t end_;
   int depth_ = 0;
+  bool imaginary_unit_ = false;  ///< `I` has been read
   std::vector<ex> parts_;
   std::unordered_set<ex> seen_;
 };
+
+}  // namespace
 
 Quantity parse_range(const Text& text, Scope& names, std::size_t begin, std::size_t end) {
   if (static_cast<double>(text.value.size()) > limits().file_bytes) {
@@ -455,35 +482,8 @@ Quantity parse_range(const Text& text, Scope& names, std::size_t begin, std::siz
   return Parser(text, names, begin, end).parse();
 }
 
-}  // namespace
-
 Quantity parse_expression(const Text& text, Scope& names) {
   return parse_range(text, names, 0, text.value.size());
-}
-
-Condition parse_condition(const Text& text, Scope& names) {
-  const std::string& s = text.value;
-  const std::size_t at = s.find_first_of("!=<>");
-  if (at == std::string::npos) {
-    throw text.error("expected a condition such as 'r != 0' or 'G > 0'");
-  }
-  const bool two = at + 1 < s.size() && s[at + 1] == '=';
-  const auto comparison = comparison_of(s.substr(at, two ? 2 : 1));
-  if (!comparison) throw text.error("unexpected '!', expected '!='", at);
-  const Quantity left = parse_range(text, names, 0, at);
-  const Quantity right = parse_range(text, names, at + (two ? 2 : 1), s.size());
-  std::vector<ex> parts;
-  for (const Quantity* side : {&left, &right})
-    if (side->parts) parts.insert(parts.end(), side->parts->begin(), side->parts->end());
-  Quantity difference{left.value - right.value};
-  difference.parts = std::make_shared<const std::vector<ex>>(std::move(parts));
-  return {left.value, *comparison, right.value, lost_parts(difference)};
-}
-
-std::pair<Quantity, Quantity> parse_equation(const Text& text, Scope& names) {
-  const std::size_t at = text.value.find('=');
-  if (at == std::string::npos) return {parse_expression(text, names), {0}};
-  return {parse_range(text, names, 0, at), parse_range(text, names, at + 1, text.value.size())};
 }
 
 }  // namespace casimir

@@ -69,6 +69,16 @@ TEST_F(Expression, HasNoValueAtThePolesOfItsFunctions) {
             "1: this has no value: division by zero or a pole of the function");
 }
 
+/// GiNaC makes log(3) + I*Pi of log(-3): with it an integral would be "proved" that has no value.
+TEST_F(Expression, HasNoValueWhereItWouldBeComplexAmongRealNumbers) {
+  EXPECT_EQ(error_of("x + log(-3)"), "5: this has no real value");
+  EXPECT_EQ(error_of("2*sqrt(-4)"), "3: this has no real value");
+  EXPECT_EQ(error_of("x*(-1)^(1/2)"), "7: this has no real value");
+  EXPECT_EQ(error_of("y*sqrt(7 - 4*sqrt(4))"), "3: this has no real value");
+  EXPECT_EQ(parse("I*sqrt(-4)"), -2);
+  EXPECT_EQ(parse("sqrt(-4*x)^2 + sqrt(9 - 5)"), 2 - 4 * x_);
+}
+
 /// What GiNaC cancels is kept as a place without a value: cot(x)*sin(x) has none at 0.
 TEST_F(Expression, RemembersWhereItsFunctionsHaveNoValue) {
   for (const char* text : {"cot(x)*sin(x)", "sign(x)*abs(x)"}) {
