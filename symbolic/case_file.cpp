@@ -40,7 +40,7 @@ class Reader : private TomlReader {
 PhaseSpaceText Reader::phase_space(const toml::table& table, const std::string& what) const {
   allow(table, what,
         {"variables", "algebra", "canonical", "brackets", "structure_constants", "sign", "domain",
-         "constraints", "vector_fields", "time"});
+         "constraints", "dirac", "vector_fields", "time"});
   PhaseSpaceText space;
   space.where = place(table.source());
   if (const toml::node* fields = table.get("vector_fields"))
@@ -62,6 +62,10 @@ PhaseSpaceText Reader::phase_space(const toml::table& table, const std::string& 
   space.sign = optional_text(table, "sign");
   space.domain = texts(table, "domain");
   space.constraints = texts(table, "constraints");
+  if (boolean(table, "dirac")) {
+    const Location where = place(table.get("dirac")->source());
+    space.dirac = {"dirac", where, line(where.line)};
+  }
   space.time = optional_text(table, "time");
   return space;
 }

@@ -70,6 +70,7 @@ struct PhaseSpaceText {
   std::optional<Text> sign;
   std::vector<Text> domain;
   std::vector<Text> constraints;
+  std::optional<Text> dirac;  ///< the place where it is `true`
   std::optional<Text> time;
 };
 

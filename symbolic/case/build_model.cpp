@@ -231,7 +231,8 @@ class Builder {
 
   void read_bracket() {
     model_.frame = make_frame(file_.phase_space, model_.variables, model_.parameters, names_);
-    model_.linear_bracket = file_.phase_space.algebra || file_.phase_space.structure_constants;
+    model_.linear_bracket = !file_.phase_space.dirac &&
+                            (file_.phase_space.algebra || file_.phase_space.structure_constants);
     model_.poisson = make_bracket(file_.phase_space, model_.variables, names_, model_.frame,
                                   &model_.bracket_domain);
   }

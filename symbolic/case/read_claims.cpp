@@ -41,6 +41,7 @@ class ClaimReader {
     model_.integrals = read_named(file_.integrals);
     for (const Text& text : file_.phase_space.constraints)
       model_.constraints.push_back(anonymous(text));
+    if (file_.phase_space.dirac) add_constraints_to_casimirs();
     for (const LevelText& text : file_.conditionals)
       model_.conditionals.push_back(read_level(text));
     for (const LevelText& text : file_.invariant_relations)
@@ -67,6 +68,23 @@ class ClaimReader {
       check_name_H(name, quantity.value);
     }
     return result;
+  }
+
+  /// The constraints are the Casimir functions of their Dirac bracket: phi1, phi2, .. beside those
+  /// that the file names, unless one of these is the same.
+  void add_constraints_to_casimirs() {
+    const auto is_named = [&](const NamedExpression& constraint) {
+      return std::any_of(model_.casimirs.begin(), model_.casimirs.end(), [&](const auto& f) {
+        return GiNaC::is_a<GiNaC::numeric>((f.value - constraint.value).expand());
+      });
+    };
+    for (std::size_t i = 0; i < model_.constraints.size(); ++i) {
+      if (is_named(model_.constraints[i])) continue;
+      NamedExpression casimir = model_.constraints[i];
+      casimir.name = fmt::format("phi{}", i + 1);
+      while (names_.find(casimir.name) != nullptr) casimir.name += '_';
+      model_.casimirs.push_back(std::move(casimir));
+    }
   }
 
   /// Every command calls the Hamiltonian H where it lists the integrals.

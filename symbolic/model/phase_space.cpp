@@ -7,6 +7,7 @@
 
 #include "symbolic/case/limits.hpp"
 #include "symbolic/lie_algebra.hpp"
+#include "symbolic/model/dirac_bracket.hpp"
 
 namespace casimir {
 namespace {
@@ -121,6 +122,77 @@ std::vector<ex> explicit_brackets(const std::vector<Entry>& entries, bool linear
   return upper.entries();
 }
 
+std::optional<PoissonStructure> written_bracket(const PhaseSpaceText& text,
+                                                const Symbols& variables, Scope& names,
+                                                const std::optional<Frame>& frame,
+                                                std::vector<ex>* domain) {
+  const int forms = int(text.algebra.has_value()) + int(text.canonical) +
+                    int(text.brackets.has_value()) + int(text.structure_constants.has_value()) +
+                    int(text.vector_fields.has_value());
+  if (forms > 1) {
+    throw CaseError(text.where,
+                    "the phase space must have exactly one of 'algebra', 'canonical', 'brackets', "
+                    "'structure_constants' and 'vector_fields'");
+  }
+  if (frame) return frame_bracket(*frame, variables, sign_of(text));
+  if (text.algebra) return PoissonStructure(variables, algebra_brackets(text, variables));
+  if (text.canonical) return PoissonStructure(variables, canonical_brackets(text, variables));
+  if (text.brackets) {
+    return PoissonStructure(variables, explicit_brackets(*text.brackets, false, sign_of(text),
+                                                         variables, names, domain));
+  }
+  if (text.structure_constants) {
+    return PoissonStructure(variables, explicit_brackets(*text.structure_constants, true,
+                                                         sign_of(text), variables, names, domain));
+  }
+  return std::nullopt;
+}
+
+/// What `dirac` makes of the bracket that is written.
+PoissonStructure restricted_bracket(const PhaseSpaceText& text, const PoissonStructure& written,
+                                    Scope& names, std::vector<ex>* domain) {
+  const Text& dirac = *text.dirac;
+  if (text.constraints.empty())
+    throw dirac.error("a Dirac bracket needs 'constraints'", 0,
+                      "constraints = [\"x^2 + y^2 - 1\", \"x*px + y*py\"]");
+  if (text.constraints.size() > kMostConstraints)
+    throw text.constraints.back().error(
+        fmt::format("a Dirac bracket has at most {} constraints, {} given", kMostConstraints,
+                    text.constraints.size()));
+  std::vector<ex> constraints;
+  for (const Text& constraint : text.constraints) {
+    const Quantity quantity = parse_expression(constraint, names);
+    for (const ex& part : lost_parts(quantity)) domain->push_back(part);
+    constraints.push_back(quantity.value);
+  }
+  std::optional<DiracBracket> result;
+  try {
+    result = dirac_bracket(written, constraints);
+  } catch (const ModelError& problem) {
+    throw dirac.error(fmt::format("the Dirac bracket cannot be computed: {}", problem.what()));
+  }
+  if (!result)
+    throw dirac.error(
+        "the constraints are not of the second class: the matrix of their brackets "
+        "has determinant 0",
+        0,
+        constraints.size() % 2 == 1
+            ? "their number is odd: the velocity of a constraint is often missing"
+            : "one that commutes with all others has no place in a Dirac bracket");
+  domain->push_back(1 / result->determinant);
+  return result->structure;
+}
+
+std::string describe_written(const PhaseSpaceText& text) {
+  if (text.algebra)
+    return text.algebra->value + (text.sign && text.sign->value == "+" ? ", plus sign" : "");
+  if (text.canonical) return "canonical";
+  if (text.brackets) return "brackets";
+  if (text.structure_constants) return "structure constants";
+  if (text.vector_fields) return "frame";
+  return "equations";
+}
+
 }  // namespace
 
 std::vector<GiNaC::symbol> make_variables(const PhaseSpaceText& text) {
@@ -155,36 +227,16 @@ std::optional<PoissonStructure> make_bracket(const PhaseSpaceText& text, const S
                                              std::vector<ex>* domain) {
   std::vector<ex> parts;
   if (domain == nullptr) domain = &parts;
-  const int forms = int(text.algebra.has_value()) + int(text.canonical) +
-                    int(text.brackets.has_value()) + int(text.structure_constants.has_value()) +
-                    int(text.vector_fields.has_value());
-  if (forms > 1) {
-    throw CaseError(text.where,
-                    "the phase space must have exactly one of 'algebra', 'canonical', 'brackets', "
-                    "'structure_constants' and 'vector_fields'");
-  }
-  if (frame) return frame_bracket(*frame, variables, sign_of(text));
-  if (text.algebra) return PoissonStructure(variables, algebra_brackets(text, variables));
-  if (text.canonical) return PoissonStructure(variables, canonical_brackets(text, variables));
-  if (text.brackets) {
-    return PoissonStructure(variables, explicit_brackets(*text.brackets, false, sign_of(text),
-                                                         variables, names, domain));
-  }
-  if (text.structure_constants) {
-    return PoissonStructure(variables, explicit_brackets(*text.structure_constants, true,
-                                                         sign_of(text), variables, names, domain));
-  }
-  return std::nullopt;
+  const auto written = written_bracket(text, variables, names, frame, domain);
+  if (!text.dirac) return written;
+  if (!written)
+    throw text.dirac->error("a Dirac bracket is made of another one, and none is given", 0,
+                            "canonical = true");
+  return restricted_bracket(text, *written, names, domain);
 }
 
 std::string describe(const PhaseSpaceText& text) {
-  if (text.algebra)
-    return text.algebra->value + (text.sign && text.sign->value == "+" ? ", plus sign" : "");
-  if (text.canonical) return "canonical";
-  if (text.brackets) return "brackets";
-  if (text.structure_constants) return "structure constants";
-  if (text.vector_fields) return "frame";
-  return "equations";
+  return describe_written(text) + (text.dirac ? ", Dirac bracket" : "");
 }
 
 }  // namespace casimir

@@ -23,6 +23,7 @@ std::optional<Frame> make_frame(const PhaseSpaceText& text,
 /// \param frame  as `make_frame` gave it
 /// \param domain becomes what the brackets are defined by, as of NamedExpression; may be null
 /// `names` must know the variables and whatever else the brackets may use.
+/// Where the file says `dirac`, it is the Dirac bracket of the constraints that is returned.
 /// \throws CaseError  for more than one form, an unknown algebra, a wrong number of variables, a
 ///                    bracket that is not skew, or one that is not linear where it has to be.
 std::optional<PoissonStructure> make_bracket(const PhaseSpaceText& text,
@@ -30,7 +31,8 @@ std::optional<PoissonStructure> make_bracket(const PhaseSpaceText& text,
                                              Scope& names, const std::optional<Frame>& frame,
                                              std::vector<GiNaC::ex>* domain = nullptr);
 
-/// "e(3)", "canonical", "brackets", "structure constants", "frame" or "equations".
+/// "e(3)", "canonical", "brackets", "structure constants", "frame" or "equations"; and what is made
+/// of it.
 std::string describe(const PhaseSpaceText& text);
 
 }  // namespace casimir
