@@ -352,7 +352,7 @@ bool speaks_of_imaginary_unit(const std::string& toml) {
 std::string hint_for(const toml::parse_error& problem, const std::string& line) {
   const auto column = static_cast<std::size_t>(problem.source().begin.column);
   const std::string quotes = unquoted_hint(line, column);
-  return quotes.empty() ? spelling_of_latex(line) : quotes;
+  return quotes.empty() ? spelling_of_escape("", line) : quotes;
 }
 
 }  // namespace

@@ -15,14 +15,15 @@
 #include "symbolic/expression/expression_range.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/expression/name_characters.hpp"
+#include "symbolic/expression/notation.hpp"
+#include "symbolic/expression/principal_values.hpp"
+#include "symbolic/expression/read_decimal.hpp"
 #include "symbolic/expression/spelling.hpp"
 
 namespace casimir {
 namespace {
 
 using GiNaC::ex;
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Recursive descent over one range of the text. Sums and products are collected before GiNaC sees
 /// them, since adding term by term costs quadratic time.
@@ -60,9 +61,8 @@ class Parser {
   }
   [[noreturn]] void fail_at(std::size_t offset, const std::string& what,
                             const std::string& hint = {}) const {
-    // TOML has read \f of \frac already, so the line of the file is what shows it.
-    const std::string latex = spelling_of_latex(text_.excerpt.text());
-    throw text_.error(what, offset, latex.empty() ? hint : latex);
+    const std::string escape = spelling_of_escape(text_.value, text_.excerpt.text());
+    throw text_.error(what, offset, escape.empty() ? hint : escape);
   }
 
   /// What stands here cannot: `expected` could.
@@ -79,7 +79,12 @@ class Parser {
   }
 
   char peek() {
-    while (at_ < end_ && std::isspace(static_cast<unsigned char>(text_.value[at_]))) ++at_;
+    while (at_ < end_) {
+      const bool space = std::isspace(static_cast<unsigned char>(text_.value[at_])) != 0;
+      const std::size_t length = space ? 1 : latex_space(text_.value, at_);
+      if (length == 0) break;
+      at_ += length;
+    }
     return at_ < end_ ? text_.value[at_] : '\0';
   }
 
@@ -141,14 +146,38 @@ class Parser {
     return total;
   }
 
+  /// '*' or '/', if one of them or a cross or dot of LaTeX stands here.
+  char product_sign() {
+    const char c = peek();
+    if (c == '*' || c == '/') return c;
+    const std::string_view command = latex_command(text_.value, at_);
+    return command == "cdot" || command == "times" ? '*' : '\0';
+  }
+
+  /// `^`, or `**` as in Python.
+  bool accept_power() {
+    if (accept('^')) return true;
+    if (text_.value.compare(at_, 2, "**") != 0 || at_ + 2 > end_) return false;
+    at_ += 2;
+    return true;
+  }
+
+  /// {a} after a sign or command that takes it so; braces are brackets of Poisson elsewhere.
+  Quantity braced() {
+    if (!accept('{'))
+      fail("unexpected " + here() + ", expected '{'", "as in \\frac{a}{b}, with both in braces");
+    Quantity q = sum();
+    if (!accept('}')) unexpected("'}'");
+    return q;
+  }
+
   Quantity product() {
     const std::size_t start = at_;
     Quantity total = unary();
     GiNaC::exvector factors{total.value};
-    for (char c = peek(); c == '*' || c == '/'; c = peek()) {
-      const std::size_t offset = at_++;
-      if (c == '*' && at_ < end_ && text_.value[at_] == '*')
-        fail("unexpected '**'", "write a power as x^2");
+    for (char c = product_sign(); c != '\0'; c = product_sign()) {
+      const std::size_t offset = at_;
+      at_ += std::max<std::size_t>(1, 1 + latex_command(text_.value, at_).size());
       const Quantity next = unary();
       if (c == '/' && next.value.is_zero()) fail_at(offset, "division by zero");
       factors.push_back(c == '*' ? next.value : evaluated(offset, [&] {
@@ -181,9 +210,10 @@ class Parser {
 
   Quantity power() {
     const Quantity base = primary();
-    if (peek() != '^') return base;
-    const std::size_t offset = at_++;
-    const Quantity exponent = unary();
+    peek();
+    const std::size_t offset = at_;
+    if (!accept_power()) return base;
+    const Quantity exponent = peek() == '{' ? braced() : unary();
     Quantity q{0, base.bits, base.degree, base.nodes + exponent.nodes,
                1 + std::max(base.depth, exponent.depth)};
     if (GiNaC::is_a<GiNaC::numeric>(exponent.value)) {
@@ -201,41 +231,18 @@ class Parser {
       if (base.value.is_zero()) fail_at(offset, "zero to a power that is not a number");
     }
     q.value = real_value(
-        evaluated(offset, [&] { return principal_power(base.value, exponent.value); }), offset);
+        evaluated(
+            offset,
+            [&] { return principal_power(base.value, exponent.value, names_.complex_numbers()); }),
+        offset);
     if (!exponent.value.info(GiNaC::info_flags::nonnegint)) add_part(q.value);
     return checked(q, offset);
   }
 
-  /// GiNaC makes x^(-1/2) of (1/x)^(1/2), which is right for x > 0 only. For other real x it is
-  /// x^(1/2)/(x^2)^(1/2).
-  ex principal_power(const ex& base, const ex& exponent) const {
-    const bool fraction = GiNaC::is_a<GiNaC::numeric>(exponent) &&
-                          !GiNaC::ex_to<GiNaC::numeric>(exponent).is_integer();
-    if (!fraction || !names_.complex_numbers()) return GiNaC::pow(base, exponent);
-    ex inner = base;
-    ex factor = 1;  // positive numbers are taken out
-    if (GiNaC::is_a<GiNaC::mul>(base) && base.nops() == 2 &&
-        GiNaC::is_a<GiNaC::numeric>(base.op(1)) && base.op(1).info(GiNaC::info_flags::positive)) {
-      inner = base.op(0);
-      factor = GiNaC::pow(base.op(1), exponent);
-    }
-    const bool reciprocal = GiNaC::is_a<GiNaC::power>(inner) && inner.op(1).is_equal(GiNaC::ex(-1));
-    if (!reciprocal) return GiNaC::pow(base, exponent);
-    return factor * GiNaC::pow(inner.op(0), exponent) /
-           GiNaC::pow(GiNaC::pow(inner.op(0), 2), exponent);
-  }
-
   /// GiNaC gives log(-3) and sqrt(-4) complex values. Where numbers are real they have none, and an
-  /// expression with one is about nothing. Only what is a constant becomes complex.
-  ex real_value(ex value, std::size_t offset) const {
-    if (names_.complex_numbers() || imaginary_unit_) return value;
-    bool complex = false;
-    for (auto part = value.preorder_begin(); part != value.preorder_end(); ++part) {
-      if (GiNaC::is_a<GiNaC::symbol>(*part)) return value;
-      complex = complex || (GiNaC::is_exactly_a<GiNaC::numeric>(*part) &&
-                            !GiNaC::ex_to<GiNaC::numeric>(*part).is_real());
-    }
-    if (complex)
+  /// expression with one is about nothing.
+  ex real_value(const ex& value, std::size_t offset) const {
+    if (!names_.complex_numbers() && !imaginary_unit_ && is_complex_constant(value))
       fail_at(offset, "this has no real value",
               "roots and logarithms are those of real numbers unless the case has I");
     return value;
@@ -266,76 +273,76 @@ class Parser {
       return q;
     }
     if (c == '{') return bracket();
-    if (is_digit(c) || c == '.') return number();
+    if ((c >= '0' && c <= '9') || c == '.') return number();
     if (is_name_start(c)) return name();
+    if (const std::string_view command = latex_command(text_.value, at_); !command.empty())
+      return latex(command);
     unexpected("a number, a name or '('");
-  }
-
-  std::string digits() {
-    const std::size_t start = at_;
-    while (at_ < end_ && is_digit(text_.value[at_])) ++at_;
-    return text_.value.substr(start, at_ - start);
   }
 
   Quantity number() {
     const std::size_t start = at_;
-    std::string mantissa = digits();
-    long exponent = 0;
-    if (at_ < end_ && text_.value[at_] == '.') {
-      ++at_;
-      const std::string fraction = digits();
-      exponent = -static_cast<long>(fraction.size());
-      mantissa += fraction;
-    }
-    if (mantissa.empty()) fail_at(start, "a decimal point without digits");
-    if (at_ < end_ && (text_.value[at_] == 'e' || text_.value[at_] == 'E'))
-      exponent += exponent_part(start);
+    const Decimal read = read_decimal(std::string_view(text_.value).substr(0, end_), at_);
+    at_ = read.end;
+    if (!read.problem.empty()) fail_at(start, read.problem);
     if (at_ < end_ && is_name_start(text_.value[at_]))
       fail("unexpected " + here() + " after a number", "write products with '*'");
-    const double bits =
-        (static_cast<double>(mantissa.size()) + std::abs(static_cast<double>(exponent))) * 3.33;
-    checked({0, bits, 0, 1}, start);
-    const GiNaC::numeric digits_value(mantissa.c_str());
-    const GiNaC::numeric value =
-        digits_value * GiNaC::pow(GiNaC::numeric(10), GiNaC::numeric(exponent));
+    checked({0, read.bits, 0, 1}, start);
+    const GiNaC::numeric value = read.value();
     return {value, std::max(1.0, bit_length(value)), 0, 1};
   }
 
-  long exponent_part(std::size_t start) {
-    ++at_;
-    const bool negative = at_ < end_ && text_.value[at_] == '-';
-    if (at_ < end_ && (text_.value[at_] == '-' || text_.value[at_] == '+')) ++at_;
-    const std::string value = digits();
-    if (value.empty()) fail_at(start, "a number with an empty exponent");
-    if (value.size() > 6)
-      fail_at(start, fmt::format("a number here would have more than {:.0f} bits", limits().bits),
-              limit_hint(&Limits::bits));
-    return (negative ? -1 : 1) * std::stol(value);
+  /// What starts with a command of LaTeX: a fraction, a root, or a name.
+  Quantity latex(std::string_view command) {
+    const std::size_t start = at_++;
+    if (command == "frac" || command == "dfrac" || command == "tfrac") {
+      at_ += command.size();
+      const Quantity top = braced(), bottom = braced();
+      if (bottom.value.is_zero()) fail_at(start, "division by zero");
+      Quantity q{evaluated(start, [&] { return top.value / bottom.value; }), top.bits + bottom.bits,
+                 top.degree + bottom.degree, top.nodes + bottom.nodes,
+                 1 + std::max(top.depth, bottom.depth)};
+      add_part(GiNaC::pow(bottom.value, -1));
+      return checked(q, start);
+    }
+    return name();
+  }
+
+  /// A name as it is written, `M_{1}` as M_1.
+  std::string word() {
+    const std::size_t start = at_;
+    while (at_ < end_ && is_name_part(text_.value[at_])) ++at_;
+    std::string result = text_.value.substr(start, at_ - start);
+    if (result.back() != '_' || at_ >= end_ || text_.value[at_] != '{') return result;
+    std::size_t close = at_ + 1;
+    while (close < end_ && is_name_part(text_.value[close])) ++close;
+    if (close >= end_ || text_.value[close] != '}' || close == at_ + 1) return result;
+    result += text_.value.substr(at_ + 1, close - at_ - 1);
+    at_ = close + 1;
+    return result;
   }
 
   Quantity name() {
     const std::size_t start = at_;
-    while (at_ < end_ && is_name_part(text_.value[at_])) ++at_;
-    const std::string word = text_.value.substr(start, at_ - start);
+    std::string word = this->word();
+    if (names_.find(word) == nullptr) word = usual_name(word);
     if (const ElementaryFunction* function = find_elementary_function(word))
       return call(*function, start);
     if (peek() == '(' && names_.find(word) == nullptr) {
       if (word == "diff") return partial_derivative(start);
       if (word == "rate") return rate(start);
-    }
-    if (peek() == '(' && names_.find(word) == nullptr) {
-      unknown_function(word, start);
+      if (find_with_subscript(word, names_) == nullptr) unknown_function(word, start);
     }
     if (word == "Pi") return {GiNaC::Pi, 1, 0, 1};
     if (word == "I") {
       imaginary_unit_ = true;
       return {GiNaC::I, 1, 0, 1};
     }
-    if (const Quantity* known = names_.find(word)) {
-      for (const ex& part : known->parts ? *known->parts : std::vector<ex>{}) add_part(part);
-      return *known;
-    }
-    undeclared(word, start);
+    const Quantity* known = names_.find(word);
+    if (known == nullptr) known = find_with_subscript(word, names_);
+    if (known == nullptr) undeclared(word, start);
+    for (const ex& part : known->parts ? *known->parts : std::vector<ex>{}) add_part(part);
+    return *known;
   }
 
   /// A name with '(' behind it.
@@ -361,7 +368,10 @@ class Parser {
   }
 
   std::vector<Quantity> arguments(std::string_view function, std::size_t arity, std::size_t start) {
-    if (!accept('(')) fail_at(start, fmt::format("'{}' is a function and needs '('", function));
+    if (arity == 1 && peek() == '{') return {braced()};
+    if (!accept('('))
+      fail_at(start, fmt::format("'{}' is a function and needs '('", function),
+              fmt::format("as in {}(x), powers behind: {}(x)^2", function, function));
     std::vector<Quantity> given;
     if (peek() != ')') {
       do {
@@ -448,7 +458,8 @@ class Parser {
     q.value = real_value(evaluated(start,
                                    [&] {
                                      return function.name == "sqrt"
-                                                ? principal_power(first.value, GiNaC::numeric(1, 2))
+                                                ? principal_power(first.value, GiNaC::numeric(1, 2),
+                                                                  names_.complex_numbers())
                                                 : function.apply(first.value, last.value);
                                    }),
                          start);

@@ -77,7 +77,7 @@ class NameTable : public Scope {
 /// Reads an expression over `names`: + - * / ^, exact rationals and decimals ("0.5" is 1/2), Pi, I,
 /// sqrt sin cos tan cot sinh cosh tanh exp log asin acos atan atan2 abs sign; diff(F, x) for a
 /// partial derivative; and where `names` knows the dynamics, {F, G} for the Poisson bracket and
-/// rate(F) for dF/dt.
+/// rate(F) for dF/dt. What is usual elsewhere and has one meaning is read as well: `notation.hpp`.
 /// \throws CaseError  with the place inside `text`: unknown name, wrong arity, division by zero,
 ///                    syntax, or a limit exceeded.
 Quantity parse_expression(const Text& text, Scope& names);

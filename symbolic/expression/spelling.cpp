@@ -20,12 +20,10 @@ struct Spelling {
 
 /// One name for another.
 constexpr Spelling kNames[] = {
-    {"ln", "log"},     {"Log", "log"},     {"pi", "Pi"},         {"PI", "Pi"},
-    {"M_PI", "Pi"},    {"arcsin", "asin"}, {"arccos", "acos"},   {"arctan", "atan"},
-    {"arctg", "atan"}, {"tg", "tan"},      {"sh", "sinh"},       {"ch", "cosh"},
-    {"th", "tanh"},    {"ctg", "cot"},     {"sgn", "sign"},      {"fabs", "abs"},
-    {"Abs", "abs"},    {"signum", "sign"}, {"arctan2", "atan2"}, {"Sqrt", "sqrt"},
-    {"root", "sqrt"},  {"D", "diff"},      {"dt", "rate"},
+    {"Log", "log"},   {"PI", "Pi"},   {"M_PI", "Pi"},     {"arctg", "atan"},    {"tg", "tan"},
+    {"sh", "sinh"},   {"ch", "cosh"}, {"th", "tanh"},     {"ctg", "cot"},       {"sgn", "sign"},
+    {"fabs", "abs"},  {"Abs", "abs"}, {"signum", "sign"}, {"arctan2", "atan2"}, {"Sqrt", "sqrt"},
+    {"root", "sqrt"}, {"D", "diff"},  {"dt", "rate"},
 };
 
 /// What has no name here.
@@ -56,22 +54,6 @@ constexpr Spelling kCharacters[] = {
     {"κ", "kappa"},   {"λ", "lambda"}, {"μ", "mu"},    {"ν", "nu"},      {"ρ", "rho"},
     {"σ", "sigma"},   {"τ", "tau"},    {"φ", "phi"},   {"χ", "chi"},     {"ψ", "psi"},
     {"ω", "omega"},   {"Ω", "Omega"},  {"“", "\""},    {"”", "\""},
-};
-
-constexpr Spelling kLatex[] = {
-    {"frac", "{a}{b} is written (a)/(b)"},
-    {"dfrac", "{a}{b} is written (a)/(b)"},
-    {"tfrac", "{a}{b} is written (a)/(b)"},
-    {"sqrt", "{a} is written sqrt(a)"},
-    {"cdot", " is written *"},
-    {"times", " is written *"},
-    {"pi", " is written Pi"},
-    {"ln", " x is written log(x)"},
-    {"left", "( is written ("},
-    {"right", ") is written )"},
-    {"arctan", " x is written atan(x)"},
-    {"arcsin", " x is written asin(x)"},
-    {"arccos", " x is written acos(x)"},
 };
 
 std::string_view found_in(std::span<const Spelling> table, std::string_view word) {
@@ -128,19 +110,17 @@ std::string spelling_of_sign(std::string_view text, std::size_t at) {
   }
 }
 
-std::string spelling_of_latex(std::string_view text) {
-  for (std::size_t at = text.find('\\'); at < text.size(); at = text.find('\\', at + 1)) {
-    const auto begin = text.begin() + static_cast<std::ptrdiff_t>(at) + 1;
-    const auto end = std::find_if_not(begin, text.end(), is_letter);
+std::string spelling_of_escape(std::string_view value, std::string_view written) {
+  if (value.find('\\') != std::string_view::npos) return {};
+  for (std::size_t at = written.find('\\'); at < written.size(); at = written.find('\\', at + 1)) {
+    const auto begin = written.begin() + static_cast<std::ptrdiff_t>(at) + 1;
+    const auto end = std::find_if_not(begin, written.end(), is_letter);
     constexpr std::ptrdiff_t kLongest = 30;
-    // A single letter is an escape of TOML.
-    if (end - begin < 2 || end - begin > kLongest) continue;
-    const std::string word(begin, end);
-    std::string_view ours = found_in(kLatex, word);
-    if (!ours.empty()) return fmt::format("\\{}{}", word, ours);
-    if (find_elementary_function(word) != nullptr)
-      return fmt::format("\\{0} x is written {0}(x)", word);
-    return fmt::format("expressions are plain text and not LaTeX: \\{0} is written {0}", word);
+    if (end - begin >= 2 && end - begin <= kLongest)
+      return fmt::format(
+          "between double quotes a backslash begins an escape of TOML: write '..\\{}..' between "
+          "single ones",
+          std::string_view(begin, end));
   }
   return {};
 }

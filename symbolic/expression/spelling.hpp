@@ -1,7 +1,7 @@
 #pragma once
 
 // What people write who come from LaTeX, from other languages or from a book: how it is written
-// here. Only for hints: nothing of it is ever accepted.
+// here. Only for hints: what is accepted as it stands is in notation.hpp.
 
 #include <optional>
 #include <string>
@@ -22,10 +22,11 @@ std::string spelling_of_character(std::string_view character);
 /// "decimals have a point: 1.5" for the comma of `1,5`; empty for one that has no other meaning.
 std::string spelling_of_sign(std::string_view text, std::size_t at);
 
-/// For the first LaTeX command in `text`, a backslash and a word, as "\frac{a}{b} is written
-/// (a)/(b)"; empty where there is none. TOML reads \f and its like in a string as control
-/// characters, so what is searched is the line of the file.
-std::string spelling_of_latex(std::string_view text);
+/// What to do where TOML has read the beginning of a LaTeX command as a control character, the \f
+/// of \frac between double quotes; empty where it has not.
+/// \param value    the text as it was read
+/// \param written  the line of the file
+std::string spelling_of_escape(std::string_view value, std::string_view written);
 
 /// A word that is several of the `known` names in a row, as "did you mean 'M1*g1'?"; else empty.
 std::string product_of_names(const std::string& word, const std::vector<std::string>& known);

@@ -1,0 +1,42 @@
+#include "symbolic/expression/notation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+#include "symbolic/expression/expression.hpp"
+
+namespace casimir {
+
+std::string_view latex_command(std::string_view text, std::size_t at) {
+  if (at >= text.size() || text[at] != '\\') return {};
+  std::size_t end = at + 1;
+  while (end < text.size() && std::isalpha(static_cast<unsigned char>(text[end])) != 0) ++end;
+  return text.substr(at + 1, end - at - 1);
+}
+
+std::size_t latex_space(std::string_view text, std::size_t at) {
+  const std::string_view command = latex_command(text, at);
+  for (const std::string_view space : {"quad", "left", "right"})
+    if (command == space) return 1 + command.size();
+  const bool sign = command.empty() && at + 1 < text.size() && text[at] == '\\' &&
+                    std::string_view(",;:!").find(text[at + 1]) != std::string_view::npos;
+  return sign ? 2 : 0;
+}
+
+std::string usual_name(const std::string& word) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kUsual = {
+      {{"ln", "log"}, {"arcsin", "asin"}, {"arccos", "acos"}, {"arctan", "atan"}, {"pi", "Pi"}}};
+  const auto it = std::find_if(kUsual.begin(), kUsual.end(),
+                               [&](const auto& pair) { return pair.first == word; });
+  return it == kUsual.end() ? word : std::string(it->second);
+}
+
+const Quantity* find_with_subscript(const std::string& word, Scope& names) {
+  const std::size_t at = word.rfind('_');
+  if (at == std::string::npos || at == 0 || at + 1 == word.size()) return nullptr;
+  return names.find(word.substr(0, at) + word.substr(at + 1));
+}
+
+}  // namespace casimir
