@@ -225,6 +225,27 @@ Case real_level(Random& random) {
   return claim;
 }
 
+/// Half a turn between two angles is lost or won where x passes the pole of an argument.
+Case half_turn(Random& random) {
+  const Expr quarter = Expr::pi() / 2;
+  const std::vector<Expr> angles{atan(x) + atan(1 / x) - quarter,
+                                 atan2(1 / x, 1) + atan(x) - quarter, atan2(1, 1 / x) - atan(x),
+                                 x / absolute(x) - 1,
+                                 atan(2 * x) + asin(1 / sqrt(1 + 4 * pow(x, 2))) - quarter};
+  const bool stays = random.one_in(2);
+  const std::size_t which = static_cast<std::size_t>(random.between(0, 4));
+  Case claim = on_level(Kind::invariant_relation, "level-half-turn", angles[which], {});
+  const Expr rate = stays ? x * random.of(std::vector<Expr>{1, 1 + pow(y, 2)}) : Expr(-1);
+  const bool moves = random.one_in(2);
+  claim.system.equations = {rate, 0, moves ? y : Expr(0)};
+  claim.truth = stays ? Truth::yes : Truth::no;
+  claim.pieces = {{{"x", absolute(x)}}};
+  const Expr s{"s"};
+  if (!stays)
+    claim.orbit = Substitution{{"x", Expr(1, 3) - s}, {"y", 1}, {"z", moves ? s : Expr(0)}};
+  return claim;
+}
+
 /// The level |x| = x is a half line, which a rotation leaves and a growth does not.
 Case half_space(Random& random) {
   const bool stays = random.one_in(2);
@@ -292,8 +313,8 @@ Case identity_on_level(Random& random) {
 const std::vector<Template>& level_templates() {
   static const std::vector<Template> all{leading_function, leading_function, leading_parameter,
                                          root_on_level,    not_lipschitz,    trivial_domain,
-                                         real_level,       half_space,       squared_level,
-                                         two_levels,       identity_on_level};
+                                         real_level,       half_turn,        half_space,
+                                         squared_level,    two_levels,       identity_on_level};
   return all;
 }
 
