@@ -335,6 +335,11 @@ Polynomial FunctionRing::convert_function(const GiNaC::function& f) {
   }
   if (name == "atan") return opaque(inverse(one + v * v), v, kArcTangent);
   if (name == "asin" || name == "acos") {
+    // Of x/|x| it is a quarter of a turn, of that sign; it has no slope.
+    if (!complex_ && numerator(one - checked_product(v, v)).is_zero()) {
+      const Polynomial quarter = convert(GiNaC::Pi).scaled(cln::cl_RA(1) / 2);
+      return checked_product(name == "asin" ? v : one - v, quarter);
+    }
     imply_between(v);
     const Polynomial slope = inverse(root(one - v * v, 2));
     return name == "asin" ? opaque(slope, v, kArcSine) : opaque(-slope, v, kArcCosine);

@@ -120,6 +120,15 @@ TEST_F(Relations, InverseFunctionsOfOneAnother) {
   EXPECT_FALSE(zero("I*(asin(x) + acos(x) - Pi/2)"));
 }
 
+/// Where the argument is 1 or -1 everywhere, there is no slope to divide by.
+TEST_F(Relations, InverseFunctionsOfSigns) {
+  EXPECT_TRUE(zero("asin(x/sqrt(x^2)) - Pi*x/sqrt(x^2)/2"));
+  EXPECT_TRUE(zero("acos(x/sqrt(x^2)) + asin(x/sqrt(x^2)) - Pi/2"));
+  EXPECT_TRUE(zero("acos(x/sqrt(x^2))", {x_is(">")}));
+  EXPECT_FALSE(zero("acos(x/sqrt(x^2))"));
+  EXPECT_FALSE(zero("asin(x/sqrt(x^2)) - Pi/2"));
+}
+
 TEST_F(Relations, ArcTangentsOfQuotients) {
   EXPECT_FALSE(zero("atan(1/x) + atan(x) - Pi/2"));
   EXPECT_TRUE(zero("atan(1/x) + atan(x) - Pi/2", {x_is(">")}));
