@@ -195,7 +195,11 @@ bool Prover::vanishes_nowhere_on(const Polynomial& p, const Level& level, Diviso
       std::vector<Polynomial> quotients;
       return d.remainder(basis, &quotients).is_zero();
     });
-    if (!undefined && std::none_of(basis.begin(), basis.end(), never)) return false;
+    if (undefined) continue;
+    const bool excluded = std::any_of(basis.begin(), basis.end(), [&](const Polynomial& b) {
+      return std::find(identities.begin(), identities.end(), b) == identities.end() && never(b);
+    });
+    if (!excluded) return false;
   }
   return true;
 }
