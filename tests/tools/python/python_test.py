@@ -311,6 +311,16 @@ class Runs(unittest.TestCase):
         for one in pendulum.equilibria():
             self.assertAlmostEqual(math.sin(one.state[0]), 0, places=9)
 
+    def test_dirac_bracket(self):
+        pendulum = casimir.Case(
+            hamiltonian="(px^2 + py^2)/2 + y", variables=["x", "y", "px", "py"], canonical=True,
+            constraints=["x^2 + y^2 - 1", "x*px + y*py"], dirac=True,
+            initial={"x": 0, "y": -1, "px": Fraction(1, 2), "py": 0}, duration=10)
+        self.assertTrue(pendulum.verify())
+        end = pendulum.integrate().y[:, -1]
+        self.assertAlmostEqual(end[0] ** 2 + end[1] ** 2, 1, places=12)
+        self.assertAlmostEqual(end[0] * end[2] + end[1] * end[3], 0, places=12)
+
     def test_generated_code(self):
         self.assertIn("namespace", casimir.load("euler").generate())
         self.assertIn("euler_rhs", casimir.load("euler").generate(language="c"))

@@ -68,6 +68,8 @@ class Case:
     :param algebra: the name of a Lie algebra, as 'e(3)'.
     :param brackets: the nonzero brackets, as {'M1,M2': '-M3'}.
     :param canonical: whether the variables are q1 .. qn, p1 .. pn.
+    :param constraints: expressions that vanish on the phase space.
+    :param dirac: whether the bracket is the Dirac bracket of the constraints.
     :param parameters: names, or names with values for the scene; None leaves a value open.
     :param assume: what is assumed of a parameter, as {'a': 'a > 0'}.
     :param integrals, casimirs, definitions: expressions by name.
@@ -93,6 +95,8 @@ class Case:
         canonical: bool = False,
         time: str | None = None,
         domain: Iterable[str] = (),
+        constraints: Iterable[Expression] = (),
+        dirac: bool = False,
         parameters: Iterable[str] | Mapping[str, Expression | None] = (),
         assume: Mapping[str, str] | None = None,
         definitions: Mapping[str, Expression] | None = None,
@@ -109,6 +113,8 @@ class Case:
                 "canonical": canonical or None,
                 "time": time,
                 "domain": list(domain) or None,
+                "constraints": [text_of(one) for one in constraints] or None,
+                "dirac": dirac or None,
                 "brackets": brackets,
             }
             values = parameters if isinstance(parameters, Mapping) else {str(one): None for one in parameters}
