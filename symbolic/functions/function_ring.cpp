@@ -7,6 +7,8 @@
 #include <map>
 #include <unordered_set>
 
+#include "symbolic/expression/pairs.hpp"
+
 namespace casimir {
 
 using GiNaC::ex;
@@ -17,6 +19,13 @@ namespace {
 bool uses_imaginary_unit(const ex& e, std::unordered_set<ex>& seen) {
   if (GiNaC::is_exactly_a<GiNaC::numeric>(e)) return !GiNaC::ex_to<GiNaC::numeric>(e).is_real();
   if (e.nops() == 0 || !seen.insert(e).second) return false;
+  if (GiNaC::is_exactly_a<GiNaC::add>(e) || GiNaC::is_exactly_a<GiNaC::mul>(e)) {
+    const GiNaC::epvector& pairs = Pairs::of(e);
+    return uses_imaginary_unit(Pairs::number(e), seen) ||
+           std::any_of(pairs.begin(), pairs.end(), [&](const GiNaC::expair& pair) {
+             return uses_imaginary_unit(pair.rest, seen) || uses_imaginary_unit(pair.coeff, seen);
+           });
+  }
   for (std::size_t i = 0; i < e.nops(); ++i) {
     if (uses_imaginary_unit(e.op(i), seen)) return true;
   }
@@ -44,6 +53,7 @@ void FunctionRing::build(const std::vector<ex>& expressions) {
     nonzero_.clear();
     generators_.clear();
     probes_ = {};
+    radicands_.clear();
     ring_ = std::make_unique<PolynomialRing>(symbols_.size() + capacity_);
     try {
       read_signs();

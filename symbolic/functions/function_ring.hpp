@@ -230,6 +230,20 @@ class FunctionRing {
   /// Points at which functions are told apart by their values before algebra is asked.
   static constexpr std::size_t kProbes = 8;
 
+  /// A point in double precision, by which nothing is proved: it only saves the work on what does
+  /// not hold there.
+  struct Probe {
+    std::vector<double> coordinates;                ///< of the symbols
+    std::vector<std::optional<double>> generators;  ///< as far as they were computed
+  };
+  /// Another one for each k below `kProbes`: coordinates between 0.3 and 1 in no simple relation.
+  Probe probe(std::size_t k) const;
+  /// The value of `p` there, as exact as doubles are; not a number where it has no real one.
+  double value_at(Probe& probe, const Polynomial& p) const;
+  /// Whether all functions of the ring have, but for 1/d: the derivatives of roots have
+  /// denominators where the roots themselves have values.
+  bool has_values_at(Probe& probe) const;
+
  private:
   enum class Kind { sine, cosine, exponential, root, inverse, absolute, imaginary, function };
   struct Generator {
@@ -376,11 +390,10 @@ class FunctionRing {
   std::optional<Polynomial> square_root_by_pi(const Polynomial& top, const Polynomial& bottom);
   std::pair<Polynomial, Polynomial> without_roots(Polynomial p) const;
   std::optional<Polynomial> known_inverse(const GiNaC::function& f);
-  /// The value of `p` at one of them, as exact as doubles are; not a number where it has no real
-  /// one.
-  double probe(const Polynomial& p, std::size_t point) const;
-  double probe_generator(std::size_t g, std::size_t point) const;
-  double probe_new(std::size_t index, std::size_t point) const;
+  Probe& own_probe(std::size_t k);
+  const std::vector<Polynomial>& factors_of_radicand(std::size_t g) const;
+  double generator_at(Probe& probe, std::size_t g) const;
+  double new_generator_at(Probe& probe, std::size_t g) const;
   /// Whether two values at that point are of different functions; false where one is no number.
   static bool differ(double a, double b);
   Polynomial logarithm(const GiNaC::ex& whole, const Polynomial& p);
@@ -403,8 +416,8 @@ class FunctionRing {
   /// I occurs: roots and logarithms need not be real then. Nothing is made of these before that is
   /// looked for.
   bool complex_ = true;
-  /// Of the generators at each.
-  mutable std::array<std::vector<std::optional<double>>, kProbes> probes_;
+  std::array<Probe, kProbes> probes_;
+  mutable std::unordered_map<std::size_t, std::vector<Polynomial>> radicands_;
   bool built_ = false;  ///< what is converted from then on says no more of signs
   struct Sign {
     Polynomial of;

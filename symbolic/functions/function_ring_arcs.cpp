@@ -81,10 +81,10 @@ std::optional<Polynomial> FunctionRing::known_inverse(const GiNaC::function& f) 
   };
   // The square of the sine, with which the same comparisons are made at a point first.
   const auto square_at_point = [&](const GiNaC::ex& value, unsigned long kind, std::size_t point) {
-    const double v = probe(convert(value.op(0)), point);
+    const double v = value_at(own_probe(point), convert(value.op(0)));
     if (kind == kArcSine) return v * v;
     if (kind == kArcCosine) return 1 - v * v;
-    const double x = kind == kArcTangent ? 1 : probe(convert(value.op(1)), point);
+    const double x = kind == kArcTangent ? 1 : value_at(own_probe(point), convert(value.op(1)));
     return v * v / (x * x + v * v);
   };
   const auto doubled_at_point = [](double square) { return 4 * square * (1 - square); };

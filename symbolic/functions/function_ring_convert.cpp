@@ -13,6 +13,7 @@
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/case/limits.hpp"
 #include "symbolic/expression/elementary.hpp"
+#include "symbolic/expression/pairs.hpp"
 #include "symbolic/functions/function_ring.hpp"
 #include "symbolic/functions/gaussian_argument.hpp"
 
@@ -26,19 +27,6 @@ cln::cl_RA rational(const GiNaC::numeric& number) {
     throw ModelError("a number that is not rational in an exact expression");
   return cln::the<cln::cl_RA>(number.to_cl_N());
 }
-
-/// The pairs of which GiNaC makes a sum (rest * coeff) or a product (rest ^ coeff). Its public op()
-/// builds a new expression for each of them, which would take most of the time of a proof.
-class Pairs : public GiNaC::expairseq {
- public:
-  static const GiNaC::epvector& of(const ex& e) {
-    return GiNaC::ex_to<GiNaC::expairseq>(e).*(&Pairs::seq);
-  }
-  /// The number that is added to, or multiplied by, all of them.
-  static const ex& number(const ex& e) {
-    return GiNaC::ex_to<GiNaC::expairseq>(e).*(&Pairs::overall_coeff);
-  }
-};
 
 TooLarge too_many_terms(const char* what) {
   return TooLarge(fmt::format("an expanded {} would have more than {:g} terms; {}", what,
@@ -198,13 +186,27 @@ Polynomial FunctionRing::convert_product(const ex& e) {
   return product;
 }
 
+namespace {
+
+std::string text_of(const GiNaC::numeric& number) {
+  if (number.is_integer() && GiNaC::abs(number) < 1000) return std::to_string(number.to_int());
+  std::ostringstream stream;
+  stream << number;
+  return stream.str();
+}
+
+}  // namespace
+
 /// Text that orders expressions, the same in every process.
 const std::string& FunctionRing::order_key(const ex& e) {
   const auto known = order_keys_.find(e);
   if (known != order_keys_.end()) return known->second;
   std::string key;
-  if (e.nops() == 0) {
-    key = expression_text(e);
+  if (GiNaC::is_exactly_a<GiNaC::symbol>(e)) {
+    key = GiNaC::ex_to<GiNaC::symbol>(e).get_name();
+  } else if (e.nops() == 0) {
+    key = GiNaC::is_exactly_a<GiNaC::numeric>(e) ? text_of(GiNaC::ex_to<GiNaC::numeric>(e))
+                                                 : expression_text(e);
   } else if (GiNaC::is_exactly_a<GiNaC::add>(e)) {
     key = order_key_of_sum(e);
   } else {
@@ -229,13 +231,12 @@ std::string FunctionRing::order_key_of_sum(const ex& e) {
   std::sort(parts.begin(), parts.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
   int sign = 0;
-  std::ostringstream stream;
-  stream << "+";
+  std::string result = "+";
   for (const auto& [key, coefficient] : parts) {
     if (sign == 0) sign = coefficient.csgn();
-    stream << "(" << (sign < 0 ? -coefficient : coefficient) << "*" << key << ")";
+    result += "(" + text_of(sign < 0 ? -coefficient : coefficient) + "*" + key + ")";
   }
-  return stream.str();
+  return result;
 }
 
 /// GiNaC orders terms and factors by memory addresses; where generators are made, their numbers,

@@ -141,21 +141,33 @@ bool FunctionRing::is_assumed_positive(const Polynomial& p) const {
   return sign > 0;
 }
 
+/// Each is factored once.
+const std::vector<Polynomial>& FunctionRing::factors_of_radicand(std::size_t g) const {
+  const auto [known, fresh] = radicands_.try_emplace(g);
+  if (fresh && !generators_[g].base.is_zero()) {
+    for (const auto& [f, exponent] : fraction(generators_[g].base).first.factors())
+      known->second.push_back(f);
+  }
+  return known->second;
+}
+
 std::vector<Polynomial> FunctionRing::radicand_factors(const Polynomial& p, bool cuts) const {
   std::vector<Polynomial> result;
+  const auto add_factor = [&](const Polynomial& f) {
+    if (!f.is_constant() && std::find(result.begin(), result.end(), f) == result.end())
+      result.push_back(f);
+  };
   const auto add = [&](const Polynomial& base) {
     if (base.is_zero()) return;
-    for (const auto& [f, exponent] : fraction(base).first.factors()) {
-      if (!f.is_constant() && std::find(result.begin(), result.end(), f) == result.end())
-        result.push_back(f);
-    }
+    for (const auto& [f, exponent] : fraction(base).first.factors()) add_factor(f);
   };
   const Polynomial one = ring_->constant(1);
   // Parts of inverse functions are analytic where these are, and sin(atan2(y, x)/2) but for the
   // cut, where the root of r + x in its relation vanishes.
   for (const std::size_t g : generators_in({p})) {
     const Generator& generator = generators_[g];
-    if (generator.kind == Kind::root || generator.kind == Kind::absolute) add(generator.base);
+    if (generator.kind == Kind::root || generator.kind == Kind::absolute)
+      for (const Polynomial& f : factors_of_radicand(g)) add_factor(f);
     const bool arc = generator.kind == Kind::function &&
                      (generator.order == kArcSine || generator.order == kArcCosine);
     // By the relations: with v = sqrt(1 - y) it is y, of which the motion may have a root as well.

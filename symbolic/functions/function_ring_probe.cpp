@@ -26,22 +26,22 @@ double coordinate(std::size_t i, std::size_t point) {
 
 }  // namespace
 
-double FunctionRing::probe_new(std::size_t index, std::size_t point) const {
+double FunctionRing::new_generator_at(Probe& probe, std::size_t index) const {
   const Generator& g = generators_[index];
-  const auto argument = [&](std::size_t i) { return probe(known_.at(g.value.op(i)), point); };
+  const auto argument = [&](std::size_t i) { return value_at(probe, known_.at(g.value.op(i))); };
   switch (g.kind) {
     case Kind::sine:
-      return std::sin(probe(g.base, point));
+      return std::sin(value_at(probe, g.base));
     case Kind::cosine:
-      return std::cos(probe(generators_[index - 1].base, point));  // of the sine's argument
+      return std::cos(value_at(probe, generators_[index - 1].base));  // of the sine's argument
     case Kind::exponential:
-      return std::exp(probe(g.base, point));
+      return std::exp(value_at(probe, g.base));
     case Kind::root:
-      return std::pow(probe(g.base, point), 1 / static_cast<double>(g.order));
+      return std::pow(value_at(probe, g.base), 1 / static_cast<double>(g.order));
     case Kind::absolute:
-      return std::sqrt(probe(g.base, point));  // the base is its square
+      return std::sqrt(value_at(probe, g.base));  // the base is its square
     case Kind::inverse:
-      return 1 / probe(g.base, point);
+      return 1 / value_at(probe, g.base);
     case Kind::imaginary:
       return kNoValue;
     case Kind::function:
@@ -49,49 +49,67 @@ double FunctionRing::probe_new(std::size_t index, std::size_t point) const {
   }
   switch (static_cast<FunctionTag>(g.order)) {
     case kLogarithm:
-      return std::log(probe(g.base, point));
+      return std::log(value_at(probe, g.base));
     case kLogOfAbsolute:
-      return std::log(std::abs(probe(g.base, point)));
+      return std::log(std::abs(value_at(probe, g.base)));
     case kArcTangent:
-      return std::atan(probe(g.base, point));
+      return std::atan(value_at(probe, g.base));
     case kArcSine:
-      return std::asin(probe(g.base, point));
+      return std::asin(value_at(probe, g.base));
     case kArcCosine:
-      return std::acos(probe(g.base, point));
+      return std::acos(value_at(probe, g.base));
     case kArcTangentOfTwo:
       return std::atan2(argument(0), argument(1));
     case kPartCosine:
-      return std::cos(probe(g.base, point));
+      return std::cos(value_at(probe, g.base));
     case kPartSine:
-      return std::sin(probe(g.base, point));
+      return std::sin(value_at(probe, g.base));
     default:
       return kNoValue;
   }
 }
 
 /// Each is computed once.
-double FunctionRing::probe_generator(std::size_t g, std::size_t point) const {
-  std::vector<std::optional<double>>& known = probes_[point];
+double FunctionRing::generator_at(Probe& probe, std::size_t g) const {
+  std::vector<std::optional<double>>& known = probe.generators;
   if (g < known.size() && known[g]) return *known[g];
-  const double value = probe_new(g, point);
+  const double value = new_generator_at(probe, g);
   if (known.size() <= g) known.resize(g + 1);
   known[g] = value;
   return value;
 }
 
-double FunctionRing::probe(const Polynomial& p, std::size_t point) const {
+FunctionRing::Probe FunctionRing::probe(std::size_t k) const {
+  Probe result;
+  for (std::size_t i = 0; i < symbols_.size(); ++i) result.coordinates.push_back(coordinate(i, k));
+  return result;
+}
+
+FunctionRing::Probe& FunctionRing::own_probe(std::size_t k) {
+  if (probes_[k].coordinates.empty()) probes_[k] = probe(k);
+  return probes_[k];
+}
+
+double FunctionRing::value_at(Probe& probe, const Polynomial& p) const {
   double sum = 0;
   for (const auto& [coefficient, exponents] : p.term_list()) {
     double term = cln::double_approx(coefficient);
     for (std::size_t i = 0; i < exponents.size(); ++i) {
       if (exponents[i] == 0) continue;
       const double value =
-          i < symbols_.size() ? coordinate(i, point) : probe_generator(i - symbols_.size(), point);
+          i < symbols_.size() ? probe.coordinates[i] : generator_at(probe, i - symbols_.size());
       term *= std::pow(value, static_cast<double>(exponents[i]));
     }
     sum += term;
   }
   return sum;
+}
+
+bool FunctionRing::has_values_at(Probe& probe) const {
+  for (std::size_t g = 0; g < generators_.size(); ++g)
+    if (generators_[g].kind != Kind::inverse && !std::isfinite(generator_at(probe, g)))
+      return false;
+  return true;
 }
 
 bool FunctionRing::differ(double a, double b) {

@@ -176,6 +176,7 @@ class Prover {
   bool vanishes_nowhere_on(const Polynomial& p, const Level& level, Divisors which = Divisors::all);
   const std::vector<Polynomial>& explicit_divisors(Divisors which);
   /// Whether an irreducible function vanishes nowhere, or is divided by; kept for this claim.
+  bool seems_to_vanish(const Polynomial& f, Divisors which);
   bool is_kept_from_zero(const Polynomial& f, Divisors which);
   /// What holds between the functions everywhere, as c^2 - (1 - s^2): on a level such as c = 1 it
   /// says more than the normal form of the ring, that s^2 = 0.

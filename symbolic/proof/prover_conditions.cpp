@@ -1,5 +1,9 @@
 // What stands beside a verdict: where something was divided by, and that there are points at all.
+#include <cln/float.h>
+#include <cln/rational.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "symbolic/proof/prover.hpp"
 
@@ -33,6 +37,44 @@ void Prover::check_inhabited(Proof& proof, const Level& own) {
                        "the claim have real values: it may be about nothing"
                      : "no real point of the level was found inside the assumptions at which all "
                        "functions of the claim have real values: it may be about nothing";
+}
+
+/// Whether the domain seems to have a zero of `f`, which has to be solved for a variable to be
+/// found: then all that is divided by has another value there, and no algebra can show that `f`
+/// vanishes nowhere. Doubles suffice, since nothing is claimed where the answer is true.
+bool Prover::seems_to_vanish(const Polynomial& f, Divisors which) {
+  constexpr double kRounding = 1e-6;
+  const std::size_t symbols = ring_.symbols().size();
+  if (ring_.is_complex()) return false;
+  std::size_t x = symbols;
+  for (std::size_t i = 0; i < ring_.end_of_generators(); ++i) {
+    if (i >= symbols && f.uses(i)) return false;
+    if (i < symbols && x == symbols && f.degree(i) == 1) x = i;
+  }
+  if (x == symbols) return false;
+  const std::vector<Polynomial> parts = f.coefficients(x);
+  if (!parts[1].is_constant()) return false;
+  const double slope = cln::double_approx(parts[1].term_list()[0].first);
+  const auto admitted = [&](FunctionRing::Probe& at) {
+    const auto differs = [&](const Polynomial& d) {
+      return std::abs(ring_.value_at(at, d)) > kRounding;  // not so where it has no value
+    };
+    return ring_.has_values_at(at) &&
+           std::all_of(model_.assumptions.begin(), model_.assumptions.end(),
+                       [&](const Assumption& a) {
+                         const double d = ring_.value_at(at, ring_.convert(a.difference));
+                         const int sign = std::abs(d) <= kRounding ? 0 : d > 0 ? 1 : -1;
+                         return std::isfinite(d) && holds(a.comparison, sign);
+                       }) &&
+           std::all_of(explicit_divisors(which).begin(), explicit_divisors(which).end(), differs);
+  };
+  for (std::size_t k = 0; k < FunctionRing::kProbes; ++k) {
+    FunctionRing::Probe at = ring_.probe(k);
+    at.coordinates[x] = -ring_.value_at(at, parts[0]) / slope;
+    at.generators.clear();
+    if (admitted(at)) return true;
+  }
+  return false;
 }
 
 namespace {

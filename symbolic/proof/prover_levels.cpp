@@ -133,12 +133,12 @@ const std::vector<Polynomial>& Prover::explicit_divisors(Divisors which) {
   const std::vector<ex> motion = with_dynamics(model_, {}, subject_);
   for (const ex& expression : which == Divisors::all ? domain_ : motion) {
     for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
-      if (GiNaC::is_a<GiNaC::power>(*part)) {
+      if (GiNaC::is_exactly_a<GiNaC::power>(*part)) {
         const ex exponent = part->op(1);
-        if (!GiNaC::is_a<GiNaC::numeric>(exponent) ||
+        if (!GiNaC::is_exactly_a<GiNaC::numeric>(exponent) ||
             GiNaC::ex_to<GiNaC::numeric>(exponent).is_negative())
           add(part->op(0));
-      } else if (GiNaC::is_a<GiNaC::function>(*part)) {
+      } else if (GiNaC::is_exactly_a<GiNaC::function>(*part)) {
         const std::string name = GiNaC::ex_to<GiNaC::function>(*part).get_name();
         if (name == "log") add(part->op(0));
         if (name == "tan") add(GiNaC::cos(part->op(0)));
@@ -183,6 +183,7 @@ bool Prover::vanishes_nowhere_on(const Polynomial& p, const Level& level, Diviso
   if (p.is_constant()) return !p.is_zero();
   for (const auto& [f, exponent] : p.factors()) {
     if (f.is_constant() || kept_from_zero(f)) continue;
+    if (level.empty() && seems_to_vanish(f, which)) return false;
     std::vector<Polynomial> ideal = level.numerators;
     const std::vector<Polynomial>& identities = square_relations();
     ideal.insert(ideal.end(), identities.begin(), identities.end());
@@ -425,7 +426,7 @@ void Prover::decide(Proof& proof, const std::vector<Residual>& residuals, const 
 void Prover::say_where_motion_is_unique(Proof& proof, const NamedExpression& f) {
   if (proof.verdict != Verdict::proved || ring_.is_polynomial()) return;
   std::vector<Polynomial> open = ring_.radicand_factors(convert(f.value));
-  std::erase_if(open, [&](const Polynomial& p) { return ring_.is_nowhere_zero(p); });
+  std::erase_if(open, [&](const Polynomial& p) { return is_kept_from_zero(p, Divisors::all); });
   if (open.empty()) return;
   std::vector<Polynomial> of_motion;
   for (const Polynomial& rate : field()) {

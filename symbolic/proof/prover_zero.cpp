@@ -6,9 +6,10 @@
 namespace casimir {
 
 bool Prover::is_zero(const Polynomial& p) {
-  const bool zero = ring_.reduced(p).is_zero();
-  if (zero || ring_.is_polynomial()) return zero;
-  return ring_.numerator(p).is_zero() && has_no_zero_divisors({{p}});
+  if (p.is_zero() || ring_.is_polynomial()) return ring_.reduced(p).is_zero();
+  // What the relations reduce to zero has the numerator zero, but not the other way round.
+  return ring_.numerator(p).is_zero() &&
+         (has_no_zero_divisors({{p}}) || ring_.reduced(p).is_zero());
 }
 
 namespace {
