@@ -4,6 +4,7 @@
 #include <cln/rational.h>
 
 #include "symbolic/algebra/machine_word.hpp"
+#include "symbolic/expression/pairs.hpp"
 
 namespace casimir {
 namespace {
@@ -15,6 +16,8 @@ constexpr std::size_t kMaxExactBits = 4000;
 /// The largest power of a number that is taken exactly.
 constexpr long kMaxExactPower = 64;
 
+const ex kOne = 1;
+
 bool is_short(const cln::cl_RA& r) {
   return cln::integer_length(cln::numerator(r)) < kMaxExactBits &&
          cln::integer_length(cln::denominator(r)) < kMaxExactBits;
@@ -23,19 +26,66 @@ bool is_short(const cln::cl_RA& r) {
 }  // namespace
 
 BallEvaluator::Value BallEvaluator::number(const cln::cl_RA& exact) const {
-  Value result{std::nullopt, Ball(exact, bits_)};
-  if (is_short(exact)) result.exact = exact;
-  return result;
+  return is_short(exact) ? Value(exact, bits_) : Value(Ball(exact, bits_));
 }
+
+BallEvaluator::Value BallEvaluator::constant(const GiNaC::numeric& number) const {
+  if (!number.is_crational()) throw NotCertified{};
+  const auto real = cln::the<cln::cl_RA>(cln::realpart(number.to_cl_N()));
+  if (number.is_real()) return this->number(real);
+  const Ball imaginary(cln::the<cln::cl_RA>(cln::imagpart(number.to_cl_N())), bits_);
+  Ball result(real, bits_);
+  arb_set(acb_imagref(result.raw()), acb_realref(imaginary.raw()));
+  return checked(std::move(result));
+}
+
+class BallEvaluator::Total {
+ public:
+  enum class Kind { sum, product };
+  Total(const BallEvaluator& at, Kind kind)
+      : at_(at), sum_(kind == Kind::sum), exact_(kind == Kind::sum ? 0 : 1) {}
+
+  void take(const Value& v) {
+    if (v.exact && cln::zerop(*v.exact)) {
+      zero_ = zero_ || !sum_;
+    } else if (v.exact) {
+      exact_ = sum_ ? exact_ + *v.exact : exact_ * *v.exact;
+    } else if (!ball_) {
+      ball_ = v.ball();
+    } else if (sum_) {
+      acb_add(ball_->raw(), ball_->raw(), v.ball().raw(), at_.bits_);
+    } else {
+      acb_mul(ball_->raw(), ball_->raw(), v.ball().raw(), at_.bits_);
+    }
+  }
+
+  Value value() {
+    if (zero_) return at_.number(0);
+    const Value exact = at_.number(exact_);
+    if (!ball_) return exact;
+    if (sum_)
+      acb_add(ball_->raw(), ball_->raw(), exact.ball().raw(), at_.bits_);
+    else
+      acb_mul(ball_->raw(), ball_->raw(), exact.ball().raw(), at_.bits_);
+    return at_.checked(std::move(*ball_));
+  }
+
+ private:
+  const BallEvaluator& at_;
+  bool sum_;
+  bool zero_ = false;
+  cln::cl_RA exact_;
+  std::optional<Ball> ball_;
+};
 
 BallEvaluator::Value BallEvaluator::checked(Ball ball) const {
   if (!ball.is_finite() || (numbers_ == Numbers::real && !ball.is_real())) throw NotCertified{};
-  return {std::nullopt, std::move(ball)};
+  return Value(std::move(ball));
 }
 
 int BallEvaluator::certain_sign(const Value& v) const {
   if (v.exact) return cln::minusp(*v.exact) ? -1 : cln::zerop(*v.exact) ? 0 : 1;
-  const std::optional<int> sign = v.ball.sign();
+  const std::optional<int> sign = v.ball().sign();
   if (!sign) throw NotCertified{};
   return *sign;
 }
@@ -45,10 +95,10 @@ void BallEvaluator::set(const GiNaC::symbol& symbol, const ex& exact) {
 }
 
 void BallEvaluator::set(const GiNaC::symbol& symbol, const Ball& ball) {
-  known_.insert_or_assign(symbol, Value{std::nullopt, ball});
+  known_.insert_or_assign(symbol, Value(ball));
 }
 
-const Ball& BallEvaluator::operator()(const ex& expression) { return value(expression).ball; }
+const Ball& BallEvaluator::operator()(const ex& expression) { return value(expression).ball(); }
 
 std::optional<cln::cl_RA> BallEvaluator::exact(const ex& expression) {
   return value(expression).exact;
@@ -56,7 +106,7 @@ std::optional<cln::cl_RA> BallEvaluator::exact(const ex& expression) {
 
 std::optional<int> BallEvaluator::sign(const ex& expression) {
   const Value& v = value(expression);
-  return v.exact ? certain_sign(v) : v.ball.sign();
+  return v.exact ? certain_sign(v) : v.ball().sign();
 }
 
 const BallEvaluator::Value& BallEvaluator::value(const ex& e) {
@@ -65,64 +115,54 @@ const BallEvaluator::Value& BallEvaluator::value(const ex& e) {
 }
 
 BallEvaluator::Value BallEvaluator::evaluate(const ex& e) {
-  if (GiNaC::is_a<GiNaC::numeric>(e)) {
-    const GiNaC::numeric& n = GiNaC::ex_to<GiNaC::numeric>(e);
-    if (!n.is_crational()) throw NotCertified{};
-    const auto real = cln::the<cln::cl_RA>(n.real().to_cl_N());
-    if (n.is_real()) return number(real);
-    const Ball imaginary(cln::the<cln::cl_RA>(n.imag().to_cl_N()), bits_);
-    Ball result(real, bits_);
-    arb_set(acb_imagref(result.raw()), acb_realref(imaginary.raw()));
-    return checked(std::move(result));
-  }
+  if (GiNaC::is_a<GiNaC::numeric>(e)) return constant(GiNaC::ex_to<GiNaC::numeric>(e));
   if (GiNaC::is_a<GiNaC::add>(e)) return sum(e);
   if (GiNaC::is_a<GiNaC::mul>(e)) return product(e);
-  if (GiNaC::is_a<GiNaC::power>(e)) return power(e);
+  if (GiNaC::is_a<GiNaC::power>(e)) return power(value(e.op(0)), e.op(1));
   if (GiNaC::is_a<GiNaC::function>(e)) return function(GiNaC::ex_to<GiNaC::function>(e));
   if (e.is_equal(GiNaC::Pi)) {
     Ball pi;
     acb_const_pi(pi.raw(), bits_);
-    return {std::nullopt, std::move(pi)};
+    return Value(std::move(pi));
   }
   throw NotCertified{};  // a symbol without a value, for one
 }
 
 BallEvaluator::Value BallEvaluator::sum(const ex& e) {
-  std::optional<cln::cl_RA> exact = cln::cl_RA(0);
-  Ball total;
-  for (std::size_t i = 0; i < e.nops(); ++i) {
-    const Value& term = value(e.op(i));
-    if (exact && term.exact)
-      exact = *exact + *term.exact;
-    else
-      exact.reset();
-    acb_add(total.raw(), total.raw(), term.ball.raw(), bits_);
+  Total total(*this, Total::Kind::sum);
+  total.take(constant(GiNaC::ex_to<GiNaC::numeric>(Pairs::number(e))));
+  for (const GiNaC::expair& pair : Pairs::of(e)) {
+    const Value& rest = value(pair.rest);
+    if (pair.coeff.is_equal(kOne)) {
+      total.take(rest);
+      continue;
+    }
+    Total term(*this, Total::Kind::product);
+    term.take(rest);
+    term.take(constant(GiNaC::ex_to<GiNaC::numeric>(pair.coeff)));
+    total.take(term.value());
   }
-  return exact ? number(*exact) : checked(std::move(total));
+  return total.value();
 }
 
 BallEvaluator::Value BallEvaluator::product(const ex& e) {
-  std::optional<cln::cl_RA> exact = cln::cl_RA(1);
-  bool zero = false;
-  Ball total(1, bits_);
-  for (std::size_t i = 0; i < e.nops(); ++i) {
-    const Value& factor = value(e.op(i));
-    zero = zero || (factor.exact && cln::zerop(*factor.exact));
-    if (exact && factor.exact)
-      exact = *exact * *factor.exact;
+  Total total(*this, Total::Kind::product);
+  total.take(constant(GiNaC::ex_to<GiNaC::numeric>(Pairs::number(e))));
+  for (const GiNaC::expair& pair : Pairs::of(e)) {
+    const Value& rest = value(pair.rest);
+    if (pair.coeff.is_equal(kOne))
+      total.take(rest);
     else
-      exact.reset();
-    acb_mul(total.raw(), total.raw(), factor.ball.raw(), bits_);
+      total.take(power(rest, pair.coeff));
   }
-  if (zero) return number(0);
-  return exact ? number(*exact) : checked(std::move(total));
+  return total.value();
 }
 
 BallEvaluator::Value BallEvaluator::whole_power(const Value& base,
                                                 const cln::cl_I& exponent) const {
   const bool negative = cln::minusp(exponent);
   if (negative) {
-    const bool zero = base.exact ? cln::zerop(*base.exact) : base.ball.contains_zero();
+    const bool zero = base.exact ? cln::zerop(*base.exact) : base.ball().contains_zero();
     if (zero) throw NotCertified{};
   }
   if (base.exact && cln::abs(exponent) <= kMaxExactPower) {
@@ -131,7 +171,7 @@ BallEvaluator::Value BallEvaluator::whole_power(const Value& base,
   }
   if (cln::integer_length(exponent) > 40) throw NotCertified{};
   Ball result;
-  acb_pow_si(result.raw(), base.ball.raw(), cln::cl_I_to_long(exponent), bits_);
+  acb_pow_si(result.raw(), base.ball().raw(), cln::cl_I_to_long(exponent), bits_);
   return checked(std::move(result));
 }
 
@@ -144,19 +184,18 @@ BallEvaluator::Value BallEvaluator::root(const Value& base, unsigned long order)
       return number(result);
   }
   if (numbers_ == Numbers::real && certain_sign(base) < 0) throw NotCertified{};
-  if (numbers_ == Numbers::complex && base.ball.contains_zero()) throw NotCertified{};
+  if (numbers_ == Numbers::complex && base.ball().contains_zero()) throw NotCertified{};
   Ball result;
   if (order == 2)
-    acb_sqrt(result.raw(), base.ball.raw(), bits_);
+    acb_sqrt(result.raw(), base.ball().raw(), bits_);
   else
-    acb_root_ui(result.raw(), base.ball.raw(), order, bits_);
+    acb_root_ui(result.raw(), base.ball().raw(), order, bits_);
   return checked(std::move(result));
 }
 
-BallEvaluator::Value BallEvaluator::power(const ex& e) {
-  const Value base = value(e.op(0));
-  const Value exponent = value(e.op(1));
-  if (GiNaC::is_a<GiNaC::numeric>(e.op(1)) && exponent.exact) {
+BallEvaluator::Value BallEvaluator::power(const Value& base, const ex& exponent_of) {
+  const Value exponent = value(exponent_of);
+  if (GiNaC::is_a<GiNaC::numeric>(exponent_of) && exponent.exact) {
     const cln::cl_RA& number = *exponent.exact;
     if (cln::denominator(number) == 1) return whole_power(base, cln::numerator(number));
     if (cln::integer_length(cln::denominator(number)) > 30) throw NotCertified{};
@@ -164,14 +203,14 @@ BallEvaluator::Value BallEvaluator::power(const ex& e) {
   }
   // exp(exponent * log(base)), as everywhere in this program.
   if (numbers_ == Numbers::real && certain_sign(base) <= 0) throw NotCertified{};
-  if (base.ball.contains_zero()) throw NotCertified{};
+  if (base.ball().contains_zero()) throw NotCertified{};
   Ball result;
-  acb_pow(result.raw(), base.ball.raw(), exponent.ball.raw(), bits_);
+  acb_pow(result.raw(), base.ball().raw(), exponent.ball().raw(), bits_);
   return checked(std::move(result));
 }
 
 BallEvaluator::Value BallEvaluator::angle_of(const Value& y, const Value& x) {
-  if (!y.ball.is_real() || !x.ball.is_real()) throw NotCertified{};
+  if (!y.ball().is_real() || !x.ball().is_real()) throw NotCertified{};
   const bool y_is_zero = y.exact && cln::zerop(*y.exact);
   if (y_is_zero) {
     const int side = certain_sign(x);
@@ -180,13 +219,13 @@ BallEvaluator::Value BallEvaluator::angle_of(const Value& y, const Value& x) {
     smooth_ = false;
     Ball pi;
     acb_const_pi(pi.raw(), bits_);
-    return {std::nullopt, std::move(pi)};
+    return Value(std::move(pi));
   }
   // Away from the cut, so that the ball is that of one branch.
-  const bool right = x.ball.sign() == 1;
-  if (!right && !y.ball.sign()) throw NotCertified{};
+  const bool right = x.ball().sign() == 1;
+  if (!right && !y.ball().sign()) throw NotCertified{};
   Ball result;
-  arb_atan2(acb_realref(result.raw()), acb_realref(y.ball.raw()), acb_realref(x.ball.raw()), bits_);
+  arb_atan2(acb_realref(result.raw()), acb_realref(y.ball().raw()), acb_realref(x.ball().raw()), bits_);
   return checked(std::move(result));
 }
 
@@ -198,37 +237,37 @@ BallEvaluator::Value BallEvaluator::function(const GiNaC::function& f) {
   Ball result;
   if (name == "sin") {
     if (zero) return number(0);
-    acb_sin(result.raw(), v.ball.raw(), bits_);
+    acb_sin(result.raw(), v.ball().raw(), bits_);
   } else if (name == "cos") {
     if (zero) return number(1);
-    acb_cos(result.raw(), v.ball.raw(), bits_);
+    acb_cos(result.raw(), v.ball().raw(), bits_);
   } else if (name == "tan") {
     if (zero) return number(0);
-    acb_cos(result.raw(), v.ball.raw(), bits_);
+    acb_cos(result.raw(), v.ball().raw(), bits_);
     if (result.contains_zero()) throw NotCertified{};
-    acb_tan(result.raw(), v.ball.raw(), bits_);
+    acb_tan(result.raw(), v.ball().raw(), bits_);
   } else if (name == "exp") {
     if (zero) return number(1);
-    acb_exp(result.raw(), v.ball.raw(), bits_);
+    acb_exp(result.raw(), v.ball().raw(), bits_);
   } else if (name == "sinh") {
     if (zero) return number(0);
-    acb_sinh(result.raw(), v.ball.raw(), bits_);
+    acb_sinh(result.raw(), v.ball().raw(), bits_);
   } else if (name == "cosh") {
     if (zero) return number(1);
-    acb_cosh(result.raw(), v.ball.raw(), bits_);
+    acb_cosh(result.raw(), v.ball().raw(), bits_);
   } else if (name == "tanh") {
     if (zero) return number(0);
-    acb_cosh(result.raw(), v.ball.raw(), bits_);
+    acb_cosh(result.raw(), v.ball().raw(), bits_);
     if (result.contains_zero()) throw NotCertified{};
-    acb_tanh(result.raw(), v.ball.raw(), bits_);
+    acb_tanh(result.raw(), v.ball().raw(), bits_);
   } else if (name == "log") {
     if (v.exact && *v.exact == 1) return number(0);
     if (numbers_ == Numbers::real && certain_sign(v) <= 0) throw NotCertified{};
-    if (v.ball.contains_zero()) throw NotCertified{};
-    acb_log(result.raw(), v.ball.raw(), bits_);
+    if (v.ball().contains_zero()) throw NotCertified{};
+    acb_log(result.raw(), v.ball().raw(), bits_);
   } else if (name == "atan") {
     if (zero) return number(0);
-    acb_atan(result.raw(), v.ball.raw(), bits_);
+    acb_atan(result.raw(), v.ball().raw(), bits_);
   } else if (name == "asin" || name == "acos") {
     const bool sine = name == "asin";
     if (v.exact && cln::abs(*v.exact) == 1) smooth_ = false;
@@ -239,15 +278,15 @@ BallEvaluator::Value BallEvaluator::function(const GiNaC::function& f) {
       if (v.exact && cln::abs(*v.exact) > 1) throw NotCertified{};
       if (!v.exact) {
         Ball room;  // 1 - v^2
-        acb_mul(room.raw(), v.ball.raw(), v.ball.raw(), bits_);
+        acb_mul(room.raw(), v.ball().raw(), v.ball().raw(), bits_);
         acb_sub_ui(room.raw(), room.raw(), 1, bits_);
         if (room.sign() != -1) throw NotCertified{};
       }
     }
     if (sine)
-      acb_asin(result.raw(), v.ball.raw(), bits_);
+      acb_asin(result.raw(), v.ball().raw(), bits_);
     else
-      acb_acos(result.raw(), v.ball.raw(), bits_);
+      acb_acos(result.raw(), v.ball().raw(), bits_);
     if (numbers_ == Numbers::real) arb_zero(acb_imagref(result.raw()));
   } else {
     throw NotCertified{};

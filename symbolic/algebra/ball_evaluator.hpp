@@ -44,6 +44,9 @@ class BallEvaluator {
   /// \throws NotCertified
   std::optional<cln::cl_RA> exact(const GiNaC::ex& expression);
 
+  /// \throws NotCertified  unless the expression has a value
+  void require(const GiNaC::ex& expression) { value(expression); }
+
   /// -1, 0 or 1 for a real value; empty where it is not certain.
   /// \throws NotCertified
   std::optional<int> sign(const GiNaC::ex& expression);
@@ -55,16 +58,30 @@ class BallEvaluator {
   bool smooth() const { return smooth_; }
 
  private:
-  struct Value {
+  /// An exact number, whose ball is made when it is asked for, or a ball.
+  class Value {
+   public:
+    Value(const cln::cl_RA& number, long bits) : exact(number), bits_(bits) {}
+    explicit Value(Ball ball) : ball_(std::move(ball)) {}
+    const Ball& ball() const {
+      if (!ball_) ball_.emplace(*exact, bits_);
+      return *ball_;
+    }
     std::optional<cln::cl_RA> exact;
-    Ball ball;
+
+   private:
+    mutable std::optional<Ball> ball_;
+    long bits_ = 0;
   };
+  /// A running sum or product, exact for as long as all that came was exact.
+  class Total;
   const Value& value(const GiNaC::ex& e);
   Value evaluate(const GiNaC::ex& e);
   Value number(const cln::cl_RA& exact) const;
+  Value constant(const GiNaC::numeric& number) const;
   Value sum(const GiNaC::ex& e);
   Value product(const GiNaC::ex& e);
-  Value power(const GiNaC::ex& e);
+  Value power(const Value& base, const GiNaC::ex& exponent);
   Value whole_power(const Value& base, const cln::cl_I& exponent) const;
   Value root(const Value& base, unsigned long order);
   Value function(const GiNaC::function& f);

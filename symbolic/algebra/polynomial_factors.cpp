@@ -22,28 +22,28 @@ void check_degree(const Polynomial& p, long most, const char* what) {
   }
 }
 
-/// Whether some variable occurs in one term alone, as a number times itself: then the polynomial
-/// has the degree 1 in it with a number as coefficient, and so is irreducible. FLINT would see that
-/// too, after preparations that take longer than all else where polynomials are short.
+/// Whether some variable x occurs in one term alone, and there without a power, while no variable
+/// occurs in all terms: m*x + b, where the monomial m has no factor in common with b. So it is
+/// primitive and of the degree 1 in x, hence irreducible (Gauss). FLINT would see that too, after
+/// preparations that take longer than all else where polynomials are short.
 bool has_lonely_variable(const Polynomial& p) {
   constexpr std::size_t kMostTerms = 100;
   if (p.terms() > kMostTerms) return false;
   std::vector<std::size_t> occurs(p.ring().size());
-  std::vector<bool> alone(p.ring().size());
+  std::vector<unsigned long> last(p.ring().size());
   for (const auto& [coefficient, exponents] : p.term_list()) {
-    std::size_t last = 0;
-    unsigned long degree = 0;
     for (std::size_t i = 0; i < exponents.size(); ++i) {
       if (exponents[i] == 0) continue;
       ++occurs[i];
-      degree += exponents[i];
-      last = i;
+      last[i] = exponents[i];
     }
-    if (degree == 1) alone[last] = true;
   }
-  for (std::size_t i = 0; i < alone.size(); ++i)
-    if (alone[i] && occurs[i] == 1) return true;
-  return false;
+  bool lonely = false;
+  for (std::size_t i = 0; i < occurs.size(); ++i) {
+    if (occurs[i] == p.terms()) return false;
+    lonely = lonely || (occurs[i] == 1 && last[i] == 1);
+  }
+  return lonely;
 }
 
 }  // namespace

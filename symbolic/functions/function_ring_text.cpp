@@ -189,7 +189,7 @@ void FunctionRing::mark_denominators(const Polynomial& p, std::vector<bool>& mar
   for (std::size_t g = 0; g < generators_.size(); ++g) {
     if (generators_[g].kind != Kind::inverse) continue;
     if (marks.size() == place) marks.push_back(false);
-    if (p.uses(symbols_.size() + g)) marks[place] = true;
+    if (!marks[place]) marks[place] = p.uses(symbols_.size() + g);
     ++place;
   }
 }

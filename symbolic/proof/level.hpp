@@ -23,7 +23,6 @@ struct Level {
   std::vector<GiNaC::ex> functions;
   std::vector<Polynomial> numerators;  ///< of the functions
   std::vector<SolvedRelation> solved;  ///< the same relations as a triangular set, if they are one
-  std::vector<Polynomial> basis;       ///< else a Groebner basis of their ideal
   std::vector<OrthogonalVectors> orthogonal;
   bool empty() const { return functions.empty(); }
 };

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "symbolic/expression/expression_size.hpp"
+#include "symbolic/expression/pairs.hpp"
 #include "symbolic/proof/points/exact_point.hpp"
 #include "symbolic/proof/points/witness.hpp"
 
@@ -121,25 +122,46 @@ const std::vector<Prover::LevelFunction>& Prover::level_functions(const NamedExp
   return (level_functions_[f.name] = {f.value, std::move(parts)}).second;
 }
 
-const Polynomial& Prover::convert(const ex& expression) {
-  if (ring_.is_polynomial()) return ring_.convert(expression);
-  const auto known = denominators_of_.find(expression);
-  if (known != denominators_of_.end()) {
-    const std::vector<bool>& marks = known->second;
-    divided_by_.resize(std::max(divided_by_.size(), marks.size()));
-    for (std::size_t i = 0; i < marks.size(); ++i) divided_by_[i] = divided_by_[i] || marks[i];
-    return ring_.convert(expression);
-  }
+namespace {
+
+void merge(const std::vector<bool>& from, std::vector<bool>& into) {
+  into.resize(std::max(into.size(), from.size()));
+  for (std::size_t i = 0; i < from.size(); ++i) into[i] = into[i] || from[i];
+}
+
+}  // namespace
+
+const std::vector<bool>& Prover::denominators_of(const ex& part) {
+  if (const auto known = denominators_of_.find(part); known != denominators_of_.end())
+    return known->second;
   std::vector<bool> marks;
-  // What cancels in the sum was divided by all the same.
-  for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
-    if (GiNaC::is_a<GiNaC::power>(*part) || GiNaC::is_a<GiNaC::function>(*part))
-      ring_.mark_denominators(used(ring_.convert(*part)), marks);
+  ring_.mark_denominators(ring_.convert(part), marks);
+  mark_parts(part, marks);
+  return denominators_of_.emplace(part, std::move(marks)).first->second;
+}
+
+void Prover::mark_parts(const ex& e, std::vector<bool>& marks) {
+  const auto mark = [&](const ex& part) {
+    if (GiNaC::is_a<GiNaC::power>(part) || GiNaC::is_a<GiNaC::function>(part))
+      merge(denominators_of(part), marks);
+    else
+      mark_parts(part, marks);
+  };
+  if (GiNaC::is_a<GiNaC::expairseq>(e)) {
+    const bool product = GiNaC::is_a<GiNaC::mul>(e);
+    for (const GiNaC::expair& pair : Pairs::of(e)) {
+      const bool whole = pair.coeff.info(GiNaC::info_flags::posint);
+      mark(product && !whole ? GiNaC::pow(pair.rest, pair.coeff) : pair.rest);
+    }
+    return;
   }
-  const Polynomial& result = used(ring_.convert(expression));
-  ring_.mark_denominators(result, marks);
-  denominators_of_.emplace(expression, std::move(marks));
-  return result;
+  for (std::size_t i = 0; i < e.nops(); ++i) mark(e.op(i));
+}
+
+const Polynomial& Prover::convert(const ex& expression) {
+  // What cancels in a sum was divided by all the same.
+  if (!ring_.is_polynomial()) merge(denominators_of(expression), divided_by_);
+  return ring_.convert(expression);
 }
 
 const std::vector<Polynomial>& Prover::field() const {

@@ -151,7 +151,13 @@ class Prover {
     if (!ring_.is_polynomial()) ring_.mark_denominators(p, divided_by_);
     return p;
   }
+  /// Which of the ring's denominators an expression and its parts have.
+  const std::vector<bool>& denominators_of(const GiNaC::ex& part);
+  void mark_parts(const GiNaC::ex& e, std::vector<bool>& marks);
   Level make_level(const std::vector<NamedExpression>& on);
+  /// A Groebner basis of the ideal of the level's numerators, with the relations between squares
+  /// that the ring knows. Most claims do without, and it takes the longest.
+  const std::vector<Polynomial>& basis_of(const Level& level);
   std::vector<NamedExpression> simplified(const NamedExpression& f, int depth);
   /// A function of a level with its numerator.
   struct LevelFunction {
@@ -218,6 +224,12 @@ class Prover {
     Level level;
   };
   std::list<KnownLevel> known_levels_;
+  struct KnownBasis {
+    std::vector<Polynomial> generators;
+    bool in_branch;
+    std::vector<Polynomial> basis;
+  };
+  std::list<KnownBasis> known_bases_;
   /// For all claims: factors cost time.
   std::map<std::string, std::pair<GiNaC::ex, std::vector<LevelFunction>>> level_functions_;
   std::vector<std::optional<bool>> never_zero_;  ///< of the ring's denominators

@@ -92,14 +92,20 @@ Level Prover::make_level(const std::vector<NamedExpression>& on) {
   result.solved = triangular_set(result.numerators, dimension(), [&](const Polynomial& p) {
     return ring_.depends_on_first(p, dimension()) || (model_.time && ring_.depends_on(p, time));
   });
-  if (result.solved.empty() && !result.empty()) {
-    std::vector<Polynomial> ideal = result.numerators;
-    const std::vector<Polynomial>& identities = square_relations();
-    ideal.insert(ideal.end(), identities.begin(), identities.end());
-    result.basis = groebner_basis(ideal, in_branch_ ? kSmallBasis : GroebnerLimits{});
-  }
   result.orthogonal = orthogonal_vectors(result.numerators, dimension());
   return result;
+}
+
+const std::vector<Polynomial>& Prover::basis_of(const Level& level) {
+  for (const KnownBasis& known : known_bases_)
+    if (known.in_branch == in_branch_ && known.generators == level.numerators) return known.basis;
+  std::vector<Polynomial> ideal = level.numerators;
+  const std::vector<Polynomial>& identities = square_relations();
+  ideal.insert(ideal.end(), identities.begin(), identities.end());
+  std::vector<Polynomial> basis =
+      level.empty() ? std::vector<Polynomial>{}
+                    : groebner_basis(ideal, in_branch_ ? kSmallBasis : GroebnerLimits{});
+  return known_bases_.emplace_back(KnownBasis{level.numerators, in_branch_, std::move(basis)}).basis;
 }
 
 std::vector<Residual> Prover::level_rates(const Level& level) {
@@ -240,7 +246,7 @@ bool Prover::in_ideal(const Residual& residual, const Level& level) {
   std::vector<Polynomial> quotients;
   if (value.is_zero() || value.remainder(level.numerators, &quotients).is_zero()) return true;
   const Polynomial rest = level.solved.empty()
-                              ? value.remainder(level.basis, &quotients)
+                              ? value.remainder(basis_of(level), &quotients)
                               : ring_.lowest_terms(pseudo_remainder(value, level.solved)).first;
   if (rest.is_zero()) return true;
   if (!vanishes_by_substitution(residual, level)) return false;
@@ -349,7 +355,7 @@ bool Prover::vanishes_on(const Residual& residual, Polynomial& rest, const Level
   }
   bool solved_by_leads = false;
   const auto reduced = [&](const Polynomial& p) {
-    if (level.solved.empty()) return p.remainder(level.basis, &cofactors);
+    if (level.solved.empty()) return p.remainder(basis_of(level), &cofactors);
     solved_by_leads = true;
     return ring_.lowest_terms(pseudo_remainder(p, level.solved)).first;
   };

@@ -191,6 +191,7 @@ bool RealLevelPoints::is_on(std::vector<ex> coordinates, const Level& level,
     RealPoint point = real_.at(std::move(coordinates));
     const bool on_level =
         std::all_of(level.functions.begin(), level.functions.end(), [&](const ex& f) {
+          if (const auto exact = point.evaluator().exact(f)) return cln::zerop(*exact);
           if (!point.evaluator()(f).contains_zero()) return false;
           const auto value = exact_constant(substituted(f, values_of(point)));
           return value && value->zero;

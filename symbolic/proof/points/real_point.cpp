@@ -14,8 +14,8 @@ namespace {
 
 using GiNaC::ex;
 
-/// For the states of scenes, which may be close to where something ends.
-constexpr long kMoreBits = 640;
+/// For the states of scenes, which may be close to where something ends; tried in this order.
+constexpr long kSceneBits[] = {RealPoints::kBits, 640};
 
 /// A lower bound of the modulus, to choose pivots by.
 double size_of(const Ball& ball) {
@@ -215,7 +215,7 @@ bool RealPoints::admits(BallEvaluator& at, const std::vector<ex>& expressions) c
       const std::optional<int> sign = at.sign(assumption.difference);
       if (!sign || !holds(assumption.comparison, *sign)) return false;
     }
-    for (const ex& e : expressions) at(e);
+    for (const ex& e : expressions) at.require(e);
     return true;
   } catch (const NotCertified&) {
     return false;
@@ -312,13 +312,15 @@ std::vector<std::vector<ex>> RealPoints::scenes() {
 }
 
 std::optional<RealPoint> RealPoints::any(const std::vector<ex>& expressions, bool differentiable) {
-  for (std::vector<ex>& coordinates : scenes()) {
-    try {
-      RealPoint point = at(std::move(coordinates), kMoreBits);
-      if (admits(point, expressions) && (!differentiable || point.evaluator().smooth()))
-        return point;
-    } catch (const NotCertified&) {
-      continue;
+  for (const std::vector<ex>& coordinates : scenes()) {
+    for (const long bits : kSceneBits) {
+      try {
+        RealPoint point = at(coordinates, bits);
+        if (admits(point, expressions) && (!differentiable || point.evaluator().smooth()))
+          return point;
+      } catch (const NotCertified&) {
+        continue;
+      }
     }
   }
   return random(expressions, differentiable);

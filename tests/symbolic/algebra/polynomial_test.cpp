@@ -112,6 +112,22 @@ TEST_F(Ring3, QuotientsAndRemainderPutTheDividendTogether) {
   EXPECT_EQ(sum, p);
 }
 
+// x*y + z is irreducible without a look by FLINT, and so it is where FLINT has to look; what has a
+// monomial for a factor is not.
+TEST_F(Ring3, AVariableOfOneTermMakesIrreducible) {
+  const Polynomial alone = (x_ * y_ + z_ * z_ * y_ * y_ - z_).scaled(-6);
+  ASSERT_EQ(alone.factors().size(), 2U);
+  const auto [number, f] = std::pair(alone.factors()[0].first, alone.factors()[1].first);
+  EXPECT_TRUE(number.is_constant());
+  EXPECT_TRUE(number * f == alone);
+  const auto squared = (alone * alone).factors();  // in which no variable is in one term only
+  ASSERT_EQ(squared.size(), 2U);
+  EXPECT_EQ(squared[1].second, 2U);
+  EXPECT_TRUE(squared[1].first == f);
+  EXPECT_EQ((x_ * y_ + z_ * y_).factors().size(), 3U);      // 1, y, x + z
+  EXPECT_EQ((x_.pow(2) - y_.pow(2)).factors().size(), 3U);  // each in one term, with a power
+}
+
 TEST_F(Ring3, FactorsAreFoundInTheVariablesThatOccur) {
   const std::vector<std::pair<Polynomial, unsigned long>> factors =
       ((x_ * x_ - z_ * z_) * z_).scaled(2).factors();
