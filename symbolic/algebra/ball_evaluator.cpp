@@ -225,7 +225,8 @@ BallEvaluator::Value BallEvaluator::angle_of(const Value& y, const Value& x) {
   const bool right = x.ball().sign() == 1;
   if (!right && !y.ball().sign()) throw NotCertified{};
   Ball result;
-  arb_atan2(acb_realref(result.raw()), acb_realref(y.ball().raw()), acb_realref(x.ball().raw()), bits_);
+  arb_atan2(acb_realref(result.raw()), acb_realref(y.ball().raw()), acb_realref(x.ball().raw()),
+            bits_);
   return checked(std::move(result));
 }
 

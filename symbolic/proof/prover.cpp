@@ -124,44 +124,64 @@ const std::vector<Prover::LevelFunction>& Prover::level_functions(const NamedExp
 
 namespace {
 
-void merge(const std::vector<bool>& from, std::vector<bool>& into) {
-  into.resize(std::max(into.size(), from.size()));
-  for (std::size_t i = 0; i < from.size(); ++i) into[i] = into[i] || from[i];
-}
+/// Marks the ring's denominators that an expression or a part of it has: what cancels in a sum was
+/// divided by all the same.
+class Denominators {
+ public:
+  Denominators(FunctionRing& ring, std::vector<bool>& marks) : ring_(ring), marks_(marks) {}
+
+  void in(const ex& e) {
+    if (GiNaC::is_a<GiNaC::expairseq>(e)) {
+      const bool product = GiNaC::is_a<GiNaC::mul>(e);
+      for (const GiNaC::expair& pair : Pairs::of(e)) {
+        if (!product || pair.coeff.info(GiNaC::info_flags::posint))
+          in(pair.rest);
+        else
+          in_power(pair.rest, pair.coeff);
+      }
+    } else if (GiNaC::is_a<GiNaC::power>(e)) {
+      in_power(e.op(0), e.op(1));
+    } else if (GiNaC::is_a<GiNaC::function>(e) && is_new(e, ex(1))) {
+      ring_.mark_denominators(ring_.convert(e), marks_);
+      for (std::size_t i = 0; i < e.nops(); ++i) in(e.op(i));
+    }
+  }
+
+ private:
+  void in_power(const ex& base, const ex& exponent) {
+    if (!is_new(base, exponent)) return;
+    ring_.mark_denominators(ring_.convert(GiNaC::pow(base, exponent)), marks_);
+    in(base);
+    in(exponent);
+  }
+
+  bool is_new(const ex& base, const ex& exponent) {
+    std::vector<ex>& exponents = seen_[base];
+    const auto same = [&](const ex& e) { return e.is_equal(exponent); };
+    if (std::any_of(exponents.begin(), exponents.end(), same)) return false;
+    exponents.push_back(exponent);
+    return true;
+  }
+
+  FunctionRing& ring_;
+  std::vector<bool>& marks_;
+  std::unordered_map<ex, std::vector<ex>> seen_;
+};
 
 }  // namespace
 
-const std::vector<bool>& Prover::denominators_of(const ex& part) {
-  if (const auto known = denominators_of_.find(part); known != denominators_of_.end())
-    return known->second;
-  std::vector<bool> marks;
-  ring_.mark_denominators(ring_.convert(part), marks);
-  mark_parts(part, marks);
-  return denominators_of_.emplace(part, std::move(marks)).first->second;
-}
-
-void Prover::mark_parts(const ex& e, std::vector<bool>& marks) {
-  const auto mark = [&](const ex& part) {
-    if (GiNaC::is_a<GiNaC::power>(part) || GiNaC::is_a<GiNaC::function>(part))
-      merge(denominators_of(part), marks);
-    else
-      mark_parts(part, marks);
-  };
-  if (GiNaC::is_a<GiNaC::expairseq>(e)) {
-    const bool product = GiNaC::is_a<GiNaC::mul>(e);
-    for (const GiNaC::expair& pair : Pairs::of(e)) {
-      const bool whole = pair.coeff.info(GiNaC::info_flags::posint);
-      mark(product && !whole ? GiNaC::pow(pair.rest, pair.coeff) : pair.rest);
-    }
-    return;
-  }
-  for (std::size_t i = 0; i < e.nops(); ++i) mark(e.op(i));
-}
-
 const Polynomial& Prover::convert(const ex& expression) {
-  // What cancels in a sum was divided by all the same.
-  if (!ring_.is_polynomial()) merge(denominators_of(expression), divided_by_);
-  return ring_.convert(expression);
+  const Polynomial& result = ring_.convert(expression);
+  if (ring_.is_polynomial()) return result;
+  const auto [known, fresh] = denominators_of_.try_emplace(expression);
+  std::vector<bool>& marks = known->second;
+  if (fresh) {
+    ring_.mark_denominators(result, marks);
+    Denominators(ring_, marks).in(expression);
+  }
+  divided_by_.resize(std::max(divided_by_.size(), marks.size()));
+  for (std::size_t i = 0; i < marks.size(); ++i) divided_by_[i] = divided_by_[i] || marks[i];
+  return result;
 }
 
 const std::vector<Polynomial>& Prover::field() const {

@@ -151,9 +151,6 @@ class Prover {
     if (!ring_.is_polynomial()) ring_.mark_denominators(p, divided_by_);
     return p;
   }
-  /// Which of the ring's denominators an expression and its parts have.
-  const std::vector<bool>& denominators_of(const GiNaC::ex& part);
-  void mark_parts(const GiNaC::ex& e, std::vector<bool>& marks);
   Level make_level(const std::vector<NamedExpression>& on);
   /// A Groebner basis of the ideal of the level's numerators, with the relations between squares
   /// that the ring knows. Most claims do without, and it takes the longest.

@@ -105,7 +105,8 @@ const std::vector<Polynomial>& Prover::basis_of(const Level& level) {
   std::vector<Polynomial> basis =
       level.empty() ? std::vector<Polynomial>{}
                     : groebner_basis(ideal, in_branch_ ? kSmallBasis : GroebnerLimits{});
-  return known_bases_.emplace_back(KnownBasis{level.numerators, in_branch_, std::move(basis)}).basis;
+  return known_bases_.emplace_back(KnownBasis{level.numerators, in_branch_, std::move(basis)})
+      .basis;
 }
 
 std::vector<Residual> Prover::level_rates(const Level& level) {

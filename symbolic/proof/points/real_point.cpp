@@ -276,11 +276,24 @@ std::vector<ex> RealPoints::draw_generic() {
   return point;
 }
 
+bool RealPoints::seems_to_have_values(const std::vector<ex>& coordinates) const {
+  if (ring_.is_complex() || ring_.is_polynomial()) return true;
+  FunctionRing::Probe at;
+  for (const ex& x : coordinates)
+    at.coordinates.push_back(GiNaC::ex_to<GiNaC::numeric>(x).to_double());
+  return ring_.has_values_at(at);
+}
+
 std::optional<RealPoint> RealPoints::random(const std::vector<ex>& expressions,
                                             bool differentiable) {
   constexpr int kTrials = 400;
+  // Most points have no values because a root is not real. Doubles see that in less time than balls
+  // do; but not all functions of the ring need to be among the expressions.
+  constexpr int kProbed = 20;
   for (int trial = 0; trial < kTrials; ++trial) {
-    RealPoint point = at(draw());
+    std::vector<ex> coordinates = draw();
+    if (trial < kProbed && !seems_to_have_values(coordinates)) continue;
+    RealPoint point = at(std::move(coordinates));
     if (admits(point, expressions) && (!differentiable || point.evaluator().smooth())) return point;
   }
   return std::nullopt;

@@ -112,6 +112,9 @@ class RealPoints {
 
  private:
   std::vector<GiNaC::ex> draw_generic();
+  /// Whether all functions of the ring have real values there, as far as doubles tell.
+  /// \param coordinates  rational numbers
+  bool seems_to_have_values(const std::vector<GiNaC::ex>& coordinates) const;
 
   const Model& model_;
   const FunctionRing& ring_;
