@@ -14,6 +14,7 @@
 #include "runtime/step/passage.hpp"
 #include "runtime/step/step_look.hpp"
 #include "runtime/step/stiffness.hpp"
+#include "runtime/taylor/program_leading.hpp"
 
 namespace casimir {
 namespace {
@@ -142,6 +143,13 @@ void run_kernel(const Module& module, const Method& method, const Settings& s,
       return (*static_cast<StepLook*>(looker))(*trial);
     };
     run.looker = &*look;
+  }
+  std::optional<ProgramLeading> exact_rates;
+  casimir_leading leading = {};
+  if (method.series && module.exact_rates() && s.rtol > 0 && s.rtol <= kRoundingShows) {
+    exact_rates.emplace(*module.exact_rates(), parameters);
+    leading = exact_rates->view();
+    run.leading = &leading;
   }
   casimir_outcome outcome = {};
   const auto start = Clock::now();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "runtime/step/step_watch.hpp"
+#include "runtime/taylor/program_leading.hpp"
 #include "runtime/taylor/quadratic_targets.hpp"
 
 namespace casimir {
@@ -66,7 +67,8 @@ Module Module::from_functions(const ModuleFunctions& functions) {
   return module;
 }
 
-void Module::watch_steps_of(const Program& rhs) {
+void Module::know_equations(const Program& rhs) {
+  exact_rates_ = ProgramLeading::serves(rhs) ? std::make_shared<const Program>(rhs) : nullptr;
   auto watch = std::make_shared<const StepWatch>(rhs);
   watch_ = watch->empty() ? nullptr : std::move(watch);
 }

@@ -54,9 +54,13 @@ class Module {
   bool has_jacobian() const { return functions_.jacobian != nullptr; }
   /// What its steps are watched for, or null: nothing in polynomials of low degree.
   const StepWatch* watch() const { return watch_.get(); }
-  /// Has the steps of runs watched for what may be stepped over.
+  /// The equations of motion, where steps along Taylor series may work out their leading terms in
+  /// more digits by them; or null.
+  const Program* exact_rates() const { return exact_rates_.get(); }
+  /// Tells what is integrated: the steps of runs are watched for what may be stepped over, and in
+  /// long runs they are rounded less.
   /// \param rhs  the program of the right-hand side.
-  void watch_steps_of(const Program& rhs);
+  void know_equations(const Program& rhs);
   /// Whether it can do a whole run by itself.
   bool has_integrate() const { return functions_.integrate != nullptr; }
 
@@ -68,6 +72,7 @@ class Module {
   std::unique_ptr<void, Close> handle_;
   ModuleFunctions functions_;
   std::shared_ptr<const StepWatch> watch_;
+  std::shared_ptr<const Program> exact_rates_;
 };
 
 }  // namespace casimir

@@ -3,7 +3,7 @@
 #ifndef CASIMIR_MODULE_ABI_H
 #define CASIMIR_MODULE_ABI_H
 
-#define CASIMIR_ABI_VERSION 5
+#define CASIMIR_ABI_VERSION 6
 
 /* How many matrices a kernel may have factorised at a time. */
 #define CASIMIR_MATRICES 7
@@ -40,6 +40,8 @@ enum { CASIMIR_LEADING = 2 };
  * sum of c[k] s^k from x + carry. All arrays are filled up with zeros as registers are. */
 struct casimir_leading {
   const void* object;
+  /* The steps that a run has to be expected to take for this to be worth its time; 0: always. */
+  unsigned long long from;
   void (*add)(const void* object, double t, double unit, double s, double* x, double* carry,
               const double* tail);
 };

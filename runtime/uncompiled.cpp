@@ -133,7 +133,7 @@ Module uncompiled_module(const Program& rhs, const Program& invariants,
   functions.integrate =
       form ? table_driven(*form, parameters) : interpreted(rhs, parameters.size());
   Module module = Module::from_functions(functions);
-  if (!form) module.watch_steps_of(rhs);
+  if (!form) module.know_equations(rhs);
   return module;
 }
 

@@ -7,6 +7,7 @@
 
 #include "runtime/instruction_set.hpp"
 #include "runtime/taylor/leading_layout.hpp"
+#include "runtime/taylor/program_leading.hpp"
 #include "runtime/taylor/quadratic_layout.hpp"
 
 using NarrowKernel = void(const casimir_quadratic*, const casimir_run*, double*, casimir_outcome*);
@@ -27,9 +28,6 @@ LeadingKernel casimir_leading_baseline;
 
 namespace casimir {
 namespace {
-
-/// At such tolerances it is rounding that limits a run, and the leading terms are worth their time.
-constexpr double kCareful = 3e-15;
 
 struct Target {
   const char* name;
@@ -117,10 +115,11 @@ QuadraticKernel::QuadraticKernel(const QuadraticForm& form, const std::string& t
 
 void QuadraticKernel::integrate(const casimir_run* asked, double* x, casimir_outcome* out) const {
   const casimir_leading_tables leading_tables = tables_->leading->view();
-  const casimir_leading leading = {&leading_tables, tables_->target.leading};
+  const casimir_leading leading = {&leading_tables, 0, tables_->target.leading};
   casimir_run careful = *asked;
   careful.leading = &leading;
-  const casimir_run* const run = asked->rtol > 0 && asked->rtol <= kCareful ? &careful : asked;
+  const casimir_run* const run =
+      asked->rtol > 0 && asked->rtol <= kRoundingShows ? &careful : asked;
   if (tables_->narrow) return tables_->target.narrow(&*tables_->narrow, run, x, out);
   const casimir_wide view = tables_->wide->view();
   tables_->target.wide(&view, run, x, out);

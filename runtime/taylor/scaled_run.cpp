@@ -8,6 +8,7 @@ namespace casimir {
 ScaledRun::ScaledRun(const casimir_run& run, double scale, std::size_t states)
     : run_(run), scaled_(run), scale_(scale), x0_(states), x1_(states) {
   scaled_.atol = run.atol / scale;
+  scaled_.leading = nullptr;  // of the unscaled equations
   if (!run.observe) return;
   scaled_.observe = &observe;
   scaled_.observer = this;

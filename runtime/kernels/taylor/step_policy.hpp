@@ -30,6 +30,8 @@ struct StepPolicy {
   /// something that the equations divide by is beyond all doubles, only the coefficients in tiny
   /// units are numbers, and steps of that size come to no end.
   static constexpr double kOftenShrunk = 300, kEveryFew = 4;
+  /// After so many steps a run knows how many it will take.
+  static constexpr unsigned long long kStepsToJudge = 64;
   /// A step of fewer roundings of the time than this is none.
   static constexpr double kLeastRoundings = 16;
   /// From which part of a unit down the coefficients in that unit do not tell how large a state is

@@ -34,15 +34,16 @@ namespace taylor {
 /// The part of the tolerance that a step aims at. Truncation errors add up in one direction,
 /// rounding errors in all: at the least tolerances truncation shall not be what millions of steps
 /// show. It goes out of sight by degrees, so that no tolerance costs much more than the next one.
-inline double aim(const casimir_run* run) {
+/// \param leading  whether the leading terms of a step are worked out in more digits.
+inline double aim(const casimir_run* run, bool leading) {
   // A hundredth of what rounding a step costs: 25 million steps show more than that. Where the
   // leading terms round like all others, a run shows no more than what is a part of that rounding.
   constexpr double kUnseen = 1e-18, kRounded = 1e-16, kFine = 1e-13, kLeast = 1e-15;
   if (!(run->rtol > 0 && run->rtol < kFine)) return 1;
-  if (!run->leading && run->rtol < kLeast) return run->rtol / kLeast * (kRounded / kLeast);
+  if (!leading && run->rtol < kLeast) return run->rtol / kLeast * (kRounded / kLeast);
   // kUnseen at the tolerance kLeast.
   const double lost = run->rtol / kFine, part = lost * __builtin_sqrt(lost);
-  return larger(part, (run->leading ? kUnseen : kRounded) / run->rtol);
+  return larger(part, (leading ? kUnseen : kRounded) / run->rtol);
 }
 
 template <class Series>
@@ -60,8 +61,9 @@ class March {
         series_(series),
         x_(x),
         out_(out),
-        rtol_(run->rtol * aim(run)),
-        atol_(run->atol * aim(run)),
+        leading_(run->leading && run->leading->from == 0 ? run->leading : nullptr),
+        rtol_(run->rtol * aim(run, leading_)),
+        atol_(run->atol * aim(run, leading_)),
         span_(run->t_end - run->t_begin),
         pace_(run->t_begin) {}
 
@@ -210,7 +212,7 @@ class March {
     }
     if (there_) t1 = run_->t_end;
     V next[most_blocks], next_carry[most_blocks];
-    if (__builtin_expect(run_->leading != nullptr, 0)) {
+    if (__builtin_expect(leading_ != nullptr, 0)) {
       step_with_leading_terms(s, next, next_carry);
     } else {
       increment(series_, s, next);
@@ -265,9 +267,8 @@ class March {
       next[b] = state_[b];
       next_carry[b] = carry_[b];
     }
-    const casimir_leading& leading = *run_->leading;
-    leading.add(leading.object, t_, unit_, s, reinterpret_cast<double*>(next),
-                reinterpret_cast<double*>(next_carry), reinterpret_cast<const double*>(rest));
+    leading_->add(leading_->object, t_, unit_, s, reinterpret_cast<double*>(next),
+                  reinterpret_cast<double*>(next_carry), reinterpret_cast<const double*>(rest));
   }
 
   __attribute__((cold, noinline)) void project(double t1, V* next, V* next_carry) {
@@ -325,7 +326,7 @@ class March {
   }
 
   CASIMIR_INLINE void accept(double t1, double t1_carry, const V* next, const V* next_carry) {
-    ++steps_;
+    if (__builtin_expect(++steps_ == Policy::kStepsToJudge && run_->leading, 0)) judge_length(t1);
     if (__builtin_expect(run_->observe != nullptr, 0)) {
       show(t1, next);
     }
@@ -336,6 +337,15 @@ class March {
       state_[b] = next[b];
       carry_[b] = next_carry[b];
     }
+  }
+
+  /// Whether the run is so long that the rounding of its steps adds up.
+  __attribute__((cold, noinline)) void judge_length(double t1) {
+    const double expected = static_cast<double>(steps_) * (span_ / (t1 - run_->t_begin));
+    if (leading_ || !(expected >= static_cast<double>(run_->leading->from)) || pieces_ > 0) return;
+    leading_ = run_->leading;
+    rtol_ = run_->rtol * aim(run_, true);
+    atol_ = run_->atol * aim(run_, true);
   }
 
   __attribute__((cold, noinline)) void show(double t1, const V* next) {
@@ -422,7 +432,8 @@ class March {
   Series& series_;
   double* x_;
   casimir_outcome* out_;
-  const double rtol_, atol_;  // aimed at
+  const casimir_leading* leading_;  // as soon as it is worth its time
+  double rtol_, atol_;              // aimed at
   V state_[most_blocks], carry_[most_blocks], weight_[most_blocks];
   double t_ = 0, t_carry_ = 0;
   const double span_;

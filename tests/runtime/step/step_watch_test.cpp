@@ -20,7 +20,7 @@ namespace {
 Trajectory run(const Program& rhs, std::vector<double> start, double duration, bool looks = true,
                double begin = 0) {
   Module module = uncompiled_module(rhs, {}, std::nullopt, {});
-  if (!looks) module.watch_steps_of(Builder({"x"}).program());
+  if (!looks) module = Module::from_functions(module.functions());
   Settings settings;
   settings.begin = begin;
   settings.duration = duration;

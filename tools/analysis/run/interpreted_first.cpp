@@ -198,7 +198,7 @@ BegunModule interpreted_first(
     integrate(interpreted, successor, *asked, x, out);
   };
   result.module = Module::from_functions(functions);
-  result.module.watch_steps_of(s.rhs);
+  result.module.know_equations(s.rhs);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return {std::move(result), std::move(later)};
 }

@@ -154,7 +154,7 @@ CompiledModule compiled_module(const PreparedScene& run, const Method& method) {
     const CompiledObject object = compile(text, options);
     CompiledModule result{.module = loaded([&] { return Module::load(object.path); }),
                           .from_cache = object.from_cache};
-    result.module.watch_steps_of(run.specialisation.rhs);
+    result.module.know_equations(run.specialisation.rhs);
     return result;
   } catch (const CompilerMissing& problem) {
     throw CompilerMissing(std::string(problem.what()) +
