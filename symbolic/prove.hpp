@@ -65,7 +65,8 @@ struct Proof {
   /// What the verdict depends on beyond the assumptions, as "a != 0"; only of what is proved.
   std::vector<std::string> where;
   std::vector<std::string> nonzero;    ///< what was divided by
-  std::vector<std::string> positive;   ///< so that its roots and logarithms are real
+  std::vector<std::string> positive;   ///< or zero: so that its roots and logarithms are real
+  std::vector<std::string> not_zero;   ///< which of `positive` have to be more than zero
   std::vector<std::string> integrals;  ///< that a Lax pair gives
   std::vector<Proof> findings;         ///< of a judgement: what else is known of the candidate
 };

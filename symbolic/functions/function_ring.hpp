@@ -138,7 +138,8 @@ class FunctionRing {
 
   /// What was taken to be positive, beyond the assumptions, since a root or a logarithm is real
   /// only there.
-  std::vector<Polynomial> implied_positive() const;
+  /// With each whether it is not zero either, as what a logarithm is taken of.
+  std::vector<std::pair<Polynomial, bool>> implied_positive() const;
 
   /// Expressions that are not negative where everything that was converted is real; empty where
   /// complex numbers are used.

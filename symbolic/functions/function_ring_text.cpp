@@ -194,10 +194,10 @@ void FunctionRing::mark_denominators(const Polynomial& p, std::vector<bool>& mar
   }
 }
 
-std::vector<Polynomial> FunctionRing::implied_positive() const {
-  std::vector<Polynomial> result;
+std::vector<std::pair<Polynomial, bool>> FunctionRing::implied_positive() const {
+  std::vector<std::pair<Polynomial, bool>> result;
   for (const Sign& s : signs_) {
-    if (s.implied) result.push_back(s.sign > 0 ? s.of : -s.of);
+    if (s.implied) result.emplace_back(s.sign > 0 ? s.of : -s.of, s.strict);
   }
   return result;
 }

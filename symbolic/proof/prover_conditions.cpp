@@ -117,6 +117,7 @@ void Prover::say_conditions(Proof& proof) {
   }
   proof.nonzero.clear();
   proof.positive.clear();
+  proof.not_zero.clear();
   const std::vector<Polynomial> denominators = ring_.denominators();
   for (std::size_t k = 0; k < divided_by_.size(); ++k) {
     if (divided_by_[k] && !ring_.is_nowhere_zero(denominators[k]))
@@ -124,7 +125,10 @@ void Prover::say_conditions(Proof& proof) {
   }
   // The ring meets them in an order that differs from one process to the next.
   std::sort(proof.nonzero.begin(), proof.nonzero.end());
-  for (const Polynomial& p : ring_.implied_positive()) proof.positive.push_back(ring_.text(p));
+  for (const auto& [p, strict] : ring_.implied_positive()) {
+    proof.positive.push_back(ring_.text(p));
+    if (strict) proof.not_zero.push_back(proof.positive.back());
+  }
 }
 
 }  // namespace casimir

@@ -14,6 +14,7 @@ Json to_json(const Proof& proof) {
   if (!proof.where.empty()) json["where"] = proof.where;
   if (!proof.nonzero.empty()) json["nonzero"] = proof.nonzero;
   if (!proof.positive.empty()) json["positive"] = proof.positive;
+  if (!proof.not_zero.empty()) json["not_zero"] = proof.not_zero;
   if (!proof.residual.empty()) json["residual"] = proof.residual;
   if (!proof.reason.empty()) json["reason"] = proof.reason;
   if (proof.witness) {
@@ -41,6 +42,7 @@ Proof proof_from_json(const Json& json) {
   proof.where = json.value("where", std::vector<std::string>{});
   proof.nonzero = json.value("nonzero", std::vector<std::string>{});
   proof.positive = json.value("positive", std::vector<std::string>{});
+  proof.not_zero = json.value("not_zero", std::vector<std::string>{});
   proof.residual = json.value("residual", "");
   proof.reason = json.value("reason", "");
   if (json.contains("witness")) {

@@ -142,7 +142,10 @@ std::string ProofTable::details(const Proof& proof, bool with_evidence) const {
     if (!known(where) && !known(proof.where)) where.push_back(condition);
   };
   for (const std::string& d : proof.nonzero) add(d + " != 0");
-  for (const std::string& p : proof.positive) add(p + " >= 0");
+  for (const std::string& p : proof.positive) {
+    const bool strict = std::ranges::find(proof.not_zero, p) != proof.not_zero.end();
+    add(p + (strict ? " > 0" : " >= 0"));
+  }
   if (!where.empty()) detail("defined", fmt::format("where {}", fmt::join(where, ", ")));
   return text;
 }
