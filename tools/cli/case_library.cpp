@@ -76,13 +76,16 @@ static bool is_map(const fs::path& path) {
   return std::holds_alternative<MapCaseFile>(read_any_case(path));
 }
 
+[[noreturn]] static void refuse_maps(const std::string& tag) {
+  throw CaseError({"--tag"}, fmt::format("all cases with the tag '{}' are maps, and flows are "
+                                         "needed here",
+                                         printable(tag)));
+}
+
 std::vector<fs::path> bundled_flows(const std::string& tag) {
   std::vector<fs::path> result = bundled_cases(tag);
   std::erase_if(result, is_map);
-  if (result.empty() && !tag.empty())
-    throw CaseError({"--tag"}, fmt::format("all cases with the tag '{}' are maps, and flows are "
-                                           "needed here",
-                                           printable(tag)));
+  if (result.empty() && !tag.empty()) refuse_maps(tag);
   return result;
 }
 
@@ -102,6 +105,7 @@ std::vector<CaseFile> tagged_cases(const std::string& tag) {
     AnyCaseFile file = read_any_case(path);
     if (auto* flow = std::get_if<CaseFile>(&file)) result.push_back(std::move(*flow));
   }
+  if (result.empty() && !tag.empty()) refuse_maps(tag);
   return result;
 }
 

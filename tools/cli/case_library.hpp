@@ -28,7 +28,6 @@ std::vector<std::filesystem::path> bundled_cases(const std::string& tag);
 /// The same without the cases of maps.
 std::vector<std::filesystem::path> bundled_flows(const std::string& tag = {});
 
-/// Those with a tag, read, without the cases of maps.
 /// What `--all` and `list` mean: the flows where no tag is given, else all that have it. Maps are
 /// asked for by their tag.
 std::vector<std::filesystem::path> listed_cases(const std::string& tag);
@@ -36,6 +35,8 @@ std::vector<std::filesystem::path> listed_cases(const std::string& tag);
 /// The bundled maps.
 std::vector<std::filesystem::path> bundled_maps();
 
+/// The bundled flows with a tag, or all of them, read.
+/// \throws CaseError  for a tag that no case has, or maps only.
 std::vector<CaseFile> tagged_cases(const std::string& tag);
 
 /// The case file that a user means: a path (with `/` or ending in `.toml`), `-` for standard input,

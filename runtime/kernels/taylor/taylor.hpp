@@ -212,9 +212,8 @@ class March {
     }
     if (there_) t1 = run_->t_end;
     V next[most_blocks], next_carry[most_blocks];
-    if (__builtin_expect(leading_ != nullptr, 0)) {
-      step_with_leading_terms(s, next, next_carry);
-    } else {
+    if (!(__builtin_expect(leading_ != nullptr, 0) &&
+          step_with_leading_terms(s, next, next_carry))) {
       increment(series_, s, next);
       CASIMIR_UNROLL
       for (int b = 0; b < series_.blocks; ++b) {
@@ -259,8 +258,9 @@ class March {
   }
 
   /// Where the state is far from zero a step changes it by as much as itself, and a carry alone
-  /// saves nothing: then it is the leading terms that round.
-  __attribute__((noinline)) void step_with_leading_terms(double s, V* next, V* next_carry) {
+  /// saves nothing: then it is the leading terms that round. False where they are no numbers, as
+  /// where a few digits more make a radicand negative.
+  __attribute__((noinline)) bool step_with_leading_terms(double s, V* next, V* next_carry) {
     V rest[most_blocks];
     tail(series_, s, rest);
     for (int b = 0; b < series_.blocks; ++b) {
@@ -269,6 +269,7 @@ class March {
     }
     leading_->add(leading_->object, t_, unit_, s, reinterpret_cast<double*>(next),
                   reinterpret_cast<double*>(next_carry), reinterpret_cast<const double*>(rest));
+    return finite(next);
   }
 
   __attribute__((cold, noinline)) void project(double t1, V* next, V* next_carry) {

@@ -45,8 +45,12 @@ COMMANDS = {
     "exponents": [("exponents", "kovalevskaya"), ("exponents", "henon-heiles")],
     "obstruct": [("obstruct", "henon-heiles"), ("obstruct", "euler-poisson")],
     "degrees": [("degrees", "mcmillan")],
+    "degrees-all": [("degrees", "--all", "--kahan", "--tag", "free-top")],
     "discretise": [("discretise", "euler", "--kahan", "-o", "kahan.toml")],
     "equilibria": [("equilibria", "euler"), ("equilibria", "euler", "--validated")],
+    "check": [("check", "euler.cert"), ("check", "wide.cert"), ("check", "euler.cert", "--time-limit", "0.0000001")],
+    "report": [("report", "euler", "--budget", "0", "--output", "euler.html")],
+    "report-all": [("report", "--all", "--tag", "appendix-F", "--budget", "0", "--output", "pages")],
     "generate": [("generate", "euler", "-o", "euler.hpp")],
     "integrate": [("integrate", "euler", "--duration", "1"), ("integrate", "./blowup.toml"),
                   ("integrate", "euler", "--duration", "1", "--method", "taylor", "--observe", "M1")],
@@ -74,6 +78,9 @@ class Schemas(unittest.TestCase):
         (folder / "blowup.toml").write_text(BLOWUP)
         (folder / "family.toml").write_text(FAMILY)
         (folder / "members.csv").write_text("M1\n1\n2\n")
+        run = ("integrate", "euler", "--duration", "1", "--validated")
+        cls.document(folder, (*run, "--certificate", "euler.cert"))
+        cls.document(folder, (*run, "--initial-radius", "0.001", "--certificate", "wide.cert"))
         cls.documents = {
             name: [cls.document(folder, words) for words in lines] for name, lines in COMMANDS.items()
         }
