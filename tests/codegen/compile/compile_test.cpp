@@ -212,7 +212,10 @@ TEST_F(Compile, TwoHundredProcessesMakeOneObject) {
 }
 
 TEST_F(Compile, AKilledProcessLeavesTheCacheSound) {
-  const std::string slow = wrapper(folder_, "sleep 5");
+  // The compiler outlives the process: it has to have begun, or it may make its files while the
+  // folder of both is being removed.
+  const fs::path begun = folder_.path() / "begun";
+  const std::string slow = wrapper(folder_, "echo > " + begun.string() + "; sleep 5");
   const pid_t child = fork();
   if (child == 0) {
     try {
@@ -221,7 +224,7 @@ TEST_F(Compile, AKilledProcessLeavesTheCacheSound) {
     }
     _exit(0);
   }
-  while (!fs::exists(cache_) || names_in(cache_, "work-").empty()) {
+  while (!fs::exists(begun)) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   kill(child, SIGKILL);
