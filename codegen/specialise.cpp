@@ -14,6 +14,7 @@
 #include "codegen/optimise/optimise.hpp"
 #include "codegen/optimise/terms.hpp"
 #include "symbolic/expression/expression_size.hpp"
+#include "symbolic/model/given_functions.hpp"
 
 namespace casimir {
 
@@ -421,7 +422,9 @@ class Specialiser {
 
 Specialisation specialise(const Model& model, const Scene& scene,
                           const SpecialiseOptions& options) {
-  return Specialiser(model, scene, options).run();
+  if (!has_arbitrary_functions(model)) return Specialiser(model, scene, options).run();
+  const auto [own, own_scene] = in_scene(model, scene);
+  return Specialiser(own, own_scene, options).run();
 }
 
 void add_jacobian(Specialisation& specialisation) {

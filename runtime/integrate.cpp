@@ -87,6 +87,7 @@ void run_on(const Module& module, const Method& method, casimir_run run, double*
   module.functions().integrate(&run, x, &outcome);
   if (!method.series) return;
   const double whole = run.t_end - run.t_begin;
+  const auto most_steps = run.max_steps;  // of all parts together
   constexpr int kMostPassages = 100;
   // Behind the place a series reaches as far as the place is away: it need not be far.
   constexpr double kPart = 0x1p-10;
@@ -94,6 +95,14 @@ void run_on(const Module& module, const Method& method, casimir_run run, double*
     Passage passage([&](double t, const double* at,
                         double* rates) { module.functions().rhs(t, at, run.parameters, rates); },
                     run, static_cast<std::size_t>(module.dimension()));
+    if (most_steps > 0) {
+      const auto taken = outcome.steps + outcome.rejected;
+      if (taken + 1 >= most_steps) {
+        outcome.status = CASIMIR_MAX_STEPS;
+        return;
+      }
+      run.max_steps = most_steps - taken - 1;  // the passage is a step too
+    }
     double t = outcome.t;
     const double rest = run.t_end - t, part = kPart * whole;
     if (!passage.pass(t, x, std::abs(rest) <= std::abs(part) ? run.t_end : t + part)) return;

@@ -69,7 +69,8 @@ Module Module::from_functions(const ModuleFunctions& functions) {
 
 void Module::know_equations(const Program& rhs) {
   exact_rates_ = ProgramLeading::serves(rhs) ? std::make_shared<const Program>(rhs) : nullptr;
-  auto watch = std::make_shared<const StepWatch>(rhs);
+  auto watch = std::make_shared<StepWatch>(rhs);
+  if (handle_) watch->take_compiled(handle_.get());
   watch_ = watch->empty() ? nullptr : std::move(watch);
 }
 

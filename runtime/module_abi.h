@@ -3,7 +3,7 @@
 #ifndef CASIMIR_MODULE_ABI_H
 #define CASIMIR_MODULE_ABI_H
 
-#define CASIMIR_ABI_VERSION 6
+#define CASIMIR_ABI_VERSION 7
 
 /* How many matrices a kernel may have factorised at a time. */
 #define CASIMIR_MATRICES 7
@@ -139,6 +139,11 @@ struct casimir_ensemble {
  *   int casimir_series_smooth(void);
  * and the functions casimir_series_start, _begin and _expand of kernels/series.h, whose object is
  * the series. A kernel for ensembles exports casimir_lanes and casimir_integrate_lanes.
+ *
+ * Both kinds of kernels may export beside these
+ *   int  casimir_watched_count(void);
+ *   void casimir_watched(double t, const double* x, const double* p, double* values);
+ * what the steps are watched for: the outputs of StepWatch::arguments of the right-hand side.
  */
 
 #endif

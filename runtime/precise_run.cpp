@@ -182,6 +182,8 @@ class Runner {
                          for (const LongSeries& s : series) state.push_back(value_at(s, after));
                          return state;
                        }});
+      if (h.sign() == 0)  // the run chatters about a jump
+        return stop(Status::step_underflow, reason_of(Status::step_underflow));
       taken = h == tried;
       if (taken && !follows(series, h)) {
         h = tried * half_;

@@ -43,12 +43,13 @@ StepSettings step_settings(const ValidatedSettings& settings, bool forwards) {
   result.order = settings.order > 0     ? settings.order
                  : settings.digits == 0 ? kDoubleOrder
                                         : static_cast<int>(0.35 * static_cast<double>(bits)) + 4;
-  result.log2_error = settings.digits == 0 ? -58 : -static_cast<int>(bits) - 4;
+  result.log2_error = settings.digits == 0 ? -53 : -static_cast<int>(bits) - 4;
   if (settings.log2_error < 0) result.log2_error = settings.log2_error;
   result.integral_bits = bits + 80;
   result.forwards = forwards;
   result.without_remainder = settings.without_remainder;
   result.with_reserve = settings.trace != nullptr;
+  result.derivatives = settings.derivatives;
   return result;
 }
 
@@ -300,6 +301,9 @@ class Runner {
         (run_.samples.back().time != run_.end.time))
       run_.samples.push_back(run_.end);
     run_.contracted_by = lohner_.contracted_by();
+    if (settings_.derivatives && run_.status == ValidatedStatus::ok)
+      for (const Ball& entry : lohner_.derivatives().entries)
+        run_.derivatives.push_back(validated::ends_of(ArbBall(entry)));
     if (crossings_) record_crossings();
   }
 

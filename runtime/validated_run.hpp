@@ -52,6 +52,8 @@ struct ValidatedSettings {
   cln::cl_RA sample_every = 0;       ///< > 0: boxes at its multiples
   /// Asked before each step with the share of the duration that is done; true ends the run.
   std::function<bool(double share)> give_up = {};
+  /// Encloses the derivatives of the states at the end by those at the start too.
+  bool derivatives = false;
   /// Where every step is written down, to be verified by others; the sets are then wider by some
   /// 2^-20 of their size. Of a run whose status is ok.
   RunTrace* trace = nullptr;
@@ -94,10 +96,13 @@ struct ValidatedRun {
   std::string reason;                            ///< a sentence, where the status is not ok
   StateBox end;                                  ///< at the duration, or where the run stopped
   std::vector<StateBox> samples;                 ///< at the multiples asked for, and at the end
-  std::vector<std::string> contracted_by;        ///< the integrals that have made it smaller
-  unsigned long long steps = 0;                  ///< that were made
-  unsigned long long rejected = 0;               ///< that could not be enclosed at their length
-  double seconds = 0;                            ///< that the run took
+  /// Of the states at the end by those at the start, row after row, for every start; where they
+  /// were asked for.
+  std::vector<RationalInterval> derivatives;
+  std::vector<std::string> contracted_by;  ///< the integrals that have made it smaller
+  unsigned long long steps = 0;            ///< that were made
+  unsigned long long rejected = 0;         ///< that could not be enclosed at their length
+  double seconds = 0;                      ///< that the run took
   /// All zeros of s up to the time `crossings_until`, in the order of the run: none is missed, and
   /// none is there twice. One at the start itself is not among them.
   std::vector<ValidatedCrossing> crossings;

@@ -11,6 +11,8 @@
 #include "symbolic/case/toml_keys.hpp"
 #include "symbolic/case/toml_reader.hpp"
 #include "symbolic/discrete/map_case.hpp"
+#include "symbolic/expression/arbitrary.hpp"
+#include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/spelling.hpp"
 
 namespace casimir {
@@ -35,6 +37,7 @@ class Reader : private TomlReader {
   MapText map(const toml::table& table, const std::string& what) const;
   SceneText scene(const toml::table& table, const std::string& what) const;
   std::vector<ParameterText> parameters(const toml::table& root) const;
+  std::vector<ParameterText> functions(const toml::table& root) const;
 };
 
 PhaseSpaceText Reader::phase_space(const toml::table& table, const std::string& what) const {
@@ -149,10 +152,16 @@ MapText Reader::map(const toml::table& table, const std::string& what) const {
 
 SceneText Reader::scene(const toml::table& table, const std::string& what) const {
   allow(table, what,
-        {"name", "parameters", "initial", "on", "duration", "observe", "extreme", "reference"});
+        {"name", "parameters", "functions", "initial", "on", "duration", "observe", "extreme",
+         "reference"});
   SceneText result;
   result.name = name(table, what);
   result.parameters = optional_entries(table, "parameters");
+  for (auto& [key, value] : optional_entries(table, "functions")) {
+    check_name(key, "a function");
+    key.value = function_parameter_name({key.value, {}});
+    result.parameters.emplace_back(key, value);
+  }
   result.initial = entries(required(table, "initial", what), "'initial'");
   result.duration = optional_text(table, "duration");
   result.on = texts(table, "on");
@@ -180,6 +189,8 @@ std::vector<ParameterText> Reader::parameters(const toml::table& root) const {
     const toml::table& table = *value.as_table();
     allow(table, what, {"assume"});
     ParameterText parameter{key_text(key), {}};
+    // So is the name of an arbitrary function written, and it comes from [functions] alone.
+    if (function_name(parameter.name.value)) check_name(parameter.name, "a parameter");
     const toml::node* assume = table.get("assume");
     if (assume != nullptr && assume->is_array()) {
       parameter.assume = texts(table, "assume");
@@ -192,6 +203,39 @@ std::vector<ParameterText> Reader::parameters(const toml::table& root) const {
     return std::pair(a.name.where.line, a.name.where.column) <
            std::pair(b.name.where.line, b.name.where.column);
   });
+  return result;
+}
+
+/// Arbitrary functions with the names of their arguments, each as the parameter that it is.
+std::vector<ParameterText> Reader::functions(const toml::table& root) const {
+  std::vector<ParameterText> result;
+  const toml::node* node = root.get("functions");
+  if (node == nullptr) return result;
+  for (const auto& [key, value] : as_table(*node, "[functions]")) {
+    const std::string what = fmt::format("function '{}'", printable(std::string(key.str())));
+    const Text name = key_text(key);
+    check_name(name, "a function");
+    FunctionName function{name.value, {}};
+    if (!value.is_array())
+      fail(value.source(), what + " must be a list of the names of its arguments",
+           fmt::format("write {0} = [\"r\"]; what {0} is stands in a scene: functions = {{ {0} = "
+                       "\"..\" }}",
+                       name.value));
+    for (const toml::node& item : *value.as_array()) {
+      const Text argument = text(item, "each argument of " + what);
+      check_name(argument, "an argument");
+      if (std::ranges::count(function.arguments, argument.value) != 0)
+        throw argument.error(fmt::format("'{}' is an argument twice", argument.value));
+      function.arguments.push_back(argument.value);
+    }
+    if (function.arguments.empty())
+      fail(value.source(), what + " has no argument: a constant is a parameter");
+    if (function.arguments.size() > kMostArguments)
+      fail(value.source(), fmt::format("{} has more than {} arguments", what, kMostArguments));
+    Text parameter = name;
+    parameter.value = function_parameter_name(function);
+    result.push_back({parameter, {}});
+  }
   return result;
 }
 
@@ -264,6 +308,7 @@ CaseFile Reader::read_common(const toml::table& root) {
   }
   result.phase_space = phase_space(as_table(*space, "[phase_space]"), "[phase_space]");
   result.parameters = parameters(root);
+  for (ParameterText& function : functions(root)) result.parameters.push_back(std::move(function));
   result.definitions = optional_entries(root, "definitions");
   result.casimirs = optional_entries(root, "casimirs");
   result.integrals = optional_entries(root, "integrals");
@@ -329,7 +374,17 @@ std::string read_text(const std::filesystem::path& path) {
   return text;
 }
 
-/// Whether the text has I as a word of its own, outside of comments.
+/// Whether a line gives one of the keys whose values are words: Appendix I is no number.
+bool is_line_of_words(const std::string& toml, std::size_t begin) {
+  for (const std::string key : {"title", "source", "book", "tags"})
+    if (toml.compare(begin, key.size(), key) == 0 && begin + key.size() < toml.size() &&
+        (toml[begin + key.size()] == ' ' || toml[begin + key.size()] == '='))
+      return true;
+  return false;
+}
+
+/// Whether the text has I as a word of its own, outside of comments and of what is said of the
+/// case.
 bool speaks_of_imaginary_unit(const std::string& toml) {
   const auto is_part = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
@@ -338,6 +393,7 @@ bool speaks_of_imaginary_unit(const std::string& toml) {
   bool quoted = false;
   for (std::size_t i = 0; i < toml.size(); ++i) {
     if (toml[i] == '\n') comment = quoted = false;
+    if ((i == 0 || toml[i - 1] == '\n') && is_line_of_words(toml, i)) comment = true;
     if (toml[i] == '"') quoted = !quoted;
     comment = comment || (toml[i] == '#' && !quoted);
     if (comment || toml[i] != 'I') continue;

@@ -10,6 +10,7 @@
 
 #include "symbolic/case/limits.hpp"
 #include "symbolic/functions/function_ring.hpp"
+#include "symbolic/model/given_functions.hpp"
 #include "symbolic/proof/coq_file.hpp"
 
 namespace casimir {
@@ -331,6 +332,8 @@ Certificate coq_certificate(const Model& model, const Candidates& candidates,
     }
   }
   if (!model.poisson) throw ModelError("a certificate needs a bracket");
+  if (has_arbitrary_functions(model))
+    throw ModelError("no certificate: it covers functions that are given, and some are arbitrary");
   if (model.time)
     throw ModelError("no certificate: it covers polynomials that do not depend on time");
   const WorkMeter meter;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <new>
 #include <optional>
 #include <set>
 
@@ -398,7 +399,11 @@ std::vector<ex> image_of(const Atlas& atlas, const CoordinateChange& change,
         if (!decimal(e)) inside = false;
       }
       if (inside) return result;
-    } catch (const std::exception&) {
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const TooLarge&) {
+      throw;
+    } catch (const std::exception&) {  // GiNaC's own errors have no common type
       failed = failed.empty() ? "its expressions have a pole" : failed;
     }
   }

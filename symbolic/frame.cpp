@@ -10,6 +10,7 @@
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/functions/function_ring.hpp"
+#include "symbolic/functions/point_completer.hpp"
 
 namespace casimir {
 namespace {
@@ -109,11 +110,16 @@ class StructureFunctions {
     };
     // A root has a rational value at few points. Where no point was found once, none is looked for
     // again; where the numbers are long, fewer are tried.
-    const long trials = no_point_ ? 0 : std::clamp(4000 / (1 + ring_.argument_degree()), 5L, 200L);
+    const long trials =
+        no_point_
+            ? 0
+            : std::clamp(4000 / (1 + functions::PointCompleter(ring_.table()).argument_degree()),
+                         5L, 200L);
     for (long trial = 0; trial < trials; ++trial) {
       std::vector<cln::cl_RA> point;
       for (std::size_t i = 0; i < ring_.symbols().size(); ++i) point.push_back(draw());
-      if (ring_.complete(point, draw, {.formal = true})) return point;
+      if (functions::PointCompleter(ring_.table()).complete(point, draw, {.formal = true}))
+        return point;
     }
     no_point_ = true;
     return std::nullopt;

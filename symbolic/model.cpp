@@ -4,8 +4,10 @@
 
 #include "symbolic/algebra/exact_constant.hpp"
 #include "symbolic/algebra/where_defined.hpp"
+#include "symbolic/expression/arbitrary.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/expression_size.hpp"
+#include "symbolic/model/given_functions.hpp"
 #include "symbolic/model/model_dynamics.hpp"
 
 namespace casimir {
@@ -120,7 +122,10 @@ ModelNames names_of(const Model& model) {
     for (const NamedExpression& item : list) names.add_unless_known(item);
   };
   for (const GiNaC::symbol& s : model.variables) names.add(s.get_name(), Quantity::symbol(s));
-  for (const GiNaC::symbol& s : model.parameters) names.add(s.get_name(), Quantity::symbol(s));
+  for (const GiNaC::symbol& s : model.parameters) {
+    const auto function = function_name(s.get_name());
+    names.add(function ? function->name : s.get_name(), Quantity::symbol(s));
+  }
   for (const auto& [parameter, value] : model.fixed)
     names.add_unless_known({parameter.value, value, {}});
   if (model.time) names.add(model.time->get_name(), Quantity::symbol(*model.time));
@@ -164,8 +169,19 @@ ex Model::rate(const ex& f) const {
 
 GiNaC::ex Model::at_parameters(const GiNaC::ex& expression, const Scene& scene) const {
   GiNaC::exmap values;
-  for (std::size_t i = 0; i < parameters.size(); ++i) values[parameters[i]] = scene.parameters[i];
-  return substituted(expression, values);
+  bool functions = false;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    values[parameters[i]] = scene.parameters[i];
+    functions = functions || function_name(parameters[i].get_name());
+  }
+  ex result = substituted(expression, values);
+  if (!functions) return result;
+  for (const GiNaC::symbol& parameter : parameters) {
+    const auto function = function_name(parameter.get_name());
+    if (function && result.has(parameter))
+      throw function_not_given(scene.name, parameter.get_name());
+  }
+  return result;
 }
 
 }  // namespace casimir

@@ -4,22 +4,42 @@
 
 #include <array>
 #include <chrono>
+#include <memory>
 #include <new>
 #include <stdexcept>
 
 #include "symbolic/case/limits.hpp"
+#include "symbolic/expression/arbitrary.hpp"
+#include "symbolic/model/given_functions.hpp"
 #include "symbolic/proof/run_claims.hpp"
 
 namespace casimir {
 namespace {
 
-std::vector<NamedExpression> read(const Model& model, const std::vector<Text>& texts) {
+NamedExpression put(NamedExpression f, const GivenFunctions& given) {
+  f.value = given.put(f.value);
+  for (GiNaC::ex& part : f.domain) part = given.put(part);
+  return f;
+}
+
+std::vector<NamedExpression> put(const std::vector<NamedExpression>& list,
+                                 const GivenFunctions& given) {
   std::vector<NamedExpression> result;
-  for (const Text& text : texts) result.push_back(model.parse_named(text));
+  for (const NamedExpression& f : list) result.push_back(put(f, given));
   return result;
 }
 
-std::vector<Claim> claims_of(const Model& model, const Candidates& candidates) {
+std::vector<NamedExpression> read(const Model& model, const std::vector<Text>& texts,
+                                  const GivenFunctions& given) {
+  std::vector<NamedExpression> result;
+  for (const Text& text : texts) result.push_back(put(model.parse_named(text), given));
+  return result;
+}
+
+/// \param written  the case that candidates are read in
+/// \param given  what `model` has for its arbitrary functions
+std::vector<Claim> claims_of(const Model& written, const Model& model, const Candidates& candidates,
+                             const GivenFunctions& given) {
   std::vector<Claim> claims;
   if (candidates.empty()) {
     for (const ReadClaims& read_claims : kClaimReaders) {
@@ -29,9 +49,9 @@ std::vector<Claim> claims_of(const Model& model, const Candidates& candidates) {
     }
     return claims;
   }
-  const std::vector<NamedExpression> on = read(model, candidates.on);
+  const std::vector<NamedExpression> on = read(written, candidates.on, given);
   const auto add = [&](const std::vector<Text>& texts, auto make_claim) {
-    for (const NamedExpression& f : read(model, texts)) {
+    for (const NamedExpression& f : read(written, texts, given)) {
       claims.push_back(make_claim(f, on));
     }
   };
@@ -43,18 +63,25 @@ std::vector<Claim> claims_of(const Model& model, const Candidates& candidates) {
   add(candidates.integrals, integral_claim);
   add(candidates.invariant_relations, invariant_relation_claim);
   for (const Text& text : candidates.identities) {
-    Identity identity = model.parse_identity(text);
+    Identity identity = written.parse_identity(text);
+    identity.left = given.put(identity.left);
+    identity.right = given.put(identity.right);
+    for (GiNaC::ex& part : identity.domain) part = given.put(part);
     identity.on = on;
     claims.push_back(identity_claim(identity));
   }
   if (on.empty()) {
     for (const auto* texts :
          {&candidates.casimirs, &candidates.integrals, &candidates.invariant_relations}) {
-      for (const NamedExpression& f : read(model, *texts))
+      for (const NamedExpression& f : read(written, *texts, given))
         claims.push_back(judgement_note(model, f));
     }
   }
   return claims;
+}
+
+std::vector<Claim> claims_of(const Model& model, const Candidates& candidates) {
+  return claims_of(model, model, candidates, {});
 }
 
 Proof undecided(const Claim& claim) {
@@ -154,7 +181,9 @@ namespace {
 /// on the domain of another claim.
 class Provers {
  public:
-  Provers(const Model& model, const std::vector<Claim>& claims) : model_(model) {
+  /// \param inhabited  that the claims are about something is shown elsewhere
+  Provers(const Model& model, const std::vector<Claim>& claims, bool inhabited = false)
+      : model_(model), inhabited_(inhabited) {
     std::vector<GiNaC::ex> all;
     for (const Claim& claim : claims)
       all.insert(all.end(), claim.expressions.begin(), claim.expressions.end());
@@ -163,8 +192,9 @@ class Provers {
       shared_.emplace(model, all);
       if (shared_->ring().implied_positive().empty() && !shared_->ring().is_complex()) return;
       shared_.reset();
-    } catch (const TooLarge&) {
-      shared_.reset();  // a single claim may be small enough
+    } catch (const ModelError&) {
+      // A single claim may be small enough, and have values where another has none.
+      shared_.reset();
     } catch (const std::bad_alloc&) {
       shared_.reset();
     }
@@ -176,6 +206,7 @@ class Provers {
       if (!shared_) own_.emplace(model_, claim.expressions, claim.subject);
       Prover& prover = shared_ ? *shared_ : *own_;
       prover.begin_claim(claim.expressions, claim.subject);
+      prover.take_as_inhabited(inhabited_);
       casimir::decide(prover, claim, proof);
     } catch (const TooLarge& limit) {
       proof.reason = limit.what();
@@ -186,37 +217,126 @@ class Provers {
 
  private:
   const Model& model_;
+  bool inhabited_;
   std::optional<Prover> shared_, own_;
 };
+
+/// The claims of a case with arbitrary functions, for functions that are given.
+struct GivenCase {
+  GivenFunctions given;
+  std::unique_ptr<Model> model;
+  std::vector<Claim> claims;
+  std::unique_ptr<Provers> provers;
+};
+
+/// \param count  of the claims
+/// \param make  the claims of the case that it is given, in the order of the others
+std::vector<GivenCase> given_cases(
+    const Model& model, std::size_t count,
+    const std::function<std::vector<Claim>(const Model&, const GivenFunctions&)>& make) {
+  std::vector<GivenCase> result;
+  for (GivenFunctions& given : function_choices(model)) {
+    try {
+      GivenCase own{std::move(given), nullptr, {}, nullptr};
+      own.model = std::make_unique<Model>(with_functions(model, own.given));
+      own.claims = make(*own.model, own.given);
+      if (own.claims.size() != count) continue;
+      own.provers = std::make_unique<Provers>(*own.model, own.claims);
+      result.push_back(std::move(own));
+    } catch (const ModelError&) {  // these functions have no meaning there
+    } catch (const GiNaC::pole_error&) {
+    }
+  }
+  return result;
+}
+
+/// Decides a claim about arbitrary functions U.
+///
+/// That it holds for all of them is proved where it follows from the rules of differentiation
+/// alone; since nothing is known of a U, that the claim is about something is shown for one U. That
+/// it does not hold for all is shown by a polynomial for U and a witness for that.
+void decide_for_all(Provers& provers, std::vector<GivenCase>& cases, const Claim& claim,
+                    std::size_t index, Proof& proof) {
+  provers.decide(claim, proof);
+  if (proof.verdict == Verdict::refuted) {  // it does not speak of them
+    if (proof.witness)
+      std::erase_if(proof.witness->point,
+                    [](const auto& value) { return function_name(value.first).has_value(); });
+    return;
+  }
+  const bool proved = proof.verdict == Verdict::proved;
+  bool seen = false;
+  for (GivenCase& own : cases) {
+    if ((proved && seen) || (proof.fact && !proved)) continue;
+    Proof given = undecided(own.claims[index]);
+    own.provers->decide(own.claims[index], given);
+    seen = seen || given.verdict == Verdict::proved;
+    if (given.verdict != Verdict::refuted || !given.witness) continue;
+    given.witness->point.insert(given.witness->point.end(), own.given.texts.begin(),
+                                own.given.texts.end());
+    given.seconds += proof.seconds;
+    proof = std::move(given);
+    return;
+  }
+  if (!proved || seen) return;
+  proof.verdict = Verdict::undecided;
+  proof.evidence.clear();
+  proof.where.clear();
+  proof.reason = "no function was found for which the claim is about something";
+}
 
 }  // namespace
 
 Proof prove_claim(const Model& model, ClaimKind kind, const NamedExpression& f,
                   const std::vector<NamedExpression>& on) {
-  const auto claim = [&]() -> Claim {
+  const auto make = [&](const NamedExpression& of,
+                        const std::vector<NamedExpression>& level) -> Claim {
     switch (kind) {
       case ClaimKind::casimir:
         if (!model.poisson)
           throw ModelError("a Casimir function needs a bracket, which this case does not have");
-        return casimir_claim(f, on);
+        return casimir_claim(of, level);
       case ClaimKind::integral:
       case ClaimKind::conditional:
-        return integral_claim(f, on);
+        return integral_claim(of, level);
       case ClaimKind::invariant_relation:
-        return invariant_relation_claim(f, on);
+        return invariant_relation_claim(of, level);
       default:
         throw ModelError(
             fmt::format("a claim of the kind '{}' is not about one function", to_string(kind)));
     }
-  }();
+  };
+  const Claim claim = make(f, on);
   Proof proof = undecided(claim);
-  Provers(model, {claim}).decide(claim, proof);
+  if (!has_arbitrary_functions(model)) {
+    Provers(model, {claim}).decide(claim, proof);
+    return proof;
+  }
+  Provers provers(model, {claim}, true);
+  std::vector<GivenCase> cases =
+      given_cases(model, 1, [&](const Model&, const GivenFunctions& given) {
+        return std::vector<Claim>{make(put(f, given), put(on, given))};
+      });
+  decide_for_all(provers, cases, claim, 0, proof);
   return proof;
 }
 
 std::vector<Proof> prove(const Model& model, const Candidates& candidates,
                          const std::function<bool(const Proof&)>& report) {
-  return decide_claims(model, claims_of(model, candidates), report);
+  const std::vector<Claim> claims = claims_of(model, candidates);
+  if (!has_arbitrary_functions(model)) return decide_claims(model, claims, report);
+  Provers provers(model, claims, true);
+  std::vector<GivenCase> cases =
+      given_cases(model, claims.size(), [&](const Model& own, const GivenFunctions& given) {
+        return claims_of(model, own, candidates, given);
+      });
+  std::vector<Proof> proofs;
+  for (std::size_t i = 0; i < claims.size(); ++i) {
+    proofs.push_back(undecided(claims[i]));
+    decide_for_all(provers, cases, claims[i], i, proofs.back());
+    if (report && !report(proofs.back())) break;
+  }
+  return proofs;
 }
 
 std::vector<Proof> decide_claims(const Model& model, const std::vector<Claim>& claims,

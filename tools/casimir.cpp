@@ -41,17 +41,17 @@ int fail(Exit status, const std::string& text) {
 }
 
 int run(int argc, char** argv) {
-  Program program;
+  CommandLine line;
   Action action;
   if (const std::optional<int> status =
-          run_helper(program.app(), {argv + 1, argv + argc}, CASIMIR_VERSION))
+          run_helper(line.app(), {argv + 1, argv + argc}, CASIMIR_VERSION))
     return *status;
   try {
-    action = program.read(argc, argv);
+    action = line.read(argc, argv);
   } catch (const CLI::Success& help) {
-    return program.app().exit(help);
+    return line.app().exit(help);
   } catch (const CLI::ParseError& problem) {
-    const std::string message = program.usage_message(problem, argc, argv);
+    const std::string message = line.usage_message(problem, argc, argv);
     return fail(kBadInput, message, error_json(message));
   }
   chosen_instruction_set();  // what is wrong with it is said before any work

@@ -2,6 +2,8 @@
 #include <cln/integer_io.h>
 #include <cln/rational_io.h>
 
+#include <map>
+
 #include "codegen/dag/expression_dag.hpp"
 #include "codegen/emit/number_literal.hpp"
 #include "runtime/program/function_table.hpp"
@@ -121,9 +123,22 @@ class Printer {
   const Dag& dag_;
 };
 
+/// How many parts the tree has that a text would show: parts that are shared count each time.
+double tree_size(const Dag& dag, NodeId id, std::map<NodeId, double>& known) {
+  if (const auto found = known.find(id); found != known.end()) return found->second;
+  double size = 1;
+  for (const Scaled& term : dag[id].terms) size += tree_size(dag, term.node, known);
+  for (const Factor& factor : dag[id].factors) size += tree_size(dag, factor.node, known);
+  return known[id] = size;
+}
+
 }  // namespace
 
 std::string Dag::text(const Scaled& expression) const {
+  // Elliptic functions by their means and duplications are small as graphs and no texts.
+  constexpr double kLongest = 1e5;
+  std::map<NodeId, double> known;
+  if (tree_size(*this, expression.node, known) > kLongest) return "(too long to be written)";
   return Printer(*this).scaled(expression).text;
 }
 

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "codegen/dag/elliptic_nodes.hpp"
 #include "runtime/program/function_table.hpp"
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/error.hpp"
+#include "symbolic/expression/arbitrary.hpp"
+#include "symbolic/expression/elliptic.hpp"
 
 namespace casimir::codegen {
 
@@ -178,9 +181,15 @@ Scaled Dag::convert_function(const GiNaC::ex& e) {
     return known.name == (name == "atan" ? "atan2" : name) && known.op != Op::pow &&
            known.op != Op::sqrt && known.op != Op::abs && known.op != Op::sign;
   });
-  if (row == function_table().end()) throw ModelError("unknown function '" + name + "'");
+  if (casimir::as_arbitrary(GiNaC::ex_to<GiNaC::function>(e)) || name.starts_with("arbitrary"))
+    throw ModelError("the function in '" + expression_text(e) +
+                     "' is arbitrary: a scene gives it, functions = { .. }");
+  const bool elliptic = is_elliptic_function(GiNaC::ex_to<GiNaC::function>(e));
+  if (row == function_table().end() && !elliptic)
+    throw ModelError("unknown function '" + name + "'");
   std::vector<Scaled> arguments;
   for (const GiNaC::ex& argument : e) arguments.push_back(convert(argument));
+  if (elliptic) return elliptic_node(*this, name, arguments);
   if (name == "atan") arguments.push_back({1, kOne});
   return call(row->op, std::move(arguments));
 }

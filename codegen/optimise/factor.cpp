@@ -66,9 +66,9 @@ struct Place {
 };
 
 /// first + ratio * second, up to a factor: indices of monomials and of the ratio; or, for products
-/// (ratio = kProduct), two variables, the first of which may stand for a coefficient.
+/// (ratio = kMonomial), two variables, the first of which may stand for a coefficient.
 using Key = std::array<int, 3>;
-constexpr int kProduct = -1;
+constexpr int kMonomial = -1;
 
 /// Where the two terms of a sum stand. For a product, both are the one term.
 struct Occurrence {
@@ -164,11 +164,11 @@ class Factoring {
     const Monomial& m = term.monomial;
     for (std::size_t i = 0; i < m.size(); ++i) {
       if (cln::abs(term.coefficient) != 1) {
-        result.push_back({-2 - index_of(cln::abs(term.coefficient)), m[i].variable, kProduct});
+        result.push_back({-2 - index_of(cln::abs(term.coefficient)), m[i].variable, kMonomial});
       }
-      if (m[i].exponent > 1) result.push_back({m[i].variable, m[i].variable, kProduct});
+      if (m[i].exponent > 1) result.push_back({m[i].variable, m[i].variable, kMonomial});
       for (std::size_t j = i + 1; j < m.size(); ++j) {
-        result.push_back({m[i].variable, m[j].variable, kProduct});
+        result.push_back({m[i].variable, m[j].variable, kMonomial});
       }
     }
     return result;
@@ -201,7 +201,7 @@ class Factoring {
       }
       const int gain = evaluate(key).gain;
       if (gain <= 0) continue;
-      const bool is_product = key[2] == kProduct;
+      const bool is_product = key[2] == kMonomial;
       const bool first = preference_ == Preference::best
                              ? !is_product
                              : is_product == (preference_ == Preference::products);
@@ -216,7 +216,7 @@ class Factoring {
   // --- what a candidate is worth
 
   Extraction evaluate(const Key& key) const {
-    return key[2] == kProduct ? evaluate_product(key) : evaluate_sum(key);
+    return key[2] == kMonomial ? evaluate_product(key) : evaluate_sum(key);
   }
 
   Extraction evaluate_product(const Key& key) const {

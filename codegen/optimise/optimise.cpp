@@ -19,6 +19,8 @@ namespace {
 constexpr std::size_t kAlwaysTried = 150;
 constexpr std::size_t kMostTerms = 1500;
 constexpr std::size_t kMostGrowth = 4;
+// Longer sums are not looked for in an expansion.
+constexpr std::size_t kMostTermsOfSum = 30;
 // Of long systems only the best bet is factored.
 constexpr std::size_t kLong = 400;
 
@@ -103,7 +105,13 @@ class Choice {
     consider(structural);
     const std::size_t limit =
         std::min(kMostTerms, std::max(kAlwaysTried, kMostGrowth * term_count(structural)));
-    if (const auto expansion = expanded(structural, limit)) consider_factored(*expansion);
+    const auto expansion = expanded(structural, limit);
+    if (!expansion) return;
+    const TermSystem joined = with_squares_joined(*expansion);
+    const TermSystem folded = with_sums_taken_out(joined, kMostTermsOfSum);
+    consider_factored(folded);
+    // It loses digits where the sum is small.
+    if (!has_power_of_sum(folded)) consider_factored(joined);
   }
 
   Program best() const { return without_dead_code(*best_); }

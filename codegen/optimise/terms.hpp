@@ -60,6 +60,25 @@ TermSystem system_of(const Dag& dag, std::size_t inputs, const std::vector<Scale
 /// denominators. Nothing if that takes more than `limit` terms in all.
 std::optional<TermSystem> expanded(const TermSystem& system, std::size_t limit);
 
+/// One variable of a system multiplied out like that.
+std::optional<Polynomial> expanded_value(const TermSystem& system, int variable, std::size_t limit);
+
+/// The outputs of an expansion with k cos(u)^2 + k sin(u)^2 = k, and the same of cosh and sinh.
+TermSystem with_squares_joined(TermSystem system);
+
+/// The outputs of an expansion, as far as that takes fewer terms, with the sums of the system as
+/// factors again: p^2 - 2 p q + q^2 + p - q is r^2 + r with r = p - q. Where the sum is small a
+/// power of it that is multiplied out has lost its digits.
+/// \param limit  the most terms of a sum.
+TermSystem with_sums_taken_out(TermSystem system, std::size_t limit);
+
+/// Whether an output has a square or a higher power of a sum in it.
+bool has_power_of_sum(const TermSystem& system);
+
+/// Whether one term is written before the other: of higher degree first, then by the order of the
+/// variables.
+bool comes_before(const Monomial& a, const Monomial& b);
+
 /// Substitutes polynomials that are used once, as a plain term of a sum.
 TermSystem flattened(TermSystem system);
 

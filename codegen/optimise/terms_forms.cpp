@@ -20,17 +20,6 @@ int degree(const Monomial& monomial) {
   return result;
 }
 
-/// Higher degree first, then by the order of the variables.
-bool comes_before(const Term& a, const Term& b) {
-  const int left = degree(a.monomial);
-  const int right = degree(b.monomial);
-  if (left != right) return left > right;
-  return std::ranges::lexicographical_compare(
-      a.monomial, b.monomial, [](const VariablePower& s, const VariablePower& t) {
-        return s.variable != t.variable ? s.variable < t.variable : s.exponent > t.exponent;
-      });
-}
-
 class Expander {
  public:
   Expander(const TermSystem& system, std::size_t limit) : system_(system), limit_(limit) {}
@@ -43,7 +32,8 @@ class Expander {
     for (const auto& [monomial, coefficient] : *all) {
       if (coefficient != 0) result.push_back({coefficient, monomial});
     }
-    std::ranges::sort(result, comes_before);
+    std::ranges::sort(
+        result, [](const Term& a, const Term& b) { return comes_before(a.monomial, b.monomial); });
     return result;
   }
 
@@ -133,6 +123,21 @@ std::vector<int> use_counts(const TermSystem& system) {
 }
 
 }  // namespace
+
+bool comes_before(const Monomial& a, const Monomial& b) {
+  const int left = degree(a);
+  const int right = degree(b);
+  if (left != right) return left > right;
+  return std::ranges::lexicographical_compare(
+      a, b, [](const VariablePower& s, const VariablePower& t) {
+        return s.variable != t.variable ? s.variable < t.variable : s.exponent > t.exponent;
+      });
+}
+
+std::optional<Polynomial> expanded_value(const TermSystem& system, int variable,
+                                         std::size_t limit) {
+  return Expander(system, limit).expand(system.variables[static_cast<std::size_t>(variable)].value);
+}
 
 std::optional<TermSystem> expanded(const TermSystem& system, std::size_t limit) {
   TermSystem result = system;

@@ -1,5 +1,7 @@
 #include "runtime/certificate/step_check.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace casimir::certificate {
@@ -15,7 +17,6 @@ std::vector<Vector> tangents_along(const validated::FlowProgram& flow, const Arb
   std::vector<Vector> tangents(n * n, Vector(static_cast<std::size_t>(order) + 1));
   for (std::size_t i = 0; i < n; ++i) tangents[i * n + i][0] = ArbBall(1.);
   std::vector<ArbBall> sums(n * n);
-  ArbBall part;
   for (int k = 0; k < order; ++k) {
     const auto at = static_cast<std::size_t>(k);
     for (ArbBall& sum : sums) arb_zero(sum.raw());
@@ -26,13 +27,15 @@ std::vector<Vector> tangents_along(const validated::FlowProgram& flow, const Arb
       const Vector& entry = series.line(line);
       const slong length = series.is_constant(line) ? 1 : k + 1;
       for (std::size_t l = 0; l < n; ++l) {
-        arb_dot(part.raw(), nullptr, 0, entry[0].raw(), 1, tangents[column * n + l][at].raw(), -1,
+        ArbBall& sum = sums[row * n + l];
+        arb_dot(sum.raw(), sum.raw(), 0, entry[0].raw(), 1, tangents[column * n + l][at].raw(), -1,
                 length, bits);
-        arb_add(sums[row * n + l].raw(), sums[row * n + l].raw(), part.raw(), bits);
       }
     }
+    ArbBall share(1.);  // one division in the place of many
+    arb_div_si(share.raw(), share.raw(), forwards ? k + 1 : -(k + 1), bits);
     for (std::size_t i = 0; i < sums.size(); ++i)
-      arb_div_si(tangents[i][at + 1].raw(), sums[i].raw(), forwards ? k + 1 : -(k + 1), bits);
+      arb_mul(tangents[i][at + 1].raw(), sums[i].raw(), share.raw(), bits);
   }
   return tangents;
 }
@@ -82,9 +85,42 @@ bool StepCheck::stays_in_tube(const StepClaim& claim, const Vector& hull) {
   return true;
 }
 
-/// sum_k V_k h^k over the box
+/// The order up to which derivatives are worth having. From the p-th on the coefficients over the
+/// box do as well,
+///   x(h; x0) in sum_{k <= N} m_k h^k + (sum_{k <= p} V_k h^k) (x0 - m)
+///               + sum_{p < k <= N} (x_k(X) - m_k) h^k + x_{N+1}(D) h^{N+1}
+/// for every x0 and the m of the box X, since x_k(x0) is in x_k(X): what their radii add has to be
+/// far below the room of the next set in each of its coordinates that no integral bounds. That any
+/// p is right leaves the choice to doubles.
+int StepCheck::order_of_derivatives(const StepClaim& claim) const {
+  if (tube_jacobian_) return order_;
+  constexpr double kShare = 0x1p-22;
+  const std::size_t n = claim.before.dimension();
+  std::vector<double> off(n), room(n);
+  for (std::size_t j = 0; j < n; ++j)
+    room[j] = std::ranges::count(claim.columns, static_cast<int>(j)) > 0
+                  ? INFINITY
+                  : kShare * validated::magnitude(claim.after.rest[j]);
+  const double h = validated::approximate(claim.length);
+  int order = order_;
+  for (; order > 0; --order) {
+    const auto k = static_cast<std::size_t>(order);
+    for (std::size_t i = 0; i < n; ++i)
+      off[i] += validated::radius_of(box_.state(i)[k]) * std::pow(h, order);
+    for (std::size_t j = 0; j < n; ++j) {
+      double along = 0;
+      for (std::size_t i = 0; i < n; ++i)
+        along += std::abs(validated::approximate(claim.after.frame(i, j))) * off[i];
+      if (!(along <= room[j])) return order;
+    }
+  }
+  return order;
+}
+
+/// sum_k V_k h^k over the box, for k up to `derivative_order_`.
 void StepCheck::find_derivatives(const ArbBall& length) {
-  const std::vector<Vector> tangents = tangents_along(flow_, box_, order_, bits_, forwards_);
+  const std::vector<Vector> tangents =
+      tangents_along(flow_, box_, derivative_order_, bits_, forwards_);
   for (std::size_t i = 0; i < tangents.size(); ++i) {
     ArbBall value = tangents[i].back();
     for (std::size_t k = tangents[i].size() - 1; k-- > 0;) {
@@ -133,15 +169,16 @@ TraceFault StepCheck::leads_inside(const StepClaim& claim) {
   const std::size_t n = from.dimension();
   BallMatrix inverse;
   if (!invert(to.frame, inverse)) return TraceFault::frame;
-  BallSet image = to;  // of its coordinates those are found now
+  BallSet image = to;  // around the same middle; of its coordinates those are found now
   Vector shift(n);
   for (std::size_t i = 0; i < n; ++i) {
     ArbBall sum;
-    const Vector& series = point_.state(i);
-    for (std::size_t k = series.size(); k-- > 1;) sum = (sum + series[k]) * claim.length;
-    const ArbBall end = from.middle[i] + sum + remainder_[i];
-    image.middle[i] = validated::middle_of(end);
-    shift[i] = end - image.middle[i];
+    const Vector &series = point_.state(i), &over_box = box_.state(i);
+    const auto last = static_cast<std::size_t>(derivative_order_);
+    for (std::size_t k = series.size(); k-- > 1;)
+      sum = (sum + (k > last ? over_box[k] : series[k])) * claim.length;
+    // The middles are near each other: what they differ by is hardly rounded.
+    shift[i] = (from.middle[i] - to.middle[i]) + (sum + remainder_[i]);
   }
   if (!from.start.empty()) {
     BallMatrix carried = validated::product(derivatives_, from.carried);
@@ -160,12 +197,8 @@ TraceFault StepCheck::leads_inside(const StepClaim& claim) {
     if (!bounds_[a].bound(image, static_cast<std::size_t>(claim.columns[a]), hull, time))
       return TraceFault::level;
   }
-  // Around the middle of the next set.
-  Vector moved(n);
-  for (std::size_t i = 0; i < n; ++i) moved[i] = image.middle[i] - to.middle[i];
-  const Vector rest = validated::sum(image.rest, validated::product(inverse, moved));
   for (std::size_t i = 0; i < n; ++i)
-    if (!validated::is_usable(rest[i]) || !validated::contains(to.rest[i], rest[i]))
+    if (!validated::is_usable(image.rest[i]) || !validated::contains(to.rest[i], image.rest[i]))
       return TraceFault::outside;
   return TraceFault::none;
 }
@@ -179,8 +212,13 @@ TraceFault StepCheck::operator()(const StepClaim& claim) {
     if (!stays_in_tube(claim, hull)) return TraceFault::not_enclosed;
     for (LevelBound& bound : bounds_)
       bound.passes(tube_box_, time_of(claim.elapsed + validated::from_zero_to(claim.length)));
+    derivative_order_ = order_of_derivatives(claim);
     find_derivatives(claim.length);
     if (tube_jacobian_) find_whole_derivatives(claim);
+    const TraceFault fault = leads_inside(claim);
+    if (fault == TraceFault::none || derivative_order_ == order_) return fault;
+    derivative_order_ = order_;
+    find_derivatives(claim.length);
     return leads_inside(claim);
   } catch (const std::domain_error&) {
     return TraceFault::no_value;

@@ -36,13 +36,14 @@ class StepCheck {
  private:
   ArbBall time_of(const ArbBall& elapsed) const { return forwards_ ? elapsed : -elapsed; }
   bool stays_in_tube(const StepClaim& claim, const Vector& hull);
+  int order_of_derivatives(const StepClaim& claim) const;
   void find_derivatives(const ArbBall& length);
   void find_whole_derivatives(const StepClaim& claim);
   TraceFault leads_inside(const StepClaim& claim);
 
   const validated::FlowProgram& flow_;
   std::vector<LevelBound>& bounds_;
-  int order_;
+  int order_, derivative_order_ = 0;
   slong bits_;
   bool forwards_;
   ArbSeries point_, box_, tube_;

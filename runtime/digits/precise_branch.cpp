@@ -1,5 +1,7 @@
 #include "runtime/digits/precise_branch.hpp"
 
+#include <cmath>
+
 #include "runtime/evaluate.hpp"
 
 namespace casimir {
@@ -48,6 +50,14 @@ BigFloat PreciseLook::size(const PreciseStep& step) {
   const StepWatch::Watched* const met = look_->met();
   jumps_ = false;
   if (!met) return shorter;
+  // Just behind a branch the double next to the time may lie before it, and the branch seems to be
+  // yet to come: up to a few doubles on there is none where the signs are the same.
+  constexpr double kFewDoubles = 0x1p-44;
+  const bool is_next = std::abs(end - begin) * part <= kFewDoubles * std::abs(begin);
+  if (is_next &&
+      argument(step, met->place, BigFloat()).sign() * argument(step, met->place, shorter).sign() >
+          0)
+    return shorter;
   BigFloat behind = branch(step, met->place, shorter);
   if (met->kind != StepWatch::Kind::side) landing_ = behind;
   return behind;

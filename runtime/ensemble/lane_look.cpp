@@ -37,7 +37,7 @@ struct Seen {
   std::size_t states;
 };
 
-void state_at(const casimir_step* step, double t, double* x) {
+void lane_state_at(const casimir_step* step, double t, double* x) {
   const auto& [all, lane, states] = *static_cast<const Seen*>(step->data);
   const double s = (t - step->t0) / all.unit[lane];
   std::fill_n(x, states, 0.);
@@ -72,7 +72,8 @@ auto LaneLook::look(const casimir_lane_step& trial, std::size_t lane, const Look
   }
   const Seen seen{trial, static_cast<int>(lane), states_};
   const double t0 = trial.t[lane], t1 = t0 + trial.taken[lane] * trial.unit[lane];
-  return looks(casimir_step{t0, t1, x0_.data(), x1_.data(), &state_at, &seen, nullptr, nullptr});
+  return looks(
+      casimir_step{t0, t1, x0_.data(), x1_.data(), &lane_state_at, &seen, nullptr, nullptr});
 }
 
 void LaneLook::operator()(const casimir_lane_step& trial, double* parts) {
@@ -114,8 +115,8 @@ double LaneLook::of_lane(const casimir_lane_step& trial, int lane) {
   }
   const Seen seen{trial, lane, states_};
   const double t0 = trial.t[lane], t1 = t0 + trial.taken[lane] * trial.unit[lane];
-  const casimir_step step{t0, t1, x0_.data(), x1_.data(), &state_at, &seen, nullptr, nullptr};
-  state_at(&step, t1, x1_.data());
+  const casimir_step step{t0, t1, x0_.data(), x1_.data(), &lane_state_at, &seen, nullptr, nullptr};
+  lane_state_at(&step, t1, x1_.data());
   return own.look(step);
 }
 

@@ -4,6 +4,29 @@
 #include <cstdint>
 
 namespace casimir {
+namespace {
+
+/// Horner's scheme, again and again: from a polynomial in s to that in s - from, in each lane.
+/// Where the number of lanes is known a register does them at once.
+template <std::size_t lanes>
+void shift(double* c, int order, const double* from) {
+  for (int done = 0; done < order; ++done)
+    for (int k = order - 1; k >= done; --k) {
+      double* const at = c + static_cast<std::size_t>(k) * lanes;
+      for (std::size_t lane = 0; lane < lanes; ++lane) at[lane] += from[lane] * at[lane + lanes];
+    }
+}
+
+void shift(double* c, int order, const double* from, std::size_t lanes) {
+  if (lanes == 8)
+    shift<8>(c, order, from);
+  else if (lanes == 4)
+    shift<4>(c, order, from);
+  else
+    shift<2>(c, order, from);
+}
+
+}  // namespace
 
 const casimir_lane_step& PartOfStep::take(const casimir_lane_step& whole, std::int64_t which,
                                           std::int64_t parts) {
@@ -31,12 +54,7 @@ const casimir_lane_step& PartOfStep::take(const casimir_lane_step& whole, std::i
   for (std::size_t i = 0; i < states; ++i) {
     double* const c = memory + i * entries;
     std::copy_n(whole.rows[i], entries, c);
-    // Horner's scheme, again and again: the polynomial in s - from.
-    for (int done = 0; done < whole.order; ++done)
-      for (int k = whole.order - 1; k >= done; --k)
-        for (std::size_t lane = 0; lane < lanes; ++lane)
-          c[static_cast<std::size_t>(k) * lanes + lane] +=
-              from[lane] * c[static_cast<std::size_t>(k + 1) * lanes + lane];
+    shift(c, whole.order, from.data(), lanes);
     rows_[i] = c;
   }
   step_.rows = rows_.data();

@@ -92,6 +92,10 @@ class TaylorJet {
     m.weighted(s, s, 0, 0, 0);
     m.begin_order(0);
   };
+  /// Whether it has quotients by whole numbers of its own.
+  static constexpr bool kHasQuotients = requires(const Arithmetic<Number>& m, const Number& a) {
+    m.over(a, 1);
+  };
   void begin_order(int k) const {
     if constexpr (kHasSums) arithmetic_.begin_order(k);
   }
@@ -136,8 +140,13 @@ class TaylorJet {
   /// Coefficient k + 1 of the states, from coefficient k of the rates.
   void advance(int k) {
     if (k == order_) return;
-    for (std::size_t i = 0; i < states_.size(); ++i)
-      states_[i][index(k + 1)] = unit_ * (of(program_.outputs[i])[index(k)] / integer(k + 1));
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      const Number& rate = of(program_.outputs[i])[index(k)];
+      if constexpr (kHasQuotients)
+        states_[i][index(k + 1)] = unit_ * arithmetic_.over(rate, k + 1);
+      else
+        states_[i][index(k + 1)] = unit_ * (rate / integer(k + 1));
+    }
   }
 
   /// sum over j = from..to of u_j v_{k-j}

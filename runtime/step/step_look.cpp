@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
+
+#include "runtime/step/between_places.hpp"
 
 namespace casimir {
 namespace {
@@ -41,9 +44,15 @@ StepLook::StepLook(const StepWatch& watch, std::size_t states, const double* par
                    const double* state)
     : watch_(watch),
       states_(states),
-      evaluate_(watch.arguments()),
       inputs_(watch.arguments().inputs.size()),
-      outputs_(watch.arguments().outputs.size()) {
+      middle_(watch.arguments().outputs.size()),
+      aside_(middle_.size()) {
+  if (!watch.compiled()) evaluate_.emplace(watch.arguments());
+  for (End& end : ends_) {
+    end.x.resize(states);
+    end.values.resize(middle_.size());
+  }
+  for (std::vector<double>& values : sampled_) values.resize(middle_.size());
   begin(parameters, state);
 }
 
@@ -53,6 +62,7 @@ void StepLook::begin(const double* parameters, const double* state) {
   met_ = nullptr;
   for (const StepWatch::Watched& watched : watch_.watched())
     if (all || !watched.faint) watched_.push_back(watched);
+  parameters_ = parameters;
   if (parameters)
     std::copy_n(parameters, inputs_.size() - states_ - 1,
                 inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
@@ -60,26 +70,27 @@ void StepLook::begin(const double* parameters, const double* state) {
   for (std::size_t i = states_; i + 1 < inputs_.size(); ++i)
     negligible_ -= std::log(std::max(std::abs(inputs_[i]), 1.));
   highest_.assign(watched_.size(), -std::numeric_limits<double>::infinity());
-  changes_.assign(watched_.size(), 0);
-  first_.x.clear();
-  last_.x.clear();
+  for (End& end : ends_) end.known = false;
   jump_.reset();
   shift_ = 0.5;
   quiet_for_ = 0;
+  chatter_ = {};
 }
 
-const double* StepLook::arguments(double t, const double* x) {
+void StepLook::arguments(double t, const double* x, double* values) {
+  if (StepWatch::Values* const compiled = watch_.compiled())
+    return compiled(t, x, parameters_, values);
   if (x != inputs_.data()) std::copy_n(x, states_, inputs_.begin());
   inputs_.back() = t;
-  evaluate_(inputs_.data(), outputs_.data());
-  return outputs_.data();
+  (*evaluate_)(inputs_.data(), values);
 }
 
 /// \param exactly  by the dense output, though cubic interpolation may be to be had, which costs a
 ///                 Runge-Kutta method less.
-const double* StepLook::arguments_within(const casimir_step& trial, double part, bool exactly) {
-  if (part <= 0) return arguments(trial.t0, trial.x0);
-  if (part >= 1) return arguments(trial.t1, trial.x1);
+void StepLook::arguments_within(const casimir_step& trial, double part, bool exactly,
+                                double* values) {
+  if (part <= 0) return arguments(trial.t0, trial.x0, values);
+  if (part >= 1) return arguments(trial.t1, trial.x1, values);
   const double h = trial.t1 - trial.t0, t = trial.t0 + part * h;
   double* const x = inputs_.data();
   if (trial.f0 && trial.f1 && !exactly) {
@@ -91,26 +102,16 @@ const double* StepLook::arguments_within(const casimir_step& trial, double part,
   } else {
     trial.dense(&trial, t, x);
   }
-  return arguments(t, x);
-}
-
-double StepLook::value(const casimir_step& trial, const StepWatch::Watched& watched, double part) {
-  return arguments_within(trial, part, true)[watched.place];
+  arguments(t, x, values);
 }
 
 void StepLook::take(End& end, double t, const double* x) {
-  if (!end.x.empty() && end.t == t && std::equal(end.x.begin(), end.x.end(), x, x + states_))
-    return;
-  const double* const values = arguments(t, x);
+  const std::size_t bytes = states_ * sizeof(double);
+  if (end.known && end.t == t && std::memcmp(end.x.data(), x, bytes) == 0) return;
+  arguments(t, x, end.values.data());
+  end.known = true;
   end.t = t;
-  end.x.assign(x, x + states_);
-  end.values.assign(values, values + outputs_.size());
-}
-
-void StepLook::take_ends(const casimir_step& trial) {
-  if (last_.t == trial.t0) std::swap(first_, last_);
-  take(first_, trial.t0, trial.x0);
-  take(last_, trial.t1, trial.x1);
+  std::memcpy(end.x.data(), x, bytes);
 }
 
 double StepLook::place_within() const { return in_the_middle(next(shift_)); }
@@ -119,13 +120,18 @@ void StepLook::sample(const casimir_step& trial) {
   for (std::size_t i = 0; i < kPlaces; ++i) {
     const double between = (static_cast<double>(i) - 0.75 + 0.5 * shift_) / (kPlaces - 2);
     places_[i] = i == 0 ? 0 : i + 1 == kPlaces ? 1 : between;
-    if (i == 0 || i + 1 == kPlaces) {
-      sampled_[i] = i == 0 ? first_.values : last_.values;
-    } else {
-      const double* const values = arguments_within(trial, places_[i], false);
-      sampled_[i].assign(values, values + outputs_.size());
-    }
+    if (i == 0 || i + 1 == kPlaces)
+      sampled_[i] = i == 0 ? first().values : last().values;
+    else
+      arguments_within(trial, places_[i], false, sampled_[i].data());
   }
+}
+
+/// An argument at all the places.
+StepLook::Values StepLook::sampled_at(const StepWatch::Watched& watched) const {
+  Values values;
+  for (std::size_t i = 0; i < kPlaces; ++i) values[i] = sampled_[i][watched.place];
+  return values;
 }
 
 bool StepLook::is_quiet(const casimir_step& trial) {
@@ -146,7 +152,7 @@ bool StepLook::is_quiet(const casimir_step& trial) {
 /// From the beginning to the end.
 bool StepLook::hardly_changes(const StepWatch::Watched& watched) const {
   constexpr double kHardly = 0.1, kHardlyMore = 1;
-  const double u = first_.values[watched.place], v = last_.values[watched.place];
+  const double u = first().values[watched.place], v = last().values[watched.place];
   const double change = std::abs(v - u), least = std::min(std::abs(u), std::abs(v));
   switch (watched.kind) {
     case StepWatch::Kind::unit:
@@ -165,62 +171,80 @@ bool StepLook::hardly_changes(const StepWatch::Watched& watched) const {
 
 /// Whether the ends and one place between them show that nothing is near.
 bool StepLook::is_calm(const casimir_step& trial, double part, const double* middle) {
-  const double* const values = middle ? arguments(trial.t0 + part * (trial.t1 - trial.t0), middle)
-                                      : arguments_within(trial, part, false);
+  if (middle)
+    arguments(trial.t0 + part * (trial.t1 - trial.t0), middle, middle_.data());
+  else
+    arguments_within(trial, part, false, middle_.data());
   bool all = true, may_turn = false;
   for (std::size_t i = 0; i < watched_.size(); ++i) {
-    all = is_calm(watched_[i], i, values) && all;
-    const std::size_t place = watched_[i].place;
-    const auto [least, most] =
-        std::minmax({first_.values[place], values[place], last_.values[place]});
-    changes_[i] = most - least;
-    may_turn = may_turn || (is_exponent(watched_[i]) && std::max(-least, most) > kResolved);
+    const StepWatch::Watched& watched = watched_[i];
+    all = is_calm(watched, i) && all;
+    if (!is_exponent(watched)) continue;
+    const auto [least, most] = range_of(watched);
+    may_turn = may_turn || std::max(-least, most) > kResolved;
   }
   return all && !(may_turn && turns(trial));
+}
+
+/// Between the least and the largest of an argument at the ends of a step and the place between.
+std::pair<double, double> StepLook::range_of(const StepWatch::Watched& watched) const {
+  const double u = first().values[watched.place], v = middle_[watched.place],
+               w = last().values[watched.place];
+  return {std::min(std::min(u, v), w), std::max(std::max(u, v), w)};
 }
 
 /// Whether an exponent leaves the beginning so fast that it may have been somewhere else between
 /// the places at which it is much the same: beyond a peak, or two.
 bool StepLook::turns(const casimir_step& trial) {
   constexpr double kAside = 0x1p-7, kTimes = 4;
-  const double* const aside = arguments_within(trial, kAside, false);
-  for (std::size_t i = 0; i < watched_.size(); ++i) {
-    if (!is_exponent(watched_[i])) continue;
-    const std::size_t place = watched_[i].place;
-    const double slope = std::abs(aside[place] - first_.values[place]) / kAside;
-    if (!(slope < kTimes * changes_[i] + kResolved)) return true;
+  arguments_within(trial, kAside, false, aside_.data());
+  for (const StepWatch::Watched& watched : watched_) {
+    if (!is_exponent(watched)) continue;
+    const auto [least, most] = range_of(watched);
+    const std::size_t place = watched.place;
+    const double slope = std::abs(aside_[place] - first().values[place]) / kAside;
+    if (!(slope < kTimes * (most - least) + kResolved)) return true;
   }
   return false;
 }
 
-bool StepLook::is_calm(const StepWatch::Watched& watched, std::size_t which, const double* middle) {
-  std::array<double, 3> u = {first_.values[watched.place], middle[watched.place],
-                             last_.values[watched.place]};
-  if (std::ranges::any_of(u, [](double value) { return std::isnan(value); })) return false;
-  const auto [least, most] = std::ranges::minmax(u);
+bool StepLook::is_calm(const StepWatch::Watched& watched, std::size_t which) {
+  const auto [least, most] = range_of(watched);
+  // No number, or infinities of both signs.
+  const std::size_t place = watched.place;
+  const double sum = first().values[place] + middle_[place] + last().values[place];
+  if (std::isnan(sum)) return false;
   const double change = most - least;
+  // Of one that turns on the way: a motion that sets out slowly may be as far on the other side of
+  // a peak at the end, and about as far before it at the place between.
+  const double swing = std::abs(middle_[place] - first().values[place]) +
+                       std::abs(last().values[place] - middle_[place]);
   switch (watched.kind) {
     case StepWatch::Kind::unit:
       return std::max(std::abs(least), std::abs(most)) + change < 1;
     case StepWatch::Kind::exponent:
-      return change < kResolved || most + change < negligible_ || least - change > beyond_;
+      return swing < kResolved || most + 2 * swing < negligible_ || least - swing > beyond_;
     case StepWatch::Kind::both:
-      return change < kResolved || std::max(least, -most) - change > beyond_;
+      return swing < kResolved || std::max(least, -most) - swing > beyond_;
     case StepWatch::Kind::power: {
       const double largest = std::max(std::abs(least), std::abs(most));
-      const double below = largest - change;
+      const double below = largest - swing;
       highest_[which] = std::max(highest_[which], watched.exponent * std::log(largest));
       return (below > 0 && watched.exponent * std::log(largest / below) < kResolved) ||
-             watched.exponent * std::log(largest + change) < highest_[which] + kNegligiblePower;
+             watched.exponent * std::log(largest + swing) < highest_[which] + kNegligiblePower;
     }
     case StepWatch::Kind::front:
-      return 2 * change < kResolved ||
-             2 * (change - std::min(std::abs(least), std::abs(most))) < negligible_;
+      return 2 * swing < kResolved ||
+             2 * (2 * swing - std::min(std::abs(least), std::abs(most))) < negligible_;
     case StepWatch::Kind::phase:
       return change < kTurn;
-    case StepWatch::Kind::divisor:
-      return least * most > 0 && change < std::min(std::abs(least), std::abs(most)) &&
-             watched.exponent * std::abs(std::log(most / least)) < kResolved;
+    case StepWatch::Kind::divisor: {
+      const double near = std::min(std::abs(least), std::abs(most));
+      if (!(least * most > 0 && change < near)) return false;
+      // log(1 + a) <= a
+      return watched.exponent * change < kResolved * near ||
+             watched.exponent * std::log1p(change / near) < kResolved;
+    }
     default:
       return change < std::min(std::abs(least), std::abs(most));
   }
@@ -230,11 +254,12 @@ bool StepLook::is_calm(const StepWatch::Watched& watched, std::size_t which, con
 bool StepLook::passes_pole() const {
   return std::ranges::any_of(watched_, [&](const StepWatch::Watched& watched) {
     return watched.kind == StepWatch::Kind::divisor &&
-           first_.values[watched.place] * last_.values[watched.place] < 0;
+           first().values[watched.place] * last().values[watched.place] < 0;
   });
 }
 
 double StepLook::within(const casimir_step& trial, const double* middle) {
+  if (chatter_.goes_on(trial.t0)) return 0;
   const double h = std::abs(trial.t1 - trial.t0);
   const double least = 64 * std::numeric_limits<double>::epsilon() * std::abs(trial.t0);
   if (h <= least) return ends_at_poles_ && passes_pole() ? 0 : 1;
@@ -279,6 +304,7 @@ double StepLook::within(const casimir_step& trial, const double* middle) {
     met_ = branches ? &watched : nullptr;
   }
   if (part == 1) return ends_behind_jump(trial) ? 2 : 1;
+  if (met_) chatter_.cut();
   part = std::max(part, std::min(0.9, least / h));
   jump_ = met_ && met_->kind != StepWatch::Kind::side
               ? std::optional(trial.t0 + part * (trial.t1 - trial.t0))
@@ -296,17 +322,13 @@ bool StepLook::ends_behind_jump(const casimir_step& trial) const {
 /// place around them. Its logarithm would not do: it changes by any amount where the base passes
 /// zero, and there the power is nothing.
 double StepLook::resolved_power(const StepWatch::Watched& watched, std::size_t which) {
-  std::array<double, kPlaces> b;
-  for (std::size_t i = 0; i < kPlaces; ++i) b[i] = sampled_[i][watched.place];
+  const Values b = sampled_at(watched);
   if (!std::ranges::all_of(b, [](double value) { return std::isfinite(value); })) return 1;
   const auto power = [&](double base) { return watched.exponent * std::log(base); };
   double& highest = highest_[which];
   for (const double value : b) highest = std::max(highest, power(std::abs(value)));
-  const auto change = [&](std::size_t i) { return std::abs(b[i + 1] - b[i]); };
   for (std::size_t i = 0; i + 1 < kPlaces; ++i) {
-    double most = change(i);
-    if (i > 0) most = std::max(most, change(i - 1));
-    if (i + 2 < kPlaces) most = std::max(most, change(i + 1));
+    const double most = reach(places_, b, i);
     const double size = std::max(std::abs(b[i]), std::abs(b[i + 1]));
     const double seen = std::max(power(size), highest + kLeastPower), above = power(size + most);
     if (above > highest + kNegligiblePower && above - seen > kResolved) return kShorter;
@@ -320,11 +342,10 @@ double StepLook::resolved(const StepWatch::Watched& watched, std::size_t which) 
   using Kind = StepWatch::Kind;
   const bool is_divisor = watched.kind == Kind::divisor;
   const double times = watched.kind == Kind::front ? 2 : 1;
-  std::array<double, kPlaces> u;
-  for (std::size_t i = 0; i < kPlaces; ++i) {
-    const double value = sampled_[i][watched.place];
-    u[i] = is_divisor ? -watched.exponent * std::log(std::abs(value)) : times * value;
-    if (std::isnan(u[i]) || u[i] == std::numeric_limits<double>::infinity()) return 1;
+  Values u = sampled_at(watched);
+  for (double& value : u) {
+    value = is_divisor ? -watched.exponent * std::log(std::abs(value)) : times * value;
+    if (std::isnan(value) || value == std::numeric_limits<double>::infinity()) return 1;
   }
   double negligible = negligible_;
   if (is_divisor) {
@@ -334,15 +355,12 @@ double StepLook::resolved(const StepWatch::Watched& watched, std::size_t which) 
     negligible = highest + kNegligiblePower;
     for (double& value : u) value = std::max(value, highest + kLeastPower);
   }
-  std::array<double, kPlaces - 1> change;
-  for (std::size_t i = 0; i + 1 < kPlaces; ++i) change[i] = std::abs(u[i + 1] - u[i]);
+  const Values before = u;
   // The exponents of what is to be resolved are not above these.
   if (watched.kind == Kind::front || watched.kind == Kind::both)
     for (double& value : u) value = watched.kind == Kind::both ? std::abs(value) : -std::abs(value);
   for (std::size_t i = 0; i + 1 < kPlaces; ++i) {
-    double most = change[i];
-    if (i > 0) most = std::max(most, change[i - 1]);
-    if (i + 2 < kPlaces) most = std::max(most, change[i + 1]);
+    const double most = reach(places_, before, i);
     const bool beyond = !is_divisor && std::min(u[i], u[i + 1]) - most > beyond_;
     if (most > kResolved && std::max(u[i], u[i + 1]) + most > negligible && !beyond)
       return kShorter;
@@ -350,34 +368,18 @@ double StepLook::resolved(const StepWatch::Watched& watched, std::size_t which) 
   return 1;
 }
 
-/// The least of the parabola through three places, from this one on, if it lies between them and
-/// comes closer to zero than the middle one.
-std::optional<StepLook::Dip> StepLook::dip_at(const StepWatch::Watched& watched,
-                                              std::size_t i) const {
-  const auto at = [&](std::size_t k) { return sampled_[k][watched.place]; };
-  const double a = places_[i], b = places_[i + 1], c = places_[i + 2];
-  const double left = (at(i + 1) - at(i)) / (b - a), right = (at(i + 2) - at(i + 1)) / (c - b);
-  const double bend = (right - left) / (c - a);
-  if (!(bend * at(i + 1) > 0)) return std::nullopt;
-  const double vertex = (a + b) / 2 - left / (2 * bend);
-  if (!(vertex > a && vertex < c)) return std::nullopt;
-  return Dip{vertex, at(i) + left * (vertex - a) + bend * (vertex - a) * (vertex - b)};
-}
-
 /// What is divided by is about that parabola through three places which comes nearest to zero: a
 /// quotient that becomes far larger than at these places is not resolved.
 double StepLook::up_to_dip(const StepWatch::Watched& watched) const {
-  const auto at = [&](std::size_t i) { return sampled_[i][watched.place]; };
-  for (std::size_t i = 0; i + 1 < kPlaces; ++i) {
-    if (at(i) * at(i + 1) < 0) return kShorter;
-  }
+  const Values u = sampled_at(watched);
+  for (std::size_t i = 0; i + 1 < kPlaces; ++i)
+    if (u[i] * u[i + 1] < 0) return kShorter;
   for (std::size_t i = 0; i + 2 < kPlaces; ++i) {
-    const auto dip = dip_at(watched, i);
+    const auto dip = dip_at(places_, u, i);
     if (!dip) continue;
-    const double least = dip->value;
-    const double near = std::min({std::abs(at(i)), std::abs(at(i + 1)), std::abs(at(i + 2))});
-    const bool vanishes = !(least * at(i + 1) > 0);
-    if (vanishes || watched.exponent * std::log(near / std::abs(least)) > kResolved)
+    const double near = std::min({std::abs(u[i]), std::abs(u[i + 1]), std::abs(u[i + 2])});
+    const bool vanishes = !(dip->value * u[i + 1] > 0);
+    if (vanishes || watched.exponent * std::log(near / std::abs(dip->value)) > kResolved)
       return kShorter;
   }
   return 1;
@@ -385,11 +387,8 @@ double StepLook::up_to_dip(const StepWatch::Watched& watched) const {
 
 double StepLook::part_of_turn(const StepWatch::Watched& watched) const {
   constexpr double kLeast = 1e-3;
-  double least = sampled_[0][watched.place], most = least;
-  for (const std::vector<double>& values : sampled_) {
-    least = std::min(least, values[watched.place]);
-    most = std::max(most, values[watched.place]);
-  }
+  const Values u = sampled_at(watched);
+  const auto [least, most] = std::ranges::minmax(u);
   const double change = most - least;
   return change < kTurn ? 1 : std::max(0.9 * kTurn / change, kLeast);
 }
@@ -409,7 +408,8 @@ double StepLook::up_to_branch(const casimir_step& trial, const StepWatch::Watche
   const bool turns = watched.kind == StepWatch::Kind::turn;
   // A jump on whose wrong side rounding has put the start comes at once.
   const double relative = watched.kind == StepWatch::Kind::side ? kZero : 0;
-  const auto at = [&](std::size_t i) { return sampled_[i][watched.place]; };
+  const Values sampled = sampled_at(watched);
+  const auto at = [&](std::size_t i) { return sampled[i]; };
   double size = 0;
   for (std::size_t i = 0; i + 1 < kPlaces; ++i) {
     size = std::max({size, std::abs(at(i)), std::abs(at(i + 1))});
@@ -431,7 +431,7 @@ double StepLook::up_to_branch(const casimir_step& trial, const StepWatch::Watche
     // place.
     if (i + 2 >= kPlaces || std::abs(at(i + 1)) <= zero) continue;
     const double a = places_[i], b = places_[i + 1], c = places_[i + 2];
-    const auto dip = dip_at(watched, i);
+    const auto dip = dip_at(places_, sampled, i);
     if (!dip) continue;
     const auto [vertex, least] = *dip;
     // Near zero for what is one of the places may be next to it already.

@@ -1,5 +1,7 @@
 #include "runtime/step/step_watch.hpp"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -264,6 +266,14 @@ bool StepWatch::looks(const double* parameters, const double* state) const {
   return !std::ranges::all_of(watched_, is_faint) || is_extreme(parameters, state);
 }
 
+void StepWatch::take_compiled(void* object, const std::shared_ptr<void>& open) {
+  auto* const count = reinterpret_cast<int (*)()>(dlsym(object, "casimir_watched_count"));
+  auto* const values = reinterpret_cast<Values*>(dlsym(object, "casimir_watched"));
+  if (!count || !values || count() != static_cast<int>(arguments_.outputs.size())) return;
+  compiled_ = values;
+  open_ = open;
+}
+
 /// Which lines the arguments depend on that are watched, or are so whatever the numbers.
 std::vector<bool> StepWatch::within_arguments(bool faint_too) const {
   std::vector<bool> within(arguments_.code.size(), false);
@@ -404,8 +414,18 @@ void StepWatch::watch(Kind kind, const std::vector<int>& lines, double exponent,
   watched_.push_back({kind, arguments_.outputs.size(), exponent, faint});
   for (const int line : lines) {
     arguments_.outputs.push_back(line);
-    arguments_.output_names.emplace_back();
+    arguments_.output_names.push_back("u" + std::to_string(arguments_.outputs.size()));
   }
+}
+
+std::shared_ptr<const StepWatch> watch_of_object(const Program& rhs, const std::string& path) {
+  auto watch = std::make_shared<StepWatch>(rhs);
+  if (watch->empty()) return nullptr;
+  const std::shared_ptr<void> object(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL), [](void* open) {
+    if (open) dlclose(open);
+  });
+  if (object) watch->take_compiled(object.get(), object);
+  return watch;
 }
 
 }  // namespace casimir

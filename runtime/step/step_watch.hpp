@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "runtime/program.hpp"
@@ -53,6 +55,15 @@ class StepWatch {
   const std::vector<Watched>& watched() const { return watched_; }
   /// The arguments, as functions of the inputs of the right-hand side.
   const Program& arguments() const { return arguments_; }
+  /// Writes the values of the outputs of `arguments`.
+  using Values = void(double t, const double* x, const double* p, double* values);
+  /// Compiled code for `arguments`; or null.
+  Values* compiled() const { return compiled_; }
+  /// Takes compiled code in the place of the program.
+  /// \param object  a loaded module. Where it has no such code (`casimir_watched` of module_abi.h),
+  ///                or for another number of arguments, nothing happens.
+  /// \param open    what keeps it open; null: it is open for as long as this is used.
+  void take_compiled(void* object, const std::shared_ptr<void>& open = nullptr);
   /// The logarithm of all large numbers in the equations together: what is multiplied by them is
   /// not negligible for being small.
   double log_of_factors() const { return log_of_factors_; }
@@ -69,8 +80,16 @@ class StepWatch {
 
   std::vector<Watched> watched_;
   Program arguments_;
+  Values* compiled_ = nullptr;
+  std::shared_ptr<void> open_;  ///< what keeps that loaded
   double log_of_factors_ = 0, log_of_extremes_ = 0;
   std::size_t states_;
 };
+
+/// What the steps of a compiled object are watched for, with the code for that in it, if there is
+/// any; null where nothing is watched.
+/// \param rhs   the right-hand side.
+/// \param path  of the shared object, with a slash in it.
+std::shared_ptr<const StepWatch> watch_of_object(const Program& rhs, const std::string& path);
 
 }  // namespace casimir

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/program/number.hpp"
+#include "runtime/validated/linear.hpp"
 #include "runtime/validated/mid_rad.hpp"
 
 namespace casimir::validated {
@@ -110,6 +111,23 @@ template <>
 inline ArbBall ball_from<ArbBall>(const ArbBall& ball) {
   return ball;
 }
+
+/// In place, by Arb.
+template <>
+class ProductSums<ArbBall> {
+ public:
+  explicit ProductSums(std::size_t) {}
+  void begin(const ArbBall& a) { a_ = a; }
+  void begin(double a) { arb_set_d(a_.raw(), a); }
+  void add(ArbBall& sum, const ArbBall& b) const {
+    arb_addmul(sum.raw(), a_.raw(), b.raw(), ArbBall::precision());
+  }
+  void add(ArbBall& sum, double b) const { add(sum, ArbBall(b)); }
+  void finish(ArbBall&) const {}
+
+ private:
+  ArbBall a_;
+};
 
 }  // namespace casimir::validated
 

@@ -11,6 +11,7 @@
 
 #include "runtime/evaluate.hpp"
 #include "runtime/validated/arb_ball.hpp"
+#include "runtime/validated/flow_series.hpp"
 #include "runtime/validated/frame.hpp"
 
 namespace casimir::validated {
@@ -55,6 +56,26 @@ std::vector<Ball> corrected(std::vector<Ball> y, const Frame& frame) {
   return y;
 }
 
+/// The derivatives of the states of a set by the states that they began as: M + B R with the frame
+/// B of the set.
+template <class Ball>
+struct Slopes {
+  Matrix<Ball> middle;  ///< M, without radius
+  Matrix<Ball> rest;    ///< R
+};
+
+/// The same for each column of a matrix.
+template <class Ball>
+Matrix<Ball> corrected(Matrix<Ball> y, const Frame& frame) {
+  const Ball defect(MidRad(0, frame.defect));
+  for (std::size_t j = 0; j < y.columns; ++j) {
+    Ball size;
+    for (std::size_t i = 0; i < y.rows; ++i) size = size + symmetric(y(i, j));
+    for (std::size_t i = 0; i < y.rows; ++i) y(i, j) = y(i, j) + defect * size;
+  }
+  return y;
+}
+
 /// A program that is evaluated again and again: its constants are made into balls once, at the
 /// precision of the thread that makes it.
 template <class Ball>
@@ -91,25 +112,6 @@ class BallFunction {
   std::vector<Ball> values_, outputs_;
 };
 
-/// Whether the program is a polynomial in its inputs: analytic everywhere.
-inline bool is_polynomial(const Program& program) {
-  std::vector<bool> constant;
-  for (const Instruction& line : program.code) {
-    const bool literal = is_literal(line);
-    bool fixed = literal;
-    if (!literal && line.op != Op::input) {
-      fixed = constant[static_cast<std::size_t>(line.a)] &&
-              (line.b < 0 || constant[static_cast<std::size_t>(line.b)]);
-      const bool ring = line.op == Op::add || line.op == Op::sub || line.op == Op::mul ||
-                        line.op == Op::neg ||
-                        (line.op == Op::div && constant[static_cast<std::size_t>(line.b)]);
-      if (!ring && !fixed) return false;
-    }
-    constant.push_back(fixed);
-  }
-  return true;
-}
-
 /// Thins a set with one integral.
 ///
 /// Let I be constant along the solutions, as it is as long as they stay where it is analytic: that
@@ -137,12 +139,26 @@ class Contractor {
   bool has_contracted() const { return contracted_; }
 
   /// Where solutions begin: at that point, or from m in m + s.
-  void begin(const std::vector<ArbBall>& point, const std::vector<Ball>& box, bool is_point) {
+  void begin(const std::vector<ArbBall>& point, const std::vector<Ball>& box) {
     try {
       const BallPrecision precision(bits_);
       exact_value_.emplace(integral_.value);
       level_ = (*exact_value_)(point, ArbBall())[0];
-      if (!is_point) first_gradient_ = gradient_over(box, Ball());
+      first_gradient_ = gradient_over(box, Ball());
+    } catch (const std::domain_error&) {
+      usable_ = false;
+    }
+  }
+
+  /// The same where every solution that counts has a value of the integral within `level`: so
+  /// c does not depend on s, of which there are `starts`.
+  void begin_on(const ArbBall& level, std::size_t starts) {
+    usable_ = true;
+    try {
+      const BallPrecision precision(bits_);
+      if (!exact_value_) exact_value_.emplace(integral_.value);
+      level_ = level;
+      first_gradient_.assign(starts, Ball());
     } catch (const std::domain_error&) {
       usable_ = false;
     }
@@ -184,30 +200,64 @@ class Contractor {
     } catch (const std::domain_error&) {
       return true;
     }
-    for (std::size_t k = 0; k < set.start.size(); ++k) {
-      Ball factor = first_gradient_[k];
-      for (std::size_t i = 0; i < gradient.size(); ++i)
-        factor = factor - gradient[i] * set.carried(i, k);
-      right = right + factor * set.start[k];
+    if (!set.start.empty()) {
+      const std::vector<Ball> now = product_of(gradient, set.carried);
+      for (std::size_t k = 0; k < set.start.size(); ++k)
+        right = right + (first_gradient_[k] - now[k]) * set.start[k];
     }
-    Ball divisor;
-    for (std::size_t j = 0; j < set.rest.size(); ++j) {
-      Ball factor;
-      for (std::size_t i = 0; i < gradient.size(); ++i)
-        factor = factor + gradient[i] * Ball(set.frame.columns(i, j));
-      if (j == which)
-        divisor = factor;
-      else
-        right = right - factor * set.rest[j];
-    }
+    const std::vector<Ball> factors = product_of(gradient, set.frame.columns);
+    for (std::size_t j = 0; j < set.rest.size(); ++j)
+      if (j != which) right = right - factors[j] * set.rest[j];
+    const Ball& divisor = factors[which];
     if (!is_usable(right) || !is_usable(divisor) || contains_zero(divisor)) return true;
     contracted_ = true;
     return intersect(set.rest[which], right / divisor);
   }
 
+  /// Makes row `which` of the R of derivatives smaller. I(x(t)) = I(x(0)) for all starts near each
+  /// start of the run, since I is analytic on a neighbourhood of the way: so, with the gradients g
+  /// at x(t) and g_0 at x(0), g W = g_0 for W = M + B R, an equation for each entry of the row.
+  /// After a `begin`, and for the set at the same time.
+  /// \param hull  contains the set.
+  /// \return      false where no derivative of the set obeys it, which cannot be of an integral.
+  bool contract_slopes(Slopes<Ball>& slopes, const Doubleton<Ball>& set, std::size_t which,
+                       const std::vector<Ball>& hull, const Ball& time) {
+    std::vector<Ball> gradient;
+    try {
+      gradient = gradient_over(hull, time);
+    } catch (const std::domain_error&) {
+      return true;
+    }
+    const std::vector<Ball> factors = product_of(gradient, set.frame.columns);
+    if (!is_usable(factors[which]) || contains_zero(factors[which])) return true;
+    for (std::size_t j = 0; j < slopes.rest.columns; ++j) {
+      Ball right = first_gradient_[j];
+      for (std::size_t i = 0; i < gradient.size(); ++i)
+        right = right - gradient[i] * slopes.middle(i, j);
+      for (std::size_t b = 0; b < factors.size(); ++b)
+        if (b != which) right = right - factors[b] * slopes.rest(b, j);
+      if (is_usable(right) && !intersect(slopes.rest(which, j), right / factors[which]))
+        return false;
+    }
+    return true;
+  }
+
  private:
   void is_analytic_on(const std::vector<Ball>& box, const Ball& time) {
     if (!is_usable(value_(box, time)[0])) throw std::domain_error("no value");
+  }
+
+  /// g A
+  template <class Number>
+  static std::vector<Ball> product_of(const std::vector<Ball>& g, const Matrix<Number>& a) {
+    std::vector<Ball> result(a.columns);
+    ProductSums<Ball> sums(a.rows);
+    for (std::size_t i = 0; i < a.rows; ++i) {
+      sums.begin(g[i]);
+      for (std::size_t j = 0; j < a.columns; ++j) sums.add(result[j], a(i, j));
+    }
+    for (Ball& entry : result) sums.finish(entry);
+    return result;
   }
 
   std::vector<Ball> gradient_over(const std::vector<Ball>& box, const Ball& time) {
@@ -232,7 +282,7 @@ class Contractor {
   BallFunction<Ball> value_, gradient_;
   std::optional<BallFunction<ArbBall>> exact_value_;
   ArbBall level_;
-  std::vector<Ball> first_gradient_;
+  std::vector<Ball> first_gradient_;  ///< g_0, over the starts
 };
 
 }  // namespace casimir::validated

@@ -20,6 +20,30 @@ struct Passage {
   bool upwards = true;       ///< s goes from negative to positive while the run goes on
 };
 
+/// A stretch of a step, in shares of its length.
+struct Share {
+  double from, to;
+  double middle() const { return 0.5 * (from + to); }
+};
+
+/// Contains a share with both ends, also where its middle is rounded.
+inline MidRad ball_of(const Share& share) {
+  const double middle = share.middle();
+  return {middle, upwards(std::max(share.to - middle, middle - share.from))};
+}
+
+/// Contains middle - y for each y within `radius` of a number of which `shift` is the double that
+/// is nearest, where the middle is a share.
+///
+/// Five sums and roundings of numbers below 1 + |shift| + radius are off by 2^-53 of that each; the
+/// margin has 2^-49 of it.
+inline Share shifted_share(double middle, double shift, double radius) {
+  constexpr double kMargin = 0x1p-49;
+  const double centre = middle - shift,
+               reach = upwards(radius + kMargin * std::max(1., std::abs(shift) + radius));
+  return {centre - reach, centre + reach};
+}
+
 /// Finds all zeros of s along all solutions of a set.
 ///
 /// The time is divided until on each part either s is certain not to vanish, or the derivative of s
@@ -64,6 +88,14 @@ class Crossings {
     return no_zero(sign);
   }
 
+  /// After a step, with the set at its end: ends a stretch where s has a sign there, so that the
+  /// zero in it is among those that are found. \return  as `step`.
+  bool settle(const Vector& box, const Ball& elapsed) {
+    if (!open_) return true;
+    const int sign = sign_of(values(box, elapsed).first);
+    return sign == 0 || no_zero(sign);
+  }
+
   /// All of them, in their order.
   const std::vector<Passage<Ball>>& found() const { return found_; }
   /// Whether s may be zero at the start: a zero there, or so near that the start cannot be told
@@ -81,22 +113,14 @@ class Crossings {
     Lohner<Ball>& lohner;
     const Ball &elapsed, &h;
   };
-  struct Share {
-    double from, to;
-    double middle() const { return 0.5 * (from + to); }
-  };
   struct Stretch {
     int sign;  ///< of the derivative of s by the elapsed time
     Ball from;
     std::optional<Passage<Ball>> passage;
   };
   static constexpr double kShortest = 0x1p-24;
-  /// More than rounding changes a share.
-  static constexpr double kShareRounding = 0x1p-49;
 
-  static Ball ball_of(const Share& share) {
-    return Ball(MidRad(share.middle(), 0.5 * (share.to - share.from)));
-  }
+  static Ball ball_of(const Share& share) { return Ball(validated::ball_of(share)); }
 
   int sign_of(const Ball& value) const {
     if (!is_usable(value) || contains_zero(value)) return 0;
@@ -188,8 +212,8 @@ class Crossings {
       if (sign_of(rate) != 0) {
         const Ball by = value / rate;
         if (!is_usable(by)) return next;
-        const double centre = middle - approximate(by), reach = radius_of(by) + kShareRounding;
-        next = {std::max(next.from, centre - reach), std::min(next.to, centre + reach)};
+        const Share zero = shifted_share(middle, approximate(by), radius_of(by));
+        next = {std::max(next.from, zero.from), std::min(next.to, zero.to)};
         if (!(next.from <= next.to)) return std::nullopt;
       }
       const bool done = next.to - next.from > 0.9 * (share.to - share.from);

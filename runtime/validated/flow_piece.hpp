@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/program/program_series.hpp"
+#include "runtime/validated/flow_series.hpp"
+#include "runtime/validated/series_sums.hpp"
 #include "runtime/validated/tangents.hpp"
 
 namespace casimir::validated {
@@ -39,11 +40,11 @@ class FlowPiece {
       : order_(order),
         forwards_(forwards),
         unit_(forwards ? 1. : -1.),
-        point_(flow.rates, {}, {}, order),
-        box_(flow.both, {}, {}, order),
-        tube_(flow.rates, {}, {}, order + 1),
-        tangents_(flow.entries, flow.dimension(), static_cast<std::size_t>(order)) {
-    for (const int line : flow.entry_lines) jacobian_.push_back(&box_.series_of(line));
+        start_(flow.rates, flow.both, order),
+        tube_(flow.rates, order + 1),
+        tangents_(flow.entries, flow.dimension(), static_cast<std::size_t>(order)),
+        flow_(flow) {
+    for (const int line : flow.entry_lines) jacobian_.push_back(&start_.series_of(line));
   }
 
   /// Expands the solutions from a point and from a box around it.
@@ -51,8 +52,9 @@ class FlowPiece {
   /// \throws std::domain_error  where the equations are not certain to be analytic.
   void expand(const Ball& elapsed, const Vector& middle, const Vector& box) {
     elapsed_ = elapsed;
-    centre_ = &point_.expand(unit_ * elapsed, middle, unit_);
-    all_ = &box_.expand(unit_ * elapsed, box, unit_);
+    start_.expand(unit_ * elapsed, middle, box, unit_);
+    centre_ = &start_.of_point();
+    all_ = &start_.of_box();
   }
 
   /// log2 of a step after which the last terms are 2^log2_error of the first ones, and of the size
@@ -63,12 +65,13 @@ class FlowPiece {
   };
   Reach reach(double log2_error) const {
     std::vector<double> sizes(static_cast<std::size_t>(order_) + 1, -INFINITY);
-    for (std::size_t i = 0; i < all_->size(); ++i) {
-      // What is zero but for a radius that covers underflow is zero.
-      if (log2_magnitude((*all_)[i][0]) > kNothing)
-        sizes[0] = std::max(sizes[0], log2_magnitude((*all_)[i][0]));
-      for (std::size_t k = 1; k < sizes.size(); ++k)
-        sizes[k] = std::max(sizes[k], log2_magnitude((*all_)[i][k]));
+    for (std::size_t k = 0; k < sizes.size(); ++k) {
+      if (k > 2 && k + 2 < sizes.size()) continue;
+      for (const auto& series : *all_) {
+        const double size = log2_magnitude(series[k]);
+        // What is zero but for a radius that covers underflow is zero.
+        if (k > 0 || size > kNothing) sizes[k] = std::max(sizes[k], size);
+      }
     }
     Reach result{-INFINITY, sizes[0]};
     const auto order = static_cast<std::size_t>(order_);
@@ -107,16 +110,10 @@ class FlowPiece {
   ///          where the coefficients over D cannot be formed.
   double encloses(const Ball& h, const Ball& room) {
     const std::size_t n = all_->size();
-    Vector tube(n);
     const Ball some_time = from_zero_to(h);
-    for (std::size_t i = 0; i < n; ++i) tube[i] = widened((*all_)[i][0], room);
-    Ball power = h;
-    for (int k = 1; k <= order_; ++k) {
-      const Ball up_to = from_zero_to(power);
-      for (std::size_t i = 0; i < n; ++i)
-        tube[i] = tube[i] + (*all_)[i][static_cast<std::size_t>(k)] * up_to;
-      power = power * h;
-    }
+    TubeSum<Ball> sum(*all_, h, static_cast<std::size_t>(order_), room);
+    const Ball& power = sum.power;
+    Vector& tube = sum.tube;
     for (const Ball& x : tube)
       if (!is_usable(x)) return INFINITY;
     double worst = -INFINITY;
@@ -148,31 +145,121 @@ class FlowPiece {
   /// x(t; m) - m for a time t in [0, h], with what x_{N+1} leaves.
   Vector displacement(const Ball& t, bool without_remainder = false) const {
     Vector result = without_remainder ? Vector(rest_.size()) : rest_;
-    for (std::size_t i = 0; i < result.size(); ++i) {
-      const auto& series = (*centre_)[i];
-      for (int k = order_; k > 0; --k)
-        result[i] = result[i] * t + series[static_cast<std::size_t>(k)];
-      result[i] = result[i] * t;
-    }
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[i] = horner((*centre_)[i], result[i], t, static_cast<std::size_t>(order_));
     return result;
   }
 
-  /// The derivatives, before `derivative` is asked for any time.
+  /// The derivatives of the Taylor polynomial, before `derivative` is asked for any time.
   void expand_tangents() { tangents_.expand(jacobian_, forwards_); }
   Matrix<Ball> derivative(const Ball& t) const { return tangents_.at(t); }
+
+  /// Encloses the derivatives W(t) of the solutions themselves by the states that they begin with,
+  /// for every t in [0, h], after `encloses` has said yes to h and the tangents are expanded.
+  ///
+  /// Theorem. W is the solution of W' = J(x(t)) W, W(0) = I. Let Q contain V_{N+1}(y) for every y
+  /// of the tube D, where V_k(y) are the Taylor coefficients of the derivatives of the solution
+  /// that begins in y (at any time of the step), and let R > 0 be a matrix of rooms. If, entry by
+  /// entry and with P = sum_{k <= N} V_k(X) [0, h]^k,
+  ///   |Q (P + [-R, R])| h^{N+1} <= 3/4 R,
+  /// then W(t) is in P + [-R, R] for all t in [0, h], and
+  ///   W(t) in sum_{k <= N} V_k(X) t^k + Q (P + [-R, R]) t^{N+1}.
+  /// Proof. The equation is linear and x(t) stays in D, where J is analytic: so W exists on [0, h].
+  /// From x(s) on the solution is the flow of x(s), so that W(s + t) = V(t; x(s)) W(s): the Taylor
+  /// coefficient k of W at s is V_k(x(s)) W(s). Taylor's theorem for each entry, with an s of its
+  /// own in [0, t], gives the last line as long as W(s) is in P + [-R, R]. Let T be the supremum of
+  /// the times up to which it is; there W is at least R/4 > 0 from the faces, so that T = h.
+  /// The rooms follow from the condition itself, by iteration, and need no norm: so states of very
+  /// different sizes do not spoil one another.
+  /// \return  false where no room is found: the step is too long.
+  bool enclose_derivatives(const Ball& h) {
+    constexpr int kRounds = 6;
+    if (!expand_over_tube(h)) return false;
+    const Matrix<Ball> last = tube_tangents_->coefficient(static_cast<std::size_t>(order_) + 1);
+    Ball power = h;
+    for (int k = 0; k < order_; ++k) power = power * h;
+    const Matrix<Ball> sum = derivatives_up_to(h);
+    const Ball floor = power_of_two<Ball>(kFloor), share(0.75), twice(2.);
+    Matrix<Ball> room(sum.rows, sum.columns);
+    for (int round = 0; round < kRounds; ++round) {
+      Matrix<Ball> all = sum;
+      for (std::size_t i = 0; i < all.entries.size(); ++i)
+        all.entries[i] = widened(all.entries[i], room.entries[i]);
+      derivative_rest_ = product(last, all);
+      bool holds = round > 0;
+      for (std::size_t i = 0; i < all.entries.size(); ++i) {
+        const Ball rest = derivative_rest_.entries[i] * power;
+        if (!is_usable(rest)) return false;
+        holds = holds && contains(room.entries[i] * share, rest);
+        if (!holds) room.entries[i] = symmetric(symmetric(rest) * twice + floor);
+      }
+      if (holds) return true;
+    }
+    return false;
+  }
+
+  /// W(t) for a time t in [0, h], after `enclose_derivatives` has said yes.
+  Matrix<Ball> whole_derivative(const Ball& t, bool without_remainder = false) const {
+    Matrix<Ball> result = tangents_.at(t);
+    if (without_remainder) return result;
+    Ball power = t;
+    for (int k = 0; k < order_; ++k) power = power * t;
+    for (std::size_t i = 0; i < result.entries.size(); ++i)
+      result.entries[i] = result.entries[i] + derivative_rest_.entries[i] * power;
+    return result;
+  }
 
  private:
   /// log2 of what is taken for zero, where the length of a step is guessed.
   static constexpr double kNothing = -950;
   /// log2 of the least excess that is told.
   static constexpr double kBeyond = 0.01;
+  /// log2 of what rooms of derivatives are at least: far above what may have underflowed.
+  static constexpr int kFloor = -900;
+
+  /// The Taylor coefficients of the Jacobian over the tube, and of the derivatives.
+  bool expand_over_tube(const Ball& h) {
+    if (!tube_jacobian_) {
+      tube_jacobian_.emplace(flow_.both, order_ + 1);
+      tube_tangents_.emplace(flow_.entries, flow_.dimension(),
+                             static_cast<std::size_t>(order_) + 1);
+      for (const int line : flow_.entry_lines)
+        tube_entries_.push_back(&tube_jacobian_->series_of(line));
+    }
+    try {
+      tube_jacobian_->expand(unit_ * (elapsed_ + from_zero_to(h)), tube_box_, unit_);
+    } catch (const std::domain_error&) {
+      return false;
+    }
+    tube_tangents_->expand(tube_entries_, forwards_);
+    return true;
+  }
+
+  /// sum_k V_k [0, h]^k
+  Matrix<Ball> derivatives_up_to(const Ball& h) const {
+    Matrix<Ball> result = tangents_.coefficient(0);
+    Ball power(1.);
+    for (int k = 1; k <= order_; ++k) {
+      power = power * h;
+      const Ball up_to = from_zero_to(power);
+      const Matrix<Ball> term = tangents_.coefficient(static_cast<std::size_t>(k));
+      for (std::size_t i = 0; i < result.entries.size(); ++i)
+        result.entries[i] = result.entries[i] + term.entries[i] * up_to;
+    }
+    return result;
+  }
 
   int order_;
   bool forwards_;
   Ball unit_, elapsed_;
-  TaylorJet<Ball> point_, box_, tube_;
+  FlowSeriesPair<Ball> start_;
+  FlowSeries<Ball> tube_;
   Tangents<Ball> tangents_;
-  std::vector<const std::vector<Ball>*> jacobian_;
+  std::vector<const std::vector<Ball>*> jacobian_, tube_entries_;
+  const FlowProgram& flow_;
+  std::optional<FlowSeries<Ball>> tube_jacobian_;  ///< where derivatives are wanted
+  std::optional<Tangents<Ball>> tube_tangents_;    ///< the same
+  Matrix<Ball> derivative_rest_;                   ///< Q (P + [-R, R])
   const std::vector<Vector>* centre_ = nullptr;
   const std::vector<Vector>* all_ = nullptr;
   Vector rest_, tube_box_;

@@ -31,6 +31,8 @@ struct StepSettings {
   /// Makes the rest of every set larger by 2^-20 of its size, of boxes by 2^-12, so that other
   /// arithmetic, which rounds otherwise, can verify each step.
   bool with_reserve = false;
+  /// Follows the derivatives of the states by the start too. Not for a start on levels.
+  bool derivatives = false;
 };
 
 /// The steps of a set along the flow, by Lohner's method.
@@ -71,7 +73,30 @@ class Lohner {
     std::vector<ArbBall> from = exact;
     if (!is_point)
       for (std::size_t i = 0; i < n; ++i) from[i] = ArbBall(set_.middle[i]);
-    for (Contractor<Ball>& contractor : contractors_) contractor.begin(from, box, is_point);
+    for (Contractor<Ball>& contractor : contractors_) contractor.begin(from, box);
+    if (settings_.derivatives) slopes_ = {unit_matrix<Ball>(n), Matrix<Ball>(n, n)};
+    box_ = set_.hull();
+  }
+
+  /// Begins with the states m + C s + r that lie on the given levels of all integrals: those off
+  /// them are no part of what is enclosed from then on.
+  /// \param directions  C, exact.
+  /// \param along, rest  the boxes of s and r, around zero.
+  /// \param levels  contain the values of the integrals, in their order.
+  void begin_on_levels(const std::vector<double>& middle, const Matrix<double>& directions,
+                       const Vector& along, const Vector& rest,
+                       const std::vector<ArbBall>& levels) {
+    set_.middle.clear();
+    for (const double m : middle) set_.middle.push_back(Ball(m));
+    set_.frame = unit_frame(middle.size());
+    set_.start = along;
+    set_.rest = rest;
+    set_.carried = Matrix<Ball>(directions.rows, directions.columns);
+    for (std::size_t i = 0; i < directions.entries.size(); ++i)
+      set_.carried.entries[i] = Ball(directions.entries[i]);
+    for (std::size_t a = 0; a < contractors_.size(); ++a)
+      contractors_[a].begin_on(levels[a], along.size());
+    columns_.clear();
     box_ = set_.hull();
   }
 
@@ -110,6 +135,10 @@ class Lohner {
     const double excess = piece_.encloses(h, symmetric(power_of_two<Ball>(room_)));
     const double share =
         std::isinf(excess) && excess > 0 ? 1 : (excess + kReserve) / (settings_.order + 1);
+    if (excess <= 0 && settings_.derivatives) {
+      know_tangents();
+      if (!piece_.enclose_derivatives(h)) return 1;
+    }
     if (excess <= 0) {
       if (is_full && std::isfinite(share)) log2_factor_ -= std::clamp(share, -0.1, 0.05);
       return 0;
@@ -130,6 +159,31 @@ class Lohner {
     for (std::size_t i = 0; i < box.size(); ++i)
       box[i] = set_.middle[i] + (moved[i] + (start[i] + rest[i]));
     return box;
+  }
+
+  bool follows_derivatives() const { return settings_.derivatives; }
+  /// The derivatives of the states by the start of the run, for every start: now, ..
+  Matrix<Ball> derivatives() const {
+    return sum(slopes_.middle, product(in_balls<Ball>(set_.frame.columns), slopes_.rest));
+  }
+  /// .. and at a time within the step. What `shortened_by` has found enclosed counts.
+  Matrix<Ball> derivatives_at(const Ball& t) const {
+    const Matrix<Ball> whole = piece_.whole_derivative(t, settings_.without_remainder);
+    return sum(product(whole, slopes_.middle),
+               product(product(whole, set_.frame.columns), slopes_.rest));
+  }
+
+  /// The set at a time within the step, as middle + by_start s + by_rest r with the s and r of
+  /// `set`. What `shortened_by` has found enclosed counts.
+  struct AffineForm {
+    Vector middle;
+    Matrix<Ball> by_start, by_rest;
+  };
+  AffineForm affine_at(const Ball& t) {
+    know_tangents();
+    const Matrix<Ball> derivative = piece_.derivative(t);
+    return {sum(set_.middle, displaced(t)), product(derivative, set_.carried),
+            product(derivative, set_.frame.columns)};
   }
 
   /// Goes on by h, which was found to be enclosed.
@@ -170,6 +224,12 @@ class Lohner {
     Vector box = next.hull();
     for (const Ball& x : box)
       if (!is_usable(x)) return StepOutcome::no_enclosure;
+    if (settings_.derivatives) {
+      slopes_ = carried_slopes(h, next.frame);
+      if (!contract_slopes(next, columns, box, end)) return StepOutcome::contradiction;
+      for (const Ball& one : slopes_.rest.entries)
+        if (!is_usable(one)) return StepOutcome::no_enclosure;
+    }
     set_ = std::move(next);
     box_ = std::move(box);
     columns_ = std::move(columns);
@@ -219,6 +279,38 @@ class Lohner {
     return true;
   }
 
+  /// The derivatives at the end of the step, by the chain rule: V (M + B R) = M' + B' R' with
+  /// M' about V M, and R' = (B'^-1 V B) R + B'^-1 (V M - M'), where V are the derivatives of the
+  /// step for all states of the set. The factors are multiplied in this order, so that R is turned
+  /// and not wrapped (Lohner's method for the variational equation).
+  Slopes<Ball> carried_slopes(const Ball& h, const Frame& frame) const {
+    const Matrix<Ball> whole = piece_.whole_derivative(h, settings_.without_remainder);
+    Slopes<Ball> next;
+    next.middle = product(whole, slopes_.middle);
+    Matrix<Ball> off(next.middle.rows, next.middle.columns);
+    for (std::size_t i = 0; i < off.entries.size(); ++i) {
+      off.entries[i] = deviation_of(next.middle.entries[i]);
+      next.middle.entries[i] = middle_of(next.middle.entries[i]);
+    }
+    // In the coordinates of the next frame: B'^-1 of both terms.
+    const Matrix<Ball> turned =
+        transposed_product(frame.columns, product(whole, set_.frame.columns));
+    next.rest = corrected(
+        sum(product(turned, slopes_.rest), transposed_product(frame.columns, off)), frame);
+    return next;
+  }
+
+  bool contract_slopes(const Doubleton<Ball>& next, const std::vector<int>& columns,
+                       const Vector& hull, const Ball& time) {
+    for (std::size_t a = 0; a < contractors_.size(); ++a) {
+      if (columns[a] < 0 || !contractors_[a].usable()) continue;
+      if (!contractors_[a].contract_slopes(slopes_, next, static_cast<std::size_t>(columns[a]),
+                                           hull, time))
+        return false;
+    }
+    return true;
+  }
+
   /// Moves the middle to where the middle of the rest is: m + B r = m'' + B (r + B^-1 (m - m'')).
   static void recentre(Doubleton<Ball>& set) {
     Vector middles, moved(set.middle.size());
@@ -248,6 +340,7 @@ class Lohner {
   FlowPiece<Ball> piece_;
   std::vector<Contractor<Ball>> contractors_;
   Doubleton<Ball> set_;
+  Slopes<Ball> slopes_;  ///< where derivatives are followed
   Vector box_;
   Ball elapsed_;
   double log2_factor_ = -0.5, log2_size_ = 0;

@@ -1,11 +1,13 @@
 #include "runtime/validated/mid_rad.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 
 #include "runtime/program/arb_function.hpp"
 #include "runtime/validated/arb_ball.hpp"
+#include "runtime/validated/wide_registers.hpp"
 
 namespace casimir::validated {
 
@@ -157,37 +159,63 @@ namespace {
 /// underflowing. The radius passes at most k/4 + 12 roundings, which `upwards` covers for k below
 /// 1900; products that underflow lose 2^-1075 each, which it covers too.
 template <bool kWeighted>
-MidRad sum_of_products(const std::vector<MidRad>& u, const std::vector<MidRad>& v, int k, int from,
-                       int to) {
-  double mid[4] = {0, 0, 0, 0}, rad[4] = {0, 0, 0, 0};
-  const MidRad* a = u.data();
-  const MidRad* b = v.data() + k;
-  const auto add = [&](int j, int lane) {
+CASIMIR_INLINE_ALWAYS MidRad sum_of_products(const MidRad* a, const MidRad* b, int from, int to) {
+  using validated::LanesOf;
+  using Four = LanesOf<4>;
+  static_assert(sizeof(MidRad) == 2 * sizeof(double));
+  Four mid{}, rad{};
+  int j = to;
+  for (; j - 3 >= from; j -= 4) {
+    // a_{j-3}, .., a_j and b_{-j+3}, .., b_{-j}: the latter from behind.
+    const double* const x = &a[j - 3].mid;
+    const double* const y = &b[-j].mid;
+    Four low, high;
+    std::memcpy(&low, x, sizeof low);
+    std::memcpy(&high, x + 4, sizeof high);
+    Four m = __builtin_shufflevector(low, high, 0, 2, 4, 6);
+    Four r = __builtin_shufflevector(low, high, 1, 3, 5, 7);
+    std::memcpy(&low, y, sizeof low);
+    std::memcpy(&high, y + 4, sizeof high);
+    const Four other_mid = __builtin_shufflevector(low, high, 6, 4, 2, 0);
+    const Four other_rad = __builtin_shufflevector(low, high, 7, 5, 3, 1);
+    const double at = j;
+    const Four index = {at - 3, at - 2, at - 1, at};
+    if (kWeighted) {
+      m *= index;
+      r *= index;
+    }
+    const Four size = (m < 0 ? -m : m) + kUnderflow;
+    const Four other = (other_mid < 0 ? -other_mid : other_mid) + other_rad;
+    mid += m * other_mid;
+    rad += size * other_rad + (r + kUnit * (index + 6.) * size) * other;
+  }
+  for (int lane = 0; j >= from; --j, ++lane) {
     const MidRad &x = a[j], &y = b[-j];
     const double m = kWeighted ? j * x.mid : x.mid, r = kWeighted ? j * x.rad : x.rad;
     const double size = std::abs(m) + kUnderflow, other = std::abs(y.mid) + y.rad;
     mid[lane] += m * y.mid;
     rad[lane] += size * y.rad + (r + kUnit * (j + 6) * size) * other;
-  };
-  int j = to;
-  for (; j - 3 >= from; j -= 4) {
-    add(j, 0);
-    add(j - 1, 1);
-    add(j - 2, 2);
-    add(j - 3, 3);
   }
-  for (int lane = 0; j >= from; --j, ++lane) add(j, lane);
   return {(mid[0] + mid[1]) + (mid[2] + mid[3]), upwards((rad[0] + rad[1]) + (rad[2] + rad[3]))};
+}
+
+CASIMIR_FOR_WIDE_REGISTERS
+MidRad plain_sum(const MidRad* a, const MidRad* b, int from, int to) {
+  return sum_of_products<false>(a, b, from, to);
+}
+CASIMIR_FOR_WIDE_REGISTERS
+MidRad weighted_sum(const MidRad* a, const MidRad* b, int from, int to) {
+  return sum_of_products<true>(a, b, from, to);
 }
 
 }  // namespace
 
 MidRad A::convolution(const Series& u, const Series& v, int k, int from, int to) {
-  return sum_of_products<false>(u, v, k, from, to);
+  return plain_sum(u.data(), v.data() + k, from, to);
 }
 
 MidRad A::weighted(const Series& u, const Series& v, int k, int from, int to) {
-  return sum_of_products<true>(u, v, k, from, to);
+  return weighted_sum(u.data(), v.data() + k, from, to);
 }
 
 }  // namespace casimir

@@ -70,7 +70,7 @@ inline bool is_power_of_two(double x) {
 inline MidRad operator-(const MidRad& a) { return {-a.mid, a.rad}; }
 
 /// |m - (x + y)| <= u |m| + rad(a) + rad(b): by (1), where a sum never underflows inexactly.
-inline MidRad operator+(const MidRad& a, const MidRad& b) {
+[[gnu::always_inline]] inline MidRad operator+(const MidRad& a, const MidRad& b) {
   if (a.mid == 0 && a.rad == 0) return b;
   if (b.mid == 0 && b.rad == 0) return a;
   const double mid = a.mid + b.mid;
@@ -115,6 +115,8 @@ inline MidRad power_of_two<MidRad>(int exponent) {
 inline MidRad middle_of(const MidRad& a) { return MidRad(a.mid); }
 /// The middle as a double, to orient oneself by.
 inline double approximate(const MidRad& a) { return a.mid; }
+/// The ball itself: it is one of doubles.
+inline MidRad outwards(const MidRad& a) { return a; }
 /// At least |x| for all x in the ball.
 inline double magnitude(const MidRad& a) { return upwards(std::abs(a.mid) + a.rad); }
 /// log2 of at least |x| for all x in the ball; -infinity for zero.
@@ -154,6 +156,13 @@ struct Arithmetic<validated::MidRad> {
   static N from(const cln::cl_RA& value);
   static N pi();
   static N divide(const N& a, const N& b) { return a / b; }
+  /// a / k for k > 0: the rounded quotient m of the middle is off by at most u |m| + 2^-1075, of
+  /// which `upwards` covers the last, and the radius is divided.
+  static N over(const N& a, int k) {
+    if ((k & (k - 1)) == 0) return a * N(1. / k);
+    const double divisor = k, quotient = a.mid / divisor;
+    return {quotient, validated::upwards(a.rad / divisor + validated::kUnit * std::abs(quotient))};
+  }
   static N sqrt(const N& a);
   static N power(const N& a, const N& e);
   static N function(Op op, const N& a);

@@ -28,6 +28,8 @@ class Tangents {
 
   /// sum_k V_k h^k
   Matrix<Ball> at(const Ball& h) const;
+  /// V_k
+  Matrix<Ball> coefficient(std::size_t k) const { return coefficients_[k]; }
 
  private:
   Entries entries_;
@@ -35,19 +37,18 @@ class Tangents {
   std::vector<Matrix<Ball>> coefficients_;
 };
 
-/// Some entries of a row side by side.
-inline constexpr std::size_t kTangentLanes = 4;
-struct alignas(32) TangentLanes {
-  double mid[kTangentLanes], rad[kTangentLanes], reach[kTangentLanes];  ///< reach: |mid| + rad
-};
-
-/// An entry of a row of the Jacobian: its column, and its series.
+/// An entry of a row of the Jacobian: its column, and of each coefficient of its series the middle,
+/// the size of that, and by how much products with it may be off, of the other factor.
 struct TangentEntry {
+  struct Factor {
+    double middle = 0, size = 0, noise = 0;
+  };
   std::size_t column;
-  const MidRad* series;
+  std::vector<Factor> factors;
+  std::size_t length = 0;  ///< the coefficients from here on are zero
 };
 
-/// In doubles, with the columns side by side in the lanes of a register.
+/// In doubles, with the columns side by side in the lanes of registers.
 template <>
 class Tangents<MidRad> {
  public:
@@ -55,20 +56,23 @@ class Tangents<MidRad> {
   Tangents(Entries entries, std::size_t dimension, std::size_t order);
   void expand(const std::vector<const Series*>& jacobian, bool forwards);
   Matrix<MidRad> at(const MidRad& h) const;
+  Matrix<MidRad> coefficient(std::size_t k) const;
 
  private:
-  /// Those of the columns from kTangentLanes * block on.
-  TangentLanes& at(std::size_t block, std::size_t k, std::size_t row) {
-    return lanes_[(block * (order_ + 1) + k) * n_ + row];
+  /// The lanes of some columns in a row of V_k: their middles, and radii.
+  double* at(std::size_t block, std::size_t k, std::size_t row) {
+    return values_.data() + ((block * (order_ + 1) + k) * n_ + row) * 2 * lanes_;
   }
-  const TangentLanes& at(std::size_t block, std::size_t k, std::size_t row) const {
-    return lanes_[(block * (order_ + 1) + k) * n_ + row];
+  const double* at(std::size_t block, std::size_t k, std::size_t row) const {
+    return values_.data() + ((block * (order_ + 1) + k) * n_ + row) * 2 * lanes_;
   }
+  void know_factors(const std::vector<const Series*>& jacobian);
 
   Entries entries_;
-  std::size_t n_, order_, blocks_;
+  std::size_t n_, order_, lanes_, blocks_;
   std::vector<std::vector<TangentEntry>> rows_;
-  std::vector<TangentLanes> lanes_;
+  std::vector<std::size_t> place_;  ///< of each entry in its row
+  std::vector<double> values_;
 };
 
 template <class Ball>

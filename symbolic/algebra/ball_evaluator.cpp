@@ -3,7 +3,9 @@
 #include <cln/integer.h>
 #include <cln/rational.h>
 
+#include "symbolic/algebra/elliptic_balls.hpp"
 #include "symbolic/algebra/machine_word.hpp"
+#include "symbolic/expression/elliptic.hpp"
 #include "symbolic/expression/pairs.hpp"
 
 namespace casimir {
@@ -232,6 +234,15 @@ BallEvaluator::Value BallEvaluator::angle_of(const Value& y, const Value& x) {
 
 BallEvaluator::Value BallEvaluator::function(const GiNaC::function& f) {
   const std::string name = f.get_name();
+  if (is_elliptic_function(f)) {
+    std::vector<Value> arguments;
+    for (std::size_t i = 0; i < f.nops(); ++i) arguments.push_back(value(f.op(i)));
+    std::vector<acb_srcptr> balls;
+    for (const Value& argument : arguments) balls.push_back(argument.ball().raw());
+    Ball result;
+    if (!elliptic_ball(name, result.raw(), balls, bits_)) throw NotCertified{};
+    return checked(std::move(result));
+  }
   const Value v = value(f.op(0));
   if (name == "atan2") return angle_of(v, Value(value(f.op(1))));
   const bool zero = v.exact && cln::zerop(*v.exact);

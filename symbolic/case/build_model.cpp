@@ -15,6 +15,7 @@
 #include "symbolic/case/real_values.hpp"
 #include "symbolic/case/toml_keys.hpp"
 #include "symbolic/discrete/map_model.hpp"
+#include "symbolic/expression/arbitrary.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/lie_algebra.hpp"
@@ -186,6 +187,10 @@ class Builder {
     }
     std::vector<std::string> known;
     for (const ParameterText& parameter : file_.parameters) {
+      if (const auto function = function_name(parameter.name.value)) {
+        declare_function(parameter.name, *function);
+        continue;
+      }
       known.push_back(parameter.name.value);
       check_symbol_name(parameter.name);
       if (const Text* text = fixed_value(parameter.name.value)) {
@@ -209,6 +214,19 @@ class Builder {
       for (const Text& text : parameter.assume) read_assumption(text);
     }
     for (const Text& text : file_.phase_space.domain) read_assumption(text);
+  }
+
+  /// Its symbol is a parameter; the name alone stands for nothing (see the parser).
+  void declare_function(const Text& parameter, const FunctionName& function) {
+    Text name = parameter;
+    name.value = function.name;
+    check_symbol_name(name);
+    if (fixed_value(function.name) != nullptr)
+      throw fixed_value(function.name)
+          ->error(fmt::format("'{}' is an arbitrary function, and no parameter", function.name), 0,
+                  fmt::format("a scene gives it: functions = {{ {} = \"..\" }}", function.name));
+    model_.parameters.push_back(GiNaC::symbol(parameter.value));
+    names_.declare(name, "a function", Quantity::symbol(model_.parameters.back()));
   }
 
   void read_assumption(const Text& text) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "symbolic/algebra/exact_constant.hpp"
+#include "symbolic/expression/arbitrary.hpp"
 #include "symbolic/expression/decimal.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/expression_size.hpp"
@@ -26,6 +27,7 @@ class SceneReader {
     std::vector<std::optional<ex>> result(symbols.size());
     for (const auto& [name, text] : entries) {
       if (what == "parameter" && is_fixed(name.value)) continue;
+      if (what == "parameter" && function_name(name.value)) continue;
       result[symbol_position(name, name.value, 0, symbols, "a " + what + " of this case")] =
           parse_real_constant(text);
     }
@@ -45,6 +47,10 @@ class SceneReader {
       std::vector<ex> result;
       const auto given = values(entries, symbols, what);
       for (std::size_t i = 0; i < given.size(); ++i) {
+        if (function_name(symbols[i].get_name())) {
+          result.emplace_back(symbols[i]);  // until it is given
+          continue;
+        }
         if (!given[i])
           throw text.name.error(fmt::format("the scene '{}' has no value for the {} '{}'",
                                             printable(scene.name), what, symbols[i].get_name()));
@@ -53,6 +59,7 @@ class SceneReader {
       return result;
     };
     scene.parameters = complete(text.parameters, model_.parameters, "parameter");
+    give_functions(text.parameters, scene);
     scene.initial = complete(text.initial, model_.variables, "variable");
     if (text.duration) {
       scene.duration = parse_real_constant(*text.duration);
@@ -74,6 +81,42 @@ class SceneReader {
     check_assumptions(text.name, scene);
     check_constraints(text, scene);
     return scene;
+  }
+
+  /// What the arbitrary functions are in a scene, with the values of its parameters put in.
+  void give_functions(const std::vector<Entry>& entries, Scene& scene) const {
+    std::vector<std::string> known;
+    for (const GiNaC::symbol& parameter : model_.parameters)
+      if (const auto function = function_name(parameter.get_name()))
+        known.push_back(function->name);
+    for (const auto& [name, text] : entries) {
+      const auto given = function_name(name.value);
+      if (!given) continue;
+      if (std::ranges::count(known, given->name) == 0)
+        throw name.error(fmt::format("'{}' is not an arbitrary function of this case", given->name),
+                         0, known.empty() ? "it has none" : suggest_or_list(given->name, known));
+      for (std::size_t i = 0; i < model_.parameters.size(); ++i) {
+        const auto function = function_name(model_.parameters[i].get_name());
+        if (function && function->name == given->name)
+          scene.parameters[i] = read_function(*function, text, scene);
+      }
+    }
+  }
+
+  /// An expression over the arguments of a function, which hide parameters of the same name.
+  ex read_function(const FunctionName& function, const Text& text, const Scene& scene) const {
+    NameTable names;
+    for (std::size_t i = 0; i < model_.parameters.size(); ++i) {
+      const std::string parameter = model_.parameters[i].get_name();
+      if (!function_name(parameter)) names.add(parameter, measured(scene.parameters[i]));
+    }
+    for (const auto& [parameter, value] : model_.fixed) names.add(parameter.value, measured(value));
+    std::vector<GiNaC::symbol> arguments;
+    for (const std::string& argument : function.arguments) {
+      arguments.emplace_back(argument);
+      names.add(argument, Quantity::symbol(arguments.back()));
+    }
+    return given_function(arguments, parse_expression(text, names).value);
   }
 
   static Extreme kind_of_extreme(const Text& text) {

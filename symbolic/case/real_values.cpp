@@ -3,6 +3,8 @@
 #include <sstream>
 #include <string>
 
+#include "symbolic/expression/elliptic.hpp"
+
 namespace casimir {
 namespace {
 
@@ -29,6 +31,13 @@ void add_of_power(const ex& base, const ex& exponent, bool complex,
 void add_of_function(const GiNaC::function& f, bool complex, std::vector<Assumption>& conditions) {
   const std::string name = f.get_name();
   const ex u = f.op(0);
+  if (is_elliptic_function(f)) {
+    // A modulus between -1 and 1, and positive arguments of Carlson's integrals.
+    if (name[0] != 'R') conditions.push_back(compared(1 - f.op(1) * f.op(1), Comparison::greater));
+    for (std::size_t i = 0; name[0] == 'R' && i < f.nops(); ++i)
+      conditions.push_back(compared(f.op(i), Comparison::greater));
+    return;
+  }
   if (name == "log") {
     conditions.push_back(compared(u, complex ? Comparison::unequal : Comparison::greater));
   } else if (name == "tan") {

@@ -51,7 +51,8 @@ const std::vector<std::string>& root_keys() {
       "hamiltonian", "lagrangian", "phase_space", "parameters",  "definitions",
       "casimirs",    "integrals",  "equations",   "conditional", "invariant_relation",
       "lax",         "map",        "measure",     "identity",    "section",
-      "scene",       "map_sign",   "map_step",    "symmetry",    "superintegrable"};
+      "scene",       "map_sign",   "map_step",    "symmetry",    "superintegrable",
+      "functions"};
   return keys;
 }
 

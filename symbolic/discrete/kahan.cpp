@@ -104,7 +104,7 @@ class Kahan {
         flow_.variables[i].get_name(), highest,
         highest == 2 ? "Kahan's map is made of quadratic equations"
                      : "the implicit midpoint rule is a rational map of linear equations only; "
-                       "--kahan makes a rational map of quadratic ones"));
+                       "Kahan's makes one of quadratic equations too"));
   }
 
   Polynomial product(const Polynomial& a, const Polynomial& b) const {

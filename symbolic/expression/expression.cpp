@@ -10,8 +10,10 @@
 #include <unordered_set>
 
 #include "symbolic/case/limits.hpp"
+#include "symbolic/expression/arbitrary_call.hpp"
 #include "symbolic/expression/decimal.hpp"
 #include "symbolic/expression/elementary.hpp"
+#include "symbolic/expression/elliptic.hpp"
 #include "symbolic/expression/expression_range.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/expression/name_characters.hpp"
@@ -99,14 +101,7 @@ class Parser {
     return "'" + printable(character()) + "'";
   }
 
-  /// The character that stands here, a UTF-8 sequence.
-  std::string character() const {
-    std::size_t length = 1;
-    while (at_ + length < end_ &&
-           (static_cast<unsigned char>(text_.value[at_ + length]) & 0xC0) == 0x80)
-      ++length;
-    return text_.value.substr(at_, length);
-  }
+  std::string character() const { return utf8_character(text_.value, at_, end_); }
 
   void check(double value, double Limits::*limit, std::size_t offset, const char* what) const {
     if (value <= limits().*limit) return;  // false also for what is not a number
@@ -308,30 +303,20 @@ class Parser {
     return name();
   }
 
-  /// A name as it is written, `M_{1}` as M_1.
-  std::string word() {
-    const std::size_t start = at_;
-    while (at_ < end_ && is_name_part(text_.value[at_])) ++at_;
-    std::string result = text_.value.substr(start, at_ - start);
-    if (result.back() != '_' || at_ >= end_ || text_.value[at_] != '{') return result;
-    std::size_t close = at_ + 1;
-    while (close < end_ && is_name_part(text_.value[close])) ++close;
-    if (close >= end_ || text_.value[close] != '}' || close == at_ + 1) return result;
-    result += text_.value.substr(at_ + 1, close - at_ - 1);
-    at_ = close + 1;
-    return result;
-  }
-
   Quantity name() {
     const std::size_t start = at_;
-    std::string word = this->word();
+    std::string word = read_name(text_.value, at_, end_);
     if (names_.find(word) == nullptr) word = usual_name(word);
     if (const ElementaryFunction* function = find_elementary_function(word))
       return call(*function, start);
     if (peek() == '(' && names_.find(word) == nullptr) {
       if (word == "diff") return partial_derivative(start);
       if (word == "rate") return rate(start);
-      if (find_with_subscript(word, names_) == nullptr) unknown_function(word, start);
+      if (const EllipticFunction* function = find_elliptic_function(word))
+        return call(*function, start);
+      if (find_with_subscript(word, names_) == nullptr)
+        fail_at(start, fmt::format("unknown function '{}'", printable(word)),
+                hint_for_function(word));
     }
     if (word == "Pi") return {GiNaC::Pi, 1, 0, 1};
     if (word == "I") {
@@ -341,30 +326,25 @@ class Parser {
     const Quantity* known = names_.find(word);
     if (known == nullptr) known = find_with_subscript(word, names_);
     if (known == nullptr) undeclared(word, start);
+    if (const auto function = named_function(known->value))
+      return arbitrary_call(known->value, *function, start);
     for (const ex& part : known->parts ? *known->parts : std::vector<ex>{}) add_part(part);
     return *known;
   }
 
-  /// A name with '(' behind it.
-  [[noreturn]] void unknown_function(const std::string& word, std::size_t start) {
-    std::vector<std::string> functions = elementary_function_names();
-    functions.insert(functions.end(), {"diff", "rate"});
-    std::string hint = spelling_of_name(word);
-    if (hint.empty()) hint = suggest_or_list(word, functions, "functions");
-    fail_at(start, fmt::format("unknown function '{}'", printable(word)), hint);
+  /// U(r), U'(r), .. of an arbitrary function.
+  Quantity arbitrary_call(const ex& symbol, const FunctionName& function, std::size_t start) {
+    peek();
+    const std::vector<unsigned> orders = read_orders(text_, at_, end_, function);
+    const Quantity q =
+        value_of_arbitrary(symbol, orders, arguments(function.name, orders.size(), start));
+    add_part(q.value);
+    return checked(q, start);
   }
 
   [[noreturn]] void undeclared(const std::string& word, std::size_t start) {
-    std::vector<std::string> known = names_.known();
-    const bool constant = known.empty();
-    known.emplace_back("Pi");
-    std::string hint = same_but_for_case(word, known);
-    if (hint.empty()) hint = spelling_of_name(word);
-    if (hint.empty()) hint = product_of_names(word, known);
-    if (hint.empty())
-      hint = constant ? "a constant stands here: numbers, Pi and functions of them"
-                      : suggest_or_list(word, known, "declared");
-    fail_at(start, fmt::format("'{}' is not declared", printable(word)), hint);
+    fail_at(start, fmt::format("'{}' is not declared", printable(word)),
+            hint_for_name(word, names_.known()));
   }
 
   std::vector<Quantity> arguments(std::string_view function, std::size_t arity, std::size_t start) {
@@ -464,6 +444,26 @@ class Parser {
                                    }),
                          start);
     if (!function.everywhere) add_part(q.value);
+    return checked(q, start);
+  }
+
+  Quantity call(const EllipticFunction& function, std::size_t start) {
+    const std::vector<Quantity> given = arguments(function.name, function.arity, start);
+    if (names_.complex_numbers())
+      fail_at(start, fmt::format("'{}' is for real numbers, and this case has complex ones",
+                                 function.name));
+    Quantity q{0, 0, 1, 1, 1};
+    GiNaC::exvector values;
+    for (const Quantity& argument : given) {
+      q.bits += argument.bits;
+      q.degree += argument.degree;
+      q.nodes += argument.nodes;
+      q.depth = std::max(q.depth, 1 + argument.depth);
+      values.push_back(argument.value);
+    }
+    checked(q, start);
+    q.value = evaluated(start, [&] { return function.apply(values); });
+    add_part(q.value);
     return checked(q, start);
   }
 

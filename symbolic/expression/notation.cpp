@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "symbolic/expression/expression.hpp"
+#include "symbolic/expression/name_characters.hpp"
 
 namespace casimir {
 
@@ -37,6 +38,26 @@ const Quantity* find_with_subscript(const std::string& word, Scope& names) {
   const std::size_t at = word.rfind('_');
   if (at == std::string::npos || at == 0 || at + 1 == word.size()) return nullptr;
   return names.find(word.substr(0, at) + word.substr(at + 1));
+}
+
+std::string read_name(const std::string& text, std::size_t& at, std::size_t end) {
+  const std::size_t start = at;
+  while (at < end && is_name_part(text[at])) ++at;
+  std::string result = text.substr(start, at - start);
+  if (result.back() != '_' || at >= end || text[at] != '{') return result;
+  std::size_t close = at + 1;
+  while (close < end && is_name_part(text[close])) ++close;
+  if (close >= end || text[close] != '}' || close == at + 1) return result;
+  result += text.substr(at + 1, close - at - 1);
+  at = close + 1;
+  return result;
+}
+
+std::string utf8_character(const std::string& text, std::size_t at, std::size_t end) {
+  std::size_t length = 1;
+  while (at + length < end && (static_cast<unsigned char>(text[at + length]) & 0xC0) == 0x80)
+    ++length;
+  return text.substr(at, length);
 }
 
 }  // namespace casimir

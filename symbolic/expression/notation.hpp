@@ -26,4 +26,10 @@ std::string usual_name(const std::string& word);
 /// What a name with a subscript stands for, M1 for `M_1`, where no name is written so; or null.
 const Quantity* find_with_subscript(const std::string& word, Scope& names);
 
+/// The name that begins at `at`, as it is written, but `M_{1}` as M_1; `at` goes on behind it.
+std::string read_name(const std::string& text, std::size_t& at, std::size_t end);
+
+/// The character that stands at `at`, a UTF-8 sequence.
+std::string utf8_character(const std::string& text, std::size_t at, std::size_t end);
+
 }  // namespace casimir

@@ -10,6 +10,7 @@
 
 #include "symbolic/error.hpp"
 #include "symbolic/expression/elementary.hpp"
+#include "symbolic/expression/elliptic.hpp"
 
 namespace casimir {
 namespace {
@@ -139,6 +140,26 @@ std::string product_of_names(const std::string& word, const std::vector<std::str
   const std::string& whole = product.back();
   return whole.find('*') == std::string::npos ? std::string{}
                                               : fmt::format("did you mean '{}'?", whole);
+}
+
+std::string hint_for_function(const std::string& word) {
+  std::vector<std::string> functions = elementary_function_names();
+  for (std::string& name : elliptic_function_names()) functions.push_back(std::move(name));
+  functions.insert(functions.end(), {"diff", "rate"});
+  const std::string hint = spelling_of_name(word);
+  return hint.empty() ? suggest_or_list(word, functions, "functions") : hint;
+}
+
+std::string hint_for_name(const std::string& word, std::vector<std::string> known) {
+  const bool constant = known.empty();
+  known.emplace_back("Pi");
+  std::string hint = same_but_for_case(word, known);
+  if (hint.empty()) hint = spelling_of_name(word);
+  if (hint.empty()) hint = product_of_names(word, known);
+  if (hint.empty())
+    hint = constant ? "a constant stands here: numbers, Pi and functions of them"
+                    : suggest_or_list(word, known, "declared");
+  return hint;
 }
 
 }  // namespace casimir

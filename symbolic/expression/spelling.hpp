@@ -31,4 +31,10 @@ std::string spelling_of_escape(std::string_view value, std::string_view written)
 /// A word that is several of the `known` names in a row, as "did you mean 'M1*g1'?"; else empty.
 std::string product_of_names(const std::string& word, const std::vector<std::string>& known);
 
+/// What may have been meant by the name of a function that there is not.
+std::string hint_for_function(const std::string& word);
+
+/// The same of any other name. \param known  those that are declared
+std::string hint_for_name(const std::string& word, std::vector<std::string> known);
+
 }  // namespace casimir

@@ -152,4 +152,26 @@ DarbouxPoints darboux_points(const HomogeneousPotential& system) {
   return result;
 }
 
+std::optional<cln::cl_RA> relation_of_all_points(const HomogeneousPotential& system,
+                                                 const DarbouxPoints& points) {
+  if (system.degree < 3 || !system.potential.is_polynomial(GiNaC::lst{system.q[0], system.q[1]}) ||
+      points.all_directions || !points.improper.empty())
+    return std::nullopt;
+  long count = 0;
+  cln::cl_RA sum = 0;
+  for (const DarbouxPoint& point : points.points) {
+    const Univariate less_one = point.eigenvalue - Univariate(1);
+    if (less_one.is_zero()) return std::nullopt;
+    const Univariate inverse = less_one.inverse(point.direction);
+    const long n = point.direction.degree();
+    count += n;
+    // The trace of the multiplication by it.
+    for (long i = 0; i < n; ++i)
+      sum = sum + (inverse * Univariate::variable().pow(static_cast<unsigned long>(i)))
+                      .remainder(point.direction)
+                      .coefficient(i);
+  }
+  return count == system.degree ? std::optional<cln::cl_RA>(sum) : std::nullopt;
+}
+
 }  // namespace casimir::obstruction

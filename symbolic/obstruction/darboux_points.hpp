@@ -55,4 +55,10 @@ struct DarbouxPoints {
 /// Finds them. \throws NotDecided  where V is no rational function
 DarbouxPoints darboux_points(const HomogeneousPotential& system);
 
+/// The sum of 1/(lambda - 1) over all points, which is -1 where V is a polynomial of degree k >= 3
+/// with k different points, none of them improper, and no lambda is 1 (Maciejewski and Przybylska,
+/// Phys. Lett. A 327 (2004) 461); empty where one of these fails.
+std::optional<cln::cl_RA> relation_of_all_points(const HomogeneousPotential& system,
+                                                 const DarbouxPoints& points);
+
 }  // namespace casimir::obstruction

@@ -59,23 +59,27 @@ std::string polynomial_text(const std::vector<RationalFunction>& polynomial, con
 
 std::string equation_text(const RationalFunction& p, const RationalFunction& q,
                           const std::string& z) {
-  return fmt::format("y'' + ({})*y' + ({})*y = 0", p.text(z), q.text(z));
+  return fmt::format("{0}'' + ({1})*{0}' + ({2})*{0} = 0", unknown_beside(z), p.text(z), q.text(z));
 }
 
 }  // namespace
+
+std::string unknown_beside(const std::string& z) { return z == "y" ? "u" : "y"; }
 
 Examined examine_equation(const NormalEquation<RationalFunction>& equation, const std::string& z,
                           const std::function<void()>& tick) {
   const LiouvillianResult decision = decide_liouvillian(equation.reduced, tick, z);
   Examined result;
   result.nve = equation_text(equation.p, equation.q, z);
-  result.reduced = fmt::format("y'' = ({})*y", equation.reduced.text(z));
+  result.reduced = fmt::format("{0}'' = ({1})*{0}", unknown_beside(z), equation.reduced.text(z));
   for (const Singularity& s : decision.singular) {
     result.exponents.push_back(s.text(z));
     result.regular = result.regular && s.regular();
   }
-  for (const Attempt& attempt : decision.attempts)
+  for (const Attempt& attempt : decision.attempts) {
     result.cases.emplace_back(attempt.what, attempt.outcome);
+    result.steps.insert(result.steps.end(), attempt.steps.begin(), attempt.steps.end());
+  }
   if (const auto differences = riemann_differences(decision.singular)) {
     const auto solvable = kimura(*differences);
     result.cases.emplace_back("Kimura's theorem",
@@ -96,7 +100,11 @@ Examined examine_equation(const NormalEquation<RationalFunction>& equation, cons
   result.outcome = decision.galois == GaloisCase::undecided
                        ? fmt::format("not decided: {}", decision.reason)
                        : group_text(decision.galois);
-  result.decisive = decision.galois == GaloisCase::sl2;
+  result.decisive = decision.galois == GaloisCase::sl2 || decision.borel;
+  if (decision.borel)
+    result.outcome =
+        "all triangular matrices: one invariant line, on which infinitely many numbers act; the "
+        "identity component is solvable, and not abelian";
   return result;
 }
 
@@ -153,8 +161,15 @@ void examine_straight_lines(const HamiltonianSystem& system, Obstruction& result
     result.left_out.emplace_back("straight lines: every line is one, V depends on the radius only");
   for (const std::string& line : points.improper)
     result.left_out.push_back(fmt::format("straight line {}: V' vanishes on it", line));
+  const auto relation = relation_of_all_points(*potential, points);
+  if (relation && *relation != -1)
+    throw std::logic_error("the eigenvalues of all Darboux points do not obey their relation");
   for (const DarbouxPoint& point : points.points) {
     result.examined.push_back(examine_point(*potential, point));
+    if (relation)
+      result.examined.back().cases.emplace_back(
+          fmt::format("relation of all {} points", potential->degree),
+          "the sum of 1/(lambda - 1) is -1");
     if (!result.examined.back().decisive) continue;
     result.proved = true;
     return;

@@ -9,6 +9,9 @@
 
 namespace casimir::obstruction {
 
+/// What the unknown of an equation is called whose variable has the name z.
+std::string unknown_beside(const std::string& z);
+
 /// Decides one normal variational equation; with three singular points that are rational numbers
 /// Kimura's theorem has to agree. \throws std::logic_error  if it does not
 Examined examine_equation(const NormalEquation<RationalFunction>& equation, const std::string& z,

@@ -6,13 +6,19 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "symbolic/expression/arbitrary.hpp"
 #include "symbolic/obstruction/equation/kovacic.hpp"
+#include "symbolic/obstruction/equation/parametric_function.hpp"
 
 namespace casimir::obstruction {
 namespace {
 
 bool is_rational(const GiNaC::ex& value) {
   return GiNaC::is_a<GiNaC::numeric>(value) && GiNaC::ex_to<GiNaC::numeric>(value).is_rational();
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 /// The values of the parameters in the scene.
@@ -26,8 +32,14 @@ GiNaC::exmap numbers(const Model& model, const std::string& scene_name, const st
   }
   std::vector<std::size_t> needed;
   for (std::size_t i = 0; i < model.parameters.size(); ++i)
-    if (model.parameters[i].get_name() != free) needed.push_back(i);
+    if (!contains(names_in(free), model.parameters[i].get_name())) needed.push_back(i);
   if (needed.empty()) return result;
+  for (const std::size_t i : needed) {
+    if (function_name(model.parameters[i].get_name()))
+      throw NotDecided(
+          fmt::format("the function {} is arbitrary, and has to be written into the case",
+                      model.parameters[i].get_name()));
+  }
   if (model.scenes.empty())
     throw NotDecided(fmt::format("the parameter {} has no value: give one with --param",
                                  model.parameters[needed.front()].get_name()));
@@ -46,6 +58,16 @@ GiNaC::exmap numbers(const Model& model, const std::string& scene_name, const st
 }
 
 }  // namespace
+
+std::vector<std::string> names_in(const std::string& list) {
+  std::vector<std::string> result;
+  for (std::size_t begin = 0; begin < list.size();) {
+    const std::size_t end = std::min(list.find(',', begin), list.size());
+    result.push_back(list.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return result;
+}
 
 std::size_t HamiltonianSystem::index(const GiNaC::ex& variable) const {
   for (std::size_t i = 0; i < variables.size(); ++i)
@@ -83,8 +105,16 @@ HamiltonianSystem hamiltonian_system(const Model& model, const std::string& scen
   HamiltonianSystem result;
   const GiNaC::exmap values = numbers(model, scene, free, result.parameters);
   result.numbers = values;
-  for (const GiNaC::symbol& parameter : model.parameters)
-    if (parameter.get_name() == free) result.free = parameter;
+  for (const std::string& name : names_in(free))
+    for (const GiNaC::symbol& parameter : model.parameters) {
+      if (parameter.get_name() != name) continue;
+      if (result.free)
+        result.further.push_back(parameter);
+      else
+        result.free = parameter;
+    }
+  if (result.further.size() + 1 > ParametricFunction::kMostParameters)
+    throw NotDecided("more than four free parameters");
   result.variables = model.variables;
   result.hamiltonian = model.hamiltonian->subs(values);
   for (const GiNaC::ex& rate : model.poisson->flow(*model.hamiltonian))

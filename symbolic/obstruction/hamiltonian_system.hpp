@@ -12,7 +12,7 @@
 
 namespace casimir::obstruction {
 
-/// A case with rational numbers for all its parameters but at most one.
+/// A case with rational numbers for all its parameters but at most some free ones.
 struct HamiltonianSystem {
   std::vector<GiNaC::symbol> variables;
   std::vector<GiNaC::ex> rates;
@@ -21,15 +21,19 @@ struct HamiltonianSystem {
   std::vector<std::pair<std::string, GiNaC::ex>> casimirs;
   std::vector<std::pair<std::string, std::string>> parameters;  ///< name and value
   GiNaC::exmap numbers;                                         ///< of the parameters
-  std::optional<GiNaC::symbol> free;  ///< the parameter that has no number
-  GiNaC::exmap start;                 ///< the scene's initial values, where they are rational
+  std::optional<GiNaC::symbol> free;   ///< the parameter that has no number
+  std::vector<GiNaC::symbol> further;  ///< more of these
+  GiNaC::exmap start;                  ///< the scene's initial values, where they are rational
 
   /// The place of a variable in the list. \throws std::logic_error  if it is none
   std::size_t index(const GiNaC::ex& variable) const;
 };
 
+/// The names in "a,b".
+std::vector<std::string> names_in(const std::string& list);
+
 /// The case with the parameters of one of its scenes.
-/// \param free  the name of a parameter that keeps its symbol; empty for none
+/// \param free  the names, with commas, of parameters that keep their symbols; empty for none
 /// \throws NotDecided  where it is not Hamiltonian, depends on time, or has a parameter without a
 ///                     rational value
 HamiltonianSystem hamiltonian_system(const Model& model, const std::string& scene,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 #include "symbolic/obstruction/equation/kovacic.hpp"
@@ -204,9 +205,12 @@ NormalEquation<F> second_order(const CurveField<F>& field, const CurveElement<F>
 /// with coefficients in Q(z)
 template <class F>
 NormalEquation<F> equation_of(const CurveField<F>& field, const Matrix<F>& m, std::size_t i,
-                              std::size_t j) {
+                              std::size_t j, const std::function<std::string(std::size_t)>& name) {
   const auto of = [&](std::size_t own, std::size_t other) {
-    return second_order(field, m[own][own], m[own][other], m[other][own], m[other][other]);
+    NormalEquation<F> result =
+        second_order(field, m[own][own], m[own][other], m[other][own], m[other][other]);
+    result.unknowns = {name(own), name(other)};
+    return result;
   };
   std::optional<NormalEquation<F>> first;
   try {
@@ -247,9 +251,7 @@ NormalVariation<F> normal_variation(const HamiltonianSystem& system, const Invar
       continue;
     }
     try {
-      NormalEquation<F> equation = equation_of(field, reduced.matrix, part[0], part[1]);
-      equation.unknowns = {name(part[0]), name(part[1])};
-      result.equations.push_back(std::move(equation));
+      result.equations.push_back(equation_of<F>(field, reduced.matrix, part[0], part[1], name));
     } catch (const NotDecided& problem) {
       result.left_out.emplace_back(problem.what());
     }

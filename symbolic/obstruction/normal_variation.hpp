@@ -10,9 +10,9 @@ namespace casimir::obstruction {
 /// A part of the normal variational equations of two unknowns, as one equation of second order.
 template <class F>
 struct NormalEquation {
-  std::vector<std::string> unknowns;
-  F p, q;     ///< y'' + p y' + q y = 0, with the derivatives by z
-  F reduced;  ///< r of y'' = r y
+  std::vector<std::string> unknowns;  ///< y is the first
+  F p, q;                             ///< y'' + p y' + q y = 0, with the derivatives by z
+  F reduced;                          ///< r of y'' = r y
 };
 
 /// The variational equations along the curve, of what is normal to the surface and tangent to the

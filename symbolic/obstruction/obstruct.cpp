@@ -10,10 +10,13 @@
 #include "symbolic/obstruction/equation/kovacic.hpp"
 #include "symbolic/obstruction/examine.hpp"
 #include "symbolic/obstruction/family/free_parameter.hpp"
+#include "symbolic/obstruction/family/several_parameters.hpp"
 #include "symbolic/obstruction/hamiltonian_system.hpp"
+#include "symbolic/obstruction/higher/higher_variation.hpp"
 #include "symbolic/obstruction/invariant_plane.hpp"
 #include "symbolic/obstruction/normal_variation.hpp"
 #include "symbolic/obstruction/particular_curve.hpp"
+#include "symbolic/obstruction/points/straight_lines_in_space.hpp"
 
 namespace casimir::obstruction {
 namespace {
@@ -22,6 +25,14 @@ constexpr const char* kTheorem =
     "Morales-Ruiz and Ramis (2001): where a Hamiltonian system with n degrees of freedom has n "
     "independent meromorphic integrals in involution near a curve of motion, the Galois group of "
     "the variational equations along it has an abelian identity component";
+
+constexpr const char* kHigherTheorem =
+    "Morales-Ruiz, Ramis and Simo (2007): where a Hamiltonian system with n degrees of freedom has "
+    "n independent meromorphic integrals in involution near a curve of motion, the Galois group of "
+    "the variational equations of each order along it has an abelian identity component";
+
+/// Curves along which the equations of higher order are examined.
+constexpr std::size_t kMostCurvesOfHigherOrder = 12;
 
 /// The integrals that an examined equation excludes.
 std::string excluded_by(const Examined& examined, std::size_t freedom, bool casimirs) {
@@ -35,6 +46,19 @@ std::string excluded_by(const Examined& examined, std::size_t freedom, bool casi
       "every set of {} functionally independent integrals in involution, H among them,{} that are "
       "{}",
       freedom, where, kind);
+}
+
+GiNaC::ex expression_of(const RationalFunction& f, const GiNaC::symbol& z) {
+  const auto polynomial = [&](const Univariate& p) {
+    GiNaC::ex result = 0;
+    for (long i = 0; i <= p.degree(); ++i)
+      result += GiNaC::numeric(cln::cl_N(p.coefficient(i))) * GiNaC::pow(z, static_cast<int>(i));
+    return result;
+  };
+  GiNaC::ex below = 1;
+  for (const auto& [factor, exponent] : f.denominator().factors())
+    below *= GiNaC::pow(polynomial(factor), static_cast<int>(exponent));
+  return polynomial(f.numerator()) / below;
 }
 
 /// The search along surfaces.
@@ -62,7 +86,37 @@ class SurfaceSearch {
     }
   }
 
+  /// The variational equations of order 2 and more, where those of order 1 show nothing.
+  void examine_orders(unsigned highest) {
+    for (const Later& later : later_) {
+      if (result_.proved || highest < 2) return;
+      watch_.begin("higher orders along " + later.plane.text(system_));
+      try {
+        examine_orders_along(later, highest);
+      } catch (const NotDecided& problem) {
+        result_.examined[later.place].cases.emplace_back("variational equations of higher order",
+                                                         problem.what());
+      }
+    }
+  }
+
  private:
+  /// The curve and its equation in the symbols of the system.
+  CurveExpressions expressions_of(const ParticularCurve<RationalFunction>& curve,
+                                  const NormalEquation<RationalFunction>& equation) const {
+    GiNaC::symbol z;
+    for (const GiNaC::symbol& x : system_.variables)
+      if (x.get_name() == curve.names.z) z = x;
+    CurveExpressions result;
+    for (const auto& [i, square] : curve.roots)
+      result.curve.emplace_back(GiNaC::pow(system_.variables[i], 2), expression_of(square, z));
+    result.unknown = unknown_beside(curve.names.z);
+    result.p = expression_of(equation.p, z);
+    result.q = expression_of(equation.q, z);
+    result.reduced = expression_of(equation.reduced, z);
+    return result;
+  }
+
   void leave_out(const InvariantPlane& plane, const std::string& reason) {
     const std::string line = plane.text(system_) + ": " + reason;
     if (said_.insert(line).second) result_.left_out.push_back(line);
@@ -85,7 +139,11 @@ class SurfaceSearch {
       examined.along = plane.text(system_);
       examined.level = curve.level;
       examined.curve = curve.equations;
+      examined.expressions = expressions_of(curve, equation);
       result_.examined.push_back(examined);
+      if (!examined.decisive && !examined.solution.empty() &&
+          later_.size() < kMostCurvesOfHigherOrder)
+        later_.push_back({plane, curve, equation, result_.examined.size() - 1});
       if (!examined.decisive) continue;
       result_.proved = true;
       result_.theorem = kTheorem;
@@ -94,9 +152,39 @@ class SurfaceSearch {
     }
   }
 
+  /// A curve along which the equation of first order has a solvable identity component.
+  struct Later {
+    InvariantPlane plane;
+    ParticularCurve<RationalFunction> curve;
+    NormalEquation<RationalFunction> equation;
+    std::size_t place;  ///< among what was examined
+  };
+
+  void examine_orders_along(const Later& later, unsigned highest) {
+    const HigherVariation found = examine_higher(system_, later.plane, later.curve, later.equation,
+                                                 highest, [&] { watch_.tick(0); });
+    const std::string what =
+        found.order == 2 ? "variational equations of order 2"
+                         : fmt::format("variational equations of order 2 to {}", found.order);
+    result_.examined[later.place].cases.emplace_back(what, found.outcome);
+    if (!found.decisive) return;
+    Examined decisive = result_.examined[later.place];
+    decisive.cases.emplace_back(
+        "coefficient of the logarithm, by constants of the solutions of order 1", found.residue);
+    decisive.order = found.order;
+    decisive.outcome =
+        fmt::format("of order {}: the identity component is not abelian", found.order);
+    decisive.decisive = true;
+    result_.examined.push_back(std::move(decisive));
+    result_.proved = true;
+    result_.theorem = kHigherTheorem;
+    result_.excluded = excluded_by(result_.examined.back(), 2, false);
+  }
+
   const HamiltonianSystem& system_;
   const search::Watch& watch_;
   Obstruction& result_;
+  std::vector<Later> later_;
   std::set<std::string> seen_, said_;
 };
 
@@ -134,15 +222,17 @@ std::vector<InvariantPlane> planes_of(const HamiltonianSystem& system, const Sur
   return invariant_planes(system, relations);
 }
 
-void decide(const HamiltonianSystem& system, const Surfaces& along, const search::Watch& watch,
-            Obstruction& result) {
+void decide(const HamiltonianSystem& system, const Surfaces& along, unsigned order,
+            const search::Watch& watch, Obstruction& result) {
   result.parameters = system.parameters;
   if (along.asked.empty()) {
     watch.begin("straight lines of a homogeneous potential");
     examine_straight_lines(system, result);
+    examine_lines_in_space(
+        system, [&] { watch.tick(0); }, result);
     if (result.proved) {
       result.theorem = kTheorem;
-      result.excluded = excluded_by(result.examined.back(), 2, false);
+      result.excluded = excluded_by(result.examined.back(), system.variables.size() / 2, false);
       return;
     }
   }
@@ -150,6 +240,7 @@ void decide(const HamiltonianSystem& system, const Surfaces& along, const search
   const std::vector<InvariantPlane> planes = planes_of(system, along);
   SurfaceSearch search(system, watch, result);
   for (const InvariantPlane& plane : planes) search.examine(plane);
+  search.examine_orders(order);
   if (result.proved) return;
   if (planes.empty() && result.examined.empty()) throw NotDecided("no invariant surface was found");
   if (result.examined.empty())
@@ -170,20 +261,35 @@ void with_reason(Obstruction& result, const Decision& decision) {
   }
 }
 
-/// Which values of the free parameter survive.
-void decide_family(const HamiltonianSystem& system, const Surfaces& along,
+/// What is excluded for every value of the free parameters that does not survive.
+void say_excluded(const HamiltonianSystem& system, Obstruction& result);
+
+/// Which values of the free parameters survive.
+void decide_family(const HamiltonianSystem& system, const Surfaces& along, unsigned order,
                    const search::Watch& watch, Obstruction& result) {
   result.parameters = system.parameters;
   result.free = system.free->get_name();
   watch.begin("invariant surfaces");
+  for (const GiNaC::symbol& other : system.further) result.free += "," + other.get_name();
+  if (!system.further.empty()) {
+    exclude_regions(system,
+                    general_equations(system, planes_of(system, along), watch, result.left_out),
+                    result);
+    say_excluded(system, result);
+    return;
+  }
   std::vector<FamilyEquation> equations =
       family_equations(system, planes_of(system, along), watch, result.left_out);
   const auto examine = [&](const cln::cl_RA& value) {
     Obstruction own;
-    with_reason(own, [&] { decide(with_value(system, value), along, watch, own); });
+    with_reason(own, [&] { decide(with_value(system, value), along, order, watch, own); });
     return own;
   };
   exclude_values(system, std::move(equations), examine, result);
+  say_excluded(system, result);
+}
+
+void say_excluded(const HamiltonianSystem& system, Obstruction& result) {
   result.theorem = kTheorem;
   const bool planar = system.variables.size() == system.casimirs.size() + 4;
   const std::string where =
@@ -211,9 +317,9 @@ Obstruction find_obstruction(const Model& model, const ObstructionRequest& reque
     if (system.variables.size() <= system.casimirs.size() + 2)
       throw NotDecided("a system with one degree of freedom has H, and needs no further integral");
     if (system.free)
-      decide_family(system, along, watch, result);
+      decide_family(system, along, request.order, watch, result);
     else
-      decide(system, along, watch, result);
+      decide(system, along, request.order, watch, result);
   });
   return result;
 }

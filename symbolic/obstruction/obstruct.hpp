@@ -1,13 +1,24 @@
 #pragma once
 
+#include <ginac/ginac.h>
+
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "symbolic/model.hpp"
+#include "symbolic/obstruction/certificate/no_polynomial.hpp"
 #include "symbolic/search/watch.hpp"
 
 namespace casimir::obstruction {
+
+/// A curve and its normal variational equation as expressions in the variables of the case.
+struct CurveExpressions {
+  std::vector<std::pair<GiNaC::ex, GiNaC::ex>> curve;  ///< left and right sides: px^2 = ..
+  std::string unknown;                                 ///< of the equation, a name of no variable z
+  GiNaC::ex p, q, reduced;                             ///< y'' + p y' + q y = 0, and r of y'' = r y
+};
 
 /// One question to the Galois group: a curve, an equation along it, and what is known of the group.
 struct Examined {
@@ -23,6 +34,9 @@ struct Examined {
   std::string where;      ///< with a free parameter: what it is said of, as "a3 - 1 != 0"
   bool decisive = false;  ///< it proves that there is no further integral
   bool regular = true;    ///< no irregular singular point
+  unsigned order = 1;     ///< of the variational equation that decides
+  std::vector<NoPolynomial> steps = {};              ///< the linear algebra of the proof
+  std::optional<CurveExpressions> expressions = {};  ///< along surfaces, without a free parameter
 };
 
 /// A real value of the free parameter that no equation excludes for all values alike.
@@ -42,7 +56,7 @@ struct FreeSequence {
 /// Whether a further integral is excluded, and by what.
 struct Obstruction {
   bool proved = false;
-  std::string free;                     ///< the free parameter; empty without one
+  std::string free;                     ///< the free parameters, with commas; empty without one
   std::vector<FreeValue> values;        ///< that survive, in order
   std::vector<FreeSequence> sequences;  ///< of values that survive
   std::vector<std::pair<std::string, std::string>> parameters;  ///< name and value
@@ -57,7 +71,9 @@ struct Obstruction {
 struct ObstructionRequest {
   std::string scene = "default";  ///< whose values the parameters have
   std::vector<Text> along;        ///< equations of an invariant surface; none: it is sought
-  std::string free = {};          ///< a parameter that keeps its symbol: which values survive?
+  /// Parameters that keep their symbols, with commas: which values survive?
+  std::string free = {};
+  unsigned order = 3;  ///< the highest of the variational equations that are examined
 };
 
 /// Looks for a curve along which the identity component of the Galois group of the variational
@@ -73,6 +89,9 @@ struct ObstructionRequest {
 /// solvable identity component (`decide_liouvillian`). Where the equation has an irregular singular
 /// point, its coefficients are taken from the algebraic functions on the curve, and only integrals
 /// with algebraic coefficients there, such as rational ones, are excluded.
+///
+/// Where all equations of first order have a solvable identity component, those of higher order are
+/// examined where `examine_higher` can.
 ///
 /// With a free parameter `proved` is about every real value of it but those in `values` and
 /// `sequences`; what is said of each equation holds where `Examined::where` does.

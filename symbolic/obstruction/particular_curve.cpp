@@ -29,6 +29,12 @@ struct Relation {
   ex function, value;
 };
 
+bool has_parameter(const HamiltonianSystem& system, const ex& e) {
+  return (system.free && e.has(*system.free)) ||
+         std::any_of(system.further.begin(), system.further.end(),
+                     [&](const symbol& other) { return e.has(other); });
+}
+
 /// Variables of an expression that are among those given.
 bool uses_any(const ex& expression, const std::vector<symbol>& variables) {
   return std::any_of(variables.begin(), variables.end(),
@@ -133,6 +139,7 @@ void add_special_energies(const HamiltonianSystem& system, const std::vector<Ste
   product = product.expand();
   GiNaC::lst symbols{z, energy};
   if (system.free) symbols.append(*system.free);
+  for (const symbol& other : system.further) symbols.append(other);
   if (!product.is_polynomial(symbols)) return;
   product = GiNaC::sqrfree(product, GiNaC::lst{z});
   ex radical = 1;
@@ -172,6 +179,12 @@ void add_parameter(const HamiltonianSystem& system, ParticularCurve<ParametricFu
   curve.names.parameter = system.free->get_name();
   curve.places[*system.free] = static_cast<int>(curve.values.size());
   curve.values.push_back(CurveField<ParametricFunction>::constant(ParametricFunction::parameter()));
+  for (const symbol& other : system.further) {
+    curve.places[other] = static_cast<int>(curve.values.size());
+    curve.names.further.push_back(other.get_name());
+    curve.values.push_back(CurveField<ParametricFunction>::constant(
+        ParametricFunction::parameter(curve.names.further.size())));
+  }
 }
 
 RationalFunction variable_of(const RationalFunction&) { return Univariate::variable(); }
@@ -180,11 +193,16 @@ ParametricFunction variable_of(const ParametricFunction&) { return ParametricFun
 /// An energy in print. GiNaC's order of factors changes from run to run.
 std::string energy_text(const HamiltonianSystem& system, const ex& energy) {
   if (!system.free) return printed(energy);
-  using F = ParametricFunction;
   const CurveField<F> field;
-  const std::vector<CurveElement<F>> values{CurveField<F>::constant(F::parameter())};
-  return written(CurveField<F>::rational(field.value(energy, {{*system.free, 0}}, values)),
-                 {"", system.free->get_name()});
+  std::vector<CurveElement<F>> values{CurveField<F>::constant(F::parameter())};
+  GiNaC::exmap places{{*system.free, 0}};
+  CurveNames names{"", system.free->get_name()};
+  for (const symbol& other : system.further) {
+    places[other] = static_cast<int>(values.size());
+    names.further.push_back(other.get_name());
+    values.push_back(CurveField<F>::constant(F::parameter(names.further.size())));
+  }
+  return written(CurveField<F>::rational(field.value(energy, places, values)), names);
 }
 
 /// The curve at an energy. \throws NotDecided  where it is none
@@ -209,9 +227,11 @@ ParticularCurve<F> make_curve(const HamiltonianSystem& system, const InvariantPl
       const CurveElement<F> root = curve.field.root_of(square);
       own = curve.field.sum(own, root);
       curve.complexity += total_degree(square);
-      if (step.base.is_zero())
+      if (step.base.is_zero()) {
         curve.equations += fmt::format("{}{}^2 = {}", curve.equations.empty() ? "" : ", ",
                                        step.variable.get_name(), written(square, curve.names));
+        curve.roots.emplace_back(system.index(step.variable), square);
+      }
     }
     curve.values[system.index(step.variable)] = own;
   }
@@ -310,7 +330,7 @@ Solutions solutions_on(const HamiltonianSystem& system, const InvariantPlane& pl
   for (const ex& e : candidates) {
     const bool known = std::any_of(result.energies.begin(), result.energies.end(),
                                    [&](const ex& other) { return other.is_equal(e); });
-    const bool number = GiNaC::is_a<GiNaC::numeric>(e) || (system.free && e.has(*system.free));
+    const bool number = GiNaC::is_a<GiNaC::numeric>(e) || has_parameter(system, e);
     if (!known && number && result.energies.size() < kMostEnergies) result.energies.push_back(e);
   }
   return result;

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "symbolic/obstruction/curve_field.hpp"
@@ -15,9 +16,10 @@ namespace casimir::obstruction {
 /// RationalFunction, or where the system has a free parameter ParametricFunction.
 template <class F>
 struct ParticularCurve {
-  CurveNames names;       ///< of the variable and of the free parameter
-  std::string level;      ///< as "H = 1, F1 = 1"
-  std::string equations;  ///< as "py^2 = 2*z + 1"
+  CurveNames names;                              ///< of the variable and of the free parameter
+  std::string level;                             ///< as "H = 1, F1 = 1"
+  std::string equations;                         ///< as "py^2 = 2*z + 1"
+  std::vector<std::pair<std::size_t, F>> roots;  ///< variables whose squares are functions of z
   CurveField<F> field;
   std::vector<CurveElement<F>> values;  ///< of each variable
   long complexity = 0;                  ///< the degrees of the functions whose roots are taken

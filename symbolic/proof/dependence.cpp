@@ -12,6 +12,7 @@
 #include <algorithm>
 
 #include "symbolic/algebra/number_text.hpp"
+#include "symbolic/functions/point_completer.hpp"
 
 namespace casimir {
 namespace {
@@ -89,8 +90,9 @@ class ModularRelation {
   }
 
   std::optional<std::string> find() {
-    if (!std::all_of(values_.begin(), values_.end(),
-                     [&](const Polynomial& p) { return prover_.ring().has_value(p); })) {
+    if (!std::all_of(values_.begin(), values_.end(), [&](const Polynomial& p) {
+          return functions::PointCompleter(prover_.ring().table()).has_value(p);
+        })) {
       return std::nullopt;
     }
     const long first = weights_[0];

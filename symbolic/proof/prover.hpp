@@ -127,6 +127,10 @@ class Prover {
   /// Whether no denominator in them is one: then they may be multiplied by their denominators.
   bool has_no_zero_divisors(const std::vector<std::vector<Polynomial>>& rows);
 
+  /// That the claim is about something is shown elsewhere, since functions of it have no values: it
+  /// is not looked at here. Until the next claim begins.
+  void take_as_inhabited(bool taken) { taken_as_inhabited_ = taken; }
+
   /// A claim about nothing is not proved: for all points of the empty set everything is true.
   void check_inhabited(Proof& proof, const Level& level);
 
@@ -214,6 +218,7 @@ class Prover {
   /// With the end of the generators that they are about.
   std::pair<std::size_t, std::vector<Polynomial>> square_relations_;
   std::optional<bool> all_inhabited_, claim_inhabited_;
+  bool taken_as_inhabited_ = false;
   /// A level, by its functions and by how much work it was worth.
   struct KnownLevel {
     std::vector<NamedExpression> on;

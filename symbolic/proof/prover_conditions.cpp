@@ -15,7 +15,7 @@ using GiNaC::ex;
 /// that differentiates functions which have real values on the edge of their domain alone, as
 /// sqrt(-x^2) has.
 void Prover::check_inhabited(Proof& proof, const Level& own) {
-  if (proof.verdict != Verdict::proved) return;
+  if (proof.verdict != Verdict::proved || taken_as_inhabited_) return;
   const bool everywhere = ring_.is_polynomial() && model_.assumptions.empty();
   static const std::vector<ex> kNothing;
   const std::vector<ex>& domain = ring_.is_polynomial() ? kNothing : domain_;
@@ -55,22 +55,23 @@ bool Prover::seems_to_vanish(const Polynomial& f, Divisors which) {
   const std::vector<Polynomial> parts = f.coefficients(x);
   if (!parts[1].is_constant()) return false;
   const double slope = cln::double_approx(parts[1].term_list()[0].first);
-  const auto admitted = [&](FunctionRing::Probe& at) {
+  const functions::FunctionProbe probes(ring_.table());
+  const auto admitted = [&](functions::Probe& at) {
     const auto differs = [&](const Polynomial& d) {
-      return std::abs(ring_.value_at(at, d)) > kRounding;  // not so where it has no value
+      return std::abs(probes.value_at(at, d)) > kRounding;  // not so where it has no value
     };
-    return ring_.has_values_at(at) &&
+    return probes.has_values_at(at) &&
            std::all_of(model_.assumptions.begin(), model_.assumptions.end(),
                        [&](const Assumption& a) {
-                         const double d = ring_.value_at(at, ring_.convert(a.difference));
+                         const double d = probes.value_at(at, ring_.convert(a.difference));
                          const int sign = std::abs(d) <= kRounding ? 0 : d > 0 ? 1 : -1;
                          return std::isfinite(d) && holds(a.comparison, sign);
                        }) &&
            std::all_of(explicit_divisors(which).begin(), explicit_divisors(which).end(), differs);
   };
-  for (std::size_t k = 0; k < FunctionRing::kProbes; ++k) {
-    FunctionRing::Probe at = ring_.probe(k);
-    at.coordinates[x] = -ring_.value_at(at, parts[0]) / slope;
+  for (std::size_t k = 0; k < functions::kProbes; ++k) {
+    functions::Probe at = probes.probe(k);
+    at.coordinates[x] = -probes.value_at(at, parts[0]) / slope;
     at.generators.clear();
     if (admitted(at)) return true;
   }

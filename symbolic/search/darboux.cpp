@@ -316,7 +316,7 @@ DarbouxReport find_darboux(const Model& model, int degree, const Watch& watch) {
   if (degree > kHighest)
     throw ModelError(fmt::format("Darboux polynomials are searched up to degree {}", kHighest));
   DarbouxReport report = DarbouxSearch(model, degree, watch).run();
-  report.combinations = combine(model, report.found, degree, watch);
+  report.combinations = combine(model, report.found, degree, watch, &report.all_integrals_combined);
   return report;
 }
 

@@ -28,7 +28,8 @@ struct DarbouxCombination {
     time_dependent,  ///< constant along the motion, with the time in it
   };
   Kind kind = Kind::integral;
-  std::string text;  ///< with the bases for their absolute values
+  std::string text;       ///< with the bases for their absolute values
+  bool rational = false;  ///< a quotient of polynomials: whole exponents and no exponential
   Verdict verdict = Verdict::undecided;
 };
 
@@ -39,6 +40,9 @@ std::string to_string(DarbouxCombination::Kind kind);
 struct DarbouxReport {
   std::vector<DarbouxPolynomial> found;  ///< irreducible, with a cofactor that is not zero
   std::vector<DarbouxCombination> combinations;
+  /// Proved: every integral that is a product of powers of those found, times an exponential of a
+  /// polynomial up to the degree, follows from the combinations and the polynomial integrals.
+  bool all_integrals_combined = false;
   bool complete = false;  ///< there are no others, for generic parameters
   std::string reason;
   std::vector<std::string> generic;  ///< parameters

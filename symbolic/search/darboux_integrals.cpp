@@ -17,11 +17,12 @@ class Combiner {
            const Watch& watch)
       : model_(model), found_(found), degree_(degree), watch_(watch) {}
 
-  std::vector<DarbouxCombination> run();
+  /// \param all  becomes false unless it is proved that these are all integrals of the kind
+  std::vector<DarbouxCombination> run(bool& all);
 
  private:
   using Kind = DarbouxCombination::Kind;
-  void search(Kind kind);
+  bool search(Kind kind);
   Model extended(Kind kind) const;
   Problem problem(System& system) const;
   DarbouxCombination described(const System& system, const Polynomial& f, Kind kind) const;
@@ -99,12 +100,14 @@ DarbouxCombination Combiner::described(const System& system, const Polynomial& f
   Polynomial g = f;
   DarbouxCombination result;
   result.kind = kind;
+  result.rational = kind == Kind::integral;
   std::string top, bottom;
   for (std::size_t i = first; i < last; ++i) {
     const Polynomial slope = f.derivative(i);
     if (slope.is_zero()) continue;
     g -= slope * system.ring().variable(i);
     const GiNaC::ex exponent = (system.expression(slope) / scale).normal();
+    result.rational = result.rational && exponent.info(GiNaC::info_flags::integer);
     const bool negative = exponent.info(GiNaC::info_flags::negative);
     std::string& side = negative ? bottom : top;
     side += (side.empty() ? "" : "*") +
@@ -119,6 +122,7 @@ DarbouxCombination Combiner::described(const System& system, const Polynomial& f
   }
   const GiNaC::ex rest = (system.expression(g) / scale).normal();
   if (!rest.is_zero()) exponents.insert(exponents.begin(), system.text_of(rest));
+  result.rational = result.rational && exponents.empty();
   if (!exponents.empty()) {
     std::string sum;
     for (const std::string& e : exponents) sum += (sum.empty() ? "" : " + ") + e;
@@ -132,7 +136,8 @@ DarbouxCombination Combiner::described(const System& system, const Polynomial& f
   return result;
 }
 
-void Combiner::search(Kind kind) {
+/// Whether it is proved that there are no others.
+bool Combiner::search(Kind kind) {
   const Model model = extended(kind);
   System system(model, {}, {});
   const Solution solution = solve(system, problem(system), watch_);
@@ -150,13 +155,16 @@ void Combiner::search(Kind kind) {
     result_.push_back(described(system, g.function, kind));
     result_.back().verdict = verdict;
   }
+  return solution.complete;
 }
 
-std::vector<DarbouxCombination> Combiner::run() {
+std::vector<DarbouxCombination> Combiner::run(bool& all) {
+  const bool wanted = all;
+  all = false;
   for (std::size_t i = 0; i < found_.size(); ++i)
     logarithms_.emplace_back(fmt::format("<log {}>", i));
   try {
-    search(Kind::integral);
+    all = search(Kind::integral) && wanted;
     const std::vector<GiNaC::ex> integrals = known_;
     search(Kind::multiplier);
     known_ = integrals;
@@ -171,12 +179,15 @@ std::vector<DarbouxCombination> Combiner::run() {
 
 std::vector<DarbouxCombination> combine(const Model& model,
                                         const std::vector<DarbouxPolynomial>& found, int degree,
-                                        const Watch& watch) {
+                                        const Watch& watch, bool* all_integrals) {
   std::vector<DarbouxPolynomial> proved;
   std::copy_if(found.begin(), found.end(), std::back_inserter(proved),
                [](const DarbouxPolynomial& f) { return f.verdict == Verdict::proved; });
-  if (proved.empty()) return {};
-  return Combiner(model, proved, degree, watch).run();
+  bool all = proved.size() == found.size();
+  std::vector<DarbouxCombination> result;
+  if (!proved.empty()) result = Combiner(model, proved, degree, watch).run(all);
+  if (all_integrals != nullptr) *all_integrals = all;
+  return result;
 }
 
 }  // namespace casimir::search

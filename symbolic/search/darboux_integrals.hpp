@@ -16,10 +16,11 @@ namespace casimir::search {
 /// checked exactly, as the claim that g + sum e_i w_i + s t + m v is an integral of the system with
 /// the further variables dw_i/dt = K_i, dv/dt = div(X); and that each F_i is one is proved before.
 /// \param degree  highest, of g
+/// \param all_integrals  set to whether it is proved that there are no other integrals of that kind
 /// \return  all for exponents that do not depend on the state, less those that follow from others
 ///     and the polynomial integrals
 std::vector<DarbouxCombination> combine(const Model& model,
                                         const std::vector<DarbouxPolynomial>& found, int degree,
-                                        const Watch& watch);
+                                        const Watch& watch, bool* all_integrals = nullptr);
 
 }  // namespace casimir::search

@@ -31,6 +31,7 @@
 #include <numeric>
 #include <set>
 
+#include "symbolic/expression/elliptic.hpp"
 #include "symbolic/search/modular/span.hpp"
 
 namespace casimir::search {
@@ -49,7 +50,11 @@ class Independence {
   using Divisors = std::vector<std::pair<Polynomial, long>>;
 
   void collect();
-  FunctionRing::Origin origin(std::size_t place) const { return ring_.origin(place); }
+  FunctionRing::Origin origin(std::size_t place) const {
+    if (has_elliptic_function(ring_.variable_value(place)))
+      throw TooLarge("elliptic functions are known to proofs of claims, and not to a search");
+    return ring_.origin(place);
+  }
   bool is_symbol(std::size_t place) const { return place < ring_.symbols().size(); }
   Places of_kind(Kind kind, bool constant) const;
   Places uses(const Polynomial& p) const;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "symbolic/error.hpp"
+#include "symbolic/expression/elliptic.hpp"
 #include "symbolic/search/modular/modular_roots.hpp"
 #include "symbolic/search/watch.hpp"
 
@@ -68,6 +69,11 @@ System::System(const Model& model, const std::vector<NamedExpression>& functions
       extended_(with_symbols_for(model, functions, others)),
       prover_(extended_ ? *extended_ : model, values_of(functions, others)) {
   const std::size_t dimension = model.variables.size();
+  for (std::size_t g = this->functions().symbols().size();
+       g < this->functions().end_of_generators(); ++g) {
+    if (this->functions().origin(g).kind == FunctionRing::Origin::Kind::arbitrary)
+      throw ModelError("a search needs functions that are given, and this case has arbitrary ones");
+  }
   for (std::size_t i = 0; i < dimension; ++i) moving_.push_back(i);
   if (model.time) moving_.push_back(dimension + this->model().parameters.size());
   for (std::size_t i = prover_.ring().symbols().size(); i < ring().size(); ++i)
@@ -101,6 +107,8 @@ System::System(const Model& model, const std::vector<NamedExpression>& functions
 System::Bond System::bond_of(std::size_t place) const {
   using Kind = FunctionRing::Origin::Kind;
   if (place >= functions().end_of_generators()) return {Bond::Kind::none, Polynomial(ring()), 1};
+  if (has_elliptic_function(functions().variable_value(place)))
+    throw TooLarge("elliptic functions are known to proofs of claims, and not to a search");
   FunctionRing::Origin origin = functions().origin(place);
   switch (origin.kind) {
     case Kind::inverse:

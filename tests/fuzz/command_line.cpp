@@ -35,7 +35,7 @@ void read_values(const std::vector<std::string>& words) {
 }  // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static Program program;  // CLI11 forgets what it has read before it reads again
+  static CommandLine line;  // CLI11 forgets what it has read before it reads again
   const casimir::test::OneSecond limit;
   std::vector<std::string> words{"casimir"};
   std::istringstream stream({reinterpret_cast<const char*>(data), size});
@@ -45,10 +45,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   for (const std::string& word : words) arguments.push_back(word.c_str());
   const int count = static_cast<int>(arguments.size());
   try {
-    program.read(count, arguments.data());
+    line.read(count, arguments.data());
   } catch (const CLI::Success&) {
   } catch (const CLI::ParseError& problem) {
-    program.usage_message(problem, count, arguments.data());
+    line.usage_message(problem, count, arguments.data());
   } catch (const UsageError&) {
   }
   read_values(words);

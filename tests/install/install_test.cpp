@@ -124,9 +124,9 @@ std::string after(const std::string& text, const std::string& mark) {
   return at == std::string::npos ? "(no " + mark + ")" : text.substr(at + mark.size());
 }
 
-/// A user's first programs are no longer than that, and the README shows them as they are.
-TEST(Install, TheReadmeShowsTheExamplesAndTheyAreShort) {
-  const std::string readme = file_text(CASIMIR_SOURCE_DIR "/README.md");
+/// A user's first programs are no longer than that, and the tour shows them as they are.
+TEST(Install, TheTourShowsTheExamplesAndTheyAreShort) {
+  const std::string readme = file_text(CASIMIR_SOURCE_DIR "/tools/README.md");
   for (const char* name : {"verify", "solve", "section"}) {
     const std::string text =
         file_text(std::string(CASIMIR_SOURCE_DIR "/tools/examples/") + name + ".cpp");

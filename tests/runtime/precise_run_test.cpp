@@ -304,6 +304,19 @@ TEST(PreciseRun, JumpsAreFoundToAllDigits) {
   EXPECT_EQ(agreed_digits(agreed.run.state[1], cln::cl_float(cln::cl_RA("-1/2"), format), 50), 50);
 }
 
+/// x' = sign(sin(t)): the branches are at multiples of Pi, which no double is. To 10 it is 4 Pi
+/// - 10.
+TEST(PreciseRun, JumpsBetweenDoublesAreLeftBehind) {
+  Builder b({"x"});
+  b.output(b.op(Op::sign, b.op(Op::sin, b.time())));
+  const Program program = b.program();
+  const AgreedRun agreed = agreed_run(problem(program, {0, 10}), 30);
+  ASSERT_EQ(agreed.run.status, Status::ok) << agreed.run.reason;
+  const cln::float_format_t format = cln::float_format(60);
+  const cln::cl_F truth = cln::cl_float(4 * cln::pi(format) - 10, format);
+  EXPECT_EQ(agreed_digits(agreed.run.state[0], truth, 30), 30);
+}
+
 /// x' = exp(-(1000 (t - 3))^2), of which the integral is sqrt(Pi)/1000.
 TEST(PreciseRun, PulsesAreNotPassedOver) {
   Builder b({"x"});

@@ -67,6 +67,20 @@ TEST(Prove, BranchOfARootDecides) {
   EXPECT_EQ(test_integral(model_of(body + h + space), "sqrt(M1^2)").verdict, Verdict::refuted);
 }
 
+/// sqrt(x) has values for x >= 0, where |x| - x is zero: of that the other claim knows nothing.
+TEST(Prove, AClaimWithoutValuesInTheDomainOfAnotherIsDecidedForItself) {
+  const Model model = model_of(
+      "[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"0\"\ny = "
+      "\"1\"\n[integrals]\nA = "
+      "\"1/(abs(x) - x)\"\nB = \"sqrt(x)\"\n");
+  Candidates integrals;
+  integrals.only = ClaimKind::integral;
+  const std::vector<Proof> proofs = prove(model, integrals);
+  ASSERT_EQ(proofs.size(), 2U);
+  EXPECT_EQ(proofs[0].verdict, Verdict::proved);
+  EXPECT_EQ(proofs[1].verdict, Verdict::proved);
+}
+
 TEST(Prove, BentBracketFailsJacobi) {
   const Model bent = model_of(
       "hamiltonian = \"M1\"\n[phase_space]\nvariables = "

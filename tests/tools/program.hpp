@@ -22,11 +22,13 @@ namespace casimir::test {
 struct Outcome {
   int status = -1;  ///< exit status, or 128 + signal
   std::string out, err;
-  nlohmann::json json() const { return nlohmann::json::parse(out); }
+  nlohmann::ordered_json json() const { return nlohmann::ordered_json::parse(out); }
 };
 
 /// What a document of ours carries as text.
-inline double number(const nlohmann::json& text) { return std::stod(text.get<std::string>()); }
+inline double number(const nlohmann::ordered_json& text) {
+  return std::stod(text.get<std::string>());
+}
 
 inline bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;

@@ -85,7 +85,8 @@ TEST_P(Readme, EveryCommandPrintsWhatIsShown) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pages, Readme,
-                         testing::Values("README.md", "symbolic/README.md", "runtime/README.md"));
+                         testing::Values("README.md", "tools/README.md", "symbolic/README.md",
+                                         "runtime/README.md"));
 
 }  // namespace
 }  // namespace casimir::test

@@ -15,7 +15,7 @@
 namespace casimir::traps {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 /// What the rounding of the last state alone makes: estimates are not asked to be below it.
 constexpr double kRounding = 0x1p-52;

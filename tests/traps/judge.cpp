@@ -10,7 +10,7 @@
 namespace casimir::traps {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 /// An error is not silent up to so many times the estimate, and below what nobody minds, and what
 /// a tolerance as loose as this asks for.

@@ -8,6 +8,7 @@
 
 #include "symbolic/expression/decimal.hpp"
 #include "symbolic/expression/elementary.hpp"
+#include "symbolic/expression/elliptic.hpp"
 #include "symbolic/expression/expression.hpp"
 
 namespace casimir {
@@ -24,6 +25,7 @@ const std::set<std::string>& known_functions() {
         if (GiNaC::is_a<GiNaC::function>(*it))
           result.insert(GiNaC::ex_to<GiNaC::function>(*it).get_name());
     }
+    for (const std::string& name : elliptic_function_names()) result.insert(name);
     return result;
   }();
   return names;

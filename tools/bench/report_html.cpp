@@ -25,13 +25,13 @@ small { color: #666; } figure { margin: 1rem 0; } svg { max-width: 100%; height:
 summary { cursor: pointer; } .scroll { overflow-x: auto; }
 )";
 
-std::string ratio_text(double ratio) {
+std::string ratio_markup(double ratio) {
   return std::isnan(ratio) ? "" : fmt::format("{:.{}f}&times;", ratio, ratio < 100 ? 1 : 0);
 }
 
-std::string cell_text(const Cell& cell) {
+std::string cell_markup(const Cell& cell) {
   if (std::isnan(cell.seconds)) return "&ndash;";
-  return fmt::format("{} <small>{}</small>", duration_text(cell.seconds), ratio_text(cell.ratio));
+  return fmt::format("{} <small>{}</small>", duration_text(cell.seconds), ratio_markup(cell.ratio));
 }
 
 std::vector<std::string> level_heads(const std::string& first) {
@@ -49,9 +49,9 @@ std::string html::equal_error_table(const MethodComparison& contest) {
   std::string rows = html::row(heads, "th");
   for (const Line& line : equal_error_lines(contest)) {
     std::vector<std::string> cells{html::text(line.contender.label())};
-    for (const Cell& cell : line.levels) cells.push_back(cell_text(cell));
+    for (const Cell& cell : line.levels) cells.push_back(cell_markup(cell));
     cells.push_back(fmt::format("{:.1e}", line.best.error));
-    cells.push_back(cell_text(line.best));
+    cells.push_back(cell_markup(line.best));
     rows += html::row(cells, "td", line.contender.own() ? "own" : "");
   }
   return "<h3>Time at equal error, and how many times as long as the fastest of ours</h3>\n" +
@@ -121,7 +121,7 @@ std::string section(const MethodComparison& contest, std::size_t index,
   return text + html::code_table(contest) + html::rows_table(contest) + "</section>\n";
 }
 
-std::string summary(const BenchReport& report) {
+std::string summary_markup(const BenchReport& report) {
   std::vector<std::string> heads = level_heads("method");
   heads.emplace_back("best error it reaches");
   std::string rows = html::row(heads, "th");
@@ -135,8 +135,8 @@ std::string summary(const BenchReport& report) {
     cells.push_back(mean.cases == 0
                         ? "&ndash;"
                         : fmt::format("{} <small>{} cases, least {} ({})</small>",
-                                      ratio_text(mean.ratio), mean.cases, ratio_text(mean.least),
-                                      html::text(mean.least_case)));
+                                      ratio_markup(mean.ratio), mean.cases,
+                                      ratio_markup(mean.least), html::text(mean.least_case)));
   }
   if (!cells.empty()) rows += html::row(cells);
   return "<h2>Summary</h2>\n<p>How many times as long as the fastest of ours others take for the "
@@ -165,7 +165,7 @@ std::string to_html(const BenchReport& report, const std::vector<std::string>& p
       kStyle);
   text += html::paragraph(processor_text(report.machine) + "; " + report.machine.system + "; " +
                           versions_text(report.machine));
-  if (report.several) text += contents(report) + summary(report);
+  if (report.several) text += contents(report) + summary_markup(report);
   for (std::size_t i = 0; i < report.contests.size(); ++i)
     text += section(report.contests[i], i, pictures[i]);
   return text + "</body>\n</html>\n";

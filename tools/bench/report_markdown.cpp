@@ -20,7 +20,7 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-std::string cell_text(const Cell& cell) {
+std::string cell_markdown(const Cell& cell) {
   if (std::isnan(cell.seconds)) return "-";
   const std::string ratio =
       std::isnan(cell.ratio) ? "" : fmt::format(" ({:.{}f})", cell.ratio, cell.ratio < 100 ? 1 : 0);
@@ -42,13 +42,13 @@ std::string table(const MethodComparison& contest) {
   for (const Line& line : equal_error_lines(contest)) {
     if (line.contender.code == "general") continue;
     text += fmt::format("| {} |", line.contender.label());
-    for (const Cell& cell : line.levels) text += fmt::format(" {} |", cell_text(cell));
-    text += fmt::format(" {:.1e}: {} |\n", line.best.error, cell_text(line.best));
+    for (const Cell& cell : line.levels) text += fmt::format(" {} |", cell_markdown(cell));
+    text += fmt::format(" {:.1e}: {} |\n", line.best.error, cell_markdown(line.best));
   }
   return text;
 }
 
-std::string summary(const BenchReport& report) {
+std::string summary_table(const BenchReport& report) {
   std::string text = head();
   std::string last;
   for (const Mean& mean : means(report.contests)) {
@@ -90,7 +90,7 @@ std::string to_markdown(const BenchReport& report) {
   }
   if (report.several)
     text += "Geometric means of how many times as long as the fastest of ours:\n\n" +
-            summary(report) + '\n';
+            summary_table(report) + '\n';
   return text + fmt::format("Measured on {}; {}{}.\n", processor_text(report.machine),
                             versions_text(report.machine), spread_text(report));
 }

@@ -59,6 +59,7 @@ void register_check(CLI::App& program, Action& action);
 void register_section(CLI::App& program, Action& action);
 void register_bench(CLI::App& program, Action& action);
 void register_stress(CLI::App& program, Action& action);
+void register_relate(CLI::App& program, Action& action);
 void register_report(CLI::App& program, Action& action);
 void register_sweep(CLI::App& program, Action& action);
 void register_new(CLI::App& program, Action& action);
@@ -70,7 +71,8 @@ inline constexpr Register kCommands[] = {
     register_exponents, register_obstruct,   register_equilibria, register_generate,
     register_integrate, register_check,      register_section,    register_conserve,
     register_bench,     register_stress,     register_report,     register_sweep,
-    register_survey,    register_discretise, register_degrees,    register_new,
+    register_survey,    register_discretise, register_degrees,    register_relate,
+    register_new,
 };
 
 }  // namespace casimir::tools

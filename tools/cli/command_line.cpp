@@ -8,7 +8,7 @@
 
 namespace casimir::tools {
 
-Program::Program()
+CommandLine::CommandLine()
     : app_(
           "Proves the integrals of Hamiltonian systems, writes their equations as C++ and "
           "integrates them.",
@@ -20,7 +20,7 @@ Program::Program()
   for (CLI::App* command : app_.get_subcommands(nullptr)) add_resources(*command, resources_);
 }
 
-Action Program::read(int argc, const char* const* argv) {
+Action CommandLine::read(int argc, const char* const* argv) {
   app_.parse(argc, argv);
   return [resources = resources_, action = action_] {
     apply(resources);
@@ -51,8 +51,8 @@ std::string extra_message(const std::vector<std::string>& extras, const CLI::App
 }  // namespace
 
 /// CLI11 reports an unknown command as an extra argument; a near name helps more.
-std::string Program::usage_message(const CLI::ParseError& problem, int argc,
-                                   const char* const* argv) {
+std::string CommandLine::usage_message(const CLI::ParseError& problem, int argc,
+                                       const char* const* argv) {
   std::string message = fmt::format("casimir: error: {}", printable(problem.what(), 500));
   const auto chosen = app_.get_subcommands();
   if (dynamic_cast<const CLI::ConversionError*>(&problem) != nullptr)

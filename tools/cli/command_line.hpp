@@ -9,11 +9,11 @@
 namespace casimir::tools {
 
 /// The command line of casimir with all its commands.
-class Program {
+class CommandLine {
  public:
-  Program();
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
+  CommandLine();
+  CommandLine(const CommandLine&) = delete;
+  CommandLine& operator=(const CommandLine&) = delete;
 
   /// Reads a command line, and runs nothing.
   /// \throws CLI::ParseError, also for --help

@@ -22,7 +22,7 @@ std::string undecided_text(const Common& common, const std::string& case_name,
   if (!common.json) return fmt::format("undecided: {}\n", reason);
   return json_text({{"case", case_name},
                     {"verdict", "undecided"},
-                    {"integrals", nlohmann::json::array()},
+                    {"integrals", nlohmann::ordered_json::array()},
                     {"reason", reason},
                     {"seconds", seconds}});
 }

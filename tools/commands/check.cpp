@@ -66,12 +66,29 @@ int check_run(const CheckOptions& options, const RunCertificate& certificate) {
   return checked.check.fault == TraceFault::stopped ? kEnvironment : kFailed;
 }
 
+int check_chaos(const CheckOptions& options, const HorseshoeCertificate& certificate) {
+  const auto start = std::chrono::steady_clock::now();
+  const CheckedHorseshoe checked =
+      check_horseshoe(certificate, time_limit(options.common.time_limit));
+  const CheckedHorseshoeReport report{
+      certificate, checked,
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+  if (options.common.json)
+    print_json(to_json(report));
+  else if (!options.common.quiet)
+    print_text(report);
+  if (checked.holds()) return kDone;
+  return checked.stopped ? kEnvironment : kFailed;
+}
+
 int check_certificate_file(const CheckOptions& options) {
   if (!options.common.params.empty() || options.common.scene_given)
     throw UsageError(
         "--param and --scene have no meaning here: the certificate says what it is of");
   const CertificateFile file = read_certificate(text_of_file(options.file), options.file);
-  return file.run ? check_run(options, *file.run) : check_cycles(options, file.cycles);
+  if (file.run) return check_run(options, *file.run);
+  if (file.horseshoe) return check_chaos(options, *file.horseshoe);
+  return check_cycles(options, file.cycles);
 }
 
 }  // namespace
@@ -82,11 +99,12 @@ void register_check(CLI::App& program, Action& action) {
       program.add_subcommand("check", "Verify the certificate of an enclosure, step by step");
   command->footer(
       "Nothing in the file is believed: integrals are proved again, and every step is verified in\n"
-      "Arb's arithmetic. Exit status 0: all of it is proved; 1: it is not, and the first step "
-      "that\n"
-      "fails is named; 2: the file is malformed.");
+      "Arb's arithmetic; of chaos every covering, with the flow that it rests on. Exit status 0:\n"
+      "all of it is proved; 1: it is not, and what fails first is named; 2: the file is "
+      "malformed.");
   add_common(*command, options->common);
-  command->add_option("FILE", options->file, "What integrate --validated --certificate has written")
+  command
+      ->add_option("FILE", options->file, "What --certificate has written, of integrate or section")
       ->required();
   command->callback(
       [options, &action] { action = [options] { return check_certificate_file(*options); }; });

@@ -5,7 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "symbolic/discrete/degrees.hpp"
 #include "symbolic/discrete/growth.hpp"
@@ -13,6 +15,7 @@
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/search_watch.hpp"
+#include "tools/text/files/marked_file.hpp"
 #include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
@@ -23,7 +26,7 @@ using discrete::Growth;
 struct DegreesArguments {
   Common common;
   std::string case_name;
-  std::string tag;
+  std::string tag, output;
   int iterates = 0;
   bool kahan = false, all = false;
 };
@@ -96,11 +99,54 @@ std::optional<nlohmann::ordered_json> kahan_row(const CaseFile& file,
   return degrees_json(file.name, found, discrete::growth_of(found), true, seconds.count());
 }
 
+std::string degrees_text(const nlohmann::ordered_json& row) {
+  return fmt::format("{}", fmt::join(row.at("degrees").get<std::vector<int>>(), " "));
+}
+
+/// The table for a page: first the maps that grow slowly.
+std::string kahan_page(const nlohmann::ordered_json& rows, std::size_t left_out) {
+  std::string text =
+      "| case | Kahan's map | growth of the degrees | degrees of its iterates |\n"
+      "| --- | --- | --- | --- |\n";
+  const std::pair<const char*, const char*> groups[] = {
+      {"polynomial", "integrable, it seems"},
+      {"unclear", "not clear"},
+      {"exponential", "not integrable, it seems"}};
+  std::map<std::string, std::size_t> counts;
+  for (const auto& [growth, words] : groups)
+    for (const auto& row : rows) {
+      if (row.at("growth") != growth) continue;
+      ++counts[growth];
+      std::string how = row.contains("formula") ? row.at("formula").get<std::string>() : "";
+      if (how.empty() && row.contains("growth_degree"))
+        how = fmt::format("like n^{}", row.at("growth_degree").get<int>());
+      if (row.contains("ratio"))
+        how = fmt::format("like {:.4g}^n", std::stod(row.at("ratio").get<std::string>()));
+      text += fmt::format("| {} | {} | {} | {} |\n", row.at("case").get<std::string>(), words, how,
+                          degrees_text(row));
+    }
+  return text +
+         fmt::format(
+             "\nOf {} quadratic flows the degrees grow polynomially for {}, exponentially for "
+             "{}; for {} the iterates are too few to tell. {} other cases are not quadratic, or "
+             "have an equation between parameters. Evidence and no proof.\n",
+             rows.size(), counts["polynomial"], counts["exponential"], counts["unclear"], left_out);
+}
+
 /// Which of the bundled flows seem to keep their integrability under Kahan's map.
 int all_degrees(const DegreesArguments& options) {
   if (!options.kahan) throw UsageError("--all is about flows: it needs --kahan");
+  std::optional<MarkedFile> page;
+  if (!options.output.empty()) {
+    if (!options.output.ends_with(".md"))
+      throw UsageError(
+          fmt::format("'{}': the table goes into a .md file, between the marks <!-- kahan "
+                      "--> and <!-- /kahan -->",
+                      printable(options.output, 200)));
+    page.emplace(options.output, "kahan");
+  }
   SearchWatch watch(options.common, "all cases");
-  nlohmann::ordered_json rows = nlohmann::json::array();
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   std::size_t left_out = 0;
   if (!options.common.json && !options.common.quiet)
     fmt::print("{:<28} {:<12} {}\n", "case", "growth", "degrees of the iterates of Kahan's map");
@@ -119,6 +165,7 @@ int all_degrees(const DegreesArguments& options) {
                fmt::join(row->at("degrees").get<std::vector<int>>(), " "));
   }
   const double seconds = watch.end();
+  if (page) page->write(kahan_page(rows, left_out));
   if (options.common.json)
     print_json(nlohmann::ordered_json{
         {"rows", rows}, {"left_out", left_out}, {"verdict", "evidence"}, {"seconds", seconds}});
@@ -135,6 +182,7 @@ int degrees(const DegreesArguments& options) {
   if (options.all == !options.case_name.empty())
     throw UsageError("degrees needs either a CASE or --all");
   if (!options.all && !options.tag.empty()) throw UsageError("--tag needs --all");
+  if (!options.all && !options.output.empty()) throw UsageError("--output needs --all");
   if (options.all)
     return with_search_errors(options.common, "all", [&] { return all_degrees(options); });
   const AnyCaseFile file = load_any_case(options.case_name);
@@ -179,6 +227,12 @@ void register_degrees(CLI::App& program, Action& action) {
                    "So many iterates; without it up to a degree of 300, at most 14")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
+  command
+      ->add_option(
+          "--output", options->output,
+          "With --all: write the table into this Markdown file, between the marks <!-- kahan "
+          "--> and <!-- /kahan -->")
+      ->type_name("FILE.md");
   command->add_flag("--kahan", options->kahan, "Of Kahan's map of a flow, with a general step");
   command->callback([options, &action] { action = [options] { return degrees(*options); }; });
 }

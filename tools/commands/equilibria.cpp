@@ -14,6 +14,7 @@
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/search_watch.hpp"
 #include "tools/runs/atlas.hpp"
+#include "tools/runs/enclosed_run.hpp"
 #include "tools/text/runs/enclosure_report.hpp"
 
 namespace casimir::tools {
@@ -29,6 +30,7 @@ struct EquilibriaArguments {
 struct Answer {
   EquilibriumReport report;
   std::vector<ProvedEquilibrium> proofs;  ///< one for each, or none
+  std::string ranges;                     ///< of parameters that the proofs are for, or empty
 
   const ProvedEquilibrium* proof(std::size_t k) const {
     return proofs.empty() ? nullptr : &proofs[k];
@@ -42,7 +44,7 @@ std::string stability(const Equilibrium& e) {
   return e.growth() > 0 ? "unstable" : "spectrally stable";
 }
 
-std::string number(double value) { return fmt::format("{:.17g}", value); }
+std::string full_text(double value) { return fmt::format("{:.17g}", value); }
 
 nlohmann::ordered_json ends(const RationalInterval& interval) {
   const auto [low, high] = decimal_ends(interval);
@@ -53,8 +55,8 @@ nlohmann::ordered_json equilibria_json(const Model& model, const ProvedEquilibri
   if (!proof.proved) return {{"verdict", "undecided"}, {"reason", proof.reason}};
   nlohmann::ordered_json json{{"verdict", "proved"},
                               {"radius", decimal_above(proof.radius)},
-                              {"enclosure", nlohmann::json::object()},
-                              {"velocities", nlohmann::json::array()},
+                              {"enclosure", nlohmann::ordered_json::object()},
+                              {"velocities", nlohmann::ordered_json::array()},
                               {"stability", to_string(proof.stability)}};
   for (std::size_t i = 0; i < proof.state.size(); ++i)
     json["enclosure"][model.variables[i].get_name()] = ends(proof.state[i]);
@@ -70,25 +72,26 @@ nlohmann::ordered_json equilibria_json(const Model& model, const Scene& scene, c
                               {"scene", scene.name},
                               {"symmetries", report.symmetries},
                               {"level", report.level},
-                              {"equilibria", nlohmann::json::array()},
+                              {"equilibria", nlohmann::ordered_json::array()},
                               {"starts", report.starts},
                               {"seconds", seconds}};
+  if (!answer.ranges.empty()) json["for_every"] = answer.ranges;
   for (std::size_t k = 0; k < report.equilibria.size(); ++k) {
     const Equilibrium& e = report.equilibria[k];
     nlohmann::ordered_json own{{"kind", e.velocities.empty() ? "equilibrium" : "relative"},
-                               {"state", nlohmann::json::object()}};
+                               {"state", nlohmann::ordered_json::object()}};
     for (std::size_t i = 0; i < e.state.size(); ++i)
-      own["state"][model.variables[i].get_name()] = number(e.state[i]);
-    own["velocities"] = nlohmann::json::array();
-    for (const double v : e.velocities) own["velocities"].push_back(number(v));
-    own["eigenvalues"] = nlohmann::json::array();
+      own["state"][model.variables[i].get_name()] = full_text(e.state[i]);
+    own["velocities"] = nlohmann::ordered_json::array();
+    for (const double v : e.velocities) own["velocities"].push_back(full_text(v));
+    own["eigenvalues"] = nlohmann::ordered_json::array();
     for (const auto& value : e.eigenvalues)
-      own["eigenvalues"].push_back({number(value.real()), number(value.imag())});
+      own["eigenvalues"].push_back({full_text(value.real()), full_text(value.imag())});
     own["stability"] = stability(e);
-    own["growth"] = number(e.growth());
+    own["growth"] = full_text(e.growth());
     own["family"] = e.family;
     own["degenerate"] = e.degenerate;
-    own["residual"] = number(e.residual);
+    own["residual"] = full_text(e.residual);
     if (const ProvedEquilibrium* proof = answer.proof(k))
       own["validated"] = equilibria_json(model, *proof);
     json["equilibria"].push_back(own);
@@ -101,12 +104,13 @@ std::string rounded(double value, double scale) {
   return std::abs(value) <= 1e-7 * scale ? "0" : fmt::format("{:.6g}", value);
 }
 
-void print_equilibria(const ProvedEquilibrium& proof) {
+void print_equilibria(const ProvedEquilibrium& proof, const std::string& ranges) {
   if (!proof.proved) {
     fmt::print("  not proved: {}\n", proof.reason);
     return;
   }
-  fmt::print("  proved: there is one, and no other in a box of radius {} around it; {}\n",
+  fmt::print("  proved: {}there is one, and no other in a box of radius {} around it; {}\n",
+             ranges.empty() ? "" : fmt::format("for every {} ", ranges),
              power_of_ten_above(proof.radius),
              proof.stability == ProvedStability::undecided
                  ? "its stability is not decided"
@@ -147,7 +151,7 @@ void print_equilibria(const Model& model, const Scene& scene, const Answer& answ
                state);
     if (!e.velocities.empty()) fmt::print("  velocity {:.6g}\n", fmt::join(e.velocities, ", "));
     fmt::print("  eigenvalues {}: {}\n", values, stability(e));
-    if (proof != nullptr) print_equilibria(*proof);
+    if (proof != nullptr) print_equilibria(*proof, answer.ranges);
   }
   if (report.equilibria.size() > kMost)
     fmt::print("... and {} more; --json has them all\n", report.equilibria.size() - kMost);
@@ -157,14 +161,20 @@ void print_equilibria(const Model& model, const Scene& scene, const Answer& answ
 }
 
 int equilibria(const EquilibriaArguments& options) {
-  const Model model = in_variables(
-      model_of(load_case(options.case_name), options.common.parameter_values()), options.in);
+  CaseFile file = load_case(options.case_name);
+  ParameterRanges ranges;
+  const ParameterValues given = options.common.parameter_values();
+  const ParameterValues values = options.validated ? without_ranges(given, file, ranges) : given;
+  for (const std::string& word : options.common.params)
+    if (is_range(word) && !options.validated)
+      throw UsageError("--param with a range of values needs --validated");
+  const Model model = in_variables(model_of(file, values), options.in);
   const Scene& scene = model.scene(options.common.scene);
   return with_search_errors(options.common, options.case_name, [&] {
     SearchWatch watch(options.common, model.name);
     watch.watch().begin("equilibria");
-    Answer answer{find_equilibria(model, scene, watch.watch().tick), {}};
-    if (options.validated) answer.proofs = enclose_equilibria(model, scene, answer.report);
+    Answer answer{find_equilibria(model, scene, watch.watch().tick), {}, ranges_text(given)};
+    if (options.validated) answer.proofs = enclose_equilibria(model, scene, answer.report, ranges);
     const double seconds = watch.end();
     if (options.common.json)
       print_json(equilibria_json(model, scene, answer, seconds));

@@ -55,17 +55,17 @@ nlohmann::ordered_json exponents_json(const Exponent& e) {
 
 nlohmann::ordered_json exponents_json(const Model& model, const search::ExponentReport& report,
                                       std::size_t starts, double seconds) {
-  nlohmann::ordered_json json{{"case", model.name}, {"weights", nlohmann::json::object()}};
+  nlohmann::ordered_json json{{"case", model.name}, {"weights", nlohmann::ordered_json::object()}};
   for (const auto& [name, weight] : report.weights) json["weights"][name] = weight;
   json["left_out"] = report.left_out;
-  json["balances"] = nlohmann::json::array();
+  json["balances"] = nlohmann::ordered_json::array();
   for (const Balance& balance : report.balances) {
-    nlohmann::ordered_json own{{"coefficients", nlohmann::json::object()}};
+    nlohmann::ordered_json own{{"coefficients", nlohmann::ordered_json::object()}};
     for (const auto& [name, value] : balance.coefficients) own["coefficients"][name] = value;
     own["relations"] = balance.relations;
     own["free"] = balance.free;
     if (balance.family > 0) own["family"] = balance.family;
-    own["exponents"] = nlohmann::json::array();
+    own["exponents"] = nlohmann::ordered_json::array();
     for (const Exponent& e : balance.exponents) own["exponents"].push_back(exponents_json(e));
     json["balances"].push_back(own);
   }

@@ -24,6 +24,7 @@
 #include "tools/runs/digits_run.hpp"
 #include "tools/runs/enclosed_run.hpp"
 #include "tools/runs/ensemble_run.hpp"
+#include "tools/runs/frequency_run.hpp"
 #include "tools/runs/map_run.hpp"
 #include "tools/runs/scene_values.hpp"
 #include "tools/tables/table.hpp"
@@ -48,6 +49,7 @@ struct IntegrateArguments {
   double every = 0;
   int jobs = 0;
   std::optional<int> digits;
+  std::size_t frequencies = 0;
   std::optional<std::string> initial_radius;
   bool general = false, validated = false;
 };
@@ -266,8 +268,8 @@ int iterate_case(const MapCaseFile& file, const IntegrateArguments& options) {
   const RunRequest asked = options.run.request();
   const bool of_methods = options.method != "auto" || asked.rtol || asked.atol || asked.tolerance ||
                           asked.step || asked.projects();
-  if (of_methods || options.picture.wanted() || options.general || !options.observe.empty() ||
-      !options.in.empty() || !options.as.empty() || options.jobs > 0)
+  if (of_methods || options.frequencies > 0 || options.picture.wanted() || options.general ||
+      !options.observe.empty() || !options.in.empty() || !options.as.empty() || options.jobs > 0)
     throw UsageError(
         "a map is iterated: of the options --scene, --param, --initial, --duration, --output and "
         "--every have a meaning");
@@ -276,7 +278,17 @@ int iterate_case(const MapCaseFile& file, const IntegrateArguments& options) {
   return iterate_map({options.common, started, asked.duration, options.output, options.every});
 }
 
+void check_frequencies(const IntegrateArguments& options) {
+  if (options.frequencies == 0) return;
+  if (options.validated || options.digits || !options.ensemble.empty() || !options.as.empty() ||
+      !options.output.empty() || options.picture.wanted())
+    throw UsageError(
+        "--frequencies reports on a run in double precision: it goes with none of --validated, "
+        "--digits, --ensemble, --as, --output and --plot");
+}
+
 int integrate_case(const IntegrateArguments& options) {
+  check_frequencies(options);
   options.picture.check();
   options.print.check(options.picture.wanted());
   if (options.validated) return enclose_case(options);
@@ -306,6 +318,9 @@ int integrate_case(const IntegrateArguments& options) {
   const Scene& scene = model.scene(options.common.scene);
   method_named(options.method);  // throws where there is none
   const PreparedScene run = prepare(model, scene, scene_options(options));
+  if (options.frequencies > 0)
+    return integrate_frequencies(
+        {options.common, options.run, model, scene, run, options.method, options.frequencies});
   const ComputedAnswer answer(model, run, options.as);
   if (options.every > 0 && options.output.empty() && !options.picture.wanted())
     throw UsageError("--every needs --output FILE.csv or --plot FILE.svg");
@@ -373,6 +388,11 @@ void register_integrate(CLI::App& program, Action& action) {
       ->add_option("--digits", options->digits,
                    "Integrate with N decimal digits instead of double precision, by Taylor series")
       ->type_name("N");
+  command
+      ->add_option("--frequencies", options->frequencies,
+                   "Report the N strongest frequencies of each variable instead, with their errors")
+      ->type_name("N")
+      ->check(CLI::Range(1, 40));
   command->add_flag("--validated", options->validated,
                     "Prove where the state is: a box that contains it, for the exact data");
   command

@@ -39,7 +39,7 @@ std::vector<std::string> scene_names(const Model& model) {
 }
 
 int list(const ListArguments& options) {
-  nlohmann::ordered_json cases = nlohmann::json::array();
+  nlohmann::ordered_json cases = nlohmann::ordered_json::array();
   for (const std::filesystem::path& path : listed_cases(options.tag)) {
     const AnyCaseFile file = read_any_case(path);
     const auto* map = std::get_if<MapCaseFile>(&file);

@@ -36,6 +36,7 @@ struct ReportArguments {
 };
 
 constexpr double kBudget = 4, kBudgetOfMany = 0.5;
+constexpr double kObstruction = 1;  ///< seconds for a proof that there is no further integral
 
 /// The text of a case file; empty where it cannot be read a second time.
 std::string text_of(const CaseFile& file) {
@@ -103,22 +104,23 @@ Json page_json(const Model& model, const Findings& findings, const Pictures& pic
   return json;
 }
 
+/// Told what is being done for a page, and which share of it is done.
+using Doing = std::function<void(const std::string& what, double share)>;
+
 /// Investigates a case and writes its page.
 WrittenPage write_report(const CaseFile& bare, const ReportArguments& options,
                          const std::string& path, PageSource source, double time_limit,
-                         Progress& progress) {
+                         const Doing& doing) {
   const Stopwatch watch;
   const CaseFile file = options.start.in(bare);
   const Model model = in_variables(model_of(file, options.common.parameter_values()), options.in);
   ReportOptions what{.scene = options.common.scene, .time_limit = time_limit};
+  if (!options.all) what.obstruction = kObstruction;
   what.budget = options.budget >= 0 ? options.budget : options.all ? kBudgetOfMany : kBudget;
   if (options.all && !model.scenes.empty() && !options.common.scene_given)
     what.scene = model.scenes.front().name;
-  std::string doing;
   what.progress = [&](const std::string& now, double share) {
-    if (now != doing) progress.begin(model.name + ": " + now);
-    doing = now;
-    progress.show(share);
+    doing(model.name + ": " + now, share);
   };
   OutputFile page(path);  // refused before any work is done for it
   const Findings findings = investigate(model, what);
@@ -126,7 +128,8 @@ WrittenPage write_report(const CaseFile& bare, const ReportArguments& options,
   source.case_text = text_of(file);
   page.stream() << report_page(model, findings, pictures, source);
   page.commit();
-  WrittenPage written{.entry = entry_of(model, findings, std::filesystem::path(path).filename()),
+  WrittenPage written{.entry = entry_of(model, findings, pictures.thumbnail,
+                                        std::filesystem::path(path).filename()),
                       .machine = findings.machine,
                       .json = page_json(model, findings, pictures, path, watch.seconds()),
                       .status = findings.exit_status(),
@@ -151,9 +154,14 @@ int report_one(const ReportArguments& options) {
   if (!is_page_name(path))
     throw UsageError(fmt::format("'{}': a report's name must end in .html", printable(path, 200)));
   Progress progress(!options.common.quiet);
-  const WrittenPage written =
-      write_report(file, options, path, {options.case_name, repeated_options(options), {}, {}},
-                   options.common.time_limit, progress);
+  std::string before;
+  const WrittenPage written = write_report(
+      file, options, path, {options.case_name, repeated_options(options), {}, {}, {}, {}},
+      options.common.time_limit, [&](const std::string& what, double share) {
+        if (what != before) progress.begin(what);
+        before = what;
+        progress.show(share);
+      });
   if (options.common.json) {
     print_json(written.json);
   } else if (!options.common.quiet) {
@@ -193,7 +201,7 @@ std::vector<CaseFile> ordered_cases(const ReportArguments& options) {
   return files;
 }
 
-/// A case that has no page, with the reason.
+/// A case that has no report, with the reason.
 IndexEntry without_page(const CaseFile& file, const std::string& problem) {
   return {.case_name = file.name, .book = file.book, .title = file.title, .problem = problem};
 }
@@ -207,34 +215,63 @@ int worst(int a, int b) {
 /// The pages of all cases, one after the other, and the index over them.
 class Reports {
  public:
-  explicit Reports(const ReportArguments& options)
-      : options_(options), place_(place_of(options)), progress_(!options.common.quiet) {}
+  Reports(const ReportArguments& options, std::vector<CaseFile> files)
+      : options_(options),
+        files_(std::move(files)),
+        place_(place_of(options)),
+        progress_(!options.common.quiet) {
+    for (const CaseFile& file : files_) {
+      if (page_of(file) == place_.index)
+        throw UsageError(fmt::format("--output '{}' would be the page of the case '{}'",
+                                     printable(options.output, 200), file.name));
+    }
+  }
 
-  void add(const CaseFile& file) {
+  int write() {
+    progress_.begin("reports");
+    for (std::size_t i = 0; i < files_.size(); ++i) add(i);
+    return end();
+  }
+
+ private:
+  std::filesystem::path page_of(const CaseFile& file) const {
+    return place_.folder / (file.name + ".html");
+  }
+
+  void add(std::size_t i) {
+    const CaseFile& file = files_[i];
     double left = 0;
     if (options_.common.time_limit > 0)
       left = std::max(options_.common.time_limit - watch_.seconds(), 1e-3);
-    const std::string path = (place_.folder / (file.name + ".html")).string();
+    PageSource source{
+        file.name, repeated_options(options_), {}, place_.index.filename().string(), {}, {}};
+    if (i > 0) source.before = page_of(files_[i - 1]).filename();
+    if (i + 1 < files_.size()) source.after = page_of(files_[i + 1]).filename();
     try {
-      const WrittenPage written = write_report(
-          file, options_, path,
-          {file.name, repeated_options(options_), {}, place_.index.filename().string()}, left,
-          progress_);
-      entries_.push_back(written.entry);
-      cases_.push_back(written.json);
-      machine_ = written.machine;
-      status_ = worst(status_, written.status);
-      problems_.insert(problems_.end(), written.problems.begin(), written.problems.end());
+      take(write_report(file, options_, page_of(file).string(), source, left,
+                        [&](const std::string& what, double share) {
+                          progress_.name(what);
+                          progress_.show((static_cast<double>(i) + share) /
+                                         static_cast<double>(files_.size()));
+                        }));
     } catch (const CaseError& problem) {
-      skip(file, problem);
+      skip(file, source, problem);
     } catch (const ModelError& problem) {
-      skip(file, problem);
+      skip(file, source, problem);
     }
     if (options_.common.quiet || options_.common.json) return;
     const IndexEntry& entry = entries_.back();
     fmt::print("{:<10} {:<32} {}\n", entry.problem.empty() ? to_string(entry.verdict) : "no page",
                entry.case_name, entry.problem.empty() ? entry.claims : entry.problem);
     std::fflush(stdout);
+  }
+
+  void take(const WrittenPage& written) {
+    entries_.push_back(written.entry);
+    cases_.push_back(written.json);
+    machine_ = written.machine;
+    status_ = worst(status_, written.status);
+    problems_.insert(problems_.end(), written.problems.begin(), written.problems.end());
   }
 
   int end() {
@@ -252,16 +289,19 @@ class Reports {
     return status_;
   }
 
-  const Place& place() const { return place_; }
-
- private:
-  void skip(const CaseFile& file, const std::exception& problem) {
+  /// The pages beside lead here: so there is one that says what is the matter.
+  void skip(const CaseFile& file, const PageSource& source, const std::exception& problem) {
+    OutputFile page(page_of(file));
+    page.stream() << page_without_report(file.title.empty() ? file.name : file.title,
+                                         problem.what(), source);
+    page.commit();
     entries_.push_back(without_page(file, problem.what()));
     cases_.push_back({{"case", file.name}, {"problem", problem.what()}});
     status_ = worst(status_, kBadInput);
   }
 
   const ReportArguments& options_;
+  const std::vector<CaseFile> files_;
   Place place_;
   Progress progress_;
   Stopwatch watch_;
@@ -273,15 +313,7 @@ class Reports {
 };
 
 int report_all(const ReportArguments& options) {
-  const std::vector<CaseFile> files = ordered_cases(options);
-  Reports reports(options);
-  for (const CaseFile& file : files) {
-    if (reports.place().folder / (file.name + ".html") == reports.place().index)
-      throw UsageError(fmt::format("--output '{}' would be the page of the case '{}'",
-                                   printable(options.output, 200), file.name));
-  }
-  for (const CaseFile& file : files) reports.add(file);
-  return reports.end();
+  return Reports(options, ordered_cases(options)).write();
 }
 
 int report(const ReportArguments& options) {

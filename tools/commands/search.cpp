@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "symbolic/discrete/search_map.hpp"
 #include "symbolic/search/darboux.hpp"
@@ -12,10 +14,12 @@
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/options/search_options.hpp"
+#include "tools/cli/output.hpp"
 #include "tools/cli/resources.hpp"
 #include "tools/cli/search_watch.hpp"
 #include "tools/runs/atlas.hpp"
 #include "tools/text/proofs/map_search_report.hpp"
+#include "tools/text/proofs/proof_report.hpp"
 #include "tools/text/proofs/search_report.hpp"
 #include "tools/text/proofs/structure_report.hpp"
 
@@ -26,7 +30,7 @@ struct SearchArguments {
   Common common;
   std::string case_name, in;
   int degree = 0;
-  bool casimirs = false, darboux = false;
+  bool casimirs = false, darboux = false, rational = false;
   int tensors = 0;  ///< their rank, where it is given
   bool fields = false, bivectors = false, forms = false, hamiltonian = false, bihamiltonian = false;
   std::vector<std::string> on, functions, weights, free;
@@ -34,8 +38,8 @@ struct SearchArguments {
 
 /// How many of the options that ask for something else than integrals were given.
 int kinds_of(const SearchArguments& o) {
-  return int{o.darboux} + int{o.casimirs} + int{o.fields} + int{o.bivectors} + int{o.hamiltonian} +
-         int{o.bihamiltonian} + int{o.forms || o.tensors > 0};
+  return int{o.darboux} + int{o.rational} + int{o.casimirs} + int{o.fields} + int{o.bivectors} +
+         int{o.hamiltonian} + int{o.bihamiltonian} + int{o.forms || o.tensors > 0};
 }
 
 bool is_structure(const SearchArguments& o) {
@@ -55,9 +59,9 @@ int answer(const SearchArguments& options, const Model& model, const Report& rep
 
 /// Of a map: what `search` asks of flows beyond the degree has no meaning there.
 int search_map_case(const MapCaseFile& file, const SearchArguments& options) {
-  if (!options.in.empty() || options.casimirs || options.darboux || is_structure(options) ||
-      !options.on.empty() || !options.functions.empty() || !options.weights.empty() ||
-      !options.free.empty())
+  if (!options.in.empty() || options.casimirs || options.darboux || options.rational ||
+      is_structure(options) || !options.on.empty() || !options.functions.empty() ||
+      !options.weights.empty() || !options.free.empty())
     throw UsageError("a search of a map takes --degree and --param only");
   const MapModel map = map_model_of(file, options.common.parameter_values());
   SearchWatch watch(options.common, map.base.name, memory_allowed().value_or(2e9));
@@ -85,6 +89,54 @@ int search_structure(const SearchArguments& options, const Model& model, SearchW
                 watch);
 }
 
+/// Quotients of polynomials that the motion keeps.
+///
+/// Theorem (Darboux): of a rational integral in lowest terms every irreducible factor of the
+/// numerator and of the denominator is a Darboux polynomial or a polynomial integral. So there are
+/// no others with factors up to the degree where all irreducible Darboux polynomials up to it are
+/// known (with algebraic coefficients too) and all of their products that are integrals. Both are
+/// what `find_darboux` says of itself.
+int search_rational(const SearchArguments& options, const Model& model, SearchWatch& watch) {
+  search::DarbouxReport report = search::find_darboux(model, options.degree, watch.watch());
+  // Where others are integrals as well, products of theirs and of these may be quotients too.
+  const bool only_rational =
+      std::none_of(report.combinations.begin(), report.combinations.end(), [](const auto& own) {
+        return own.kind == search::DarbouxCombination::Kind::integral && !own.rational;
+      });
+  std::erase_if(report.combinations, [](const auto& own) { return !own.rational; });
+  const bool complete = report.complete && report.all_integrals_combined && only_rational;
+  if (report.reason.empty() && !complete)
+    report.reason = "whether other products are integrals was not decided";
+  const double seconds = watch.end();
+  if (options.common.json) {
+    nlohmann::ordered_json json{{"case", model.name},
+                                {"degree", options.degree},
+                                {"kind", "rational"},
+                                {"integrals", nlohmann::ordered_json::array()},
+                                {"trivial", 0},
+                                {"verdict", complete ? "proved" : "undecided"},
+                                {"generic", report.generic}};
+    for (const auto& own : report.combinations) json["integrals"].push_back(own.text);
+    if (!complete) json["reason"] = report.reason;
+    json["seconds"] = seconds;
+    print_json(json);
+  } else if (!options.common.quiet) {
+    const bool colour = may_colour(1);
+    fmt::print("{}: integrals that are quotients of polynomials, with factors up to degree {}\n",
+               model.name, options.degree);
+    for (const auto& own : report.combinations)
+      fmt::print("  {}   {}\n", own.text, verdict_text(own.verdict, colour));
+    if (complete)
+      fmt::print("No others that do not follow from these and the polynomial integrals: {}\n",
+                 verdict_text(Verdict::proved, colour));
+    else
+      fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
+                 report.reason);
+    fmt::print("{} found, {:.3f} s\n", report.combinations.size(), seconds);
+  }
+  return complete ? kDone : kUndecided;
+}
+
 int search_case(const SearchArguments& options) {
   const AnyCaseFile file = load_any_case(options.case_name);
   if (const auto* map = std::get_if<MapCaseFile>(&file)) return search_map_case(*map, options);
@@ -93,6 +145,7 @@ int search_case(const SearchArguments& options) {
   if (options.common.scene_given) model.scene(options.common.scene);
   SearchWatch watch(options.common, model.name, memory_allowed().value_or(2e9));
   if (is_structure(options)) return search_structure(options, model, watch);
+  if (options.rational) return search_rational(options, model, watch);
   if (options.darboux) {
     return answer(options, model, search::find_darboux(model, options.degree, watch.watch()),
                   watch);
@@ -110,7 +163,8 @@ int search_case(const SearchArguments& options) {
 int search(const SearchArguments& options) {
   if (kinds_of(options) > 1)
     throw UsageError(
-        "of --casimirs, --darboux, --fields, --bivectors, --tensors (with --forms), --hamiltonian "
+        "of --casimirs, --darboux, --rational, --fields, --bivectors, --tensors (with --forms), "
+        "--hamiltonian "
         "and --bihamiltonian only one is possible");
   if (is_structure(options) && (!options.free.empty() || !options.on.empty() ||
                                 !options.functions.empty() || !options.weights.empty()))
@@ -121,9 +175,11 @@ int search(const SearchArguments& options) {
     throw UsageError("--casimirs and --on do not go together");
   if (options.casimirs && !options.free.empty())
     throw UsageError("--casimirs and --free do not go together");
-  if (options.darboux && (options.casimirs || !options.free.empty() || !options.on.empty() ||
-                          !options.functions.empty() || !options.weights.empty()))
-    throw UsageError("--darboux takes --degree and --param only");
+  if ((options.darboux || options.rational) &&
+      (options.casimirs || !options.free.empty() || !options.on.empty() ||
+       !options.functions.empty() || !options.weights.empty()))
+    throw UsageError(options.rational ? "--rational takes --degree and --param only"
+                                      : "--darboux takes --degree and --param only");
   return with_search_errors(options.common, options.case_name,
                             [&] { return search_case(options); });
 }
@@ -178,6 +234,8 @@ void register_search(CLI::App& program, Action& action) {
       ->type_name("NAME,..");
   command->add_flag("--darboux", options->darboux,
                     "Polynomials whose zero level is invariant, instead of integrals");
+  command->add_flag("--rational", options->rational,
+                    "Integrals that are quotients of polynomials, by their factors");
   add_structure_options(*command, *options);
   command->callback([options, &action] { action = [options] { return search(*options); }; });
 }

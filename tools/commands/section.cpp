@@ -6,21 +6,25 @@
 #include <iostream>
 #include <memory>
 
+#include "tools/analysis/section/orbit_rotation.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
-#include "tools/cli/options/choices.hpp"
-#include "tools/cli/options/picture_options.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/plot/gnuplot.hpp"
+#include "tools/runs/enclosed_run.hpp"
 #include "tools/runs/scene_values.hpp"
 #include "tools/section/cycle_file.hpp"
+#include "tools/section/horseshoe_section.hpp"
 #include "tools/section/map_section.hpp"
 #include "tools/section/picture.hpp"
+#include "tools/section/ranged_case.hpp"
 #include "tools/section/report.hpp"
 #include "tools/section/request.hpp"
+#include "tools/section/section_arguments.hpp"
 #include "tools/section/seeds.hpp"
+#include "tools/section/symmetric_section.hpp"
 #include "tools/section/validated_section.hpp"
 #include "tools/tables/table.hpp"
 #include "tools/text/runs/run_report.hpp"
@@ -28,48 +32,10 @@
 namespace casimir::tools {
 namespace {
 
-struct SectionArguments {
-  Common common;
-  OtherStart start;
-  std::string case_name, seeds, certificate;
-  SectionOptions request;
-  std::vector<std::string> outputs;
-  PictureOptions print;
-  std::size_t orbits = 40, points = 500, cycles = 0;
-  bool fixed_points = false, validated = false, tolerance_given = false;
-  std::optional<std::string> duration;
-  bool of_many_orbits = false;  ///< an option was given that is about the orbits of a picture
-  double tolerance = 1e-14;
-  int jobs = 0;
-
-  std::size_t longest_cycle() const {
-    return fixed_points ? std::max<std::size_t>(cycles, 1) : cycles;
-  }
-};
-
 /// Starts of Newton's method for cycles.
 constexpr std::size_t kStarts = 400;
 /// Orbits are begun in turns, of so many at least: they fill the registers of some cores.
 constexpr std::size_t kOrbitsOfTurn = 16, kTurns = 4;
-
-void check_usage(const SectionArguments& options) {
-  for (const std::string& path : options.outputs)
-    if (is_table_name(path))
-      check_table_name(path);
-    else if (!is_picture_name(path))
-      throw UsageError(fmt::format("'{}': an output's name must end in .csv, .npz, .h5, {}",
-                                   printable(path, 200), kPictureNames));
-  options.print.check(std::ranges::any_of(options.outputs, is_picture_name));
-  const bool one_orbit = options.validated && options.longest_cycle() == 0;
-  if (options.duration && !one_orbit)
-    throw UsageError("--duration is that of the one orbit of --validated without cycles");
-  if (!options.certificate.empty() && (!options.validated || one_orbit))
-    throw UsageError("--certificate is of cycles that are proved: --validated --cycles N");
-  if (one_orbit && (options.of_many_orbits || !options.outputs.empty()))
-    throw UsageError(
-        "--validated encloses the crossings of one orbit, that of the scene, or proves --cycles N: "
-        "alone it goes with --plane, --direction and --duration");
-}
 
 /// What is kept of all crossings: the state, the pair, time and growth.
 void check_memory(const SectionArguments& options, std::size_t states) {
@@ -87,10 +53,11 @@ class Section {
  public:
   Section(const SectionArguments& options, const CaseFile& file)
       : options_(options),
-        file_(options.start.in(file)),
-        model_(model_of(file_, options.common.parameter_values())),
+        case_(options.start.in(file), options.common,
+              options.validated && options.longest_cycle() > 0),
+        model_(model_of(case_.file, case_.values)),
         problem_(section_problem(model_, model_.scene(options.common.scene),
-                                 section_request(file_, model_, options.request))),
+                                 case_.request(model_, options.request))),
         level_(problem_),
         progress_(!options.common.quiet),
         cutter_(problem_, {options.tolerance, options.jobs, time_limit(options.common.time_limit)},
@@ -109,6 +76,9 @@ class Section {
     else
       follow_spread(report);
     warn_of_orbits(report);
+    if (options_.rotation || options_.colour == "rotation")
+      for (const OrbitReport& orbit : report.orbits)
+        report.rotations.push_back(rotation_of_orbit(problem_, orbit));
     if (options_.longest_cycle() > 0) {
       progress_.begin(model_.name + ": cycles");
       report.cycles = find_cycles(level_, cutter_, starts(report), options_.longest_cycle(),
@@ -116,7 +86,8 @@ class Section {
       cut_short_ = cut_short_ || cutter_.interrupted();
       if (options_.validated)
         report.proofs = enclose_cycles(model_, model_.scene(options_.common.scene), problem_,
-                                       report.cycles.cycles);
+                                       report.cycles.cycles, case_.ranges);
+      report.ranges = ranges_text(options_.common.parameter_values());
     }
     deliver(report);
     if (!options_.certificate.empty()) write_certificates(report);
@@ -262,7 +233,8 @@ class Section {
     for (const std::string& path : options_.outputs) {
       if (is_picture_name(path))
         draw_section(problem_.plotted, model_.title + ", " + problem_.level_text(), report.orbits,
-                     report.cycles.cycles, options_.print.sheet(path));
+                     report.cycles.cycles, options_.print.sheet(path),
+                     colours_by(options_.colour, report.orbits, report.rotations));
       if (!options_.common.quiet && !options_.common.json)
         fmt::print("  wrote {}\n", printable(path, 200));
     }
@@ -336,7 +308,7 @@ class Section {
   }
 
   const SectionArguments& options_;
-  const CaseFile file_;
+  const RangedCase case_;
   const Model model_;
   const SectionProblem problem_;
   const LevelSet level_;
@@ -350,15 +322,18 @@ class Section {
 /// Of a map the points of its orbits: there is no plane to cut them with.
 int section_of(MapCaseFile file, const SectionArguments& options) {
   const SectionOptions& asked = options.request;
-  if (asked.energy || !asked.casimirs.empty() || asked.plane || asked.direction ||
-      options.longest_cycle() > 0 || options.validated || options.duration ||
-      options.tolerance_given || options.jobs > 0)
+  if (!options.symmetry.empty() || asked.energy || !asked.casimirs.empty() || asked.plane ||
+      asked.direction || options.longest_cycle() > 0 || options.validated || options.horseshoe ||
+      options.duration || options.tolerance_given || options.jobs > 0)
     throw UsageError(
         "a map needs no plane: its orbits are points already; of the options --scene, --param, "
-        "--initial, --orbits, --points, --seeds, --pair, --labels and --output have a meaning");
+        "--initial, --orbits, --points, --seeds, --pair, --labels, --rotation, --colour and "
+        "--output "
+        "have a meaning");
   file.file = options.start.in(file.file);
   return section_of_map({options.common, file, asked.pair, asked.labels, options.seeds,
-                         options.outputs, options.print, options.orbits, options.points});
+                         options.outputs, options.print, options.orbits, options.points,
+                         options.rotation, options.colour});
 }
 
 int crossings_of_scene(const SectionArguments& options, const CaseFile& given) {
@@ -366,7 +341,26 @@ int crossings_of_scene(const SectionArguments& options, const CaseFile& given) {
   const Model model = model_of(file, options.common.parameter_values());
   const SectionProblem problem = section_problem(model, model.scene(options.common.scene),
                                                  section_request(file, model, options.request));
-  return enclose_section(options.common, model, problem, options.duration);
+  if (!options.orbits_given)
+    return enclose_section(options.common, model, problem, options.duration);
+  return enclose_orbits(options.common, model, problem,
+                        {options.orbits, options.tolerance, options.jobs}, options.duration);
+}
+
+int horseshoe_of(const SectionArguments& options, const CaseFile& given) {
+  const CaseFile file = options.start.in(given);
+  const Model model = model_of(file, options.common.parameter_values());
+  return prove_horseshoe(options.common, model, plane_request(file, model, options.request),
+                         options.longest_cycle(), options.certificate);
+}
+
+/// Of the cycles of the flow that are their own images some time later.
+int cycle_with_symmetry(const SectionArguments& options, const CaseFile& given) {
+  const CaseFile file = options.start.in(given);
+  const Model model = model_of(file, options.common.parameter_values());
+  return section_with_symmetry({options.common, model, model.scene(options.common.scene),
+                                options.symmetry, options.period, options.keep_period,
+                                options.tolerance});
 }
 
 int section(const SectionArguments& options) {
@@ -374,35 +368,10 @@ int section(const SectionArguments& options) {
   const AnyCaseFile any = load_any_case(options.case_name);
   if (const auto* map = std::get_if<MapCaseFile>(&any)) return section_of(*map, options);
   const CaseFile& file = std::get<CaseFile>(any);
+  if (!options.symmetry.empty()) return cycle_with_symmetry(options, file);
+  if (options.horseshoe) return horseshoe_of(options, file);
   if (options.validated && options.longest_cycle() == 0) return crossings_of_scene(options, file);
   return Section(options, file).run();
-}
-
-void add_plane_options(CLI::App& command, SectionOptions& request) {
-  command.add_option("--energy", request.energy, "Value of the Hamiltonian (default: the scene's)")
-      ->type_name("VALUE");
-  command
-      .add_option("--casimir", request.casimirs,
-                  "Value of a Casimir function of the case (default: the scene's; repeatable)")
-      ->allow_extra_args(false)
-      ->type_name("NAME=VALUE");
-  command
-      .add_option("--plane", request.plane,
-                  "The surface: an expression, which is zero there, or LEFT = RIGHT (default: that "
-                  "of [section])")
-      ->type_name("EXPR");
-  command
-      .add_option("--direction", request.direction, "In which it is crossed: up (default) or down")
-      ->check(one_of({"up", "down"}))
-      ->type_name("DIRECTION");
-  command
-      .add_option("--pair", request.pair,
-                  "The two functions that are plotted (default: those of [section])")
-      ->expected(2)
-      ->type_name("U V");
-  command.add_option("--labels", request.labels, "Labels of the axes of a picture")
-      ->expected(2)
-      ->type_name("U V");
 }
 
 }  // namespace
@@ -417,60 +386,15 @@ void register_section(CLI::App& program, Action& action) {
       "that\n"
       "is an angle counts at every multiple of its period. Of a map the orbits themselves are\n"
       "drawn, from the start of the scene and from others in a box about its orbit.");
-  add_common(*command, options->common);
-  options->start.add_to(*command);
-  add_case(*command, options->case_name);
-  add_plane_options(*command, options->request);
-  command
-      ->add_option("--orbits", options->orbits,
-                   "Orbits, spread over the domain of possible motion (default 40)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 100000));
-  command->add_option("--points", options->points, "Crossings of each orbit (default 500)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 10000000));
-  command
-      ->add_option(
-          "--seeds", options->seeds,
-          "Where orbits begin instead: a CSV file with a column for each variable, or with "
-          "the columns u and v")
-      ->type_name("FILE.csv");
-  command
-      ->add_option("--cycles", options->cycles,
-                   "Find cycles of the return map up to this length, with their stability")
-      ->type_name("N")
-      ->check(CLI::Range(1, 64));
-  command->add_flag("--fixed-points", options->fixed_points, "The same as --cycles 1");
-  command->add_flag("--validated", options->validated,
-                    "Prove each cycle: it exists, is alone nearby, and how it is stable; without "
-                    "cycles enclose every crossing of the scene's orbit, none missed");
-  command
-      ->add_option("--duration", options->duration,
-                   "With --validated: up to this time (default: that of the scene)")
-      ->type_name("T");
-  command
-      ->add_option("--certificate", options->certificate,
-                   "With --validated and cycles: write what proves them to this file, for casimir "
-                   "check")
-      ->type_name("FILE");
-  CLI::Option* tolerance =
-      command->add_option("--tolerance", options->tolerance, "Tolerance of a step (default 1e-14)")
-          ->type_name("X")
-          ->check(CLI::Range(1e-15, 1e-3));
-  command->add_option("--jobs", options->jobs, "Threads (default: all processors)")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber);
-  command
-      ->add_option("--output,--plot", options->outputs,
-                   "Write the crossings to a .csv, .npz or .h5 file, or draw them to an .svg, .png "
-                   "or .pdf file (repeatable)")
-      ->allow_extra_args(false)
-      ->type_name("FILE");
-  options->print.add_to(*command);
+  CLI::Option* tolerance = add_section_options(*command, *options);
   command->callback([options, tolerance, &action, command] {
     options->tolerance_given = tolerance->count() > 0;
-    for (const char* name : {"--orbits", "--points", "--seeds", "--energy", "--casimir"})
+    options->orbits_given = command->count("--orbits") > 0;
+    options->level_given = command->count("--energy") > 0 || command->count("--casimir") > 0;
+    for (const char* name : {"--points", "--seeds"})
       options->of_many_orbits = options->of_many_orbits || command->count(name) > 0;
+    for (const char* name : {"--orbits", "--points", "--seeds", "--tolerance", "--jobs"})
+      options->about_points = options->about_points || command->count(name) > 0;
     action = [options] { return section(*options); };
   });
 }

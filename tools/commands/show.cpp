@@ -11,7 +11,9 @@
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/options/choices.hpp"
+#include "tools/cli/search_watch.hpp"
 #include "tools/runs/atlas.hpp"
+#include "tools/show/nve_view.hpp"
 #include "tools/show/show.hpp"
 #include "tools/text/runs/run_report.hpp"
 
@@ -24,13 +26,13 @@ struct ShowArguments {
   std::string in;
   std::string as;
   std::string format = "text";
-  bool standalone = false;
+  bool standalone = false, nve = false;
 };
 
 /// The initial states of the scenes in other variables, exactly and as numbers.
 int show_scenes_as(const Model& model, const ShowArguments& options) {
   const Conversion conversion(model, bundled_atlas(), options.as);
-  nlohmann::ordered_json scenes = nlohmann::json::array();
+  nlohmann::ordered_json scenes = nlohmann::ordered_json::array();
   for (const Scene& scene : model.scenes) {
     if (options.common.scene_given && &scene != &model.scene(options.common.scene)) continue;
     model.scene(scene.name);
@@ -69,6 +71,25 @@ int show_motion(const Motion& model, const ShowArguments& options) {
   return kDone;
 }
 
+/// The curves of motion that `obstruct` finds, and their normal variational equations.
+int show_nve(const Model& model, const ShowArguments& options) {
+  if (options.standalone) throw UsageError("--standalone is no option of --nve");
+  if (options.common.scene_given) model.scene(options.common.scene);
+  return with_search_errors(options.common, options.case_name, [&] {
+    SearchWatch watch(options.common, model.name);
+    const obstruction::Obstruction answer = obstruction::find_obstruction(
+        model, {.scene = options.common.scene, .along = {}}, watch.watch());
+    watch.end();
+    if (options.common.json || options.format == "json")
+      print_json(nve_json(model, answer));
+    else if (options.format == "latex")
+      nve_latex(model, answer);
+    else if (!options.common.quiet)
+      nve_text(model, answer);
+    return kDone;
+  });
+}
+
 int show(const ShowArguments& options) {
   if (options.standalone && options.format != "latex")
     throw UsageError("--standalone is a whole document of LaTeX: it needs --format latex");
@@ -77,9 +98,11 @@ int show(const ShowArguments& options) {
   if (const auto* map = std::get_if<MapCaseFile>(&file)) {
     if (!options.in.empty() || !options.as.empty())
       throw UsageError("--in and --as change the variables of a flow, not of a map");
+    if (options.nve) throw UsageError("--nve is about flows: a map has no curves of motion");
     return show_motion(map_model_of(*map, fixed), options);
   }
   const Model model = in_variables(model_of(std::get<CaseFile>(file), fixed), options.in);
+  if (options.nve) return show_nve(model, options);
   if (!options.as.empty()) return show_scenes_as(model, options);
   return show_motion(model, options);
 }
@@ -96,6 +119,8 @@ void register_show(CLI::App& program, Action& action) {
   add_case(*command, options->case_name);
   command->add_option("--format", options->format, "text, latex or json")
       ->check(one_of({"text", "latex", "json"}));
+  command->add_flag("--nve", options->nve,
+                    "Curves of motion and the normal variational equations along them, instead");
   command->add_flag("--standalone", options->standalone,
                     "With --format latex: a document that compiles as it is");
   command->callback([options, &action] { action = [options] { return show(*options); }; });

@@ -82,7 +82,7 @@ Source source_of(const std::string& name) {
 }
 
 /// A scene that takes part.
-struct Entry {
+struct JudgedScene {
   const Source* source;
   const Model* model;
   const Scene* scene;
@@ -90,7 +90,7 @@ struct Entry {
 };
 
 /// The command line of one cell.
-std::vector<std::string> run_words(const Entry& entry, const std::string& method,
+std::vector<std::string> run_words(const JudgedScene& entry, const std::string& method,
                                    const StressArguments& options) {
   std::vector<std::string> words = {
       "casimir", "integrate",       entry.source->path,
@@ -186,7 +186,7 @@ class Stress {
   }
 
   /// A row before its run.
-  Row asked(const Entry& entry, const StressMatrix::Column& column) const {
+  Row asked(const JudgedScene& entry, const StressMatrix::Column& column) const {
     return {.case_name = entry.model->name,
             .scene = entry.scene->name,
             .method = column.method,
@@ -196,7 +196,7 @@ class Stress {
   void find_reference_states() {
     progress_->begin("reference states");
     std::vector<Job> jobs;
-    for (const Entry& entry : entries_) {
+    for (const JudgedScene& entry : entries_) {
       jobs.push_back({[this, &entry] {
                         std::cout << packed(reference_state_of_scene(*entry.model, *entry.scene,
                                                                      options_.reference_limit));
@@ -206,7 +206,7 @@ class Stress {
                       2 * options_.reference_limit + kCompiling});
     }
     run(jobs, [this](std::size_t i, const Reply& reply) {
-      const nlohmann::json json = nlohmann::json::parse(reply.out, nullptr, false);
+      const nlohmann::ordered_json json = nlohmann::ordered_json::parse(reply.out, nullptr, false);
       if (json.is_discarded())
         entries_[i].truth.source = "no reference state: " + printable(reply.err, 200);
       else
@@ -217,7 +217,7 @@ class Stress {
   void fill_cells() {
     progress_->begin("runs");
     std::vector<Job> jobs;
-    for (const Entry& entry : entries_)
+    for (const JudgedScene& entry : entries_)
       for (const StressMatrix::Column& column : matrix_.columns)
         jobs.push_back(cell_job(entry, column));
     std::vector<std::size_t> again;
@@ -231,7 +231,7 @@ class Stress {
       run(second, [&](std::size_t i, const Reply& reply) { take(again[i], reply); });
   }
 
-  Job cell_job(const Entry& entry, const StressMatrix::Column& column) const {
+  Job cell_job(const JudgedScene& entry, const StressMatrix::Column& column) const {
     return {[this, &entry, &column] {
               return integrate_instead(run_words(entry, column.method, options_));
             },
@@ -241,7 +241,7 @@ class Stress {
   /// False: it should be tried again.
   bool take(std::size_t i, const Reply& reply) {
     const std::size_t line = i / matrix_.columns.size(), column = i % matrix_.columns.size();
-    const Entry& entry = entries_[line];
+    const JudgedScene& entry = entries_[line];
     const StressMatrix::Column& how = matrix_.columns[column];
     const StressAnswer answer = answer_of(reply);
     matrix_.lines[line].cells[column] =
@@ -276,7 +276,7 @@ class Stress {
   Progress* progress_ = nullptr;
   std::vector<Source> sources_;
   std::vector<Model> models_;
-  std::vector<Entry> entries_;
+  std::vector<JudgedScene> entries_;
   StressMatrix matrix_;
   bool out_of_time_ = false;
 };

@@ -1,17 +1,21 @@
 // casimir sweep: the same thing at every point of a grid of parameters or initial states.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "tools/analysis/sweep/indicators.hpp"
 #include "tools/analysis/sweep/integrations.hpp"
 #include "tools/analysis/sweep/lyapunov.hpp"
+#include "tools/analysis/sweep/rotations.hpp"
 #include "tools/analysis/sweep/sections.hpp"
 #include "tools/analysis/sweep/sweep.hpp"
 #include "tools/cli/case_library.hpp"
@@ -19,12 +23,14 @@
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/options/choices.hpp"
+#include "tools/cli/options/picture_options.hpp"
 #include "tools/cli/options/run_options.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/runs/scene_values.hpp"
 #include "tools/section/request.hpp"
 #include "tools/sweep/grid_options.hpp"
+#include "tools/sweep/map_picture.hpp"
 #include "tools/sweep/mpi_ranks.hpp"
 #include "tools/sweep/table.hpp"
 #include "tools/text/runs/run_report.hpp"
@@ -39,14 +45,20 @@ struct SweepArguments {
   Common common;
   OtherStart start;
   RunOptions run;
-  std::string case_name, task = "integrate", method = "auto", output;
+  PictureOptions picture;
+  std::string case_name, task = "integrate", method = "auto", output, plot, colour;
   std::vector<std::string> over, lets, observe;
   int jobs = 0;
   std::size_t orbits = 16, points = 200;
   bool restart = false;
 };
 
-constexpr const char *kIntegrate = "integrate", *kSection = "section", *kExponents = "exponents";
+constexpr const char *kIntegrate = "integrate", *kSection = "section", *kExponents = "exponents",
+                     *kIndicators = "indicators", *kRotation = "rotation";
+
+/// What follows orbits until they have their points, and not for a time.
+bool cuts(const std::string& task) { return task == kSection || task == kRotation; }
+
 /// Of a step in a section: every crossing keeps the level to 1e-10.
 constexpr double kSectionTolerance = 1e-14;
 
@@ -73,11 +85,12 @@ struct Prepared {
     run = prepare(model, *scene, how);
     RunRequest how_far = options.run.request();
     // A section goes on until it has its points.
-    if (options.task == kSection && !scene->duration) how_far.duration = 0;
+    if (cuts(options.task) && !scene->duration) how_far.duration = 0;
     settings = settings_for(how_far, run);
     settings.invariant_terms = nullptr;
-    if (options.task == kSection) {
-      if (method->name != "taylor") throw UsageError("--do section: orbits follow Taylor series");
+    if (cuts(options.task)) {
+      if (method->name != "taylor")
+        throw UsageError(fmt::format("--do {}: orbits follow Taylor series", options.task));
       settings.rtol = kSectionTolerance;
     }
   }
@@ -89,9 +102,14 @@ std::unique_ptr<SweepTask> task_of(const SweepArguments& options, const CaseFile
   if (options.task == kSection)
     return std::make_unique<Sections>(p.model, *p.scene, places, section_request(file, p.model),
                                       options.orbits, options.points, kSectionTolerance);
-  if (options.task == kExponents) {
+  if (options.task == kRotation)
+    return std::make_unique<Rotations>(p.model, *p.scene, places, section_request(file, p.model),
+                                       options.points, kSectionTolerance);
+  if (options.task == kExponents || options.task == kIndicators) {
     if (p.run.specialisation.uses_time)
-      throw UsageError("--do exponents: the equations depend on the time");
+      throw UsageError(fmt::format("--do {}: the equations depend on the time", options.task));
+    if (options.task == kIndicators)
+      return std::make_unique<Indicators>(p.model, *p.scene, p.run, places, *p.method, p.settings);
     return std::make_unique<LyapunovExponents>(p.model, *p.scene, p.run, places, *p.method,
                                                p.settings);
   }
@@ -106,7 +124,7 @@ std::map<std::string, std::size_t> counts_of(const std::vector<PointResult>& row
   return counts;
 }
 
-struct Report {
+struct SweepReport {
   const SweepArguments& options;
   const Prepared& prepared;
   const Ranks& ranks;
@@ -117,7 +135,7 @@ struct Report {
   std::vector<std::string> warnings = {};
 };
 
-Json sweep_json(const Report& report) {
+Json sweep_json(const SweepReport& report) {
   const Prepared& p = report.prepared;
   Json json = {{"case", p.model.name},
                {"scene", p.scene->name},
@@ -135,6 +153,8 @@ Json sweep_json(const Report& report) {
   json["complete"] = report.outcome.complete;
   json["counts"] = counts_of(report.outcome.rows);
   json["file"] = report.outcome.complete ? Json(report.output) : Json(nullptr);
+  if (!report.options.plot.empty())
+    json["plot"] = report.outcome.complete ? Json(report.options.plot) : Json(nullptr);
   if (!report.outcome.complete) json["journal"] = report.outcome.journal;
   json["ranks"] = report.ranks.size();
   json["jobs"] = report.threads;
@@ -144,7 +164,7 @@ Json sweep_json(const Report& report) {
   return json;
 }
 
-void print_sweep(const Report& report) {
+void print_sweep(const SweepReport& report) {
   const Prepared& p = report.prepared;
   const SweepOutcome& outcome = report.outcome;
   fmt::print("{}, scene '{}', {} at tolerance {:g}, {} point{}\n", p.model.name,
@@ -162,11 +182,13 @@ void print_sweep(const Report& report) {
   for (const auto& [status, count] : counts_of(outcome.rows))
     fmt::print("  {:<16} {:>8}\n", status, count);
   for (const std::string& warning : report.warnings) fmt::print("  warning: {}\n", warning);
-  if (outcome.complete) fmt::print("  wrote {}\n", printable(report.output, 200));
+  if (!outcome.complete) return;
+  fmt::print("  wrote {}\n", printable(report.output, 200));
+  if (!report.options.plot.empty()) fmt::print("  wrote {}\n", printable(report.options.plot, 200));
 }
 
 /// What went wrong, on stderr.
-int verdict(const Report& report, bool interrupted) {
+int sweep_status(const SweepReport& report, bool interrupted) {
   const SweepOutcome& outcome = report.outcome;
   std::cout.flush();
   if (!outcome.complete) {
@@ -196,9 +218,8 @@ int verdict(const Report& report, bool interrupted) {
       "casimir: error: {} of {} points could not be integrated to the end; the first is point {}, "
       "{}{}: {}\n",
       failed, outcome.points, first + 1, where,
-      report.options.task == kSection
-          ? std::string{}
-          : ", at t = " + exact_text(outcome.rows[first].values.front()),
+      cuts(report.options.task) ? std::string{}
+                                : ", at t = " + exact_text(outcome.rows[first].values.front()),
       reason_of(outcome.rows[first].status));
   return kNotContinued;
 }
@@ -207,11 +228,34 @@ int verdict(const Report& report, bool interrupted) {
 std::vector<std::string> warnings_on(const Integrations& task, const SweepOutcome& outcome) {
   std::vector<std::string> warnings;
   if (!task.warning().empty()) warnings.push_back(task.warning());
+  if (task.passes_over()) warnings.emplace_back(kUnseenBetweenSteps);
   if (!outcome.complete) return warnings;
   for (const CheckedMember& point : task.check(outcome.rows))
-    for (const std::string& warning : warnings_of(point.trust))
+    for (const std::string& warning : warnings_of(point.trust, task.constant_step()))
       warnings.push_back(fmt::format("point {}: {}", point.member + 1, warning));
   return warnings;
+}
+
+/// On what the deviations keep to.
+std::vector<std::string> warnings_on(const Indicators& task) {
+  std::vector<std::string> warnings;
+  if (!task.left_out().empty())
+    warnings.push_back(
+        fmt::format("deviations keep to the level of what is proved alone, which {} {} not",
+                    fmt::join(task.left_out(), ", "), task.left_out().size() == 1 ? "is" : "are"));
+  return warnings;
+}
+
+/// What is to be drawn, checked before any point is done.
+std::optional<MapPicture> picture_of(const SweepArguments& options, const Grid& grid,
+                                     const SweepTask& task) {
+  options.picture.check(!options.plot.empty());
+  if (options.plot.empty()) {
+    if (!options.colour.empty()) throw UsageError("--colour goes with --plot FILE");
+    return std::nullopt;
+  }
+  check_plot_name(options.plot);
+  return map_picture(grid, task, options.colour, options.picture.sheet(options.plot));
 }
 
 int sweep_in(const Ranks& ranks, const SweepArguments& options) {
@@ -228,6 +272,7 @@ int sweep_in(const Ranks& ranks, const SweepArguments& options) {
   const std::unique_ptr<SweepTask> doing = task_of(options, file, p, places);
   const SweepTask& task = *doing;
   const auto* integrations = dynamic_cast<const Integrations*>(doing.get());
+  const std::optional<MapPicture> picture = picture_of(options, p.grid, task);
   Progress progress(ranks.speaks() && !options.common.quiet);
   progress.begin("sweep of " + p.model.name);
   hold_interrupts(true);
@@ -239,26 +284,32 @@ int sweep_in(const Ranks& ranks, const SweepArguments& options) {
   const auto start = std::chrono::steady_clock::now();
   const SweepOutcome outcome =
       sweep_over(task, p.grid, ranks, how, [&](const std::vector<PointResult>& rows) {
-        write_sweep(output, {p.model.name, p.scene->name, std::string(p.method->name),
-                             p.settings.rtol, p.grid, task.columns(), rows});
+        const SweepTable table{
+            p.model.name,   p.scene->name, std::string(p.method->name), p.settings.rtol, p.grid,
+            task.columns(), rows};
+        write_sweep(output, table);
+        if (picture) draw_map(*picture, table);
       });
   const bool interrupted = interrupt_held();
   hold_interrupts(false);
   if (!ranks.speaks()) return kDone;
-  Report report{options,
-                p,
-                ranks,
-                outcome,
-                output,
-                options.jobs > 0 ? options.jobs : ranks.processors(),
-                integrations ? integrations->lanes() : 1,
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+  SweepReport report{
+      options,
+      p,
+      ranks,
+      outcome,
+      output,
+      options.jobs > 0 ? options.jobs : ranks.processors(),
+      integrations ? integrations->lanes() : 1,
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
   if (integrations) report.warnings = warnings_on(*integrations, outcome);
+  if (const auto* indicators = dynamic_cast<const Indicators*>(doing.get()))
+    report.warnings = warnings_on(*indicators);
   if (options.common.json)
     print_json(sweep_json(report));
   else if (!options.common.quiet)
     print_sweep(report);
-  return verdict(report, interrupted);
+  return sweep_status(report, interrupted);
 }
 
 int sweep(const SweepArguments& options) {
@@ -300,8 +351,10 @@ void register_sweep(CLI::App& program, Action& action) {
   command
       ->add_option("--do", options->task,
                    "What is done at each point: integrate (default); section: orbits on the level "
-                   "of the point, how many are chaotic; exponents: the largest Lyapunov exponent")
-      ->check(one_of({kIntegrate, kSection, kExponents}))
+                   "of the point, how many are chaotic; exponents: the largest Lyapunov exponent; "
+                   "indicators: MEGNO and GALI of deviations on the level of the proved integrals; "
+                   "rotation: the rotation number of the point's orbit in the section")
+      ->check(one_of({kIntegrate, kSection, kExponents, kIndicators, kRotation}))
       ->type_name("WHAT");
   command->add_option("--orbits", options->orbits, "Orbits of a section (default 16)")
       ->type_name("N")
@@ -326,6 +379,16 @@ void register_sweep(CLI::App& program, Action& action) {
           "--output", options->output,
           "Write the results to this .csv, .npz, .h5 or .hdf5 file (default: CASE-sweep.csv)")
       ->type_name("FILE");
+  command
+      ->add_option("--plot", options->plot,
+                   "Draw a map: one column over a grid of two axes, the first across")
+      ->type_name("FILE.svg|png|pdf");
+  command
+      ->add_option("--colour", options->colour,
+                   "The column that is drawn (default: exponent, megno, rotation, chaotic; of "
+                   "integrate there is none)")
+      ->type_name("COLUMN");
+  options->picture.add_to(*command);
   command->add_flag("--restart", options->restart, "Throw away the points that are done");
   command->callback([options, &action] { action = [options] { return sweep(*options); }; });
 }

@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -11,14 +10,17 @@
 #include "symbolic/certificate.hpp"
 #include "tools/analysis/proof/prove_in_process.hpp"
 #include "tools/cli/case_library.hpp"
+#include "tools/cli/certificate_name.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/stopwatch.hpp"
 #include "tools/runs/atlas.hpp"
+#include "tools/runs/further_integral.hpp"
 #include "tools/text/proofs/proof_report.hpp"
 #include "tools/text/proofs/verify_report.hpp"
+#include "tools/text/text_layout.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -27,7 +29,7 @@ struct VerifyArguments {
   Common common;
   std::string case_name;
   std::string in, tag;
-  bool all = false;
+  bool all = false, obstruct = false;
   std::vector<std::string> integrals, casimirs, invariant_relations, identities, on;
   std::string certificate;
 };
@@ -52,22 +54,6 @@ struct Verified {
   nlohmann::ordered_json json;
 };
 
-/// Coq makes the name of the file the name of a module.
-void check_certificate_name(const std::string& path) {
-  const std::filesystem::path file(path);
-  const std::string stem = file.stem().string();
-  const bool identifier = !stem.empty() &&
-                          (std::isalpha(static_cast<unsigned char>(stem[0])) != 0) &&
-                          std::all_of(stem.begin(), stem.end(), [](char c) {
-                            return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-                          });
-  if (file.extension() != ".v" || !identifier) {
-    throw UsageError(fmt::format(
-        "'{}': the name of a certificate is a letter, then letters, digits and '_', and ends in .v",
-        printable(path, 200)));
-  }
-}
-
 /// Only what is proved has a certificate. What is said of it in JSON: null where none was written.
 nlohmann::ordered_json write_certificate(const Model& model, const VerifyArguments& options,
                                          const std::vector<Proof>& proofs) {
@@ -90,6 +76,32 @@ nlohmann::ordered_json write_certificate(const Model& model, const VerifyArgumen
   return {{"file", printable(options.certificate, 1000)}, {"left_out", left_out}};
 }
 
+/// Whether an integral that Liouville's count lacks is excluded; null where it lacks none.
+nlohmann::ordered_json exclude_further(const Model& model, const VerifyArguments& options,
+                                       const std::vector<Proof>& proofs, bool lines) {
+  constexpr double kSeconds = 10;
+  const double limit = options.common.time_limit;
+  const auto answer = further_integral(model, options.common.scene, proofs,
+                                       limit > 0 ? std::min(limit, kSeconds) : kSeconds);
+  if (lines && answer) {
+    for (const std::string& line :
+         wrapped("further integral: " + further_integral_text(*answer), output_width()))
+      fmt::print("{}\n", line);
+  }
+  if (!answer) return nullptr;
+  nlohmann::ordered_json json{{"verdict", answer->proved ? "proved" : "undecided"}};
+  if (answer->proved) {
+    json["along"] = answer->examined.back().along;
+    json["level"] = answer->examined.back().level;
+    json["nve"] = answer->examined.back().nve;
+    json["theorem"] = answer->theorem;
+    json["excluded"] = answer->excluded;
+  } else {
+    json["reason"] = answer->reason;
+  }
+  return json;
+}
+
 /// Proves one case; its lines appear as they are decided, unless only a summary or JSON is wanted.
 /// \param motion  the model, or the map that it is the base of
 template <class Motion>
@@ -107,6 +119,7 @@ Verified verify_motion(const Model& model, const Motion& motion, const VerifyArg
   if (report) report->end(proofs, seconds);
   const CaseOutcome outcome = outcome_of(model, proofs, seconds);
   nlohmann::ordered_json json = to_json(model, proofs, seconds);
+  if (options.obstruct) json["further_integral"] = exclude_further(model, options, proofs, lines);
   if (!options.certificate.empty()) json["certificate"] = write_certificate(model, options, proofs);
   return {outcome, std::move(json)};
 }
@@ -136,7 +149,7 @@ int verify_all(const VerifyArguments& options) {
     throw SystemError("no bundled cases were found; CASIMIR_CASES can name their folder");
   std::optional<AllReport> report;
   if (!options.common.json && !options.common.quiet) report.emplace(paths);
-  nlohmann::ordered_json cases = nlohmann::json::array();
+  nlohmann::ordered_json cases = nlohmann::ordered_json::array();
   Verdict worst = Verdict::proved;
   for (const std::filesystem::path& path : paths) {
     double left = 0;
@@ -168,6 +181,7 @@ int verify(const VerifyArguments& options) {
     throw UsageError(
         "--on needs a candidate: --integral, --casimir, --invariant-relation or --identity");
   }
+  if (options.all && options.obstruct) throw UsageError("--obstruct needs a CASE");
   if (options.all && !options.certificate.empty()) throw UsageError("--certificate needs a CASE");
   if (!options.certificate.empty()) check_certificate_name(options.certificate);
   if (options.all) return verify_all(options);
@@ -201,6 +215,8 @@ void register_verify(CLI::App& program, Action& action) {
   repeatable("--identity", options->identities,
              "Test whether LEFT = RIGHT; {F, G} is the bracket, rate(F) is dF/dt (repeatable)");
   repeatable("--on", options->on, "Only on the common zero level of these (repeatable)");
+  command->add_flag("--obstruct", options->obstruct,
+                    "Where integrals are missing, whether there is a proof that there are none");
   command
       ->add_option("--certificate", options->certificate,
                    "Write a proof that coqc accepts, if every claim is proved")

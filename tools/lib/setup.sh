@@ -105,7 +105,7 @@ configure() {
   fi
   say "Configuring (Release, tests $tests)"
   if ! cmake "${fresh[@]}" -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-      -DCASIMIR_TESTS="$tests" -DCASIMIR_WERROR="$tests" -DCASIMIR_UNITY=ON >"$log" 2>&1; then
+      -DCASIMIR_TESTS="$tests" -DCASIMIR_WERROR="$tests" -DCASIMIR_QUICK_TESTS="$tests" -DCASIMIR_UNITY=ON >"$log" 2>&1; then
     show_log "$log"
     fail 1 "CMake could not configure the build."
   fi

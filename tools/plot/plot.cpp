@@ -8,14 +8,15 @@
 
 #include "tools/cli/output.hpp"
 #include "tools/plot/gnuplot.hpp"
+#include "tools/plot/thinned.hpp"
 
 namespace casimir::tools {
 namespace {
 
 /// Okabe and Ito's colours, which differ in lightness too, and further ones apart from them.
-constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#e69f00",
-                                    "#cc79a7", "#000000", "#882255", "#56b4e9",
-                                    "#808080", "#117733", "#332288", "#999933"};
+constexpr const char* kCurveColours[] = {"#0072b2", "#d55e00", "#009e73", "#e69f00",
+                                         "#cc79a7", "#000000", "#882255", "#56b4e9",
+                                         "#808080", "#117733", "#332288", "#999933"};
 /// The same on a dark page: as far from it as those are from white.
 constexpr const char* kDarkColours[] = {"#4db2f0", "#ff8a3d", "#2fd6a4", "#ffc14d",
                                         "#f0a0cc", "#f0f0f0", "#e0709f", "#8fd3ff",
@@ -48,7 +49,8 @@ std::size_t marked_every(const Curve& curve, std::size_t group) {
 std::string style_of(const Curve& curve, std::size_t group, const Print& print) {
   const Mark mark = kMarks[group % std::size(kMarks)];
   // Curves in grey would be hard to tell apart, and to see.
-  const std::string colour = print.monochrome ? "#000000" : kColours[group % std::size(kColours)];
+  const std::string colour =
+      print.monochrome ? "#000000" : kCurveColours[group % std::size(kCurveColours)];
   switch (curve.style) {
     case Curve::Style::line:
       return fmt::format("linespoints lw 1.6 dt {} pt {} ps 0.9 pi {} lc rgb '{}'",
@@ -223,8 +225,8 @@ void use_variables(std::string& svg) {
     std::erase(colour, ' ');
     svg.replace(at, end - at, colour);
   }
-  for (std::size_t i = 0; i < std::size(kColours); ++i)
-    replace_all(svg, rgb(kColours[i]), fmt::format("var(--plot-{})", i + 1));
+  for (std::size_t i = 0; i < std::size(kCurveColours); ++i)
+    replace_all(svg, rgb(kCurveColours[i]), fmt::format("var(--plot-{})", i + 1));
   replace_all(svg, rgb(kGrid), "var(--plot-grid)");
   replace_all(svg, rgb(kGuide), "var(--plot-guide)");
   for (const char* name : {"black", "#ffffff", "#FFFFFF", "white"}) {
@@ -235,6 +237,26 @@ void use_variables(std::string& svg) {
                     fmt::format("{}{}{}{}", key, quote, variable, quote));
     }
   }
+}
+
+/// Makes gnuplot write down, behind the picture, where the frame is and what stands there.
+std::string axes_script(const Plot& plot, const std::string& file) {
+  return fmt::format(
+      "set print {}\nif (exists('GPVAL_TERM_XMIN') && exists('GPVAL_X_MIN')) print sprintf('%.8g "
+      "%.8g %.8g %.8g %.12g %.12g %.12g %.12g {} {}', GPVAL_TERM_XMIN, GPVAL_TERM_XMAX, "
+      "GPVAL_TERM_YMIN, GPVAL_TERM_YMAX, GPVAL_X_MIN, GPVAL_X_MAX, GPVAL_Y_MIN, GPVAL_Y_MAX)\n"
+      "unset print\n",
+      quoted_path(file), plot.log_x ? 1 : 0, plot.log_y ? 1 : 0);
+}
+
+/// What it wrote, if these are ten numbers.
+std::string axes_known(const std::string& file) {
+  std::ifstream stream(file);
+  std::string text;
+  int count = 0;
+  for (double number = 0; stream >> number; ++count)
+    text += fmt::format("{}{}", text.empty() ? "" : " ", number);
+  return count == 10 ? text : "";
 }
 
 }  // namespace
@@ -253,24 +275,26 @@ std::string svg_element(const Plot& plot, const std::string& name, const std::st
 }
 
 std::string page_svg(const Plot& plot, const std::string& name, const std::string& beside) {
-  constexpr std::size_t kWidth = 640, kHeight = 440, kLine = 24;
-  constexpr double kLetter = 8, kSample = 60;
-  const auto [lines, below] = key_below(plot, kWidth / kLetter, kSample / kLetter);
+  // As wide as a telephone shows it, about: letters stay legible there.
+  constexpr std::size_t kWidth = 480, kHeight = 350, kLine = 21;
+  constexpr double kLetter = 7.4, kSample = 60, kApart = 0.15;
+  const std::size_t width = plot.square ? kHeight : kWidth;
+  const auto [lines, below] =
+      key_below(plot, static_cast<double>(width) / kLetter, kSample / kLetter);
   const std::string terminal =
-      fmt::format("svg size {},{} dynamic background rgb 'white' font 'sans,15'",
-                  plot.square ? kHeight : kWidth, kHeight + kLine * lines);
-  const std::string key = below + " font ',13'\nset xlabel offset 0,0.4";
-  return page_svg(
-      [&](const std::string& output) { return script(plot, {}, terminal, key, output); }, name,
-      beside);
-}
-
-std::string page_svg(const std::function<std::string(const std::string& output)>& script_for,
-                     const std::string& name, const std::string& beside) {
+      fmt::format("svg size {},{} dynamic background rgb 'white' font 'sans,13.5'", width,
+                  kHeight + kLine * lines);
+  const std::string key = below + " font ',12.5'\nset xlabel offset 0,0.8";
   OutputFile picture(beside + "." + name + ".svg");
-  draw_script(script_for(picture.temporary().string()), picture);
-  std::string svg = element_of(picture, name);
+  OutputFile axes(beside + "." + name + ".axes");
+  const std::string values = axes.temporary().string();
+  draw_script(script(plot, {}, terminal, key, picture.temporary().string()) +
+                  (plot.square ? "" : axes_script(plot, values)),
+              picture);
+  std::string svg = with_thinned_paths(element_of(picture, name), kApart);
   use_variables(svg);
+  const std::string known = axes_known(values);
+  if (!known.empty()) svg.insert(4, " data-axes=\"" + known + "\"");
   return svg;
 }
 
@@ -279,8 +303,8 @@ std::string plot_variables(bool dark) {
                             "--plot-guide:#5c6068;"
                           : "--plot-ink:#000;--plot-paper:#fff;--plot-grid:#d8d8d8;"
                             "--plot-guide:#b0b0b0;";
-  for (std::size_t i = 0; i < std::size(kColours); ++i)
-    text += fmt::format("--plot-{}:{};", i + 1, dark ? kDarkColours[i] : kColours[i]);
+  for (std::size_t i = 0; i < std::size(kCurveColours); ++i)
+    text += fmt::format("--plot-{}:{};", i + 1, dark ? kDarkColours[i] : kCurveColours[i]);
   return text;
 }
 

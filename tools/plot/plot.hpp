@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,14 +48,10 @@ std::string svg_element(const Plot& plot, const std::string& name, const std::st
 
 /// The same for a page in light or dark colours, on a screen as narrow as a telephone's: the legend
 /// is below, letters are large, and colours are the variables --plot-ink, --plot-paper, --plot-grid
-/// and --plot-1 to --plot-12 of the page.
+/// and --plot-1 to --plot-12 of the page. Its attribute `data-axes` says where the frame is (left,
+/// right, bottom and top, from the lower left corner), the values there, and which axes are
+/// logarithmic (1) or not (0); a picture without axes has none.
 std::string page_svg(const Plot& plot, const std::string& name, const std::string& beside);
-
-/// The same for any script.
-/// \param script  called with the file that gnuplot shall write; its terminal is svg. Colours that
-///     are not those of `Plot` stay as they are.
-std::string page_svg(const std::function<std::string(const std::string& output)>& script,
-                     const std::string& name, const std::string& beside);
 
 /// Declarations of these variables.
 /// \param dark  for a dark page

@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 
 #include "tools/report/page.hpp"
+#include "tools/runs/further_integral.hpp"
+#include "tools/show/nve_view.hpp"
 #include "tools/text/proofs/proof_report.hpp"
 #include "tools/text/proofs/proof_table.hpp"
 #include "tools/text/runs/run_report.hpp"
 #include "tools/typeset/html.hpp"
+#include "tools/typeset/mathml.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -53,6 +56,22 @@ std::string list(const std::string& heading, const std::string& claims) {
                         : "<h3>" + heading + "</h3>\n<ul class=\"claims\">\n" + claims + "</ul>\n";
 }
 
+/// Whether a further integral is excluded, with the equations that show it.
+std::string further_part(const Model& model, const obstruction::Obstruction& answer) {
+  std::string text =
+      "<h3>A further integral</h3>\n" + html::paragraph(further_integral_text(answer));
+  if (!answer.proved || answer.examined.empty()) return text;
+  const NveView view = nve_views(model, answer).back();
+  std::string equations;
+  for (const Formula& f : view.formulas)
+    equations += "<div class=\"left\">" + typeset::mathml(f.left.math) +
+                 "</div><div class=\"right\"><math><mo>=</mo></math>" +
+                 typeset::mathml(f.right.math) + "</div>\n";
+  if (!equations.empty()) text += "<div class=\"equations stacked\">\n" + equations + "</div>\n";
+  if (!view.nve.empty()) text += html::paragraph(view.nve);
+  return text + html::paragraph("Its Galois group: " + view.outcome + ".");
+}
+
 }  // namespace
 
 std::string verdict_mark(Verdict verdict) {
@@ -73,6 +92,7 @@ std::string claims_part(const Model& model, const Findings& findings) {
       tally_of(model, findings.proofs).text(), duration_text(findings.proof_seconds));
   text += list("Claims", counted) + list("Facts about the system", facts) +
           list("Beside the claims", notes);
+  if (findings.obstruction) text += further_part(model, *findings.obstruction);
   return text + "</section>\n";
 }
 

@@ -8,14 +8,19 @@
 #include "codegen/compile.hpp"
 #include "symbolic/error.hpp"
 #include "tools/analysis/proof/prove_in_process.hpp"
+#include "tools/analysis/section/orbits.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/runs/conserve_run.hpp"
+#include "tools/runs/further_integral.hpp"
 #include "tools/text/runs/trust_report.hpp"
 
 namespace casimir::tools {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// Between two looks at the clock a proof about more would take too long for a page.
+constexpr std::size_t kMostVariablesOfObstruction = 8;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -30,9 +35,13 @@ class Investigation {
   Findings all() {
     if (!model_.scenes.empty()) result_.scene = &model_.scene(options_.scene);
     part("proofs", 0, [&] { prove_claims(); });
+    if (options_.obstruction > 0 && model_.variables.size() <= kMostVariablesOfObstruction)
+      part("further integrals", 0.05, [&] { exclude_integrals(); });
     if (result_.scene) {
       part("generated code", 0.1, [&] { generate(); });
       part("motion", 0.2, [&] { move(); });
+      part("enclosure", 0.25, [&] { enclose_end(); });
+      if (model_.section) part("cycles", 0.28, [&] { prove_cycles(); });
       part("drift", 0.3, [&] { conserve(); });
       if (options_.budget > 0) part("error against run time", 0.5, [&] { measure(); });
     } else {
@@ -86,6 +95,12 @@ class Investigation {
     result_.proof_seconds = seconds_since(start);
   }
 
+  void exclude_integrals() {
+    const double seconds =
+        options_.time_limit > 0 ? std::min(left(), options_.obstruction) : options_.obstruction;
+    result_.obstruction = further_integral(model_, options_.scene, result_.proofs, seconds);
+  }
+
   void generate() {
     SpecialiseOptions what;
     what.fold_parameters = options_.code.fold_parameters;
@@ -108,6 +123,42 @@ class Investigation {
                                           judged.trajectory.time, judged.trajectory.reason));
     for (const std::string& warning : words_of(judged).warnings)
       result_.notes.push_back("motion: " + warning);
+  }
+
+  /// Seconds for a part that is not to hold up the page.
+  double at_most(double seconds) const {
+    return options_.time_limit > 0 ? std::clamp(left(), 1e-3, seconds) : seconds;
+  }
+
+  void enclose_end() {
+    if (!result_.scene->duration) return;
+    constexpr double kLongest = 2;
+    ValidatedOptions how;
+    how.observe = std::vector<std::string>{};
+    how.run.give_up = [late = time_limit(at_most(kLongest))](double) { return late(); };
+    result_.enclosure = enclose(model_, *result_.scene, how);
+  }
+
+  /// Fixed points of the return map on the level of the scene, as many as some starts lead to.
+  void prove_cycles() {
+    constexpr std::size_t kStarts = 100, kMost = 8;
+    constexpr double kLongest = 4, kLongestOfOne = 2;
+    if (!model_.hamiltonian || !model_.poisson || model_.time) return;
+    const auto late = time_limit(at_most(kLongest));
+    const SectionProblem problem = section_problem(model_, *result_.scene);
+    const LevelSet level(problem);
+    const OrbitCutter cutter(problem, {1e-14, 1, late}, kStarts);
+    const std::vector<PlacedPoint> domain = points_of_domain(level, cutter.returning(), {});
+    CycleSearch found =
+        find_cycles(level, cutter, spread_out(level, domain, kStarts), 1, [](double) {});
+    if (found.cycles.size() > kMost) found.cycles.resize(kMost);
+    for (const Cycle& cycle : found.cycles) {
+      if (late()) break;
+      ProvedCycle proof =
+          enclose_cycles(model_, *result_.scene, problem, {cycle}, {}, kLongestOfOne).front();
+      if (proof.proved) result_.cycles.push_back(std::move(proof));
+    }
+    result_.cycle_level = problem.proved_level_text();
   }
 
   /// Every scene by every method, none for longer than a reader would wait.

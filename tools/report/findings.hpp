@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "codegen/specialise.hpp"
+#include "symbolic/obstruction/obstruct.hpp"
 #include "symbolic/prove.hpp"
 #include "tools/analysis/benchmark/method_comparison.hpp"
+#include "tools/analysis/run/validated.hpp"
+#include "tools/analysis/section/validated_cycles.hpp"
 #include "tools/cli/machine.hpp"
 #include "tools/plot/drift_plot.hpp"
 #include "tools/plot/motion_plot.hpp"
@@ -19,8 +22,9 @@ namespace casimir::tools {
 /// How a report is made.
 struct ReportOptions {
   std::string scene = "default";
-  double budget = 4;      ///< seconds of measuring error against run time; 0: not at all
-  double time_limit = 0;  ///< seconds for the whole; 0: none
+  double budget = 4;       ///< seconds of measuring error against run time; 0: not at all
+  double time_limit = 0;   ///< seconds for the whole; 0: none
+  double obstruction = 0;  ///< seconds for a proof that there is no further integral; 0: not at all
   SceneOptions code = {};
   /// Told what is being done and which share of it is done.
   std::function<void(const std::string& what, double share)> progress = {};
@@ -32,6 +36,8 @@ struct Findings {
   std::vector<Proof> proofs;
   Verdict verdict = Verdict::undecided;
   double proof_seconds = 0;
+  /// Where Liouville's count lacks an integral, whether one is excluded.
+  std::optional<obstruction::Obstruction> obstruction;
 
   const Scene* scene = nullptr;  ///< of the model; null for a case without one
   std::optional<Specialisation> code;
@@ -41,6 +47,9 @@ struct Findings {
   std::string motion_method;
   std::optional<Motion> motion;
   std::optional<MethodComparison> contest;
+  std::optional<ValidatedMotion> enclosure;  ///< of the state at the end, as far as it got
+  std::string cycle_level;                   ///< of the cycles, "H = 1.5, F1 = 1"
+  std::vector<ProvedCycle> cycles;           ///< fixed points of the return map that are proved
   Machine machine;
 
   std::vector<std::string> notes;     ///< what was left out for a reason of the case

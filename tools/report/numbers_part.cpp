@@ -78,10 +78,12 @@ std::string code_part(const Findings& findings) {
 std::string motion_part(const Findings& findings, const Pictures& pictures) {
   if (!findings.motion) return "";
   std::string text = "<section id=\"motion\">\n<h2>The motion</h2>\n";
-  text += missing_picture(pictures);
-  text += figure(pictures.motion, "motion",
-                 fmt::format("States against time: scene {}, by {}.", findings.scene->name,
-                             findings.motion_method));
+  if (pictures.motion.empty()) text += missing_picture(pictures);
+  text += figure(
+      pictures.motion, "motion",
+      fmt::format("States against time: scene {}, by {}; the first part of a run to t = "
+                  "{:.6g}.",
+                  findings.scene->name, findings.motion_method, findings.motion->times.back()));
   text += "<div class=\"pair\">\n";
   text +=
       figure(pictures.sphere, "sphere",
@@ -126,11 +128,7 @@ std::string drift_part(const Findings& findings, const Pictures& pictures) {
 std::string section_part(const Model& model, const Pictures& pictures) {
   if (!model.section || pictures.section.empty()) return "";
   return "<section id=\"section\">\n<h2>Poincar&eacute; section</h2>\n" +
-         figure(
-             pictures.section, "section",
-             "Crossings of the plane in one direction, of orbits on the energy and Casimir level "
-             "of the scene.") +
-         "</section>\n";
+         figure(pictures.section, "section", pictures.section_caption) + "</section>\n";
 }
 
 std::string work_precision_part(const Findings& findings, const Pictures& pictures) {

@@ -6,6 +6,7 @@
 #include <ctime>
 
 #include "symbolic/error.hpp"
+#include "tools/analysis/error.hpp"
 #include "tools/report/style.hpp"
 #include "tools/text/proofs/proof_table.hpp"
 #include "tools/typeset/html.hpp"
@@ -37,9 +38,16 @@ constexpr Entry kContents[] = {{"system", "System"},
                                {"machine", "Machine"},
                                {"reproduce", "Reproduce"}};
 
-std::string contents(const std::string& body, const std::string& index) {
+std::string contents(const std::string& body, const PageSource& source) {
   std::string text = "<nav aria-label=\"Contents\"><ul>\n";
-  if (!index.empty()) text += "<li><a href=\"" + html::text(index) + "\">All cases</a></li>\n";
+  const auto link = [&](const std::string& page, const char* words, const char* relation) {
+    if (page.empty()) return;
+    text += fmt::format("<li><a rel=\"{}\" href=\"{}\">{}</a></li>\n", relation, html::text(page),
+                        words);
+  };
+  link(source.index, "All cases", "up");
+  link(source.before, "← before", "prev");
+  link(source.after, "next →", "next");
   for (const Entry& entry : kContents) {
     if (body.find(fmt::format("<section id=\"{}\"", entry.id)) != std::string::npos)
       text += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", entry.id, entry.words);
@@ -69,6 +77,31 @@ std::string notes_part(const Findings& findings, const Pictures& pictures) {
   return lines.empty() ? "" : "<div class=\"notes\"><ul>\n" + lines + "</ul></div>\n";
 }
 
+/// The case and the options, for a shell.
+std::string typed(const PageSource& source) {
+  std::string words = shell_word(source.argument);
+  for (const std::string& option : source.options) words += " " + shell_word(option);
+  return words;
+}
+
+/// The data of what the script integrates; a comment says why there are none.
+std::string typeset_live(const Model& model, const Findings& findings, const Pictures& pictures,
+                         const PageSource& source) {
+  if (!findings.scene || !findings.motion) return "";
+  const auto none = [](const std::exception& problem) {
+    return html::paragraph(std::string("The page does not integrate by itself: ") + problem.what());
+  };
+  try {
+    const LiveSystem live = live_system(model, *findings.scene, pictures.drawn_section);
+    return live_part(live, findings.scene->name,
+                     "casimir integrate " + printable(typed(source), 4000));
+  } catch (const ModelError& problem) {
+    return none(problem);
+  } catch (const RequestError& problem) {
+    return none(problem);
+  }
+}
+
 /// An expression that cannot be written down must not cost the rest of the page.
 std::string typeset_system(const Model& model) {
   try {
@@ -92,17 +125,15 @@ std::string page_head(const std::string& title, const std::string& description) 
       CASIMIR_VERSION, html::text(description), html::text(title), page_style());
 }
 
-std::string page_end() {
+std::string page_end(const std::string& script) {
   const std::time_t now = std::time(nullptr);
   return fmt::format(
-      "<footer><p>Written by casimir {} on {:%Y-%m-%d}.</p></footer>\n</body>\n</html>\n",
-      CASIMIR_VERSION, fmt::gmtime(now));
+      "<footer><p>Written by casimir {} on {:%Y-%m-%d}.</p></footer>\n{}</body>\n</html>\n",
+      CASIMIR_VERSION, fmt::gmtime(now), script);
 }
 
 std::string reproduce_part(const Model& model, const Findings& findings, const PageSource& source) {
-  std::string options;
-  for (const std::string& option : source.options) options += " " + shell_word(option);
-  const std::string what = shell_word(source.argument) + options;
+  const std::string what = typed(source);
   std::string commands;
   const auto add = [&](const std::string& command) { commands += "casimir " + command + "\n"; };
   add("show " + what);
@@ -127,14 +158,23 @@ std::string reproduce_part(const Model& model, const Findings& findings, const P
 
 std::string report_page(const Model& model, const Findings& findings, const Pictures& pictures,
                         const PageSource& source) {
-  const std::string body =
-      notes_part(findings, pictures) + typeset_system(model) + claims_part(model, findings) +
-      code_part(findings) + motion_part(findings, pictures) + drift_part(findings, pictures) +
-      section_part(model, pictures) + work_precision_part(findings, pictures) +
-      runs_part(findings) + machine_part(findings) + reproduce_part(model, findings, source);
+  const std::string body = notes_part(findings, pictures) + typeset_system(model) +
+                           claims_part(model, findings) +
+                           typeset_live(model, findings, pictures, source) + code_part(findings) +
+                           motion_part(findings, pictures) + theorems_part(model, findings) +
+                           drift_part(findings, pictures) + section_part(model, pictures) +
+                           work_precision_part(findings, pictures) + runs_part(findings) +
+                           machine_part(findings) + reproduce_part(model, findings, source);
   return page_head(model.title, "Report on " + model.name + ": equations, proofs, code and runs") +
-         head_part(model, findings) + contents(body, source.index) + "<main>\n" + body +
-         "</main>\n" + page_end();
+         head_part(model, findings) + contents(body, source) + "<main>\n" + body + "</main>\n" +
+         page_end(page_script());
+}
+
+std::string page_without_report(const std::string& title, const std::string& problem,
+                                const PageSource& source) {
+  return page_head(title, "A case without a report") + "<header>\n<h1>" + html::text(title) +
+         "</h1>\n</header>\n" + contents("", source) + "<main>\n" +
+         html::paragraph("There is no report: " + problem) + "</main>\n" + page_end("");
 }
 
 }  // namespace casimir::tools

@@ -2,6 +2,7 @@
 
 #include "tools/bench/report.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/report/charts.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -32,11 +33,24 @@ Plot method_comparison_of(const Findings& findings) {
 Pictures draw_pictures(const CaseFile& file, const Model& model, const Findings& findings,
                        const std::string& beside) {
   Pictures pictures;
+  const bool moves = findings.motion && findings.motion->times.size() > 1;
+  if (moves) {
+    pictures.motion = motion_svg(*findings.motion);
+    pictures.thumbnail = thumbnail_svg(thumbnail_of(*findings.motion));
+  }
+  if (findings.scene && model.section) {
+    try {
+      cut_section(file, model, *findings.scene, pictures);
+    } catch (const SystemError& problem) {
+      pictures.problem = problem.what();
+    } catch (const std::runtime_error& problem) {
+      pictures.section_note = std::string("section: ") + problem.what();
+    }
+  }
   try {
-    if (findings.motion && findings.motion->times.size() > 1) {
+    if (moves) {
       const Motion& motion = *findings.motion;
       const Scene& scene = *findings.scene;
-      pictures.motion = drawn(time_picture(model, scene, motion, {}), "motion", beside);
       if (has_sphere(motion))
         pictures.sphere = drawn(sphere_picture(model, scene, motion, ""), "sphere", beside);
       if (has_apex(model, motion))
@@ -45,15 +59,6 @@ Pictures draw_pictures(const CaseFile& file, const Model& model, const Findings&
     if (!findings.drifts.empty()) pictures.drift = drawn(drift_of(findings), "drift", beside);
     if (findings.contest)
       pictures.work_precision = drawn(method_comparison_of(findings), "work-precision", beside);
-    if (findings.scene && model.section) {
-      try {
-        pictures.section = section_svg(file, model, *findings.scene, beside);
-      } catch (const SystemError&) {
-        throw;
-      } catch (const std::runtime_error& problem) {
-        pictures.section_note = std::string("section: ") + problem.what();
-      }
-    }
   } catch (const SystemError& problem) {
     pictures.problem = problem.what();
   }

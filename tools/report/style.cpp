@@ -62,9 +62,28 @@ th:first-child,td:first-child{padding-left:0}
 tr.own td:first-child{font-weight:600}
 tr.wrong td{color:var(--refuted)} tr.other td{color:var(--soft)}
 figure{margin:1rem 0;break-inside:avoid}
-figure svg{display:block;width:100%;height:auto;max-width:46rem;margin:0 auto}
+figure{position:relative}
+figure svg{display:block;width:100%;height:auto;max-width:38rem;margin:0 auto}
+figure.told svg{touch-action:pan-y;cursor:crosshair}
+.tip{position:absolute;pointer-events:none;background:var(--paper);border:1px solid var(--line);
+ border-radius:.3rem;padding:.1rem .45rem;font-size:.85rem;white-space:nowrap;max-width:100%}
+.back{position:absolute;right:.2rem;top:.2rem}
+button,input{font:inherit;color:var(--ink);background:var(--panel);border:1px solid var(--line);
+ border-radius:.3rem;padding:.1rem .6rem}
+input[type=range]{accent-color:var(--link);padding:0;width:100%}
+.controls label{display:grid;grid-template-columns:4.5rem minmax(0,1fr) 9.5rem;gap:.6rem;align-items:center}
+.controls label span{overflow-x:auto}
+input.wrong{border-color:var(--refuted);color:var(--refuted)}
+#live-duration{width:8rem}
+#section-canvas{display:block;width:100%;max-width:38rem;aspect-ratio:4/3;margin:0 auto;cursor:crosshair}
+.cards{list-style:none;margin:.5rem 0;padding:0;display:grid;gap:.8rem;
+ grid-template-columns:repeat(auto-fill,minmax(min(24rem,100%),1fr))}
+.card{display:grid;grid-template-columns:7.5rem minmax(0,1fr);gap:.8rem;border:1px solid var(--line);
+ border-radius:.4rem;padding:.6rem .8rem}
+.card h3{margin:0} .card p{margin:.15rem 0}
+.card svg{width:100%;height:auto} [hidden]{display:none!important}
 figcaption{font-size:.9em;text-align:center;margin-top:.3rem}
-.pair{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(17rem,100%),1fr));gap:0 1rem}
+.pair{display:grid;align-items:start;grid-template-columns:repeat(auto-fit,minmax(min(17rem,100%),1fr));gap:0 1rem}
 details{margin:.6rem 0} summary{cursor:pointer;color:var(--link)}
 pre{background:var(--panel);border:1px solid var(--line);border-radius:.3rem;padding:.6rem .8rem;
  overflow-x:auto;line-height:1.4;white-space:pre}
@@ -80,6 +99,8 @@ footer{margin-top:3rem;border-top:1px solid var(--line);color:var(--soft);font-s
  .claim .kind{justify-self:start}
  .claim .name{grid-row:2}
  .less{display:none}
+ table{font-size:.76em} th,td{padding:.2rem .3rem}
+ td small{display:block} td:first-child{white-space:normal}
 }
 )";
 

@@ -45,7 +45,7 @@ std::string folded(const std::string& title, const std::vector<Formula>& formula
          "</summary>\n" + equations(formulas) + "</details>\n";
 }
 
-void append(std::vector<Formula>& list, const std::vector<Formula>& more) {
+void append_formulas(std::vector<Formula>& list, const std::vector<Formula>& more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 
@@ -54,12 +54,12 @@ std::string bracket(const Model& model, const SystemView& view) {
   for (const VectorEntries& v : view.vectors) {
     lines.push_back({v.shown, {"", typeset::in_brackets(typeset::list(maths(v.entries)))}});
   }
-  append(lines, view.vector_brackets);
+  append_formulas(lines, view.vector_brackets);
   constexpr std::size_t kFew = 3;
   if (!view.vector_brackets.empty() && view.zero_brackets.size() <= kFew)
-    append(lines, view.zero_brackets);
+    append_formulas(lines, view.zero_brackets);
   const bool as_matrix = view.variables.size() <= kLargestMatrix;
-  if (!as_matrix && view.vector_brackets.empty()) append(lines, view.brackets);
+  if (!as_matrix && view.vector_brackets.empty()) append_formulas(lines, view.brackets);
   std::string text = folded("Poisson bracket", lines);
   if (lines.empty()) text += heading("Poisson bracket");
   if (as_matrix && !view.structure_matrix.empty()) {
@@ -135,7 +135,7 @@ std::string system_part(const Model& model) {
   if (view.hamiltonian)
     text += heading("Hamiltonian") + equations({{{"H", typeset::letter("H")}, *view.hamiltonian}});
   std::vector<Formula> motion = view.vector_equations;
-  append(motion, view.gradients);
+  append_formulas(motion, view.gradients);
   text += folded("Equations of motion", motion);
   text += folded(motion.empty() ? "Equations of motion" : "The same in components", view.equations);
   text += conditions(model);

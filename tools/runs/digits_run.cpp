@@ -11,6 +11,7 @@
 #include "runtime/digits/agreed_run.hpp"
 #include "symbolic/expression/decimal.hpp"
 #include "symbolic/expression/expression.hpp"
+#include "tools/analysis/run/exact_values.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
@@ -23,7 +24,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) {
+double run_time_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
@@ -129,16 +130,17 @@ int integrate_with_digits(const DigitsRequest& request) {
   what.observe = request.how.observe;
   what.jacobian = false;
   const Scene& scene = model.scene(request.common.scene);
+  require_exact_values(model, scene, "a run with more digits");
   const Specialisation s = specialise(model, scene, what);
   if (!request.run.duration) require_duration(scene);
-  const double generated = seconds_since(start);
+  const double generated = run_time_since(start);
   const auto begin = Clock::now();
   const AgreedRun agreed = run(request, s);
   const DigitsReport report{.spec = s,
                             .agreed = agreed,
                             .digits = request.digits,
                             .generate_seconds = generated,
-                            .seconds = seconds_since(begin)};
+                            .seconds = run_time_since(begin)};
   if (!request.output.empty()) write_samples(request.output, report);
   if (request.common.json) {
     print_json(to_json(report));

@@ -67,32 +67,6 @@ Text part_of(const Text& whole, std::size_t from, std::size_t length) {
   return part;
 }
 
-/// Takes the ranges out of the values of parameters: scenes get their middles.
-ParameterValues without_ranges(const ParameterValues& given, CaseFile& file,
-                               std::vector<std::pair<std::string, cln::cl_RA>>& ranges) {
-  ParameterValues others;
-  for (const auto& [name, value] : given) {
-    const std::size_t mark = value.value.find(kRangeMark);
-    if (mark == std::string::npos) {
-      others.emplace_back(name, value);
-      continue;
-    }
-    std::vector<std::string> known;
-    for (const ParameterText& parameter : file.parameters) known.push_back(parameter.name.value);
-    if (std::ranges::count(known, name.value) == 0)
-      throw name.error(fmt::format("'{}' is not a parameter of this case", printable(name.value)),
-                       0, suggest_or_list(name.value, known, "parameters"));
-    const cln::cl_RA low = rational_value(part_of(value, 0, mark));
-    const cln::cl_RA high = rational_value(part_of(value, mark + 2, std::string::npos));
-    if (low > high) throw value.error("a range goes from the lower end to the higher one");
-    Text middle = value;
-    middle.value = rational_text((low + high) / 2);
-    set_in_scenes(file, &SceneText::parameters, name, middle);
-    ranges.emplace_back(name.value, (high - low) / 2);
-  }
-  return others;
-}
-
 /// The decimal that was written for a double: the shortest that reads back as it.
 cln::cl_RA exact_interval(double value) {
   std::string text = fmt::format("{}", value);
@@ -154,23 +128,70 @@ ValidatedMotion certified_motion(const Model& model, const Scene& given,
   }
 }
 
-/// Nobody is handed a certificate that does not pass. \return  false, and says so, for such a one.
-bool write_certificate(const std::string& path, const RunCertificate& certificate) {
-  const CheckedCertificate checked = check_certificate(certificate);
+/// Nobody is handed a certificate that does not pass. \return  kDone, or another exit status, and
+/// says why, where none was written.
+int write_certificate(const std::string& path, const RunCertificate& certificate,
+                      const std::function<bool()>& late) {
+  const CheckedCertificate checked = check_certificate(certificate, late);
+  if (checked.check.fault == TraceFault::stopped) {
+    std::cerr << fmt::format(
+        "casimir: no certificate was written: the time limit came when {} of {} steps were "
+        "verified\n"
+        "  hint: the check takes up to twenty times as long as the run; --time-limit is for both\n",
+        checked.check.step - 1, certificate.trace.steps.size());
+    return kEnvironment;
+  }
   if (!checked.holds()) {
     std::cerr << fmt::format(
         "casimir: no certificate was written: it could not be verified in other arithmetic: {}\n"
         "  hint: a smaller start may help; the box itself is proved\n",
         CertificateReport{certificate, checked}.reason());
-    return false;
+    return kFailed;
   }
   OutputFile file(path);
   file.stream() << certificate_text(certificate);
   file.commit();
-  return true;
+  return kDone;
 }
 
 }  // namespace
+
+ParameterValues without_ranges(const ParameterValues& given, CaseFile& file,
+                               ParameterRanges& ranges) {
+  ParameterValues others;
+  for (const auto& [name, value] : given) {
+    const std::size_t mark = value.value.find(kRangeMark);
+    if (mark == std::string::npos) {
+      others.emplace_back(name, value);
+      continue;
+    }
+    std::vector<std::string> known;
+    for (const ParameterText& parameter : file.parameters) known.push_back(parameter.name.value);
+    if (std::ranges::count(known, name.value) == 0)
+      throw name.error(fmt::format("'{}' is not a parameter of this case", printable(name.value)),
+                       0, suggest_or_list(name.value, known, "parameters"));
+    const cln::cl_RA low = rational_value(part_of(value, 0, mark));
+    const cln::cl_RA high = rational_value(part_of(value, mark + 2, std::string::npos));
+    if (low > high) throw value.error("a range goes from the lower end to the higher one");
+    Text middle = value;
+    middle.value = rational_text((low + high) / 2);
+    set_in_scenes(file, &SceneText::parameters, name, middle);
+    ranges.emplace_back(name.value, (high - low) / 2);
+  }
+  return others;
+}
+
+std::string ranges_text(const ParameterValues& given) {
+  std::string result;
+  for (const auto& [name, value] : given) {
+    const std::size_t mark = value.value.find(kRangeMark);
+    if (mark == std::string::npos) continue;
+    result += fmt::format("{}{} in [{}, {}]", result.empty() ? "" : ", ", printable(name.value),
+                          printable(value.value.substr(0, mark)),
+                          printable(value.value.substr(mark + 2)));
+  }
+  return result;
+}
 
 bool is_range(const std::string& word) { return word.find(kRangeMark) != std::string::npos; }
 
@@ -198,7 +219,8 @@ int integrate_validated(const EnclosedRequest& request) {
   options.run.sample_every = sampling(request, options, scene);
   Progress progress(!request.common.quiet);
   progress.begin(fmt::format("{}: enclosing", model.name));
-  options.run.give_up = [&progress, late = time_limit(request.common.time_limit)](double share) {
+  const std::function<bool()> late = time_limit(request.common.time_limit);
+  options.run.give_up = [&progress, late](double share) {
     progress.show(share);
     return late && late();
   };
@@ -212,7 +234,8 @@ int integrate_validated(const EnclosedRequest& request) {
       .seconds = std::chrono::duration<double>(Clock::now() - start).count()};
   if (!request.output.empty()) write_boxes(request.output, report);
   const bool wanted = !request.certificate.empty() && motion.run.status == ValidatedStatus::ok;
-  const bool certified = wanted && write_certificate(request.certificate, certificate);
+  const int written = wanted ? write_certificate(request.certificate, certificate, late) : kDone;
+  const bool certified = wanted && written == kDone;
   if (request.common.json) {
     nlohmann::ordered_json json = to_json(report);
     if (certified) json["certificate"] = request.certificate;
@@ -226,7 +249,7 @@ int integrate_validated(const EnclosedRequest& request) {
       fmt::print("  wrote {} steps to {}\n", certificate.trace.steps.size(),
                  printable(request.certificate, 200));
   }
-  if (wanted && !certified) return kFailed;
+  if (wanted && !certified) return written;
   return say_if_it_stopped(report);
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/analysis/run/validated.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/options/kept_parameters.hpp"
 #include "tools/cli/options/run_options.hpp"
@@ -27,6 +28,14 @@ struct EnclosedRequest {
 
 /// Whether a value of `--param` is a range, as in r=1..1.001.
 bool is_range(const std::string& word);
+
+/// Takes the ranges out of the values of parameters: scenes get their middles.
+/// \throws CaseError  for what is no range of rational numbers.
+ParameterValues without_ranges(const ParameterValues& given, CaseFile& file,
+                               ParameterRanges& ranges);
+
+/// "r in [1, 1.001]" for each range, with commas between them.
+std::string ranges_text(const ParameterValues& given);
 
 /// Encloses the solutions of a scene and reports what was proved. \return exit status.
 int integrate_validated(const EnclosedRequest& request);

@@ -25,7 +25,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Worst first: the status of the whole is the first that some member has.
-constexpr std::array kStatuses = {
+constexpr std::array kMemberStatuses = {
     Status::singularity,    Status::non_finite, Status::step_underflow, Status::no_convergence,
     Status::drift_exceeded, Status::max_steps,  Status::stopped,        Status::ok};
 
@@ -45,7 +45,7 @@ struct Report {
                       [&](const MemberResult& member) { return member.status == status; }));
   }
   Status worst() const {
-    return *std::find_if(kStatuses.begin(), kStatuses.end(),
+    return *std::find_if(kMemberStatuses.begin(), kMemberStatuses.end(),
                          [&](Status status) { return count(status) > 0; });
   }
   int lanes() const { return kernel.lanes ? kernel.lanes->lanes : 1; }
@@ -144,7 +144,7 @@ Json to_json(const Report& report) {
                {"status", to_string(report.worst())},
                {"counts", Json::object()},
                {"members", Json::array()}};
-  for (auto status = kStatuses.rbegin(); status != kStatuses.rend(); ++status)
+  for (auto status = kMemberStatuses.rbegin(); status != kMemberStatuses.rend(); ++status)
     if (report.count(*status) > 0) json["counts"][to_string(*status)] = report.count(*status);
   for (std::size_t i = 0; i < report.result.members.size(); ++i)
     json["members"].push_back(to_json(report.spec(), i + 1, report.result.members[i]));
@@ -175,7 +175,7 @@ void print_text(const Report& report) {
              report.kernel.lanes
                  ? fmt::format("{} members in a register", report.kernel.lanes->lanes)
                  : "member by member");
-  for (auto status = kStatuses.rbegin(); status != kStatuses.rend(); ++status)
+  for (auto status = kMemberStatuses.rbegin(); status != kMemberStatuses.rend(); ++status)
     if (report.count(*status) > 0)
       fmt::print("  {:<16} {:>8}\n", to_string(*status), report.count(*status));
   for (std::size_t k = 0; k < s.invariant_names.size(); ++k) {
@@ -188,12 +188,14 @@ void print_text(const Report& report) {
 }
 
 /// On how the members were made, and on those that were integrated again by themselves.
-std::vector<std::string> warnings_on(const EnsembleKernel& kernel,
+std::vector<std::string> warnings_on(const EnsembleKernel& kernel, const PreparedScene& run,
+                                     const Settings& settings,
                                      const std::vector<CheckedMember>& checked) {
   std::vector<std::string> warnings;
+  if (may_pass_over(run, settings)) warnings.emplace_back(kUnseenBetweenSteps);
   if (!kernel.warning.empty()) warnings.push_back(kernel.warning);
   for (const CheckedMember& member : checked)
-    for (const std::string& warning : warnings_of(member.trust))
+    for (const std::string& warning : warnings_of(member.trust, settings.fixed_step > 0))
       warnings.push_back(fmt::format("member {}: {}", member.member + 1, warning));
   return warnings;
 }
@@ -270,7 +272,7 @@ int integrate_ensemble(const EnsembleRequest& request) {
     throw UsageError(problem.what());
   }
   const std::vector<std::string> warnings =
-      warnings_on(kernel, check_members(run, method, settings, ensemble, result));
+      warnings_on(kernel, run, settings, check_members(run, method, settings, ensemble, result));
   const Report report{run, method, settings, kernel, result, warnings};
   if (!request.output.empty()) write_table(request.output, table_of(report));
   if (request.common.json) {

@@ -42,10 +42,10 @@ nlohmann::ordered_json to_json(const MapModel& map, const Scene& scene, const It
       {"method", "map"},
       {"status", run.finite ? run.stopped ? "stopped" : "ok" : "non_finite"},
       {"t", std::to_string(run.steps)}};
-  json["state"] = nlohmann::json::object();
+  json["state"] = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < run.names.size(); ++i)
     json["state"][run.names[i]] = exact_text(run.state[i]);
-  json["invariants"] = nlohmann::json::object();
+  json["invariants"] = nlohmann::ordered_json::object();
   for (const Iterated::Invariant& invariant : run.invariants) {
     json["invariants"][invariant.name] = {{"initial", exact_text(invariant.initial)},
                                           {"final", exact_text(invariant.final)},
@@ -58,8 +58,8 @@ nlohmann::ordered_json to_json(const MapModel& map, const Scene& scene, const It
                      {"compile", run.compile_seconds},
                      {"integrate", run.seconds}};
   json["from_cache"] = run.from_cache;
-  json["left_out"] = nlohmann::json::array();
-  json["warnings"] = nlohmann::json::array();
+  json["left_out"] = nlohmann::ordered_json::array();
+  json["warnings"] = nlohmann::ordered_json::array();
   return json;
 }
 

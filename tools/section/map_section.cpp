@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "tools/analysis/section/map_orbits.hpp"
+#include "tools/analysis/section/orbit_rotation.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
@@ -14,6 +15,7 @@
 #include "tools/cli/progress.hpp"
 #include "tools/plot/gnuplot.hpp"
 #include "tools/section/picture.hpp"
+#include "tools/section/report.hpp"
 #include "tools/tables/table.hpp"
 #include "tools/text/files/ensemble_file.hpp"
 #include "tools/text/runs/run_report.hpp"
@@ -88,6 +90,8 @@ class MapSection {
       reports_.push_back(orbits_.orbit(seeds[k], request_.points));
       progress.show(static_cast<double>(k + 1) / static_cast<double>(seeds.size()));
     }
+    if (request_.rotation || request_.colour == "rotation")
+      for (const OrbitReport& orbit : reports_) rotations_.push_back(rotation_of_map_orbit(orbit));
     seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     deliver();
     return verdict(seeds.size());
@@ -134,13 +138,13 @@ class MapSection {
         {"scene", scene_.name},
         {"method", "map"},
         {"plot", {plotted_[0].text, plotted_[1].text}},
-        {"orbits", nlohmann::json::array()},
+        {"orbits", nlohmann::ordered_json::array()},
         {"crossings", points()},
         {"regular", count(false)},
         {"chaotic", count(true)},
         {"seconds", {{"compile", orbits_.step().seconds}, {"integrate", seconds_}}},
         {"from_cache", orbits_.step().from_cache},
-        {"warnings", nlohmann::json::array()}};
+        {"warnings", nlohmann::ordered_json::array()}};
     if (!warning_.empty()) json["warnings"].push_back(warning_);
     for (std::size_t k = 0; k < reports_.size(); ++k) {
       const OrbitReport& orbit = reports_[k];
@@ -150,6 +154,9 @@ class MapSection {
                                  {"exponent", exact_text(orbit.exponent)}};
       one["chaotic"] =
           orbit.judged ? nlohmann::ordered_json(orbit.chaotic) : nlohmann::ordered_json(nullptr);
+      one["megno"] = orbit.judged ? nlohmann::ordered_json(exact_text(orbit.megno))
+                                  : nlohmann::ordered_json(nullptr);
+      if (!rotations_.empty()) one["rotation"] = to_json(rotations_[k]);
       one["seed"] = nlohmann::ordered_json::object();
       const auto& states = orbits_.specialisation().states;
       for (std::size_t i = 0; i < states.size(); ++i)
@@ -169,6 +176,7 @@ class MapSection {
     fmt::print("  {} regular, {} chaotic{}: by the growth of deviations, which is evidence\n",
                count(false), count(true),
                unknown > 0 ? fmt::format(", {} too short to tell", unknown) : "");
+    if (!rotations_.empty()) print_rotations(rotations_);
     if (!warning_.empty()) fmt::print("  warning: {}\n", warning_);
   }
 
@@ -184,7 +192,8 @@ class MapSection {
     const std::string& title = map_.base.title.empty() ? map_.base.name : map_.base.title;
     for (const std::string& path : request_.outputs) {
       if (is_picture_name(path))
-        draw_section(plotted_, title, reports_, {}, request_.print.sheet(path));
+        draw_section(plotted_, title, reports_, {}, request_.print.sheet(path),
+                     colours_by(request_.colour, reports_, rotations_));
       if (!request_.common.quiet && !request_.common.json)
         fmt::print("  wrote {}\n", printable(path, 200));
     }
@@ -211,6 +220,7 @@ class MapSection {
   const MapOrbits orbits_;
   std::array<PlottedFunction, 2> plotted_;
   std::vector<OrbitReport> reports_;
+  std::vector<Rotation> rotations_;  ///< one for each, or none
   double seconds_ = 0;
   std::string warning_;
 };

@@ -18,6 +18,8 @@ struct MapSectionRequest {
   std::vector<std::string> outputs;       ///< .csv files and pictures
   const PictureOptions& print;
   std::size_t orbits = 40, points = 500;
+  bool rotation = false;
+  std::string colour;  ///< see `colours_by`
 };
 
 /// Follows the orbits, writes and draws them.

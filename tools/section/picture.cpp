@@ -6,23 +6,26 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "tools/cli/output.hpp"
 #include "tools/plot/gnuplot.hpp"
+#include "tools/plot/thinned.hpp"
 
 namespace casimir::tools {
 namespace {
 
 /// Okabe and Ito's colours that are dark enough beside the grey of chaos.
-constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73",
-                                    "#882255", "#000000", "#b07000"};
+constexpr const char* kInks[] = {"#0072b2", "#d55e00", "#009e73", "#882255", "#000000", "#b07000"};
 constexpr const char* kChaos = "#909090";
 const double kPi = std::acos(-1.);
 
 bool is_angle(const PlottedFunction& function) { return function.period > 0; }
 
-std::string label_of(const PlottedFunction& function) {
+std::string axis_label(const PlottedFunction& function) {
   if (!is_angle(function)) return function.label;
   const bool plain = std::ranges::all_of(
       function.label, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
@@ -65,7 +68,7 @@ Axis axis_of(const PlottedFunction& function, std::vector<double> values) {
   return {least - margin, largest + margin, 0};
 }
 
-double unit_of(const PlottedFunction& function) { return is_angle(function) ? kPi : 1; }
+double axis_unit(const PlottedFunction& function) { return is_angle(function) ? kPi : 1; }
 
 class Drawing {
  public:
@@ -80,18 +83,35 @@ class Drawing {
                           name.empty() ? "notitle" : "title " + quoted(name) + " noenhanced");
   }
 
+  /// Points with a value each, which their colours show.
+  void add_coloured(const std::string& points, const std::string& style) {
+    if (points.empty()) return;
+    blocks_ += fmt::format("$set{} << EOD\n{}EOD\n", count_, points);
+    plots_ += fmt::format("{}$set{} using 1:2:3 with points {} lc palette notitle",
+                          plots_.empty() ? "plot " : ", \\\n     ", count_++, style);
+  }
+
+  /// The scale beside the picture.
+  void scale(const std::string& label) {
+    scale_ = fmt::format(
+        "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#e0c516')\n"
+        "set cblabel {} noenhanced\n",
+        quoted(label));
+  }
+
   /// An entry of the legend, with a mark of its own: those in the picture are too small.
   void explain(const std::string& style, const std::string& name) {
     plots_ += fmt::format("{}1/0 with points {} title {}", plots_.empty() ? "plot " : ", \\\n     ",
                           style, quoted(name));
   }
 
-  std::string places(const std::vector<std::array<double, 2>>& places) const {
+  std::string places(const std::vector<std::array<double, 2>>& places,
+                     const std::string& behind = {}) const {
     std::string text;
     for (const auto& place : places) {
       if (!std::isfinite(place[0]) || !std::isfinite(place[1])) continue;
-      text += fmt::format("{:.7g} {:.7g}\n", axes_[0].at(place[0]) / unit_of(plotted_[0]),
-                          axes_[1].at(place[1]) / unit_of(plotted_[1]));
+      text += fmt::format("{:.7g} {:.7g}{}\n", axes_[0].at(place[0]) / axis_unit(plotted_[0]),
+                          axes_[1].at(place[1]) / axis_unit(plotted_[1]), behind);
     }
     return text;
   }
@@ -113,14 +133,15 @@ class Drawing {
       text += fmt::format("set title {} noenhanced\n",
                           quoted_lines(title, letters_across(print_, 0.9)));
     for (std::size_t k = 0; k < 2; ++k) {
-      const double unit = unit_of(plotted_[k]);
+      const double unit = axis_unit(plotted_[k]);
       text += fmt::format("set {0}label {1} noenhanced\nset {0}range [{2:.9g}:{3:.9g}]\n",
-                          k == 0 ? 'x' : 'y', quoted(label_of(plotted_[k])), axes_[k].from / unit,
+                          k == 0 ? 'x' : 'y', quoted(axis_label(plotted_[k])), axes_[k].from / unit,
                           axes_[k].to / unit);
     }
     text +=
         "set key outside bottom center horizontal samplen 1\nset border 15 lw 1\n"
         "set tics out nomirror\nset xlabel offset 0,0.3\n";
+    text += scale_;
     if (plots_.empty()) return text + "plot 1/0 notitle\n";
     return text + blocks_ + plots_ + "\n";
   }
@@ -129,15 +150,35 @@ class Drawing {
   const std::array<PlottedFunction, 2>& plotted_;
   const Print& print_;
   std::array<Axis, 2> axes_;
-  std::string blocks_, plots_;
+  std::string blocks_, plots_, scale_;
   int count_ = 0;
 };
 
-void add_orbits(Drawing& drawing, const std::vector<OrbitReport>& orbits, const Print& print) {
+double point_size(const std::vector<OrbitReport>& orbits) {
   std::size_t total = 0;
   for (const OrbitReport& orbit : orbits) total += orbit.places.size();
-  const double size =
-      std::clamp(0.5 * std::sqrt(12000. / static_cast<double>(total + 1)), 0.16, 0.5);
+  return std::clamp(0.5 * std::sqrt(12000. / static_cast<double>(total + 1)), 0.16, 0.5);
+}
+
+void add_coloured_orbits(Drawing& drawing, const std::vector<OrbitReport>& orbits,
+                         const OrbitColours& colours) {
+  const std::string style = fmt::format("pt 7 ps {:.3f}", point_size(orbits));
+  std::string grey, coloured;
+  for (std::size_t i = 0; i < orbits.size(); ++i) {
+    const double value = colours.values[i];
+    if (std::isfinite(value))
+      coloured += drawing.places(orbits[i].places, fmt::format(" {:.7g}", value));
+    else
+      grey += drawing.places(orbits[i].places);
+  }
+  drawing.add(grey, fmt::format("{} lc rgb '{}'", style, kChaos), "");
+  drawing.add_coloured(coloured, style);
+  if (!coloured.empty()) drawing.scale(colours.what);
+  if (!grey.empty()) drawing.explain(fmt::format("pt 7 ps 0.8 lc rgb '{}'", kChaos), "not known");
+}
+
+void add_orbits(Drawing& drawing, const std::vector<OrbitReport>& orbits, const Print& print) {
+  const double size = point_size(orbits);
   std::string chaos;
   bool regular = false;
   for (const OrbitReport& orbit : orbits)
@@ -149,12 +190,11 @@ void add_orbits(Drawing& drawing, const std::vector<OrbitReport>& orbits, const 
     regular = true;
     drawing.add(drawing.places(orbit.places),
                 fmt::format("pt 7 ps {:.3f} lc rgb '{}'", size,
-                            ink(print, kColours[colour++ % std::size(kColours)])),
+                            ink(print, kInks[colour++ % std::size(kInks)])),
                 "");
   }
   if (regular)
-    drawing.explain(fmt::format("pt 7 ps 0.8 lc rgb '{}'", ink(print, kColours[0])),
-                    "regular orbits");
+    drawing.explain(fmt::format("pt 7 ps 0.8 lc rgb '{}'", ink(print, kInks[0])), "regular orbits");
   if (!chaos.empty())
     drawing.explain(fmt::format("pt 7 ps 0.8 lc rgb '{}'", kChaos), "chaotic orbits");
 }
@@ -175,27 +215,59 @@ void add_cycles(Drawing& drawing, const std::vector<Cycle>& cycles) {
   }
 }
 
+/// A hundred thousand marks would be ten megabytes.
+void join_marks(const std::filesystem::path& svg) {
+  std::ostringstream text;
+  text << std::ifstream(svg, std::ios::binary).rdbuf();
+  std::ofstream(svg, std::ios::binary) << with_joined_marks(text.str());
+}
+
 }  // namespace
+
+OrbitColours colours_by(const std::string& what, const std::vector<OrbitReport>& orbits,
+                        const std::vector<Rotation>& rotations) {
+  if (what.empty()) return {};
+  OrbitColours colours{what == "megno"      ? "MEGNO, at most 6"
+                       : what == "exponent" ? "Lyapunov exponent"
+                                            : "rotation number",
+                       {}};
+  constexpr double kMostMegno = 6;  // beyond it is chaos, and how far depends on the time
+  for (std::size_t i = 0; i < orbits.size(); ++i) {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    if (what == "rotation") {
+      if (rotations[i].kind != Rotation::Kind::none) value = rotations[i].number;
+    } else if (orbits[i].judged) {
+      value = what == "megno" ? std::min(orbits[i].megno, kMostMegno) : orbits[i].exponent;
+    }
+    colours.values.push_back(value);
+  }
+  return colours;
+}
 
 std::string section_script(const std::array<PlottedFunction, 2>& plotted, const std::string& title,
                            const std::vector<OrbitReport>& orbits, const std::vector<Cycle>& cycles,
                            const Print& print, const std::string& terminal,
-                           const std::string& output) {
+                           const std::string& output, const OrbitColours& colours) {
   Drawing drawing(plotted, print);
   drawing.bound(orbits);
-  add_orbits(drawing, orbits, print);
+  if (colours.what.empty())
+    add_orbits(drawing, orbits, print);
+  else
+    add_coloured_orbits(drawing, orbits, colours);
   add_cycles(drawing, cycles);
   return drawing.script(title, terminal, output);
 }
 
 void draw_section(const std::array<PlottedFunction, 2>& plotted, const std::string& title,
                   const std::vector<OrbitReport>& orbits, const std::vector<Cycle>& cycles,
-                  const Sheet& sheet) {
+                  const Sheet& sheet, const OrbitColours& colours) {
   check_plot_name(sheet.path);
   OutputFile picture(sheet.path);
-  draw_script(section_script(plotted, title, orbits, cycles, sheet.print,
-                             terminal_of(sheet, {1000, 700, 14}), picture.temporary().string()),
-              picture);
+  draw_script(
+      section_script(plotted, title, orbits, cycles, sheet.print,
+                     terminal_of(sheet, {1000, 700, 14}), picture.temporary().string(), colours),
+      picture);
+  if (sheet.path.ends_with(".svg")) join_marks(picture.temporary());
   picture.commit();
 }
 

@@ -4,11 +4,24 @@
 #include <string>
 #include <vector>
 
+#include "tools/analysis/frequency/rotation.hpp"
 #include "tools/analysis/section/cycles.hpp"
 #include "tools/analysis/section/orbits.hpp"
 #include "tools/plot/sheet.hpp"
 
 namespace casimir::tools {
+
+/// A number for each orbit that its colour shows.
+struct OrbitColours {
+  std::string what;            ///< the label of the scale; empty: no such colours
+  std::vector<double> values;  ///< one for each orbit; not a number: grey
+};
+
+/// What `--colour` asks for.
+/// \param what  "megno", "exponent", "rotation" or empty
+/// \param rotations  one for each orbit where they are asked for
+OrbitColours colours_by(const std::string& what, const std::vector<OrbitReport>& orbits,
+                        const std::vector<Rotation>& rotations);
 
 /// Draws a section with gnuplot. Chaotic orbits are a fine grey dust,
 /// regular ones darker marks that are larger, each orbit in one of a few colours; cycles are rings
@@ -16,7 +29,7 @@ namespace casimir::tools {
 /// \throws SystemError  without gnuplot.
 void draw_section(const std::array<PlottedFunction, 2>& plotted, const std::string& title,
                   const std::vector<OrbitReport>& orbits, const std::vector<Cycle>& cycles,
-                  const Sheet& sheet);
+                  const Sheet& sheet, const OrbitColours& colours = {});
 
 /// The same as a script for gnuplot.
 /// \param terminal  of gnuplot, in its enhanced mode
@@ -24,6 +37,6 @@ void draw_section(const std::array<PlottedFunction, 2>& plotted, const std::stri
 std::string section_script(const std::array<PlottedFunction, 2>& plotted, const std::string& title,
                            const std::vector<OrbitReport>& orbits, const std::vector<Cycle>& cycles,
                            const Print& print, const std::string& terminal,
-                           const std::string& output);
+                           const std::string& output, const OrbitColours& colours = {});
 
 }  // namespace casimir::tools

@@ -36,6 +36,7 @@ Json to_json(const SectionReport& report, const OrbitReport& orbit, std::size_t 
                {"t", exact_text(orbit.orbit.time)},
                {"exponent", orbit.judged ? Json(exact_text(orbit.exponent)) : Json(nullptr)},
                {"chaotic", orbit.judged ? Json(orbit.chaotic) : Json(nullptr)},
+               {"megno", orbit.judged ? Json(exact_text(orbit.megno)) : Json(nullptr)},
                {"off_level", exact_text(orbit.off_level)},
                {"seed", Json::object()}};
   for (std::size_t i = 0; i < report.problem.states(); ++i)
@@ -97,7 +98,7 @@ Json level_json(const SectionProblem& problem) {
   return json;
 }
 
-void print(const ProvedCycle& proof) {
+void print(const ProvedCycle& proof, const std::string& ranges) {
   if (!proof.proved) {
     fmt::print("         not proved: {}\n", proof.reason);
     return;
@@ -105,10 +106,11 @@ void print(const ProvedCycle& proof) {
   const auto [low, high] = decimal_ends(proof.period, 13);
   const auto [least, most] = decimal_ends(proof.trace, 7);
   fmt::print(
-      "         proved: one periodic orbit in a box of radius {}, and no other of this period "
+      "         proved: {}one periodic orbit in a box of radius {}, and no other of this period "
       "near it\n"
       "         period in [{}, {}], trace in [{}, {}]: {}\n",
-      power_of_ten_above(proof.radius), low, high, least, most, proof.kind());
+      ranges.empty() ? "" : fmt::format("for every {} ", ranges), power_of_ten_above(proof.radius),
+      low, high, least, most, proof.kind());
 }
 
 void print_cycles(const SectionReport& report) {
@@ -132,7 +134,7 @@ void print_cycles(const SectionReport& report) {
                    cycle.stable() ? "stable" : "unstable");
       fmt::print("\n");
     }
-    if (!report.proofs.empty()) print(report.proofs[k]);
+    if (!report.proofs.empty()) print(report.proofs[k], report.ranges);
   }
   if (report.cycles.degenerate > 0)
     fmt::print("  {} more were left out: they belong to families, as in integrable systems\n",
@@ -197,6 +199,46 @@ void write_crossings(const SectionReport& report, const std::string& path) {
   write_table(path, table);
 }
 
+Json to_json(const Rotation& rotation) {
+  const auto number = [](double x) {
+    return std::isfinite(x) ? Json(exact_text(x)) : Json(nullptr);
+  };
+  const bool any = rotation.kind != Rotation::Kind::none;
+  Json json = {{"kind", to_string(rotation.kind)},
+               {"number", number(any ? rotation.number : NAN)},
+               {"error", number(any ? rotation.error : NAN)},
+               {"parts", rotation.parts},
+               {"directed", rotation.directed}};
+  if (rotation.kind == Rotation::Kind::islands) {
+    json["inner"] = number(rotation.inner_number);
+    json["inner_error"] = number(rotation.inner_error);
+  }
+  if (!rotation.reason.empty()) json["reason"] = rotation.reason;
+  return json;
+}
+
+void print_rotations(const std::vector<Rotation>& rotations) {
+  fmt::print(
+      "\n  rotation numbers, in turns from one point to the next, up to whole turns\n"
+      "  orbit  on        number               error\n");
+  for (std::size_t k = 0; k < rotations.size(); ++k) {
+    const Rotation& r = rotations[k];
+    if (r.kind == Rotation::Kind::none) {
+      fmt::print("  {:>5}  none      {}\n", k + 1, r.reason);
+      continue;
+    }
+    const std::string number = std::isfinite(r.number) ? fmt::format("{:.15f}", r.number) : "-";
+    fmt::print("  {:>5}  {:<8}  {:<19}  {:.0e}", k + 1, to_string(r.kind), number, r.error);
+    if (r.kind == Rotation::Kind::islands)
+      fmt::print("   {} islands, along each {:.15f} +- {:.0e}", r.parts, r.inner_number,
+                 r.inner_error);
+    if (r.kind == Rotation::Kind::cycle)
+      fmt::print("   {}", r.parts == 1 ? "a fixed point" : fmt::format("length {}", r.parts));
+    fmt::print("{}\n",
+               r.directed ? "" : ", or the complement to 1: the curve has no direction here");
+  }
+}
+
 Json to_json(const SectionReport& report, bool points) {
   const SectionProblem& problem = report.problem;
   Json json = {{"case", spec_of(report).case_name},
@@ -223,21 +265,25 @@ Json to_json(const SectionReport& report, bool points) {
                  {"compile", report.compile_seconds},
                  {"integrate", report.seconds}}},
                {"warnings", report.warnings}};
-  for (std::size_t i = 0; i < report.orbits.size(); ++i)
+  for (std::size_t i = 0; i < report.orbits.size(); ++i) {
     json["orbits"].push_back(to_json(report, report.orbits[i], i + 1, points));
+    if (!report.rotations.empty()) json["orbits"].back()["rotation"] = to_json(report.rotations[i]);
+  }
   for (std::size_t k = 0; k < report.cycles.cycles.size(); ++k) {
     json["cycles"].push_back(to_json(report, report.cycles.cycles[k]));
     if (!report.proofs.empty())
       json["cycles"].back()["validated"] = to_json(report, report.proofs[k]);
   }
+  if (!report.ranges.empty()) json["for_every"] = report.ranges;
   return json;
 }
 
 void print_text(const SectionReport& report) {
   const SectionProblem& problem = report.problem;
   const Specialisation& s = spec_of(report);
+  // What is proved is so of a level that ten digits may miss.
   fmt::print("{}, scene '{}', Poincare section on the level {}\n", s.case_name, printable(s.scene),
-             problem.level_text());
+             report.proofs.empty() ? problem.level_text() : problem.proved_level_text());
   fmt::print("  plane    {}{}, crossed {}\n", printable(problem.plane_text, 200),
              problem.plane_text.find('=') == std::string::npos ? " = 0" : "",
              problem.plane.upwards ? "upwards" : "downwards");
@@ -255,6 +301,7 @@ void print_text(const SectionReport& report) {
   for (const OrbitReport& orbit : report.orbits)
     if (orbit.chaotic) largest = std::max(largest, orbit.exponent);
   if (report.chaotic() > 0) fmt::print("  largest Lyapunov exponent {:.4f}\n", largest);
+  if (!report.rotations.empty()) print_rotations(report.rotations);
   print_cycles(report);
   for (const std::string& warning : report.warnings) fmt::print("  warning: {}\n", warning);
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/analysis/frequency/rotation.hpp"
 #include "tools/analysis/section/cycles.hpp"
 #include "tools/analysis/section/orbits.hpp"
 #include "tools/analysis/section/validated_cycles.hpp"
@@ -22,6 +23,8 @@ struct SectionReport {
   std::string instruction_set = {};
   bool from_cache = false;
   std::vector<ProvedCycle> proofs = {};  ///< one for each cycle, or none
+  std::string ranges = {};               ///< of parameters that the proofs are for, or empty
+  std::vector<Rotation> rotations = {};  ///< one for each orbit, or none
 
   std::size_t crossings() const;
   std::size_t chaotic() const;
@@ -38,5 +41,11 @@ void write_crossings(const SectionReport& report, const std::string& path);
 nlohmann::ordered_json to_json(const SectionReport& report, bool points);
 
 void print_text(const SectionReport& report);
+
+/// The rotation of an orbit; null for what is not known.
+nlohmann::ordered_json to_json(const Rotation& rotation);
+
+/// A table of the rotation numbers of all orbits.
+void print_rotations(const std::vector<Rotation>& rotations);
 
 }  // namespace casimir::tools

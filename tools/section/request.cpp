@@ -23,14 +23,24 @@ double real_constant(const Text& text) {
 
 class Reader {
  public:
-  Reader(const CaseFile& file, const Model& model, const SectionOptions& options)
-      : file_(file.section), model_(model), options_(options) {}
+  Reader(const CaseFile& file, const Model& model, const SectionOptions& options,
+         bool for_picture = true)
+      : file_(file.section), model_(model), options_(options), for_picture_(for_picture) {}
 
   SectionRequest read() {
     read_plane();
     read_pair();
     read_labels();
     read_level();
+    return std::move(request_);
+  }
+
+  SectionRequest read_without_pair() {
+    read_plane();
+    read_level();
+    if (request_.energy && !(model_.hamiltonian && model_.poisson))
+      throw UsageError(
+          fmt::format("'{}' is given by its equations and has no energy", model_.name));
     return std::move(request_);
   }
 
@@ -48,9 +58,9 @@ class Reader {
       if (file_) request_.plane = {model_.section->function, file_->function.value};
       request_.upwards = model_.section->upwards;
     } else {
-      throw UsageError(fmt::format(
-          "'{}' has no [section]: give the plane by --plane EXPR and what is plotted by --pair U V",
-          model_.name));
+      throw UsageError(fmt::format("'{}' has no [section]: give the plane by --plane EXPR{}",
+                                   model_.name,
+                                   for_picture_ ? " and what is plotted by --pair U V" : ""));
     }
     if (options_.direction) request_.upwards = *options_.direction == "up";
   }
@@ -108,6 +118,7 @@ class Reader {
   const std::optional<SectionText>& file_;
   const Model& model_;
   const SectionOptions& options_;
+  bool for_picture_;
   SectionRequest request_;
 };
 
@@ -117,6 +128,11 @@ SectionRequest section_request(const CaseFile& file, const Model& model,
                                const SectionOptions& options) {
   require_energy_level(model);
   return Reader(file, model, options).read();
+}
+
+SectionRequest plane_request(const CaseFile& file, const Model& model,
+                             const SectionOptions& options) {
+  return Reader(file, model, options, false).read_without_pair();
 }
 
 }  // namespace casimir::tools

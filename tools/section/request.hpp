@@ -23,4 +23,8 @@ struct SectionOptions {
 SectionRequest section_request(const CaseFile& file, const Model& model,
                                const SectionOptions& options = {});
 
+/// The same without what is plotted, also for a system that has no Hamiltonian.
+SectionRequest plane_request(const CaseFile& file, const Model& model,
+                             const SectionOptions& options = {});
+
 }  // namespace casimir::tools

@@ -1,6 +1,8 @@
 // casimir section --validated: crossings that are proved, none missed and none doubled.
 #include "tools/section/validated_section.hpp"
 
+#include <cln/float.h>
+#include <cln/real.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,6 +11,8 @@
 #include <iostream>
 
 #include "symbolic/expression/expression.hpp"
+#include "tools/analysis/run/prepared_scene.hpp"
+#include "tools/analysis/section/orbits.hpp"
 #include "tools/analysis/section/validated_crossings.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
@@ -118,14 +122,62 @@ void print_text(const CrossingReport& report) {
 
 }  // namespace
 
-int enclose_section(const Common& common, const Model& model, const SectionProblem& problem,
-                    const std::optional<std::string>& duration) {
+namespace {
+
+/// What was asked of all orbits.
+ValidatedOptions crossing_options(const SectionProblem& problem,
+                                  const std::optional<std::string>& duration) {
   if (problem.plane.period > 0)
     throw UsageError("--validated needs a surface that is no angle: give it as --plane, by a sine");
-  const Scene& scene = model.scene(common.scene);
   ValidatedOptions options;
   if (duration)
     options.duration = parse_real_constant({*duration, {"--duration", 1, 1}, *duration});
+  return options;
+}
+
+int status_of(const CrossingReport& report) {
+  const ValidatedRun& run = report.proved.run;
+  if (run.status == ValidatedStatus::ok) return kDone;
+  std::cout.flush();
+  std::cerr << fmt::format("casimir: error: crossings are enclosed up to t = {} only: {}\n",
+                           report.until(), run.reason);
+  return run.status == ValidatedStatus::stopped ? kEnvironment : kNotContinued;
+}
+
+double time_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Points of the plane on the level, all over the domain of possible motion.
+std::vector<std::vector<double>> starts_of_orbits(const SectionProblem& problem,
+                                                  const OrbitRequest& request,
+                                                  const Common& common) {
+  const LevelSet level(problem);
+  const OrbitCutter cutter(
+      problem, {request.tolerance, request.jobs, time_limit(common.time_limit)}, request.count);
+  const std::vector<PlacedPoint> domain = points_of_domain(level, cutter.returning(), {});
+  if (domain.empty())
+    throw UsageError(fmt::format("no motion with {} comes back to the plane; {}",
+                                 problem.level_text(), energies_there(level)));
+  std::vector<std::vector<double>> starts;
+  for (const PlacedPoint& point : spread_out(level, domain, request.count))
+    starts.emplace_back(point.x.data(), point.x.data() + point.x.size());
+  return starts;
+}
+
+Json start_json(const Model& model, const std::vector<double>& start) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < start.size(); ++i)
+    json[model.variables[i].get_name()] = exact_text(start[i]);
+  return json;
+}
+
+}  // namespace
+
+int enclose_section(const Common& common, const Model& model, const SectionProblem& problem,
+                    const std::optional<std::string>& duration) {
+  const Scene& scene = model.scene(common.scene);
+  ValidatedOptions options = crossing_options(problem, duration);
   Progress progress(!common.quiet);
   progress.begin(model.name + ": crossings");
   options.run.give_up = [&progress, late = time_limit(common.time_limit)](double share) {
@@ -134,18 +186,45 @@ int enclose_section(const Common& common, const Model& model, const SectionProbl
   };
   const auto start = std::chrono::steady_clock::now();
   const ProvedCrossings proved = enclose_crossings(model, scene, problem.plane_function, options);
-  const CrossingReport report{
-      model, problem, scene.name, proved,
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+  const CrossingReport report{model, problem, scene.name, proved, time_since(start)};
   if (common.json)
     print_json(to_json(report));
   else if (!common.quiet)
     print_text(report);
-  if (proved.run.status == ValidatedStatus::ok) return kDone;
-  std::cout.flush();
-  std::cerr << fmt::format("casimir: error: crossings are enclosed up to t = {} only: {}\n",
-                           report.until(), proved.run.reason);
-  return proved.run.status == ValidatedStatus::stopped ? kEnvironment : kNotContinued;
+  return status_of(report);
+}
+
+int enclose_orbits(const Common& common, const Model& model, const SectionProblem& problem,
+                   const OrbitRequest& orbits, const std::optional<std::string>& duration) {
+  ValidatedOptions options = crossing_options(problem, duration);
+  const std::vector<std::vector<double>> starts = starts_of_orbits(problem, orbits, common);
+  options.run.give_up = [late = time_limit(common.time_limit)](double) { return late && late(); };
+  Scene scene = model.scene(common.scene);
+  Json all = {{"case", model.name}, {"scene", scene.name}, {"orbits", Json::array()}};
+  int worst = kDone;
+  const auto begin = std::chrono::steady_clock::now();
+  for (const std::vector<double>& start : starts) {
+    for (std::size_t i = 0; i < start.size(); ++i)
+      scene.initial[i] = GiNaC::numeric(cln::rational(cln::cl_DF(start[i])));
+    const auto own = std::chrono::steady_clock::now();
+    const ProvedCrossings proved = enclose_crossings(model, scene, problem.plane_function, options);
+    const CrossingReport report{model, problem, scene.name, proved, time_since(own)};
+    if (common.json) {
+      Json one = to_json(report);
+      one["start"] = start_json(model, start);
+      all["orbits"].push_back(std::move(one));
+    } else if (!common.quiet) {
+      fmt::print("orbit from");
+      for (std::size_t i = 0; i < start.size(); ++i)
+        fmt::print(" {} = {}", model.variables[i].get_name(), exact_text(start[i]));
+      fmt::print("\n");
+      print_text(report);
+    }
+    worst = std::max(worst, status_of(report));
+  }
+  all["seconds"] = time_since(begin);
+  if (common.json) print_json(all);
+  return worst;
 }
 
 }  // namespace casimir::tools

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/error.hpp"
+#include "symbolic/expression/arbitrary.hpp"
+#include "symbolic/expression/elliptic.hpp"
 #include "tools/typeset/dag_math.hpp"
 
 namespace casimir::tools {
@@ -28,13 +31,60 @@ std::string head(const std::string& name) {
   return name.substr(0, name.find_last_not_of("0123456789_") + 1);
 }
 
-/// Products of conjugates have imaginary factors, and are real when they are multiplied out.
-codegen::Scaled converted(codegen::Dag& dag, const ex& e) {
-  try {
-    return dag.convert(e);
-  } catch (const ModelError&) {
-    return dag.convert(e.expand());
+/// Whether it is written as a name with arguments, since it is no expression in what a Dag has.
+bool is_named(const GiNaC::function& f) {
+  return as_arbitrary(f).has_value() || is_elliptic_function(f);
+}
+
+/// The values of arbitrary and of elliptic functions in an expression, those within others too.
+void collect_arbitrary(const ex& e, std::vector<ex>& found) {
+  if (GiNaC::is_exactly_a<GiNaC::function>(e) && is_named(GiNaC::ex_to<GiNaC::function>(e)) &&
+      std::ranges::none_of(found, [&](const ex& other) { return other.is_equal(e); }))
+    found.push_back(e);
+  for (std::size_t i = 0; i < e.nops(); ++i) collect_arbitrary(e.op(i), found);
+}
+
+std::vector<ex> arbitrary_values(const Model& model) {
+  std::vector<ex> found;
+  const auto add_all = [&](const std::vector<NamedExpression>& list) {
+    for (const NamedExpression& f : list) collect_arbitrary(f.value, found);
+  };
+  if (model.hamiltonian) collect_arbitrary(*model.hamiltonian, found);
+  for (const ex& rate : model.field) collect_arbitrary(rate, found);
+  for (const auto* list : {&model.definitions, &model.casimirs, &model.integrals}) add_all(*list);
+  for (const auto* claims : {&model.conditionals, &model.invariant_relations}) {
+    for (const LevelClaim& claim : *claims) {
+      collect_arbitrary(claim.expression.value, found);
+      add_all(claim.on);
+    }
   }
+  for (const LaxPair& pair : model.lax_pairs) {
+    for (const GiNaC::matrix* m : {&pair.l, &pair.a})
+      for (std::size_t i = 0; i < m->nops(); ++i) collect_arbitrary(m->op(i), found);
+  }
+  for (const Identity& identity : model.identities) {
+    collect_arbitrary(identity.left, found);
+    collect_arbitrary(identity.right, found);
+  }
+  for (const Measure& measure : model.measures) collect_arbitrary(measure.density.value, found);
+  if (model.poisson)
+    for (std::size_t i = 0; i < model.poisson->dimension(); ++i)
+      for (std::size_t j = 0; j < i; ++j) collect_arbitrary((*model.poisson)(i, j), found);
+  return found;
+}
+
+/// What is written of such a value.
+struct NamedValue {
+  std::string name;
+  std::vector<unsigned> orders;  ///< of the derivative, by each argument
+  std::vector<ex> arguments;
+};
+
+NamedValue named_value(const GiNaC::function& f) {
+  const auto own = as_arbitrary(f);
+  if (!own) return {f.get_name(), std::vector<unsigned>(f.nops(), 0), {f.begin(), f.end()}};
+  const auto function = function_name(own->function.get_name());
+  return {function ? function->name : own->function.get_name(), own->orders, own->arguments};
 }
 
 }  // namespace
@@ -120,8 +170,79 @@ void Notation::make_dag(const std::vector<Triple>& vectors, std::size_t moving) 
   for (const LaxPair& pair : model_.lax_pairs) {
     if (pair.spectral) add_symbols({*pair.spectral}, 0);
   }
+  add_arbitrary_functions();
   dag_ = std::make_unique<codegen::Dag>(symbols_, degrees_);
   scalar_products_ = std::make_unique<ScalarProducts>(*dag_, places, pairs);
+}
+
+/// Each value of an arbitrary function is a symbol that is named as the value is written.
+void Notation::add_arbitrary_functions() {
+  std::vector<ex> values = arbitrary_values(model_);
+  if (values.empty()) return;
+  for (const ex& value : values) {
+    const NamedValue own = named_value(GiNaC::ex_to<GiNaC::function>(value));
+    codegen::Dag dag(symbols_, degrees_);
+    std::vector<Math> arguments;
+    std::string text;
+    for (const ex& argument : own.arguments) {
+      std::vector<ex> inner;
+      collect_arbitrary(argument, inner);
+      if (!inner.empty()) {  // U(V(x)): as GiNaC writes it
+        text += (text.empty() ? "" : ", ") + expression_text(argument);
+        arguments.push_back(typeset::prose(expression_text(argument)));
+        continue;
+      }
+      const codegen::Scaled converted = dag.convert(argument);
+      text += (text.empty() ? "" : ", ") + dag.text(converted);
+      arguments.push_back(
+          typeset::math(dag, converted, [this](const std::string& s) { return on_paper(s); }));
+    }
+    const std::string& name = own.name;
+    Math letter = typeset::name(name);
+    const std::string derivative = derivative_text(name, own.orders);
+    if (own.orders.size() == 1) {
+      for (unsigned k = 0; k < own.orders[0]; ++k)
+        letter = {typeset::Kind::primed, {}, {std::move(letter)}};
+    } else if (derivative.size() > name.size() + 3) {  // U'[1,2]
+      letter = typeset::with_index(
+          std::move(letter),
+          typeset::number(derivative.substr(name.size() + 2, derivative.size() - name.size() - 3)));
+    }
+    const GiNaC::symbol stand_in(derivative + "(" + text + ")");
+    paper_[stand_in.get_name()] = typeset::product(
+        {std::move(letter), {typeset::Kind::tuple, {}, {typeset::list(std::move(arguments))}}});
+    stand_ins_[value] = stand_in;
+  }
+  const GiNaC::exmap whole = stand_ins_;
+  for (const auto& [value, stand_in] : whole) {
+    const auto own = as_arbitrary(GiNaC::ex_to<GiNaC::function>(value));
+    std::vector<ex> arguments;
+    for (const ex& argument : own ? own->arguments : std::vector<ex>(value.begin(), value.end()))
+      arguments.push_back(argument.subs(whole, GiNaC::subs_options::no_pattern));
+    if (own) {
+      stand_ins_[arbitrary(own->function, own->orders, arguments)] = stand_in;
+    } else {
+      const auto* function =
+          find_elliptic_function(GiNaC::ex_to<GiNaC::function>(value).get_name());
+      if (function) stand_ins_[function->apply({arguments.begin(), arguments.end()})] = stand_in;
+    }
+  }
+  // In an order that is the same in every run, as that of GiNaC's terms is not.
+  std::vector<GiNaC::symbol> ordered;
+  for (const auto& [value, stand_in] : whole)
+    ordered.push_back(GiNaC::ex_to<GiNaC::symbol>(stand_in));
+  std::ranges::sort(ordered, {}, [](const GiNaC::symbol& s) { return s.get_name(); });
+  add_symbols(ordered, 1);
+}
+
+/// Products of conjugates have imaginary factors, and are real when they are multiplied out.
+codegen::Scaled Notation::converted(const ex& e) const {
+  const ex shown = stand_ins_.empty() ? e : e.subs(stand_ins_, GiNaC::subs_options::no_pattern);
+  try {
+    return dag_->convert(shown);
+  } catch (const ModelError&) {
+    return dag_->convert(shown.expand());
+  }
 }
 
 Math Notation::on_paper(const std::string& symbol) const {
@@ -134,13 +255,11 @@ Written Notation::written(const codegen::Scaled& e) const {
           typeset::math(*dag_, e, [this](const std::string& s) { return on_paper(s); })};
 }
 
-Written Notation::components(const ex& e) { return written(converted(*dag_, e)); }
+Written Notation::components(const ex& e) { return written(converted(e)); }
 
-std::string Notation::case_text(const ex& e) { return dag_->text(converted(*dag_, e)); }
+std::string Notation::case_text(const ex& e) { return dag_->text(converted(e)); }
 
-Written Notation::expression(const ex& e) {
-  return written(scalar_products_->in(converted(*dag_, e)));
-}
+Written Notation::expression(const ex& e) { return written(scalar_products_->in(converted(e))); }
 
 Written Notation::combination(const std::vector<std::pair<ex, Phrase>>& terms) {
   Written sum;

@@ -66,6 +66,8 @@ class Notation {
   void name_letters();
   void make_dag(const std::vector<Triple>& vectors, std::size_t moving);
   void add_symbols(const std::vector<GiNaC::symbol>& list, int degree);
+  void add_arbitrary_functions();
+  codegen::Scaled converted(const GiNaC::ex& e) const;
   GiNaC::symbol product_symbol(const std::string& a, const std::string& b);
   typeset::Math on_paper(const std::string& symbol) const;
   Written written(const codegen::Scaled& e) const;
@@ -77,6 +79,8 @@ class Notation {
   std::vector<Triple> constants_;               ///< of parameters
   std::map<std::string, std::string> heads_;    ///< of a vector's name: the letter for it on paper
   std::map<std::string, typeset::Math> paper_;  ///< of symbols that are not written as their names
+  GiNaC::exmap
+      stand_ins_;  ///< for values of arbitrary functions: symbols named as they are written
   std::vector<GiNaC::symbol> symbols_;
   std::vector<int> degrees_;
   std::unique_ptr<codegen::Dag> dag_;

@@ -10,7 +10,7 @@
 namespace casimir::tools {
 namespace {
 
-std::vector<std::string> names(const std::vector<GiNaC::symbol>& symbols) {
+std::vector<std::string> names_in_order(const std::vector<GiNaC::symbol>& symbols) {
   std::vector<std::string> result;
   for (const GiNaC::symbol& s : symbols) result.push_back(s.get_name());
   return result;
@@ -23,8 +23,8 @@ void print_head(const Model& model) {
   fmt::print("{}\n", printable(model.title.empty() ? model.name : model.title, 200));
   line("source", printable(model.source, 200));
   line("phase space",
-       fmt::format("{} in {}", model.phase_space, fmt::join(names(model.variables), " ")));
-  line("parameters", fmt::format("{}", fmt::join(names(model.parameters), " ")));
+       fmt::format("{} in {}", model.phase_space, fmt::join(names_in_order(model.variables), " ")));
+  line("parameters", fmt::format("{}", fmt::join(names_in_order(model.parameters), " ")));
   std::vector<std::string> assumptions;
   for (const Assumption& a : model.assumptions) assumptions.push_back(a.text);
   line("assuming", fmt::format("{}", fmt::join(assumptions, ", ")));

@@ -11,9 +11,9 @@
 namespace casimir::tools {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotSaid = std::numeric_limits<double>::quiet_NaN();
 
 Json exact(const std::vector<double>& values) {
   Json list = Json::array();
@@ -29,9 +29,9 @@ std::vector<double> numbers(const Json& list) {
 }
 
 /// A number as `integrate` writes it; not a number where it wrote none.
-double number(const Json& value) {
+double said_number(const Json& value) {
   if (value.is_number()) return value.get<double>();
-  return value.is_string() ? std::strtod(value.get<std::string>().c_str(), nullptr) : kNaN;
+  return value.is_string() ? std::strtod(value.get<std::string>().c_str(), nullptr) : kNotSaid;
 }
 
 /// The first line of what the program said on standard error, without its name.
@@ -61,7 +61,7 @@ Status status_named(const std::string& name) {
 double largest_drift(const Json& invariants) {
   double largest = 0;
   for (const auto& [name, record] : invariants.items()) {
-    const double drift = number(record.at("drift"));
+    const double drift = said_number(record.at("drift"));
     if (!(drift <= largest)) largest = drift;  // one that is no number stays
     if (std::isnan(largest)) break;
   }
@@ -111,9 +111,9 @@ StressAnswer answer_of(const Reply& reply) {
             .stopped_at = {}};
   StressAnswer answer{.says_done = reply.exit == 0,
                       .status = status_named(said.at("status").get<std::string>()),
-                      .tolerance = number(said.at("tolerance")),
-                      .rtol = number(said.at("rtol")),
-                      .atol = number(said.at("atol")),
+                      .tolerance = said_number(said.at("tolerance")),
+                      .rtol = said_number(said.at("rtol")),
+                      .atol = said_number(said.at("atol")),
                       .drift = largest_drift(said.at("invariants")),
                       .seconds = said.at("seconds").at("integrate").get<double>(),
                       .compile_seconds = said.at("seconds").at("compile").get<double>(),
@@ -123,9 +123,9 @@ StressAnswer answer_of(const Reply& reply) {
                       .warnings = said.at("warnings").dump(),
                       .stopped_at = {}};
   for (const auto& [name, value] : said.at("state").items())
-    answer.state.emplace_back(name, number(value));
+    answer.state.emplace_back(name, said_number(value));
   if (said.contains("stopped")) {
-    answer.stopped_at = number(said.at("stopped").at("time"));
+    answer.stopped_at = said_number(said.at("stopped").at("time"));
     answer.stop_reason = said.at("stopped").value("reason", "");
   }
   return answer;

@@ -8,8 +8,8 @@
 namespace casimir::tools {
 
 /// From one process to another: numbers are kept exactly.
-nlohmann::json packed(const SceneReference& truth);
-SceneReference unpacked(const nlohmann::json& json);
+nlohmann::ordered_json packed(const SceneReference& truth);
+SceneReference unpacked(const nlohmann::ordered_json& json);
 
 /// What a run of `integrate --json` answered.
 StressAnswer answer_of(const Reply& reply);

@@ -17,7 +17,7 @@ namespace casimir::tools {
 namespace {
 
 /// A part of an option, with its place.
-Text part_of(const Text& whole, std::size_t begin, std::size_t end) {
+Text piece_of(const Text& whole, std::size_t begin, std::size_t end) {
   while (begin < end && whole.value[begin] == ' ') ++begin;
   while (end > begin && whole.value[end - 1] == ' ') --end;
   Text part = whole;
@@ -33,13 +33,13 @@ std::vector<Text> split(const Text& whole, std::size_t begin, char separator) {
     const char c = at < whole.value.size() ? whole.value[at] : separator;
     depth += c == '(' ? 1 : c == ')' ? -1 : 0;
     if (at < whole.value.size() && (c != separator || depth > 0)) continue;
-    parts.push_back(part_of(whole, begin, at));
+    parts.push_back(piece_of(whole, begin, at));
     begin = at + 1;
   }
   return parts;
 }
 
-cln::cl_F number(const Text& text) {
+cln::cl_F grid_value(const Text& text) {
   if (text.value.empty()) throw text.error("expected a number");
   codegen::Dag dag({}, 0);
   const codegen::Scaled value = dag.convert(parse_real_constant(text));
@@ -67,7 +67,7 @@ std::size_t count(const Text& text) {
 
 /// FROM:TO:N, both ends included.
 std::vector<double> range(const std::vector<Text>& parts) {
-  const cln::cl_F from = number(parts[0]), to = number(parts[1]);
+  const cln::cl_F from = grid_value(parts[0]), to = grid_value(parts[1]);
   const std::size_t n = count(parts[2]);
   if (n == 1 && from != to)
     throw parts[2].error("one point cannot reach from one value to another: at least 2");
@@ -86,10 +86,11 @@ std::vector<double> values_of(const Text& option, std::size_t begin) {
   const std::vector<Text> ends = split(option, begin, ':');
   if (ends.size() == 3) return range(ends);
   if (ends.size() != 1)
-    throw part_of(option, begin, option.value.size())
+    throw piece_of(option, begin, option.value.size())
         .error("expected FROM:TO:N, such as 0:1:11, or values such as 1,2,4");
   std::vector<double> values;
-  for (const Text& text : split(option, begin, ',')) values.push_back(nearest(number(text), text));
+  for (const Text& text : split(option, begin, ','))
+    values.push_back(nearest(grid_value(text), text));
   return values;
 }
 
@@ -146,7 +147,7 @@ Grid read_grid(const std::vector<std::string>& over, const std::vector<std::stri
     const std::size_t equals = value.find('=');
     if (equals == std::string::npos)
       throw option.error("expected NAME=FROM:TO:N, such as --over r=1:2:11");
-    const Text name = part_of(option, 0, equals);
+    const Text name = piece_of(option, 0, equals);
     for (const Axis& axis : grid.axes)
       if (axis.name == name.value) throw name.error(fmt::format("there are two '{}'", name.value));
     const Axis::Kind kind = kind_of(name, lets, model);

@@ -22,7 +22,7 @@ using codegen::Scaled;
 Math integer(const cln::cl_I& n) { return number(rational_text(n)); }
 
 /// Of a positive number.
-Math rational(const cln::cl_RA& c) {
+Math rational_math(const cln::cl_RA& c) {
   const cln::cl_I below = cln::denominator(c);
   return below == 1 ? integer(cln::numerator(c))
                     : fraction(integer(cln::numerator(c)), integer(below));
@@ -44,12 +44,12 @@ class Typesetter {
  private:
   /// coefficient * node, for a positive coefficient.
   Math term(const Scaled& e) const {
-    if (e.node == Dag::kOne) return rational(e.coefficient);
+    if (e.node == Dag::kOne) return rational_math(e.coefficient);
     const Node& node = dag_[e.node];
     if (node.kind == NodeKind::product) return product_of(node.factors, e.coefficient);
     if (e.coefficient == 1) return atom(node);
     Math factor = node.kind == NodeKind::sum ? in_brackets(atom(node)) : atom(node);
-    return product({rational(e.coefficient), std::move(factor)});
+    return product({rational_math(e.coefficient), std::move(factor)});
   }
 
   Math sum(const std::vector<Scaled>& terms, const cln::cl_RA& factor) const {
@@ -74,7 +74,7 @@ class Typesetter {
       (cln::minusp(f.exponent) ? below : above)
           .push_back(power(dag_[f.node], cln::abs(f.exponent)));
     if (below.empty()) {
-      if (coefficient != 1) above.insert(above.begin(), rational(coefficient));
+      if (coefficient != 1) above.insert(above.begin(), rational_math(coefficient));
       return product(std::move(above));
     }
     const cln::cl_I top = cln::numerator(coefficient), bottom = cln::denominator(coefficient);

@@ -49,7 +49,7 @@ std::string options_section(const std::vector<DeclaredOption>& options) {
   return text;
 }
 
-const std::vector<std::pair<const char*, const char*>> kStatuses = {
+const std::vector<std::pair<const char*, const char*>> kExitStatuses = {
     {"0", "done; everything asked for holds"},
     {"1", "a claim is refuted, or a numeric check fails"},
     {"2", "bad input: usage, TOML, expression, unknown name; the message says where"},
@@ -72,8 +72,8 @@ const std::vector<std::pair<const char*, const char*>> kVariables = {
     {"CXX", "the C++ compiler, with its first arguments; otherwise c++, g++ or clang++"},
     {"NO_COLOR", "when set and not empty, nothing is coloured"}};
 
-std::string table(const std::string& title,
-                  const std::vector<std::pair<const char*, const char*>>& rows) {
+std::string manual_table(const std::string& title,
+                         const std::vector<std::pair<const char*, const char*>>& rows) {
   std::string text = ".SH " + title + "\n";
   for (const auto& [name, meaning] : rows) text += item(bold(name), meaning);
   return text;
@@ -107,7 +107,8 @@ std::string command_page(const CLI::App& program, const CLI::App& command,
   if (!arguments.empty()) text += ".SH ARGUMENTS\n" + arguments;
   text += options_section(options);
   if (!command.get_footer().empty()) text += ".SH NOTES\n" + prose(command.get_footer());
-  return text + table("EXIT STATUS", kStatuses) + see_also(declared_commands(program), &command);
+  return text + manual_table("EXIT STATUS", kExitStatuses) +
+         see_also(declared_commands(program), &command);
 }
 
 std::string main_page(const CLI::App& program, const std::string& version,
@@ -126,8 +127,8 @@ std::string main_page(const CLI::App& program, const std::string& version,
   for (const CLI::App* command : declared_commands(program))
     text += item(bold(command->get_name()), sentence_of(command->get_description()));
   text += options_section(declared_options(program));
-  return text + table("EXIT STATUS", kStatuses) + table("ENVIRONMENT", kVariables) +
-         see_also(declared_commands(program), nullptr);
+  return text + manual_table("EXIT STATUS", kExitStatuses) +
+         manual_table("ENVIRONMENT", kVariables) + see_also(declared_commands(program), nullptr);
 }
 
 }  // namespace

@@ -314,6 +314,8 @@ void march(const casimir_run* run, double* x, casimir_outcome* out) {
       x[i] = next[i];
       carry[i] = next_carry[i];
     }
+    // A motion that begins at zero has no size at first, and one that comes back to it keeps its.
+    if (!adaptive) asked.atol = larger(asked.atol, largest<n>(x));
     if (stop && !there) status = CASIMIR_STOPPED;
     if (adaptive) {
       double factor = kSafety / rough_root(step.error, Step::power);

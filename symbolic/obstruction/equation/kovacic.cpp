@@ -47,6 +47,33 @@ void check(const LiouvillianResult& result, const RationalFunction& r) {
     throw std::logic_error("a Liouvillian solution does not solve its equation");
 }
 
+/// Whether exp(integral of w) is no algebraic function: w has a pole that is not simple, or a part
+/// at infinity that does not vanish, or a residue that is not rational.
+bool is_transcendental(const RationalFunction& w) {
+  if (w.numerator().degree() >= w.denominator().degree() && !w.is_zero()) return true;
+  for (const auto& [factor, exponent] : w.denominator().factors()) {
+    if (exponent > 1) return true;
+    const Univariate below =
+        (w.denominator().divided(factor).first * factor.derivative()).remainder(factor);
+    if (!(w.numerator() * below.inverse(factor)).remainder(factor).is_constant()) return true;
+  }
+  return false;
+}
+
+/// Whether the group, which leaves the line of exp(integral of w) invariant, is all of the
+/// triangular matrices: its identity component is not abelian then. With a second invariant line,
+/// or with all, the product of two solutions would be a rational invariant of degree 2; so there is
+/// none, and a group of triangular matrices that is not diagonal contains all unipotent ones. It
+/// acts on the line by infinitely many numbers where exp(integral of w) is transcendental.
+void add_borel(const RationalFunction& r, const RationalFunction& w,
+               const std::function<void()>& tick, const std::string& z, LiouvillianResult& result) {
+  if (!is_transcendental(w)) return;
+  const std::string what = "a second solution of degree 1: invariants of degree 2";
+  const InvariantSearch second = rational_invariant(r, result.singular, 2, tick, z);
+  result.borel = !second.invariant;
+  result.attempts.push_back({what, second.invariant ? "found" : second.why_not, second.steps});
+}
+
 void decide(const RationalFunction& r, const std::function<void()>& tick, const std::string& z,
             LiouvillianResult& result) {
   const std::string first = fmt::format("case 1: w in Q({})", z);
@@ -56,13 +83,14 @@ void decide(const RationalFunction& r, const std::function<void()>& tick, const 
     result.solution = {-*riccati.solution, RationalFunction(1)};
     result.attempts.push_back({first, "found"});
     check(result, r);
+    add_borel(r, *riccati.solution, tick, z, result);
     return;
   }
-  result.attempts.push_back({first, riccati.why_not});
+  result.attempts.push_back({first, riccati.why_not, riccati.steps});
   for (const Degree& degree : kDegrees) {
     const InvariantSearch search = rational_invariant(r, result.singular, degree.m, tick, z);
     if (!search.invariant) {
-      result.attempts.push_back({degree.what, search.why_not});
+      result.attempts.push_back({degree.what, search.why_not, search.steps});
       continue;
     }
     result.attempts.push_back({degree.what, "found"});

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "symbolic/obstruction/certificate/no_polynomial.hpp"
 #include "symbolic/obstruction/equation/singularities.hpp"
 #include "symbolic/obstruction/equation/univariate.hpp"
 
@@ -27,8 +28,9 @@ enum class GaloisCase {
 
 /// What became of one possibility.
 struct Attempt {
-  std::string what;     ///< as "case 2: invariants of degree 4"
-  std::string outcome;  ///< why there is none, or that there is one
+  std::string what;                      ///< as "case 2: invariants of degree 4"
+  std::string outcome;                   ///< why there is none, or that there is one
+  std::vector<NoPolynomial> steps = {};  ///< the linear algebra that shows that there is none
 };
 
 /// The answer for y'' = r y with r in Q(z).
@@ -39,6 +41,8 @@ struct LiouvillianResult {
   /// solution y; empty in case 4. It was put into w' + w^2 = r.
   std::vector<RationalFunction> solution;
   std::vector<Attempt> attempts;
+  /// In case 1: the identity component is not abelian, though solvable.
+  bool borel = false;
   std::string reason;  ///< of undecided
 };
 
@@ -68,6 +72,7 @@ RationalFunction reduced_form(const RationalFunction& p, const RationalFunction&
 struct RiccatiSearch {
   std::optional<RationalFunction> solution;
   std::string why_not;
+  std::vector<NoPolynomial> steps = {};
 };
 
 /// Finds one, or shows that there is none. \throws NotDecided  where a pole of order 4 or more that
@@ -79,6 +84,7 @@ RiccatiSearch rational_riccati(const RationalFunction& r, const std::vector<Sing
 struct InvariantSearch {
   std::optional<RationalFunction> invariant;
   std::string why_not;
+  std::vector<NoPolynomial> steps = {};
 };
 
 /// Finds one, or shows that there is none: the exponents bound poles and degree, and linear algebra
@@ -86,6 +92,11 @@ struct InvariantSearch {
 InvariantSearch rational_invariant(const RationalFunction& r,
                                    const std::vector<Singularity>& singular, long m,
                                    const std::function<void()>& tick, const std::string& z);
+
+/// The image of a polynomial under the recursion for the symmetric power of degree m.
+/// \param coefficients  G, G', G W'/W and G^2 r
+Univariate symmetric_power_image(const std::vector<Univariate>& coefficients, long m,
+                                 const Univariate& polynomial);
 
 /// The polynomial in w, of degree m and monic, whose roots are the y'/y of the factors y of the
 /// form of degree m with logarithmic derivative phi; empty where phi belongs to no such form.

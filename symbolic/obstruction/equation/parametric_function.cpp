@@ -14,8 +14,19 @@ namespace casimir::obstruction {
 namespace {
 
 const PolynomialRing& ring() {
-  static const PolynomialRing result(2);
+  static const PolynomialRing result(1 + ParametricFunction::kMostParameters);
   return result;
+}
+
+const std::string& name_of(std::size_t place, const CurveNames& names) {
+  if (place == ParametricFunction::kParameter) return names.parameter;
+  return place == ParametricFunction::kVariable ? names.z : names.further[place - 2];
+}
+
+bool has_further(const Polynomial& polynomial) {
+  for (std::size_t i = 2; i < polynomial.ring().size(); ++i)
+    if (polynomial.uses(i)) return true;
+  return false;
 }
 
 std::string printed(const Polynomial& polynomial, const CurveNames& names) {
@@ -24,10 +35,9 @@ std::string printed(const Polynomial& polynomial, const CurveNames& names) {
     const bool minus = cln::minusp(coefficient);
     const cln::cl_RA size = cln::abs(coefficient);
     std::string term;
-    for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
       if (exponents[i] == 0) continue;
-      term += (term.empty() ? "" : "*") +
-              (i == ParametricFunction::kParameter ? names.parameter : names.z);
+      term += (term.empty() ? "" : "*") + name_of(i, names);
       if (exponents[i] > 1) term += fmt::format("^{}", exponents[i]);
     }
     std::ostringstream number;
@@ -51,7 +61,7 @@ std::optional<Polynomial> root(const Polynomial& polynomial) {
   Polynomial result = ring().constant(1);
   for (const auto& [factor, exponent] : polynomial.factors()) {
     if (factor.is_constant()) {
-      const auto number = square_root(factor.evaluate({0, 0}));
+      const auto number = square_root(factor.evaluate(std::vector<cln::cl_RA>(ring().size(), 0)));
       if (!number) return std::nullopt;
       result = result.scaled(*number);
     } else if (exponent % 2 == 0) {
@@ -96,8 +106,8 @@ ParametricFunction ParametricFunction::variable() {
   return {ring().variable(kVariable), ring().constant(1)};
 }
 
-ParametricFunction ParametricFunction::parameter() {
-  return {ring().variable(kParameter), ring().constant(1)};
+ParametricFunction ParametricFunction::parameter(std::size_t i) {
+  return {ring().variable(i == 0 ? kParameter : i + 1), ring().constant(1)};
 }
 
 ParametricFunction ParametricFunction::of_parameter(const Univariate& polynomial) {
@@ -166,7 +176,15 @@ std::vector<Univariate> parameter_coefficients(const Polynomial& polynomial) {
   return result;
 }
 
+std::vector<ParametricFunction> variable_coefficients(const Polynomial& polynomial) {
+  std::vector<ParametricFunction> result;
+  for (const Polynomial& own : polynomial.coefficients(ParametricFunction::kVariable))
+    result.emplace_back(own, ring().constant(1));
+  return result;
+}
+
 Univariate in_parameter(const Polynomial& polynomial) {
+  if (has_further(polynomial)) throw std::logic_error("not a function of one parameter alone");
   std::vector<cln::cl_RA> coefficients;
   for (const auto& [coefficient, exponents] : polynomial.term_list()) {
     if (exponents[ParametricFunction::kVariable] != 0)
@@ -214,11 +232,11 @@ long pole_count(const ParametricFunction& f) {
 bool leads_with_minus(const RationalFunction& f) { return cln::minusp(f.numerator().leading()); }
 
 bool leads_with_minus(const ParametricFunction& f) {
-  const Univariate above = parameter_coefficients(f.numerator()).back();
-  const Univariate below = parameter_coefficients(f.denominator()).back();
+  const Polynomial above = f.numerator().coefficients(ParametricFunction::kVariable).back();
+  const Polynomial below = f.denominator().coefficients(ParametricFunction::kVariable).back();
   if (!above.is_constant() || !below.is_constant())
     throw NotDecided("the sign of a root depends on the parameter");
-  return cln::minusp(above.leading() / below.leading());
+  return cln::minusp(in_parameter(above).leading() / in_parameter(below).leading());
 }
 
 void ParameterConditions::nonzero(const Univariate& polynomial) {
@@ -239,17 +257,34 @@ Univariate common_factor(const Polynomial& polynomial) {
 
 }  // namespace
 
+void ParameterConditions::nonzero(const Polynomial& polynomial) {
+  if (!has_further(polynomial)) {
+    nonzero(common_factor(polynomial));
+    return;
+  }
+  const Polynomial leading = polynomial.coefficients(ParametricFunction::kVariable).back();
+  for (const auto& [factor, exponent] : leading.factors()) {
+    if (factor.is_constant()) continue;
+    if (!has_further(factor)) {
+      nonzero(in_parameter(factor));
+      continue;
+    }
+    const Polynomial monic = factor.scaled(1 / factor.term_list().front().first);
+    if (std::find(several_.begin(), several_.end(), monic) == several_.end())
+      several_.push_back(monic);
+  }
+}
+
 void ParameterConditions::nonzero(const ParametricFunction& f) {
-  nonzero(common_factor(f.numerator()));
+  nonzero(f.numerator());
   defined(f);
 }
 
-void ParameterConditions::defined(const ParametricFunction& f) {
-  nonzero(common_factor(f.denominator()));
-}
+void ParameterConditions::defined(const ParametricFunction& f) { nonzero(f.denominator()); }
 
 void ParameterConditions::add(const ParameterConditions& others) {
   for (const Univariate& own : others.polynomials_) nonzero(own);
+  for (const Polynomial& own : others.several_) nonzero(own);
 }
 
 }  // namespace casimir::obstruction

@@ -124,9 +124,15 @@ std::vector<Choice> infinity(const RationalFunction& r, const Singularity& s) {
   return result;
 }
 
+std::vector<cln::cl_RA> all_coefficients(const Univariate& p) {
+  std::vector<cln::cl_RA> result;
+  for (long i = 0; i <= p.degree(); ++i) result.push_back(p.coefficient(i));
+  return result;
+}
+
 /// A monic P of degree d with P'' + 2 theta P' + (theta' + theta^2 - r) P = 0.
 std::optional<Univariate> monic_polynomial(const RationalFunction& theta, const RationalFunction& r,
-                                           long d) {
+                                           long d, std::vector<NoPolynomial>& steps) {
   const RationalFunction last = theta.derivative() + theta * theta - r;
   const Univariate common = (theta.denominator() * theta.denominator());
   const Univariate scale = common.divided(gcd(common, last.denominator())).first *
@@ -165,7 +171,15 @@ std::optional<Univariate> monic_polynomial(const RationalFunction& theta, const 
     fmpq_set(entry.get(), fmpq_mat_entry(matrix, i, d));
     coefficients[static_cast<std::size_t>(pivot)] = -entry.number();
   }
-  if (free) result = Univariate(coefficients);
+  if (free)
+    result = Univariate(coefficients);
+  else
+    steps.push_back({fmt::format("case 1: a polynomial of degree {}", d),
+                     0,
+                     {all_coefficients(scale), all_coefficients(first), all_coefficients(second)},
+                     d,
+                     true,
+                     {}});
   fmpq_mat_clear(matrix);
   return result;
 }
@@ -186,6 +200,7 @@ class Choices {
   }
   std::size_t sums() const { return sums_; }
   std::size_t degrees() const { return degrees_; }
+  const std::vector<NoPolynomial>& steps() const { return steps_; }
 
  private:
   /// The last place is infinity: d is its degree less the sum of the residues.
@@ -208,7 +223,7 @@ class Choices {
     ++degrees_;
     if (d > kLargestDegreeOfCaseOne)
       throw NotDecided("a polynomial of case 1 may have a degree above 1000");
-    const auto p = monic_polynomial(theta, r_, cln::cl_I_to_long(cln::numerator(d)));
+    const auto p = monic_polynomial(theta, r_, cln::cl_I_to_long(cln::numerator(d)), steps_);
     if (p) found_ = theta + RationalFunction(p->derivative(), *p);
   }
 
@@ -217,6 +232,7 @@ class Choices {
   const std::function<void()>& tick_;
   std::optional<RationalFunction> found_;
   std::size_t sums_ = 0, degrees_ = 0;
+  std::vector<NoPolynomial> steps_;
 };
 
 }  // namespace
@@ -250,7 +266,8 @@ RiccatiSearch rational_riccati(const RationalFunction& r, const std::vector<Sing
                             choices.sums())
               : fmt::format("{} of {} sums of residues leave a degree in 0, 1, 2, ..; the linear "
                             "equations for a polynomial of it have no solution",
-                            choices.degrees(), choices.sums())};
+                            choices.degrees(), choices.sums()),
+          choices.steps()};
 }
 
 }  // namespace casimir::obstruction

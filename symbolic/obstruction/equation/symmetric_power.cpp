@@ -75,6 +75,13 @@ Recursion recursion(const RationalFunction& r, const std::vector<Singularity>& s
   return {m, g, g.derivative(), logarithmic, squared.numerator()};
 }
 
+/// As data: of the steps of a proof.
+std::vector<cln::cl_RA> coefficients_of(const Univariate& p) {
+  std::vector<cln::cl_RA> result;
+  for (long i = 0; i <= p.degree(); ++i) result.push_back(p.coefficient(i));
+  return result;
+}
+
 /// A polynomial of degree `degree` at most that the recursion sends to zero.
 std::optional<Univariate> kernel(const Recursion& map, long degree,
                                  const std::function<void()>& tick) {
@@ -126,12 +133,14 @@ InvariantSearch rational_invariant(const RationalFunction& r,
                                    const std::vector<Singularity>& singular, long m,
                                    const std::function<void()>& tick, const std::string& z) {
   std::vector<long> orders;
+  std::vector<std::pair<long, long>> bound;
   RationalFunction known(1);
   long degree = 0;
   for (const Singularity& s : singular) {
     const std::optional<long> order = extreme_order(s, m);
     if (!order) return {{}, fmt::format("no order is an integer at {}", s.text(z))};
     orders.push_back(*order);
+    bound.emplace_back(*order, s.at_infinity() ? -1 : s.at.degree());
     if (s.at_infinity()) {
       degree += *order;
     } else {
@@ -139,17 +148,35 @@ InvariantSearch rational_invariant(const RationalFunction& r,
       known = known * RationalFunction(s.at).pow(*order);
     }
   }
-  if (degree < 0) return {{}, fmt::format("the orders leave the degree {} < 0", degree)};
+  const std::string what = fmt::format("invariants of degree {}", m);
+  if (degree < 0)
+    return {{},
+            fmt::format("the orders leave the degree {} < 0", degree),
+            {{what, m, {}, degree, false, bound}}};
   if (degree > kLargestDegreeOfPower)
     throw NotDecided(
         fmt::format("an invariant of degree {} may have a numerator of degree {}", m, degree));
-  const auto p = kernel(recursion(r, singular, orders, m), degree, tick);
+  const Recursion map = recursion(r, singular, orders, m);
+  const auto p = kernel(map, degree, tick);
   if (!p)
     return {{},
             fmt::format("linear equations for a polynomial of degree {} at most have the "
                         "solution 0 only",
-                        degree)};
+                        degree),
+            {{what,
+              m,
+              {coefficients_of(map.g), coefficients_of(map.g_slope),
+               coefficients_of(map.g_logarithmic), coefficients_of(map.g_squared_r)},
+              degree,
+              false,
+              bound}}};
   return {known * RationalFunction(*p), {}};
+}
+
+Univariate symmetric_power_image(const std::vector<Univariate>& coefficients, long m,
+                                 const Univariate& polynomial) {
+  return Recursion{m, coefficients[0], coefficients[1], coefficients[2], coefficients[3]}.last(
+      polynomial);
 }
 
 std::vector<RationalFunction> form_polynomial(const RationalFunction& r,

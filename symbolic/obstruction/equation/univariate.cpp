@@ -5,10 +5,10 @@
 #include <flint/fmpz_poly_factor.h>
 #include <fmt/format.h>
 
-#include <sstream>
 #include <stdexcept>
 
 #include "symbolic/algebra/flint_conversion.hpp"
+#include "symbolic/algebra/number_text.hpp"
 
 namespace casimir::obstruction {
 
@@ -126,12 +126,6 @@ std::vector<std::pair<Univariate, unsigned long>> Univariate::factors() const {
 
 namespace {
 
-std::string number_text(const cln::cl_RA& value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
 std::string power_text(const std::string& variable, long exponent) {
   return exponent == 1 ? variable : fmt::format("{}^{}", variable, exponent);
 }
@@ -150,9 +144,9 @@ std::string Univariate::text(const std::string& variable) const {
     else
       result += cln::minusp(c) ? " - " : " + ";
     if (i == 0)
-      result += number_text(size);
+      result += rational_text(size);
     else
-      result += (size == 1 ? "" : number_text(size) + "*") + power_text(variable, i);
+      result += (size == 1 ? "" : rational_text(size) + "*") + power_text(variable, i);
   }
   return result;
 }

@@ -11,4 +11,10 @@ struct FamilyEquation {
   RiemannFamily family;
 };
 
+/// The same for all values of several parameters.
+struct GeneralEquation {
+  Examined shown;
+  GeneralFamily family;
+};
+
 }  // namespace casimir::obstruction

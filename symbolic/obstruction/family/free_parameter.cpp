@@ -8,6 +8,7 @@
 
 #include "symbolic/error.hpp"
 #include "symbolic/obstruction/equation/kovacic.hpp"
+#include "symbolic/obstruction/examine.hpp"
 #include "symbolic/obstruction/family/straight_lines.hpp"
 #include "symbolic/obstruction/family/survivors.hpp"
 #include "symbolic/obstruction/normal_variation.hpp"
@@ -45,7 +46,7 @@ class FamilySearch {
     }
   }
 
-  std::vector<FamilyEquation> found;
+  std::vector<GeneralEquation> found;
 
  private:
   void leave_out(const InvariantPlane& plane, const std::string& reason) {
@@ -82,8 +83,10 @@ class FamilySearch {
     shown.along = plane.text(system_);
     shown.level = curve.level;
     shown.curve = curve.equations;
-    shown.nve = fmt::format("y'' + ({})*y' + ({})*y = 0", text(equation.p), text(equation.q));
-    shown.reduced = fmt::format("y'' = ({})*y", text(equation.reduced));
+    const std::string unknown = unknown_beside(curve.names.z);
+    shown.nve = fmt::format("{0}'' + ({1})*{0}' + ({2})*{0} = 0", unknown, text(equation.p),
+                            text(equation.q));
+    shown.reduced = fmt::format("{0}'' = ({1})*{0}", unknown, text(equation.reduced));
     found.push_back({std::move(shown), std::move(*family)});
   }
 
@@ -95,6 +98,15 @@ class FamilySearch {
  public:
   std::size_t freedom = 0;
 };
+
+std::string alone_text(const Examined& decisive) {
+  return fmt::format("excluded along {}, {}{}", decisive.along, decisive.level,
+                     decisive.order == 1
+                         ? ""
+                         : fmt::format(", by the variational equations of order {} (Morales-Ruiz, "
+                                       "Ramis and Simo 2007)",
+                                       decisive.order));
+}
 
 /// Prints the exponents, and keeps the equations that exclude something.
 std::vector<RiemannFamily> shown_in(std::vector<FamilyEquation> equations, const std::string& name,
@@ -129,13 +141,25 @@ std::vector<FamilyEquation> family_equations(const HamiltonianSystem& system,
                                              const search::Watch& watch,
                                              std::vector<std::string>& left_out) {
   FamilySearch search(system, watch, left_out);
+  std::vector<FamilyEquation> result;
   try {
-    search.found = straight_line_families(system);
+    result = straight_line_families(system);
   } catch (const NotDecided& problem) {
     left_out.push_back(fmt::format("straight lines: {}", problem.what()));
   } catch (const TooLarge& problem) {
     left_out.push_back(fmt::format("straight lines: {}", problem.what()));
   }
+  for (const InvariantPlane& plane : planes) search.along(plane);
+  for (GeneralEquation& own : search.found)
+    result.push_back({std::move(own.shown), of_one_parameter(own.family)});
+  return result;
+}
+
+std::vector<GeneralEquation> general_equations(const HamiltonianSystem& system,
+                                               const std::vector<InvariantPlane>& planes,
+                                               const search::Watch& watch,
+                                               std::vector<std::string>& left_out) {
+  FamilySearch search(system, watch, left_out);
   for (const InvariantPlane& plane : planes) search.along(plane);
   return std::move(search.found);
 }
@@ -157,9 +181,7 @@ void exclude_values(const HamiltonianSystem& system, std::vector<FamilyEquation>
     if (const auto number = survivor.value.rational()) {
       const Obstruction own = examine(*number);
       value.excluded = own.proved;
-      value.outcome = own.proved ? fmt::format("excluded along {}, {}", own.examined.back().along,
-                                               own.examined.back().level)
-                                 : own.reason;
+      value.outcome = own.proved ? alone_text(own.examined.back()) : own.reason;
     } else {
       value.outcome = "not examined alone: no rational number";
     }

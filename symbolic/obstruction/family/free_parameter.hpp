@@ -16,6 +16,12 @@ std::vector<FamilyEquation> family_equations(const HamiltonianSystem& system,
                                              const search::Watch& watch,
                                              std::vector<std::string>& left_out);
 
+/// The same for several free parameters, without straight lines.
+std::vector<GeneralEquation> general_equations(const HamiltonianSystem& system,
+                                               const std::vector<InvariantPlane>& planes,
+                                               const search::Watch& watch,
+                                               std::vector<std::string>& left_out);
+
 /// Fills in the answer for the free parameter: which of its real values survive all equations.
 /// \param examine  is asked about a rational value that survives
 void exclude_values(const HamiltonianSystem& system, std::vector<FamilyEquation> equations,

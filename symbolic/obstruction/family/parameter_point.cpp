@@ -19,10 +19,10 @@ ParameterPoint::Residue ParameterPoint::inverse(const Residue& x) const {
 ParameterPoint::Residue ParameterPoint::value(const Polynomial& f) const {
   const Residue z = degree == 1 ? Residue{-t, F()} : Residue{F(), F(1)};
   Residue result;
-  const std::vector<Univariate> coefficients = parameter_coefficients(f);
+  const std::vector<F> coefficients = variable_coefficients(f);
   for (std::size_t i = coefficients.size(); i-- > 0;) {
     result = product(result, z);
-    result.a = result.a + F::of_parameter(coefficients[i]);
+    result.a = result.a + coefficients[i];
   }
   return result;
 }
@@ -34,11 +34,10 @@ std::string ParameterPoint::text(const CurveNames& names) const {
 }
 
 ParameterPoint parameter_point(const Polynomial& polynomial) {
-  const std::vector<Univariate> c = parameter_coefficients(polynomial);
-  const F leading = F::of_parameter(c.back());
-  ParameterPoint result{polynomial, static_cast<long>(c.size()) - 1, F(),
-                        F::of_parameter(c[0]) / leading};
-  if (result.degree == 2) result.s = F::of_parameter(c[1]) / leading;
+  const std::vector<F> c = variable_coefficients(polynomial);
+  const F& leading = c.back();
+  ParameterPoint result{polynomial, static_cast<long>(c.size()) - 1, F(), c[0] / leading};
+  if (result.degree == 2) result.s = c[1] / leading;
   return result;
 }
 

@@ -1,5 +1,7 @@
 #include "symbolic/obstruction/family/riemann_family.hpp"
 
+#include <stdexcept>
+
 #include "symbolic/obstruction/equation/lame.hpp"
 #include "symbolic/obstruction/family/parameter_point.hpp"
 
@@ -9,9 +11,8 @@ namespace {
 using F = ParametricFunction;
 
 /// 1 + 4 times the coefficient of (z - z0)^(-2) in r; empty where it differs at conjugate points.
-std::optional<RationalFunction> square_at(const F& r, const ParameterPoint& point,
-                                          unsigned long order) {
-  if (order == 1) return RationalFunction(1);
+std::optional<F> square_at(const F& r, const ParameterPoint& point, unsigned long order) {
+  if (order == 1) return F(1);
   Polynomial rest = r.denominator();
   for (unsigned long i = 0; i < order; ++i) {
     Polynomial quotient(rest.ring());
@@ -24,19 +25,18 @@ std::optional<RationalFunction> square_at(const F& r, const ParameterPoint& poin
   const ParameterPoint::Residue result =
       point.product(point.value(r.numerator()), point.inverse(below));
   if (!result.b.is_zero()) return std::nullopt;
-  return (F(1) + F(4) * result.a).in_parameter();
+  return F(1) + F(4) * result.a;
 }
 
-RationalFunction square_at_infinity(const F& r) {
+F square_at_infinity(const F& r) {
   const long order = pole_count(r) - r.numerator().degree(F::kVariable);
-  if (r.is_zero() || order > 2) return RationalFunction(1);
-  const RationalFunction above(parameter_coefficients(r.numerator()).back());
-  const RationalFunction below(parameter_coefficients(r.denominator()).back());
-  return RationalFunction(1) + RationalFunction(4) * above / below;
+  if (r.is_zero() || order > 2) return F(1);
+  return F(1) + F(4) * variable_coefficients(r.numerator()).back() /
+                    variable_coefficients(r.denominator()).back();
 }
 
 /// The points and their distances. \return  false where they are not two
-bool add_points(const F& r, const CurveNames& names, RiemannFamily& result) {
+bool add_points(const F& r, const CurveNames& names, GeneralFamily& result) {
   std::vector<ParameterPoint> points;
   std::size_t count = 0;
   for (const auto& [factor, order] : r.denominator().factors()) {
@@ -50,48 +50,53 @@ bool add_points(const F& r, const CurveNames& names, RiemannFamily& result) {
       result.points[count] = point.text(names);
       result.squares[count++] = *square;
     }
-    result.conditions.nonzero(parameter_coefficients(factor).back());
-    if (degree == 2)
-      result.conditions.nonzero((point.s * point.s - F(4) * point.t).in_parameter().numerator());
+    result.conditions.nonzero(variable_coefficients(factor).back());
+    if (degree == 2) result.conditions.nonzero((point.s * point.s - F(4) * point.t).numerator());
     points.push_back(point);
   }
-  if (points.size() == 2)
-    result.conditions.nonzero((points[0].t - points[1].t).in_parameter().numerator());
+  if (points.size() == 2) result.conditions.nonzero((points[0].t - points[1].t).numerator());
   return count == 2;
 }
 
 }  // namespace
 
-std::optional<RiemannFamily> riemann_family(const F& r, const CurveNames& names) {
+RiemannFamily of_one_parameter(const GeneralFamily& family) {
+  RiemannFamily result{family.lame, family.points, {}, family.conditions};
+  if (!family.conditions.several().empty())
+    throw std::logic_error("a family of several parameters");
+  for (std::size_t i = 0; i < 3; ++i) result.squares[i] = family.squares[i].in_parameter();
+  return result;
+}
+
+std::optional<GeneralFamily> riemann_family(const F& r, const CurveNames& names) {
   if (r.is_zero() || pole_count(r) - r.numerator().degree(F::kVariable) < 2) return std::nullopt;
-  RiemannFamily result;
+  GeneralFamily result;
   result.conditions.defined(r);
   if (!add_points(r, names, result)) return std::nullopt;
   result.points[2] = names.z + " = infinity";
   result.squares[2] = square_at_infinity(r);
-  for (const RationalFunction& square : result.squares)
-    result.conditions.nonzero(square.denominator());
+  for (const F& square : result.squares) result.conditions.defined(square);
   return result;
 }
 
-std::optional<RiemannFamily> lame_family(const F& p, const F& q, const F& r,
+std::optional<GeneralFamily> lame_family(const F& p, const F& q, const F& r,
                                          const CurveNames& names) {
   if (!is_lame(p, q)) return std::nullopt;
   // No double root: the discriminant of b z^3 + .. does not vanish, nor does b.
-  const std::vector<Univariate> c = parameter_coefficients(p.denominator());
-  const Univariate &d0 = c[0], &d1 = c[1], &d2 = c[2], &d3 = c[3];
-  RiemannFamily result;
+  const std::vector<F> c = variable_coefficients(p.denominator());
+  const F &d0 = c[0], &d1 = c[1], &d2 = c[2], &d3 = c[3];
+  GeneralFamily result;
   result.lame = true;
   result.conditions.nonzero(d3);
-  result.conditions.nonzero(Univariate(18) * d3 * d2 * d1 * d0 - Univariate(4) * d2.pow(3) * d0 +
-                            d2.pow(2) * d1.pow(2) - Univariate(4) * d3 * d1.pow(3) -
-                            Univariate(27) * d3.pow(2) * d0.pow(2));
+  result.conditions.nonzero(F(18) * d3 * d2 * d1 * d0 - F(4) * d2 * d2 * d2 * d0 +
+                            d2 * d2 * d1 * d1 - F(4) * d3 * d1 * d1 * d1 -
+                            F(27) * d3 * d3 * d0 * d0);
   for (const F* f : {&p, &q, &r}) result.conditions.defined(*f);
   const std::string root = written(F(p.denominator(), F(1).numerator()), names) + " = 0";
   result.points = {root, root, names.z + " = infinity"};
-  const RationalFunction quarter(cln::cl_RA(1) / 4);
+  const F quarter(cln::cl_RA(1) / 4);
   result.squares = {quarter, quarter, square_at_infinity(r)};
-  result.conditions.nonzero(result.squares[2].denominator());
+  result.conditions.defined(result.squares[2]);
   return result;
 }
 

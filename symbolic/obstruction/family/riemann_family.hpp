@@ -17,17 +17,28 @@ struct RiemannFamily {
   ParameterConditions conditions;           ///< where one vanishes, nothing is said of c
 };
 
+/// The same with functions of several parameters.
+struct GeneralFamily {
+  bool lame = false;
+  std::array<std::string, 3> points;
+  std::array<ParametricFunction, 3> squares;
+  ParameterConditions conditions;
+};
+
+/// The family of one parameter. \throws std::logic_error  where there are more
+RiemannFamily of_one_parameter(const GeneralFamily& family);
+
 /// y'' = r y as such an equation, if its denominator has no more than two zeros for almost every c
 /// and infinity is no irregular point. Two conjugate points have to have one difference.
 ///
 /// Where none of the conditions vanishes, the equation at the number c is Riemann's with these
 /// differences: the denominators' leading coefficients, and the distances of the points, are among
 /// the conditions.
-std::optional<RiemannFamily> riemann_family(const ParametricFunction& r, const CurveNames& names);
+std::optional<GeneralFamily> riemann_family(const ParametricFunction& r, const CurveNames& names);
 
 /// y'' + p y' + q y = 0, if it is Lame's equation for almost every c.
 /// \param r  of its reduced form
-std::optional<RiemannFamily> lame_family(const ParametricFunction& p, const ParametricFunction& q,
+std::optional<GeneralFamily> lame_family(const ParametricFunction& p, const ParametricFunction& q,
                                          const ParametricFunction& r, const CurveNames& names);
 
 }  // namespace casimir::obstruction

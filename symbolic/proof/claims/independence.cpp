@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <random>
 
+#include "symbolic/algebra/rational_matrix.hpp"
+#include "symbolic/model/given_functions.hpp"
 #include "symbolic/proof/claims/claim.hpp"
 #include "symbolic/proof/generic_rank.hpp"
 #include "symbolic/proof/special_parameters.hpp"
@@ -71,9 +74,38 @@ std::vector<NamedExpression> dependent(const std::vector<NamedExpression>& funct
   return result;
 }
 
+/// Whether rows that contain arbitrary functions are independent for every choice of these, and all
+/// values of the parameters.
+///
+/// Theorem: a minor of polynomials in the variables alone is not zero almost everywhere where it is
+/// not zero at one point. Columns with anything else are left out: that makes ranks smaller only.
+bool are_always_independent(const Prover& prover, const PolynomialRows& rows) {
+  if (!has_arbitrary_functions(prover.model()) || rows.empty()) return false;
+  const std::size_t dimension = prover.dimension(), places = prover.ring().ring().size();
+  std::mt19937_64 random(11);
+  std::vector<cln::cl_RA> point(places, 0);
+  for (std::size_t i = 0; i < dimension; ++i) point[i] = static_cast<long>(random() % 1000) + 1;
+  RationalMatrix values(rows.size());
+  for (std::size_t j = 0; j < rows[0].size(); ++j) {
+    const bool plain = std::all_of(rows.begin(), rows.end(), [&](const auto& row) {
+      for (std::size_t place = dimension; place < places; ++place)
+        if (row[j].uses(place)) return false;
+      return true;
+    });
+    for (std::size_t i = 0; i < rows.size() && plain; ++i)
+      values[i].push_back(rows[i][j].evaluate(point));
+  }
+  return !values[0].empty() && rank(values) == rows.size();
+}
+
 void decide_independence(Prover& prover, Proof& proof,
                          const std::vector<NamedExpression>& functions) {
   const PolynomialRows slopes = gradients(prover, functions);
+  if (are_always_independent(prover, slopes)) {
+    proof.verdict = Verdict::proved;
+    proof.evidence = "a minor of the gradients without the arbitrary functions is not zero";
+    return;
+  }
   // The flow of a function that commutes with all is orthogonal to all gradients.
   const auto kernel = [&] {
     std::vector<KernelCandidate> candidates;
@@ -248,6 +280,26 @@ SetsOnPieces sets_on_pieces(Prover& prover, const PolynomialRows& flows,
   return result;
 }
 
+/// So many functions in involution, the first among them, whose flows are independent whatever the
+/// arbitrary functions are.
+std::optional<unsigned> always_independent_set(const Prover& prover, const PolynomialRows& flows,
+                                               const std::vector<unsigned>& commutes,
+                                               std::size_t needed) {
+  if (!has_arbitrary_functions(prover.model())) return std::nullopt;
+  for (unsigned set = 1; set < (1U << flows.size()); set += 2) {  // with the first, the Hamiltonian
+    if (static_cast<std::size_t>(std::popcount(set)) != needed) continue;
+    PolynomialRows rows;
+    bool involutive = true;
+    for (std::size_t i = 0; i < flows.size(); ++i) {
+      if ((set >> i & 1U) == 0) continue;
+      involutive = involutive && (commutes[i] & set) == set;
+      rows.push_back(flows[i]);
+    }
+    if (involutive && are_always_independent(prover, rows)) return set;
+  }
+  return std::nullopt;
+}
+
 /// Integrals in involution that are independent on the generic leaf: as many as half its dimension?
 void decide_liouville(Prover& prover, Proof& proof) {
   const std::vector<NamedExpression> functions = with_hamiltonian(prover.model(), {});
@@ -281,6 +333,18 @@ void decide_liouville(Prover& prover, Proof& proof) {
   PolynomialRows flows;
   for (const NamedExpression& f : functions) flows.push_back(prover.flow(f.value));
   const std::vector<unsigned> commutes = commuting(prover, functions);
+  if (const auto set = always_independent_set(prover, flows, commutes, needed)) {
+    std::vector<NamedExpression> own;
+    for (std::size_t i = 0; i < functions.size(); ++i)
+      if ((*set >> i & 1U) != 0) own.push_back(functions[i]);
+    proof.verdict = Verdict::proved;
+    proof.evidence = fmt::format(
+        "{} are in involution, and independent on leaves of dimension {}: a minor of their flows "
+        "without the arbitrary functions is not zero",
+        listed(own), leaf->rank);
+    say_where(proof, leaf->where, leaf->nonzero);
+    return;
+  }
   const auto found = sets_on_pieces(prover, flows, commutes, needed);
   if (!found.complete) {
     proof.reason = fmt::format(

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "symbolic/functions/spectral_coefficients.hpp"
 #include "symbolic/proof/claims/claim.hpp"
 #include "symbolic/proof/generic_rank.hpp"
 
@@ -96,8 +97,9 @@ std::vector<Polynomial> integrals_of(Prover& prover, const LaxPair& pair) {
       const auto place = std::find_if(symbols.begin(), symbols.end(), [&](const GiNaC::symbol& s) {
         return s.is_equal(*pair.spectral);
       });
-      parts = ring.spectral_coefficients(
-          coefficient, static_cast<std::size_t>(place - symbols.begin()), prover.dimension());
+      parts = functions::spectral_coefficients(ring.table(), coefficient,
+                                               static_cast<std::size_t>(place - symbols.begin()),
+                                               prover.dimension());
     }
     for (Polynomial& f : parts) {
       const std::vector<Polynomial> slopes = prover.gradient(f);

@@ -9,6 +9,7 @@
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/expression/elementary.hpp"
 #include "symbolic/expression/expression_size.hpp"
+#include "symbolic/functions/point_completer.hpp"
 
 namespace casimir {
 namespace {
@@ -85,7 +86,8 @@ ExactPoint::ExactPoint(const FunctionRing& ring, const std::vector<cln::cl_RA>& 
     values_[symbols[i]] = numeric(point[i]);
     texts.push_back(rational_text(point[i]));
   }
-  for (const FunctionRing::PlainArgument& a : ring.plain_arguments(point)) {
+  for (const functions::PointCompleter::PlainArgument& a :
+       functions::PointCompleter(ring.table()).plain_arguments(point)) {
     if (bare[a.symbol]) continue;
     const ex symbol = symbols[a.symbol];
     const numeric factor(a.factor);

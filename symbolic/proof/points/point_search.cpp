@@ -188,8 +188,9 @@ bool PointSearch::solve_coordinate(Point& point, const Polynomial& relation) {
 
 /// For relations that contain sines of plain angles: each is solved for one of them, or for a
 /// coordinate. The caller checks the point: what is solved later may spoil what was solved before.
-bool PointSearch::solve_angles(Point& point, const Level& level, FunctionRing::Freedom freedom) {
-  std::vector<std::size_t> sines = ring_.free_sines(freedom);
+bool PointSearch::solve_angles(Point& point, const Level& level,
+                               functions::PointCompleter::Freedom freedom) {
+  std::vector<std::size_t> sines = functions::PointCompleter(ring_.table()).free_sines(freedom);
   std::shuffle(sines.begin(), sines.end(), random_);
   const auto draw_one = [this] { return draw(); };
   std::map<std::size_t, std::pair<cln::cl_RA, cln::cl_RA>> moved;
@@ -207,13 +208,13 @@ bool PointSearch::solve_angles(Point& point, const Level& level, FunctionRing::F
     for (const std::size_t sine : sines) {
       freedom.angles.try_emplace(sine, point[sine], point[sine + 1]);
     }
-    if (!ring_.complete(point, draw_one, freedom)) return false;
+    if (!functions::PointCompleter(ring_.table()).complete(point, draw_one, freedom)) return false;
   }
   return true;
 }
 
 std::optional<Point> PointSearch::completed(const Level& level,
-                                            const FunctionRing::Freedom& freedom) {
+                                            const functions::PointCompleter::Freedom& freedom) {
   const int trials = level.empty() ? kFreeTrials : kLevelTrials;
   const bool functions_in_level =
       std::any_of(level.numerators.begin(), level.numerators.end(), [&](const Polynomial& f) {
@@ -231,8 +232,9 @@ std::optional<Point> PointSearch::completed(const Level& level,
     }
     if (!level.empty() && !functions_in_level && !solve_level(point, level)) continue;
     if (!inside_assumptions(point)) continue;
-    if (!ring_.complete(
-            point, [this] { return draw(); }, freedom))
+    if (!functions::PointCompleter(ring_.table())
+             .complete(
+                 point, [this] { return draw(); }, freedom))
       continue;
     if (functions_in_level && !solve_angles(point, level, freedom)) continue;
     if (std::all_of(level.numerators.begin(), level.numerators.end(),

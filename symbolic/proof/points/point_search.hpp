@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "symbolic/functions/function_ring.hpp"
+#include "symbolic/functions/point_completer.hpp"
 #include "symbolic/model.hpp"
 #include "symbolic/proof/level.hpp"
 
@@ -21,7 +22,8 @@ class PointSearch {
 
   /// A completed point at which no denominator vanishes, every assumption holds and the level's
   /// functions are zero; empty if none was found.
-  std::optional<Point> completed(const Level& level, const FunctionRing::Freedom& freedom);
+  std::optional<Point> completed(const Level& level,
+                                 const functions::PointCompleter::Freedom& freedom);
 
   /// The same with rational values of the symbols alone: the functions of the ring may have any
   /// values there.
@@ -37,7 +39,7 @@ class PointSearch {
   bool solve(Point& point, const Polynomial& relation, std::size_t variable) const;
   bool solve_coordinate(Point& point, const Polynomial& relation);
   bool solve_level(Point& point, const Level& level);
-  bool solve_angles(Point& point, const Level& level, FunctionRing::Freedom freedom);
+  bool solve_angles(Point& point, const Level& level, functions::PointCompleter::Freedom freedom);
   std::optional<std::pair<cln::cl_RA, cln::cl_RA>> solved_angle(Point point,
                                                                 const Polynomial& relation,
                                                                 std::size_t sine);

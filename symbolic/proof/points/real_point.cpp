@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "symbolic/algebra/rational_matrix.hpp"
+#include "symbolic/expression/arbitrary.hpp"
 
 namespace casimir {
 namespace {
@@ -192,8 +193,13 @@ std::size_t RealPoint::rank(const PolynomialRows& rows) {
 
 std::string RealPoint::text() const {
   std::ostringstream stream;
-  for (std::size_t i = 0; i < std::min(shown_, coordinates_.size()); ++i)
-    stream << (i == 0 ? "" : ", ") << ring_->symbols()[i].get_name() << " = " << coordinates_[i];
+  bool first = true;
+  for (std::size_t i = 0; i < std::min(shown_, coordinates_.size()); ++i) {
+    const std::string name = ring_->symbols()[i].get_name();
+    if (function_name(name)) continue;  // the symbol of an arbitrary function has no value
+    stream << (first ? "" : ", ") << name << " = " << coordinates_[i];
+    first = false;
+  }
   return stream.str();
 }
 
@@ -278,10 +284,10 @@ std::vector<ex> RealPoints::draw_generic() {
 
 bool RealPoints::seems_to_have_values(const std::vector<ex>& coordinates) const {
   if (ring_.is_complex() || ring_.is_polynomial()) return true;
-  FunctionRing::Probe at;
+  functions::Probe at;
   for (const ex& x : coordinates)
     at.coordinates.push_back(GiNaC::ex_to<GiNaC::numeric>(x).to_double());
-  return ring_.has_values_at(at);
+  return functions::FunctionProbe(ring_.table()).has_values_at(at);
 }
 
 std::optional<RealPoint> RealPoints::random(const std::vector<ex>& expressions,

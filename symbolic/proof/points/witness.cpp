@@ -8,6 +8,7 @@
 
 #include "symbolic/algebra/exact_constant.hpp"
 #include "symbolic/algebra/where_defined.hpp"
+#include "symbolic/functions/point_completer.hpp"
 #include "symbolic/proof/points/exact_point.hpp"
 
 namespace casimir {
@@ -18,12 +19,12 @@ using GiNaC::ex;
 /// The symbols that must keep rational values, since they occur otherwise than as plain angles.
 std::vector<bool> bare_symbols(const Model& model, const FunctionRing& ring,
                                const Polynomial& numerator, const Level& level) {
-  std::vector<bool> bare = ring.bare_symbols(numerator);
+  std::vector<bool> bare = functions::PointCompleter(ring.table()).bare_symbols(numerator);
   const auto keep = [&](const ex& e) {
     for (std::size_t i = 0; i < bare.size(); ++i) bare[i] = bare[i] || e.has(ring.symbols()[i]);
   };
   for (const Polynomial& f : level.numerators) {
-    const std::vector<bool> of_level = ring.bare_symbols(f);
+    const std::vector<bool> of_level = functions::PointCompleter(ring.table()).bare_symbols(f);
     for (std::size_t i = 0; i < bare.size(); ++i) bare[i] = bare[i] || of_level[i];
   }
   for (const Assumption& a : model.assumptions) keep(a.difference);
@@ -88,8 +89,10 @@ std::optional<Witness> find_witness(const Model& model, const FunctionRing& ring
                                     const Suspect& suspect, const Level& level, bool brief) {
   constexpr int kTrials = 60;
   if (!brief &&
-      ring.has_value(suspect.numerator)) {  // the nicest points: every function is rational there
-    const FunctionRing::Freedom freedom{false, bare_symbols(model, ring, suspect.numerator, level)};
+      functions::PointCompleter(ring.table())
+          .has_value(suspect.numerator)) {  // the nicest points: every function is rational there
+    const functions::PointCompleter::Freedom freedom{
+        false, bare_symbols(model, ring, suspect.numerator, level)};
     for (int trial = 0; trial < kTrials; ++trial) {
       const auto point = points.completed(level, freedom);
       if (!point) break;

@@ -85,15 +85,15 @@ TEST(EmitCpp, TwoProcessesWriteTheSame) {
 }
 
 TEST(EmitCpp, EveryCaseCompilesAloneWithoutWarnings) {
+  // A compiler runs for each text: every other case keeps its parameters.
+  bool fold = false;
   for (const auto& path : test::bundled_cases()) {
     const Model model = build_model(read_case(path));
-    for (const bool fold : {true, false}) {
-      SpecialiseOptions options;
-      options.fold_parameters = fold;
-      const Specialisation spec = specialise(model, model.scenes.at(0), options);
-      EXPECT_EQ(complaints(emit_header(spec)), "") << path;
-      EXPECT_EQ(complaints(emit_module(spec)), "") << path;
-    }
+    SpecialiseOptions options;
+    options.fold_parameters = fold = !fold;
+    const Specialisation spec = specialise(model, model.scenes.at(0), options);
+    EXPECT_EQ(complaints(emit_header(spec)), "") << path;
+    EXPECT_EQ(complaints(emit_module(spec)), "") << path;
   }
 }
 

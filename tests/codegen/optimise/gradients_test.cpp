@@ -115,7 +115,7 @@ TEST(Gradients, CompiledCodeIsExactToRounding) {
     const std::size_t scope = header.find("namespace ") + 10;
     const std::string name = header.substr(scope, header.find(' ', scope) - scope);
     CompileOptions options;
-    options.flags = {"-O2"};
+    options.flags = {"-O1"};
     options.standard_library = header.find("#include") != std::string::npos;
     const auto object =
         compile(header + "extern \"C\" void values(const double* x, double* v) { " + name +

@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "codegen/optimise/factor.hpp"
 #include "codegen/optimise/terms.hpp"
+#include "runtime/evaluate.hpp"
 #include "tests/codegen/support.hpp"
 
 namespace casimir::codegen {
@@ -203,6 +206,53 @@ TEST_F(Optimise, DivisionsAreNotMultiplied) {
   EXPECT_EQ(count_operations(optimise({s(0) / (s(1) * s(2))})), (OperationCount{1, 0, 1, 0}));
   EXPECT_EQ(count_operations(optimise({s(0) / s(1), s(2) / s(1), s(3) / s(1)})),
             (OperationCount{3, 0, 1, 0}));
+}
+
+/// Multiplied out, the square of a sum loses its digits where the sum is small: (x y - z)^2 =
+/// 10^(-16) is then the difference of numbers that are rounded to 10^(-16).
+TEST_F(Optimise, PowersOfSumsThatAreMultipliedOutAreFoldedAgain) {
+  const ex sum = s(0) * s(1) - s(2);
+  const std::vector<ex> all{sum * s(3), (s(4) * sum + s(3) * sum * sum + s(0)).expand()};
+  const Program program = optimise(all);
+  EXPECT_LE(weight(count_operations(program)),
+            weight(count_operations(optimise({sum * s(3), s(4) * sum + s(3) * sum * sum + s(0)}))));
+  Points points;
+  const std::vector<cln::cl_RA> at = point(points);
+  EXPECT_EQ(exact(program, at)[1], value(all[1], at));
+  const ex square = (s(3) * sum * sum).expand();
+  const double x = 1 + 1e-8, y = 1 - 2e-8, z = 1;
+  const double near =
+      evaluate(optimise({sum * s(4), square}), std::vector<double>{x, y, z, 1, 1})[1];
+  EXPECT_NEAR(near / ((x * y - z) * (x * y - z)), 1, 1e-6);
+  const double lost = evaluate(optimise({square}), std::vector<double>{x, y, z, 1, 0})[0];
+  EXPECT_GT(std::abs(lost / ((x * y - z) * (x * y - z)) - 1), 1e-3);  // nothing says what it was
+}
+
+TEST_F(Optimise, SumsAreTakenOutOfAnExpansionWhereThatIsShorter) {
+  const ex sum = s(0) * s(1) - s(2);
+  const TermSystem folded = with_sums_taken_out(
+      *expanded(system({s(3) * sum, s(4) * sum * (sum - 2 * s(1)), s(0) * s(1) + s(2)}), 100), 30);
+  EXPECT_TRUE(has_power_of_sum(folded));
+  const auto terms = [&](std::size_t i) {
+    return folded.variables[static_cast<std::size_t>(folded.outputs[i])].value.size();
+  };
+  EXPECT_EQ(terms(0), 1U);
+  EXPECT_EQ(terms(1), 2U);
+  EXPECT_EQ(terms(2), 2U);  // another sum
+}
+
+TEST_F(Optimise, SquaresOfSineAndCosineAreJoined) {
+  const ex a = s(0) * sin(s(1)) + s(2) * cos(s(1)), b = s(0) * cos(s(1)) - s(2) * sin(s(1));
+  const OperationCount rotated = count_operations(optimise({a * a + b * b}));
+  EXPECT_EQ(rotated, (OperationCount{2, 1, 0, 0}));
+  const OperationCount hyperbolic =
+      count_operations(optimise({s(0) * pow(cosh(s(1)), 2) - s(0) * pow(sinh(s(1)), 2)}));
+  EXPECT_EQ(hyperbolic, (OperationCount{0, 0, 0, 0}));
+  // The twins: another sign, another angle, another factor.
+  for (const ex& other :
+       {pow(sin(s(1)), 2) - pow(cos(s(1)), 2), pow(sin(s(1)), 2) + pow(cos(s(2)), 2),
+        pow(cosh(s(1)), 2) + pow(sinh(s(1)), 2), pow(sin(s(1)), 2) + 2 * pow(cos(s(1)), 2)})
+    EXPECT_EQ(count_operations(optimise({other})).calls, 2) << other;
 }
 
 TEST_F(Optimise, DeadCodeGoesAway) {

@@ -305,6 +305,18 @@ TEST(Steps, DoNotCreepWhereCoefficientsAreBeyondAllDoubles) {
   EXPECT_LT(orbit.steps, 200000U);
 }
 
+/// x' = -sign(x) sqrt|x| stays at 0 from t = 2 on, between two fields that point at each other,
+/// where the equations have a jump for doubles: steps end behind it for ever.
+TEST(Steps, DoNotChatterForLong) {
+  Builder lines({"x"});
+  const int root = lines.op(Op::sqrt, lines.op(Op::abs, 0));
+  lines.output(lines.op(Op::neg, lines.op(Op::mul, lines.op(Op::sign, 0), root)));
+  const Trajectory orbit = run(lines.program(), {1}, 5);
+  EXPECT_NE(orbit.status, Status::ok);
+  EXPECT_GE(orbit.time, 2 - 1e-9);
+  EXPECT_LT(orbit.steps + orbit.rejected, 500000U);
+}
+
 TEST(Steps, DoNotPassAPulseOver) {
   const double area = std::sqrt(std::acos(-1));
   for (const int inverse_width : {10, 100, 1000, 10000}) {
@@ -338,6 +350,29 @@ TEST(Steps, DoNotPassOneOfTwoPeaksOver) {
 }
 
 /// x' = sqrt(1 - t) ends at t = 1.
+/// A motion that sets out slowly, cos(t), is about as far from the pulse at c at the beginning of a
+/// step, a third on its way and at its end, on the other side: none of the three shows it.
+TEST(Steps, DoNotPassAPulseOverThatIsReachedFromRest) {
+  Builder lines({"q", "p"});
+  const int w = lines.number(cln::cl_RA(1) / 1000), c = lines.number(cln::cl_RA(14) / 25);
+  const int z = lines.op(Op::div, lines.op(Op::sub, 0, c), w);
+  const int force = lines.op(Op::exp, lines.op(Op::neg, lines.op(Op::mul, z, z)));
+  lines.output(1);
+  lines.output(lines.op(Op::sub, force, 0));
+  const StepWatch watch(lines.program());
+  const auto dense = [](const casimir_step*, double t, double* x) {
+    x[0] = std::cos(t);
+    x[1] = -std::sin(t);
+  };
+  const double x0[] = {1, 0};
+  for (double h = 1.2; h < 1.5; h += 0.01) {
+    const double x1[] = {std::cos(h), -std::sin(h)};
+    const casimir_step trial = {0, h, x0, x1, dense, nullptr, nullptr, nullptr};
+    StepLook look(watch, 2, nullptr, x0);
+    EXPECT_LT(look(trial), 1) << h;
+  }
+}
+
 TEST(Steps, EndWhereARootLosesItsRealValue) {
   Builder lines({"x"});
   const int u = lines.op(Op::sub, lines.number(1), lines.time());

@@ -73,6 +73,18 @@ TEST(ReferenceState, ARunThatIsGivenUpSaysSo) {
   EXPECT_EQ(none.failure, NoReference::took_too_long);
 }
 
+TEST(ReferenceState, WhereHighPrecisionTakesTooLongItIsTheMiddleOfABox) {
+  const Oscillator oscillator;
+  const Scene scene = oscillator.scene(10);
+  const ReferenceStateOrReason known =
+      reference_state_of(scene, prepare(oscillator.model, scene), {.longest = 0});
+  ASSERT_TRUE(known.truth) << known.reason;
+  EXPECT_NE(known.source.find("box"), std::string::npos);
+  EXPECT_NEAR(known.truth->state[0], std::cos(10.), known.error_bound);
+  EXPECT_GT(known.error_bound, 1e-17);
+  EXPECT_LT(known.error_bound, 1e-12);
+}
+
 TEST(ReferenceState, SizesAreTheLargestAlongTheRun) {
   const Oscillator oscillator;
   const Scene scene = scene_from(oscillator.model, {3, 0}, 10);

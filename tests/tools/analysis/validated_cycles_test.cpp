@@ -7,7 +7,9 @@
 
 #include <cmath>
 
+#include "symbolic/case_file.hpp"
 #include "tests/tools/analysis/systems.hpp"
+#include "tools/analysis/proof/ball_matrix.hpp"
 
 namespace casimir::test {
 namespace {
@@ -68,6 +70,46 @@ TEST(ValidatedCycles, WhatDoesNotCloseIsNotProved) {
   EXPECT_FALSE(enclose_cycles(two.model, two.scene, two.problem, {two.guess(0, 5)}).front().proved);
 }
 
+/// The second oscillator is as stiff as k: the first one's cycle is alone unless k passes 4.
+TEST(ValidatedCycles, OfARangeOfParametersAreABranchUnlessItIsDegenerateSomewhere) {
+  const double pi = std::acos(-1.);
+  const auto proof_of = [&](const std::string& middle, const cln::cl_RA& radius,
+                            const std::string& of_k = "") {
+    const Model model = build_model(parse_case(
+        "title = \"two\"\nhamiltonian = \"(u^2 + x^2 + v^2 + k*y^2)/2\"\n[phase_space]\n"
+        "variables = [\"x\", \"y\", \"u\", \"v\"]\ncanonical = true\n[parameters]\nk = {" +
+            of_k +
+            "}\n"
+            "[section]\nfunction = \"x\"\nplot = [\"y\", \"v\"]\n[[scene]]\nname = \"default\"\n"
+            "parameters = { k = \"" +
+            middle +
+            "\" }\ninitial = { x = \"0\", y = \"0\", u = \"1\", v = \"0\" }\nduration = \"1\"\n",
+        "two"));
+    const Scene& scene = model.scenes.front();
+    const SectionProblem problem = section_problem(model, scene);
+    return enclose_cycles(model, scene, problem, {Oscillators(2).guess(0, 2 * pi)}, {{"k", radius}})
+        .front();
+  };
+  const ProvedCycle branch = proof_of("2", cln::cl_RA(1) / 1000);
+  ASSERT_TRUE(branch.proved) << branch.reason;
+  for (const double k : {1.999, 2., 2.001})
+    EXPECT_TRUE(contains(branch.trace, 2 * std::cos(2 * pi * std::sqrt(k)), 1e-15));
+  EXPECT_TRUE(contains(branch.period, 2 * pi, 1e-15));
+  EXPECT_FALSE(proof_of("4-1/2000", cln::cl_RA(1) / 1000).proved);
+  const std::string below = "assume = \"k < 2 + 1/2000\"";
+  EXPECT_TRUE(proof_of("2", cln::cl_RA(1) / 4000, below).proved);
+  const ProvedCycle beyond = proof_of("2", cln::cl_RA(1) / 1000, below);
+  EXPECT_FALSE(beyond.proved);
+  EXPECT_NE(beyond.reason.find("assumption"), std::string::npos) << beyond.reason;
+}
+
+TEST(ValidatedCycles, TheLevelIsToldWithTheDigitsThatItHas) {
+  Oscillators two(2);
+  EXPECT_EQ(two.problem.proved_level_text(), "H = 0.5");
+  two.problem.levels = {0.1249961291166};
+  EXPECT_EQ(two.problem.proved_level_text(), "H = 0.1249961291166");
+}
+
 /// What is called a Casimir function is none: the level is not kept, and the proof rests on that.
 TEST(ValidatedCycles, NothingIsProvedOnAFalseLevel) {
   Oscillators two(2);
@@ -77,6 +119,40 @@ TEST(ValidatedCycles, NothingIsProvedOnAFalseLevel) {
   EXPECT_FALSE(enclose_cycles(two.model, two.scene, two.problem, {two.guess(0, 2 * std::acos(-1.))})
                    .front()
                    .proved);
+}
+
+/// x^2 = 2 in a box of radius 1e-6: Newton's test holds around the root, and not around a point
+/// that is moved by 1e-4, nor with a derivative that leaves something out.
+TEST(Krawczyk, FromAMovedPointOrWithAFalseDerivativeNothingIsProved) {
+  const auto proves = [](double at, bool whole) {
+    BallMatrix z(1, 1), box(1, 1), y(1, 1), derivative(1, 1), value(1, 1);
+    arb_set_d(z.at(0), at);
+    set_interval(box.at(0), {cln::rational(cln::cl_DF(at)) - cln::cl_RA(1) / 1000000,
+                             cln::rational(cln::cl_DF(at)) + cln::cl_RA(1) / 1000000});
+    arb_mul_2exp_si(derivative.at(0), box.at(0), 1);
+    if (!whole) arb_zero(derivative.at(0));
+    arb_set_d(y.at(0), 0.5 / std::sqrt(2.));
+    arb_mul(value.at(0), z.at(0), z.at(0), kBallBits);
+    arb_sub_ui(value.at(0), value.at(0), 2, kBallBits);
+    return inside(krawczyk(z, y, value, derivative, box), box);
+  };
+  EXPECT_TRUE(proves(std::sqrt(2.), true));
+  EXPECT_FALSE(proves(std::sqrt(2.) + 1e-4, true));
+  EXPECT_FALSE(proves(std::sqrt(2.) - 1e-4, true));
+  EXPECT_FALSE(proves(std::sqrt(2.), false));
+}
+
+/// From a cycle that is not known well the proof is of the true one, or there is none.
+TEST(ValidatedCycles, FromAGuessThatIsOffTheTrueCycleIsFoundOrNone) {
+  const double pi = std::acos(-1.);
+  const Oscillators two(2);
+  for (const double off : {1e-6, 1e-4, 1e-2}) {
+    const ProvedCycle proof =
+        enclose_cycles(two.model, two.scene, two.problem, {two.guess(off, 2 * pi + off)}).front();
+    if (!proof.proved) continue;
+    EXPECT_TRUE(contains(proof.period, 2 * pi, 1e-15)) << off;
+    EXPECT_TRUE(contains(proof.trace, 2 * std::cos(2 * pi * std::sqrt(2.)), 1e-15)) << off;
+  }
 }
 
 }  // namespace

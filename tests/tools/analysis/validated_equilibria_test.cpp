@@ -108,6 +108,39 @@ TEST(ValidatedEquilibria, WithoutABracketSinksAreStable) {
   }
 }
 
+/// dx/dt = r - x^2: a sink and a source for every r of a range above the fold at r = 0.
+TEST(ValidatedEquilibria, OfARangeOfParametersAreBranchesUnlessTheyFold) {
+  const auto proofs_of = [](const std::string& middle, const cln::cl_RA& radius) {
+    const Model model = model_of(
+        "title = \"t\"\n[phase_space]\nvariables = [\"x\"]\n[equations]\nx = \"r - x^2\"\n"
+        "[parameters]\nr = {}\n[[scene]]\nname = \"default\"\nparameters = { r = \"" +
+        middle + "\" }\ninitial = { x = \"1\" }\nduration = \"1\"\n");
+    const Scene& scene = model.scene("default");
+    return enclose_equilibria(model, scene, find_equilibria(model, scene, [](double) {}),
+                              {{"r", radius}});
+  };
+  const cln::cl_RA thousandth = cln::cl_RA(1) / 1000;
+  const auto branches = proofs_of("1/4", 10 * thousandth);
+  ASSERT_EQ(branches.size(), 2U);
+  for (const ProvedEquilibrium& branch : branches) {
+    ASSERT_TRUE(branch.proved) << branch.reason;
+    const bool sink = cln::plusp(branch.state[0].low);
+    for (const double r : {0.24, 0.25, 0.26}) {
+      const double x = sink ? std::sqrt(r) : -std::sqrt(r);
+      EXPECT_LE(cln::double_approx(branch.state[0].low), x);
+      EXPECT_GE(cln::double_approx(branch.state[0].high), x);
+    }
+    EXPECT_LT(cln::double_approx(branch.radius), 0.03);
+    EXPECT_EQ(branch.stability, sink ? ProvedStability::stable : ProvedStability::unstable);
+  }
+  // Through the fold, and where x is not there for some of the values.
+  for (const cln::cl_RA& radius : {250 * thousandth, 300 * thousandth})
+    for (const ProvedEquilibrium& branch : proofs_of("1/4", radius)) {
+      EXPECT_FALSE(branch.proved);
+      EXPECT_NE(branch.reason.find("range"), std::string::npos);
+    }
+}
+
 /// The second variation is indefinite and no eigenvalue is off the axis: neither is claimed.
 TEST(ValidatedEquilibria, OppositeOscillatorsAreNotDecided) {
   const GiNaC::symbol x("x"), y("y"), u("u"), v("v");

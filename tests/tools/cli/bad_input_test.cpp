@@ -27,7 +27,7 @@ TEST_P(BadCommandLine, IsRefused) {
   if (std::ranges::count(GetParam().arguments, "--json") == 0)
     EXPECT_TRUE(outcome.out.empty()) << outcome.out;
   else
-    EXPECT_TRUE(nlohmann::json::parse(outcome.out).contains("error")) << outcome.out;
+    EXPECT_TRUE(nlohmann::ordered_json::parse(outcome.out).contains("error")) << outcome.out;
   EXPECT_EQ(folder.files(), 0U);
 }
 
@@ -148,7 +148,7 @@ std::string case_with(const std::string& hamiltonian) {
 TEST(BadFile, ErrorsAreJsonToo) {
   const Outcome outcome = run({"verify", "-", "--json"}, case_with("p^2/2 + qq"));
   EXPECT_EQ(outcome.status, 2);
-  const auto json = nlohmann::json::parse(outcome.out);
+  const auto json = nlohmann::ordered_json::parse(outcome.out);
   EXPECT_EQ(json.at("schema"), 1);
   const auto& error = json.at("error");
   EXPECT_EQ(error.at("file"), "<standard input>");
@@ -159,10 +159,13 @@ TEST(BadFile, ErrorsAreJsonToo) {
   EXPECT_NE(outcome.err.find("<standard input>:1:24: error: 'qq'"), std::string::npos);
   // Before a command line is understood as well, and where there is no place.
   const Outcome option = run({"verify", "euler", "--json", "--nosuch"});
-  EXPECT_NE(
-      nlohmann::json::parse(option.out).at("error").at("text").get<std::string>().find("--nosuch"),
-      std::string::npos);
-  EXPECT_EQ(nlohmann::json::parse(run({"verify", "euler", "--json"}).out).at("schema"), 1);
+  EXPECT_NE(nlohmann::ordered_json::parse(option.out)
+                .at("error")
+                .at("text")
+                .get<std::string>()
+                .find("--nosuch"),
+            std::string::npos);
+  EXPECT_EQ(nlohmann::ordered_json::parse(run({"verify", "euler", "--json"}).out).at("schema"), 1);
 }
 
 TEST(BadFile, LargerThanTheStatedLimitIsRefused) {

@@ -214,7 +214,7 @@ TEST(Fault, TwoHundredAtOnceOnAColdCacheAgree) {
   int compiled = 0;
   for (int i = 1; i <= 200; ++i) {
     const auto json =
-        nlohmann::json::parse(file_text(folder.path() / (std::to_string(i) + ".json")));
+        nlohmann::ordered_json::parse(file_text(folder.path() / (std::to_string(i) + ".json")));
     states.insert(json.at("state").dump());
     compiled += json.at("from_cache") == false;
   }

@@ -48,7 +48,7 @@ TEST(Instructions, BenchSaysWhichItMeasured) {
 
 TEST(Instructions, EachHasItsOwnObjectInTheCacheAndComesToTheSameEnd) {
   const Folder cache;
-  nlohmann::json widest;
+  nlohmann::ordered_json widest;
   std::size_t sets = 0;
   for (const InstructionSet set : instruction_sets_here()) {
     ++sets;

@@ -11,7 +11,7 @@ namespace {
 
 /// A cache of its own, so that what one run compiles the next one finds.
 struct KeepParams : ::testing::Test {
-  nlohmann::json integrate(std::vector<std::string> arguments) const {
+  nlohmann::ordered_json integrate(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "integrate");
     if (std::count(arguments.begin(), arguments.end(), "--method") == 0)
       arguments.insert(arguments.end(), {"--method", "dop853"});  // one that is compiled
@@ -19,7 +19,7 @@ struct KeepParams : ::testing::Test {
     const Outcome outcome =
         run_in(folder, arguments, {}, {{"CASIMIR_CACHE", (cache.path() / "cache").string()}});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
-    return outcome.status == 0 ? outcome.json() : nlohmann::json{};
+    return outcome.status == 0 ? outcome.json() : nlohmann::ordered_json{};
   }
   Folder folder, cache;
 };

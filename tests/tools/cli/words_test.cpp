@@ -9,7 +9,7 @@
 namespace casimir::test {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 Json answered(const Folder& folder, std::vector<std::string> arguments, int status = 0) {
   arguments.emplace_back("--json");

@@ -25,8 +25,8 @@ std::string top(int n) {
          ")\"\n[[scene]]\nname = \"default\"\ninitial = { " + start + " }\nduration = \"2\"\n";
 }
 
-nlohmann::json answered(const std::string& text, const std::vector<std::string>& more,
-                        const Environment& environment = {}) {
+nlohmann::ordered_json answered(const std::string& text, const std::vector<std::string>& more,
+                                const Environment& environment = {}) {
   std::vector<std::string> words{"integrate", "-", "--json"};
   words.insert(words.end(), more.begin(), more.end());
   const Outcome outcome = run(words, text, environment);
@@ -34,7 +34,7 @@ nlohmann::json answered(const std::string& text, const std::vector<std::string>&
   return outcome.json();
 }
 
-double distance(const nlohmann::json& a, const nlohmann::json& b) {
+double distance(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b) {
   double largest = 0;
   for (const auto& [name, value] : a.at("state").items())
     largest = std::max(largest, std::abs(std::stod(value.get<std::string>()) -
@@ -52,6 +52,29 @@ TEST(AutoMethod, ManyCompiledProductsAndFewDigitsAreForRungeKutta) {
   // What was estimated is what is known of any other run.
   EXPECT_LT(distance(few, many),
             std::stod(few.at("trust").at("error_estimate").get<std::string>()) * 3);
+}
+
+/// The integral of log(1 + exp(1000 (t - 5))) from 0 to 10 is 12500 + Pi^2/6/1000; that of
+/// 1/(1 + exp(10^5 (t - 1/2))) to 1 is 1/2.
+TEST(AutoMethod, ExponentsBeyondAllDoublesAreKeptApart) {
+  const auto scene = [](const std::string& rate, const char* duration) {
+    return "[phase_space]\nvariables = [\"x\"]\ntime = \"t\"\n[equations]\nx = \"" + rate +
+           "\"\n[[scene]]\nname = \"default\"\ninitial = { x = \"0\" }\nduration = \"" + duration +
+           "\"\n";
+  };
+  const auto x = [](const nlohmann::ordered_json& answer) {
+    return std::stod(answer.at("state").at("x").get<std::string>());
+  };
+  const double softplus = 12500 + std::pow(std::acos(-1), 2) / 6000;
+  const std::string log = scene("log(1 + exp(1000*(t - 5)))", "10");
+  for (const char* method : {"auto", "taylor", "gauss8"}) {
+    const auto answer = answered(log, {"--method", method});
+    EXPECT_NEAR(x(answer), softplus, 1e-8) << method;
+  }
+  EXPECT_NE(answered(log, {}).at("chosen").get<std::string>().find("taken out of logarithms"),
+            std::string::npos);
+  const std::string front = scene("1/(1 + exp(100000*(t - 1/2)))", "1");
+  EXPECT_NEAR(x(answered(front, {"--method", "taylor"})), 0.5, 1e-9);
 }
 
 TEST(AutoMethod, WhatNeedsNoCompilerStaysWithTables) {
@@ -81,7 +104,7 @@ TEST(AutoMethod, LongRunsAreByTheClosedFormWhereThereIsOne) {
   EXPECT_EQ(closed.at("method"), "exact");
   const auto stepped = answered(gyrostat("1000000"), {}, {{"CASIMIR_CLOSED_FORMS", "off"}});
   EXPECT_EQ(stepped.at("method"), "taylor");
-  const auto estimate = [](const nlohmann::json& run) {
+  const auto estimate = [](const nlohmann::ordered_json& run) {
     return std::stod(run.at("trust").at("error_estimate").get<std::string>());
   };
   EXPECT_LT(estimate(closed), 1e-15);

@@ -13,7 +13,7 @@
 namespace casimir::test {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 /// A case of plain equations, with whatever follows the scene's name.
 std::string equations_case(const std::string& equations, const std::string& scene) {

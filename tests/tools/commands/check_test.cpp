@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "tests/tools/program.hpp"
 #include "tools/analysis/certificate/certificate_file.hpp"
@@ -27,7 +28,7 @@ TEST(CheckCommand, ChecksWhatIntegrateWrites) {
     ASSERT_EQ(written.status, 0) << written.err;
     const Outcome outcome = run_in(folder, {"check", "run.json", "--json"});
     ASSERT_EQ(outcome.status, 0) << outcome.err << outcome.out;
-    const nlohmann::json checked = outcome.json();
+    const nlohmann::ordered_json checked = outcome.json();
     EXPECT_EQ(checked.at("verdict"), "checked");
     EXPECT_EQ(checked.at("case"), "kovalevskaya");
     EXPECT_EQ(checked.at("t"), "3");
@@ -65,6 +66,15 @@ TEST(CheckCommand, WhatIsFalseIsRefutedWithItsStep) {
   EXPECT_EQ(run_in(folder, {"integrate", "kovalevskaya", "--certificate", "c.json"}).status, 2);
 }
 
+// The verification of what was enclosed takes many times as long as the run: the limit is for both.
+TEST(CheckCommand, TheTimeLimitEndsTheVerificationBeforeACertificateIsWritten) {
+  const Folder folder;
+  const Outcome late = run_in(folder, {"integrate", "kovalevskaya", "--validated", "--duration",
+                                       "5000", "--certificate", "late.json", "--time-limit", "2"});
+  EXPECT_EQ(late.status, 4) << late.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "late.json"));
+}
+
 TEST(ValidatedSection, EnclosesEveryCrossingOfTheOrbit) {
   const Folder folder;
   const std::string oscillator = folder.write("two.toml", R"toml(title = "Two oscillators"
@@ -83,7 +93,7 @@ duration = "40"
 )toml");
   const Outcome outcome = run_in(folder, {"section", oscillator, "--validated", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err << outcome.out;
-  const nlohmann::json proved = outcome.json().at("validated");
+  const nlohmann::ordered_json proved = outcome.json().at("validated");
   EXPECT_TRUE(proved.at("starts_on_plane"));
   // x - y = sin t - 3 sin(sqrt(2) t) / (4 sqrt(2)), which a fine grid finds the zeros of.
   const auto s = [](double t) {
@@ -99,7 +109,7 @@ duration = "40"
   ASSERT_EQ(proved.at("count"), up.size());
   EXPECT_EQ(proved.at("count_back"), down);
   for (std::size_t i = 0; i < up.size(); ++i) {
-    const nlohmann::json& t = proved.at("crossings")[i].at("t");
+    const nlohmann::ordered_json& t = proved.at("crossings")[i].at("t");
     const double low = std::stod(t[0].get<std::string>()),
                  high = std::stod(t[1].get<std::string>());
     EXPECT_LT(s(low - 1e-9), 0);
@@ -111,7 +121,7 @@ duration = "40"
   const Outcome touching =
       run_in(folder, {"section", oscillator, "--validated", "--plane", "x - 1", "--json"});
   EXPECT_EQ(touching.status, 5) << touching.out;
-  EXPECT_EQ(run_in(folder, {"section", oscillator, "--validated", "--orbits", "3"}).status, 2);
+  EXPECT_EQ(run_in(folder, {"section", oscillator, "--validated", "--points", "3"}).status, 2);
   EXPECT_EQ(run_in(folder, {"section", oscillator, "--duration", "3"}).status, 2);
 }
 

@@ -8,7 +8,7 @@
 namespace casimir::test {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 double coordinate(const Json& json, const std::string& name) {
   return std::stod(json.at("state").at(name).get<std::string>());

@@ -12,13 +12,13 @@
 namespace casimir::test {
 namespace {
 
-nlohmann::json run_cold(const Folder& cache, std::vector<std::string> arguments) {
+nlohmann::ordered_json run_cold(const Folder& cache, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "integrate");
   arguments.emplace_back("--json");
   const Outcome outcome =
       run(arguments, {}, {{"CASIMIR_CACHE", (cache.path() / "modules").string()}});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  return outcome.status == 0 ? outcome.json() : nlohmann::json{};
+  return outcome.status == 0 ? outcome.json() : nlohmann::ordered_json{};
 }
 
 bool has_module(const Folder& cache) {

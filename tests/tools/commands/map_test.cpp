@@ -10,7 +10,7 @@
 namespace casimir::test {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 TEST(MapCommands, WhatDiscretiseWritesIsACase) {
   const Folder folder;

@@ -9,11 +9,11 @@
 namespace casimir::test {
 namespace {
 
-double drift(const nlohmann::json& run, const char* name) {
+double drift(const nlohmann::ordered_json& run, const char* name) {
   return std::stod(run.at("invariants").at(name).at("drift").get<std::string>());
 }
 
-nlohmann::json end_of(std::vector<std::string> more) {
+nlohmann::ordered_json end_of(std::vector<std::string> more) {
   const Folder folder;
   std::vector<std::string> arguments{"integrate", "kovalevskaya", "--json"};
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -22,8 +22,8 @@ nlohmann::json end_of(std::vector<std::string> more) {
   return outcome.json();
 }
 
-double error(const nlohmann::json& run) {
-  static const nlohmann::json exact = end_of({});
+double error(const nlohmann::ordered_json& run) {
+  static const nlohmann::ordered_json exact = end_of({});
   double largest = 0;
   for (const auto& [name, value] : exact.at("state").items())
     largest = std::max(largest, std::abs(std::stod(run.at("state").at(name).get<std::string>()) -
@@ -33,9 +33,10 @@ double error(const nlohmann::json& run) {
 
 TEST(Projection, KeepsEveryProvedInvariantAtACoarseToleranceByEveryMethod) {
   for (const char* method : {"dop853", "taylor", "taylor-compiled", "gauss8", "radau9"}) {
-    const nlohmann::json plain = end_of({"--method", method, "--tolerance", "1e-6"});
-    const nlohmann::json kept = end_of({"--method", method, "--tolerance", "1e-6", "--project"});
-    EXPECT_EQ(kept.at("projected"), (nlohmann::json{"H", "F1", "F2", "K"}));
+    const nlohmann::ordered_json plain = end_of({"--method", method, "--tolerance", "1e-6"});
+    const nlohmann::ordered_json kept =
+        end_of({"--method", method, "--tolerance", "1e-6", "--project"});
+    EXPECT_EQ(kept.at("projected"), (nlohmann::ordered_json{"H", "F1", "F2", "K"}));
     EXPECT_GT(drift(plain, "K"), 1e-9) << method;
     for (const char* name : {"H", "F1", "F2", "K"}) EXPECT_LT(drift(kept, name), 2e-15) << method;
     EXPECT_LT(error(kept), 3 * error(plain)) << method;
@@ -43,9 +44,9 @@ TEST(Projection, KeepsEveryProvedInvariantAtACoarseToleranceByEveryMethod) {
 }
 
 TEST(Projection, OntoSomeLeavesTheOthers) {
-  const nlohmann::json run =
+  const nlohmann::ordered_json run =
       end_of({"--method", "dop853", "--tolerance", "1e-6", "--project-onto", "F1,F2"});
-  EXPECT_EQ(run.at("projected"), (nlohmann::json{"F1", "F2"}));
+  EXPECT_EQ(run.at("projected"), (nlohmann::ordered_json{"F1", "F2"}));
   EXPECT_LT(drift(run, "F1"), 2e-15);
   EXPECT_GT(drift(run, "K"), 1e-9);
 }

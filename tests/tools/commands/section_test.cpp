@@ -11,7 +11,7 @@
 namespace casimir::test {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 const double kPi = std::acos(-1.);
 
@@ -101,7 +101,7 @@ TEST(Section, TheFixedPointsOfTheHeavyTopAreProved) {
     ++proved;
   }
   EXPECT_GE(proved, 4U);
-  EXPECT_EQ(run({"section", "euler-poisson", "--validated", "--orbits", "3"}).status, 2);
+  EXPECT_EQ(run({"section", "euler-poisson", "--validated", "--points", "3"}).status, 2);
 }
 
 TEST(Section, TheOtherDirectionIsTheMirrorImage) {

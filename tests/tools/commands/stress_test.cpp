@@ -9,7 +9,7 @@
 namespace casimir::test {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 /// dx/dt = x^2 from 1, at infinity at t = 1, with whatever ends the scene.
 std::string escaping_case(const std::string& scene) {

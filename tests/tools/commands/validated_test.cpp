@@ -16,16 +16,16 @@ Outcome enclosed(const std::string& name, std::vector<std::string> more) {
   return run_in(folder, arguments);
 }
 
-double end(const nlohmann::json& run, const char* variable, int which) {
+double end(const nlohmann::ordered_json& run, const char* variable, int which) {
   return std::stod(run.at("validated").at("enclosure").at(variable).at(which).get<std::string>());
 }
 
 TEST(ValidatedCommand, SaysWhatTheInterfacePromises) {
   const Outcome outcome = enclosed("kovalevskaya", {});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const nlohmann::json run = outcome.json();
-  const nlohmann::json& validated = run.at("validated");
-  EXPECT_EQ(validated.at("contracted_by"), (nlohmann::json{"H", "F1", "F2", "K"}));
+  const nlohmann::ordered_json run = outcome.json();
+  const nlohmann::ordered_json& validated = run.at("validated");
+  EXPECT_EQ(validated.at("contracted_by"), (nlohmann::ordered_json{"H", "F1", "F2", "K"}));
   EXPECT_LT(std::stod(validated.at("radius").get<std::string>()), 5e-12);
   EXPECT_GT(validated.at("steps"), 100);
   EXPECT_EQ(run.at("trust").at("verdict"), "proved");
@@ -39,7 +39,7 @@ TEST(ValidatedCommand, SaysWhatTheInterfacePromises) {
 TEST(ValidatedCommand, RefusesWithTheTimeReached) {
   const Outcome outcome = enclosed("riccati", {"--scene", "pole"});
   EXPECT_EQ(outcome.status, 5);
-  const nlohmann::json run = outcome.json();
+  const nlohmann::ordered_json run = outcome.json();
   EXPECT_EQ(run.at("status"), "not_enclosed");
   EXPECT_GT(std::stod(run.at("stopped").at("time").get<std::string>()), 0);
   EXPECT_NE(outcome.err.find("enclosed up to t = "), std::string::npos) << outcome.err;
@@ -51,7 +51,7 @@ TEST(ValidatedCommand, RangesContainWhatTheirMembersDo) {
   ASSERT_EQ(wide.status, 0) << wide.err;
   ASSERT_EQ(start.status, 0) << start.err;
   for (const char* r : {"1", "1.0003", "1.001"}) {
-    const nlohmann::json one =
+    const nlohmann::ordered_json one =
         enclosed("kovalevskaya", {"--param", std::string("r=") + r, "--duration", "5"}).json();
     for (const char* name : {"M1", "M2", "M3", "g1", "g2", "g3"}) {
       EXPECT_LE(end(wide.json(), name, 0), end(one, name, 0));
@@ -59,7 +59,7 @@ TEST(ValidatedCommand, RangesContainWhatTheirMembersDo) {
     }
   }
   for (const char* from : {"M1=1.001", "M2=0.499", "M3=0.334"}) {
-    const nlohmann::json one =
+    const nlohmann::ordered_json one =
         enclosed("kovalevskaya", {"--initial", from, "--duration", "5"}).json();
     for (const char* name : {"M1", "M2", "M3", "g1", "g2", "g3"}) {
       EXPECT_LE(end(start.json(), name, 0), end(one, name, 0));
@@ -86,8 +86,8 @@ duration = "Pi"
 )toml");
   const Outcome outcome = run_in(folder, {"integrate", file, "--validated", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const nlohmann::json run = outcome.json();
-  EXPECT_EQ(run.at("validated").at("contracted_by"), nlohmann::json{"circle"});
+  const nlohmann::ordered_json run = outcome.json();
+  EXPECT_EQ(run.at("validated").at("contracted_by"), nlohmann::ordered_json{"circle"});
   ASSERT_EQ(run.at("warnings").size(), 1U);
   EXPECT_NE(run.at("warnings")[0].get<std::string>().find("wrong"), std::string::npos);
   // Half a turn, though neither pi nor the root of two is a double.

@@ -16,7 +16,7 @@ struct View {
 
 /// What a browser says of a page.
 struct Seen {
-  nlohmann::json found;              ///< by the script below
+  nlohmann::ordered_json found;      ///< by the script below
   std::vector<std::string> console;  ///< everything that was written there
 };
 
@@ -43,7 +43,7 @@ addEventListener('load', () => {
   const found = {
     width: document.documentElement.scrollWidth,
     inner: innerWidth,
-    requests: performance.getEntriesByType('resource').map(e => e.name),
+    requests: performance.getEntriesByType('resource').map(e => e.name).filter(n => !n.startsWith('blob:')),
     scripts: document.scripts.length,
     math: all('math').filter(m => m.getBoundingClientRect().width > 0).length,
     untypeset: all('math').filter(m => m.textContent.includes('\\')).map(m => m.textContent),
@@ -113,7 +113,7 @@ inline Seen look(const std::string& page, const View& view = {}) {
   if (const std::size_t at = dom.find(mark); at != std::string::npos) {
     const std::size_t begin = at + mark.size();
     seen.found =
-        nlohmann::json::parse(from_base64(dom.substr(begin, dom.find('<', begin) - begin)));
+        nlohmann::ordered_json::parse(from_base64(dom.substr(begin, dom.find('<', begin) - begin)));
   }
   std::istringstream log(file_text(folder.path() / "log"));
   for (std::string line; std::getline(log, line);)

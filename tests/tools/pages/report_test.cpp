@@ -22,7 +22,7 @@ void expect_readable(const Seen& seen, const View& view) {
   ASSERT_TRUE(found.is_object());
   EXPECT_TRUE(seen.console.empty()) << seen.console.front();
   EXPECT_TRUE(found.at("requests").empty()) << found.at("requests");
-  EXPECT_EQ(found.at("scripts"), 1) << "the probe alone";
+  EXPECT_EQ(found.at("scripts"), 3) << "data, script and the probe";
   EXPECT_EQ(found.at("inner"), view.width);
   EXPECT_LE(found.at("width"), view.width) << "it scrolls sideways";
   EXPECT_TRUE(found.at("broken").empty()) << found.at("broken");
@@ -74,7 +74,7 @@ TEST(Report, TextOfStrangersIsNoMarkupAndWhatIsRefutedIsShown) {
   EXPECT_EQ(outcome.status, 1) << outcome.err;
   const std::string page = file_text(folder.path() / "e.html");
   EXPECT_EQ(nesting_problem(page), "");
-  for (const char* markup : {"<script", "<i>", "<u>", "<img", "<b>"})
+  for (const char* markup : {"<script>alert", "</title><script", "<i>", "<u>", "<img", "<b>"})
     EXPECT_EQ(page.find(markup), std::string::npos) << markup;
   for (const char* part : {"&lt;script&gt;alert(&#39;1&#39;)", "✗", "refuted", "witness",
                            "residual", "&lt;i&gt;&amp;amp;"})
@@ -84,7 +84,7 @@ TEST(Report, TextOfStrangersIsNoMarkupAndWhatIsRefutedIsShown) {
   const Seen seen = look(page, view);
   ASSERT_TRUE(seen.found.is_object());
   EXPECT_TRUE(seen.console.empty()) << seen.console.front();
-  EXPECT_EQ(seen.found.at("scripts"), 1);
+  EXPECT_EQ(seen.found.at("scripts"), 3);
   EXPECT_LE(seen.found.at("width"), view.width);
 }
 
@@ -109,6 +109,13 @@ TEST(Report, OfAllCasesHasAnIndexWhoseLinksLead) {
     expect_self_contained(page);
     EXPECT_NE(page.find("href=\"index.html\""), std::string::npos) << name;
   }
+  // The order is that of the list, and each leads to the next.
+  EXPECT_NE(file_text(folder.path() / "out" / "one.html").find("rel=\"next\" href=\"two.html\""),
+            std::string::npos);
+  EXPECT_NE(file_text(folder.path() / "out" / "two.html").find("rel=\"prev\" href=\"one.html\""),
+            std::string::npos);
+  for (const char* part : {"id=\"search\"", "<svg", "data-words=\"first one", "Beside the book"})
+    EXPECT_NE(index.find(part), std::string::npos) << part;
 }
 
 TEST(Report, IsWrittenWithoutPicturesWhereGnuplotIsMissing) {

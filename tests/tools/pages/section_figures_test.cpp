@@ -10,7 +10,7 @@
 namespace casimir::test {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 const double kPi = std::acos(-1.);
 
@@ -232,7 +232,7 @@ TEST(SectionFigures, FixedPointsOfFigure14) {
     const double rate = size * std::sqrt(centre ? (1. / 3) * (1. / 2) : (1. / 3) * (1. / 6));
     const double angle = rate * number(cycle, "period");
     EXPECT_NEAR(number(cycle, "trace"), 2 * (centre ? std::cos(angle) : std::cosh(angle)), 1e-6);
-    const nlohmann::json& multiplier = cycle.at("multipliers").at(0);
+    const nlohmann::ordered_json& multiplier = cycle.at("multipliers").at(0);
     EXPECT_NEAR(std::stod(multiplier[0].get<std::string>()),
                 centre ? std::cos(angle) : std::exp(std::abs(angle)), 1e-5);
     EXPECT_NEAR(std::abs(std::stod(multiplier[1].get<std::string>())),

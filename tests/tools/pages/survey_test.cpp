@@ -100,7 +100,7 @@ TEST(Survey, CountsAsVerifyAndGenerateDo) {
   EXPECT_EQ(row.at("verdict"), "proved");
   EXPECT_EQ(row.at("scenes").at(0), "default");
   EXPECT_EQ(row.at("scene"), "default");
-  EXPECT_EQ(row.at("states"), (nlohmann::json{{"all", 6}, {"kept", 6}}));
+  EXPECT_EQ(row.at("states"), (nlohmann::ordered_json{{"all", 6}, {"kept", 6}}));
   const auto verified = run({"verify", "kovalevskaya", "--json"}).json();
   EXPECT_EQ(row.at("claims").at("counted"),
             verified.at("claims").size() + verified.at("facts").size());

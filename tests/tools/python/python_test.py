@@ -348,7 +348,7 @@ class Process(unittest.TestCase):
 
 
 def load_tests(loader, tests, ignore):
-    readme = Path(__file__).resolve().parents[3] / "README.md"
+    readme = Path(__file__).resolve().parents[3] / "tools" / "python" / "README.md"
     tests.addTests(doctest.DocFileSuite(str(readme), module_relative=False))
     tests.addTests(doctest.DocTestSuite(casimir))
     for name in ("_case", "_exact", "_html", "_progress"):

@@ -22,6 +22,20 @@ name = "default"
 initial = { x = "1" }
 duration = "2"
 """
+DUFFING = """title = "x"
+[phase_space]
+variables = ["c", "s", "x", "y"]
+[equations]
+c = "-s"
+s = "c"
+x = "y/4"
+y = "(x - x^3)/4 + c/12"
+[integrals]
+R = "c^2 + s^2"
+[[scene]]
+name = "default"
+initial = { c = "1", s = "0", x = "1/10", y = "1/7" }
+"""
 FAMILY = """title = "x"
 hamiltonian = "(px^2 + py^2 + x^2 + y^2)/2 + x^2*y + c*y^3/3"
 [phase_space]
@@ -31,24 +45,39 @@ canonical = true
 c = {}
 """
 
+ALGEBRA = """title = "x"
+hamiltonian = "M1^2 + 2*M2^2 + 3*M3^2"
+[phase_space]
+variables = ["M1", "M2", "M3"]
+algebra = "{}"
+"""
+
 #: For each schema command lines, without --json, with the statuses that they may end with.
 COMMANDS = {
     "list": [("list",), ("list", "--tag", "map")],
     "show": [("show", "kovalevskaya"), ("show", "euler-lax"), ("show", "./blowup.toml")],
     "show-map": [("show", "mcmillan")],
+    "show-nve": [("show", "./family.toml", "--nve", "--param", "c=3"), ("show", "euler", "--nve")],
     "verify": [("verify", "kovalevskaya"), ("verify", "euler", "--integral", "M1"), ("verify", "mcmillan"),
+               ("verify", "./family.toml", "--param", "c=3", "--obstruct"),
                ("verify", "kovalevskaya", "--time-limit", "0.000001")],
     "verify-all": [("verify", "--all", "--tag", "map")],
     "search": [("search", "euler", "--degree", "2"), ("search", "lagrange", "--degree", "2", "--casimirs")],
     "search-free": [("search", "./family.toml", "--degree", "3", "--free", "c")],
     "search-darboux": [("search", "./blowup.toml", "--degree", "2", "--darboux")],
     "exponents": [("exponents", "kovalevskaya"), ("exponents", "henon-heiles")],
-    "obstruct": [("obstruct", "henon-heiles"), ("obstruct", "euler-poisson")],
+    "obstruct": [("obstruct", "henon-heiles"), ("obstruct", "euler-poisson"),
+                 ("obstruct", "./family.toml", "--param", "c=3", "--certificate", "c.v"),
+                 ("obstruct", "./family.toml", "--param", "c=2")],
     "degrees": [("degrees", "mcmillan")],
     "degrees-all": [("degrees", "--all", "--kahan", "--tag", "free-top")],
     "discretise": [("discretise", "euler", "--kahan", "-o", "kahan.toml")],
+    "relate": [("relate", "henon-heiles", "henon-heiles", "--bracket"), ("relate", "./rotations.toml", "./boosts.toml"),
+               ("relate", "./rotations.toml", "./rotations.toml")],
+    "relate-symmetries": [("relate", "lagrange"), ("relate", "./rotations.toml")],
     "equilibria": [("equilibria", "euler"), ("equilibria", "euler", "--validated")],
-    "check": [("check", "euler.cert"), ("check", "wide.cert"), ("check", "euler.cert", "--time-limit", "0.0000001")],
+    "check": [("check", "euler.cert"), ("check", "wide.cert"), ("check", "euler.cert", "--time-limit", "0.0000001"),
+              ("check", "chaos.cert"), ("check", "chaos.cert", "--time-limit", "0.0000001")],
     "report": [("report", "euler", "--budget", "0", "--output", "euler.html")],
     "report-all": [("report", "--all", "--tag", "appendix-F", "--budget", "0", "--output", "pages")],
     "generate": [("generate", "euler", "-o", "euler.hpp")],
@@ -58,8 +87,11 @@ COMMANDS = {
     "integrate-validated": [("integrate", "euler", "--duration", "1", "--validated")],
     "integrate-map": [("integrate", "mcmillan", "--duration", "10")],
     "integrate-ensemble": [("integrate", "euler", "--ensemble", "members.csv", "--duration", "1")],
+    "integrate-frequencies": [("integrate", "euler", "--duration", "200", "--frequencies", "2")],
+    "section-symmetry": [("section", "euler", "--period", "10.8", "--symmetry", "M2=-M2", "--symmetry", "M3=-M3")],
     "conserve": [("conserve", "euler", "--method", "taylor", "--duration", "1")],
     "section": [("section", "euler-poisson", "--scene", "chaotic", "--orbits", "2", "--points", "5")],
+    "section-horseshoe": [("section", "kovalevskaya", "--horseshoe", "--time-limit", "0.1")],
     "bench": [("bench", "euler", "--tolerances", "1e-6", "--method", "taylor", "--budget", "0.01", "--duration", "1")],
     "stress": [("stress", "solvable-algebra", "--method", "taylor")],
     "sweep": [("sweep", "euler", "--over", "a1=1:2:2", "--duration", "1", "--output", "sweep.csv")],
@@ -77,10 +109,14 @@ class Schemas(unittest.TestCase):
         folder = Path(cls.temporary.name)
         (folder / "blowup.toml").write_text(BLOWUP)
         (folder / "family.toml").write_text(FAMILY)
+        for name, algebra in (("rotations", "so(3)"), ("boosts", "sl(2)")):
+            (folder / f"{name}.toml").write_text(ALGEBRA.format(algebra))
         (folder / "members.csv").write_text("M1\n1\n2\n")
         run = ("integrate", "euler", "--duration", "1", "--validated")
         cls.document(folder, (*run, "--certificate", "euler.cert"))
         cls.document(folder, (*run, "--initial-radius", "0.001", "--certificate", "wide.cert"))
+        (folder / "duffing.toml").write_text(DUFFING)
+        cls.document(folder, ("section", "./duffing.toml", "--horseshoe", "--plane", "s", "--certificate", "chaos.cert"))
         cls.documents = {
             name: [cls.document(folder, words) for words in lines] for name, lines in COMMANDS.items()
         }

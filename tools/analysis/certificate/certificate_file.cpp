@@ -17,7 +17,7 @@
 namespace casimir {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 29;
 /// Of arrays and objects in one another.
@@ -245,6 +245,50 @@ CycleCertificate cycle_of(const Json& json, const std::string& path,
   return cycle;
 }
 
+CertifiedSet set_of(const Json& json, const std::string& path, const CertificateReader& reader) {
+  reader.check_keys(json, path, {"name", "centre", "frame", "sheet"});
+  CertifiedSet set;
+  set.name = reader.text(json, path, "name");
+  set.centre = reader.numbers(reader.entry(json, path, "centre"), path + "/centre", 0);
+  const std::size_t n = set.centre.size();
+  if (n < 3) reader.malformed(path + "/centre", "three numbers or more");
+  set.frame = reader.numbers(reader.entry(json, path, "frame"), path + "/frame", n * n);
+  set.sheet = reader.numbers(reader.entry(json, path, "sheet"), path + "/sheet", n - 2);
+  return set;
+}
+
+HorseshoeCertificate horseshoe_of(const Json& json, const CertificateReader& reader) {
+  constexpr std::size_t kMostSets = 10000;
+  reader.check_keys(json, "",
+                    {"certificate", "format", "case", "equations", "plane", "levels", "sets",
+                     "coverings", "digest"});
+  HorseshoeCertificate certificate;
+  certificate.of_case = reader.text(json, "", "case");
+  certificate.equations = reader.text(json, "", "equations");
+  certificate.plane = reader.text(json, "", "plane");
+  const Json& levels = reader.entry(json, "", "levels");
+  if (!levels.is_array()) reader.malformed("/levels", "a list of intervals");
+  for (std::size_t a = 0; a < levels.size(); ++a) {
+    const auto ends = reader.numbers(levels[a], fmt::format("/levels/{}", a), 2);
+    certificate.levels.push_back({ends[0], ends[1]});
+  }
+  const Json& sets = reader.entry(json, "", "sets");
+  if (!sets.is_array() || sets.empty() || sets.size() > kMostSets)
+    reader.malformed("/sets", fmt::format("a list of 1 to {} h-sets", kMostSets));
+  for (std::size_t k = 0; k < sets.size(); ++k)
+    certificate.sets.push_back(set_of(sets[k], fmt::format("/sets/{}", k), reader));
+  const Json& coverings = reader.entry(json, "", "coverings");
+  if (!coverings.is_array()) reader.malformed("/coverings", "a list of pairs");
+  const auto last = static_cast<int>(sets.size()) - 1;
+  for (std::size_t k = 0; k < coverings.size(); ++k) {
+    const std::string path = fmt::format("/coverings/{}", k);
+    if (!coverings[k].is_array() || coverings[k].size() != 2) reader.malformed(path, "a pair");
+    certificate.coverings.emplace_back(reader.whole(coverings[k][0], path + "/0", 0, last),
+                                       reader.whole(coverings[k][1], path + "/1", 0, last));
+  }
+  return certificate;
+}
+
 }  // namespace
 
 std::string with_digest(const std::string& text) {
@@ -277,6 +321,21 @@ std::string certificate_text(const std::vector<CycleCertificate>& cycles) {
   return with_digest(text + "]");
 }
 
+std::string certificate_text(const HorseshoeCertificate& certificate) {
+  std::string text = fmt::format(
+      "{{\"certificate\": \"horseshoe\", \"format\": {},\n\"case\": {},\n\"equations\": {},\n"
+      "\"plane\": {},\n\"levels\": {},\n\"sets\": [\n",
+      kFormat, quoted_json(certificate.of_case), quoted_json(certificate.equations),
+      quoted_json(certificate.plane), Json(certificate.levels).dump());
+  for (std::size_t k = 0; k < certificate.sets.size(); ++k) {
+    const CertifiedSet& set = certificate.sets[k];
+    text += fmt::format("{{\"name\": {}, \"centre\": {}, \"frame\": {}, \"sheet\": {}}}{}",
+                        quoted_json(set.name), list_text(set.centre), list_text(set.frame),
+                        list_text(set.sheet), k + 1 < certificate.sets.size() ? ",\n" : "],\n");
+  }
+  return with_digest(text + fmt::format("\"coverings\": {}", Json(certificate.coverings).dump()));
+}
+
 CertificateFile read_certificate(const std::string& text, const std::string& file) {
   const CertificateReader reader(file);
   if (text.size() > kMostBytes) reader.malformed("/", "a file of at most 512 MiB");
@@ -296,7 +355,11 @@ CertificateFile read_certificate(const std::string& text, const std::string& fil
     result.run = run_of(json, reader);
     return result;
   }
-  if (kind != "cycles") reader.malformed("/certificate", "\"run\" or \"cycles\"");
+  if (kind == "horseshoe") {
+    result.horseshoe = horseshoe_of(json, reader);
+    return result;
+  }
+  if (kind != "cycles") reader.malformed("/certificate", "\"run\", \"cycles\" or \"horseshoe\"");
   reader.check_keys(json, "", {"certificate", "format", "cycles", "digest"});
   const Json& cycles = reader.entry(json, "", "cycles");
   if (!cycles.is_array() || cycles.empty()) reader.malformed("/cycles", "a list of cycles");

@@ -5,14 +5,16 @@
 #include <vector>
 
 #include "tools/analysis/certificate/cycle_certificate.hpp"
+#include "tools/analysis/certificate/horseshoe_certificate.hpp"
 #include "tools/analysis/certificate/run_certificate.hpp"
 
 namespace casimir {
 
-/// What a file of certificates is of: one run, or cycles.
+/// What a file of certificates is of: one run, cycles, or a horseshoe.
 struct CertificateFile {
-  std::optional<RunCertificate> run;     ///< none: it is of cycles
-  std::vector<CycleCertificate> cycles;  ///< at least one, where it is not of a run
+  std::optional<RunCertificate> run;              ///< none: it is of something else
+  std::optional<HorseshoeCertificate> horseshoe;  ///< the same
+  std::vector<CycleCertificate> cycles;           ///< at least one, where it is of neither
 };
 
 /// A certificate as a file: JSON, with a line for each step and a digest (BLAKE2b, 32 bytes) of
@@ -20,6 +22,9 @@ struct CertificateFile {
 std::string certificate_text(const RunCertificate& certificate);
 /// The same of some cycles.
 std::string certificate_text(const std::vector<CycleCertificate>& cycles);
+
+/// The same of a horseshoe.
+std::string certificate_text(const HorseshoeCertificate& certificate);
 
 /// The end of a file of a certificate: `text` with its digest.
 std::string with_digest(const std::string& text);

@@ -10,6 +10,7 @@
 #include "symbolic/algebra/ball_evaluator.hpp"
 #include "symbolic/prove.hpp"
 #include "tools/analysis/proof/ball_matrix.hpp"
+#include "tools/analysis/run/exact_values.hpp"
 
 namespace casimir {
 namespace {
@@ -33,6 +34,31 @@ BallMatrix widened(const BallMatrix& z, slong log2_share, double unit) {
   return result;
 }
 
+/// Over a range of parameters the zero moves: a box around the image of the middle is made larger
+/// until it holds its own image.
+std::optional<BallMatrix> inflated(const BallFunctions& derivatives, const BallMatrix& z,
+                                   const BallMatrix& y, const BallMatrix& value, double unit) {
+  BallMatrix box = z - y * value;
+  constexpr int kRounds = 8;
+  for (int round = 0; round < kRounds; ++round) {
+    box = widened(box, -60, unit);
+    for (std::size_t i = 0; i < box.rows(); ++i) {
+      mag_t eighth;
+      mag_init_set(eighth, arb_radref(box.at(i)));
+      mag_mul_2exp_si(eighth, eighth, -3);
+      arb_add_error_mag(box.at(i), eighth);
+      mag_clear(eighth);
+      arb_union(box.at(i), box.at(i), z.at(i), kBallBits);
+    }
+    const BallMatrix image = krawczyk(z, y, value, derivatives(box), box);
+    if (inside(image, box)) return image;
+    for (std::size_t i = 0; i < image.rows(); ++i)
+      if (arb_is_finite(image.at(i)) == 0) return std::nullopt;
+    box = image;
+  }
+  return std::nullopt;
+}
+
 /// The only zero of f near z, in a box; empty where none is proved.
 std::optional<BallMatrix> only_zero(const BallFunctions& f, BallMatrix z, double unit) {
   const BallFunctions derivatives = f.derivatives();
@@ -51,7 +77,7 @@ std::optional<BallMatrix> only_zero(const BallFunctions& f, BallMatrix z, double
     const BallMatrix image = krawczyk(z, y, value, derivatives(box), box);
     if (inside(image, box)) return image;
   }
-  return std::nullopt;
+  return inflated(derivatives, z, y, value, unit);
 }
 
 bool definite(const BallMatrix& matrix) {
@@ -141,8 +167,14 @@ Sides sides_of(const BallMatrix& a) {
 /// The equations of a scene's equilibria, with multipliers, and what stability is read off.
 class Prover {
  public:
-  Prover(const Model& model, const Scene& scene, const EquilibriumReport& report)
-      : model_(model), scene_(scene), report_(report), unknowns_(model.variables) {
+  Prover(const Model& model, const Scene& scene, const EquilibriumReport& report,
+         const ParameterRanges& ranges)
+      : model_(model),
+        scene_(scene_over(model, scene, ranges)),
+        ranges_(intervals_of(model, scene, ranges)),
+        report_(report),
+        unknowns_(model.variables) {
+    check_ranges(model, ranges);
     if (!model.poisson) {
       for (const GiNaC::ex& rate : model.field) equations_.push_back(at_scene(rate));
       return;
@@ -183,6 +215,11 @@ class Prover {
  private:
   GiNaC::ex at_scene(const GiNaC::ex& e) const { return model_.at_parameters(e, scene_); }
 
+  /// Functions of the unknowns, for all values of the ranges.
+  BallFunctions functions(std::vector<GiNaC::ex> values, std::size_t columns = 1) const {
+    return BallFunctions(unknowns_, std::move(values), columns).over(ranges_);
+  }
+
   void require(ClaimKind kind, const NamedExpression& f) {
     const Proof proof = prove_claim(model_, kind, f);
     if (proof.verdict != Verdict::proved || !proof.where.empty())
@@ -211,9 +248,8 @@ class Prover {
     const std::size_t m = levels_.size();
     if (m == 0) return z;
     // The gradient of L is affine in the multipliers.
-    const BallFunctions gradient(
-        unknowns_, {equations_.begin(), equations_.begin() + static_cast<std::ptrdiff_t>(states())},
-        1);
+    const BallFunctions gradient =
+        functions({equations_.begin(), equations_.begin() + static_cast<std::ptrdiff_t>(states())});
     const auto column = [&](const BallMatrix& values) {
       Eigen::VectorXd result(states());
       for (std::size_t i = 0; i < states(); ++i)
@@ -236,9 +272,9 @@ class Prover {
   /// \throws NotCertified  where the box is not certain to be where the case is defined
   void check_domain(const BallMatrix& z) const {
     for (const std::vector<GiNaC::ex>* parts : {&model_.domain, &model_.bracket_domain})
-      for (const GiNaC::ex& part : *parts) BallFunctions(unknowns_, {at_scene(part)}, 1)(z);
+      for (const GiNaC::ex& part : *parts) functions({at_scene(part)})(z);
     for (const Assumption& assumption : model_.assumptions) {
-      const BallMatrix value = BallFunctions(unknowns_, {at_scene(assumption.difference)}, 1)(z);
+      const BallMatrix value = functions({at_scene(assumption.difference)})(z);
       Ball ball;
       acb_set_arb(ball.raw(), value.at(0));
       const std::optional<int> sign = ball.sign();
@@ -247,10 +283,14 @@ class Prover {
   }
 
   void enclose(const Equilibrium& found, ProvedEquilibrium& result) const {
-    const BallFunctions f(unknowns_, equations_, 1);
+    const BallFunctions f = functions(equations_);
     const auto zero = only_zero(f, start(found), report_.size);
     if (!zero) {
-      result.reason = "Krawczyk's test fails: the equations are nearly singular there";
+      result.reason =
+          ranges_.empty()
+              ? "Krawczyk's test fails: the equations are nearly singular there"
+              : "Krawczyk's test fails for the whole range: a smaller one may have it, unless the "
+                "branch turns or ends in it";
       return;
     }
     check_domain(*zero);
@@ -289,7 +329,7 @@ class Prover {
     for (const GiNaC::ex& level : levels_)
       for (const GiNaC::symbol& x : model_.variables) entries.push_back(level.diff(x));
     if (entries.empty()) return BallMatrix(0, states());
-    return BallFunctions(unknowns_, entries, states())(z);
+    return functions(entries, states())(z);
   }
 
   /// Of the flow in which it rests.
@@ -299,7 +339,7 @@ class Prover {
         model_.poisson ? model_.poisson->flow(moving_) : model_.field;
     for (const GiNaC::ex& rate : field)
       for (const GiNaC::symbol& x : model_.variables) entries.push_back(at_scene(rate).diff(x));
-    return BallFunctions(unknowns_, entries, states())(z);
+    return functions(entries, states())(z);
   }
 
   BallMatrix second_variation(const BallMatrix& z) const {
@@ -307,11 +347,12 @@ class Prover {
     for (const GiNaC::symbol& x : model_.variables)
       for (const GiNaC::symbol& y : model_.variables)
         entries.push_back(lagrangian_.diff(x).diff(y));
-    return BallFunctions(unknowns_, entries, states())(z);
+    return functions(entries, states())(z);
   }
 
   const Model& model_;
-  const Scene& scene_;
+  const Scene scene_;  ///< with the symbols of the parameters that have ranges
+  const std::vector<std::pair<GiNaC::symbol, RationalInterval>> ranges_;
   const EquilibriumReport& report_;
   std::vector<GiNaC::symbol> unknowns_;  ///< variables, velocities, multipliers
   GiNaC::ex lagrangian_, moving_;        ///< L; without the Casimir functions
@@ -333,8 +374,10 @@ std::string to_string(ProvedStability stability) {
 }
 
 std::vector<ProvedEquilibrium> enclose_equilibria(const Model& model, const Scene& scene,
-                                                  const EquilibriumReport& report) {
-  const Prover prover(model, scene, report);
+                                                  const EquilibriumReport& report,
+                                                  const ParameterRanges& ranges) {
+  require_exact_values(model, scene, "an enclosure");
+  const Prover prover(model, scene, report, ranges);
   std::vector<ProvedEquilibrium> result;
   for (const Equilibrium& found : report.equilibria) result.push_back(prover.proved(found));
   return result;

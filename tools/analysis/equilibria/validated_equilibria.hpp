@@ -8,6 +8,7 @@
 
 #include "runtime/validated_run.hpp"
 #include "tools/analysis/equilibria/equilibria.hpp"
+#include "tools/analysis/run/validated.hpp"
 
 namespace casimir {
 
@@ -49,8 +50,13 @@ struct ProvedEquilibrium {
 /// Geom. Phys. 32 (1999) 160). Both are said for one symmetry at most, since several need not
 /// commute.
 /// \param report  of the same model and scene.
+/// \param ranges  parameters that may have any value of an interval: then f(z) and f'(Z) hold for
+///                all of them, and for each value there is exactly one equilibrium in the box, on a
+///                smooth branch (implicit function theorem); what is said of its stability holds
+///                for all as well.
 /// \returns  one for each of `report.equilibria`, in their order.
 std::vector<ProvedEquilibrium> enclose_equilibria(const Model& model, const Scene& scene,
-                                                  const EquilibriumReport& report);
+                                                  const EquilibriumReport& report,
+                                                  const ParameterRanges& ranges = {});
 
 }  // namespace casimir

@@ -8,12 +8,11 @@
 #include <set>
 
 #include "codegen/optimise/lower.hpp"
-#include "runtime/evaluate.hpp"
 
 namespace casimir {
 namespace {
 
-constexpr double kNear = 1e-3;
+constexpr double kNearZero = 1e-3;
 
 /// Lines that something is divided by: the factors of denominators, and bases of negative powers.
 std::set<int> divisors_of(const Program& program) {
@@ -72,18 +71,19 @@ std::vector<std::size_t> states_in(const Program& program, int line, std::size_t
 
 }  // namespace
 
-NearSingular::NearSingular(const PreparedScene& run)
-    : run_(run), divisors_(run.specialisation.rhs) {
-  divisors_.outputs.clear();
-  divisors_.output_names.clear();
-  divide_tangents(divisors_);
-  for (const int line : divisors_of(divisors_)) {
-    divisors_.outputs.push_back(line);
-    divisors_.output_names.push_back("divisor");
-    states_.push_back(states_in(divisors_, line, run.initial.size()));
+NearSingular::NearSingular(const PreparedScene& run) : run_(run) {
+  Program divisors = run.specialisation.rhs;
+  divisors.outputs.clear();
+  divisors.output_names.clear();
+  divide_tangents(divisors);
+  for (const int line : divisors_of(divisors)) {
+    divisors.outputs.push_back(line);
+    divisors.output_names.push_back("divisor");
+    states_.push_back(states_in(divisors, line, run.initial.size()));
   }
-  divisors_ = codegen::without_dead_code(divisors_);
-  ranges_.resize(divisors_.outputs.size());
+  divisors_.emplace(codegen::without_dead_code(divisors));
+  values_.resize(divisors.outputs.size());
+  ranges_.resize(divisors.outputs.size());
   inputs_ = run.initial;
   inputs_.insert(inputs_.end(), run.parameters.begin(), run.parameters.end());
   inputs_.push_back(0);
@@ -94,13 +94,13 @@ void NearSingular::see(double t, const double* x) {
   if (!divides()) return;
   std::copy_n(x, run_.initial.size(), inputs_.begin());
   inputs_.back() = t;
-  const std::vector<double> values = evaluate(divisors_, inputs_);
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  (*divisors_)(inputs_.data(), values_.data());
+  for (std::size_t i = 0; i < values_.size(); ++i) {
     Range& range = ranges_[i];
-    const double size = std::abs(values[i]);
+    const double size = std::abs(values_[i]);
     range.largest = std::max(range.largest, size);
-    if (values[i] * range.last < 0 && !range.crossed) range.crossed = t;
-    range.last = values[i];
+    if (values_[i] * range.last < 0 && !range.crossed) range.crossed = t;
+    range.last = values_[i];
     if (!range.state.empty() && !(size < range.least)) continue;
     range.least = size;
     range.time = t;
@@ -122,7 +122,7 @@ std::optional<std::string> NearSingular::finding() const {
   }
   const Range* worst = nullptr;
   for (const Range& range : ranges_) {
-    if (range.least < kNear * range.largest &&
+    if (range.least < kNearZero * range.largest &&
         (!worst || range.least / range.largest < worst->least / worst->largest))
       worst = &range;
   }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/program/interpreter.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
 
 namespace casimir {
@@ -16,7 +17,7 @@ class NearSingular {
   explicit NearSingular(const PreparedScene& run);
 
   /// Whether there is anything to watch.
-  bool divides() const { return !divisors_.outputs.empty(); }
+  bool divides() const { return !ranges_.empty(); }
   /// Looks at the state after a step.
   void see(double t, const double* x);
 
@@ -35,9 +36,9 @@ class NearSingular {
     std::vector<double> state;
   };
   const PreparedScene& run_;
-  Program divisors_;
+  std::optional<Interpreter> divisors_;
   std::vector<std::vector<std::size_t>> states_;  ///< that each divisor depends on
-  std::vector<double> inputs_;
+  std::vector<double> inputs_, values_;
   std::vector<Range> ranges_;
 };
 

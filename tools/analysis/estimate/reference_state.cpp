@@ -9,9 +9,11 @@
 #include <chrono>
 #include <cmath>
 
+#include "codegen/optimise/differentiate.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/methods.hpp"
 #include "runtime/reference.hpp"
+#include "runtime/validated_run.hpp"
 #include "symbolic/algebra/number_text.hpp"
 
 namespace casimir {
@@ -104,6 +106,42 @@ EndState own_run(const PreparedScene& run, const ReferenceOptions& options) {
   return result;
 }
 
+/// The middle of a box that provably contains the end state, in double precision: where a run in
+/// high precision takes too long. Nothing where there is none that is narrow enough to be of use.
+std::optional<EndState> enclosed(const PreparedScene& run, const ReferenceOptions& options,
+                                 const std::vector<double>& scale) {
+  constexpr double kNarrow = 1e-9, kSeconds = 5;
+  const Specialisation& s = run.specialisation;
+  if (!s.parameters.empty() || rounded(start_values(s, kConstantDigits).back()) != run.duration)
+    return std::nullopt;
+  ValidatedProblem problem;
+  problem.rates = s.rhs;
+  problem.start = s.start;
+  const SparseProgram jacobian = codegen::jacobian(s.rhs, s.states.size());
+  problem.jacobian = jacobian.program;
+  problem.entries = jacobian.entries;
+  ValidatedSettings settings;
+  const auto late = time_limit(std::max(options.longest, kSeconds));
+  settings.give_up = [&](double) { return late() || (options.give_up && options.give_up()); };
+  try {
+    const ValidatedRun box = validated_run(problem, settings);
+    if (box.status != ValidatedStatus::ok) return std::nullopt;
+    const Arithmetic<cln::cl_F> arithmetic(kConstantDigits);
+    EndState end;
+    for (std::size_t i = 0; i < scale.size(); ++i) {
+      const RationalInterval& x = box.end.states[i];
+      end.state.push_back(arithmetic.from(cln::cl_RA((x.low + x.high) / 2)));
+      end.error_bound =
+          std::max(end.error_bound, cln::double_approx((x.high - x.low) / 2) / scale[i]);
+    }
+    if (!(end.error_bound < kNarrow)) return std::nullopt;
+    end.digits = static_cast<int>(-std::log10(std::max(end.error_bound, 1e-17)));
+    return end;
+  } catch (const std::domain_error&) {
+    return std::nullopt;
+  }
+}
+
 double distance(const std::vector<cln::cl_F>& a, const std::vector<cln::cl_F>& b,
                 const std::vector<double>& scale) {
   double largest = 0;
@@ -155,6 +193,14 @@ ReferenceStateOrReason reference_state_of(const Scene& scene, const PreparedScen
               .reason = own.reason,
               .failure = own.failure,
               .singular_time = own.singular_time};
+  }
+  if (result.failure == NoReference::took_too_long) {
+    if (auto box = enclosed(run, options, scale)) {
+      own = std::move(*box);
+      result = {.source = "the middle of a box that is proved to contain it, in double precision",
+                .error_bound = own.error_bound,
+                .digits = own.digits};
+    }
   }
   if (!result.reason.empty()) return result;
   ReferenceState truth;
@@ -208,6 +254,8 @@ GoodRun good_run(const PreparedScene& run, const Settings& settings) {
     try {
       GoodRun other = with(method);
       if (other.trajectory.status == Status::ok) return other;
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception&) {
       // A library that is not there, or a tolerance that it does not take: the next one, then.
     }

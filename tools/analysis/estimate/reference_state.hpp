@@ -41,7 +41,9 @@ struct ReferenceOptions {
 };
 
 /// The reference state of the case file where it belongs to this run, otherwise one of a
-/// multiprecision run of our own.
+/// multiprecision run of our own; where that takes too long, the middle of an enclosure in double
+/// precision (see validated_run), if its half width is below 1e-9 of the sizes of the states, which
+/// is then the error bound, a proved one.
 ///
 /// Its error bound is that of our own run, and for a state from the file the difference to our own
 /// run on top of it; where that was not made, half a unit in the last of the file's digits. A state

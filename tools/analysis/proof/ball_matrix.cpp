@@ -84,6 +84,13 @@ BallMatrix BallFunctions::operator()(const BallMatrix& box) const {
     acb_set_arb(ball.raw(), box.at(i));
     evaluate.set(unknowns_[i], ball);
   }
+  for (const auto& [symbol, interval] : fixed_) {
+    Ball ball;
+    validated::ArbBall ends;
+    set_interval(ends.raw(), interval);
+    acb_set_arb(ball.raw(), ends.raw());
+    evaluate.set(symbol, ball);
+  }
   BallMatrix result(values_.size() / columns_, columns_);
   for (std::size_t k = 0; k < values_.size(); ++k) {
     const Ball& value = evaluate(values_[k]);
@@ -97,7 +104,7 @@ BallFunctions BallFunctions::derivatives() const {
   std::vector<GiNaC::ex> result;
   for (const GiNaC::ex& value : values_)
     for (const GiNaC::symbol& unknown : unknowns_) result.push_back(value.diff(unknown));
-  return {unknowns_, result, unknowns_.size()};
+  return BallFunctions(unknowns_, result, unknowns_.size()).over(fixed_);
 }
 
 }  // namespace casimir

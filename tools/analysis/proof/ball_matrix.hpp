@@ -5,6 +5,7 @@
 #include <ginac/ginac.h>
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "runtime/validated_run.hpp"
@@ -86,6 +87,14 @@ class BallFunctions {
                 std::size_t columns = 1)
       : unknowns_(std::move(unknowns)), values_(std::move(values)), columns_(columns) {}
 
+  /// The same functions where further symbols have any values of an interval each: what is said of
+  /// the values then holds for all of these.
+  BallFunctions over(std::vector<std::pair<GiNaC::symbol, RationalInterval>> fixed) const {
+    BallFunctions result = *this;
+    result.fixed_ = std::move(fixed);
+    return result;
+  }
+
   /// The values at every point of a box: a column with a ball for each symbol.
   /// \throws NotCertified  where some value is not certain to exist, to be real, and to depend
   ///                       differentiably on the point.
@@ -98,6 +107,7 @@ class BallFunctions {
   std::vector<GiNaC::symbol> unknowns_;
   std::vector<GiNaC::ex> values_;
   std::size_t columns_;
+  std::vector<std::pair<GiNaC::symbol, RationalInterval>> fixed_ = {};
 };
 
 }  // namespace casimir

@@ -50,7 +50,7 @@ struct Work {
       return true;
     });
   } catch (const std::exception& problem) {
-    send(descriptor, nlohmann::json{{"error", problem.what()}}.dump() + '\n');
+    send(descriptor, nlohmann::ordered_json{{"error", problem.what()}}.dump() + '\n');
   }
   _exit(0);
 }

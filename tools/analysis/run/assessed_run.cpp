@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "codegen/optimise/scale_exponentials.hpp"
 #include "runtime/step/stiffness.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/estimate/near_singular.hpp"
@@ -246,11 +247,35 @@ class Judge {
   AssessedRun result_;
 };
 
+/// Whether infinities in the equations may be why a run ended.
+bool may_be_beyond_doubles(Status status) {
+  return status == Status::non_finite || status == Status::singularity ||
+         status == Status::step_underflow || status == Status::no_convergence;
+}
+
 }  // namespace
 
 AssessedRun integrate_assessed(const Model& model, const PreparedScene& run,
                                const AssessmentOptions& options) {
-  return Judge(model, run, options).judged();
+  AssessedRun first = Judge(model, run, options).judged();
+  if (!may_be_beyond_doubles(first.trajectory.status)) return first;
+  std::optional<Program> scaled =
+      codegen::with_scaled_exponentials(run.specialisation.rhs, run.initial.size());
+  if (!scaled) return first;
+  struct Rewritten {
+    PreparedScene scene;
+    std::shared_ptr<const LaterCode> later = nullptr;
+  };
+  const auto rewritten = std::make_shared<Rewritten>(Rewritten{run});
+  rewritten->scene.specialisation.rhs = std::move(*scaled);
+  AssessedRun second = Judge(model, rewritten->scene, options).judged();
+  if (second.trajectory.status != Status::ok) return first;
+  // The scene lives as long as the result.
+  rewritten->later = second.later;
+  second.later = std::shared_ptr<const LaterCode>(rewritten, rewritten->later.get());
+  if (!second.chosen.empty())
+    second.chosen += ", with exponentials beyond all doubles taken out of logarithms and divisors";
+  return second;
 }
 
 }  // namespace casimir

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "runtime/step/step_watch.hpp"
 #include "tools/analysis/estimate/growth_of_changes.hpp"
 #include "tools/analysis/run/taylor_path.hpp"
 
@@ -72,6 +73,12 @@ std::vector<CheckedMember> check_members(const PreparedScene& run, const Method&
     found.trust.error_estimate = std::max(found.trust.error_estimate, apart);
   }
   return checked;
+}
+
+bool may_pass_over(const PreparedScene& run, const Settings& settings) {
+  if (!(settings.fixed_step > 0)) return false;
+  const double* const parameters = run.parameters.empty() ? nullptr : run.parameters.data();
+  return StepWatch(run.specialisation.rhs).looks(parameters, run.initial.data());
 }
 
 }  // namespace casimir

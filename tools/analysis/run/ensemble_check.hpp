@@ -28,4 +28,9 @@ std::vector<CheckedMember> check_members(const PreparedScene& run, const Method&
                                          const Settings& settings, const Ensemble& ensemble,
                                          const EnsembleResult& result, double budget = 2);
 
+/// Whether members may pass over what lies between the ends of a step: a constant step is not
+/// looked into, and the equations have functions that hide something from one. Of members nobody
+/// says it but those that are checked.
+bool may_pass_over(const PreparedScene& run, const Settings& settings);
+
 }  // namespace casimir

@@ -6,7 +6,9 @@
 
 #include "codegen/compile.hpp"
 #include "codegen/emit_cpp.hpp"
+#include "codegen/emit_watched.hpp"
 #include "codegen/lane_form.hpp"
+#include "runtime/step/step_watch.hpp"
 #include "runtime/uncompiled.hpp"
 
 namespace casimir {
@@ -22,11 +24,13 @@ constexpr std::size_t kFew = 64;
 /// More products than this make the compiler slow.
 constexpr std::size_t kManyProducts = 64;
 
-void load(const std::string& text, EnsembleKernel& result) {
+/// \return  where the object is.
+std::string load(const std::string& text, EnsembleKernel& result) {
   const CompiledObject object = compile(text);
   result.lanes = loaded([&] { return loaded_lanes(object.path); });
   result.compiled = true;
   result.from_cache = object.from_cache;
+  return object.path;
 }
 
 /// The tables as constants of a compiled kernel where there is a compiler and enough to do, else
@@ -93,8 +97,10 @@ EnsembleKernel ensemble_kernel(const PreparedScene& run, const Method& method, s
       quadratic(*form, compiled || members >= kFew, result);
     } else {
       try {
-        load(emit_series_lanes(s, kernel_text(kGeneral)), result);
-        result.lanes->watch_steps_of(s.rhs);
+        const Program watched = StepWatch(s.rhs).arguments();
+        const std::string path =
+            load(emit_series_lanes(s, kernel_text(kGeneral)) + emit_watched(s, watched), result);
+        result.lanes->watch = watch_of_object(s.rhs, path);
       } catch (const CompilerMissing&) {
       }
     }

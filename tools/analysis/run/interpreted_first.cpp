@@ -10,6 +10,7 @@
 #include "codegen/compile/compiler.hpp"
 #include "codegen/optimise/differentiate.hpp"
 #include "runtime/program/interpreted_radau.hpp"
+#include "runtime/step/step_look.hpp"
 #include "runtime/uncompiled.hpp"
 #include "tools/analysis/run/taylor_path.hpp"
 
@@ -99,6 +100,21 @@ void go_on(const Integration& by, const casimir_run& asked, double* x, casimir_o
   add(*out, behind);
 }
 
+/// The same by a compiled module, which has code for what its steps are watched for.
+void go_on(const Module& module, const casimir_run& asked, double* x, casimir_outcome* out) {
+  casimir_run watched = asked;
+  std::optional<StepLook> look;
+  if (asked.look && module.watch()) {
+    look.emplace(*module.watch(), static_cast<std::size_t>(module.dimension()), asked.parameters,
+                 x);
+    watched.look = [](void* looker, const casimir_step* trial) {
+      return (*static_cast<StepLook*>(looker))(*trial);
+    };
+    watched.looker = &*look;
+  }
+  go_on(module.functions().integrate, watched, x, out);
+}
+
 void integrate(const Integration& interpreted, const Successor& successor, const casimir_run& asked,
                double* x, casimir_outcome* out) {
   if (asked.fixed_step > 0) {
@@ -112,8 +128,8 @@ void integrate(const Integration& interpreted, const Successor& successor, const
   lookout.watch(watched);
   interpreted(&watched, x, out);
   if (!lookout.is_long()) return;
-  const Module* const module = successor.compiled();
-  go_on(module ? module->functions().integrate : interpreted, asked, x, out);
+  if (const Module* const module = successor.compiled()) return go_on(*module, asked, x, out);
+  go_on(interpreted, asked, x, out);
 }
 
 /// What is compiled once a run asks for it.

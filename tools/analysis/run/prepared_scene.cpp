@@ -13,12 +13,14 @@
 #include "codegen/compile.hpp"
 #include "codegen/emit/number_literal.hpp"
 #include "codegen/emit_cpp.hpp"
+#include "codegen/emit_watched.hpp"
 #include "codegen/quadratic.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/exact/closed_form.hpp"
 #include "runtime/exact/polynomial_field.hpp"
 #include "runtime/methods.hpp"
 #include "runtime/program/term_size.hpp"
+#include "runtime/step/step_watch.hpp"
 #include "runtime/taylor/program_layout.hpp"
 #include "runtime/taylor/quadratic_targets.hpp"
 #include "runtime/uncompiled.hpp"
@@ -149,7 +151,10 @@ CompiledModule compiled_module(const PreparedScene& run, const Method& method) {
   const std::string kernel = method.header.empty() ? std::string{} : kernel_source(method);
   CompileOptions options;
   options.standard_library = !method.outside.empty() && !kernel.empty();
-  const std::string text = emit_module(s, kernel, method.series, splitting ? &*splitting : nullptr);
+  std::string text = emit_module(s, kernel, method.series, splitting ? &*splitting : nullptr);
+  // Only our own kernels ask whether a step may be taken.
+  if (!kernel.empty() && method.outside.empty())
+    text += emit_watched(s, StepWatch(s.rhs).arguments());
   try {
     const CompiledObject object = compile(text, options);
     CompiledModule result{.module = loaded([&] { return Module::load(object.path); }),

@@ -9,6 +9,7 @@
 #include "codegen/optimise/lower.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/run/drift_check.hpp"
+#include "tools/analysis/run/exact_values.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
 
 namespace casimir {
@@ -16,26 +17,6 @@ namespace {
 
 /// No further invariant is proved after so many seconds.
 constexpr double kProofSeconds = 20;
-
-/// An equation between parameters holds nowhere else: what was proved with it says nothing of a
-/// range. Inequalities are open, and an identity of analytic functions that holds in an open part
-/// of a connected set holds in all of it.
-void check_ranges(const Model& model, const ValidatedOptions& options) {
-  for (const auto& [name, radius] : options.ranges) {
-    const auto symbol = std::ranges::find_if(
-        model.parameters, [&name = name](const auto& p) { return p.get_name() == name; });
-    if (symbol == model.parameters.end())
-      throw RequestError(fmt::format("'{}' is not a parameter of this case", printable(name)));
-    for (const Assumption& assumption : model.assumptions) {
-      const bool open = assumption.comparison == Comparison::unequal ||
-                        assumption.comparison == Comparison::greater ||
-                        assumption.comparison == Comparison::less;
-      if (!open && assumption.difference.has(*symbol))
-        throw RequestError(fmt::format("a range of {} leaves the assumption '{}'", printable(name),
-                                       printable(assumption.text)));
-    }
-  }
-}
 
 /// The rates, and zero for each parameter that takes part as a state.
 Program with_resting(Program rates, const std::vector<std::string>& resting) {
@@ -114,9 +95,54 @@ ValidatedProblem problem_of(const Model& model, const ValidatedOptions& options,
 
 }  // namespace
 
+/// An equation between parameters holds nowhere else: what was proved with it says nothing of a
+/// range. Inequalities are open, and an identity of analytic functions that holds in an open part
+/// of a connected set holds in all of it.
+void check_ranges(const Model& model, const ParameterRanges& ranges) {
+  for (const auto& [name, radius] : ranges) {
+    const auto symbol = std::ranges::find_if(
+        model.parameters, [&name = name](const auto& p) { return p.get_name() == name; });
+    if (symbol == model.parameters.end())
+      throw RequestError(fmt::format("'{}' is not a parameter of this case", printable(name)));
+    for (const Assumption& assumption : model.assumptions) {
+      const bool open = assumption.comparison == Comparison::unequal ||
+                        assumption.comparison == Comparison::greater ||
+                        assumption.comparison == Comparison::less;
+      if (!open && assumption.difference.has(*symbol))
+        throw RequestError(fmt::format("a range of {} leaves the assumption '{}'", printable(name),
+                                       printable(assumption.text)));
+    }
+  }
+}
+
+Scene scene_over(const Model& model, const Scene& scene, const ParameterRanges& ranges) {
+  Scene open = scene;
+  for (std::size_t i = 0; i < model.parameters.size(); ++i)
+    for (const auto& [name, radius] : ranges)
+      if (model.parameters[i].get_name() == name) open.parameters[i] = model.parameters[i];
+  return open;
+}
+
+std::vector<std::pair<GiNaC::symbol, RationalInterval>> intervals_of(
+    const Model& model, const Scene& scene, const ParameterRanges& ranges) {
+  std::vector<std::pair<GiNaC::symbol, RationalInterval>> result;
+  for (const auto& [name, radius] : ranges) {
+    for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+      if (model.parameters[i].get_name() != name) continue;
+      const GiNaC::ex value = scene.parameters[i];
+      if (!GiNaC::is_a<GiNaC::numeric>(value) || !GiNaC::ex_to<GiNaC::numeric>(value).is_rational())
+        throw RequestError(fmt::format("the range of {} has no rational middle", printable(name)));
+      const cln::cl_RA middle = cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(value).to_cl_N());
+      result.emplace_back(model.parameters[i], RationalInterval{middle - radius, middle + radius});
+    }
+  }
+  return result;
+}
+
 PreparedEnclosure prepare_enclosure(const Model& model, const Scene& scene,
                                     const ValidatedOptions& options) {
-  check_ranges(model, options);
+  require_exact_values(model, scene, "an enclosure");
+  check_ranges(model, options.ranges);
   Scene exact = scene;
   if (options.duration) exact.duration = options.duration;
   require_duration(exact);

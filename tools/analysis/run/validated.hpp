@@ -14,14 +14,29 @@
 
 namespace casimir {
 
+/// Parameters that may have any value of an interval around that of the scene, and how far it goes
+/// to both sides.
+using ParameterRanges = std::vector<std::pair<std::string, cln::cl_RA>>;
+
+/// That what is proved of the case holds all over the ranges.
+/// \throws RequestError  for a name that is no parameter, and for one that an assumption ties to
+///                       others.
+void check_ranges(const Model& model, const ParameterRanges& ranges);
+
+/// The scene with the symbols of these parameters in the place of their values: so that
+/// `Model::at_parameters` leaves them.
+Scene scene_over(const Model& model, const Scene& scene, const ParameterRanges& ranges);
+/// The interval of each of these symbols.
+std::vector<std::pair<GiNaC::symbol, RationalInterval>> intervals_of(const Model& model,
+                                                                     const Scene& scene,
+                                                                     const ParameterRanges& ranges);
+
 /// What is asked of `enclose`.
 struct ValidatedOptions {
   std::optional<GiNaC::ex> duration;   ///< an exact constant; without it that of the scene
   cln::cl_RA initial_radius = 0;       ///< by how much each initial value may be off, on both sides
   std::vector<cln::cl_RA> radii = {};  ///< the same for each state, where it is not empty
-  /// Parameters that may have any value of an interval around that of the scene, and how far it
-  /// goes to both sides.
-  std::vector<std::pair<std::string, cln::cl_RA>> ranges = {};
+  ParameterRanges ranges = {};
   std::optional<std::vector<std::string>> observe = {};  ///< see SpecialiseOptions
   bool contract = true;                                  ///< by what is proved to be an integral
   ValidatedSettings run = {};                            ///< digits, samples, limits

@@ -130,6 +130,26 @@ void check_level(const LevelSet& level, OrbitReport& report) {
 
 }  // namespace
 
+namespace {
+
+/// The mean over the time of (2/t) integral of s d log|v|, by trapezia between the crossings.
+double megno_of(const SectionOrbit& orbit) {
+  double integral = 0, mean = 0, time = 0, log = 0, y = 0;
+  for (std::size_t i = 0; i < orbit.size(); ++i) {
+    const double step = orbit.times[i] - time;
+    if (!(step > 0)) continue;
+    integral += (log + orbit.growth[i]) / 2 * step;
+    time = orbit.times[i];
+    log = orbit.growth[i];
+    const double before = y;
+    y = 2 * (log - integral / time);
+    mean += (before + y) / 2 * step;
+  }
+  return time > 0 ? mean / time : 0;
+}
+
+}  // namespace
+
 void judge_growth(OrbitReport& report) {
   const SectionOrbit& orbit = report.orbit;
   // One that runs to infinity is neither regular nor chaotic.
@@ -140,6 +160,7 @@ void judge_growth(OrbitReport& report) {
   const double growth = orbit.growth.back() - orbit.growth[first],
                time = orbit.times.back() - orbit.times[first];
   report.exponent = growth / time;
+  report.megno = megno_of(orbit);
   report.chaotic = growth > kLargestPower * std::log(orbit.times.back() / orbit.times[first]);
 }
 

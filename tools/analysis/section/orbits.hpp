@@ -62,6 +62,8 @@ struct OrbitReport {
   LevelSet::Vector seed;
   /// Growth of deviations per unit of time: an estimate of the largest Lyapunov exponent.
   double exponent = 0;
+  /// MEGNO of the deviation: 2 for regular motion, see `Indicators`.
+  double megno = 0;
   bool judged = false;        ///< it is long enough to tell, and bounded
   bool chaotic = false;       ///< deviations grow faster than a power of time
   double off_level = 0;       ///< largest deviation from the level, relative to its terms

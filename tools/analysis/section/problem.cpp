@@ -247,6 +247,13 @@ std::string SectionProblem::level_text() const {
   return text;
 }
 
+std::string SectionProblem::proved_level_text() const {
+  std::string text;
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", level_names[i], levels[i]);
+  return text;
+}
+
 SectionProblem section_problem(const Model& model, const Scene& scene,
                                const SectionRequest& request) {
   return Maker(model, scene, request).make();

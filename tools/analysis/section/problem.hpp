@@ -51,6 +51,9 @@ struct SectionProblem {
 
   /// "H = 1.5, F1 = 1".
   std::string level_text() const;
+  /// The same with all digits, for what `enclose_cycles` proves: the shortest decimal that is read
+  /// as the double is one of the values for which that holds.
+  std::string proved_level_text() const;
   /// The number of states.
   std::size_t states() const { return run.specialisation.states.size(); }
 };

@@ -11,11 +11,15 @@
 #include <optional>
 
 #include "codegen/optimise/differentiate.hpp"
+#include "codegen/optimise/lower.hpp"
 #include "codegen/specialise.hpp"
+#include "runtime/validated/flow_map.hpp"
 #include "symbolic/algebra/ball_evaluator.hpp"
 #include "symbolic/prove.hpp"
 #include "tools/analysis/proof/ball_matrix.hpp"
+#include "tools/analysis/run/exact_values.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
+#include "tools/analysis/run/validated.hpp"
 
 namespace casimir {
 namespace {
@@ -25,39 +29,41 @@ struct NotProved {
   std::string reason;
 };
 
+/// Parameters with the interval of each.
+using Intervals = std::vector<std::pair<GiNaC::symbol, RationalInterval>>;
+
 /// Where a box of starts and times is after its time, with the derivatives of that.
 struct Image {
   BallMatrix state;        ///< phi_T(x)
-  BallMatrix derivatives;  ///< by x and T
+  BallMatrix derivatives;  ///< by x (where they are wanted) and T
 };
 
-/// x' = T f(x) with T and the derivatives of x by x(0) and T as further states, over a unit of
-/// time.
+Program single_output(const Program& program, std::size_t k) {
+  Program one = program;
+  one.outputs = {program.outputs[k]};
+  one.output_names = {program.output_names[k]};
+  return codegen::without_dead_code(one);
+}
+
+/// The flow of a scene to a time, with its derivatives.
 class FlowToTime {
  public:
-  FlowToTime(const Model& model, const Scene& scene) : n_(model.variables.size()) {
+  /// \param scene   with the symbols of the parameters that have ranges: further states, at rest.
+  /// \param levels  functions that are proved to be constant, by their names.
+  FlowToTime(const Model& model, const Scene& scene, const std::vector<NamedExpression>& levels,
+             const Intervals& ranges)
+      : n_(model.variables.size()), ranges_(ranges) {
     Model extended;
     extended.name = model.name;
     extended.phase_space = "equations";
     extended.variables = model.variables;
-    const GiNaC::symbol time("casimir_period");
-    extended.variables.push_back(time);
-    std::vector<GiNaC::ex> f;
-    for (const GiNaC::ex& rate : model.field) f.push_back(model.at_parameters(rate, scene));
-    for (const GiNaC::ex& rate : f) extended.field.push_back(time * rate);
-    extended.field.emplace_back(0);
-    // Column by column: those by x(0), and that by T.
-    for (std::size_t j = 0; j <= n_; ++j) {
-      std::vector<GiNaC::symbol> column;
-      for (std::size_t i = 0; i < n_; ++i) column.emplace_back(fmt::format("casimir_d{}_{}", i, j));
-      for (std::size_t i = 0; i < n_; ++i) {
-        GiNaC::ex rate = j == n_ ? f[i] : GiNaC::ex(0);
-        for (std::size_t k = 0; k < n_; ++k)
-          rate += time * f[i].diff(model.variables[k]) * column[k];
-        extended.field.push_back(rate);
-      }
-      extended.variables.insert(extended.variables.end(), column.begin(), column.end());
+    for (const GiNaC::ex& rate : model.field)
+      extended.field.push_back(model.at_parameters(rate, scene));
+    for (const auto& [symbol, interval] : ranges_) {
+      extended.variables.push_back(symbol);
+      extended.field.emplace_back(0);
     }
+    extended.integrals = levels;
     Scene scene_of_zeros;
     scene_of_zeros.name = "cycle";
     scene_of_zeros.initial.assign(extended.variables.size(), 0);
@@ -65,49 +71,67 @@ class FlowToTime {
     SpecialiseOptions what;
     what.observe = std::vector<std::string>{};
     what.jacobian = false;
-    what.invariants = false;
-    problem_.rates = specialise(extended, scene_of_zeros, what).rhs;
-    const SparseProgram jacobian = codegen::jacobian(problem_.rates, extended.variables.size());
-    problem_.jacobian = jacobian.program;
-    problem_.entries = jacobian.entries;
+    const Specialisation s = specialise(extended, scene_of_zeros, what);
+    const std::size_t states = extended.variables.size();
+    const SparseProgram jacobian = codegen::jacobian(s.rhs, states);
+    flow_ = validated::joined(s.rhs, jacobian.program, jacobian.entries);
+    for (std::size_t k = 0; k < s.invariant_names.size(); ++k) {
+      const Program value = single_output(s.invariants, k);
+      const SparseProgram gradient = codegen::gradients(value, states);
+      validated::Integral integral{s.invariant_names[k], value, gradient.program, {}};
+      for (const auto& [state, output] : gradient.entries) integral.states.push_back(state);
+      integrals_.push_back(std::move(integral));
+    }
   }
 
   /// \param box  a column: x, and then T.
+  /// \param with_derivatives  whether these are wanted.
   /// \throws NotProved
-  Image operator()(const BallMatrix& box, double seconds) const {
-    ValidatedProblem problem = problem_;
-    for (std::size_t i = 0; i <= n_; ++i) {
-      const RationalInterval ends = ends_of(box.at(i));
-      append(problem.start, (ends.low + ends.high) / 2);
-      problem.radii.push_back((ends.high - ends.low) / 2);
+  Image operator()(const BallMatrix& box, bool with_derivatives, double seconds) const {
+    std::vector<validated::ArbBall> start;
+    std::vector<validated::MidRad> wide;
+    for (std::size_t i = 0; i < n_; ++i) add(box.at(i), start, wide);
+    BallMatrix range(1, 1);
+    for (const auto& [symbol, interval] : ranges_) {
+      set_interval(range.at(0), interval);
+      add(range.at(0), start, wide);
     }
-    for (std::size_t j = 0; j <= n_; ++j)
-      for (std::size_t i = 0; i < n_; ++i) append(problem.start, i == j ? 1 : 0);
-    problem.radii.resize(problem.start.outputs.size(), 0);
-    append(problem.start, 1);
-    ValidatedSettings settings;
-    settings.give_up = [late = time_limit(seconds)](double) { return late && late(); };
-    const ValidatedRun run = validated_run(problem, settings);
-    if (run.status != ValidatedStatus::ok)
-      throw NotProved{fmt::format("its orbit is not enclosed to the end: {}", run.reason)};
+    validated::ArbBall time;
+    arb_set(time.raw(), box.at(n_));
+    validated::FlowMapSettings settings;
+    settings.give_up = time_limit(seconds);
+    validated::FlowMap map(flow_, integrals_, settings);
+    if (!map.find(start, wide, validated::outwards(time), with_derivatives))
+      throw NotProved{fmt::format("its orbit is not enclosed to the end: {}", map.reason())};
     Image image{BallMatrix(n_, 1), BallMatrix(n_, n_ + 1)};
-    for (std::size_t i = 0; i < n_; ++i) set_interval(image.state.at(i), run.end.states[i]);
-    for (std::size_t j = 0; j <= n_; ++j)
-      for (std::size_t i = 0; i < n_; ++i)
-        set_interval(image.derivatives.at(i, j), run.end.states[n_ + 1 + j * n_ + i]);
+    for (std::size_t i = 0; i < n_; ++i) {
+      set(image.state.at(i), map.result().states[i]);
+      for (std::size_t j = 0; j < n_ && with_derivatives; ++j)
+        set(image.derivatives.at(i, j), map.result().derivatives(i, j));
+      set(image.derivatives.at(i, n_), map.result().rates[i]);
+    }
     return image;
   }
 
  private:
-  static void append(Program& start, const cln::cl_RA& value) {
-    start.code.push_back({Op::constant, static_cast<int>(start.constants.size())});
-    start.constants.push_back(value);
-    start.outputs.push_back(static_cast<int>(start.code.size()) - 1);
-    start.output_names.push_back(fmt::format("start_{}", start.outputs.size()));
+  static void add(arb_srcptr ball, std::vector<validated::ArbBall>& start,
+                  std::vector<validated::MidRad>& wide) {
+    validated::ArbBall middle, off;
+    arb_get_mid_arb(middle.raw(), ball);
+    arb_get_rad_arb(off.raw(), ball);
+    start.push_back(middle);
+    const bool is_point = arb_is_zero(off.raw()) != 0;
+    wide.push_back(is_point ? validated::MidRad() : validated::symmetric(validated::outwards(off)));
+  }
+  static void set(arb_ptr ball, const validated::MidRad& value) {
+    const validated::ArbBall exact(value);
+    arb_set(ball, exact.raw());
   }
 
   std::size_t n_;
-  ValidatedProblem problem_;  ///< without its start
+  Intervals ranges_;
+  validated::FlowProgram flow_;
+  std::vector<validated::Integral> integrals_;
 };
 
 /// The double, and what is near it.
@@ -122,15 +146,21 @@ void set_near(arb_ptr ball, double value) {
 
 class Prover {
  public:
-  Prover(const Model& model, const Scene& scene, const SectionProblem& problem, double seconds)
+  /// \param scene  with the symbols of the parameters that have ranges.
+  Prover(const Model& model, const Scene& scene, const SectionProblem& problem,
+         const Intervals& ranges, double seconds)
       : problem_(problem),
         variables_(model.variables),
-        flow_(model, scene),
-        levels_(model.variables, level_functions(model, scene, problem)),
+        is_range_(!ranges.empty()),
+        level_functions_(level_functions(model, scene, problem)),
+        flow_(model, scene, level_functions_, ranges),
+        levels_(BallFunctions(model.variables, values_of(level_functions_)).over(ranges)),
         level_derivatives_(levels_.derivatives()),
         plane_(model.variables, {problem.plane_function}),
         plane_derivatives_(plane_.derivatives()),
-        structure_(model.variables, structure_matrix(model, scene), model.variables.size()),
+        structure_(
+            BallFunctions(model.variables, structure_matrix(model, scene), model.variables.size())
+                .over(ranges)),
         seconds_(seconds) {}
 
   /// \throws NotProved, NotCertified
@@ -140,53 +170,104 @@ class Prover {
     for (std::size_t i = 0; i < n; ++i)
       arb_set_d(z.at(i), cycle.points.front().x[static_cast<Eigen::Index>(i)]);
     arb_set_d(z.at(n), cycle.period);
-    BallMatrix y(n + 1, n + 1);
-    constexpr int kPolishing = 2;
-    for (int round = 0; round <= kPolishing; ++round) {
-      const Image image = flow_(z, seconds_);
-      if (round == 0) choose_closing(z);
-      if (arb_mat_approx_inv(y.raw(), derivatives(z, image).middle().raw(), kBallBits) == 0)
-        throw NotProved{"the equations are singular there"};
-      y = y.middle();
-      if (round < kPolishing) z = rounded(z - y * value(z, image));
-    }
-    const BallMatrix at = value(z, flow_(z, seconds_));
-    double size = 1e-3;
-    for (std::size_t i = 0; i < n; ++i) size = std::max(size, std::abs(z.near(i)));
-    for (const double radius : {1e-10, 1e-8, 1e-7}) {
-      BallMatrix box = z;
-      for (std::size_t i = 0; i <= n; ++i) {
-        mag_t r;
-        mag_init(r);
-        mag_set_d(r, radius * size);
-        arb_add_error_mag(box.at(i), r);
-        mag_clear(r);
+    // The cycle that is given is a good one, most often.
+    constexpr int kProofRounds = 2;
+    for (int round = 0; round < kProofRounds; ++round) {
+      const BallMatrix y = polished(z, round == 0);
+      const BallMatrix at = value(z, flow_(z, false, seconds_));
+      double size = 1e-3;
+      for (std::size_t i = 0; i < n; ++i) size = std::max(size, std::abs(z.near(i)));
+      if (is_range_) {
+        if (round + 1 < kProofRounds) continue;
+        return proved_over_range(z, y, at, size);
       }
-      const Image image = flow_(box, seconds_);
-      const BallMatrix solution = krawczyk(z, y, at, derivatives(box, image), box);
-      if (!inside(solution, box)) continue;
-      check_closed(box, image);
-      check_leaf(box);
-      return described(solution, image);
+      for (const double radius : {1e-10, 1e-8, 1e-7}) {
+        const BallMatrix box = widened(z, radius * size);
+        const Image image = flow_(box, true, seconds_);
+        const BallMatrix solution = krawczyk(z, y, at, derivatives(box, image), box);
+        if (inside(solution, box)) return checked(box, solution, image);
+      }
     }
     throw NotProved{
         "Krawczyk's test fails: the cycle is nearly degenerate, or not known well enough"};
   }
 
  private:
-  static std::vector<GiNaC::ex> level_functions(const Model& model, const Scene& scene,
-                                                const SectionProblem& problem) {
+  /// One step of Newton's method. \return  an approximate inverse of the derivatives before it.
+  BallMatrix polished(BallMatrix& z, bool is_first) {
+    const Image image = flow_(z, true, seconds_);
+    if (is_first) choose_closing(z);
+    BallMatrix y(z.rows(), z.rows());
+    if (arb_mat_approx_inv(y.raw(), derivatives(z, image).middle().raw(), kBallBits) == 0)
+      throw NotProved{"the equations are singular there"};
+    y = y.middle();
+    z = rounded(z - y * value(z, image));
+    return y;
+  }
+
+  static BallMatrix widened(const BallMatrix& z, double by) {
+    BallMatrix box = z;
+    for (std::size_t i = 0; i < z.rows(); ++i) {
+      mag_t r;
+      mag_init(r);
+      mag_set_d(r, by);
+      arb_add_error_mag(box.at(i), r);
+      mag_clear(r);
+    }
+    return box;
+  }
+
+  /// The cycle moves with the parameters: its box is made larger until it holds its own image.
+  ProvedCycle proved_over_range(const BallMatrix& z, const BallMatrix& y, const BallMatrix& at,
+                                double size) {
+    BallMatrix box = z - y * at;
+    constexpr int kProofRounds = 6;
+    for (int round = 0; round < kProofRounds; ++round) {
+      box = widened(box, 1e-10 * size);
+      for (std::size_t i = 0; i < box.rows(); ++i) {
+        mag_t eighth;
+        mag_init_set(eighth, arb_radref(box.at(i)));
+        mag_mul_2exp_si(eighth, eighth, -3);
+        arb_add_error_mag(box.at(i), eighth);
+        mag_clear(eighth);
+        arb_union(box.at(i), box.at(i), z.at(i), kBallBits);
+      }
+      const Image image = flow_(box, true, seconds_);
+      const BallMatrix solution = krawczyk(z, y, at, derivatives(box, image), box);
+      if (inside(solution, box)) return checked(box, solution, image);
+      box = solution;
+    }
+    throw NotProved{
+        "Krawczyk's test fails for the whole range: a smaller one may have it, unless the branch "
+        "turns or ends in it"};
+  }
+
+  ProvedCycle checked(const BallMatrix& box, const BallMatrix& solution, const Image& image) const {
+    check_closed(box, image);
+    check_leaf(box);
+    return described(solution, image);
+  }
+
+  static std::vector<GiNaC::ex> values_of(const std::vector<NamedExpression>& functions) {
     std::vector<GiNaC::ex> result;
+    for (const NamedExpression& one : functions) result.push_back(one.value);
+    return result;
+  }
+
+  static std::vector<NamedExpression> level_functions(const Model& model, const Scene& scene,
+                                                      const SectionProblem& problem) {
+    std::vector<NamedExpression> result;
     for (const std::string& name : problem.level_names) {
+      const std::string own = fmt::format("casimir_level_{}", result.size());
       if (name == "H") {
-        result.push_back(model.at_parameters(*model.hamiltonian, scene));
+        result.push_back({own, model.at_parameters(*model.hamiltonian, scene), {}});
         continue;
       }
       const auto casimir = std::ranges::find(model.casimirs, name, &NamedExpression::name);
       const Proof proof = prove_claim(model, ClaimKind::casimir, *casimir);
       if (proof.verdict != Verdict::proved || !proof.where.empty())
         throw NotProved{fmt::format("{} is not proved to be a Casimir function", name)};
-      result.push_back(model.at_parameters(casimir->value, scene));
+      result.push_back({own, model.at_parameters(casimir->value, scene), {}});
     }
     return result;
   }
@@ -329,6 +410,8 @@ class Prover {
 
   const SectionProblem& problem_;
   std::vector<GiNaC::symbol> variables_;
+  bool is_range_;  ///< some parameter has any value of an interval
+  std::vector<NamedExpression> level_functions_;
   FlowToTime flow_;
   BallFunctions levels_, level_derivatives_, plane_, plane_derivatives_, structure_;
   std::vector<std::size_t> order_;
@@ -343,6 +426,28 @@ std::string unsuited(const Model& model, const SectionProblem& problem) {
   return {};
 }
 
+/// Which assumption about the parameters a range leaves, or nothing: the case says nothing of what
+/// is beyond.
+std::string left_by(const Model& model, const Scene& open, const Intervals& ranges) {
+  for (const Assumption& assumption : model.assumptions) {
+    const GiNaC::ex difference = model.at_parameters(assumption.difference, open);
+    const auto occurs = [&](const GiNaC::symbol& x) { return difference.has(x); };
+    if (std::ranges::any_of(model.variables, occurs) ||
+        std::ranges::none_of(ranges, [&](const auto& range) { return occurs(range.first); }))
+      continue;
+    try {
+      const BallMatrix value = BallFunctions({}, {difference}).over(ranges)(BallMatrix(0, 1));
+      Ball ball;
+      acb_set_arb(ball.raw(), value.at(0));
+      if (const auto sign = ball.sign(); sign && holds(assumption.comparison, *sign)) continue;
+    } catch (const NotCertified&) {
+      // It has no certain value all over the range.
+    }
+    return fmt::format("the range leaves the assumption '{}'", printable(assumption.text));
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string ProvedCycle::kind() const {
@@ -354,13 +459,19 @@ std::string ProvedCycle::kind() const {
 
 std::vector<ProvedCycle> enclose_cycles(const Model& model, const Scene& scene,
                                         const SectionProblem& problem,
-                                        const std::vector<Cycle>& cycles, double longest) {
+                                        const std::vector<Cycle>& cycles,
+                                        const ParameterRanges& ranges, double longest) {
+  require_exact_values(model, scene, "an enclosure");
+  check_ranges(model, ranges);
   std::vector<ProvedCycle> result(cycles.size());
   std::string reason = unsuited(model, problem);
+  const Scene open = scene_over(model, scene, ranges);
+  const Intervals intervals = intervals_of(model, scene, ranges);
+  if (reason.empty()) reason = left_by(model, open, intervals);
   std::optional<Prover> prover;
   if (reason.empty()) {
     try {
-      prover.emplace(model, scene, problem, longest);
+      prover.emplace(model, open, problem, intervals, longest);
     } catch (const NotProved& problem_of_all) {
       reason = problem_of_all.reason;
     }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "runtime/validated_run.hpp"
+#include "tools/analysis/run/validated.hpp"
 #include "tools/analysis/section/cycles.hpp"
 
 namespace casimir {
@@ -30,20 +31,23 @@ struct ProvedCycle {
 /// With the flow phi, the unknowns are a point x of the plane and a time T; the equations are
 /// s(x) = 0, I_a(x) = c_a for H and the Casimir functions, and (phi_T(x) - x)_i = 0 for as many i
 /// as are missing. Krawczyk's operator maps a box of (x, T) into its inside, so that they have
-/// exactly one solution there. phi_T(x) and its derivatives by x and T are enclosed over the box by
-/// `validated_run`, as the solution of x' = T f(x), with the variational equations, over a unit of
-/// time. The other differences are zero as well: both points lie on one level, and the derivatives
-/// of the I_a by the other coordinates are a regular matrix over the hull of both boxes (mean value
-/// theorem). This needs that the I_a are constant along the flow, which is proved first for the
-/// Casimir functions and holds for H.
+/// exactly one solution there. phi_T(x) and its derivatives by x are enclosed over the box by
+/// `validated::FlowMap`, and that by T is f(phi_T(x)). The other differences are zero as well: both
+/// points lie on one level, and the derivatives of the I_a by the other coordinates are a regular
+/// matrix over the hull of both boxes (mean value theorem). This needs that the I_a are constant
+/// along the flow, which is proved first for the Casimir functions and holds for H.
 ///
 /// The levels are those numbers and all others within 2^-52 of them, of their size.
 /// The trace is that of the derivative of phi_T less one for each I_a and one for the direction of
 /// the flow: these are eigenvalues 1, by the symplectic structure on a leaf of dimension 4 with all
 /// Casimir functions named. What is proved is a period; it need not be the least.
+/// \param ranges   parameters that may have any value of an interval: what is proved then holds for
+///                 each of them, with the level as it is, and the cycles are a smooth branch
+///                 (implicit function theorem). The function of the plane must not depend on them.
 /// \param longest  seconds for each of them, about.
 std::vector<ProvedCycle> enclose_cycles(const Model& model, const Scene& scene,
                                         const SectionProblem& problem,
-                                        const std::vector<Cycle>& cycles, double longest = 60);
+                                        const std::vector<Cycle>& cycles,
+                                        const ParameterRanges& ranges = {}, double longest = 60);
 
 }  // namespace casimir

@@ -30,6 +30,11 @@ class Integrations : public SweepTask {
 
   /// How many points one register holds.
   int lanes() const { return kernel_.lanes ? kernel_.lanes->lanes : 1; }
+  /// Whether points may pass over what lies between the ends of a step: see `may_pass_over`.
+  bool passes_over() const { return may_pass_over(run_, settings_); }
+  /// Whether all steps have one size.
+  bool constant_step() const { return settings_.fixed_step > 0; }
+
   /// What the user should know of how the code was made, or empty.
   const std::string& warning() const { return kernel_.warning; }
 

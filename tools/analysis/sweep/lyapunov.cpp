@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <thread>
 
 #include "codegen/emit_cpp.hpp"
-#include "tools/analysis/error.hpp"
 #include "tools/analysis/proof/exact_text.hpp"
+#include "tools/analysis/sweep/deviations.hpp"
 
 namespace casimir {
 namespace {
@@ -25,32 +22,9 @@ LyapunovExponents::LyapunovExponents(const Model& model, const Scene& scene,
                                      const PreparedScene& run, const GridPoints& places,
                                      const Method& method, const Settings& settings)
     : places_(places),
-      // The tables of the method that needs no compiler hold the values of the parameters.
-      method_(method.name == "taylor" && !run.parameters.empty() ? *find_method("taylor-compiled")
-                                                                 : method),
+      method_(deviation_method(run, method)),
       settings_(settings),
-      deviating_(run) {
-  const Specialisation& s = run.specialisation;
-  if (s.uses_time) throw RequestError("the equations depend on the time: no exponents");
-  SpecialiseOptions what;
-  what.keep_parameters = s.parameters;
-  what.observe = s.states;
-  what.invariants = what.jacobian = false;
-  what.variational = true;
-  Specialisation& twice = deviating_.specialisation;
-  twice = specialise(model, scene, what);
-  twice.rhs = twice.variational;
-  for (const std::string& name : s.states) twice.states.push_back("delta_" + name);
-  // The same direction everywhere, and none that a system is likely to single out.
-  double norm = 0;
-  std::vector<double> deviation;
-  for (std::size_t i = 0; i < s.states.size(); ++i) {
-    deviation.push_back(1 + 0.618 * static_cast<double>(i % 3) - 0.27 * static_cast<double>(i));
-    norm = std::hypot(norm, deviation.back());
-  }
-  for (const double d : deviation) deviating_.initial.push_back(d / norm);
-  deviating_.rounding.resize(deviating_.initial.size());
-}
+      deviating_(with_deviation(model, scene, run)) {}
 
 std::vector<std::string> LyapunovExponents::columns() const {
   return {"t", "exponent", "exponent_half", "steps"};
@@ -96,34 +70,10 @@ PointResult LyapunovExponents::follow(const Module& module, std::size_t point,
 
 std::vector<PointResult> LyapunovExponents::run(const std::vector<std::size_t>& points, int threads,
                                                 const std::function<bool()>& give_up) const {
-  std::vector<PointResult> results(points.size(), {Status::stopped, {kNone, kNone, kNone, kNone}});
-  // Exact numbers are counted without locks: whatever holds any is made in this thread.
-  std::vector<CompiledModule> modules;
-  const std::size_t workers =
-      std::min<std::size_t>(static_cast<std::size_t>(threads), points.size());
-  for (std::size_t i = 0; i < workers; ++i) modules.push_back(compile_for(deviating_, method_));
-  std::atomic<std::size_t> next = 0;
-  std::vector<std::exception_ptr> problems(workers);
-  std::vector<std::jthread> pool;
-  for (std::size_t i = 0; i < workers; ++i)
-    pool.emplace_back([&, i] {
-      try {
-        for (std::size_t k = next++; k < points.size() && !(give_up && give_up()); k = next++)
-          results[k] = follow(modules[i].module, points[k], give_up);
-      } catch (...) {
-        problems[i] = std::current_exception();
-      }
-    });
-  pool.clear();
-  for (const std::exception_ptr& problem : problems) {
-    if (!problem) continue;
-    try {
-      std::rethrow_exception(problem);
-    } catch (const std::invalid_argument& said) {
-      throw RequestError(said.what());
-    }
-  }
-  return results;
+  return each_with_module(
+      deviating_, method_, points, threads, give_up,
+      {Status::stopped, {kNone, kNone, kNone, kNone}},
+      [&](const Module& module, std::size_t point) { return follow(module, point, give_up); });
 }
 
 }  // namespace casimir

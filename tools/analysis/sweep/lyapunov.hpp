@@ -18,6 +18,7 @@ class LyapunovExponents : public SweepTask {
                     const GridPoints& places, const Method& method, const Settings& settings);
 
   std::vector<std::string> columns() const override;
+  std::string principal_column() const override { return "exponent"; }
   std::string fingerprint() const override;
   std::vector<PointResult> run(const std::vector<std::size_t>& points, int threads,
                                const std::function<bool()>& give_up) const override;

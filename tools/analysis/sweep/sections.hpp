@@ -18,6 +18,7 @@ class Sections : public SweepTask {
            std::size_t orbits, std::size_t points, double tolerance);
 
   std::vector<std::string> columns() const override;
+  std::string principal_column() const override { return "chaotic"; }
   std::string fingerprint() const override;
   std::vector<PointResult> run(const std::vector<std::size_t>& points, int threads,
                                const std::function<bool()>& give_up) const override;

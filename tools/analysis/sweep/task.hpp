@@ -24,6 +24,9 @@ class SweepTask {
   /// Names of the numbers that it finds at a point.
   virtual std::vector<std::string> columns() const = 0;
 
+  /// The one that a picture shows where none is named; empty where none is more than the others.
+  virtual std::string principal_column() const { return {}; }
+
   /// Everything that the results follow from, besides the grid: a sweep goes on only from results
   /// of the same text.
   virtual std::string fingerprint() const = 0;

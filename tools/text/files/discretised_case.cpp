@@ -34,9 +34,10 @@ std::string entries(const std::vector<std::string>& keys, const std::vector<std:
   return "{ " + text + " }";
 }
 
-class Writer {
+class DiscretisedWriter {
  public:
-  Writer(const Model& flow, const RationalMapText& map) : flow_(flow), map_(map), notation_(flow) {}
+  DiscretisedWriter(const Model& flow, const RationalMapText& map)
+      : flow_(flow), map_(map), notation_(flow) {}
 
   std::string write(const std::string& method, const std::optional<std::string>& value) {
     std::string text = fmt::format("# {} of the case {}{}.\n", method, flow_.name,
@@ -122,7 +123,7 @@ class Writer {
 
 std::string discretised_case(const Model& flow, const RationalMapText& map,
                              const std::string& method, const std::optional<std::string>& value) {
-  return Writer(flow, map).write(method, value);
+  return DiscretisedWriter(flow, map).write(method, value);
 }
 
 }  // namespace casimir::tools

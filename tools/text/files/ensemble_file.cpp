@@ -161,7 +161,7 @@ double exact_constant(const Text& text) {
   }
 }
 
-double number(const Text& text) {
+double member_value(const Text& text) {
   if (text.value.empty()) throw text.error("expected a number, not an empty field");
   bool out_of_range = false;
   if (const auto value = decimal(text.value, 0, text.value.size(), out_of_range)) {
@@ -199,7 +199,7 @@ void row(Fields& fields, EnsembleFile& file) {
     if (++count > file.columns.size())
       throw field.error(
           fmt::format("more fields than the {} columns of the first line", file.columns.size()));
-    file.values.push_back(number(field));
+    file.values.push_back(member_value(field));
   }
   if (count < file.columns.size())
     throw fields.here().error(

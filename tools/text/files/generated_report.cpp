@@ -39,7 +39,7 @@ std::vector<Generated> functions_of(const Specialisation& s) {
 }  // namespace
 
 nlohmann::ordered_json functions_json(const Specialisation& specialisation) {
-  nlohmann::ordered_json json = nlohmann::json::object();
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (const Generated& function : functions_of(specialisation)) {
     json[function.name] = to_json(function.operations);
     if (function.matrix) json[function.name]["entries"] = function.matrix->entries.size();
@@ -48,7 +48,7 @@ nlohmann::ordered_json functions_json(const Specialisation& specialisation) {
 }
 
 nlohmann::ordered_json left_out_json(const Specialisation& specialisation) {
-  nlohmann::ordered_json list = nlohmann::json::array();
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const LeftOut& item : specialisation.left_out) {
     list.push_back({{"kind", item.kind}, {"name", item.name}, {"reason", item.reason}});
   }

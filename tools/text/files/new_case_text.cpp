@@ -113,7 +113,7 @@ std::string claims(const NewCase& system) {
   text += fmt::format("# name = \"G\"\n# expression = \"{}^2\"\n# on = [\"{}\"]\n", known,
                       system.levels.front());
   text +=
-      "\n# Further tables, which the README describes: [definitions], [[invariant_relation]], "
+      "\n# Further tables, see man 5 casimir-case: [definitions], [[invariant_relation]], "
       "[[lax]],\n"
       "# as well as [[map]], [[measure]] and [[identity]].\n";
   return text;

@@ -8,9 +8,9 @@ namespace casimir::tools {
 nlohmann::ordered_json to_json(const Model& base, int degree, const discrete::MapSearch& found,
                                double seconds) {
   nlohmann::ordered_json json{{"case", base.name}, {"degree", degree}};
-  json["integrals"] = nlohmann::json::array();
+  json["integrals"] = nlohmann::ordered_json::array();
   for (const discrete::FoundOfMap& f : found.integrals) json["integrals"].push_back(f.text);
-  json["densities"] = nlohmann::json::array();
+  json["densities"] = nlohmann::ordered_json::array();
   for (const discrete::FoundOfMap& f : found.densities) json["densities"].push_back(f.text);
   json["trivial"] = 1;
   json["at_most"] = {{"polynomials", found.polynomials},

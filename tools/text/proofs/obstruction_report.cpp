@@ -18,11 +18,12 @@ nlohmann::ordered_json to_json(const Examined& examined) {
       {"along", examined.along},     {"level", examined.level},
       {"curve", examined.curve},     {"nve", examined.nve},
       {"reduced", examined.reduced}, {"singular_points", examined.exponents}};
-  json["cases"] = nlohmann::json::array();
+  json["cases"] = nlohmann::ordered_json::array();
   for (const auto& [what, outcome] : examined.cases)
     json["cases"].push_back({{"case", what}, {"outcome", outcome}});
   if (!examined.solution.empty()) json["solution"] = examined.solution;
   json["group"] = examined.outcome;
+  json["order"] = examined.order;
   if (!examined.where.empty()) json["where"] = examined.where;
   return json;
 }
@@ -44,7 +45,10 @@ void print_evidence(const Examined& examined) {
   for (const std::string& point : examined.exponents) print_line("", point);
   for (const auto& [what, outcome] : examined.cases)
     print_line("", fmt::format("{}: {}", what, outcome));
-  if (!examined.solution.empty()) print_line("w = y'/y", examined.solution);
+  if (!examined.solution.empty()) {
+    const std::string unknown = examined.expressions ? examined.expressions->unknown : "y";
+    print_line(fmt::format("w = {0}'/{0}", unknown), examined.solution);
+  }
   print_line("group", examined.outcome);
   if (!examined.where.empty()) print_line("where", examined.where);
 }
@@ -75,12 +79,12 @@ void print_survivors(const Obstruction& answer) {
 
 nlohmann::ordered_json survivors_json(const Obstruction& answer) {
   nlohmann::ordered_json json{{"parameter", answer.free}};
-  json["survivors"] = nlohmann::json::array();
-  json["excluded_alone"] = nlohmann::json::array();
+  json["survivors"] = nlohmann::ordered_json::array();
+  json["excluded_alone"] = nlohmann::ordered_json::array();
   for (const obstruction::FreeValue& value : answer.values)
     json[value.excluded ? "excluded_alone" : "survivors"].push_back(
         {{"value", value.value}, {"why", value.why}, {"outcome", value.outcome}});
-  json["sequences"] = nlohmann::json::array();
+  json["sequences"] = nlohmann::ordered_json::array();
   for (const obstruction::FreeSequence& sequence : answer.sequences)
     json["sequences"].push_back({{"range", sequence.range}, {"conditions", sequence.conditions}});
   return json;
@@ -91,7 +95,7 @@ nlohmann::ordered_json survivors_json(const Obstruction& answer) {
 nlohmann::ordered_json to_json(const Model& model, const Obstruction& answer, double seconds) {
   nlohmann::ordered_json json{{"case", model.name},
                               {"verdict", answer.proved ? "proved" : "undecided"}};
-  json["parameters"] = nlohmann::json::object();
+  json["parameters"] = nlohmann::ordered_json::object();
   for (const auto& [name, value] : answer.parameters) json["parameters"][name] = value;
   if (!answer.free.empty() && answer.proved) {
     json["free"] = survivors_json(answer);
@@ -107,7 +111,7 @@ nlohmann::ordered_json to_json(const Model& model, const Obstruction& answer, do
   } else {
     json["reason"] = answer.reason;
   }
-  json["examined"] = nlohmann::json::array();
+  json["examined"] = nlohmann::ordered_json::array();
   for (const Examined& examined : answer.examined) json["examined"].push_back(to_json(examined));
   json["left_out"] = answer.left_out;
   json["seconds"] = seconds;

@@ -13,13 +13,13 @@ using search::Found;
 using search::Report;
 
 nlohmann::ordered_json texts(const std::vector<Found>& list) {
-  nlohmann::ordered_json result = nlohmann::json::array();
+  nlohmann::ordered_json result = nlohmann::ordered_json::array();
   for (const Found& found : list) result.push_back(found.text);
   return result;
 }
 
 nlohmann::ordered_json details(const std::vector<Found>& list) {
-  nlohmann::ordered_json result = nlohmann::json::array();
+  nlohmann::ordered_json result = nlohmann::ordered_json::array();
   for (const Found& found : list) {
     result.push_back({{"expression", found.text},
                       {"degree", found.degree},
@@ -109,11 +109,11 @@ nlohmann::ordered_json to_json(const Model& model, int degree,
                               {"integrals", texts(report.generic.found)},
                               {"casimirs", texts(report.generic.casimirs)},
                               {"trivial", report.generic.trivial},
-                              {"conditions", nlohmann::json::array()},
+                              {"conditions", nlohmann::ordered_json::array()},
                               {"verdict", report.complete ? "proved" : "undecided"},
                               {"generic", report.generic.generic}};
   for (const search::Condition& condition : report.conditions) {
-    nlohmann::ordered_json own{{"parameters", nlohmann::json::object()}};
+    nlohmann::ordered_json own{{"parameters", nlohmann::ordered_json::object()}};
     for (const auto& [name, value] : condition.parameters) own["parameters"][name] = value;
     own["integrals"] = texts(condition.found);
     if (!condition.relation.empty()) own["relation"] = condition.relation + " = 0";
@@ -162,8 +162,8 @@ nlohmann::ordered_json to_json(const Model& model, int degree, const search::Dar
                                double seconds) {
   nlohmann::ordered_json json{{"case", model.name},
                               {"degree", degree},
-                              {"integrals", nlohmann::json::array()},
-                              {"invariant_relations", nlohmann::json::array()},
+                              {"integrals", nlohmann::ordered_json::array()},
+                              {"invariant_relations", nlohmann::ordered_json::array()},
                               {"verdict", report.complete ? "proved" : "undecided"},
                               {"generic", report.generic}};
   for (const search::DarbouxPolynomial& found : report.found) {
@@ -172,7 +172,7 @@ nlohmann::ordered_json to_json(const Model& model, int degree, const search::Dar
                                            {"degree", found.degree},
                                            {"verdict", to_string(found.verdict)}});
   }
-  json["combinations"] = nlohmann::json::array();
+  json["combinations"] = nlohmann::ordered_json::array();
   for (const search::DarbouxCombination& own : report.combinations) {
     if (own.kind == search::DarbouxCombination::Kind::integral)
       json["integrals"].push_back(own.text);

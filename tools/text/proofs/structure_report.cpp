@@ -20,7 +20,7 @@ using structure::TensorType;
 using Texts = std::vector<std::pair<std::string, std::string>>;
 
 nlohmann::ordered_json object_of(const Texts& texts) {
-  nlohmann::ordered_json result = nlohmann::json::object();
+  nlohmann::ordered_json result = nlohmann::ordered_json::object();
   for (const auto& [label, text] : texts) result[label] = text;
   return result;
 }
@@ -90,7 +90,7 @@ nlohmann::ordered_json to_json(const Model& model, int degree, const TensorRepor
                               {"kind", structure::name_of(report.type)},
                               {"rank", report.type.rank},
                               {"dimensions", report.dimensions},
-                              {"tensors", nlohmann::json::array()},
+                              {"tensors", nlohmann::ordered_json::array()},
                               {"verdict", report.complete ? "proved" : "undecided"},
                               {"generic", report.generic}};
   for (const Tensor& tensor : report.found) {
@@ -134,7 +134,7 @@ nlohmann::ordered_json to_json(const Model& model, int degree, const BracketRepo
                               {"hamiltonian_degree", report.hamiltonian_degree},
                               {"invariant_bivectors", report.invariant}};
   if (report.first) json["first"] = to_json(*report.first);
-  json["brackets"] = nlohmann::json::array();
+  json["brackets"] = nlohmann::ordered_json::array();
   for (const Bracket& bracket : report.found) json["brackets"].push_back(to_json(bracket));
   json["families"] = report.families;
   json["spanned"] = report.spanned;

@@ -92,7 +92,7 @@ void sort_by_book(std::vector<SurveyRow>& rows) {
 }
 
 nlohmann::ordered_json to_json(const std::vector<SurveyRow>& rows) {
-  nlohmann::ordered_json list = nlohmann::json::array();
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const SurveyRow& row : rows) {
     nlohmann::ordered_json json{{"case", row.case_name},
                                 {"book", row.book},

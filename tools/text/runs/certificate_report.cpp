@@ -9,6 +9,7 @@
 
 #include "tools/cli/errors.hpp"
 #include "tools/text/runs/enclosure_report.hpp"
+#include "tools/text/runs/outward_decimals.hpp"
 #include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
@@ -160,6 +161,59 @@ void print_text(const CyclesReport& report) {
       fmt::print("       {:<10} [{}, {}]\n", cycle.names[i], least, most);
     }
   }
+}
+
+nlohmann::ordered_json to_json(const CheckedHorseshoeReport& report) {
+  const CheckedHorseshoe& checked = report.checked;
+  nlohmann::ordered_json json = {{"certificate", "horseshoe"},
+                                 {"case", report.certificate.of_case},
+                                 {"verdict", checked.holds()   ? "checked"
+                                             : checked.stopped ? "stopped"
+                                                               : "refuted"},
+                                 {"equations", report.certificate.equations},
+                                 {"plane", report.certificate.plane},
+                                 {"sets", report.certificate.sets.size()},
+                                 {"coverings", report.certificate.coverings.size()},
+                                 {"integrals", checked.level_names}};
+  if (checked.holds()) {
+    json["level"] = nlohmann::ordered_json::object();
+    for (std::size_t a = 0; a < checked.levels.size(); ++a) {
+      const auto [low, high] = decimal_ends(checked.levels[a]);
+      json["level"][checked.level_names[a]] = {low, high};
+    }
+    json["parts"] = checked.parts;
+    json["entropy"] = decimal_below(checked.entropy);
+  } else {
+    json["reason"] = checked.stopped ? "the time limit was reached" : checked.reason;
+  }
+  json["seconds"] = report.seconds;
+  return json;
+}
+
+void print_text(const CheckedHorseshoeReport& report) {
+  const CheckedHorseshoe& checked = report.checked;
+  const HorseshoeCertificate& certificate = report.certificate;
+  const std::string of = printable(certificate.of_case, 100);
+  if (!checked.holds()) {
+    fmt::print("{}: not proved\n  {}\n", of,
+               checked.stopped ? "the time limit was reached" : checked.reason);
+    return;
+  }
+  fmt::print("{}: checked, {} coverings of {} h-sets by {} enclosed images in {}\n", of,
+             certificate.coverings.size(), certificate.sets.size(), checked.parts,
+             duration_text(report.seconds));
+  std::istringstream lines(certificate.equations);
+  for (std::string line; std::getline(lines, line);)
+    if (!line.empty()) fmt::print("    {}\n", printable(line, 400));
+  fmt::print("  returns to {} = 0, upwards\n", printable(certificate.plane, 400));
+  for (std::size_t a = 0; a < checked.levels.size(); ++a) {
+    const auto [low, high] = decimal_ends(checked.levels[a]);
+    fmt::print("  {:<10} [{}, {}]\n", checked.level_names[a], low, high);
+  }
+  fmt::print(
+      "  proved: the first return map has an orbit for every path of the graph of the coverings; "
+      "its\n  topological entropy is at least {}\n",
+      decimal_below(checked.entropy));
 }
 
 }  // namespace casimir::tools

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tools/analysis/certificate/cycle_certificate.hpp"
+#include "tools/analysis/certificate/horseshoe_certificate.hpp"
 #include "tools/analysis/certificate/run_certificate.hpp"
 
 namespace casimir::tools {
@@ -34,5 +35,15 @@ struct CyclesReport {
 
 nlohmann::ordered_json to_json(const CyclesReport& report);
 void print_text(const CyclesReport& report);
+
+/// The same of a horseshoe.
+struct CheckedHorseshoeReport {
+  const HorseshoeCertificate& certificate;
+  const CheckedHorseshoe& checked;
+  double seconds = 0;  ///< that the check took, without reading
+};
+
+nlohmann::ordered_json to_json(const CheckedHorseshoeReport& report);
+void print_text(const CheckedHorseshoeReport& report);
 
 }  // namespace casimir::tools

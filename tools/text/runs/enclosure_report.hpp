@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tools/analysis/run/validated.hpp"
+#include "tools/text/runs/outward_decimals.hpp"
 
 namespace casimir::tools {
 
@@ -19,16 +20,6 @@ struct EnclosureReport {
   std::string time() const;
   std::string advice() const;
 };
-
-/// The ends of an interval as decimals, rounded outwards: as many digits as tell its width to about
-/// three, but no more than some beyond `least`.
-std::pair<std::string, std::string> decimal_ends(const RationalInterval& interval, int least = 17);
-
-/// A number that is not negative as a decimal of three digits, not below it.
-std::string decimal_above(const cln::cl_RA& value);
-
-/// The power of ten that is not below a number, which is not negative: "1e-12".
-std::string power_of_ten_above(const cln::cl_RA& value);
 
 nlohmann::ordered_json to_json(const EnclosureReport& report);
 void print_text(const EnclosureReport& report);

@@ -10,7 +10,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) { return std::isfinite(value) ? Json(exact_text(value)) : Json(nullptr); }
+Json exact_number(double value) {
+  return std::isfinite(value) ? Json(exact_text(value)) : Json(nullptr);
+}
 
 std::string short_number(double value) {
   return std::isnan(value) ? "-" : fmt::format("{:.1e}", value);
@@ -52,8 +54,8 @@ Json to_json(const std::vector<Row>& rows) {
                     {"method", row.method},
                     {"code", row.code},
                     {"tolerance", row.tolerance},
-                    {"error", number(row.error)},
-                    {"drift", number(row.drift)},
+                    {"error", exact_number(row.error)},
+                    {"drift", exact_number(row.drift)},
                     {"seconds", row.seconds},
                     {"spread", row.spread},
                     {"rounds", row.rounds},

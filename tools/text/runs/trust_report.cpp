@@ -37,12 +37,13 @@ nlohmann::ordered_json to_json(const ErrorEstimate& trust) {
   return json;
 }
 
-std::vector<std::string> warnings_of(const ErrorEstimate& trust) {
+std::vector<std::string> warnings_of(const ErrorEstimate& trust, bool constant_step) {
   std::vector<std::string> warnings;
   if (trust.unconfirmed)
-    warnings.push_back(
-        "a run with a hundredth of the tolerance, or one by Taylor series, does not reach the end "
-        "or would take too long: nothing confirms this one");
+    warnings.push_back(fmt::format(
+        "a run with {}, or one by Taylor series, does not reach the end or would take too long: "
+        "nothing confirms this one",
+        constant_step ? "half the step" : "a hundredth of the tolerance"));
   if (!trust.known) {
     warnings.push_back(
         "how much small changes grow is not known: the variational equations could not be "
@@ -61,15 +62,15 @@ std::vector<std::string> warnings_of(const ErrorEstimate& trust) {
   }
   if (!trust.beyond_double && !trust.unconfirmed && !(trust.error_estimate < kDoubtful)) {
     warnings.push_back(
-        fmt::format("the end state may be off by {:.0e} of its size: tighten --tolerance",
-                    trust.error_estimate));
+        fmt::format("the end state may be off by {:.0e} of its size: {}", trust.error_estimate,
+                    constant_step ? "take a smaller --step" : "tighten --tolerance"));
   }
   return warnings;
 }
 
 RunWords words_of(const AssessedRun& judged, bool interrupted) {
   RunWords words{.warnings = judged.doubts, .advice = {}, .interrupted = interrupted};
-  for (std::string& warning : warnings_of(judged.trust))
+  for (std::string& warning : warnings_of(judged.trust, judged.settings.fixed_step > 0))
     words.warnings.push_back(std::move(warning));
   const Trajectory& trajectory = judged.trajectory;
   if (trajectory.status == Status::ok) {

@@ -12,7 +12,14 @@ namespace casimir::tools {
 nlohmann::ordered_json to_json(const ErrorEstimate& trust);
 
 /// Sentences for the user where the result is in doubt.
-std::vector<std::string> warnings_of(const ErrorEstimate& trust);
+/// \param constant_step  whether the run has steps of one size, and no tolerance.
+std::vector<std::string> warnings_of(const ErrorEstimate& trust, bool constant_step = false);
+
+/// What is said of members with a constant step where `may_pass_over` says so.
+inline constexpr const char* kUnseenBetweenSteps =
+    "with a constant step nobody looks for what lies between the ends of a step, such as a pulse "
+    "or "
+    "a wall, and three members at most were checked: without --step each of them looks";
 
 /// What is said of a run beside its numbers.
 struct RunWords {

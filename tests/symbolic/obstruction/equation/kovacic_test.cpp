@@ -183,6 +183,22 @@ TEST(Kovacic, AlgebraicPolesOfHighOrderAreUndecided) {
   EXPECT_EQ(group_of(w.derivative() + w * w), GaloisCase::undecided);
 }
 
+TEST(Kovacic, AllTriangularMatricesAreToldFromFewer) {
+  const auto with = [](const RationalFunction& w) {
+    return decide_liouvillian(w.derivative() + w * w);
+  };
+  // exp(z^2/2), and a logarithmic residue that is not rational.
+  for (const RationalFunction& w :
+       {RationalFunction(z), RationalFunction(Univariate(1), z * z - Univariate(2))}) {
+    EXPECT_EQ(with(w).galois, GaloisCase::reducible);
+    EXPECT_TRUE(with(w).borel);
+  }
+  // Diagonal: exp(z) and exp(-z). Unipotent: z^2 and 1/z. With a logarithm: y = sqrt z.
+  EXPECT_FALSE(decide_liouvillian(RationalFunction(1)).borel);
+  EXPECT_FALSE(decide_liouvillian(RationalFunction(Univariate(2), z * z)).borel);
+  EXPECT_FALSE(with(RationalFunction(Univariate(cln::cl_RA(1) / 2), z)).borel);
+}
+
 TEST(Kovacic, ASolutionIsPutIntoItsEquation) {
   const RationalFunction r(Univariate(2), z * z);  // y = z^2, w = 2/z
   EXPECT_TRUE(solves_riccati({RationalFunction(Univariate(-2), z), RationalFunction(1)}, r));

@@ -1,0 +1,164 @@
+#include "codegen/dag/elliptic_nodes.hpp"
+
+namespace casimir::codegen {
+namespace {
+
+constexpr int kMeans = 7, kDuplications = 10, kShortDuplications = 8;
+
+/// Sums and products of nodes as they are written.
+class Terms {
+ public:
+  explicit Terms(Dag& dag) : dag_(dag) {}
+
+  Scaled number(const cln::cl_RA& value) const { return dag_.product({scaled(value, one())}); }
+  Scaled times(const cln::cl_RA& factor, const Scaled& a) const { return scaled(factor, a); }
+  Scaled sum(const std::vector<Scaled>& parts) const { return dag_.sum(parts); }
+  Scaled product(const std::vector<Scaled>& parts) const { return dag_.product(parts); }
+  Scaled power(const Scaled& a, const cln::cl_RA& exponent) const {
+    return dag_.power(a, exponent);
+  }
+  Scaled root(const Scaled& a) const { return power(a, cln::cl_RA(1) / 2); }
+  Scaled over(const Scaled& a, const Scaled& b) const { return product({a, power(b, -1)}); }
+  Scaled minus(const Scaled& a, const Scaled& b) const { return sum({a, scaled(-1, b)}); }
+  Scaled call(Op function, const Scaled& a) const { return dag_.call(function, {a}); }
+  static Scaled one() { return {1, Dag::kOne}; }
+
+ private:
+  static Scaled scaled(const cln::cl_RA& factor, const Scaled& a) {
+    return {factor * a.coefficient, a.node};
+  }
+
+  Dag& dag_;
+};
+
+cln::cl_RA ratio(int top, int bottom) { return cln::cl_RA(top) / bottom; }
+
+/// A number with what of its powers a series needs.
+Scaled seventh_order(const Terms& t, const Scaled& e2, const Scaled& e3, const Scaled& e4,
+                     const Scaled& e5) {
+  return t.sum({t.one(), t.times(ratio(-3, 14), e2), t.times(ratio(1, 6), e3),
+                t.times(ratio(9, 88), t.power(e2, 2)), t.times(ratio(-3, 22), e4),
+                t.times(ratio(-9, 52), t.product({e2, e3})), t.times(ratio(3, 26), e5),
+                t.times(ratio(-1, 16), t.power(e2, 3)), t.times(ratio(3, 40), t.power(e3, 2)),
+                t.times(ratio(3, 20), t.product({e2, e4})),
+                t.times(ratio(45, 272), t.product({t.power(e2, 2), e3})),
+                t.times(ratio(-9, 68), t.sum({t.product({e3, e4}), t.product({e2, e5})}))});
+}
+
+/// DLMF 19.36.1 behind duplications by 19.26.18.
+Scaled first_kind(const Terms& t, Scaled x, Scaled y, Scaled z, int duplications) {
+  for (int n = 0; n < duplications; ++n) {
+    const Scaled a = t.root(x), b = t.root(y), c = t.root(z);
+    const Scaled lambda = t.sum({t.product({a, b}), t.product({b, c}), t.product({a, c})});
+    for (Scaled* argument : {&x, &y, &z})
+      *argument = t.times(ratio(1, 4), t.sum({*argument, lambda}));
+  }
+  const Scaled mean = t.times(ratio(1, 3), t.sum({x, y, z}));
+  const Scaled u = t.minus(t.one(), t.over(x, mean)), v = t.minus(t.one(), t.over(y, mean));
+  const Scaled w = t.times(-1, t.sum({u, v}));
+  const Scaled e2 = t.minus(t.product({u, v}), t.power(w, 2)), e3 = t.product({u, v, w});
+  const Scaled series =
+      t.sum({t.one(), t.times(ratio(-1, 10), e2), t.times(ratio(1, 14), e3),
+             t.times(ratio(1, 24), t.power(e2, 2)), t.times(ratio(-3, 44), t.product({e2, e3})),
+             t.times(ratio(-5, 208), t.power(e2, 3)), t.times(ratio(3, 104), t.power(e3, 2)),
+             t.times(ratio(1, 16), t.product({t.power(e2, 2), e3}))});
+  return t.product({t.power(mean, ratio(-1, 2)), series});
+}
+
+/// DLMF 19.36.2, with R_D(x, y, z) = R_J(x, y, z, z).
+Scaled second_kind(const Terms& t, Scaled x, Scaled y, Scaled z) {
+  std::vector<Scaled> sum;
+  cln::cl_RA quarter = 1;
+  for (int n = 0; n < kDuplications; ++n) {
+    const Scaled a = t.root(x), b = t.root(y), c = t.root(z);
+    const Scaled lambda = t.sum({t.product({a, b}), t.product({b, c}), t.product({a, c})});
+    sum.push_back(t.times(3 * quarter, t.power(t.product({c, t.sum({z, lambda})}), -1)));
+    for (Scaled* argument : {&x, &y, &z})
+      *argument = t.times(ratio(1, 4), t.sum({*argument, lambda}));
+    quarter = quarter / 4;
+  }
+  const Scaled mean = t.times(ratio(1, 5), t.sum({x, y, t.times(3, z)}));
+  const Scaled u = t.minus(t.one(), t.over(x, mean)), v = t.minus(t.one(), t.over(y, mean));
+  const Scaled w = t.times(ratio(-1, 3), t.sum({u, v})), w2 = t.power(w, 2);
+  const Scaled uv = t.product({u, v});
+  const Scaled e2 = t.sum({uv, t.times(-6, w2)});
+  const Scaled e3 = t.product({t.sum({t.times(3, uv), t.times(-8, w2)}), w});
+  const Scaled e4 = t.times(3, t.product({t.minus(uv, w2), w2}));
+  const Scaled e5 = t.product({uv, w2, w});
+  sum.push_back(
+      t.times(quarter, t.product({t.power(mean, ratio(-3, 2)), seventh_order(t, e2, e3, e4, e5)})));
+  return t.sum(sum);
+}
+
+/// Carlson (1995), with R_C(1, 1 + e) = R_F(1, 1 + e, 1 + e).
+Scaled third_kind(const Terms& t, Scaled x, Scaled y, Scaled z, Scaled p) {
+  const Scaled delta = t.product({t.minus(p, x), t.minus(p, y), t.minus(p, z)});
+  std::vector<Scaled> sum;
+  cln::cl_RA quarter = 1;
+  for (int n = 0; n < kDuplications; ++n) {
+    const Scaled a = t.root(x), b = t.root(y), c = t.root(z), r = t.root(p);
+    const Scaled d = t.product({t.sum({r, a}), t.sum({r, b}), t.sum({r, c})});
+    const Scaled e = t.times(quarter * quarter * quarter, t.over(delta, t.power(d, 2)));
+    const Scaled second = t.sum({t.one(), e});
+    sum.push_back(t.times(6 * quarter,
+                          t.over(first_kind(t, t.one(), second, second, kShortDuplications), d)));
+    const Scaled lambda = t.sum({t.product({a, b}), t.product({b, c}), t.product({a, c})});
+    for (Scaled* argument : {&x, &y, &z, &p})
+      *argument = t.times(ratio(1, 4), t.sum({*argument, lambda}));
+    quarter = quarter / 4;
+  }
+  const Scaled mean = t.times(ratio(1, 5), t.sum({x, y, z, t.times(2, p)}));
+  const Scaled u = t.minus(t.one(), t.over(x, mean)), v = t.minus(t.one(), t.over(y, mean)),
+               w = t.minus(t.one(), t.over(z, mean));
+  const Scaled q = t.times(ratio(-1, 2), t.sum({u, v, w})), q2 = t.power(q, 2);
+  const Scaled uvw = t.product({u, v, w});
+  const Scaled e2 =
+      t.sum({t.product({u, v}), t.product({v, w}), t.product({u, w}), t.times(-3, q2)});
+  const Scaled e3 = t.sum({uvw, t.times(2, t.product({e2, q})), t.times(4, t.product({q2, q}))});
+  const Scaled e4 =
+      t.product({t.sum({t.times(2, uvw), t.product({e2, q}), t.times(3, t.product({q2, q}))}), q});
+  const Scaled e5 = t.product({uvw, q2});
+  sum.push_back(
+      t.times(quarter, t.product({t.power(mean, ratio(-3, 2)), seventh_order(t, e2, e3, e4, e5)})));
+  return t.sum(sum);
+}
+
+/// Descending through the means from an angle that is 2^n times as large.
+Scaled amplitude(const Terms& t, const Scaled& u, const Scaled& k) {
+  Scaled a = t.one(), b = t.root(t.minus(t.one(), t.power(k, 2))), c = k;
+  std::vector<Scaled> ratios;
+  for (int n = 0; n < kMeans; ++n) {
+    const Scaled next = t.times(ratio(1, 2), t.sum({a, b}));
+    // (a - b)/2 without cancellation.
+    c = t.times(ratio(1, 4), t.over(t.power(c, 2), next));
+    b = t.root(t.product({a, b}));
+    a = next;
+    ratios.push_back(t.over(c, a));
+  }
+  Scaled angle = t.times(1 << kMeans, t.product({a, u}));
+  for (std::size_t n = ratios.size(); n-- > 0;) {
+    const Scaled bent = t.call(Op::asin, t.product({ratios[n], t.call(Op::sin, angle)}));
+    angle = t.times(ratio(1, 2), t.sum({angle, bent}));
+  }
+  return angle;
+}
+
+}  // namespace
+
+Scaled elliptic_node(Dag& dag, const std::string& name, const std::vector<Scaled>& arguments) {
+  const Terms t(dag);
+  if (name == "R_F") return first_kind(t, arguments[0], arguments[1], arguments[2], kDuplications);
+  if (name == "R_D") return second_kind(t, arguments[0], arguments[1], arguments[2]);
+  if (name == "R_J") return third_kind(t, arguments[0], arguments[1], arguments[2], arguments[3]);
+  const Scaled& k = arguments[1];
+  const Scaled angle = amplitude(t, arguments[0], k);
+  if (name == "am") return angle;
+  if (name == "sn") return t.call(Op::sin, angle);
+  const Scaled cosine = t.call(Op::cos, angle);
+  if (name == "cn") return cosine;
+  // dn, as a sum of what is positive: near k = 1 nothing cancels.
+  const Scaled square = t.power(k, 2);
+  return t.root(t.sum({t.one(), t.times(-1, square), t.product({square, t.power(cosine, 2)})}));
+}
+
+}  // namespace casimir::codegen

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "symbolic/functions/generator_table.hpp"
+#include "symbolic/functions/sign_table.hpp"
+
+namespace casimir::functions {
+
+/// Knows the places where functions are not differentiable, or not analytic.
+class FunctionPieces {
+ public:
+  FunctionPieces(const GeneratorTable& table, const SignTable& signs)
+      : table_(table), signs_(signs) {}
+
+  /// The irreducible factors of what stands under the roots and absolute values that `p` contains,
+  /// also within other functions. Where none of them vanishes, `p` is differentiable.
+  /// \param cuts  with what has to vanish for atan2 to jump, which does not concern derivatives
+  std::vector<Polynomial> radicand_factors(const Polynomial& p, bool cuts = false) const;
+
+  /// Whether `p` is differentiable all the same where one of its radicands has the factor `f` that
+  /// vanishes, as y*|y| and x^(3/2) are.
+  bool is_smooth_across(const Polynomial& p, const Polynomial& f) const;
+
+  /// Whether `p` has the factor `f` under its roots in |f| alone, and no inverse function: then it
+  /// is differentiable along a curve on which f keeps its sign, or stays zero.
+  bool is_rough_in_absolute_value_alone(const Polynomial& p, const Polynomial& f) const;
+
+  /// How functions hang together beyond the part of the domain where a point lies.
+  struct Pieces {
+    /// What absolute values are taken of: on the set where each keeps its sign, the functions are
+    /// restrictions of meromorphic or algebraic ones that are the same all over that set.
+    std::vector<Polynomial> switches;
+    /// False where this is not shown: what holds at a point is then known to hold at almost all
+    /// points of the connected part of the domain around it, and no more.
+    bool rigid = true;
+  };
+  Pieces pieces(const std::vector<Polynomial>& functions) const;
+
+ private:
+  const std::vector<Polynomial>& factors_of_radicand(std::size_t g) const;
+
+  const GeneratorTable& table_;
+  const SignTable& signs_;
+  mutable std::unordered_map<std::size_t, std::vector<Polynomial>> radicands_;
+};
+
+}  // namespace casimir::functions

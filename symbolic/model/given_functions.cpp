@@ -1,0 +1,173 @@
+#include "symbolic/model/given_functions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "symbolic/algebra/number_text.hpp"
+#include "symbolic/expression/arbitrary.hpp"
+#include "symbolic/expression/expression_size.hpp"
+
+namespace casimir {
+namespace {
+
+using GiNaC::ex;
+
+/// A polynomial of so high a degree; `which` makes those of several functions different.
+ex choice_of(const std::vector<GiNaC::symbol>& arguments, int degree, int which,
+             std::string& text) {
+  const int sign = degree < 0 ? -1 : 1;
+  const int power = sign * degree;
+  ex sum = 0;
+  text.clear();
+  const auto add = [&](int factor, const ex& monomial, const std::string& written) {
+    sum += sign * factor * monomial;
+    append_term(text, cln::cl_RA(sign * factor), written);
+  };
+  add(1 + which, 1, "");
+  for (std::size_t i = 0; i < arguments.size(); ++i)
+    add(static_cast<int>(i) + 1 + which, GiNaC::pow(arguments[i], power),
+        arguments[i].get_name() + (power > 1 ? fmt::format("^{}", power) : ""));
+  if (arguments.size() > 1 && power > 1)
+    add(1, arguments[0] * arguments[1], arguments[0].get_name() + "*" + arguments[1].get_name());
+  return sum;
+}
+
+void put_all(std::vector<ex>& list, const GivenFunctions& given) {
+  for (ex& e : list) e = given.put(e);
+}
+
+void put_all(std::vector<NamedExpression>& list, const GivenFunctions& given) {
+  for (NamedExpression& f : list) {
+    f.value = given.put(f.value);
+    put_all(f.domain, given);
+  }
+}
+
+void put_all(std::vector<LevelClaim>& list, const GivenFunctions& given) {
+  for (LevelClaim& claim : list) {
+    claim.expression.value = given.put(claim.expression.value);
+    put_all(claim.expression.domain, given);
+    put_all(claim.on, given);
+  }
+}
+
+void put_all(GiNaC::matrix& m, const GivenFunctions& given) {
+  for (unsigned i = 0; i < m.rows(); ++i)
+    for (unsigned j = 0; j < m.cols(); ++j) m(i, j) = given.put(m(i, j));
+}
+
+PoissonStructure put_bracket(const PoissonStructure& bracket, const GivenFunctions& given) {
+  std::vector<ex> upper;
+  for (std::size_t i = 0; i < bracket.dimension(); ++i)
+    for (std::size_t j = i + 1; j < bracket.dimension(); ++j)
+      upper.push_back(given.put(bracket(i, j)));
+  return {bracket.coordinates(), upper};
+}
+
+void put_claims(Model& model, const GivenFunctions& given) {
+  for (auto* list : {&model.definitions, &model.casimirs, &model.integrals, &model.constraints})
+    put_all(*list, given);
+  put_all(model.conditionals, given);
+  put_all(model.invariant_relations, given);
+  for (LaxPair& pair : model.lax_pairs) {
+    put_all(pair.l, given);
+    put_all(pair.a, given);
+    put_all(pair.domain, given);
+    put_all(pair.on, given);
+  }
+  for (PoissonMap& map : model.maps) {
+    map.target = put_bracket(map.target, given);
+    put_all(map.expressions, given);
+    put_all(map.on, given);
+    put_all(map.image, given);
+    put_all(map.domain, given);
+    for (MapInverse& inverse : map.inverses) {
+      put_all(inverse.expressions, given);
+      put_all(inverse.defined_by, given);
+      for (Assumption& a : inverse.domain) a.difference = given.put(a.difference);
+    }
+  }
+  for (Measure& measure : model.measures) {
+    measure.density.value = given.put(measure.density.value);
+    put_all(measure.density.domain, given);
+  }
+  for (Identity& identity : model.identities) {
+    identity.left = given.put(identity.left);
+    identity.right = given.put(identity.right);
+    put_all(identity.on, given);
+    put_all(identity.domain, given);
+  }
+}
+
+}  // namespace
+
+bool has_arbitrary_functions(const Model& model) {
+  return std::any_of(model.parameters.begin(), model.parameters.end(), [](const GiNaC::symbol& p) {
+    return function_name(p.get_name()).has_value();
+  });
+}
+
+ex GivenFunctions::put(const ex& expression) const { return substituted(expression, values); }
+
+std::vector<GivenFunctions> function_choices(const Model& model) {
+  std::vector<GivenFunctions> result;
+  for (const int degree : {1, 2, 3, -2}) {
+    result.emplace_back();
+    int which = 0;
+    for (const GiNaC::symbol& parameter : model.parameters) {
+      const auto function = function_name(parameter.get_name());
+      if (!function) continue;
+      std::vector<GiNaC::symbol> arguments;
+      for (const std::string& argument : function->arguments) arguments.emplace_back(argument);
+      std::string text;
+      const ex body = choice_of(arguments, degree, which++, text);
+      result.back().values[parameter] = given_function(arguments, body);
+      result.back().texts.emplace_back(parameter.get_name(), text);
+    }
+  }
+  return result;
+}
+
+Model with_functions(const Model& model, const GivenFunctions& given) {
+  Model result = model;
+  if (result.hamiltonian) result.hamiltonian = given.put(*result.hamiltonian);
+  put_all(result.field, given);
+  put_all(result.domain, given);
+  put_all(result.bracket_domain, given);
+  if (result.poisson) result.poisson = put_bracket(*result.poisson, given);
+  for (Assumption& a : result.assumptions) a.difference = given.put(a.difference);
+  put_claims(result, given);
+  result.section.reset();
+  result.scenes.clear();  // they are about functions of their own
+  std::erase_if(result.parameters,
+                [](const GiNaC::symbol& p) { return function_name(p.get_name()).has_value(); });
+  return result;
+}
+
+std::pair<Model, Scene> in_scene(const Model& model, const Scene& scene) {
+  GivenFunctions given;
+  Scene own = scene;
+  own.parameters.clear();
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    const GiNaC::symbol& parameter = model.parameters[i];
+    const auto function = function_name(parameter.get_name());
+    if (!function) {
+      own.parameters.push_back(scene.parameters[i]);
+      continue;
+    }
+    if (!GiNaC::is_a<GiNaC::lst>(scene.parameters[i]))
+      throw function_not_given(scene.name, parameter.get_name());
+    given.values[parameter] = scene.parameters[i];
+  }
+  return {with_functions(model, given), own};
+}
+
+ModelError function_not_given(const std::string& scene, const std::string& parameter) {
+  const auto function = function_name(parameter);
+  return ModelError(fmt::format(
+      "the scene '{}' does not say what the function {} is: functions = {{ {} = \"..\" }} in it",
+      printable(scene), parameter, function ? function->name : parameter));
+}
+
+}  // namespace casimir

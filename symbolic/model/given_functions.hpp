@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "symbolic/model.hpp"
+
+namespace casimir {
+
+/// Whether a case has arbitrary functions.
+bool has_arbitrary_functions(const Model& model);
+
+/// Polynomials for the arbitrary functions of a case.
+struct GivenFunctions {
+  GiNaC::exmap values;                                     ///< by the symbol of the function
+  std::vector<std::pair<std::string, std::string>> texts;  ///< "U(r)" and "r^2 + r"
+
+  /// An expression with these functions in place of the arbitrary ones.
+  GiNaC::ex put(const GiNaC::ex& expression) const;
+};
+
+/// Different choices, simple ones: of degrees 1, 2 and 3, and a negative one.
+std::vector<GivenFunctions> function_choices(const Model& model);
+
+/// A case with the functions that a scene gives, and that scene, whose parameters are numbers
+/// alone.
+/// \throws ModelError  where the scene does not say what one of them is
+std::pair<Model, Scene> in_scene(const Model& model, const Scene& scene);
+
+/// The error that a scene lacks a function. \param parameter  as in the model, "U(r)"
+ModelError function_not_given(const std::string& scene, const std::string& parameter);
+
+/// The case with given functions: what it claims is then about these alone.
+Model with_functions(const Model& model, const GivenFunctions& given);
+
+}  // namespace casimir

@@ -1,0 +1,136 @@
+// Frequencies and rotation numbers, against closed forms and signals that are known.
+#include <gtest/gtest.h>
+
+#include <boost/math/special_functions/ellint_1.hpp>
+#include <boost/math/special_functions/ellint_3.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "tools/analysis/frequency/motion_frequencies.hpp"
+#include "tools/analysis/frequency/rotation.hpp"
+#include "tools/analysis/frequency/spectrum.hpp"
+
+namespace casimir::test {
+namespace {
+
+constexpr double kTurns = 2 * std::numbers::pi;
+const double kGolden = (std::sqrt(5.) - 1) / 2;
+
+TEST(Spectrum, TellsEachLineOfAQuasiperiodicSignal) {
+  std::vector<double> signal;
+  for (int j = 0; j < 2000; ++j)
+    signal.push_back(0.3 + std::cos(kTurns * (kGolden - 0.4) * j + 0.3) /
+                               (1.3 + std::sin(kTurns * 0.0831234567 * j)));
+  const Spectrum spectrum = spectrum_of(std::span<const double>(signal), 6);
+  ASSERT_EQ(spectrum.lines.size(), 6U);
+  for (const SpectralLine& line : spectrum.lines) {
+    double nearest = 1;
+    for (int a = 0; a <= 1; ++a)
+      for (int b = -8; b <= 8; ++b) {
+        const double f = a * (kGolden - 0.4) + b * 0.0831234567;
+        nearest = std::min(nearest, std::abs(std::remainder(std::abs(f) - line.frequency, 1)));
+      }
+    EXPECT_LT(nearest, 1e-8);
+    EXPECT_LT(nearest, 10 * line.error + 1e-15);
+    EXPECT_TRUE(line.in_both_halves);
+  }
+}
+
+TEST(Spectrum, LinesOfNoiseAreNotInBothHalves) {
+  std::vector<double> signal;
+  double x = 0.3;
+  for (int j = 0; j < 2000; ++j) signal.push_back(x = 3.99 * x * (1 - x));
+  const Spectrum spectrum = spectrum_of(std::span<const double>(signal), 6);
+  int settled = 0;
+  for (const SpectralLine& line : spectrum.lines)
+    settled += line.frequency > 0 && line.error < 1e-6 ? 1 : 0;
+  EXPECT_EQ(settled, 0);
+}
+
+TEST(Spectrum, SaysWhereLinesMayBeFoldedBack) {
+  std::vector<double> slow, fast;
+  for (int j = 0; j < 1000; ++j) {
+    slow.push_back(std::sin(0.1 * j));
+    fast.push_back(1 / (1.01 + std::sin(1.3 * j)));
+  }
+  EXPECT_LT(spectrum_of(std::span<const double>(slow), 2).near_folding, kFolded);
+  EXPECT_GT(spectrum_of(std::span<const double>(fast), 2).near_folding, 0.01);
+}
+
+/// An orbit on a closed curve: not a circle, and not run through evenly.
+OrbitPoints on_curve(double number, int count, int waves) {
+  OrbitPoints points{.dimension = 2, .coordinates = {}, .places = {}, .periods = {}};
+  for (int j = 0; j < count; ++j) {
+    const double angle = kTurns * number * j + 0.3, radius = 1 + 0.3 * std::cos(waves * angle);
+    const double x = 2 * radius * std::cos(angle), y = radius * std::sin(angle) / 2;
+    points.coordinates.insert(points.coordinates.end(), {x, y});
+    points.places.push_back({x, y});
+  }
+  return points;
+}
+
+TEST(Rotation, IsTheTurnOfTheCurveAndNoMultipleOfIt) {
+  for (const double number : {kGolden, 1 - kGolden, std::numbers::pi - 3, std::sqrt(2.) / 3})
+    for (const int waves : {1, 2, 3, 5}) {
+      const Rotation rotation = rotation_of(on_curve(number, 500, waves));
+      EXPECT_EQ(rotation.kind, Rotation::Kind::curve) << number << " " << waves;
+      EXPECT_NEAR(rotation.number, number, 1e-12) << waves;
+      EXPECT_TRUE(rotation.directed);
+    }
+}
+
+TEST(Rotation, SaysNothingWhereTheOrbitIsTooShort) {
+  EXPECT_EQ(rotation_of(on_curve(1e-4, 500, 1)).kind, Rotation::Kind::none);
+  EXPECT_EQ(rotation_of(on_curve(kGolden, 20, 1)).kind, Rotation::Kind::none);
+  // Next to a resonance the points leave the curve open.
+  EXPECT_EQ(rotation_of(on_curve(1. / 3 + 1e-5, 500, 2)).kind, Rotation::Kind::none);
+}
+
+TEST(Rotation, CyclesAndFixedPointsAreNamed) {
+  const Rotation cycle = rotation_of(on_curve(2. / 5, 200, 1));
+  EXPECT_EQ(cycle.kind, Rotation::Kind::cycle);
+  EXPECT_EQ(cycle.parts, 5U);
+  EXPECT_NEAR(cycle.number, 0.4, 1e-15);
+  EXPECT_EQ(rotation_of(on_curve(1, 200, 1)).parts, 1U);
+}
+
+/// Chirikov's standard map; the angle goes to 2 Pi.
+OrbitPoints standard_map(double strength, double angle, double action, int count,
+                         double* lift = nullptr) {
+  OrbitPoints points{.dimension = 3, .coordinates = {}, .places = {}, .periods = {kTurns, 0}};
+  double sum = 0;
+  for (int j = 0; j < count; ++j) {
+    action += strength * std::sin(angle);
+    angle = std::remainder(angle + action, kTurns);
+    sum += action;
+    points.coordinates.insert(points.coordinates.end(), {std::cos(angle), std::sin(angle), action});
+    points.places.push_back({angle, action});
+  }
+  if (lift) *lift = sum / count / kTurns;
+  return points;
+}
+
+TEST(Rotation, AgreesWithTheMeanAdvanceOfTheStandardMap) {
+  for (const double action : {2., 2.5, 3.88}) {
+    double lift = 0;
+    const Rotation rotation = rotation_of(standard_map(0.5, 0.3, action, 2000, &lift));
+    EXPECT_EQ(rotation.kind, Rotation::Kind::curve);
+    EXPECT_NEAR(rotation.number, lift, 1e-4);
+    EXPECT_LT(rotation.error, 1e-12);
+  }
+}
+
+TEST(Rotation, IslandsAreNoCurve) {
+  const Rotation rotation = rotation_of(standard_map(0.5, 0.3, 3, 2000));
+  EXPECT_EQ(rotation.kind, Rotation::Kind::islands);
+  EXPECT_EQ(rotation.parts, 2U);
+  EXPECT_NEAR(rotation.number, 0.5, 1e-15);
+}
+
+TEST(Rotation, ChaosHasNone) {
+  EXPECT_EQ(rotation_of(standard_map(5, 0.3, 1, 2000)).kind, Rotation::Kind::none);
+  EXPECT_EQ(rotation_of(standard_map(0.9716, 0.01, 0.01, 2000)).kind, Rotation::Kind::none);
+}
+
+}  // namespace
+}  // namespace casimir::test
