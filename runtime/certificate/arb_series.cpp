@@ -98,9 +98,12 @@ void ArbSeries::expand(const ArbBall& time, const Vector& states, bool forwards)
         if (!constant_[i]) extend(i, k, forwards);
     if (k == order_) return;
     // (k + 1) x_{k+1} = +- rate_k
+    // A product costs a third of a quotient, so the quotient is made once an order.
+    ArbBall share(1.);
+    arb_div_si(share.raw(), share.raw(), forwards ? k + 1 : -(k + 1), bits_);
     for (std::size_t i = 0; i < states_.size(); ++i)
-      arb_div_si(states_[i][at(k) + 1].raw(), lines_[at(program_.outputs[i])][at(k)].raw(),
-                 forwards ? k + 1 : -(k + 1), bits_);
+      arb_mul(states_[i][at(k) + 1].raw(), lines_[at(program_.outputs[i])][at(k)].raw(),
+              share.raw(), bits_);
     if (k + 1 == order_) return;
   }
 }

@@ -7,8 +7,10 @@
 
 #include "codegen/optimise/differentiate.hpp"
 #include "codegen/optimise/lower.hpp"
+#include "symbolic/model/given_functions.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/run/drift_check.hpp"
+#include "tools/analysis/run/elliptic_lift.hpp"
 #include "tools/analysis/run/exact_values.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
 
@@ -68,7 +70,15 @@ std::vector<KnownIntegral> known_integrals(const Model& model, const Specialisat
   return result;
 }
 
-ValidatedProblem problem_of(const Model& model, const ValidatedOptions& options,
+/// By how much the parameter of that name may be off.
+cln::cl_RA radius_of(const ParameterRanges& ranges, const std::string& name) {
+  const auto range =
+      std::ranges::find_if(ranges, [&](const auto& one) { return one.first == name; });
+  return range == ranges.end() ? cln::cl_RA(0) : range->second;
+}
+
+/// \param claims  the case whose invariants are proved
+ValidatedProblem problem_of(const Model& claims, const ValidatedOptions& options,
                             PreparedEnclosure& motion) {
   const Specialisation& s = motion.specialisation;
   ValidatedProblem problem;
@@ -82,14 +92,11 @@ ValidatedProblem problem_of(const Model& model, const ValidatedOptions& options,
     problem.radii = options.radii;
   } else if (wide) {
     problem.radii.assign(s.states.size(), options.initial_radius);
-    for (const std::string& name : s.parameters) {
-      const auto range =
-          std::ranges::find_if(options.ranges, [&](const auto& one) { return one.first == name; });
-      problem.radii.push_back(range == options.ranges.end() ? cln::cl_RA(0) : range->second);
-    }
+    for (const std::string& name : s.parameters)
+      problem.radii.push_back(radius_of(options.ranges, name));
   }
   if (options.contract)
-    problem.integrals = known_integrals(model, s, motion.names.size(), motion.doubts);
+    problem.integrals = known_integrals(claims, s, motion.names.size(), motion.doubts);
   return problem;
 }
 
@@ -139,9 +146,11 @@ std::vector<std::pair<GiNaC::symbol, RationalInterval>> intervals_of(
   return result;
 }
 
-PreparedEnclosure prepare_enclosure(const Model& model, const Scene& scene,
-                                    const ValidatedOptions& options) {
-  require_exact_values(model, scene, "an enclosure");
+namespace {
+
+/// The equations of a scene as they are enclosed, but for the problem.
+PreparedEnclosure specialised(const Model& model, const Scene& scene,
+                              const ValidatedOptions& options) {
   check_ranges(model, options.ranges);
   Scene exact = scene;
   if (options.duration) exact.duration = options.duration;
@@ -154,12 +163,10 @@ PreparedEnclosure prepare_enclosure(const Model& model, const Scene& scene,
   prepared.specialisation = specialise(model, exact, what);
   prepared.names = prepared.specialisation.states;
   for (const std::string& name : prepared.specialisation.parameters) prepared.names.push_back(name);
-  prepared.problem = problem_of(model, options, prepared);
   return prepared;
 }
 
-ValidatedMotion enclose(const Model& model, const Scene& scene, const ValidatedOptions& options) {
-  PreparedEnclosure prepared = prepare_enclosure(model, scene, options);
+ValidatedMotion enclosed(PreparedEnclosure prepared, const ValidatedOptions& options) {
   ValidatedMotion motion;
   motion.specialisation = std::move(prepared.specialisation);
   motion.names = std::move(prepared.names);
@@ -168,9 +175,63 @@ ValidatedMotion enclose(const Model& model, const Scene& scene, const ValidatedO
     motion.run = validated_run(prepared.problem, options.run);
   } catch (const std::domain_error& problem_of_data) {
     throw ModelError(fmt::format("scene \"{}\": its data have no certain value: {}",
-                                 printable(scene.name), problem_of_data.what()));
+                                 printable(motion.specialisation.scene), problem_of_data.what()));
   }
   return motion;
+}
+
+/// Without the states from `first` up to `last`.
+void drop_states(ValidatedMotion& motion, std::size_t first, std::size_t last) {
+  const auto drop = [first, last](auto& list) {
+    using Distance = std::ptrdiff_t;
+    list.erase(list.begin() + static_cast<Distance>(first),
+               list.begin() + static_cast<Distance>(last));
+  };
+  drop(motion.names);
+  drop(motion.specialisation.states);
+  drop(motion.specialisation.state_indices);
+  drop(motion.run.end.states);
+  for (StateBox& box : motion.run.samples) drop(box.states);
+}
+
+/// What has elliptic functions: see EllipticLift.
+ValidatedMotion enclosed_lift(const Model& model, const Scene& scene,
+                              const ValidatedOptions& options) {
+  const EllipticLift lift = elliptic_lift(model, scene, options);
+  PreparedEnclosure prepared = specialised(lift.model, lift.scene, options);
+  const Specialisation& s = prepared.specialisation;
+  ValidatedOptions with_radii = options;
+  with_radii.radii.clear();
+  for (const int state : s.state_indices)
+    with_radii.radii.push_back(lift.radii.at(static_cast<std::size_t>(state)));
+  for (const std::string& name : s.parameters)
+    with_radii.radii.push_back(radius_of(options.ranges, name));
+  prepared.problem = problem_of(model, with_radii, prepared);
+  const auto own = static_cast<std::size_t>(std::ranges::count_if(
+      s.state_indices, [&](int state) { return static_cast<std::size_t>(state) < lift.own; }));
+  const std::size_t all = s.states.size();
+  ValidatedMotion motion = enclosed(std::move(prepared), with_radii);
+  drop_states(motion, own, all);
+  return motion;
+}
+
+}  // namespace
+
+PreparedEnclosure prepare_enclosure(const Model& model, const Scene& scene,
+                                    const ValidatedOptions& options) {
+  require_exact_values(model, scene, "an enclosure with a certificate or of crossings");
+  PreparedEnclosure prepared = specialised(model, scene, options);
+  prepared.problem = problem_of(model, options, prepared);
+  return prepared;
+}
+
+ValidatedMotion enclose(const Model& model, const Scene& scene, const ValidatedOptions& options) {
+  if (has_arbitrary_functions(model)) {
+    const auto [own, own_scene] = in_scene(model, scene);
+    if (has_elliptic_functions(own)) return enclosed_lift(own, own_scene, options);
+  }
+  if (has_elliptic_functions(model)) return enclosed_lift(model, scene, options);
+  return enclosed(prepare_enclosure(model, scene, options), options);
 }
 
 }  // namespace casimir
