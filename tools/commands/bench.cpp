@@ -252,7 +252,7 @@ void register_bench(CLI::App& program, Action& action) {
       ->type_name("FILE");
   command
       ->add_option("--plot", options->plot,
-                   "Draw error against run time to this .svg, .png or .pdf file")
+                   "Draw error against run time to this .svg, .png, .pdf or .tex file")
       ->type_name("FILE");
   options->print.add_to(*command);
   command->add_option("--format", options->format, "text (default), markdown or json")

@@ -287,6 +287,11 @@ void print_matrix(const StressMatrix& matrix) {
              matrix.lines.size() * matrix.columns.size(), matrix.count(Judgement::right),
              matrix.count(Judgement::warned), matrix.count(Judgement::refused),
              matrix.count(Judgement::inaccurate), matrix.count(Judgement::wrong));
+  if (matrix.count(Judgement::refused) > 0)
+    fmt::print(
+        " (of the refused {} as they should be, {} where the method does not apply, {} failed)",
+        matrix.count(Refusal::expected), matrix.count(Refusal::not_applicable),
+        matrix.count(Refusal::failed));
   if (const int unknown = matrix.count(Judgement::unknown); unknown > 0)
     fmt::print(", {} unknown", unknown);
   fmt::print("\n");
@@ -320,7 +325,10 @@ constexpr const char* kDescription =
     "state\n"
     "           grow along the run, and less than a tenth of a state's size along the run\n"
     "  warned   it says that its end state is not to be trusted, which is true\n"
-    "  refused  it says that it did not reach the end, and why\n"
+    "  refused  it says that it did not reach the end, and why; the table tells apart\n"
+    "             refused  the motion does not reach that time: there is no other answer\n"
+    "             n/a      the method is not defined for such a system, and says so\n"
+    "             failed   there is an end, and it does not come to it\n"
     "  coarse   explained like that, but with less than three digits at a fine tolerance\n"
     "  wrong    it says ok, and its error is larger, or a number is not finite, or the motion "
     "does\n"

@@ -81,15 +81,14 @@ std::string script(const ColourMap& map, const Sheet& sheet, const std::string& 
   const Print& print = sheet.print;
   const bool even = is_even(map.x) && is_even(map.y);
   const std::vector<double> across = edges_of(map.x), up = edges_of(map.y);
-  std::string text =
-      fmt::format("set encoding utf8\nset terminal {} enhanced\nset output {}\nunset key\n",
-                  terminal_of(sheet, kScreen), quoted_path(output));
+  std::string text = fmt::format("set encoding utf8\nset terminal {}\nset output {}\nunset key\n",
+                                 terminal_of(sheet, kScreen), quoted_path(output));
   if (!map.title.empty() && print.title)
     text += fmt::format("set title {} noenhanced\n",
-                        quoted_lines(map.title, letters_across(print, 0.8)));
-  text +=
-      fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\nset cblabel {} noenhanced\n",
-                  quoted(map.x_label), quoted(map.y_label), quoted(map.quantity));
+                        quoted_lines(map.title, letters_across(print, 0.8), sheet));
+  text += fmt::format(
+      "set xlabel {} noenhanced\nset ylabel {} noenhanced\nset cblabel {} noenhanced\n",
+      quoted(map.x_label, sheet), quoted(map.y_label, sheet), quoted(map.quantity, sheet));
   text += fmt::format("set palette defined ({})\n", print.monochrome ? kGreys : kPalette);
   // gnuplot leaves no room for what stands beside long numbers.
   if (is_narrow(print)) text += "set rmargin at screen 0.74\n";
@@ -119,11 +118,8 @@ void check_cells(const std::vector<double>& x, const std::vector<double>& y) {
 }
 
 void draw(const ColourMap& map, const Sheet& sheet) {
-  check_plot_name(sheet.path);
   check_cells(map.x, map.y);
-  OutputFile picture(sheet.path);
-  draw_script(script(map, sheet, picture.temporary().string()), picture);
-  picture.commit();
+  draw_sheet(sheet, [&](const std::string& output) { return script(map, sheet, output); });
 }
 
 }  // namespace casimir::tools

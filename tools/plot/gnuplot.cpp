@@ -14,6 +14,7 @@
 
 #include "symbolic/error.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/plot/printed_names.hpp"
 #include "tools/text/text_layout.hpp"
 
 extern char** environ;
@@ -52,24 +53,25 @@ bool is_whole(const std::string& picture) {
   std::string end(static_cast<std::size_t>(std::max<std::streamoff>(size, 0)), '\0');
   in.seekg(-size, std::ios::end);
   in.read(end.data(), size);
-  return in && (end.find("</svg>") != std::string::npos || end.find("IEND") != std::string::npos ||
-                end.find("%%EOF") != std::string::npos);
+  return in &&
+         (end.find("</svg>") != std::string::npos || end.find("\\endgroup") != std::string::npos ||
+          end.find("IEND") != std::string::npos || end.find("%%EOF") != std::string::npos);
 }
 
 }  // namespace
 
-std::string quoted(const std::string& text) {
-  std::string result = "'";
+std::string quoted(const std::string& text, const Sheet& sheet) {
+  std::string kept;
   for (const char c : one_line(text)) {
-    if (c != '\'' && c != '`' && c != '\\') result += c;
+    if (c != '\'' && c != '`' && c != '\\') kept += c;
   }
-  return result + "'";
+  return "'" + (sheet.latex() ? latex_text(kept) : kept) + "'";
 }
 
-std::string quoted_lines(const std::string& text, std::size_t letters) {
+std::string quoted_lines(const std::string& text, std::size_t letters, const Sheet& sheet) {
   std::string lines;
   for (const std::string& line : wrapped(text, letters))
-    lines += (lines.empty() ? "" : ".\"\\n\".") + quoted(line);
+    lines += (lines.empty() ? "" : ".\"\\n\".") + quoted(line, sheet);
   return lines.empty() ? "''" : lines;
 }
 
@@ -98,6 +100,63 @@ void draw_script(const std::string& script, OutputFile& picture) {
   if (std::filesystem::is_regular_file(beside) && !is_whole(beside))
     throw SystemError(fmt::format("gnuplot could not write all of '{}': the disk may be full",
                                   printable(beside, 200)));
+}
+
+namespace {
+
+/// Names that \includegraphics takes as they are.
+void check_latex_name(const std::string& path) {
+  const std::string name = std::filesystem::path(path).filename().string();
+  const bool plain = std::ranges::all_of(name, [](unsigned char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+           c == '.';
+  });
+  if (!plain || std::ranges::count(name, '.') != 1 || name.front() == '.' || name.front() == '-')
+    throw UsageError(fmt::format(
+        "'{}': LaTeX includes the picture by its name, which can have letters, digits and hyphens",
+        printable(path, 200)));
+}
+
+std::string content_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// gnuplot writes the lines to a PDF of its own name, which the text then includes.
+void draw_latex(const Sheet& sheet, const std::function<std::string(const std::string&)>& script) {
+  check_latex_name(sheet.path);
+  OutputFile text(sheet.path);
+  OutputFile lines(std::filesystem::path(sheet.path).replace_extension(".pdf"));
+  const std::filesystem::path made = std::filesystem::absolute(text.temporary());
+  draw_script(script(text.temporary().string()), text);
+  const std::filesystem::path drawn = std::filesystem::path(made).replace_extension(".pdf");
+  lines.stream() << content_of(drawn);
+  std::error_code ignored;
+  std::filesystem::remove(drawn, ignored);
+  std::string content = content_of(made);
+  const std::string included = std::filesystem::path(made).replace_extension().string();
+  const std::size_t at = content.find("{" + included + "}");
+  if (at == std::string::npos || !is_whole(made.string()))
+    throw SystemError("gnuplot did not write the LaTeX figure that is known of it");
+  content.replace(at + 1, included.size(), std::filesystem::path(sheet.path).stem().string());
+  std::ofstream(made, std::ios::binary | std::ios::trunc) << content;
+  lines.commit();
+  text.commit();
+}
+
+}  // namespace
+
+void draw_sheet(const Sheet& sheet, const std::function<std::string(const std::string&)>& script,
+                const std::function<void(const std::filesystem::path&)>& finished) {
+  check_plot_name(sheet.path);
+  if (sheet.latex()) {
+    draw_latex(sheet, script);
+    return;
+  }
+  OutputFile picture(sheet.path);
+  draw_script(script(picture.temporary().string()), picture);
+  if (finished) finished(picture.temporary());
+  picture.commit();
 }
 
 }  // namespace casimir::tools

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tools/analysis/quantities.hpp"
+#include "tools/plot/printed_names.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -74,9 +75,9 @@ Plot time_picture(const Model& model, const Scene& scene, const Motion& motion,
   const std::vector<std::string>& names = what.empty() ? motion.names : what;
   const auto values = columns(model, scene, motion, "--plot-y", names);
   Plot plot{.title = picture_title(model, scene), .x_label = "time", .y_label = "state"};
-  if (names.size() == 1) plot.y_label = names.front();
+  if (names.size() == 1) plot.y_label = printed_names(names.front());
   for (std::size_t i = 0; i < names.size(); ++i) {
-    Curve curve{names.size() == 1 ? "" : names[i], {}, Curve::Style::line};
+    Curve curve{names.size() == 1 ? "" : printed_names(names[i]), {}, Curve::Style::line};
     for (std::size_t k = 0; k < motion.times.size(); ++k)
       curve.points.emplace_back(motion.times[k], values[i][k]);
     plot.curves.push_back(std::move(curve));
@@ -87,7 +88,9 @@ Plot time_picture(const Model& model, const Scene& scene, const Motion& motion,
 Plot phase_picture(const Model& model, const Scene& scene, const Motion& motion,
                    const std::string& x, const std::string& y) {
   const auto values = columns(model, scene, motion, "--plot-xy", {x, y});
-  Plot plot{.title = picture_title(model, scene), .x_label = x, .y_label = y};
+  Plot plot{.title = picture_title(model, scene),
+            .x_label = printed_names(x),
+            .y_label = printed_names(y)};
   Curve curve{"", {}, Curve::Style::path};
   for (std::size_t k = 0; k < motion.times.size(); ++k)
     curve.points.emplace_back(values[0][k], values[1][k]);

@@ -94,31 +94,33 @@ std::string data_of(const Plot& plot, const Curve& curve) {
   return points;
 }
 
-std::string axes(const Plot& plot, const Print& print) {
+std::string axes(const Plot& plot, const Sheet& sheet) {
+  const Print& print = sheet.print;
   std::string text;
   if (!plot.title.empty() && print.title)
     text += fmt::format("set title {} noenhanced\n",
-                        quoted_lines(plot.title, letters_across(print, 0.9)));
+                        quoted_lines(plot.title, letters_across(print, 0.9), sheet));
   if (plot.square) {
     text += "set size ratio -1\nunset border\nunset tics\nset lmargin 2\nset rmargin 2\n";
   } else {
     text += fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\n",
-                        quoted_lines(plot.x_label, letters_across(print, 0.8)),
-                        quoted_lines(plot.y_label, letters_across(print, 0.5)));
+                        quoted_lines(plot.x_label, letters_across(print, 0.8), sheet),
+                        quoted_lines(plot.y_label, letters_across(print, 0.5), sheet));
     text +=
         fmt::format("set grid lt 1 lw 0.8 lc rgb '{}'\nset tics nomirror\nset border 3\n", kGrid);
   }
-  if (plot.log_x) text += "set logscale x\nunset mxtics\nset format x '10^{%T}'\n";
-  if (plot.log_y) text += "set logscale y\nset format y '10^{%T}'\n";
+  const char* power = sheet.latex() ? "'$10^{%T}$'" : "'10^{%T}'";
+  if (plot.log_x) text += fmt::format("set logscale x\nunset mxtics\nset format x {}\n", power);
+  if (plot.log_y) text += fmt::format("set logscale y\nset format y {}\n", power);
   if (!plot.y_unit.empty())
-    text += fmt::format("set micro\nset format y {}\n", quoted("%.0s %c" + plot.y_unit));
+    text += fmt::format("set micro\nset format y {}\n", quoted("%.0s %c" + plot.y_unit, {".svg"}));
   return text;
 }
 
-std::string script(const Plot& plot, const Print& print, const std::string& terminal,
+std::string script(const Plot& plot, const Sheet& sheet, const std::string& terminal,
                    const std::string& key, const std::string& output) {
-  std::string text = fmt::format("set encoding utf8\nset terminal {} enhanced\nset output {}\n{}",
-                                 terminal, quoted_path(output), axes(plot, print));
+  std::string text = fmt::format("set encoding utf8\nset terminal {}\nset output {}\n{}", terminal,
+                                 quoted_path(output), axes(plot, sheet));
   const bool legend = std::ranges::any_of(plot.curves, in_legend);
   text += legend ? "set key " + key + "\n" : "unset key\n";
   std::string commands;
@@ -130,8 +132,8 @@ std::string script(const Plot& plot, const Print& print, const std::string& term
       text += fmt::format("$curve{} << EOD\n{}EOD\n", i, points);
       commands +=
           fmt::format("{}$curve{} using 1:2 with {} {}", commands.empty() ? "plot " : ", \\\n     ",
-                      i, style_of(curve, group, print),
-                      in_legend(curve) ? "title " + quoted(curve.name) + " noenhanced"
+                      i, style_of(curve, group, sheet.print),
+                      in_legend(curve) ? "title " + quoted(curve.name, sheet) + " noenhanced"
                                        : std::string("notitle"));
     }
     const bool next_has_it =
@@ -177,7 +179,7 @@ KeyBelow key_below(const Plot& plot, double width, double sample) {
 std::string sheet_script(const Plot& plot, const Sheet& sheet, const std::string& output) {
   const ScreenSize screen = screen_size(plot);
   if (!is_narrow(sheet.print))
-    return script(plot, sheet.print, terminal_of(sheet, screen), kKeyBeside, output);
+    return script(plot, sheet, terminal_of(sheet, screen), kKeyBeside, output);
   // In a column the legend stands below, and makes the figure higher.
   constexpr double kSample = 9, kMillimetresOfLine = 3.6;
   const auto [lines, key] =
@@ -186,7 +188,7 @@ std::string sheet_script(const Plot& plot, const Sheet& sheet, const std::string
   if (!higher.print.height)
     higher.print.height =
         height_in_print(sheet.print, screen) + kMillimetresOfLine * static_cast<double>(lines);
-  return script(plot, sheet.print, terminal_of(higher, screen), key + "\nset xlabel offset 0,0.4",
+  return script(plot, sheet, terminal_of(higher, screen), key + "\nset xlabel offset 0,0.4",
                 output);
 }
 
@@ -262,10 +264,7 @@ std::string axes_known(const std::string& file) {
 }  // namespace
 
 void draw(const Plot& plot, const Sheet& sheet) {
-  check_plot_name(sheet.path);
-  OutputFile picture(sheet.path);
-  draw_script(sheet_script(plot, sheet, picture.temporary().string()), picture);
-  picture.commit();
+  draw_sheet(sheet, [&](const std::string& output) { return sheet_script(plot, sheet, output); });
 }
 
 std::string svg_element(const Plot& plot, const std::string& name, const std::string& beside) {
@@ -282,13 +281,13 @@ std::string page_svg(const Plot& plot, const std::string& name, const std::strin
   const auto [lines, below] =
       key_below(plot, static_cast<double>(width) / kLetter, kSample / kLetter);
   const std::string terminal =
-      fmt::format("svg size {},{} dynamic background rgb 'white' font 'sans,13.5'", width,
+      fmt::format("svg size {},{} dynamic background rgb 'white' font 'sans,13.5' enhanced", width,
                   kHeight + kLine * lines);
   const std::string key = below + " font ',12.5'\nset xlabel offset 0,0.8";
   OutputFile picture(beside + "." + name + ".svg");
   OutputFile axes(beside + "." + name + ".axes");
   const std::string values = axes.temporary().string();
-  draw_script(script(plot, {}, terminal, key, picture.temporary().string()) +
+  draw_script(script(plot, {".svg"}, terminal, key, picture.temporary().string()) +
                   (plot.square ? "" : axes_script(plot, values)),
               picture);
   std::string svg = with_thinned_paths(element_of(picture, name), kApart);

@@ -25,7 +25,7 @@ constexpr double kPrintedPoints = 8;
 /// Lines of screens are too heavy beside letters of that size.
 constexpr double kPrintedLines = 0.6;
 
-constexpr std::array kEndings = std::to_array<std::string_view>({".svg", ".png", ".pdf"});
+constexpr std::array kEndings = std::to_array<std::string_view>({".svg", ".png", ".pdf", ".tex"});
 
 std::string svg(const Sheet& sheet, const ScreenSize& screen) {
   const Print& print = sheet.print;
@@ -56,11 +56,19 @@ std::string png(const Sheet& sheet, const ScreenSize& screen) {
       letters_of(sheet, screen), kPrintedLines * larger, kPrintedLines * larger);
 }
 
+/// In inches.
+struct PageSize {
+  double width, height;
+};
+
+PageSize page_size(const Print& print, const ScreenSize& screen) {
+  if (!print.width) return {screen.width / kSvgDensity, screen.height / kSvgDensity};
+  return {*print.width / kMillimetresOfInch, height_in_print(print, screen) / kMillimetresOfInch};
+}
+
 std::string pdf(const Sheet& sheet, const ScreenSize& screen) {
   const Print& print = sheet.print;
-  const double width = print.width ? *print.width / kMillimetresOfInch : screen.width / kSvgDensity;
-  const double height = print.width ? height_in_print(print, screen) / kMillimetresOfInch
-                                    : screen.height / kSvgDensity;
+  const auto [width, height] = page_size(print, screen);
   const double lines = print.width ? kPrintedLines : 1;
   // gnuplot's letters are those of a screen, of 96 pixels an inch, in a page of 72 points an inch.
   constexpr double kFontScale = 0.75;
@@ -69,6 +77,13 @@ std::string pdf(const Sheet& sheet, const ScreenSize& screen) {
       "{:.3g} "
       "background rgb 'white'",
       width, height, print.font, letters_of(sheet, screen), kFontScale, lines, lines);
+}
+
+/// Letters are those of the paper, of the size that is around the figure.
+std::string latex(const Sheet& sheet, const ScreenSize& screen) {
+  const auto [width, height] = page_size(sheet.print, screen);
+  return fmt::format("cairolatex pdf input colortext size {:.4f}in,{:.4f}in linewidth {:.3g}",
+                     width, height, sheet.print.width ? kPrintedLines : 1);
 }
 
 /// Letters, digits, spaces and hyphens: nothing that gnuplot would take for more than a name.
@@ -135,7 +150,7 @@ double height_in_print(const Print& print, const ScreenSize& screen) {
   return print.height.value_or(*print.width * std::max(screen.height / screen.width, kLeast));
 }
 
-const char* const kPictureNames = ".svg, .png or .pdf";
+const char* const kPictureNames = ".svg, .png, .pdf or .tex";
 
 bool is_picture_name(const std::string& path) {
   return std::ranges::any_of(kEndings,
@@ -148,14 +163,16 @@ void check_plot_name(const std::string& path) {
         fmt::format("'{}': a plot's name must end in {}", printable(path, 200), kPictureNames));
 }
 
-std::string terminal_of(const Sheet& sheet, const ScreenSize& screen) {
-  if (sheet.path.ends_with(".svg")) return svg(sheet, screen);
-  return sheet.path.ends_with(".pdf") ? pdf(sheet, screen) : png(sheet, screen);
+std::string terminal_of(const Sheet& sheet, const ScreenSize& screen, bool enhanced) {
+  if (sheet.latex()) return latex(sheet, screen);
+  const char* texts = enhanced ? " enhanced" : " noenhanced";
+  if (sheet.path.ends_with(".svg")) return svg(sheet, screen) + texts;
+  return (sheet.path.ends_with(".pdf") ? pdf(sheet, screen) : png(sheet, screen)) + texts;
 }
 
 double letters_of(const Sheet& sheet, const ScreenSize& screen) {
   const Print& print = sheet.print;
-  const bool pdf = sheet.path.ends_with(".pdf");
+  const bool pdf = sheet.path.ends_with(".pdf") || sheet.latex();
   if (!print.width)
     return print.points.value_or(pdf ? screen.letters * kPointsOfInch / kSvgDensity
                                      : screen.letters);

@@ -16,8 +16,11 @@ struct Print {
 
 /// What a picture is drawn on.
 struct Sheet {
-  std::string path;  ///< ends in .svg, .png or .pdf
+  std::string path;  ///< ends in .svg, .png, .pdf or .tex
   Print print = {};
+
+  /// Whether LaTeX sets its letters: lines are then in a PDF beside it, which it includes.
+  bool latex() const { return path.ends_with(".tex"); }
 };
 
 /// The size of a picture on a screen, in pixels.
@@ -26,7 +29,7 @@ struct ScreenSize {
   double letters;  ///< their height
 };
 
-/// The endings of the names of pictures, as people read them: ".svg, .png or .pdf".
+/// The endings of the names of pictures, as people read them: ".svg, .png, .pdf or .tex".
 extern const char* const kPictureNames;
 
 bool is_picture_name(const std::string& path);
@@ -35,7 +38,8 @@ bool is_picture_name(const std::string& path);
 void check_plot_name(const std::string& path);
 
 /// gnuplot's terminal for a sheet: with a width, of that size in print; else as `screen` says.
-std::string terminal_of(const Sheet& sheet, const ScreenSize& screen);
+/// \param enhanced  whether gnuplot's own marks for powers and letters mean something in texts
+std::string terminal_of(const Sheet& sheet, const ScreenSize& screen, bool enhanced = true);
 
 /// The size of letters that `terminal_of` sets, in the units of that terminal's fonts.
 double letters_of(const Sheet& sheet, const ScreenSize& screen);

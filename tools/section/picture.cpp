@@ -13,6 +13,7 @@
 
 #include "tools/cli/output.hpp"
 #include "tools/plot/gnuplot.hpp"
+#include "tools/plot/printed_names.hpp"
 #include "tools/plot/thinned.hpp"
 
 namespace casimir::tools {
@@ -26,10 +27,11 @@ const double kPi = std::acos(-1.);
 bool is_angle(const PlottedFunction& function) { return function.period > 0; }
 
 std::string axis_label(const PlottedFunction& function) {
-  if (!is_angle(function)) return function.label;
+  const std::string label = printed_names(function.label);
+  if (!is_angle(function)) return label;
   const bool plain = std::ranges::all_of(
       function.label, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
-  return (plain ? function.label : "(" + function.label + ")") + "/π";
+  return (plain ? label : "(" + label + ")") + "/π";
 }
 
 /// An axis of the picture: which part of it is shown.
@@ -72,15 +74,15 @@ double axis_unit(const PlottedFunction& function) { return is_angle(function) ? 
 
 class Drawing {
  public:
-  Drawing(const std::array<PlottedFunction, 2>& plotted, const Print& print)
-      : plotted_(plotted), print_(print) {}
+  Drawing(const std::array<PlottedFunction, 2>& plotted, const Sheet& sheet)
+      : plotted_(plotted), sheet_(sheet) {}
 
   void add(const std::string& points, const std::string& style, const std::string& name) {
     if (points.empty()) return;
     blocks_ += fmt::format("$set{} << EOD\n{}EOD\n", count_, points);
-    plots_ += fmt::format("{}$set{} using 1:2 with points {} {}",
-                          plots_.empty() ? "plot " : ", \\\n     ", count_++, style,
-                          name.empty() ? "notitle" : "title " + quoted(name) + " noenhanced");
+    plots_ += fmt::format(
+        "{}$set{} using 1:2 with points {} {}", plots_.empty() ? "plot " : ", \\\n     ", count_++,
+        style, name.empty() ? "notitle" : "title " + quoted(name, sheet_) + " noenhanced");
   }
 
   /// Points with a value each, which their colours show.
@@ -96,13 +98,13 @@ class Drawing {
     scale_ = fmt::format(
         "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#e0c516')\n"
         "set cblabel {} noenhanced\n",
-        quoted(label));
+        quoted(label, sheet_));
   }
 
   /// An entry of the legend, with a mark of its own: those in the picture are too small.
   void explain(const std::string& style, const std::string& name) {
     plots_ += fmt::format("{}1/0 with points {} title {}", plots_.empty() ? "plot " : ", \\\n     ",
-                          style, quoted(name));
+                          style, quoted(name, sheet_));
   }
 
   std::string places(const std::vector<std::array<double, 2>>& places,
@@ -127,16 +129,16 @@ class Drawing {
 
   std::string script(const std::string& title, const std::string& terminal,
                      const std::string& output) const {
-    std::string text = fmt::format("set encoding utf8\nset terminal {} enhanced\nset output {}\n",
-                                   terminal, quoted_path(output));
-    if (print_.title)
+    std::string text = fmt::format("set encoding utf8\nset terminal {}\nset output {}\n", terminal,
+                                   quoted_path(output));
+    if (sheet_.print.title)
       text += fmt::format("set title {} noenhanced\n",
-                          quoted_lines(title, letters_across(print_, 0.9)));
+                          quoted_lines(title, letters_across(sheet_.print, 0.9), sheet_));
     for (std::size_t k = 0; k < 2; ++k) {
       const double unit = axis_unit(plotted_[k]);
       text += fmt::format("set {0}label {1} noenhanced\nset {0}range [{2:.9g}:{3:.9g}]\n",
-                          k == 0 ? 'x' : 'y', quoted(axis_label(plotted_[k])), axes_[k].from / unit,
-                          axes_[k].to / unit);
+                          k == 0 ? 'x' : 'y', quoted(axis_label(plotted_[k]), sheet_),
+                          axes_[k].from / unit, axes_[k].to / unit);
     }
     text +=
         "set key outside bottom center horizontal samplen 1\nset border 15 lw 1\n"
@@ -148,7 +150,7 @@ class Drawing {
 
  private:
   const std::array<PlottedFunction, 2>& plotted_;
-  const Print& print_;
+  const Sheet& sheet_;
   std::array<Axis, 2> axes_;
   std::string blocks_, plots_, scale_;
   int count_ = 0;
@@ -244,31 +246,21 @@ OrbitColours colours_by(const std::string& what, const std::vector<OrbitReport>&
   return colours;
 }
 
-std::string section_script(const std::array<PlottedFunction, 2>& plotted, const std::string& title,
-                           const std::vector<OrbitReport>& orbits, const std::vector<Cycle>& cycles,
-                           const Print& print, const std::string& terminal,
-                           const std::string& output, const OrbitColours& colours) {
-  Drawing drawing(plotted, print);
-  drawing.bound(orbits);
-  if (colours.what.empty())
-    add_orbits(drawing, orbits, print);
-  else
-    add_coloured_orbits(drawing, orbits, colours);
-  add_cycles(drawing, cycles);
-  return drawing.script(title, terminal, output);
-}
-
 void draw_section(const std::array<PlottedFunction, 2>& plotted, const std::string& title,
                   const std::vector<OrbitReport>& orbits, const std::vector<Cycle>& cycles,
                   const Sheet& sheet, const OrbitColours& colours) {
-  check_plot_name(sheet.path);
-  OutputFile picture(sheet.path);
-  draw_script(
-      section_script(plotted, title, orbits, cycles, sheet.print,
-                     terminal_of(sheet, {1000, 700, 14}), picture.temporary().string(), colours),
-      picture);
-  if (sheet.path.ends_with(".svg")) join_marks(picture.temporary());
-  picture.commit();
+  Drawing drawing(plotted, sheet);
+  drawing.bound(orbits);
+  if (colours.what.empty())
+    add_orbits(drawing, orbits, sheet.print);
+  else
+    add_coloured_orbits(drawing, orbits, colours);
+  add_cycles(drawing, cycles);
+  const auto script = [&](const std::string& output) {
+    return drawing.script(title, terminal_of(sheet, {1000, 700, 14}), output);
+  };
+  const bool svg = sheet.path.ends_with(".svg");
+  draw_sheet(sheet, script, svg ? join_marks : std::function<void(const std::filesystem::path&)>());
 }
 
 }  // namespace casimir::tools

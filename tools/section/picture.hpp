@@ -31,12 +31,4 @@ void draw_section(const std::array<PlottedFunction, 2>& plotted, const std::stri
                   const std::vector<OrbitReport>& orbits, const std::vector<Cycle>& cycles,
                   const Sheet& sheet, const OrbitColours& colours = {});
 
-/// The same as a script for gnuplot.
-/// \param terminal  of gnuplot, in its enhanced mode
-/// \param output  what it shall write
-std::string section_script(const std::array<PlottedFunction, 2>& plotted, const std::string& title,
-                           const std::vector<OrbitReport>& orbits, const std::vector<Cycle>& cycles,
-                           const Print& print, const std::string& terminal,
-                           const std::string& output, const OrbitColours& colours = {});
-
 }  // namespace casimir::tools

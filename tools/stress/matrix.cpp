@@ -22,12 +22,25 @@ std::string word(const StressCell& cell) {
       return "WRONG";
     case Judgement::inaccurate:
       return "coarse";
+    case Judgement::refused:
+      return refusal_word(cell.refusal);
     default:
       return to_string(cell.verdict);
   }
 }
 
 }  // namespace
+
+const char* refusal_word(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::not_applicable:
+      return "n/a";
+    case Refusal::failed:
+      return "failed";
+    default:
+      return "refused";
+  }
+}
 
 int StressMatrix::fastest(const Line& line) {
   int best = -1;
@@ -44,6 +57,13 @@ int StressMatrix::count(Judgement verdict) const {
   int number = 0;
   for (const Line& line : lines)
     for (const StressCell& cell : line.cells) number += cell.verdict == verdict ? 1 : 0;
+  return number;
+}
+
+int StressMatrix::count(Refusal refusal) const {
+  int number = 0;
+  for (const Line& line : lines)
+    for (const StressCell& cell : line.cells) number += cell.refusal == refusal ? 1 : 0;
   return number;
 }
 
@@ -104,6 +124,7 @@ nlohmann::ordered_json to_json(const StressMatrix& matrix) {
       nlohmann::ordered_json& row = json["rows"][next++];
       for (const char* of_a_bench : {"code", "spread", "rounds"}) row.erase(of_a_bench);
       row["verdict"] = to_string(cell.verdict);
+      if (cell.refusal != Refusal::none) row["refusal"] = to_string(cell.refusal);
       row["extreme"] = line.extreme;
       row["outside"] = cell.outside;
       if (cell.time_error) row["singular_time_error"] = exact_text(*cell.time_error);
@@ -115,13 +136,14 @@ nlohmann::ordered_json to_json(const StressMatrix& matrix) {
 
 Table table_of(const StressMatrix& matrix) {
   std::vector<Row> rows;
-  std::vector<std::string> verdicts, kinds, reasons;
+  std::vector<std::string> verdicts, kinds, reasons, refusals;
   for (const StressMatrix::Line& line : matrix.lines) {
     for (const StressCell& cell : line.cells) {
       rows.push_back(cell.row);
       verdicts.push_back(to_string(cell.verdict));
       kinds.push_back(line.extreme);
       reasons.push_back(cell.row.reason);
+      refusals.push_back(cell.refusal == Refusal::none ? "" : to_string(cell.refusal));
     }
   }
   Table table = table_of(rows);
@@ -139,6 +161,7 @@ Table table_of(const StressMatrix& matrix) {
   table.columns.push_back({"verdict", std::move(verdicts)});
   table.columns.push_back({"extreme", std::move(kinds)});
   table.columns.push_back({"reason", std::move(reasons)});
+  table.columns.push_back({"refusal", std::move(refusals)});
   return table;
 }
 

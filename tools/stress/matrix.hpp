@@ -27,8 +27,12 @@ struct StressMatrix {
   static int fastest(const Line& line);
 
   int count(Judgement verdict) const;
+  int count(Refusal refusal) const;
   int failed() const;
 };
+
+/// What stands for a refusal in a table or a picture: "refused", "n/a" or "failed".
+const char* refusal_word(Refusal refusal);
 
 /// The digits of a right answer, 0 to 16.
 int right_digits(const StressCell& cell);

@@ -28,7 +28,14 @@ Look look_of(const StressCell& cell) {
     case Judgement::warned:
       return {"warned", "#fee08b"};
     case Judgement::refused:
-      return {"refused", "#f0f0f0", "#606060"};
+      switch (cell.refusal) {
+        case Refusal::not_applicable:
+          return {refusal_word(cell.refusal), "#ffffff", "#808080"};
+        case Refusal::failed:
+          return {refusal_word(cell.refusal), "#d9d9d9"};
+        default:
+          return {refusal_word(cell.refusal), "#e5f5e0", "#405040"};
+      }
     case Judgement::inaccurate:
       return {"coarse", "#fdae61"};
     case Judgement::wrong:
@@ -43,22 +50,22 @@ constexpr double kLetters = 12;
 
 /// The cell in column x and row y, as an object and a label.
 std::string cell_commands(const StressCell& cell, double x, double y, bool fastest,
-                          const Print& print, double letters) {
+                          const Sheet& sheet, double letters) {
   const Look look = look_of(cell);
   constexpr double kHalf = 0.47;
   return fmt::format(
       "set object rect from {:g},{:g} to {:g},{:g} fc rgb '{}' fs solid 1 border lc rgb '{}' lw "
       "{}\n"
       "set label {} at {:g},{:g} center tc rgb '{}' font ',{:.3g}'\n",
-      x - kHalf, y - kHalf, x + kHalf, y + kHalf, ink(print, look.fill),
-      fastest ? "#000000" : "#ffffff", fastest ? "2.5" : "1", quoted(look.text), x, y, look.ink,
-      0.9 * letters);
+      x - kHalf, y - kHalf, x + kHalf, y + kHalf, ink(sheet.print, look.fill),
+      fastest ? "#000000" : "#ffffff", fastest ? "2.5" : "1", quoted(look.text, sheet), x, y,
+      look.ink, 0.9 * letters);
 }
 
-std::string tics(const std::vector<std::string>& names) {
+std::string tics(const std::vector<std::string>& names, const Sheet& sheet) {
   std::string list;
   for (std::size_t i = 0; i < names.size(); ++i)
-    list += fmt::format("{}{} {}", i == 0 ? "" : ", ", quoted(names[i]), i + 1);
+    list += fmt::format("{}{} {}", i == 0 ? "" : ", ", quoted(names[i], sheet), i + 1);
   return "(" + list + ")";
 }
 
@@ -82,8 +89,8 @@ std::string script(const StressMatrix& matrix, const Sheet& sheet, const std::st
   if (sheet.print.width && !sheet.print.points)
     scaled.print.points = kLetters * *sheet.print.width * kPointsOfMillimetre / screen.width;
   const double letters = letters_of(scaled, screen);
-  std::string text = fmt::format("set encoding utf8\nset terminal {} noenhanced\nset output {}\n",
-                                 terminal_of(scaled, screen), quoted_path(output));
+  std::string text = fmt::format("set encoding utf8\nset terminal {}\nset output {}\n",
+                                 terminal_of(scaled, screen, false), quoted_path(output));
   text += fmt::format(
       "set label 'Scene by method: the digits that are right, or what became of it instead' at "
       "screen 0.02, screen 1 left offset 0,-1.2 font ',{:.3g}'\n"
@@ -91,22 +98,22 @@ std::string script(const StressMatrix& matrix, const Sheet& sheet, const std::st
       "0.02, screen 0 left offset 0,3.4\n"
       "set label 'WRONG: ok, and it is not    *: of another library' at screen 0.02, screen 0 left "
       "offset 0,2.2\n"
-      "set label 'in brackets: the kind of scene' at screen 0.02, screen 0 left offset 0,1\n"
+      "set label 'refused: there is no end, as it says    failed: there is one    n/a: not such a "
+      "method' at screen 0.02, screen 0 left offset 0,1\n"
       "unset key\nunset border\nset tics scale 0\nset tmargin 9\nset bmargin 10\n",
       1.2 * letters);
   text += fmt::format("set xrange [0.5:{}.5]\nset x2range [0.5:{}.5]\nset yrange [{}.5:0.5]\n",
                       columns, columns, rows);
   text += fmt::format("set xtics rotate by -35 {}\nset x2tics rotate by 35 {}\nset ytics {}\n",
-                      tics(methods), tics(methods), tics(scenes));
+                      tics(methods, sheet), tics(methods, sheet), tics(scenes, sheet));
   std::string framed;  // over its neighbours
   for (std::size_t y = 0; y < rows; ++y) {
     const StressMatrix::Line& line = matrix.lines[y];
     const int fastest = StressMatrix::fastest(line);
     for (std::size_t x = 0; x < line.cells.size(); ++x) {
       const bool first = static_cast<int>(x) == fastest;
-      (first ? framed : text) +=
-          cell_commands(line.cells[x], static_cast<double>(x + 1), static_cast<double>(y + 1),
-                        first, sheet.print, letters);
+      (first ? framed : text) += cell_commands(line.cells[x], static_cast<double>(x + 1),
+                                               static_cast<double>(y + 1), first, sheet, letters);
     }
   }
   return text + framed + "plot 1/0\n";
@@ -115,10 +122,7 @@ std::string script(const StressMatrix& matrix, const Sheet& sheet, const std::st
 }  // namespace
 
 void draw_matrix(const StressMatrix& matrix, const Sheet& sheet) {
-  check_plot_name(sheet.path);
-  OutputFile picture(sheet.path);
-  draw_script(script(matrix, sheet, picture.temporary().string()), picture);
-  picture.commit();
+  draw_sheet(sheet, [&](const std::string& output) { return script(matrix, sheet, output); });
 }
 
 }  // namespace casimir::tools

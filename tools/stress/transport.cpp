@@ -7,6 +7,7 @@
 #include "symbolic/error.hpp"
 #include "tools/analysis/proof/exact_text.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
+#include "tools/cli/errors.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -107,6 +108,7 @@ StressAnswer answer_of(const Reply& reply) {
                     : reply.exit >= 0 ? Kind::refused
                                       : Kind::crashed,
             .says_done = reply.exit == 0,
+            .unsuitable = reply.exit == kBadInput,
             .complaint = complaint(reply.err),
             .stopped_at = {}};
   StressAnswer answer{.says_done = reply.exit == 0,

@@ -11,6 +11,7 @@
 #include "tools/cli/errors.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/plot/colour_map.hpp"
+#include "tools/plot/printed_names.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -61,7 +62,9 @@ void draw_map(const MapPicture& picture, const SweepTable& sweep) {
   const Axis &across = sweep.grid.axes[0], &up = sweep.grid.axes[1];
   const auto column = static_cast<std::size_t>(std::ranges::find(sweep.columns, picture.column) -
                                                sweep.columns.begin());
-  ColourMap map{"", axis_title(across), axis_title(up), picture.column, {}, {}, {}};
+  ColourMap map{
+      "", printed_names(axis_title(across)), printed_names(axis_title(up)), picture.column, {}, {},
+      {}};
   std::size_t failed = 0;
   const std::vector<std::size_t> columns_of_cells = ascending(across.values);
   const std::vector<std::size_t> rows_of_cells = ascending(up.values);

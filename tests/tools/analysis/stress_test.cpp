@@ -47,6 +47,9 @@ TEST(Stress, ARefusalNeedsAReason) {
   const StressCell cell = cell_of({}, false, truth_of_the_scene(), refused);
   EXPECT_EQ(cell.verdict, Judgement::refused);
   EXPECT_EQ(cell.row.end, RowEnd::refused);
+  EXPECT_EQ(cell.refusal, Refusal::failed);
+  refused.unsuitable = true;
+  EXPECT_EQ(cell_of({}, false, truth_of_the_scene(), refused).refusal, Refusal::not_applicable);
   EXPECT_EQ(cell.row.reason, "why");
   refused.complaint.clear();
   EXPECT_EQ(cell_of({}, false, truth_of_the_scene(), refused).verdict, Judgement::wrong);

@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"BadParameter",
             {"verify", "euler", "--param", "a1=x"},
             "--param:1:4: error: 'x' is not declared"},
-        Bad{"BadPlotName", {"bench", "euler", "--plot", "b.gif"}, ".svg, .png or .pdf"},
+        Bad{"BadPlotName", {"bench", "euler", "--plot", "b.gif"}, ".svg, .png, .pdf or .tex"},
         Bad{"JsonWithoutFile", {"generate", "euler", "--json"}, "--output"},
         Bad{"AllAndCase", {"verify", "euler", "--all"}, "--all takes no CASE"},
         Bad{"OnWithoutCandidate", {"verify", "euler", "--on", "M1"}, "--on needs a candidate"},

@@ -98,6 +98,7 @@ TEST(Stress, MotionThatEndsIsRefusedWithItsTime) {
   EXPECT_EQ(outcome.status, 0) << outcome.out;
   const Json row = outcome.json().at("rows").at(0);
   EXPECT_EQ(row.at("verdict"), "refused") << row;
+  EXPECT_EQ(row.at("refusal"), "expected") << row;
   EXPECT_NE(row.at("status"), "ok");
   EXPECT_FALSE(row.at("reason").get<std::string>().empty());
   EXPECT_LT(std::stod(row.at("singular_time_error").get<std::string>()), 1e-6) << row;
@@ -113,7 +114,22 @@ TEST(Stress, RunThatTakesTooLongIsRefused) {
       folder, {"stress", "slow.toml", "--method", "taylor", "--cell-limit", "0.01", "--json"});
   const Json row = outcome.json().at("rows").at(0);
   EXPECT_EQ(row.at("verdict"), "refused") << row;
+  EXPECT_EQ(row.at("refusal"), "failed") << row;
   EXPECT_EQ(row.at("status"), "stopped") << row;
+}
+
+TEST(Stress, AMethodThatIsNotDefinedForTheSystemDoesNotApply) {
+  const Folder folder;
+  folder.write("half.toml", escaping_case("duration = \"1/2\"\nreference = { x = \"2\" }\n"));
+  const Outcome outcome =
+      run_in(folder, {"stress", "half.toml", "--method", "taylor,leapfrog", "--json"});
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
+  const Json rows = outcome.json().at("rows");
+  EXPECT_EQ(rows.at(0).at("verdict"), "right") << rows;
+  EXPECT_FALSE(rows.at(0).contains("refusal")) << rows;
+  EXPECT_EQ(rows.at(1).at("refusal"), "not_applicable") << rows;
+  const Outcome table = run_in(folder, {"stress", "half.toml", "--method", "taylor,leapfrog"});
+  EXPECT_NE(table.out.find("n/a"), std::string::npos) << table.out;
 }
 
 TEST(Stress, WritesTheColumnsOfTheInterfaceAndAPictureWithWords) {

@@ -52,7 +52,7 @@ TEST(MotionPlot, RefusesWhatCannotBeDrawnBeforeItRuns) {
     EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
     EXPECT_TRUE(outcome.out.empty());
   };
-  refused({"--plot", "p.gif"}, ".svg, .png or .pdf");
+  refused({"--plot", "p.gif"}, ".svg, .png, .pdf or .tex");
   refused({"--plot-xy", "M1,M2"}, "--plot FILE");
   refused({"--plot", "p.svg", "--plot-xy", "M1"}, "expected two");
   refused({"--plot", "p.svg", "--plot-xy", "M1,M7"}, "did you mean");

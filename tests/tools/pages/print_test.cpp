@@ -86,7 +86,7 @@ TEST(Print, RefusesWhatItCannotRead) {
     EXPECT_EQ(outcome.status, 2) << outcome.err;
     EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
   };
-  refused({"--width", "86mm"}, "name one that ends in .svg, .png or .pdf");
+  refused({"--width", "86mm"}, "name one that ends in .svg, .png, .pdf or .tex");
   refused({"--plot", "p.svg", "--width", "86"}, "such as 86mm");
   refused({"--plot", "p.svg", "--width", "nanmm"}, "expected 20mm to 2m");
   refused({"--plot", "p.svg", "--width", "1mm"}, "expected 20mm to 2m");

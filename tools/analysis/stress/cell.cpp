@@ -29,6 +29,9 @@ StressCell without_answer(StressCell cell, const StressAnswer& answer) {
     cell.row.reason = "the process ended without a word";
   }
   cell.verdict = clear ? Judgement::refused : Judgement::wrong;
+  if (clear)
+    cell.refusal = answer.kind == Kind::refused && answer.unsuitable ? Refusal::not_applicable
+                                                                     : Refusal::failed;
   cell.row.failed = !cell.outside && !clear;
   return cell;
 }
@@ -74,6 +77,19 @@ double value_of(const StressAnswer& answer, const std::string& name) {
 
 }  // namespace
 
+std::string to_string(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::expected:
+      return "expected";
+    case Refusal::not_applicable:
+      return "not_applicable";
+    case Refusal::failed:
+      return "failed";
+    default:
+      return "none";
+  }
+}
+
 StressCell cell_of(const Row& asked, bool outside, const SceneReference& truth,
                    const StressAnswer& answer) {
   StressCell cell{.row = asked, .outside = outside};
@@ -100,6 +116,8 @@ StressCell cell_of(const Row& asked, bool outside, const SceneReference& truth,
   if (!judged.ok && truth.singular_time && answer.stopped_at)
     cell.time_error = std::abs(*answer.stopped_at / *truth.singular_time - 1);
   cell.verdict = judge(judged);
+  if (cell.verdict == Judgement::refused)
+    cell.refusal = truth.has_end ? Refusal::failed : Refusal::expected;
   cell.row.failed = cell.verdict == Judgement::wrong && !outside;
   cell.row.reason = reason_of(cell, judged, answer, truth);
   return cell;

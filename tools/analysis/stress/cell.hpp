@@ -11,10 +11,22 @@
 
 namespace casimir {
 
+/// What a refusal is worth.
+enum class Refusal {
+  none,            ///< it is no refusal
+  expected,        ///< the motion does not reach the end, and that is what was to be said
+  not_applicable,  ///< the method is not defined for the system, and said so before it began
+  failed,          ///< there is an end, and the method does not come to it
+};
+
+/// "none", "expected", "not_applicable" or "failed".
+std::string to_string(Refusal refusal);
+
 /// One scene by one method: what a run answered, and what that is worth.
 struct StressCell {
   Row row;  ///< `row.failed`: a method of our own is silently wrong
   Judgement verdict = Judgement::unknown;
+  Refusal refusal = Refusal::none;        ///< of which kind, where the verdict is `refused`
   bool outside = false;                   ///< the method of another library
   std::optional<double> time_error = {};  ///< relative, of the singular time that a refusal names
 };
@@ -26,6 +38,7 @@ struct StressAnswer {
   enum class Kind { answered, killed, refused, crashed };
   Kind kind = Kind::answered;
   bool says_done = false;      ///< by its exit status
+  bool unsuitable = false;     ///< of a refusal: what was asked for does not go with the system
   std::string complaint = {};  ///< of a refusal
 
   // Of an answer.

@@ -35,7 +35,7 @@ void MotionOptions::add_to(CLI::App& command) {
   command
       .add_option(
           "--plot", file_,
-          "Draw the motion to this .svg, .png or .pdf file: states against time, or what the "
+          "Draw the motion to this .svg, .png, .pdf or .tex file: states against time, or what the "
           "following options say")
       ->type_name("FILE.svg|png|pdf");
   command
@@ -60,7 +60,7 @@ void MotionOptions::check() const {
   if (file_.empty()) {
     if (kinds > 0)
       throw UsageError(
-          "--plot-y, --plot-xy, --plot-sphere and --plot-apex need --plot FILE.svg, .png or .pdf");
+          "--plot-y, --plot-xy, --plot-sphere and --plot-apex need --plot FILE.svg, .png, .pdf or .tex");
     return;
   }
   check_plot_name(file_);
