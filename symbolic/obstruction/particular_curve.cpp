@@ -192,6 +192,7 @@ ParametricFunction variable_of(const ParametricFunction&) { return ParametricFun
 
 /// An energy in print. GiNaC's order of factors changes from run to run.
 std::string energy_text(const HamiltonianSystem& system, const ex& energy) {
+  using F = ParametricFunction;
   if (!system.free) return printed(energy);
   const CurveField<F> field;
   std::vector<CurveElement<F>> values{CurveField<F>::constant(F::parameter())};
