@@ -192,18 +192,20 @@ ParametricFunction variable_of(const ParametricFunction&) { return ParametricFun
 
 /// An energy in print. GiNaC's order of factors changes from run to run.
 std::string energy_text(const HamiltonianSystem& system, const ex& energy) {
-  using F = ParametricFunction;
   if (!system.free) return printed(energy);
-  const CurveField<F> field;
-  std::vector<CurveElement<F>> values{CurveField<F>::constant(F::parameter())};
+  const CurveField<ParametricFunction> field;
+  std::vector<CurveElement<ParametricFunction>> values{
+      CurveField<ParametricFunction>::constant(ParametricFunction::parameter())};
   GiNaC::exmap places{{*system.free, 0}};
   CurveNames names{"", system.free->get_name()};
   for (const symbol& other : system.further) {
     places[other] = static_cast<int>(values.size());
     names.further.push_back(other.get_name());
-    values.push_back(CurveField<F>::constant(F::parameter(names.further.size())));
+    values.push_back(CurveField<ParametricFunction>::constant(
+        ParametricFunction::parameter(names.further.size())));
   }
-  return written(CurveField<F>::rational(field.value(energy, places, values)), names);
+  return written(CurveField<ParametricFunction>::rational(field.value(energy, places, values)),
+                 names);
 }
 
 /// The curve at an energy. \throws NotDecided  where it is none
