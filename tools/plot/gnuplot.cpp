@@ -14,8 +14,8 @@
 
 #include "symbolic/error.hpp"
 #include "tools/cli/errors.hpp"
-#include "tools/plot/printed_names.hpp"
 #include "tools/text/text_layout.hpp"
+#include "tools/typeset/printed_names.hpp"
 
 extern char** environ;
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tools/analysis/quantities.hpp"
-#include "tools/plot/printed_names.hpp"
+#include "tools/typeset/printed_names.hpp"
 
 namespace casimir::tools {
 namespace {

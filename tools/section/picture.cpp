@@ -13,8 +13,8 @@
 
 #include "tools/cli/output.hpp"
 #include "tools/plot/gnuplot.hpp"
-#include "tools/plot/printed_names.hpp"
 #include "tools/plot/thinned.hpp"
+#include "tools/typeset/printed_names.hpp"
 
 namespace casimir::tools {
 namespace {

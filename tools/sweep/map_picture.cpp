@@ -11,7 +11,7 @@
 #include "tools/cli/errors.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/plot/colour_map.hpp"
-#include "tools/plot/printed_names.hpp"
+#include "tools/typeset/printed_names.hpp"
 
 namespace casimir::tools {
 namespace {

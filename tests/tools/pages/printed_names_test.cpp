@@ -1,5 +1,5 @@
 // Names in figures, and texts of figures for LaTeX.
-#include "tools/plot/printed_names.hpp"
+#include "tools/typeset/printed_names.hpp"
 
 #include <gtest/gtest.h>
 

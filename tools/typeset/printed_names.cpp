@@ -1,4 +1,4 @@
-#include "tools/plot/printed_names.hpp"
+#include "tools/typeset/printed_names.hpp"
 
 #include <algorithm>
 #include <array>
