@@ -79,16 +79,17 @@ TEST(EllipticLift, CarlsonsIntegrals) {
   expect_contains(second.run.end.states.at(0),
                   -6 * (ellint_rf(Big(1), Big(2), Big(7)) - ellint_rf(Big(1), Big(2), Big(3))));
   boost::math::quadrature::tanh_sinh<Big> quadrature;
-  const ValidatedMotion first = driven("R_F(1 + t, 2, 3 + t)");
-  expect_contains(first.run.end.states.at(0),
-                  quadrature.integrate([](const Big& t) { return ellint_rf(1 + t, Big(2), 3 + t); },
-                                       Big(0), Big(4)));
-  const ValidatedMotion third = driven("R_J(1, 2 + t, 3 + t^2, 4 + t)");
+  const ValidatedMotion first = driven("R_F(1 + t, 9, 10 + t)");
+  expect_contains(
+      first.run.end.states.at(0),
+      quadrature.integrate([](const Big& t) { return ellint_rf(1 + t, Big(9), 10 + t); }, Big(0),
+                           Big(4)));
+  const ValidatedMotion third = driven("R_J(1, 2 + t, 5 + t^2, 20 + t)");
   ASSERT_EQ(third.run.status, ValidatedStatus::ok);
   expect_contains(
       third.run.end.states.at(0),
       quadrature.integrate(
-          [](const Big& t) { return boost::math::ellint_rj(Big(1), 2 + t, 3 + t * t, 4 + t); },
+          [](const Big& t) { return boost::math::ellint_rj(Big(1), 2 + t, 5 + t * t, 20 + t); },
           Big(0), Big(4)));
   EXPECT_LT(third.run.radius(), 1e-11);
 }
@@ -130,6 +131,14 @@ TEST(EllipticLift, EndsBeforeAnArgumentIsZero) {
   const ValidatedMotion motion = motion_of(one_equation("-R_F(x, 1, 2)", "10"));
   EXPECT_NE(motion.run.status, ValidatedStatus::ok);
   EXPECT_GT(motion.run.end.states.at(0).low, 0);
+}
+
+/// Where two of Carlson's arguments become equal, the derivative by them is 0/0 as it is written.
+TEST(EllipticLift, EndsBeforeTwoArgumentsAreEqual) {
+  const ValidatedMotion motion = driven("R_F(1 + t, 2, 30 + t)");
+  EXPECT_NE(motion.run.status, ValidatedStatus::ok);
+  EXPECT_LT(motion.run.end.time, 1);
+  EXPECT_GT(motion.run.end.time, 0);
 }
 
 TEST(EllipticLift, RefusesWhatItHasNoDerivativeOf) {
