@@ -119,6 +119,16 @@ void OutputFile::commit() {
   release_slot(temporary_.string());
 }
 
+ScratchFile::ScratchFile(std::filesystem::path path) : path_(std::move(path)) {
+  claim_slot(path_.string());
+}
+
+ScratchFile::~ScratchFile() {
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
+  release_slot(path_.string());
+}
+
 void install_interrupt_handler() {
   struct sigaction action = {};
   sigemptyset(&action.sa_mask);

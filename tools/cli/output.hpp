@@ -33,6 +33,21 @@ class OutputFile {
   bool done_ = false;
 };
 
+/// A file that another program makes on the way: gone at the end, and where this one is
+/// interrupted.
+class ScratchFile {
+ public:
+  explicit ScratchFile(std::filesystem::path path);
+  ~ScratchFile();
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 /// Whether the name of an output says that a page is meant: .html or .htm.
 inline bool is_page_name(const std::string& path) {
   return path.ends_with(".html") || path.ends_with(".htm");

@@ -82,8 +82,8 @@ std::string quoted_path(const std::string& path) {
   return "'" + std::filesystem::absolute(path).string() + "'";
 }
 
-void draw_script(const std::string& script, OutputFile& picture) {
-  const std::string beside = std::filesystem::absolute(picture.temporary()).string();
+void draw_script(const std::string& script, const std::filesystem::path& file) {
+  const std::string beside = std::filesystem::absolute(file).string();
   OutputFile commands(beside + ".gnuplot");
   OutputFile log(beside + ".log");
   commands.stream() << script;
@@ -122,24 +122,22 @@ std::string content_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// gnuplot writes the lines to a PDF of its own name, which the text then includes.
+/// gnuplot writes the lines to a PDF of the same name, which the text then includes. It wants three
+/// letters at the end of names.
 void draw_latex(const Sheet& sheet, const std::function<std::string(const std::string&)>& script) {
   check_latex_name(sheet.path);
   OutputFile text(sheet.path);
   OutputFile lines(std::filesystem::path(sheet.path).replace_extension(".pdf"));
-  const std::filesystem::path made = std::filesystem::absolute(text.temporary());
-  draw_script(script(text.temporary().string()), text);
-  const std::filesystem::path drawn = std::filesystem::path(made).replace_extension(".pdf");
-  lines.stream() << content_of(drawn);
-  std::error_code ignored;
-  std::filesystem::remove(drawn, ignored);
-  std::string content = content_of(made);
-  const std::string included = std::filesystem::path(made).replace_extension().string();
-  const std::size_t at = content.find("{" + included + "}");
-  if (at == std::string::npos || !is_whole(made.string()))
-    throw SystemError("gnuplot did not write the LaTeX figure that is known of it");
-  content.replace(at + 1, included.size(), std::filesystem::path(sheet.path).stem().string());
-  std::ofstream(made, std::ios::binary | std::ios::trunc) << content;
+  const std::string name = std::filesystem::absolute(text.temporary()).string();
+  const ScratchFile drawn_text(name + ".tex"), drawn_lines(name + ".pdf");
+  draw_script(script(drawn_text.path().string()), drawn_text.path());
+  std::string content = content_of(drawn_text.path());
+  const std::size_t at = content.find("{" + name + "}");
+  if (at == std::string::npos)
+    throw SystemError("gnuplot wrote a LaTeX figure that does not include its lines");
+  content.replace(at + 1, name.size(), std::filesystem::path(sheet.path).stem().string());
+  text.stream() << content;
+  lines.stream() << content_of(drawn_lines.path());
   lines.commit();
   text.commit();
 }
@@ -154,7 +152,7 @@ void draw_sheet(const Sheet& sheet, const std::function<std::string(const std::s
     return;
   }
   OutputFile picture(sheet.path);
-  draw_script(script(picture.temporary().string()), picture);
+  draw_script(script(picture.temporary().string()), picture.temporary());
   if (finished) finished(picture.temporary());
   picture.commit();
 }

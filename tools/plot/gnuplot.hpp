@@ -21,10 +21,9 @@ std::string quoted_lines(const std::string& text, std::size_t letters, const She
 /// \throws UsageError
 std::string quoted_path(const std::string& path);
 
-/// Runs gnuplot, directly and not through a shell, on a script that writes to the temporary name of
-/// `picture`.
+/// Runs gnuplot, directly and not through a shell, on a script that writes to this file.
 /// \throws SystemError  if gnuplot is missing (saying what to install) or fails.
-void draw_script(const std::string& script, OutputFile& picture);
+void draw_script(const std::string& script, const std::filesystem::path& file);
 
 /// Makes the file of a sheet by a script. Of a LaTeX sheet the PDF with its lines is made beside
 /// it.

@@ -269,7 +269,7 @@ void draw(const Plot& plot, const Sheet& sheet) {
 
 std::string svg_element(const Plot& plot, const std::string& name, const std::string& beside) {
   OutputFile picture(beside + "." + name + ".svg");
-  draw_script(sheet_script(plot, {".svg"}, picture.temporary().string()), picture);
+  draw_script(sheet_script(plot, {".svg"}, picture.temporary().string()), picture.temporary());
   return element_of(picture, name);
 }
 
@@ -289,7 +289,7 @@ std::string page_svg(const Plot& plot, const std::string& name, const std::strin
   const std::string values = axes.temporary().string();
   draw_script(script(plot, {".svg"}, terminal, key, picture.temporary().string()) +
                   (plot.square ? "" : axes_script(plot, values)),
-              picture);
+              picture.temporary());
   std::string svg = with_thinned_paths(element_of(picture, name), kApart);
   use_variables(svg);
   const std::string known = axes_known(values);

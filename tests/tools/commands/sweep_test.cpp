@@ -373,7 +373,7 @@ TEST(Sweep, WhatIsNoMapIsRefusedBeforeItIsDone) {
        "--colour COLUMN, one of: t, x, v"},
       {{"--over", "x=1,2", "--over", "a=-1,-2", "--plot", "m.svg", "--colour", "stpes"}, "'steps'"},
       {{"--over", "x=1,2", "--over", "a=-1,-2", "--plot", "m.txt", "--colour", "x"},
-       ".svg, .png or"},
+       ".svg, .png, .pdf or .tex"},
       {{"--over", "x=1,2", "--over", "a=-1,-2", "--colour", "x"}, "goes with --plot"},
       {{"--over", "x=1,2", "--over", "a=-1,-2", "--monochrome"}, "are of a picture"},
       {{"--over", "x=1:2:300", "--over", "a=-1,-2,-4", "--over", "v=0:1:50", "--plot", "m.svg"},

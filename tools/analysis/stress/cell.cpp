@@ -70,6 +70,12 @@ std::string reason_of(const StressCell& cell, const Answer& judged, const Stress
                      judged.error, judged.explained);
 }
 
+/// Whether the motion reaches the end, as far as is known: one over a pole that can be removed
+/// does.
+bool ends(const SceneReference& truth) {
+  return truth.has_end && (truth.truth || !truth.singular_time);
+}
+
 double value_of(const StressAnswer& answer, const std::string& name) {
   const auto found = std::ranges::find(answer.state, name, &std::pair<std::string, double>::first);
   return found == answer.state.end() ? kNaN : found->second;
@@ -117,7 +123,7 @@ StressCell cell_of(const Row& asked, bool outside, const SceneReference& truth,
     cell.time_error = std::abs(*answer.stopped_at / *truth.singular_time - 1);
   cell.verdict = judge(judged);
   if (cell.verdict == Judgement::refused)
-    cell.refusal = truth.has_end ? Refusal::failed : Refusal::expected;
+    cell.refusal = ends(truth) ? Refusal::failed : Refusal::expected;
   cell.row.failed = cell.verdict == Judgement::wrong && !outside;
   cell.row.reason = reason_of(cell, judged, answer, truth);
   return cell;
