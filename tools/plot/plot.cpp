@@ -188,7 +188,8 @@ std::string sheet_script(const Plot& plot, const Sheet& sheet, const std::string
   if (!higher.print.height)
     higher.print.height =
         height_in_print(sheet.print, screen) + kMillimetresOfLine * static_cast<double>(lines);
-  return script(plot, sheet, terminal_of(higher, screen), key + "\nset xlabel offset 0,0.4",
+  return script(plot, sheet, terminal_of(higher, screen),
+                key + (sheet.latex() ? "\nset xlabel offset 0,1" : "\nset xlabel offset 0,0.4"),
                 output);
 }
 

@@ -82,8 +82,10 @@ std::string pdf(const Sheet& sheet, const ScreenSize& screen) {
 /// Letters are those of the paper, of the size that is around the figure.
 std::string latex(const Sheet& sheet, const ScreenSize& screen) {
   const auto [width, height] = page_size(sheet.print, screen);
-  return fmt::format("cairolatex pdf input colortext size {:.4f}in,{:.4f}in linewidth {:.3g}",
-                     width, height, sheet.print.width ? kPrintedLines : 1);
+  const double lines = sheet.print.width ? kPrintedLines : 1;
+  return fmt::format(
+      "cairolatex pdf input colortext size {:.4f}in,{:.4f}in linewidth {:.3g} pointscale {:.3g}",
+      width, height, lines, lines);
 }
 
 /// Letters, digits, spaces and hyphens: nothing that gnuplot would take for more than a name.
