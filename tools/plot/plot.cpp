@@ -189,7 +189,7 @@ std::string sheet_script(const Plot& plot, const Sheet& sheet, const std::string
     higher.print.height =
         height_in_print(sheet.print, screen) + kMillimetresOfLine * static_cast<double>(lines);
   return script(plot, sheet, terminal_of(higher, screen),
-                key + (sheet.latex() ? "\nset xlabel offset 0,1" : "\nset xlabel offset 0,0.4"),
+                key + (sheet.latex() ? "\nset xlabel offset 0,0.6" : "\nset xlabel offset 0,0.4"),
                 output);
 }
 
