@@ -86,7 +86,7 @@ ArbSeries::ArbSeries(const Program& program, int order, slong bits)
   }
 }
 
-void ArbSeries::expand(const ArbBall& time, const Vector& states, bool forwards) {
+void ArbSeries::expand(const ArbBall& time, const Vector& states, bool forwards, int order) {
   const validated::BallPrecision precision(bits_);
   for (std::size_t i = 0; i < states_.size(); ++i) states_[i][0] = states[i];
   for (std::size_t i = 0; i < lines_.size(); ++i)
@@ -96,7 +96,7 @@ void ArbSeries::expand(const ArbBall& time, const Vector& states, bool forwards)
     if (k > 0)
       for (std::size_t i = 0; i < lines_.size(); ++i)
         if (!constant_[i]) extend(i, k, forwards);
-    if (k == order_) return;
+    if (k == order) return;
     // (k + 1) x_{k+1} = +- rate_k
     // A product costs a third of a quotient, so the quotient is made once an order.
     ArbBall share(1.);
@@ -104,7 +104,7 @@ void ArbSeries::expand(const ArbBall& time, const Vector& states, bool forwards)
     for (std::size_t i = 0; i < states_.size(); ++i)
       arb_mul(states_[i][at(k) + 1].raw(), lines_[at(program_.outputs[i])][at(k)].raw(),
               share.raw(), bits_);
-    if (k + 1 == order_) return;
+    if (k + 1 == order) return;
   }
 }
 

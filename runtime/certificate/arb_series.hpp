@@ -23,7 +23,11 @@ class ArbSeries {
 
   /// Coefficients of x(t + h) for a time that runs forwards, of x(t - h) backwards.
   /// \throws std::domain_error
-  void expand(const ArbBall& time, const Vector& states, bool forwards);
+  void expand(const ArbBall& time, const Vector& states, bool forwards) {
+    expand(time, states, forwards, order_);
+  }
+  /// The same up to this order alone: those beyond have no meaning.
+  void expand(const ArbBall& time, const Vector& states, bool forwards, int order);
 
   /// Those of a state: order + 1 of them.
   const Vector& state(std::size_t i) const { return states_[i]; }

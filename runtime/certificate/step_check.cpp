@@ -164,7 +164,13 @@ void StepCheck::find_whole_derivatives(const StepClaim& claim) {
 }
 
 /// Where the flow takes the set, in the coordinates of the next one.
-TraceFault StepCheck::leads_inside(const StepClaim& claim) {
+/// \param order  up to which derivatives, and the series of the middle, are used: see
+///               `order_of_derivatives`
+TraceFault StepCheck::leads_inside(const StepClaim& claim, const ArbBall& time, int order) {
+  derivative_order_ = order;
+  point_.expand(time, claim.before.middle, forwards_, order);
+  find_derivatives(claim.length);
+  if (tube_jacobian_) find_whole_derivatives(claim);
   const BallSet &from = claim.before, &to = claim.after;
   const std::size_t n = from.dimension();
   BallMatrix inverse;
@@ -191,10 +197,10 @@ TraceFault StepCheck::leads_inside(const StepClaim& claim) {
   image.rest =
       validated::sum(validated::product(turned, from.rest), validated::product(inverse, shift));
   const Vector hull = hull_of(image);
-  const ArbBall time = time_of(claim.elapsed + claim.length);
+  const ArbBall after = time_of(claim.elapsed + claim.length);
   for (std::size_t a = 0; a < bounds_.size(); ++a) {
     if (claim.columns[a] < 0) continue;
-    if (!bounds_[a].bound(image, static_cast<std::size_t>(claim.columns[a]), hull, time))
+    if (!bounds_[a].bound(image, static_cast<std::size_t>(claim.columns[a]), hull, after))
       return TraceFault::level;
   }
   for (std::size_t i = 0; i < n; ++i)
@@ -207,19 +213,13 @@ TraceFault StepCheck::operator()(const StepClaim& claim) {
   try {
     const Vector hull = hull_of(claim.before);
     const ArbBall time = time_of(claim.elapsed);
-    point_.expand(time, claim.before.middle, forwards_);
     box_.expand(time, hull, forwards_);
     if (!stays_in_tube(claim, hull)) return TraceFault::not_enclosed;
     for (LevelBound& bound : bounds_)
       bound.passes(tube_box_, time_of(claim.elapsed + validated::from_zero_to(claim.length)));
-    derivative_order_ = order_of_derivatives(claim);
-    find_derivatives(claim.length);
-    if (tube_jacobian_) find_whole_derivatives(claim);
-    const TraceFault fault = leads_inside(claim);
+    const TraceFault fault = leads_inside(claim, time, order_of_derivatives(claim));
     if (fault == TraceFault::none || derivative_order_ == order_) return fault;
-    derivative_order_ = order_;
-    find_derivatives(claim.length);
-    return leads_inside(claim);
+    return leads_inside(claim, time, order_);
   } catch (const std::domain_error&) {
     return TraceFault::no_value;
   }

@@ -39,7 +39,7 @@ class StepCheck {
   int order_of_derivatives(const StepClaim& claim) const;
   void find_derivatives(const ArbBall& length);
   void find_whole_derivatives(const StepClaim& claim);
-  TraceFault leads_inside(const StepClaim& claim);
+  TraceFault leads_inside(const StepClaim& claim, const ArbBall& time, int order);
 
   const validated::FlowProgram& flow_;
   std::vector<LevelBound>& bounds_;

@@ -62,7 +62,8 @@ void add_point(const HomogeneousPotential& system, const RationalFunction& gamma
 }  // namespace
 
 std::optional<HomogeneousPotential> homogeneous_potential(const HamiltonianSystem& system) {
-  if (system.variables.size() != 4 || !system.casimirs.empty() || !is_canonical(system))
+  if (system.variables.size() != 4 || !system.casimirs.empty() || !system.constraints.empty() ||
+      !is_canonical(system))
     return std::nullopt;
   HomogeneousPotential result;
   result.potential = system.hamiltonian;

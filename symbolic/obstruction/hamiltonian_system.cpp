@@ -95,6 +95,19 @@ void check_jacobi(const HamiltonianSystem& system) {
       }
 }
 
+/// The phase space is a union of leaves then. Where it is not, integrals that are there on the
+/// constraints alone would not be excluded.
+void check_constraints(const HamiltonianSystem& system) {
+  for (const GiNaC::ex& constraint : system.constraints)
+    for (const auto& row : system.poisson) {
+      GiNaC::ex bracket = 0;
+      for (std::size_t j = 0; j < row.size(); ++j)
+        bracket += row[j] * constraint.diff(system.variables[j]);
+      if (!bracket.normal().is_zero())
+        throw NotDecided("the constraints of the phase space are no Casimir functions");
+    }
+}
+
 }  // namespace
 
 HamiltonianSystem hamiltonian_system(const Model& model, const std::string& scene,
@@ -125,6 +138,15 @@ HamiltonianSystem hamiltonian_system(const Model& model, const std::string& scen
     for (std::size_t j = 0; j < n; ++j)
       result.poisson[i].push_back((*model.poisson)(i, j).subs(values));
   check_jacobi(result);
+  for (const NamedExpression& constraint : model.constraints)
+    result.constraints.push_back(constraint.value.subs(values));
+  check_constraints(result);
+  for (Assumption assumption : model.assumptions) {
+    assumption.difference = assumption.difference.subs(values);
+    const auto in_it = [&](const GiNaC::symbol& x) { return assumption.difference.has(x); };
+    if (std::any_of(result.variables.begin(), result.variables.end(), in_it))
+      result.domain.push_back(std::move(assumption));
+  }
   for (const NamedExpression& casimir : model.casimirs)
     result.casimirs.emplace_back(casimir.name, casimir.value.subs(values));
   const auto place = std::find_if(model.scenes.begin(), model.scenes.end(),
@@ -151,6 +173,8 @@ HamiltonianSystem with_value(const HamiltonianSystem& system, const cln::cl_RA& 
     for (auto& row : result.poisson)
       for (GiNaC::ex& bracket : row) bracket = bracket.subs(is_value);
     for (auto& [name, casimir] : result.casimirs) casimir = casimir.subs(is_value);
+    for (GiNaC::ex& constraint : result.constraints) constraint = constraint.subs(is_value);
+    for (Assumption& one : result.domain) one.difference = one.difference.subs(is_value);
   } catch (const std::domain_error&) {
     throw NotDecided("the equations have no value at that value of the parameter");
   }

@@ -19,6 +19,8 @@ struct HamiltonianSystem {
   std::vector<std::vector<GiNaC::ex>> poisson;  ///< brackets of the variables
   GiNaC::ex hamiltonian;
   std::vector<std::pair<std::string, GiNaC::ex>> casimirs;
+  std::vector<GiNaC::ex> constraints;  ///< Casimir functions too; they vanish on the phase space
+  std::vector<Assumption> domain;      ///< what the case assumes of its variables
   std::vector<std::pair<std::string, std::string>> parameters;  ///< name and value
   GiNaC::exmap numbers;                                         ///< of the parameters
   std::optional<GiNaC::symbol> free;   ///< the parameter that has no number
@@ -34,8 +36,9 @@ std::vector<std::string> names_in(const std::string& list);
 
 /// The case with the parameters of one of its scenes.
 /// \param free  the names, with commas, of parameters that keep their symbols; empty for none
-/// \throws NotDecided  where it is not Hamiltonian, depends on time, or has a parameter without a
-///                     rational value
+/// \throws NotDecided  where it is not Hamiltonian, depends on time, has a parameter without a
+///                     rational value, or is constrained by what is no Casimir function: the
+///                     theorem is about a neighbourhood in a leaf
 HamiltonianSystem hamiltonian_system(const Model& model, const std::string& scene,
                                      const std::string& free = "");
 

@@ -208,11 +208,62 @@ std::string energy_text(const HamiltonianSystem& system, const ex& energy) {
                  names);
 }
 
+/// What roots are taken of, of all roots in an expression.
+void add_radicands(const ex& expression, std::vector<ex>& radicands) {
+  if (GiNaC::is_a<GiNaC::power>(expression) && !expression.op(1).info(GiNaC::info_flags::integer))
+    radicands.push_back(expression.op(0));
+  for (const ex& part : expression) add_radicands(part, radicands);
+}
+
+/// Whether a condition holds for every z that is large enough.
+bool holds_for_large(const Assumption& condition, const ex& on_plane, const symbol& z) {
+  const ex quotient = on_plane.numer_denom();
+  int sign = 1;
+  for (const ex& part : quotient) {
+    const ex polynomial = part.expand();
+    if (!polynomial.is_polynomial(z)) return false;
+    const ex leading = polynomial.lcoeff(z);
+    if (!GiNaC::is_a<GiNaC::numeric>(leading) || leading.is_zero()) return false;
+    sign *= GiNaC::ex_to<GiNaC::numeric>(leading).is_negative() ? -1 : 1;
+  }
+  return holds(condition.comparison, sign);
+}
+
+/// Where H has roots, it is another analytic function for each choice of their signs, and the
+/// choice of `CurveField::value` is that of large real z. What is excluded for it says something of
+/// the case where its domain has points with such z in every neighbourhood of the surface: what is
+/// under the roots and in the conditions of the domain may depend on z alone.
+/// \throws NotDecided  where that is not certain
+void check_branches(const HamiltonianSystem& system, const InvariantPlane& plane, const symbol& z) {
+  if (system.domain.empty()) return;
+  std::vector<ex> radicands;
+  add_radicands(system.hamiltonian, radicands);
+  for (const auto& row : system.poisson)
+    for (const ex& entry : row) add_radicands(entry, radicands);
+  const auto moves = [&](const ex& e) {
+    return std::any_of(system.variables.begin(), system.variables.end(),
+                       [&](const symbol& x) { return e.has(x); });
+  };
+  const auto beside_z = [&](const ex& e) {
+    return std::any_of(system.variables.begin(), system.variables.end(),
+                       [&](const symbol& x) { return !x.is_equal(z) && e.has(x); });
+  };
+  if (std::none_of(radicands.begin(), radicands.end(), moves)) return;
+  const NotDecided open("which branch of a root the domain has is not decided");
+  for (const ex& radicand : radicands)
+    if (beside_z(plane.on(radicand))) throw open;
+  for (const Assumption& condition : system.domain) {
+    const ex on_plane = plane.on(condition.difference).normal();
+    if (beside_z(on_plane) || !holds_for_large(condition, on_plane, z)) throw open;
+  }
+}
+
 /// The curve at an energy. \throws NotDecided  where it is none
 template <class F>
 ParticularCurve<F> make_curve(const HamiltonianSystem& system, const InvariantPlane& plane,
                               const std::vector<Step>& steps, const symbol& z,
                               const ex& is_energy) {
+  check_branches(system, plane, z);
   ParticularCurve<F> curve;
   curve.names.z = z.get_name();
   const std::size_t n = system.variables.size();
@@ -248,6 +299,9 @@ ParticularCurve<F> make_curve(const HamiltonianSystem& system, const InvariantPl
     if (!CurveField<F>::is_zero(curve.field.difference(own, value(system.rates[i]))))
       throw NotDecided("the level has a part that is no motion");
   }
+  for (const ex& constraint : system.constraints)
+    if (!CurveField<F>::is_zero(value(constraint)))
+      throw NotDecided("the motion is outside of the phase space");
   return curve;
 }
 
@@ -267,8 +321,13 @@ std::vector<Levels> casimir_levels(const HamiltonianSystem& system, const Invari
       const ex own = plane.on(function).normal();
       ex value = own;
       if (uses_any(own, along)) {
-        value = 1;
-        if (of_scene) {
+        const auto is_it = [f = function](const ex& constraint) {
+          return (f - constraint).expand().is_zero();
+        };
+        const bool vanishes =
+            std::any_of(system.constraints.begin(), system.constraints.end(), is_it);
+        value = vanishes ? 0 : 1;
+        if (of_scene && !vanishes) {
           const ex start = function.subs(system.start).normal();
           known = known && GiNaC::is_a<GiNaC::numeric>(start);
           differs = differs || !start.is_equal(1);

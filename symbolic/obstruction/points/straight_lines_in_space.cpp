@@ -57,8 +57,8 @@ bool is_canonical(const HamiltonianSystem& system, std::size_t n) {
 
 std::optional<PotentialInSpace> potential_in_space(const HamiltonianSystem& system) {
   const std::size_t n = system.variables.size() / 2;
-  if (n < 3 || system.variables.size() % 2 != 0 || !system.casimirs.empty() || system.free ||
-      !is_canonical(system, n))
+  if (n < 3 || system.variables.size() % 2 != 0 || !system.casimirs.empty() ||
+      !system.constraints.empty() || system.free || !is_canonical(system, n))
     return std::nullopt;
   PotentialInSpace result;
   ex potential = system.hamiltonian;

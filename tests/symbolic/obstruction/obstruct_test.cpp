@@ -260,5 +260,55 @@ TEST(Obstruct, NoBundledCaseThatIsIntegrableIsRefuted) {
   EXPECT_GT(count, 40u);
 }
 
+Model written(const std::string& text) { return build_model(parse_case(text, "test.toml")); }
+
+/// Henon and Heiles' system with c = 2, which is integrable, on the level s = 0 of a Casimir
+/// function; on the level s = 1 it has c = 3 and is not.
+TEST(Obstruct, ACurveOutsideOfTheConstraintsSaysNothing) {
+  const std::string begin =
+      "title = \"t\"\nhamiltonian = \"(px^2 + py^2)/2 + x*y^2 + (2 + s)*x^3\"\n[phase_space]\n"
+      "variables = [\"x\", \"y\", \"px\", \"py\", \"s\"]\n"
+      "brackets = { \"x,px\" = \"1\", \"y,py\" = \"1\" }\n";
+  const std::string end = "[casimirs]\ns = \"s\"\n";
+  EXPECT_FALSE(refuted(written(begin + "constraints = [\"s\"]\n" + end)));
+  EXPECT_TRUE(refuted(written(begin + "constraints = [\"s - 1\"]\n" + end)));
+  EXPECT_TRUE(refuted(written(begin + end)));
+}
+
+TEST(Obstruct, ADiracBracketHasTheLevelOfItsConstraints) {
+  const auto in_plane = [](const std::string& factor) {
+    return written(
+        "title = \"t\"\nhamiltonian = \"(px^2 + py^2 + pz^2)/2 + x*y^2 + (" + factor +
+        ")*x^3\"\n[phase_space]\nvariables = [\"x\", \"y\", \"z\", \"px\", \"py\", \"pz\"]\n"
+        "canonical = true\nconstraints = [\"z\", \"pz\"]\ndirac = true\n");
+  };
+  EXPECT_FALSE(refuted(in_plane("2 + z")));
+  EXPECT_TRUE(refuted(in_plane("3 + z")));
+}
+
+/// Constraints that are no Casimir functions: integrals may be there on them alone.
+TEST(Obstruct, IsAboutLeavesOfTheBracket) {
+  const Model model = written(
+      "title = \"t\"\nhamiltonian = \"(px^2 + py^2 + pz^2)/2 + x*y^2 + 3*x^3\"\n[phase_space]\n"
+      "variables = [\"x\", \"y\", \"z\", \"px\", \"py\", \"pz\"]\ncanonical = true\n"
+      "constraints = [\"pz\"]\n");
+  EXPECT_FALSE(refuted(model));
+}
+
+/// On x < 0 this is the integrable system with c = 2, on x > 0 that with c = 1.
+TEST(Obstruct, ARootHasTheBranchOfTheDomain) {
+  const auto on = [](const std::string& domain) {
+    return written(
+        "title = \"t\"\nhamiltonian = \"(px^2 + py^2)/2 + x*y^2 + 3/2*x^3 - "
+        "1/2*x^2*sqrt(x^2)\"\n[phase_space]\nvariables = [\"x\", \"y\", \"px\", \"py\"]\n"
+        "canonical = true\ndomain = [\"" +
+        domain + "\"]\n");
+  };
+  EXPECT_FALSE(refuted(on("x < 0")));
+  EXPECT_TRUE(refuted(on("x > 0")));
+  EXPECT_TRUE(refuted(on("x^2 > 4")));
+  EXPECT_FALSE(refuted(on("y > 0"))) << "nothing is known of points of the surface y = 0";
+}
+
 }  // namespace
 }  // namespace casimir::obstruction
