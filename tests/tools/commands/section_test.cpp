@@ -190,7 +190,8 @@ TEST(Section, SystemsWithoutASectionAreRefused) {
   refused({"section", "euler-poisson", "--casimir", "F3=1"}, "did you mean 'F1'");
   refused({"section", "euler-poisson", "--casimir", "F1"}, "NAME=VALUE");
   refused({"section", "euler-poisson", "--energy", "M1"}, "--energy:1:1");
-  refused({"section", "euler-poisson", "--output", "a.gif"}, ".csv, .npz, .h5, .svg, .png, .pdf or .tex");
+  refused({"section", "euler-poisson", "--output", "a.gif"},
+          ".csv, .npz, .h5, .svg, .png, .pdf or .tex");
 }
 
 TEST(Section, PointsOffTheLevelAreDroppedAndFail) {

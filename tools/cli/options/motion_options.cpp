@@ -60,7 +60,8 @@ void MotionOptions::check() const {
   if (file_.empty()) {
     if (kinds > 0)
       throw UsageError(
-          "--plot-y, --plot-xy, --plot-sphere and --plot-apex need --plot FILE.svg, .png, .pdf or .tex");
+          "--plot-y, --plot-xy, --plot-sphere and --plot-apex need --plot FILE.svg, .png, .pdf or "
+          ".tex");
     return;
   }
   check_plot_name(file_);
