@@ -144,10 +144,16 @@ class SurfaceSearch {
       if (!examined.decisive && !examined.solution.empty() &&
           later_.size() < kMostCurvesOfHigherOrder)
         later_.push_back({plane, curve, equation, result_.examined.size() - 1});
-      if (!examined.decisive) continue;
-      result_.proved = true;
+      if (!examined.decisive || (!examined.regular && result_.rational)) continue;
       result_.theorem = kTheorem;
       result_.excluded = excluded_by(examined, variation.freedom, !system_.casimirs.empty());
+      if (!examined.regular) {
+        result_.rational = result_.examined.size() - 1;
+        continue;
+      }
+      result_.proved = true;
+      result_.rational.reset();
+      result_.rational.reset();
       return;
     }
   }
@@ -242,6 +248,11 @@ void decide(const HamiltonianSystem& system, const Surfaces& along, unsigned ord
   for (const InvariantPlane& plane : planes) search.examine(plane);
   search.examine_orders(order);
   if (result.proved) return;
+  if (result.rational)
+    throw NotDecided(
+        "no further rational integral: proved; meromorphic ones are not excluded, since the "
+        "equation "
+        "has an irregular singular point");
   if (planes.empty() && result.examined.empty()) throw NotDecided("no invariant surface was found");
   if (result.examined.empty())
     throw NotDecided("no curve gave a variational equation that could be examined");

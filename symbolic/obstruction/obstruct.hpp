@@ -55,15 +55,17 @@ struct FreeSequence {
 
 /// Whether a further integral is excluded, and by what.
 struct Obstruction {
-  bool proved = false;
+  bool proved = false;  ///< that there is no further meromorphic integral
+  /// Not proved, but that there is no further rational one: which of `examined` is decisive.
+  std::optional<std::size_t> rational = {};
   std::string free;                     ///< the free parameters, with commas; empty without one
   std::vector<FreeValue> values;        ///< that survive, in order
   std::vector<FreeSequence> sequences;  ///< of values that survive
   std::vector<std::pair<std::string, std::string>> parameters;  ///< name and value
-  std::string theorem;                                          ///< where proved: which
-  std::string excluded;               ///< where proved: which integrals, and where
+  std::string theorem;                ///< where proved, if only of rational integrals: which
+  std::string excluded;               ///< the same: which integrals, and where
   std::string reason;                 ///< where not proved: why
-  std::vector<Examined> examined;     ///< the decisive one is the last
+  std::vector<Examined> examined;     ///< where proved, the decisive one is the last
   std::vector<std::string> left_out;  ///< surfaces and levels that gave nothing to examine
 };
 
@@ -88,7 +90,8 @@ struct ObstructionRequest {
 /// and the level a symplectic leaf along the curve (`normal_variation`), that the group has no
 /// solvable identity component (`decide_liouvillian`). Where the equation has an irregular singular
 /// point, its coefficients are taken from the algebraic functions on the curve, and only integrals
-/// with algebraic coefficients there, such as rational ones, are excluded.
+/// with algebraic coefficients there, such as rational ones, are excluded: H = px + (py^2 + x
+/// y^2)/2 has the entire integral y Ai'(x) - py Ai(x), and the group SL(2, C) of Airy's equation.
 ///
 /// Where all equations of first order have a solvable identity component, those of higher order are
 /// examined where `examine_higher` can.

@@ -186,9 +186,16 @@ TEST(Obstruct, AnIrregularPointExcludesRationalIntegralsOnly) {
   // z = y = exp-like motion: y'' = y along x = 0, and x'' = -(1 + y) x has an irregular point.
   const Obstruction answer =
       obstruction_of(planar("(px^2 + py^2)/2 - y^2/2 + x^2*(y^3 + 1)/2"), {"x = 0"});
-  ASSERT_TRUE(answer.proved);
-  EXPECT_FALSE(answer.examined.back().regular);
+  EXPECT_FALSE(answer.proved);
+  ASSERT_TRUE(answer.rational);
+  EXPECT_FALSE(answer.examined[*answer.rational].regular);
+  EXPECT_NE(answer.reason.find("no further rational integral: proved"), std::string::npos);
   EXPECT_NE(answer.excluded.find("rational in the variables"), std::string::npos);
+}
+
+/// y Ai'(x) - py Ai(x) is an integral, an entire one.
+TEST(Obstruct, AirysEquationDoesNotExcludeMeromorphicIntegrals) {
+  EXPECT_FALSE(refuted(planar("px + (py^2 + x*y^2)/2")));
 }
 
 TEST(Obstruct, CasimirFunctionsHaveToBeAllOnes) {

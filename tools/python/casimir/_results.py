@@ -284,6 +284,7 @@ class Obstruction:
     examined: list[dict[str, Any]]  #: the curves with their normal variational equations
     survivors: list[dict[str, Any]]  #: real values of a free parameter that are not excluded alike
     sequences: list[dict[str, Any]]  #: intervals in which only numbers survive that obey conditions
+    rational: bool = False  #: not proved, but that there is no further rational integral
 
     def __bool__(self) -> bool:
         return _truth(self.verdict, "the obstruction")

@@ -221,10 +221,11 @@ py::object obstruct(const Case& self, const std::string& scene, const Names& alo
     py::list sequences;
     for (const obstruction::FreeSequence& one : result.sequences)
       sequences.append(py::dict("range"_a = one.range, "conditions"_a = one.conditions));
-    return py::dict("proved"_a = result.proved, "parameters"_a = result.parameters,
-                    "survivors"_a = survivors, "sequences"_a = sequences,
-                    "theorem"_a = result.theorem, "excluded"_a = result.excluded,
-                    "reason"_a = result.reason, "examined"_a = examined);
+    return py::dict("proved"_a = result.proved, "rational"_a = result.rational.has_value(),
+                    "parameters"_a = result.parameters, "survivors"_a = survivors,
+                    "sequences"_a = sequences, "theorem"_a = result.theorem,
+                    "excluded"_a = result.excluded, "reason"_a = result.reason,
+                    "examined"_a = examined);
   });
 }
 

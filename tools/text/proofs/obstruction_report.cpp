@@ -101,16 +101,17 @@ nlohmann::ordered_json to_json(const Model& model, const Obstruction& answer, do
     json["free"] = survivors_json(answer);
     json["theorem"] = answer.theorem;
     json["excluded"] = answer.excluded;
-  } else if (answer.proved) {
-    const Examined& decisive = answer.examined.back();
+  } else if (answer.proved || answer.rational) {
+    const Examined& decisive =
+        answer.rational ? answer.examined[*answer.rational] : answer.examined.back();
     json["along"] = decisive.along;
     json["level"] = decisive.level;
     json["nve"] = decisive.nve;
     json["theorem"] = answer.theorem;
     json["excluded"] = answer.excluded;
-  } else {
-    json["reason"] = answer.reason;
   }
+  if (answer.rational) json["rational"] = "proved";
+  if (!answer.proved) json["reason"] = answer.reason;
   json["examined"] = nlohmann::ordered_json::array();
   for (const Examined& examined : answer.examined) json["examined"].push_back(to_json(examined));
   json["left_out"] = answer.left_out;
@@ -134,9 +135,11 @@ void print(const Model& model, const Obstruction& answer, double seconds, bool a
   if (!answer.proved || all)
     for (const std::string& line : answer.left_out) print_line("left out", line);
   if (answer.proved && !answer.free.empty()) print_survivors(answer);
-  if (answer.proved) {
+  if (answer.proved || answer.rational) {
     print_line("theorem", answer.theorem);
     print_line("excluded", answer.excluded);
+  }
+  if (answer.proved) {
     fmt::print("not integrable{}: proved, {:.3f} s\n",
                answer.free.empty() ? "" : " where nothing survives", seconds);
   } else {
