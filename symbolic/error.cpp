@@ -123,7 +123,8 @@ std::string suggest(const std::string& name, const std::vector<std::string>& kno
   for (const std::string& candidate : known) {
     const std::size_t lengths[] = {name.size(), candidate.size()};
     const auto [shorter, longer] = std::minmax(lengths[0], lengths[1]);
-    if (longer - shorter >= best_distance) continue;
+    // One letter is not misspelt as another one.
+    if (longer - shorter >= best_distance || longer == 1) continue;
     const std::size_t distance = edit_distance(name, candidate);
     if (distance < best_distance) {
       best_distance = distance;

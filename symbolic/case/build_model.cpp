@@ -365,6 +365,11 @@ class Builder {
   }
 
   std::size_t variable_position(const Text& name) const {
+    const auto is_it = [&](const GiNaC::symbol& x) { return x.get_name() == name.value; };
+    const std::string misplaced = root_key_hint(name.value);
+    if (!misplaced.empty() && std::ranges::none_of(model_.variables, is_it))
+      throw name.error(fmt::format("'{}' is not a variable of this case", printable(name.value)), 0,
+                       misplaced);
     return symbol_position(name, name.value, 0, model_.variables, "a variable of this case");
   }
 

@@ -156,10 +156,12 @@ std::string hint_for_name(const std::string& word, std::vector<std::string> know
   std::string hint = same_but_for_case(word, known);
   if (hint.empty()) hint = spelling_of_name(word);
   if (hint.empty()) hint = product_of_names(word, known);
-  if (hint.empty())
-    hint = constant ? "a constant stands here: numbers, Pi and functions of them"
-                    : suggest_or_list(word, known, "declared");
-  return hint;
+  if (!hint.empty()) return hint;
+  if (constant) return "a constant stands here: numbers, Pi and functions of them";
+  hint = suggest(word, known);
+  return hint.empty() ? fmt::format("{}; a parameter is declared in [parameters], as {} = {{}}",
+                                    suggest_or_list(word, known, "declared"), printable(word))
+                      : hint;
 }
 
 }  // namespace casimir

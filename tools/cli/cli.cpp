@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "tools/cli/errors.hpp"
+#include "tools/cli/options/number_checks.hpp"
 #include "tools/runs/scene_values.hpp"
 #include "tools/tables/table.hpp"
 
@@ -31,7 +32,7 @@ void add_common(CLI::App& command, Common& common) {
       ->type_name("NAME");
   command.add_option("--time-limit", common.time_limit, "Stop after this many seconds")
       ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
 }
 
 void add_case(CLI::App& command, std::string& name) {

@@ -9,6 +9,7 @@
 #include "symbolic/case/memory.hpp"
 #include "symbolic/error.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/options/number_checks.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -71,7 +72,7 @@ void add_resources(CLI::App& command, Resources& resources) {
                               "search)",
                               kDefaultMemory))
       ->type_name("GB")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
 }
 
 Limits limits_of(const Resources& resources) {

@@ -14,6 +14,7 @@
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/options/choices.hpp"
 #include "tools/cli/options/kept_parameters.hpp"
+#include "tools/cli/options/number_checks.hpp"
 #include "tools/cli/options/picture_options.hpp"
 #include "tools/cli/options/run_options.hpp"
 #include "tools/cli/output.hpp"
@@ -207,13 +208,13 @@ void add_measurement_options(CLI::App& command, ComparisonOptions& options, RunO
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("X,Y")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command
       .add_option("--budget", options.budget,
                   "Seconds of measuring a case: the more, the more repeated runs (default 8); a "
                   "run that takes a fortieth of it is given up")
       ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command
       .add_option("--repeat", options.repeat,
                   "Time every run in exactly so many rounds, whatever it takes")

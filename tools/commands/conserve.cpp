@@ -11,6 +11,7 @@
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/options/kept_parameters.hpp"
+#include "tools/cli/options/number_checks.hpp"
 #include "tools/cli/options/picture_options.hpp"
 #include "tools/cli/options/run_options.hpp"
 #include "tools/cli/progress.hpp"
@@ -185,7 +186,7 @@ void register_conserve(CLI::App& program, Action& action) {
   add_all(*command, options->all, options->tag, "Every bundled case");
   command->add_option("--bound", options->bound, "Largest drift allowed (default 1e-9)")
       ->type_name("X")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   CLI::Option* methods = command
                              ->add_option("--method", options->methods,
                                           "Methods to run (default: taylor,dop853,gauss8)")

@@ -17,6 +17,7 @@
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/options/kept_parameters.hpp"
 #include "tools/cli/options/motion_options.hpp"
+#include "tools/cli/options/number_checks.hpp"
 #include "tools/cli/options/picture_options.hpp"
 #include "tools/cli/options/run_options.hpp"
 #include "tools/cli/watched_run.hpp"
@@ -378,7 +379,7 @@ void register_integrate(CLI::App& program, Action& action) {
                    "Time between the states written (default: a thousandth of the duration) or "
                    "drawn")
       ->type_name("DT")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command
       ->add_option("--ensemble", options->ensemble,
                    "Integrate many at once: a CSV file whose first line names variables and "
@@ -405,7 +406,7 @@ void register_integrate(CLI::App& program, Action& action) {
       ->type_name("FILE");
   command->add_option("--jobs", options->jobs, "Threads for an ensemble (default: all processors)")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(count_from_one());
   command
       ->add_option("--observe", options->observe,
                    "States that must be computed; what they do not need is left out")

@@ -12,6 +12,7 @@
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
+#include "tools/cli/options/number_checks.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/stopwatch.hpp"
@@ -346,7 +347,7 @@ void register_report(CLI::App& program, Action& action) {
           "Seconds of measuring error against run time (default 4, with --all 0.5 a case); "
           "0 leaves it out")
       ->type_name("SECONDS")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_from_zero());
   command
       ->add_option("--output", options->output,
                    "The page (default: CASE.html); with --all a folder (default: report), or the "

@@ -16,6 +16,7 @@
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
+#include "tools/cli/options/number_checks.hpp"
 #include "tools/cli/options/picture_options.hpp"
 #include "tools/cli/options/run_options.hpp"
 #include "tools/cli/output.hpp"
@@ -359,20 +360,20 @@ void register_stress(CLI::App& program, Action& action) {
       ->type_name("A,B");
   command->add_option("--tolerance", options->tolerance, "Of every run (default: integrate's)")
       ->type_name("X")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command
       ->add_option("--cell-limit", options->cell_limit,
                    "Seconds for one run; what takes longer is refused (default 5)")
       ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command
       ->add_option("--reference-limit", options->reference_limit,
                    "Seconds for the multiprecision run of one scene (default 30)")
       ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command->add_option("--jobs", options->jobs, "Runs at a time (default: all processors)")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(count_from_one());
   add_csv_output(*command, options->output, "Write a row for each cell to this file");
   command->add_option("--plot", options->plot, "Draw the matrix")->type_name("FILE.svg|png|pdf");
   options->print.add_to(*command);

@@ -23,6 +23,7 @@
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/options/choices.hpp"
+#include "tools/cli/options/number_checks.hpp"
 #include "tools/cli/options/picture_options.hpp"
 #include "tools/cli/options/run_options.hpp"
 #include "tools/cli/output.hpp"
@@ -373,7 +374,7 @@ void register_sweep(CLI::App& program, Action& action) {
       ->type_name("A,B");
   command->add_option("--jobs", options->jobs, "Threads (default: all processors)")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(count_from_one());
   command
       ->add_option(
           "--output", options->output,

@@ -6,6 +6,7 @@
 
 #include "tools/cli/errors.hpp"
 #include "tools/cli/options/choices.hpp"
+#include "tools/cli/options/number_checks.hpp"
 #include "tools/plot/sheet.hpp"
 #include "tools/runs/enclosed_run.hpp"
 #include "tools/section/plane_options.hpp"
@@ -126,7 +127,7 @@ CLI::Option* add_section_options(CLI::App& command, SectionArguments& arguments)
           ->check(CLI::Range(1e-15, 1e-3));
   command.add_option("--jobs", arguments.jobs, "Threads (default: all processors)")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(count_from_one());
   command
       .add_option("--output,--plot", arguments.outputs,
                   "Write the crossings to a .csv, .npz or .h5 file, or draw them to an .svg, .png "

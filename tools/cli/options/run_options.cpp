@@ -8,12 +8,13 @@
 #include "symbolic/expression/decimal.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/options/number_checks.hpp"
 
 namespace casimir::tools {
 
 void add_run_options(CLI::App& command, RunOptions& options) {
   const auto positive = [&](const char* name, std::optional<double>& target, const char* text) {
-    command.add_option(name, target, text)->type_name("X")->check(CLI::PositiveNumber);
+    command.add_option(name, target, text)->type_name("X")->check(positive_number());
   };
   positive("--rtol", options.asked.rtol, "Relative tolerance of a step");
   positive("--atol", options.asked.atol, "Absolute tolerance of a step");
@@ -24,7 +25,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
       ->type_name("T");
   command.add_option("--max-steps", options.asked.max_steps, "Limit on the number of steps")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(count_from_one());
 }
 
 void add_projection(CLI::App& command, RunOptions& options) {
