@@ -43,7 +43,7 @@ struct Examined {
 struct FreeValue {
   std::string value;      ///< as "1/4", or as "the root of c^2 - 2 near 1.41421"
   std::string why;        ///< the conditions that hold
-  bool excluded = false;  ///< it is excluded when it is examined alone
+  bool excluded = false;  ///< when it is examined alone; if only of rational integrals, see outcome
   std::string outcome;    ///< what came of that
 };
 

@@ -180,8 +180,11 @@ void exclude_values(const HamiltonianSystem& system, std::vector<FamilyEquation>
     FreeValue value{survivor.value.text(name), survivor.why, false, ""};
     if (const auto number = survivor.value.rational()) {
       const Obstruction own = examine(*number);
-      value.excluded = own.proved;
-      value.outcome = own.proved ? alone_text(own.examined.back()) : own.reason;
+      value.excluded = own.proved || own.rational;
+      value.outcome = own.proved     ? alone_text(own.examined.back())
+                      : own.rational ? "of rational integrals alone, by an irregular point: " +
+                                           alone_text(own.examined[*own.rational])
+                                     : own.reason;
     } else {
       value.outcome = "not examined alone: no rational number";
     }

@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"ZeroTolerance", {"integrate", "euler", "--tolerance", "0"}, "--tolerance"},
         Bad{"NanTolerance",
             {"integrate", "euler", "--tolerance", "nan"},
-            "tolerances must be positive"},
+            "expected a number above 0 such as 0.01 or 1e-9, not 'nan'"},
         Bad{"TooSmallTolerance",
             {"integrate", "euler", "--tolerance", "1e-20"},
             "double precision"},
