@@ -129,22 +129,15 @@ class SpaceChart {
     direction_[system.q[first]] = 1;
   }
 
-  /// A V'(d) = gamma d, times denominators.
+  /// A V'(d) = gamma d, times denominators; of a chart that is one point, that its only unknown is
+  /// zero.
   std::vector<Polynomial> equations() const {
-    std::vector<Polynomial> result;
-    for (std::size_t j = 0; j < system_.q.size(); ++j) {
-      if (j == first_) continue;
-      const ex across = on(system_.slopes[j] - system_.q[j] * system_.slopes[first_]);
-      const Polynomial own = polynomial_of(across.numer().expand(), ring_, unknowns_);
-      if (!own.is_zero()) result.push_back(own);
-    }
-    if (unknowns_.empty() || result.empty()) result.push_back(ring_.variable(0));
+    std::vector<Polynomial> result = conditions();
+    if (unknowns_.empty()) result.push_back(ring_.variable(0));
     return result;
   }
-  bool is_whole() const {
-    return !unknowns_.empty() && equations().size() == 1 &&
-           equations().front() == ring_.variable(0);
-  }
+  /// Every direction of the chart has a straight line.
+  bool is_whole() const { return !unknowns_.empty() && conditions().empty(); }
   std::size_t unknowns() const { return unknowns_.size(); }
   /// d_j = value.
   Polynomial cut(std::size_t j, int value) const {
@@ -176,6 +169,18 @@ class SpaceChart {
   std::size_t first() const { return first_; }
 
  private:
+  /// The equations, but those that hold everywhere.
+  std::vector<Polynomial> conditions() const {
+    std::vector<Polynomial> result;
+    for (std::size_t j = 0; j < system_.q.size(); ++j) {
+      if (j == first_) continue;
+      const ex across = on(system_.slopes[j] - system_.q[j] * system_.slopes[first_]);
+      const Polynomial own = polynomial_of(across.numer().expand(), ring_, unknowns_);
+      if (!own.is_zero()) result.push_back(own);
+    }
+    return result;
+  }
+
   ex on(const ex& f) const {
     try {
       return f.subs(direction_).normal();
