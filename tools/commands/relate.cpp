@@ -34,9 +34,9 @@ ParameterValues own_values(const ParameterValues& values, const CaseFile& file,
                            std::vector<Text>& unused) {
   ParameterValues own;
   for (const auto& [name, value] : values) {
-    const bool has =
-        std::any_of(file.parameters.begin(), file.parameters.end(),
-                    [&](const ParameterText& p) { return p.name.value == name.value; });
+    const std::string& wanted = name.value;  // clang 14 cannot capture a structured binding
+    const bool has = std::any_of(file.parameters.begin(), file.parameters.end(),
+                                 [&](const ParameterText& p) { return p.name.value == wanted; });
     if (has)
       own.emplace_back(name, value);
     else
