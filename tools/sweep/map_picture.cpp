@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "symbolic/error.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/plot/colour_map.hpp"
