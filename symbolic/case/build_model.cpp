@@ -132,6 +132,13 @@ class Builder {
       const Quantity quantity = parse_expression(value, names_);
       for (const ex& part : lost_parts(quantity)) result.domain.push_back(part);
       const std::size_t n = model_.variables.size();
+      for (const GiNaC::symbol& x : model_.variables) {
+        if (i >= n && quantity.value.has(x))
+          throw value.error(fmt::format(
+              "the image of the parameter '{}' uses the variable '{}': only parameters may stand "
+              "there",
+              name.value, x.get_name()));
+      }
       (i < n ? result.variables[i] : result.parameters[i - n]) = quantity.value;
     }
     return result;

@@ -6,10 +6,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
+#include "symbolic/discrete/map_inverse.hpp"
 #include "symbolic/discrete/map_jacobian.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/proof/claims/density.hpp"
+#include "symbolic/proof/generic_rank.hpp"
 
 namespace casimir::discrete {
 namespace {
@@ -65,8 +68,7 @@ Proof decided_alone(const Model& model, const Claim& claim) {
 /// those at which the assumptions hold, those of the others are where the ones before have led.
 /// Where a step does not keep it, or not without a condition, it is decided for the composition
 /// alone.
-Claim by_steps(const MapModel& map, const std::function<Claim(const MapModel&)>& claim_of) {
-  if (map.steps.empty()) return claim_of(map);
+Claim kept_by_steps(const MapModel& map, const std::function<Claim(const MapModel&)>& claim_of) {
   std::vector<Claim> parts;
   for (const MapModel& step : map.steps) parts.push_back(claim_of(step));
   Claim claim = parts.front();
@@ -75,11 +77,13 @@ Claim by_steps(const MapModel& map, const std::function<Claim(const MapModel&)>&
                              part.expressions.end());
   claim.decide = [&map, parts, claim_of](Prover& prover, Proof& proof) {
     const Model later = anywhere(map.base);
+    std::set<std::string> evidence;
     for (const Claim& part : parts) {
       const bool first = &part == &parts.front();
       const Proof own = decided_alone(first ? map.base : later, part);
       if (own.verdict == Verdict::proved && (first || own.where.empty())) {
         proof.where.insert(proof.where.end(), own.where.begin(), own.where.end());
+        if (!own.evidence.empty()) evidence.insert(own.evidence);
         continue;
       }
       const Claim whole = claim_of(map);
@@ -97,8 +101,29 @@ Claim by_steps(const MapModel& map, const std::function<Claim(const MapModel&)>&
     }
     proof.verdict = Verdict::proved;
     proof.evidence = fmt::format("each of the {} steps keeps it", parts.size());
+    for (const std::string& text : evidence) proof.evidence += "; " + text;
   };
   return claim;
+}
+
+/// The claim, where it can be written down: a function may have a pole wherever the map leads.
+Claim or_without_value(ClaimKind kind, const std::string& name,
+                       const std::function<Claim()>& claim) {
+  try {
+    return claim();
+  } catch (const GiNaC::pole_error&) {
+    Claim result{kind, name, false, [](Prover& /*prover*/, Proof& proof) {
+                   proof.reason = "it has no value wherever the map leads: a denominator is zero";
+                 }};
+    result.subject = Subject::functions;
+    return result;
+  }
+}
+
+Claim by_steps(const MapModel& map, ClaimKind kind, const std::string& name,
+               const std::function<Claim(const MapModel&)>& claim_of) {
+  return or_without_value(
+      kind, name, [&] { return map.steps.empty() ? claim_of(map) : kept_by_steps(map, claim_of); });
 }
 
 Claim whole_integral_claim(const MapModel& map, const NamedExpression& f, const Functions& on) {
@@ -132,6 +157,7 @@ Claim whole_relation_claim(const MapModel& map, const NamedExpression& f, const 
 
 /// By the change of variables x' = phi(x) the measure |rho| dx is kept, near every point at which
 /// the Jacobian determinant is not zero, exactly where rho(x') det(dx'/dx) is rho(x) or -rho(x).
+/// Globally, where the map is one to one besides.
 Claim whole_measure_claim(const MapModel& map, const NamedExpression& density) {
   Claim claim{
       ClaimKind::measure, density.name, false, [&map, density](Prover& prover, Proof& proof) {
@@ -149,13 +175,24 @@ Claim whole_measure_claim(const MapModel& map, const NamedExpression& density) {
         const bool reverses = !prover.is_zero(image - own) && prover.is_zero(image + own);
         prover.decide(proof, {residual(reverses ? -1 : 1)}, {});
         judge_density(prover, proof, density.value);
-        if (proof.verdict == Verdict::proved && reverses)
-          proof.evidence += std::string(proof.evidence.empty() ? "" : "; ") +
-                            "the map reverses the orientation that the density gives";
+        if (proof.verdict != Verdict::proved) return;
+        const auto add = [&](const char* text) {
+          proof.evidence += std::string(proof.evidence.empty() ? "" : "; ") + text;
+        };
+        if (reverses) add("the map reverses the orientation that the density gives");
+        // Of a map that is not one to one the preimage of a set may have several parts, and their
+        // measure is that of the set only one by one: (x^2, y/(2*x)) doubles areas.
+        constexpr double kFewTerms = 1000;
+        if (!proved_inverse(map, kFewTerms))
+          add("locally: that the map is one to one is not shown");
       }};
   claim.expressions = domain_of(map, {density});
   claim.subject = Subject::functions;
   return claim;
+}
+
+std::string poisson_name(const MapModel& map) {
+  return map.sign > 0 ? "Poisson map" : "anti-Poisson map";
 }
 
 Claim whole_poisson_claim(const MapModel& map) {
@@ -166,8 +203,7 @@ Claim whole_poisson_claim(const MapModel& map) {
       images.push_back(map.sign * map.composed((*map.base.poisson)(i, j)));
   }
   Claim claim{
-      ClaimKind::map, map.sign > 0 ? "Poisson map" : "anti-Poisson map", false,
-      [&map, images](Prover& prover, Proof& proof) {
+      ClaimKind::map, poisson_name(map), false, [&map, images](Prover& prover, Proof& proof) {
         const auto& x = map.base.variables;
         std::vector<Residual> residuals;
         auto image = images.begin();
@@ -195,21 +231,25 @@ Claim whole_poisson_claim(const MapModel& map) {
 }  // namespace
 
 Claim integral_claim(const MapModel& map, const NamedExpression& f, const Functions& on) {
-  return by_steps(map, [f, on](const MapModel& own) { return whole_integral_claim(own, f, on); });
+  return by_steps(map, ClaimKind::integral, f.name,
+                  [f, on](const MapModel& own) { return whole_integral_claim(own, f, on); });
 }
 
 Claim invariant_relation_claim(const MapModel& map, const NamedExpression& f, const Functions& on) {
-  return by_steps(map, [f, on](const MapModel& own) { return whole_relation_claim(own, f, on); });
+  return by_steps(map, ClaimKind::invariant_relation, f.name,
+                  [f, on](const MapModel& own) { return whole_relation_claim(own, f, on); });
 }
 
 Claim measure_claim(const MapModel& map, const NamedExpression& density) {
-  return by_steps(map,
+  return by_steps(map, ClaimKind::measure, density.name,
                   [density](const MapModel& own) { return whole_measure_claim(own, density); });
 }
 
 /// Of an anti-Poisson map the steps need not all be anti-Poisson.
 Claim poisson_claim(const MapModel& map) {
-  return map.sign < 0 ? whole_poisson_claim(map) : by_steps(map, whole_poisson_claim);
+  const std::string name = poisson_name(map);
+  if (map.sign > 0) return by_steps(map, ClaimKind::map, name, whole_poisson_claim);
+  return or_without_value(ClaimKind::map, name, [&] { return whole_poisson_claim(map); });
 }
 
 namespace {
@@ -229,8 +269,59 @@ std::vector<ex> at_image(const MapModel& map, const MapSymmetry& symmetry,
 
 }  // namespace
 
-/// phi(S(x)) = S(phi(x)), or phi(S(phi(x))) = S(x). The parameters are carried along by S.
-Claim symmetry_claim(const MapModel& map, const MapSymmetry& symmetry) {
+namespace {
+
+/// The derivatives of S by variables and parameters.
+PolynomialRows jacobian_of(Prover& prover, const MapModel& map, const MapSymmetry& symmetry) {
+  const FunctionRing& ring = prover.ring();
+  std::vector<std::size_t> places;
+  for (const auto* list : {&map.base.variables, &map.base.parameters}) {
+    for (const GiNaC::symbol& s : *list) {
+      const auto place = std::ranges::find_if(
+          ring.symbols(), [&](const GiNaC::symbol& other) { return other.is_equal(s); });
+      places.push_back(static_cast<std::size_t>(place - ring.symbols().begin()));
+    }
+  }
+  PolynomialRows rows;
+  for (const auto* list : {&symmetry.variables, &symmetry.parameters}) {
+    for (const ex& value : *list) {
+      auto& row = rows.emplace_back();
+      for (const std::size_t place : places)
+        row.push_back(ring.derivative(prover.convert(value), place));
+    }
+  }
+  return rows;
+}
+
+/// Hypothesis of a symmetry: S is a local diffeomorphism near almost all points, by the theorem on
+/// inverse functions where its Jacobian determinant is zero on no piece of its domain. Without it a
+/// constant S, to a fixed point, would be a symmetry of every map, and a reversal too.
+void judge_invertible(Prover& prover, Proof& proof, const MapModel& map,
+                      const MapSymmetry& symmetry) {
+  if (proof.verdict != Verdict::proved) return;
+  const PolynomialRows rows = jacobian_of(prover, map, symmetry);
+  const auto found = rank_with_conditions(prover, rows);
+  if (found && found->uneven.empty() && found->exact && found->rank == rows.size()) {
+    proof.where.insert(proof.where.end(), found->nonzero.begin(), found->nonzero.end());
+    if (!found->where.empty()) proof.where.push_back(found->where);
+    return;
+  }
+  const bool singular = found && found->uneven.empty() && found->exact;
+  proof.verdict = singular ? Verdict::refuted : Verdict::undecided;
+  proof.reason = singular ? fmt::format(
+                                "'{}' is not invertible: the rank of its Jacobian matrix is {}, "
+                                "not {}",
+                                symmetry.name, found->rank, rows.size())
+                          : fmt::format("'{}' is not shown to be invertible", symmetry.name);
+}
+
+std::string symmetry_name(const MapSymmetry& symmetry) {
+  return symmetry.name + (symmetry.reverses ? ", reversal" : ", symmetry");
+}
+
+/// phi(S(x)) = S(phi(x)), or phi(S(phi(x))) = S(x), and S is invertible. The parameters are carried
+/// along by S.
+Claim whole_symmetry_claim(const MapModel& map, const MapSymmetry& symmetry) {
   const std::vector<ex> after = at_image(map, symmetry, map.next);
   std::vector<ex> left, right;
   for (std::size_t i = 0; i < after.size(); ++i) {
@@ -238,13 +329,14 @@ Claim symmetry_claim(const MapModel& map, const MapSymmetry& symmetry) {
     right.push_back(symmetry.reverses ? symmetry.variables[i]
                                       : map.composed(symmetry.variables[i]));
   }
-  Claim claim{ClaimKind::map, symmetry.name + (symmetry.reverses ? ", reversal" : ", symmetry"),
-              false, [&map, left, right](Prover& prover, Proof& proof) {
+  Claim claim{ClaimKind::map, symmetry_name(symmetry), false,
+              [&map, symmetry, left, right](Prover& prover, Proof& proof) {
                 std::vector<Residual> residuals;
                 for (std::size_t i = 0; i < left.size(); ++i)
                   residuals.push_back(
                       difference(prover, map.base.variables[i].get_name(), left[i] - right[i]));
                 prover.decide(proof, residuals, {});
+                judge_invertible(prover, proof, map, symmetry);
               }};
   claim.expressions = domain_of(map, {});
   std::vector<ex> parts = at_image(map, symmetry, map.next_domain);
@@ -259,6 +351,13 @@ Claim symmetry_claim(const MapModel& map, const MapSymmetry& symmetry) {
                            symmetry.variables.end());
   claim.subject = Subject::functions;
   return claim;
+}
+
+}  // namespace
+
+Claim symmetry_claim(const MapModel& map, const MapSymmetry& symmetry) {
+  return or_without_value(ClaimKind::map, symmetry_name(symmetry),
+                          [&] { return whole_symmetry_claim(map, symmetry); });
 }
 
 std::vector<Claim> liouville_claims(const MapModel& map) {

@@ -125,9 +125,20 @@ class Search {
     return null_space(rows, unknowns);
   }
 
-  std::optional<Polynomial> polynomial_of(const Row& residues) const {
+  /// Many residues of larger fractions are those of small ones as well, which are not proved then.
+  void leave_open() {
+    result_.reason =
+        "functions that seem to exist are not shown: as fractions with numerators and denominators "
+        "below 2^30 their coefficients were not found, or not proved";
+  }
+
+  /// Empty where the coefficients are not small fractions, which is said.
+  std::optional<Polynomial> polynomial_of(const Row& residues) {
     const auto coefficients = rationals_from(residues);
-    if (!coefficients) return std::nullopt;
+    if (!coefficients) {
+      leave_open();
+      return std::nullopt;
+    }
     TermCollector terms(ring_.ring());
     for (std::size_t m = 0; m < monomials_.size(); ++m) {
       if (cln::zerop((*coefficients)[m])) continue;
@@ -164,6 +175,13 @@ class Search {
     if (echelon(gradients, n).size() < functions.size()) return;
     if (verdict_of(ClaimKind::integral, {text, value, {}}) == Verdict::proved)
       result_.integrals.push_back({value, std::move(text)});
+    else
+      leave_open();
+  }
+
+  void keep_quotient(const Polynomial& top, const Polynomial& bottom) {
+    keep_integral(ring_.expression(top) / ring_.expression(bottom),
+                  fmt::format("({})/({})", ring_.text(top), ring_.text(bottom)));
   }
 
   void find_polynomials() {
@@ -277,8 +295,7 @@ class Search {
     for (std::size_t i = 1; i < functions.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         if (functions[j].is_constant()) continue;  // among the polynomials
-        keep_integral(ring_.expression(functions[i]) / ring_.expression(functions[j]),
-                      fmt::format("({})/({})", ring_.text(functions[i]), ring_.text(functions[j])));
+        keep_quotient(functions[i], functions[j]);
       }
     }
   }
@@ -295,14 +312,21 @@ class Search {
     });
     result_.density_space = space.size();
     if (!result_.generic.empty()) return;
+    std::vector<Polynomial> proved;
     for (const Row& vector : space) {
       const auto p = polynomial_of(vector);
       if (!p || p->is_zero()) continue;
       const ex density = 1 / ring_.expression(*p);
       std::string text = p->is_constant() ? "1" : fmt::format("1/({})", ring_.text(*p));
-      if (verdict_of(ClaimKind::measure, {text, density, {}}) == Verdict::proved)
+      if (verdict_of(ClaimKind::measure, {text, density, {}}) == Verdict::proved) {
         result_.densities.push_back({density, std::move(text)});
+        proved.push_back(*p);
+      } else {
+        leave_open();
+      }
     }
+    // Two measures that a map keeps differ by an integral.
+    for (std::size_t i = 1; i < proved.size(); ++i) keep_quotient(proved[i], proved[0]);
   }
 
   const MapModel& map_;

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "symbolic/algebra/ideal.hpp"
+#include "symbolic/error.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/functions/function_ring.hpp"
 
@@ -17,6 +19,29 @@ bool is_identically_zero(const ex& e) {
     if (GiNaC::is_a<GiNaC::symbol>(*part)) seen.insert(GiNaC::ex_to<GiNaC::symbol>(*part));
   FunctionRing ring({seen.begin(), seen.end()}, {}, {e});
   return ring.numerator(ring.convert(e)).is_zero();
+}
+
+/// Whether a power of it is shown to be in the ideal of the constraints: then it is zero wherever
+/// they are. Beside another common zero set the bracket has poles on the whole phase space.
+bool vanishes_on(const std::vector<ex>& constraints, const ex& e) {
+  std::set<GiNaC::symbol, GiNaC::ex_is_less> seen;
+  std::vector<ex> all = constraints;
+  all.push_back(e);
+  for (const ex& own : all) {
+    for (auto part = own.preorder_begin(); part != own.preorder_end(); ++part)
+      if (GiNaC::is_a<GiNaC::symbol>(*part)) seen.insert(GiNaC::ex_to<GiNaC::symbol>(*part));
+  }
+  FunctionRing ring({seen.begin(), seen.end()}, {}, all);
+  std::vector<Polynomial> generators;
+  for (const ex& phi : constraints) generators.push_back(ring.numerator(ring.convert(phi)));
+  try {
+    const std::vector<Polynomial> basis = groebner_basis(generators);
+    std::vector<Polynomial> quotients;
+    const Polynomial own = ring.numerator(ring.convert(e)).remainder(basis, &quotients);
+    return (own * own).remainder(basis, &quotients).is_zero();
+  } catch (const TooLarge&) {
+    return false;
+  }
 }
 
 /// Without divisions: what GiNaC does not see to be zero cannot become a pivot.
@@ -45,7 +70,8 @@ std::optional<DiracBracket> dirac_bracket(const PoissonStructure& written,
     }
   }
   const ex determinant = determinant_of(c);
-  if (is_identically_zero(determinant)) return std::nullopt;
+  if (is_identically_zero(determinant) || vanishes_on(constraints, determinant))
+    return std::nullopt;
   GiNaC::matrix inverse(c.rows(), c.cols());  // times the determinant
   for (unsigned a = 0; a < m; ++a)
     for (unsigned b = 0; b < m; ++b)

@@ -20,7 +20,8 @@ struct DiracBracket {
 
 /// \param written      {,}
 /// \param constraints  at most kMostConstraints functions of the coordinates and of parameters
-/// \return  nothing where det C = 0 identically, as it is for an odd number of constraints
+/// \return  nothing where det C = 0, as it is for an odd number of constraints: identically, or where
+///          the constraints vanish by an ideal membership
 std::optional<DiracBracket> dirac_bracket(const PoissonStructure& written,
                                           const std::vector<GiNaC::ex>& constraints);
 

@@ -174,7 +174,7 @@ PoissonStructure restricted_bracket(const PhaseSpaceText& text, const PoissonStr
   if (!result)
     throw dirac.error(
         "the constraints are not of the second class: the matrix of their brackets "
-        "has determinant 0",
+        "has determinant 0 on them",
         0,
         constraints.size() % 2 == 1
             ? "their number is odd: the velocity of a constraint is often missing"

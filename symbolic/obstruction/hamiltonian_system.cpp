@@ -146,6 +146,8 @@ HamiltonianSystem hamiltonian_system(const Model& model, const std::string& scen
     const auto in_it = [&](const GiNaC::symbol& x) { return assumption.difference.has(x); };
     if (std::any_of(result.variables.begin(), result.variables.end(), in_it))
       result.domain.push_back(std::move(assumption));
+    else if (!GiNaC::is_a<GiNaC::numeric>(assumption.difference))
+      result.of_free.push_back(std::move(assumption));
   }
   for (const NamedExpression& casimir : model.casimirs)
     result.casimirs.emplace_back(casimir.name, casimir.value.subs(values));

@@ -20,7 +20,8 @@ struct HamiltonianSystem {
   GiNaC::ex hamiltonian;
   std::vector<std::pair<std::string, GiNaC::ex>> casimirs;
   std::vector<GiNaC::ex> constraints;  ///< Casimir functions too; they vanish on the phase space
-  std::vector<Assumption> domain;      ///< what the case assumes of its variables
+  std::vector<Assumption> domain;      ///< what the case assumes of its variables ..
+  std::vector<Assumption> of_free;     ///< .. and of parameters that have no number
   std::vector<std::pair<std::string, std::string>> parameters;  ///< name and value
   GiNaC::exmap numbers;                                         ///< of the parameters
   std::optional<GiNaC::symbol> free;   ///< the parameter that has no number

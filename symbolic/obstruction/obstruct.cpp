@@ -282,6 +282,7 @@ void decide_family(const HamiltonianSystem& system, const Surfaces& along, unsig
   result.free = system.free->get_name();
   watch.begin("invariant surfaces");
   for (const GiNaC::symbol& other : system.further) result.free += "," + other.get_name();
+  for (const Assumption& assumption : system.of_free) result.assumed.push_back(assumption.text);
   if (!system.further.empty()) {
     exclude_regions(system,
                     general_equations(system, planes_of(system, along), watch, result.left_out),

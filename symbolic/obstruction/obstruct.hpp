@@ -59,6 +59,7 @@ struct Obstruction {
   /// Not proved, but that there is no further rational one: which of `examined` is decisive.
   std::optional<std::size_t> rational = {};
   std::string free;                     ///< the free parameters, with commas; empty without one
+  std::vector<std::string> assumed;     ///< what the case assumes of these
   std::vector<FreeValue> values;        ///< that survive, in order
   std::vector<FreeSequence> sequences;  ///< of values that survive
   std::vector<std::pair<std::string, std::string>> parameters;  ///< name and value
@@ -96,8 +97,8 @@ struct ObstructionRequest {
 /// Where all equations of first order have a solvable identity component, those of higher order are
 /// examined where `examine_higher` can.
 ///
-/// With a free parameter `proved` is about every real value of it but those in `values` and
-/// `sequences`; what is said of each equation holds where `Examined::where` does.
+/// With a free parameter `proved` is about every real value of it that is `assumed`, but those in
+/// `values` and `sequences`; what is said of each equation holds where `Examined::where` does.
 /// \throws CaseError  for an equation of a surface that cannot be read
 Obstruction find_obstruction(const Model& model, const ObstructionRequest& request,
                              const search::Watch& watch = {});

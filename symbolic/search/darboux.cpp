@@ -35,6 +35,8 @@ class DarbouxSearch {
     report_.reason = reason;
   }
   bool set_cofactor(DarbouxPolynomial& result, const Polynomial& function);
+  int degree_in_coordinates(const Polynomial& p) const;
+  std::optional<Polynomial> irreducible(const Polynomial& p) const;
   void add(const Branch& branch, const Polynomial& f, const Polynomial& k);
   Polynomial in_own_ring(const Polynomial& p) const;
   Polynomial monomial(const Monomials& list, std::size_t i) const;
@@ -173,46 +175,62 @@ bool DarbouxSearch::set_cofactor(DarbouxPolynomial& result, const Polynomial& fu
   return true;
 }
 
+/// The degree in the coordinates: parameters are elements of the field.
+int DarbouxSearch::degree_in_coordinates(const Polynomial& p) const {
+  unsigned long degree = 0;
+  for (const auto& [number, exponents] : p.term_list()) {
+    const auto end = exponents.begin() + static_cast<std::ptrdiff_t>(dimension_);
+    degree = std::max(degree, std::accumulate(exponents.begin(), end, 0UL));
+  }
+  return static_cast<int>(degree);
+}
+
+/// The irreducible polynomial over the field of the parameters that p is up to a factor from that
+/// field; empty where p is a product of others, which are found on their own. Gauss's lemma: what
+/// is irreducible over Q, and has a coordinate, is irreducible over Q(parameters).
+std::optional<Polynomial> DarbouxSearch::irreducible(const Polynomial& p) const {
+  std::optional<Polynomial> result;
+  for (const auto& [factor, exponent] : p.factors()) {
+    if (degree_in_coordinates(factor) == 0) continue;
+    if (result || exponent > 1) return std::nullopt;
+    result = factor.scaled(1 / factor.content());
+  }
+  return result;
+}
+
 void DarbouxSearch::add(const Branch& branch, const Polynomial& f, const Polynomial& k) {
   const Polynomial function = branch.reduced(f), cofactor = branch.reduced(k);
   if (cofactor.is_zero()) return;  // an integral
   if (!branch.decided) {
-    report_.complete = false;
-    report_.reason = "some equations for the coefficients could not be solved exactly";
+    leave_open("some equations for the coefficients could not be solved exactly");
     return;
   }
   const std::optional<Polynomial> own = in_system_ring(function);
-  DarbouxPolynomial result;
   if (!own) {
     // Coefficients that are algebraic numbers, or free: complex conjugates, or a pencil.
-    report_.complete = false;
-    report_.reason =
+    leave_open(
         "there are Darboux polynomials with coefficients that are algebraic numbers, or families "
-        "of them; these are not shown";
+        "of them; these are not shown");
     return;
   }
-  if (own->factors().size() != 2 || own->factors()[1].second != 1) {
-    if (own->total_degree() > 1) return;  // a product of others
-  }
-  result.degree = 0;
-  for (const auto& [number, exponents] : own->term_list()) {
-    const auto end = exponents.begin() + static_cast<std::ptrdiff_t>(dimension_);
-    result.degree =
-        std::max(result.degree, static_cast<int>(std::accumulate(exponents.begin(), end, 0UL)));
-  }
-  const Polynomial primitive = own->scaled(1 / own->content());
-  result.value = system_.expression(primitive);
-  result.text = short_text(system_.prover().ring(), primitive, system_.is_constant());
-  if (!set_cofactor(result, primitive)) return;
+  const std::optional<Polynomial> primitive = irreducible(*own);
+  if (!primitive) return;
+  DarbouxPolynomial result;
+  result.degree = degree_in_coordinates(*primitive);
+  result.value = system_.expression(*primitive);
+  result.text = short_text(system_.prover().ring(), *primitive, system_.is_constant());
+  const auto same = [&](const auto& other) { return other.first == *primitive; };
+  if (std::ranges::any_of(found_, same)) return;
   Polynomial rate(system_.ring()), quotient(system_.ring());  // of the search's own fields
-  for (std::size_t i = 0; i < dimension_; ++i) rate += own->derivative(i) * system_.flow()[i];
-  if (!rate.divide(*own, &quotient)) return;
-  const auto same = [&](const DarbouxPolynomial& other) { return other.text == result.text; };
-  if (std::any_of(report_.found.begin(), report_.found.end(), same)) return;
+  for (std::size_t i = 0; i < dimension_; ++i) rate += primitive->derivative(i) * system_.flow()[i];
+  if (!set_cofactor(result, *primitive) || !rate.divide(*primitive, &quotient)) {
+    leave_open(fmt::format("'{}' was found and its cofactor was not", result.text));
+    return;
+  }
   result.verdict =
       prove_claim(model_, ClaimKind::invariant_relation, {result.text, result.value, {}}).verdict;
   report_.found.push_back(std::move(result));
-  found_.emplace_back(*own, quotient);
+  found_.emplace_back(*primitive, quotient);
 }
 
 /// A sum of quasi-homogeneous ones of different weights that have one cofactor was not looked for.
@@ -221,7 +239,7 @@ void DarbouxSearch::add(const Branch& branch, const Polynomial& f, const Polynom
 void DarbouxSearch::look_for_pencils() {
   std::vector<int> degrees;
   for (const auto& [function, cofactor] : found_)
-    degrees.push_back(static_cast<int>(function.total_degree()));
+    degrees.push_back(degree_in_coordinates(function));
   const int degree = monomials_.degree(monomials_.size() - 1);
   const std::vector<std::vector<int>> products = products_up_to(degrees, degree, 0);
   std::vector<Polynomial> cofactors;
@@ -290,9 +308,8 @@ DarbouxReport DarbouxSearch::run() {
       leave_open(fmt::format("'{}' is taken as a parameter of its own", system_.name(place)));
   }
   for (const DarbouxPolynomial& found : report_.found) {
-    if (found.verdict == Verdict::proved) continue;
-    report_.complete = false;
-    report_.reason = fmt::format("'{}' was found but not proved", found.text);
+    if (found.verdict != Verdict::proved)
+      leave_open(fmt::format("'{}' was found but not proved", found.text));
   }
   return report_;
 }

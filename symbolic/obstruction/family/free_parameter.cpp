@@ -134,6 +134,19 @@ std::vector<RiemannFamily> shown_in(std::vector<FamilyEquation> equations, const
   return families;
 }
 
+/// Whether the case assumes that the free parameter does not have this value.
+bool is_ruled_out(const HamiltonianSystem& system, const cln::cl_RA& value) {
+  const GiNaC::exmap at{{*system.free, GiNaC::numeric(value)}};
+  return std::ranges::any_of(system.of_free, [&](const Assumption& assumption) {
+    try {
+      return GiNaC::is_a<GiNaC::numeric>(assumption.difference.subs(at)) &&
+             !assumption.holds_at(at);
+    } catch (const GiNaC::pole_error&) {
+      return false;
+    }
+  });
+}
+
 }  // namespace
 
 std::vector<FamilyEquation> family_equations(const HamiltonianSystem& system,
@@ -178,7 +191,9 @@ void exclude_values(const HamiltonianSystem& system, std::vector<FamilyEquation>
   result.proved = true;
   for (const SurvivingValue& survivor : found.values) {
     FreeValue value{survivor.value.text(name), survivor.why, false, ""};
-    if (const auto number = survivor.value.rational()) {
+    const auto number = survivor.value.rational();
+    if (number && is_ruled_out(system, *number)) continue;
+    if (number) {
       const Obstruction own = examine(*number);
       value.excluded = own.proved || own.rational;
       value.outcome = own.proved     ? alone_text(own.examined.back())

@@ -29,7 +29,7 @@ std::vector<RealRoot> cuts(const std::vector<RiemannFamily>& families) {
   return result;
 }
 
-/// A number between two neighbours.
+/// A number between two others.
 cln::cl_RA between(RealRoot low, RealRoot high) {
   while (!(low.interval().high < high.interval().low)) {
     low.refine();
@@ -79,6 +79,24 @@ std::optional<std::vector<RealRoot>> inside(const RiemannFamily& family, const C
   return result;
 }
 
+/// The cell, or its halves where those are more than it: one family may have finitely many solvable
+/// members near one end and another one near the other end, and none on the whole. The number
+/// between them is decided here.
+std::vector<Cell> parts_of(const std::vector<RiemannFamily>& families, const Cell& cell,
+                           Survivors& result) {
+  const auto is_finite = [&](const Cell& own) {
+    return std::ranges::any_of(
+        families, [&](const RiemannFamily& family) { return inside(family, own).has_value(); });
+  };
+  if (families.size() == 1 || is_finite(cell)) return {cell};
+  const RealRoot middle(cell.inside);
+  const Cell low{cell.low, middle, cell.low ? between(*cell.low, middle) : cell.inside - 1};
+  const Cell high{middle, cell.high, cell.high ? between(middle, *cell.high) : cell.inside + 1};
+  if (!is_finite(low) || !is_finite(high)) return {cell};
+  decide(families, middle, result);
+  return {low, high};
+}
+
 /// \return  whether only sequences say what survives in the cell
 bool decide(const std::vector<RiemannFamily>& families, const Cell& cell, Survivors& result) {
   std::optional<std::vector<RealRoot>> fewest;
@@ -116,7 +134,10 @@ Survivors survivors(const std::vector<RiemannFamily>& families, const std::strin
   const std::vector<RealRoot> all = cuts(telling);
   for (const RealRoot& cut : all) decide(telling, cut, result);
   std::optional<Cell> open;  // neighbouring cells with sequences, as one
-  for (const Cell& cell : cells_of(all)) {
+  std::vector<Cell> cells;
+  for (const Cell& cell : cells_of(all))
+    for (Cell& part : parts_of(telling, cell, result)) cells.push_back(std::move(part));
+  for (const Cell& cell : cells) {
     const bool infinite = decide(telling, cell, result);
     if (infinite && open)
       open->high = cell.high;

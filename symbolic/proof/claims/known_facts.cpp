@@ -88,6 +88,7 @@ std::vector<Functions> known_levels(const Model& model) {
     });
     if (!known && !level.empty()) levels.push_back(std::move(level));
   };
+  add(model.constraints);
   for (const LevelClaim& claim : model.conditionals) add(claim.on);
   for (const NamedExpression& casimir : model.casimirs) add({casimir});
   for (const LevelClaim& claim : model.invariant_relations) {

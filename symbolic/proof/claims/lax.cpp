@@ -79,10 +79,23 @@ Ranks ranks_of(Prover& prover, const std::vector<Polynomial>& known,
   return result;
 }
 
+/// Whether the motion keeps f, on the level if there is one. The spectrum of L does that; a part of
+/// a function that is not polynomial in the spectral parameter, as of x/(s - x), need not.
+bool is_kept(Prover& prover, const Polynomial& f, const Level& level) {
+  const Polynomial rate = prover.rate(f);
+  if (prover.is_zero(rate)) return true;
+  if (level.empty()) return false;
+  Proof proof;
+  const auto by_ginac = [&] { return prover.model().rate(prover.ring().expression(f)); };
+  prover.decide(proof, {{"the rate on the level", rate, by_ginac}}, level);
+  return proof.verdict == Verdict::proved;
+}
+
 /// The integrals that follow from a proved Lax pair; constants and repetitions left out. On a level
 /// they are those of the motion there.
 std::vector<Polynomial> integrals_of(Prover& prover, const LaxPair& pair) {
   FunctionRing& ring = prover.ring();
+  const Level level = prover.level(pair.on);
   const unsigned n = pair.l.rows();
   Matrix l;
   for (unsigned i = 0; i < n; ++i) {
@@ -109,9 +122,7 @@ std::vector<Polynomial> integrals_of(Prover& prover, const LaxPair& pair) {
       const bool known = std::any_of(result.begin(), result.end(),
                                      [&](const Polynomial& g) { return proportional(f, g); });
       if (constant || known) continue;
-      // On a level that is a theorem, see `decide_on_level`; without one it is checked again.
-      const bool kept = !pair.on.empty() || prover.is_zero(prover.rate(f));
-      if (kept) result.push_back(std::move(f));
+      if (is_kept(prover, f, level)) result.push_back(std::move(f));
     }
   }
   return result;

@@ -3,6 +3,7 @@
 
 #include "symbolic/discrete/map_inverse.hpp"
 #include "symbolic/discrete/prove_map.hpp"
+#include "symbolic/discrete/search_map.hpp"
 #include "tests/symbolic/discrete/maps.hpp"
 
 namespace casimir::test {
@@ -179,6 +180,45 @@ TEST(ProveMap, ReversalsTakeParametersAlong) {
   EXPECT_EQ(verdict_of(map_of(shear + "{ e = \"-e\" }\n"), ClaimKind::map), Verdict::proved);
   EXPECT_EQ(verdict_of(map_of(shear + "{ x = \"-x\" }\n"), ClaimKind::map), Verdict::proved);
   EXPECT_EQ(verdict_of(map_of(shear + "{ y = \"-y\" }\n"), ClaimKind::map), Verdict::refuted);
+}
+
+// A constant S, to a fixed point, obeys both equations of every map.
+TEST(ProveMap, ASymmetryIsInvertible) {
+  const auto verdict = [](const std::string& s, const std::string& more = "") {
+    return verdict_of(
+        map_of(kPlane + "[parameters]\ne = {}\n[map]\nx = \"x + y^2\"\ny = \"2*y + x*y + y^3\"\n" +
+               "[[symmetry]]\nname = \"s\"\n" + more + "expressions = " + s + "\n"),
+        ClaimKind::map);
+  };
+  EXPECT_EQ(verdict("{ x = \"0\", y = \"0\" }"), Verdict::refuted);
+  EXPECT_EQ(verdict("{ x = \"0\", y = \"0\" }", "reverses = true\n"), Verdict::refuted);
+  EXPECT_EQ(verdict("{ x = \"x\", y = \"-y\" }"), Verdict::proved);
+  // A parameter that the map does not have may go anywhere, but not to one value.
+  EXPECT_EQ(verdict("{ y = \"-y\", e = \"e^3\" }"), Verdict::proved);
+  EXPECT_EQ(verdict("{ y = \"-y\", e = \"1\" }"), Verdict::refuted);
+  EXPECT_THROW(verdict("{ e = \"x\" }"), CaseError);
+}
+
+// x' = x^2 doubles what it maps: the density is kept near every point, and no measure of sets.
+TEST(ProveMap, AMeasureIsLocalWhereTheMapIsNotOneToOne) {
+  const auto evidence = [](const std::string& next) {
+    return proof_of(map_of(kPlane + "[map]\n" + next + "[[measure]]\ndensity = \"1\"\n"),
+                    ClaimKind::measure)
+        .evidence;
+  };
+  EXPECT_NE(evidence("x = \"x^2\"\ny = \"y/(2*x)\"\n").find("one to one"), std::string::npos);
+  EXPECT_EQ(evidence("x = \"x + y^2\"\ny = \"y\"\n").find("one to one"), std::string::npos);
+}
+
+// All points go to x = y, where 1/(x - y) has a pole.
+TEST(ProveMap, AFunctionWithAPoleWhereverTheMapLeadsIsUndecided) {
+  const std::string folded = kPlane + "[map]\nx = \"y\"\ny = \"y\"\n";
+  EXPECT_EQ(verdict_of(map_of(folded + "[integrals]\nF = \"1/(x - y)\"\n"), ClaimKind::integral),
+            Verdict::undecided);
+  EXPECT_EQ(
+      verdict_of(map_of(folded + "[[measure]]\ndensity = \"1/(x - y)\"\n"), ClaimKind::measure),
+      Verdict::undecided);
+  EXPECT_NO_THROW(discrete::search_map(map_of(folded), 2));
 }
 
 TEST(ProveMap, LiouvilleNeedsAPoissonMapAndItsIntegrals) {

@@ -66,6 +66,15 @@ TEST(SearchMap, SaysNoneOnlyWhereThereIsNone) {
   ASSERT_EQ(ratio.integrals.size(), 1U);
 }
 
+// x + 2147483659*y is kept, and no fraction below 2^30 is its coefficient: that is said.
+TEST(SearchMap, SaysThatLargeCoefficientsAreNotShown) {
+  const MapSearch found =
+      search_map(plane("[map]\nx = \"x + 2147483659*y^2\"\ny = \"y - y^2\"\n"), 1);
+  EXPECT_EQ(found.polynomials, 1U);
+  EXPECT_TRUE(found.integrals.empty());
+  EXPECT_FALSE(found.reason.empty());
+}
+
 TEST(SearchMap, RefusesWhatIsNotRational) {
   EXPECT_THROW(search_map(plane("[map]\nx = \"sin(x)\"\ny = \"y\"\n"), 2), ModelError);
 }

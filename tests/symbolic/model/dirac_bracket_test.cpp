@@ -55,6 +55,12 @@ TEST(DiracBracket, HasItsConstraintsAsCasimirFunctions) {
   EXPECT_EQ(verdict_of(proofs, "rank", "rank 4"), Verdict::proved);
 }
 
+/// Of q1 = 0 and q1*p1 = 0 the matrix has the determinant q1^2: not zero, but on the constraints.
+TEST(DiracBracket, NeedsARegularMatrixOnTheConstraints) {
+  EXPECT_THROW(model_of(particle("\"q1\", \"q1*p1\"")), CaseError);
+  EXPECT_NO_THROW(model_of(particle("\"q1\", \"(1 + q1)*p1\"")));
+}
+
 /// The names are free ones, and a constraint that is claimed already is not claimed twice.
 TEST(DiracBracket, NamesItsConstraintsOnce) {
   const Model model =

@@ -274,6 +274,24 @@ TEST(Superintegrable, NeedsOneMore) {
                CaseError);
 }
 
+// H, q3, p3, q4 and p4 are five integrals on leaves of dimension eight, and the motion of q1 and q2
+// is that of Henon and Heiles.
+TEST(Superintegrable, NeedsEnoughThatCommute) {
+  const std::string idle =
+      "superintegrable = true\nhamiltonian = \"(p1^2 + p2^2 + q1^2 + q2^2)/2 + q1^2*q2 - q2^3/3\"\n"
+      "[phase_space]\nvariables = [\"q1\", \"q2\", \"q3\", \"q4\", \"p1\", \"p2\", \"p3\", "
+      "\"p4\"]\ncanonical = true\n[integrals]\n"
+      "A = \"q3\"\nB = \"p3\"\nC = \"q4\"\nD = \"p4\"\n";
+  const Proof count = proof_of(model_of(idle), "liouville", "superintegrability");
+  EXPECT_EQ(count.verdict, Verdict::undecided);
+  EXPECT_NE(count.reason.find("rank"), std::string::npos) << count.reason;
+  // The twin: what is left of it is one oscillator.
+  std::string twin = idle;
+  twin.replace(twin.find(" + q1^2*q2 - q2^3/3"), 19, "");
+  twin += "L = \"q1*p2 - q2*p1\"\nM = \"p1*p2 + q1*q2\"\n";
+  EXPECT_EQ(proof_of(model_of(twin), "liouville", "superintegrability").verdict, Verdict::proved);
+}
+
 std::string lax_on(const std::string& z, const std::string& more) {
   return "[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n[equations]\nx = \"y + z\"\n"
          "y = \"-x\"\nz = \"" +
@@ -281,6 +299,19 @@ std::string lax_on(const std::string& z, const std::string& more) {
          "\"\n[[lax]]\nL = [[\"x\", \"y\"], [\"y\", \"-x\"]]\n"
          "A = [[\"0\", \"-1/2\"], [\"1/2\", \"0\"]]\n" +
          more;
+}
+
+// det(mu - L) has the coefficient (x + lam)/(lam - x) of mu, which is no polynomial in lam: on the
+// level z = 0 of x' = 1 its parts 1/(lam - x) and x/(lam - x) are no integrals.
+TEST(LaxOnALevel, PartsThatAreNoPolynomialsInTheSpectralParameterAreNoIntegrals) {
+  const Proof proof = proof_of(
+      model_of("[phase_space]\nvariables = [\"x\", \"z\"]\n[equations]\nx = \"1\"\nz = \"z\"\n"
+               "[[lax]]\nspectral = \"lam\"\non = [\"z\"]\n"
+               "L = [[\"lam/(lam-x)\", \"lam/(lam-x)\"], [\"-x/(lam-x)\", \"-x/(lam-x)\"]]\n"
+               "A = [[\"-lam/(lam-x)^2\", \"-lam/(lam-x)^2\"], "
+               "[\"lam/(lam-x)^2\", \"lam/(lam-x)^2\"]]\n"),
+      "lax");
+  EXPECT_TRUE(proof.integrals.empty()) << proof.integrals.front();
 }
 
 TEST(LaxOnALevel, HoldsWhereTheLevelIsInvariant) {

@@ -1,4 +1,5 @@
 // What Darboux polynomials give together: integrals, densities and what is constant in time.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,6 +41,34 @@ TEST(DarbouxIntegrals, OfLotkaAndVolterraHaveExponentsThatAreParameters) {
   EXPECT_EQ(texts(report, Kind::integral), Texts{"x^d*y^a*exp(-y*b - x*c)"});
   EXPECT_EQ(texts(report, Kind::multiplier), Texts{"1/(x*y)"});
   EXPECT_TRUE(texts(report, Kind::time_dependent).empty());
+}
+
+/// A parameter is no factor: a*F is F, and its degree does not count.
+TEST(DarbouxIntegrals, ParametersAreNoFactors) {
+  const std::string xyz = R"(["x", "y", "z"])";
+  const DarbouxReport leading =
+      of_equations(xyz, "x = \"0\"\ny = \"a*z + x + y\"\nz = \"0\"\n", 1, "a = {}\n");
+  ASSERT_EQ(leading.found.size(), 1U);
+  EXPECT_EQ(leading.found[0].degree, 1);
+  EXPECT_TRUE(leading.complete) << leading.reason;
+  const DarbouxReport quotient =
+      of_equations(xyz, "x = \"x\"\ny = \"2*a*z + x + 2*y\"\nz = \"0\"\n", 1, "a = {}\n");
+  EXPECT_EQ(quotient.found.size(), 2U);
+  EXPECT_EQ(texts(quotient, Kind::integral).size(), 1U);
+  // With a denominator and products of parameters, after the change of y by (a + b)*y - z/a.
+  for (const char* top : {"a*x", "x/(a + b)", "a*b*x^2"}) {
+    const std::string f = std::string(top) + " + y + a*z";
+    const DarbouxReport found =
+        of_equations(xyz,
+                     fmt::format("x = \"x\"\ny = \"(z + 1)*({}) - ({}) - a*z\"\nz = \"z\"\n", f,
+                                 std::string(top).back() == '2' ? "2*a*b*x^2" : top),
+                     2, "a = {}\nb = {}\n");
+    const bool is_found = std::ranges::any_of(found.found, [](const auto& own) {
+      return own.text.find('y') != std::string::npos && own.verdict == Verdict::proved;
+    });
+    EXPECT_TRUE(is_found || !found.complete) << top;
+    EXPECT_TRUE(is_found) << top << ": " << found.reason;
+  }
 }
 
 TEST(DarbouxIntegrals, OfTwoCofactorsInAWholeRatioAreRational) {

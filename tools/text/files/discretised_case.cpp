@@ -42,6 +42,8 @@ class DiscretisedWriter {
   std::string write(const std::string& method, const std::optional<std::string>& value) {
     std::string text = fmt::format("# {} of the case {}{}.\n", method, flow_.name,
                                    value ? ", with the step " + *value : "");
+    if (!flow_.constraints.empty())
+      text += "# A map need not keep the constraints of the flow, which are left out.\n";
     text +=
         "title = " +
         quoted(fmt::format("{} of {}", method, flow_.title.empty() ? flow_.name : flow_.title)) +

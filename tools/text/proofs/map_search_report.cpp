@@ -40,7 +40,7 @@ void print(const Model& base, int degree, const discrete::MapSearch& found, doub
   if (found.no_fraction)
     fmt::print("no rational integral of this degree: proved{}\n", generic);
   else
-    fmt::print("every orbit lies on at most {} independent hypersurfaces of this degree{}\n",
+    fmt::print("a general orbit lies on at most {} independent hypersurfaces of this degree{}\n",
                found.relations, generic);
   for (const discrete::FoundOfMap& f : found.densities) fmt::print("density {}: proved\n", f.text);
   if (found.density_space > found.densities.size())

@@ -2,6 +2,7 @@
 #include "tools/text/proofs/obstruction_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <string>
 
@@ -79,6 +80,7 @@ void print_survivors(const Obstruction& answer) {
 
 nlohmann::ordered_json survivors_json(const Obstruction& answer) {
   nlohmann::ordered_json json{{"parameter", answer.free}};
+  if (!answer.assumed.empty()) json["assumed"] = answer.assumed;
   json["survivors"] = nlohmann::ordered_json::array();
   json["excluded_alone"] = nlohmann::ordered_json::array();
   for (const obstruction::FreeValue& value : answer.values)
@@ -119,11 +121,21 @@ nlohmann::ordered_json to_json(const Model& model, const Obstruction& answer, do
   return json;
 }
 
+namespace {
+
+/// " For every real c with c > 0".
+std::string free_text(const Obstruction& answer) {
+  if (answer.free.empty()) return "";
+  return fmt::format(" For every real {}{}{}", answer.free, answer.assumed.empty() ? "" : " with ",
+                     fmt::join(answer.assumed, ", "));
+}
+
+}  // namespace
+
 void print(const Model& model, const Obstruction& answer, double seconds, bool all) {
   const std::string parameters = parameters_text(answer);
   fmt::print("{}: further integrals excluded?{}{}{}\n", model.name,
-             parameters.empty() ? "" : " At ", parameters,
-             answer.free.empty() ? "" : fmt::format(" For every real {}", answer.free));
+             parameters.empty() ? "" : " At ", parameters, free_text(answer));
   for (const Examined& examined : answer.examined) {
     if (examined.decisive || all) {
       print_evidence(examined);

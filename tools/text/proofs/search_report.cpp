@@ -51,6 +51,14 @@ void print_list(const std::vector<Found>& list, bool colour) {
   }
 }
 
+/// The options that ask for integrals on the constraints of the case.
+std::string on_constraints(const Model& model) {
+  std::vector<std::string> options;
+  for (const NamedExpression& f : model.constraints)
+    options.push_back(fmt::format("--on '{}'", f.name));
+  return fmt::format("{}", fmt::join(options, " "));
+}
+
 }  // namespace
 
 nlohmann::ordered_json to_json(const Model& model, int degree, const Report& report,
@@ -66,6 +74,8 @@ nlohmann::ordered_json to_json(const Model& model, int degree, const Report& rep
                               {"verdict", report.complete ? "proved" : "undecided"},
                               {"generic", report.generic}};
   if (!report.reason.empty()) json["reason"] = report.reason;
+  if (!model.constraints.empty() && report.kind == ClaimKind::integral)
+    json["not_on"] = names_of(model.constraints);
   json["system"] = {{"unknowns", report.unknowns},
                     {"equations", report.equations},
                     {"blocks", report.blocks},
@@ -97,6 +107,9 @@ void print(const Model& model, int degree, const Report& report, double seconds)
     fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
                report.reason);
   }
+  if (report.kind == ClaimKind::integral && !model.constraints.empty())
+    fmt::print("This is about the whole space of the variables; on its constraints alone: {}\n",
+               on_constraints(model));
   fmt::print("{} unknowns, {} equations, {} blocks (largest {}), {} trivial solutions, {:.3f} s\n",
              report.unknowns, report.equations, report.blocks, report.largest_block, report.trivial,
              seconds);

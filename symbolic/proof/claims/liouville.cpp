@@ -1,0 +1,210 @@
+// Liouville's theorem: integrals in involution that are independent on the generic leaf, as many as
+// half its dimension, or more that need not commute.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "symbolic/model/given_functions.hpp"
+#include "symbolic/proof/claims/claim.hpp"
+#include "symbolic/proof/claims/ranks.hpp"
+#include "symbolic/proof/claims/superintegrability.hpp"
+#include "symbolic/proof/special_parameters.hpp"
+
+namespace casimir {
+namespace {
+
+/// For each function the set of those that it commutes with, itself included.
+std::vector<unsigned> commuting(Prover& prover, const std::vector<NamedExpression>& functions) {
+  std::vector<unsigned> sets(functions.size());
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    sets[i] |= 1U << i;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!prover.is_zero(prover.bracket(functions[i].value, functions[j].value))) continue;
+      sets[i] |= 1U << j;
+      sets[j] |= 1U << i;
+    }
+  }
+  return sets;
+}
+
+/// The largest set, up to `needed`, of functions in involution with the first one whose fields have
+/// independent values.
+unsigned largest_set(const std::vector<unsigned>& commutes, RealPoint& point,
+                     const PolynomialRows& flows, std::size_t needed) {
+  unsigned best = 0;
+  const auto size = [](unsigned set) { return static_cast<std::size_t>(std::popcount(set)); };
+  for (unsigned set = 1; set < (1U << flows.size()) && size(best) < needed; set += 2) {
+    if (size(set) <= size(best) || size(set) > needed) continue;
+    bool involutive = true;
+    PolynomialRows rows;
+    for (std::size_t i = 0; i < flows.size() && involutive; ++i) {
+      if ((set >> i & 1U) == 0) continue;
+      involutive = (set & ~commutes[i]) == 0;
+      rows.push_back(flows[i]);
+    }
+    if (involutive && point.rank(rows) == rows.size()) best = set;
+  }
+  return best;
+}
+
+/// Sets of functions in involution, one for each piece of the domain.
+struct SetsOnPieces {
+  bool complete = false;      ///< each has as many as are needed
+  std::size_t least = 0;      ///< of the piece with the smallest set
+  unsigned set = 0;           ///< of the first piece
+  std::vector<RealPoint> at;  ///< a point on each; or on the one with too few
+  std::string where;
+};
+
+SetsOnPieces sets_on_pieces(Prover& prover, const PolynomialRows& flows,
+                            const std::vector<unsigned>& commutes, std::size_t needed) {
+  std::vector<Polynomial> entries;
+  for (const auto& row : flows) entries.insert(entries.end(), row.begin(), row.end());
+  PiecePoints found(prover, entries);
+  SetsOnPieces result;
+  if (needed == 0 || found.pieces().empty()) return result;
+  result.where = found.where();
+  const auto size = [](unsigned set) { return static_cast<std::size_t>(std::popcount(set)); };
+  // Of a rigid piece one point is enough, of another one all have to do.
+  const auto on_piece = [&](PiecePoints::Piece& piece) {
+    std::optional<std::size_t> best;
+    for (RealPoint& point : piece.points) {
+      const unsigned set = largest_set(commutes, point, flows, needed);
+      const bool better = !best || (piece.rigid ? size(set) > *best : size(set) < *best);
+      if (!better) continue;
+      best = size(set);
+      if (result.at.empty()) result.set = set;
+      if (*best >= needed && piece.rigid) break;
+    }
+    return *best;
+  };
+  do {
+    result.complete = true;
+    result.at.clear();
+    result.least = needed;
+    for (PiecePoints::Piece& piece : found.pieces()) {
+      const std::size_t own = on_piece(piece);
+      if (own < result.least) {
+        result.least = own;
+        result.complete = false;
+        result.at = {piece.points.front()};
+        break;
+      }
+      result.at.push_back(piece.points.back());
+    }
+  } while (!result.complete && found.add_point());
+  return result;
+}
+
+/// So many functions in involution, the first among them, whose flows are independent whatever the
+/// arbitrary functions are.
+std::optional<unsigned> always_independent_set(const Prover& prover, const PolynomialRows& flows,
+                                               const std::vector<unsigned>& commutes,
+                                               std::size_t needed) {
+  if (!has_arbitrary_functions(prover.model())) return std::nullopt;
+  for (unsigned set = 1; set < (1U << flows.size()); set += 2) {  // with the first, the Hamiltonian
+    if (static_cast<std::size_t>(std::popcount(set)) != needed) continue;
+    PolynomialRows rows;
+    bool involutive = true;
+    for (std::size_t i = 0; i < flows.size(); ++i) {
+      if ((set >> i & 1U) == 0) continue;
+      involutive = involutive && (commutes[i] & set) == set;
+      rows.push_back(flows[i]);
+    }
+    if (involutive && are_always_independent(prover, rows)) return set;
+  }
+  return std::nullopt;
+}
+
+/// Integrals in involution that are independent on the generic leaf: as many as half its dimension?
+void decide_liouville(Prover& prover, Proof& proof) {
+  const std::vector<NamedExpression> functions = with_hamiltonian(prover.model(), {});
+  const auto leaf = bracket_rank(prover);
+  if (!leaf) {
+    proof.reason = "no point of the domain was found to take the rank of the bracket at";
+    return;
+  }
+  if (!leaf->uneven.empty()) {
+    proof.reason = leaf->uneven;
+    return;
+  }
+  if (!leaf->exact) {
+    proof.reason =
+        fmt::format("the leaves are only known to have dimension {} or more", leaf->rank);
+    return;
+  }
+  constexpr std::size_t kMaxFunctions = 16;
+  if (functions.size() > kMaxFunctions) {
+    proof.reason =
+        fmt::format("more than {} integrals: their choice is not searched", kMaxFunctions);
+    return;
+  }
+  const std::size_t needed = leaf->rank / 2;
+  if (functions.size() < needed) {
+    proof.reason =
+        fmt::format("leaves of dimension {} need {} independent integrals in involution; {} known",
+                    leaf->rank, needed, functions.size());
+    return;
+  }
+  PolynomialRows flows;
+  for (const NamedExpression& f : functions) flows.push_back(prover.flow(f.value));
+  const std::vector<unsigned> commutes = commuting(prover, functions);
+  if (const auto set = always_independent_set(prover, flows, commutes, needed)) {
+    std::vector<NamedExpression> own;
+    for (std::size_t i = 0; i < functions.size(); ++i)
+      if ((*set >> i & 1U) != 0) own.push_back(functions[i]);
+    proof.verdict = Verdict::proved;
+    proof.evidence = fmt::format(
+        "{} are in involution, and independent on leaves of dimension {}: a minor of their flows "
+        "without the arbitrary functions is not zero",
+        listed(own), leaf->rank);
+    say_where(proof, leaf->where, leaf->nonzero);
+    return;
+  }
+  const auto found = sets_on_pieces(prover, flows, commutes, needed);
+  if (!found.complete) {
+    proof.reason = fmt::format(
+        "leaves of dimension {} need {} independent integrals in involution; {} known{}",
+        leaf->rank, needed, found.least, found.at.empty() ? "" : " at " + text_of(found.at));
+    return;
+  }
+  std::vector<NamedExpression> chosen;
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    if ((found.set >> i & 1U) != 0) chosen.push_back(functions[i]);
+  }
+  proof.verdict = Verdict::proved;
+  proof.evidence =
+      chosen.size() == 1
+          ? fmt::format("{} is enough on leaves of dimension {}; it is not constant at {}",
+                        listed(chosen), leaf->rank, text_of(found.at))
+          : fmt::format("{} are in involution and independent on leaves of dimension {} (at {})",
+                        listed(chosen), leaf->rank, text_of(found.at));
+  say_where(proof, leaf->where, leaf->nonzero);
+  PolynomialRows own;
+  for (const NamedExpression& f : chosen) own.push_back(prover.flow(f.value));
+  say_where(proof, found.where != leaf->where ? found.where : "",
+            needed_parameters(prover, own, needed));
+  prover.check_inhabited(proof, {});
+}
+
+}  // namespace
+
+std::vector<Claim> liouville_claims(const Model& model) {
+  if (!model.poisson || model.time) return {};
+  std::vector<Claim> claims{{ClaimKind::liouville,
+                             "Liouville integrability",
+                             true,
+                             decide_liouville,
+                             {},
+                             values_of(with_hamiltonian(model, real_everywhere(model.casimirs))),
+                             false,
+                             Subject::bracket}};
+  if (!model.superintegrable) return claims;
+  claims.push_back(claims.front());
+  claims.back().name = "superintegrability";
+  claims.back().decide = decide_superintegrability;
+  return claims;
+}
+
+}  // namespace casimir
