@@ -409,8 +409,10 @@ class March {
     return good & (follows_at(which, trial.s, trial.t1, next_) | jumps_);
   }
 
-  CASIMIR_INLINE M follows_at(M which, V s, V t, const V* x) {
-    series_.begin(t, x, rate_);
+  /// How far the series' derivative is from the rate, in what is allowed: all defects together.
+  /// \param noise  what rounding makes of each rate; null where it is not known to be more than
+  ///               usual
+  CASIMIR_INLINE V defect_at(V s, const V* x, const V* rate, const V* noise) {
     V defect = V{};
     // What the unit would make of a state is nothing to a step that was cut to a tiny part of it.
     const V part = s < Policy::kPartOfUnit ? s : all_lanes<V>(1);
@@ -419,13 +421,37 @@ class March {
       V told = V{};
       for (int k = series_.order; k > 0; --k) told = (told + c[k] * k) * s;
       const V size = absolute(c[0]) + absolute(x[i]) + absolute(told);
-      const V most = Policy::kDefect * allowed(i, part) + size * Policy::kRounding;
-      defect += absolute(rate_[i] * (s * unit_) - told) / most;
+      V most = Policy::kDefect * allowed(i, part) + size * Policy::kRounding;
+      if (noise != nullptr) most += absolute(noise[i] * (s * unit_));
+      defect += absolute(rate[i] * (s * unit_) - told) / most;
     }
+    return defect;
+  }
+
+  /// In which lanes the defect is what rounding makes of the right-hand side. Leaves the rates as
+  /// they were.
+  __attribute__((cold, noinline)) M is_rounding(V s, V t, const V* x) {
+    V rate[room], moved[room], noise[room];
+    for (int i = 0; i < series_.states; ++i) {
+      rate[i] = rate_[i];
+      moved[i] = x[i] + x[i] * Policy::kNudgeOfStates;
+    }
+    series_.begin(t + t * Policy::kNudgeOfTime, moved, rate_);
+    for (int i = 0; i < series_.states; ++i) noise[i] = rate_[i] - rate[i];
+    series_.begin(t, x, rate_);
+    return defect_at(s, x, rate, noise) < 1;
+  }
+
+  CASIMIR_INLINE M follows_at(M which, V s, V t, const V* x) {
+    series_.begin(t, x, rate_);
+    const V defect = defect_at(s, x, rate_, nullptr);
     failure_ = (which & (defect < Policy::kNoNumber))    ? all_lanes<V>(CASIMIR_STEP_UNDERFLOW)
                : (which & ~(defect < Policy::kNoNumber)) ? all_lanes<V>(CASIMIR_NON_FINITE)
                                                          : failure_;
-    return defect < 1;
+    M good = defect < 1;
+    if (__builtin_expect(any(which & ~good & (defect < Policy::kNoNumber)), 0))
+      good |= is_rounding(s, t, x);
+    return good;
   }
 
   // What seldom happens.

@@ -118,6 +118,12 @@ __attribute__((cold, noinline)) int status_of_vanished_step(double elapsed, cons
   return passes > 1e6 ? CASIMIR_SINGULARITY : failure;
 }
 
+/// Whether steps have become much shorter than they were on average, as they do towards a
+/// singularity. A run that only takes too long has even ones: cos(t) for 1e300 units of time.
+inline bool has_shrunk(double h, double elapsed, unsigned long long steps) {
+  return magnitude(h) * static_cast<double>(steps) < 0x1p-10 * magnitude(elapsed);
+}
+
 /// Whether a run gets anywhere. Steps that the tolerance asks for may be so short that no computer
 /// takes as many as the interval needs, though each still moves the time.
 class Pace {
@@ -230,7 +236,9 @@ void march(const casimir_run* run, double* x, casimir_outcome* out) {
       break;
     }
     if (adaptive && !run->max_steps && pace.hopeless(steps + rejected, t, run->t_end)) {
-      status = status_of_vanished_step<n>(t - run->t_begin, x, step.f, CASIMIR_STEP_UNDERFLOW);
+      status = CASIMIR_STEP_UNDERFLOW;
+      if (has_shrunk(h, t - run->t_begin, steps))
+        status = status_of_vanished_step<n>(t - run->t_begin, x, step.f, status);
       break;
     }
     double t1 = t, t1_carry = t_carry, trial = h;

@@ -75,7 +75,8 @@ class March {
         break;
       }
       if (pieces_ == 0 && !run_->max_steps && pace_.hopeless(steps_ + rejected_, t_, run_->t_end)) {
-        fail(CASIMIR_STEP_UNDERFLOW);
+        status_ = CASIMIR_STEP_UNDERFLOW;
+        if (has_shrunk(unit_, t_ - run_->t_begin, steps_)) fail(CASIMIR_STEP_UNDERFLOW);
         break;
       }
       CASIMIR_UNROLL
@@ -323,7 +324,29 @@ class March {
     }
     const double sum = lane_sum(defect);
     failure_ = sum < Policy::kNoNumber ? CASIMIR_STEP_UNDERFLOW : CASIMIR_NON_FINITE;
-    return sum < 1 || (pieces_ > 0 && sum < Policy::kNoNumber);
+    return sum < 1 || (sum < Policy::kNoNumber && (pieces_ > 0 || is_rounding(s, t, next, told)));
+  }
+
+  /// Whether the defect is what rounding makes of the right-hand side there. Leaves the series as
+  /// it was.
+  __attribute__((cold, noinline)) bool is_rounding(double s, double t, const V* next,
+                                                   const V* told) {
+    V rate[most_blocks], moved[most_blocks], defect = V{};
+    for (int b = 0; b < series_.blocks; ++b) {
+      rate[b] = series_.rate[b];
+      moved[b] = next[b] + next[b] * Policy::kNudgeOfStates;
+    }
+    series_.begin(t + t * Policy::kNudgeOfTime, moved);
+    evaluations_ += 2;
+    const double h = s * unit_;
+    for (int b = 0; b < series_.blocks; ++b) {
+      const V size = absolute(state_[b]) + absolute(next[b]) + absolute(told[b]);
+      const V noise = absolute((series_.rate[b] - rate[b]) * h);
+      const V w = 1 / (Policy::kDefect / weight_[b] + size * Policy::kRounding + noise);
+      defect += absolute(rate[b] * h - told[b]) * w;
+    }
+    series_.begin(t, next);
+    return lane_sum(defect) < 1;
   }
 
   CASIMIR_INLINE void accept(double t1, double t1_carry, const V* next, const V* next_carry) {

@@ -52,6 +52,30 @@ TEST(Solve, EquationsThatDependOnTheTimeAreFollowedFromTheirOwnTime) {
   EXPECT_THROW(outside(1.23456), RequestError);
 }
 
+// At t = 1 the argument is 1e6, of which rounding alone changes the right-hand side by 1e-10: no
+// defect of a step.
+TEST(Solve, TheRoundingOfALargeArgumentIsNoDefect) {
+  const Model model = driven_equation("1e6*sin(1e6*t)");
+  SolveOptions options = dense();
+  options.run.duration = 0.05;
+  const Solution motion = solve(model, model.scene("default"), options);
+  ASSERT_TRUE(motion.ok()) << motion.trajectory().reason;
+  EXPECT_NEAR(motion.trajectory().state[0], 1 - std::cos(5e4), 1e-7);
+  EXPECT_LT(motion.trajectory().rejected, motion.trajectory().steps / 20);
+}
+
+// No step of it is short: it is only that there are too many.
+TEST(Solve, AMotionThatOscillatesForTooLongHasNoSingularity) {
+  const Model model = driven_equation("cos(t)");
+  for (const char* method : {"auto", "dop853"}) {
+    SolveOptions options;
+    options.method = method;
+    options.run.duration = 1e300;
+    const Solution motion = solve(model, model.scene("default"), options);
+    EXPECT_EQ(motion.trajectory().status, Status::step_underflow) << method;
+  }
+}
+
 TEST(Solve, WhatTheRunDidNotReachOrKeepIsRefused) {
   const Oscillator oscillator;
   const Solution kept = solve(oscillator.model, oscillator.scene(2), dense());
