@@ -190,7 +190,7 @@ void print_run(const PreparedScene& run, const ComputedAnswer& answer, const Ass
     fmt::print("  {:<10} {:>25}   drift {:.1e}\n", s.invariant_names[i],
                exact_text(trajectory.invariants[i].final), trajectory.invariants[i].drift);
   }
-  if (judged.trust.known && !judged.trust.unconfirmed)
+  if (judged.trust.known && !judged.trust.unconfirmed && std::isfinite(judged.trust.error_estimate))
     fmt::print("  error of the state about {:.0e}; small changes of the start grow {:.0e} times\n",
                judged.trust.error_estimate, judged.trust.conditioning);
   for (const LeftOut& item : s.left_out)

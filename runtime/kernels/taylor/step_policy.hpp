@@ -14,7 +14,7 @@ struct StepPolicy {
   /// A defect that is no larger than what the right-hand side changes by where the time, and all
   /// states, are moved by these parts of themselves is one of rounding: cos(t) has it where t is
   /// large. Different ones, so that a difference of two is moved as well.
-  static constexpr double kNudgeOfTime = 0x1p-46, kNudgeOfStates = -0x3p-48;
+  static constexpr double kNudgeOfTime = 0x1p-48, kNudgeOfStates = -0x3p-50;
   /// No step is longer than this many units: what a step may grow by ..
   static constexpr double kLongest = 16;
   /// .. which is where the last terms shrink by so many binary digits with each order.

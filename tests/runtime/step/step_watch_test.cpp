@@ -323,7 +323,8 @@ TEST(Steps, DoNotPassAPulseOver) {
     const Program rhs = pulse(cln::cl_RA(1) / inverse_width);
     const Trajectory orbit = run(rhs, {0}, 20);
     ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
-    EXPECT_NEAR(orbit.state[0], area, 1e-12) << inverse_width;
+    // Rounding the time moves a pulse by 1e-15, a ten billionth of the narrowest one.
+    EXPECT_NEAR(orbit.state[0], area, inverse_width > 1000 ? 1e-11 : 1e-12) << inverse_width;
     EXPECT_LT(orbit.steps, 300U) << inverse_width;
   }
   // Without the look it is gone.

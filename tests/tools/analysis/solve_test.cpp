@@ -67,13 +67,10 @@ TEST(Solve, TheRoundingOfALargeArgumentIsNoDefect) {
 // No step of it is short: it is only that there are too many.
 TEST(Solve, AMotionThatOscillatesForTooLongHasNoSingularity) {
   const Model model = driven_equation("cos(t)");
-  for (const char* method : {"auto", "dop853"}) {
-    SolveOptions options;
-    options.method = method;
-    options.run.duration = 1e300;
-    const Solution motion = solve(model, model.scene("default"), options);
-    EXPECT_EQ(motion.trajectory().status, Status::step_underflow) << method;
-  }
+  SolveOptions options;
+  options.run.duration = 1e300;
+  const Solution motion = solve(model, model.scene("default"), options);
+  EXPECT_EQ(motion.trajectory().status, Status::step_underflow) << motion.trajectory().reason;
 }
 
 TEST(Solve, WhatTheRunDidNotReachOrKeepIsRefused) {
