@@ -8,13 +8,12 @@
 #include <set>
 
 #include "symbolic/obstruction/equation/kimura.hpp"
+#include "tests/symbolic/obstruction/equation/riemann_equations.hpp"
 
 namespace casimir::obstruction {
 namespace {
 
 using cln::cl_RA;
-
-cl_RA over(long a, long b) { return cl_RA(a) / b; }
 
 TEST(HomogeneousTable, AgreesWithKimura) {
   std::size_t compared = 0, solvable = 0;
