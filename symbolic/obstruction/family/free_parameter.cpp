@@ -9,6 +9,7 @@
 #include "symbolic/error.hpp"
 #include "symbolic/obstruction/equation/kovacic.hpp"
 #include "symbolic/obstruction/examine.hpp"
+#include "symbolic/obstruction/family/lines_in_space.hpp"
 #include "symbolic/obstruction/family/straight_lines.hpp"
 #include "symbolic/obstruction/family/survivors.hpp"
 #include "symbolic/obstruction/normal_variation.hpp"
@@ -157,6 +158,7 @@ std::vector<FamilyEquation> family_equations(const HamiltonianSystem& system,
   std::vector<FamilyEquation> result;
   try {
     result = straight_line_families(system);
+    for (FamilyEquation& own : families_of_lines_in_space(system)) result.push_back(std::move(own));
   } catch (const NotDecided& problem) {
     left_out.push_back(fmt::format("straight lines: {}", problem.what()));
   } catch (const TooLarge& problem) {

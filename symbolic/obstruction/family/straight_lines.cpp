@@ -54,31 +54,37 @@ std::optional<FamilyEquation> equation_at(const HomogeneousPotential& system,
   if (!sum.b.is_zero()) return std::nullopt;
   const long k = system.degree;
   const RationalFunction lambda = (sum.a - F(static_cast<int>(k - 1))).in_parameter();
+  conditions.nonzero(parameter_coefficients(point.polynomial).back());
+  FamilyEquation result = equation_of_line(lambda, k, std::move(conditions), names.parameter);
+  const std::string line = vertical ? fmt::format("{} = 0", system.q[0].get_name())
+                                    : fmt::format("{} = t*{} with {}", system.q[1].get_name(),
+                                                  system.q[0].get_name(), point.text(names));
+  result.shown.along = "the straight line " + line;
+  return result;
+}
+
+}  // namespace
+
+FamilyEquation equation_of_line(const RationalFunction& lambda, long k,
+                                ParameterConditions conditions, const std::string& parameter) {
   const cln::cl_RA degree = k;
   FamilyEquation result;
   result.family.conditions = std::move(conditions);
-  result.family.conditions.nonzero(parameter_coefficients(point.polynomial).back());
   result.family.conditions.nonzero(lambda.denominator());
   result.family.points = {"phi = 0", fmt::format("phi^{} = 1", k), "phi = infinity"};
   result.family.squares = {
       RationalFunction(1 / (degree * degree)), RationalFunction(cln::cl_RA(1) / 4),
       (RationalFunction((degree - 2) * (degree - 2)) + RationalFunction(8 * degree) * lambda) /
           RationalFunction(4 * degree * degree)};
-  const std::string line = vertical ? fmt::format("{} = 0", system.q[0].get_name())
-                                    : fmt::format("{} = t*{} with {}", system.q[1].get_name(),
-                                                  system.q[0].get_name(), point.text(names));
-  result.shown.along = "the straight line " + line;
   result.shown.level = fmt::format(
-      "(q1, q2) = phi(t)*c with A V'(c) = c and phi'^2/2 + phi^{0}/{0} = 1/{0}, V homogeneous of "
-      "degree {0}, p A p/2 the kinetic energy",
+      "q = phi(t)*c with A V'(c) = c and phi'^2/2 + phi^{0}/{0} = 1/{0}, V homogeneous of degree "
+      "{0}, p A p/2 the kinetic energy",
       k);
   result.shown.nve =
-      fmt::format("y'' = -lambda*phi^({})*y with lambda = {}", k - 2, lambda.text(names.parameter));
+      fmt::format("y'' = -lambda*phi^({})*y with lambda = {}", k - 2, lambda.text(parameter));
   result.shown.reduced = fmt::format("in phi^{} Riemann's P equation", k);
   return result;
 }
-
-}  // namespace
 
 std::vector<FamilyEquation> straight_line_families(const HamiltonianSystem& system) {
   std::vector<FamilyEquation> result;

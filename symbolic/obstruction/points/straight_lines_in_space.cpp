@@ -12,6 +12,7 @@
 #include "symbolic/obstruction/equation/kimura.hpp"
 #include "symbolic/obstruction/equation/kovacic.hpp"
 #include "symbolic/obstruction/homogeneous_table.hpp"
+#include "symbolic/obstruction/points/potential_in_space.hpp"
 #include "symbolic/obstruction/points/zero_dimensional.hpp"
 
 namespace casimir::obstruction {
@@ -24,78 +25,9 @@ using Field = std::vector<std::vector<Univariate>>;  ///< a matrix over Q[t]/f
 constexpr int kMostCuts = 2;
 constexpr std::size_t kMostFreedom = 6;  ///< for which all directions are sought
 
-struct PotentialInSpace {
-  std::vector<symbol> q;
-  std::vector<ex> slopes;                   ///< A V'
-  std::vector<std::vector<ex>> curvatures;  ///< A V''
-  long degree = 0;
-};
-
-bool is_number(const ex& e) {
-  return GiNaC::is_a<GiNaC::numeric>(e) && GiNaC::ex_to<GiNaC::numeric>(e).is_rational();
-}
-
-/// Sums, products and integer powers only: one branch.
-bool is_rational_in(const ex& e, const std::vector<symbol>& q) {
-  if (is_number(e)) return true;
-  if (GiNaC::is_a<symbol>(e))
-    return std::any_of(q.begin(), q.end(), [&](const symbol& x) { return e.is_equal(x); });
-  if (GiNaC::is_a<GiNaC::power>(e))
-    return e.op(1).info(GiNaC::info_flags::integer) && is_rational_in(e.op(0), q);
-  if (!GiNaC::is_a<GiNaC::add>(e) && !GiNaC::is_a<GiNaC::mul>(e)) return false;
-  return std::all_of(e.begin(), e.end(), [&](const ex& part) { return is_rational_in(part, q); });
-}
-
-bool is_canonical(const HamiltonianSystem& system, std::size_t n) {
-  for (std::size_t i = 0; i < 2 * n; ++i)
-    for (std::size_t j = 0; j < 2 * n; ++j) {
-      const int expected = j == i + n ? 1 : i == j + n ? -1 : 0;
-      if (!system.poisson[i][j].is_equal(expected)) return false;
-    }
-  return true;
-}
-
-std::optional<PotentialInSpace> potential_in_space(const HamiltonianSystem& system) {
-  const std::size_t n = system.variables.size() / 2;
-  if (n < 3 || system.variables.size() % 2 != 0 || !system.casimirs.empty() ||
-      !system.constraints.empty() || system.free || !is_canonical(system, n))
-    return std::nullopt;
-  PotentialInSpace result;
-  ex potential = system.hamiltonian;
-  GiNaC::matrix a(static_cast<unsigned>(n), static_cast<unsigned>(n));
-  for (std::size_t i = 0; i < n; ++i) {
-    result.q.push_back(system.variables[i]);
-    for (std::size_t j = 0; j < n; ++j) {
-      const symbol &p = system.variables[n + i], &other = system.variables[n + j];
-      const ex own = system.hamiltonian.diff(p).diff(other).normal();
-      if (!is_number(own)) return std::nullopt;
-      a(static_cast<unsigned>(i), static_cast<unsigned>(j)) = own;
-      potential -= own * p * other / 2;
-    }
-  }
-  potential = potential.expand();
-  if (a.determinant().is_zero() || !is_rational_in(potential, result.q)) return std::nullopt;
-  ex slope = 0;
-  for (const symbol& x : result.q) slope += x * potential.diff(x);
-  if (potential.normal().is_zero()) return std::nullopt;
-  const ex degree = (slope / potential).normal();
-  if (!is_number(degree) || !degree.info(GiNaC::info_flags::integer)) return std::nullopt;
-  result.degree = GiNaC::ex_to<GiNaC::numeric>(degree).to_long();
-  if (result.degree == 0 || result.degree == 2 || result.degree == -2) return std::nullopt;
-  for (std::size_t i = 0; i < n; ++i) {
-    ex own = 0;
-    for (std::size_t j = 0; j < n; ++j)
-      own += a(static_cast<unsigned>(i), static_cast<unsigned>(j)) * potential.diff(result.q[j]);
-    result.slopes.push_back(own);
-    result.curvatures.emplace_back();
-    for (const symbol& x : result.q) result.curvatures.back().push_back(own.diff(x));
-  }
-  return result;
-}
-
 Polynomial polynomial_of(const ex& e, const PolynomialRing& ring,
                          const std::vector<symbol>& unknowns) {
-  if (is_number(e))
+  if (is_rational_number(e))
     return ring.constant(cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(e).to_cl_N()));
   for (std::size_t i = 0; i < unknowns.size(); ++i)
     if (e.is_equal(unknowns[i])) return ring.variable(i);

@@ -144,6 +144,21 @@ TEST(FreeParameter, HomogeneousPotentialsOfDegreeThreeAndFour) {
   EXPECT_EQ(values(other, false), (Texts{"1", "3", "8"}));
 }
 
+// In three dimensions, x^4 + y^4 + z^4 + c*(x^2*y^2 + y^2*z^2 + z^2*x^2): separable for c = 0,
+// radial for c = 2. For c = 6 it is separable in each coordinate plane, and not in space.
+TEST(FreeParameter, LinesInSpace) {
+  const Obstruction answer = freely(build_model(parse_case(
+      "title = \"A test\"\nsource = \"a test\"\nhamiltonian = \"(px^2 + py^2 + pz^2)/2 + x^4 + y^4 "
+      "+ "
+      "z^4 + c*(x^2*y^2 + y^2*z^2 + z^2*x^2)\"\n[phase_space]\nvariables = [\"x\", \"y\", \"z\", "
+      "\"px\", \"py\", \"pz\"]\ncanonical = true\n[parameters]\nc = {}\n",
+      "test.toml")));
+  ASSERT_TRUE(answer.proved) << answer.reason;
+  EXPECT_TRUE(answer.sequences.empty());
+  EXPECT_EQ(values(answer, false), (Texts{"0", "2"}));
+  EXPECT_TRUE(values(answer, true).empty());
+}
+
 TEST(FreeParameter, HenonAndHeilesFamily) {
   const Obstruction answer = freely(family("(px^2 + py^2 + x^2 + y^2)/2 + x^2*y + c*y^3/3", "c"));
   ASSERT_TRUE(answer.proved);
