@@ -47,8 +47,10 @@ SeriesBodies::SeriesBodies(const Program& flow, std::size_t states, const Series
   for (std::size_t i = 0; i < flow.code.size(); ++i) {
     const Instruction& line = flow.code[i];
     const bool is_input = line.op == Op::input;
-    const bool is_moving =
-        is_input ? line.a < index(states) || line.a == time : varies(line.a) || varies(line.b);
+    // What stands in a constant is its place in the table of constants.
+    const bool is_moving = is_input      ? line.a < index(states) || line.a == time
+                           : constant[i] ? false
+                                         : varies(line.a) || varies(line.b);
     kinds_.push_back(constant[i] ? kConstant : is_moving ? kVaries : kPrepared);
     constants_.push_back(constant[i] ? nearest<double>(constant_value(flow, index(i))) : 0);
     const bool has_series = is_input && is_moving;
