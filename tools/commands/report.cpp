@@ -7,8 +7,10 @@
 #include <iostream>
 #include <set>
 #include <sstream>
+#include <thread>
 
 #include "tools/cli/case_library.hpp"
+#include "tools/cli/children.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
@@ -18,6 +20,7 @@
 #include "tools/cli/stopwatch.hpp"
 #include "tools/report/index.hpp"
 #include "tools/report/page.hpp"
+#include "tools/report/written_page.hpp"
 #include "tools/runs/atlas.hpp"
 #include "tools/runs/scene_values.hpp"
 #include "tools/show/book_order.hpp"
@@ -62,15 +65,6 @@ std::vector<std::string> repeated_options(const ReportArguments& options) {
   if (!options.in.empty()) result.insert(result.end(), {"--in", options.in});
   return result;
 }
-
-/// A page that has been written.
-struct WrittenPage {
-  IndexEntry entry;
-  Machine machine;
-  Json json;
-  int status = kDone;
-  std::vector<std::string> problems;
-};
 
 std::vector<std::string> drawn(const Pictures& pictures) {
   std::vector<std::string> names;
@@ -117,6 +111,7 @@ WrittenPage write_report(const CaseFile& bare, const ReportArguments& options,
   const Model model = in_variables(model_of(file, options.common.parameter_values()), options.in);
   ReportOptions what{.scene = options.common.scene, .time_limit = time_limit};
   if (!options.all) what.obstruction = kObstruction;
+  what.quick = options.all && options.budget < 0;
   what.budget = options.budget >= 0 ? options.budget : options.all ? kBudgetOfMany : kBudget;
   if (options.all && !model.scenes.empty() && !options.common.scene_given)
     what.scene = model.scenes.front().name;
@@ -131,7 +126,6 @@ WrittenPage write_report(const CaseFile& bare, const ReportArguments& options,
   page.commit();
   WrittenPage written{.entry = entry_of(model, findings, pictures.thumbnail,
                                         std::filesystem::path(path).filename()),
-                      .machine = findings.machine,
                       .json = page_json(model, findings, pictures, path, watch.seconds()),
                       .status = findings.exit_status(),
                       .problems = findings.problems};
@@ -213,14 +207,15 @@ int worst(int a, int b) {
   return kDone;
 }
 
-/// The pages of all cases, one after the other, and the index over them.
+/// The pages of all cases, each made by a process of its own, and the index over them.
 class Reports {
  public:
   Reports(const ReportArguments& options, std::vector<CaseFile> files)
       : options_(options),
         files_(std::move(files)),
         place_(place_of(options)),
-        progress_(!options.common.quiet) {
+        progress_(!options.common.quiet),
+        pages_(files_.size()) {
     for (const CaseFile& file : files_) {
       if (page_of(file) == place_.index)
         throw UsageError(fmt::format("--output '{}' would be the page of the case '{}'",
@@ -229,8 +224,23 @@ class Reports {
   }
 
   int write() {
+    constexpr double kLongest = 3600;
+    std::vector<Job> jobs;
+    for (std::size_t i = 0; i < files_.size(); ++i)
+      jobs.push_back({[this, i] {
+                        std::cout << to_json(made(i)).dump();
+                        return 0;
+                      },
+                      kLongest});
     progress_.begin("reports");
-    for (std::size_t i = 0; i < files_.size(); ++i) add(i);
+    const int at_once = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    std::size_t ended = 0;
+    do_jobs(jobs, at_once, [&](std::size_t i, const Reply& reply) {
+      take(i, reply);
+      progress_.name(files_[i].name);
+      progress_.show(static_cast<double>(++ended) / static_cast<double>(files_.size()));
+      say(pages_[i].entry);
+    });
     return end();
   }
 
@@ -239,66 +249,84 @@ class Reports {
     return place_.folder / (file.name + ".html");
   }
 
-  void add(std::size_t i) {
+  PageSource source_of(std::size_t i) const {
+    PageSource source{
+        files_[i].name, repeated_options(options_), {}, place_.index.filename().string(), {}, {}};
+    if (i > 0) source.before = page_of(files_[i - 1]).filename();
+    if (i + 1 < files_.size()) source.after = page_of(files_[i + 1]).filename();
+    return source;
+  }
+
+  /// In a process of its own: the page, or why there is none.
+  WrittenPage made(std::size_t i) const {
     const CaseFile& file = files_[i];
     double left = 0;
     if (options_.common.time_limit > 0)
       left = std::max(options_.common.time_limit - watch_.seconds(), 1e-3);
-    PageSource source{
-        file.name, repeated_options(options_), {}, place_.index.filename().string(), {}, {}};
-    if (i > 0) source.before = page_of(files_[i - 1]).filename();
-    if (i + 1 < files_.size()) source.after = page_of(files_[i + 1]).filename();
     try {
-      take(write_report(file, options_, page_of(file).string(), source, left,
-                        [&](const std::string& what, double share) {
-                          progress_.name(what);
-                          progress_.show((static_cast<double>(i) + share) /
-                                         static_cast<double>(files_.size()));
-                        }));
+      return write_report(file, options_, page_of(file).string(), source_of(i), left,
+                          [](const std::string& /*what*/, double /*share*/) {});
     } catch (const CaseError& problem) {
-      skip(file, source, problem);
+      return without(i, problem.what(), kBadInput);
     } catch (const ModelError& problem) {
-      skip(file, source, problem);
+      return without(i, problem.what(), kBadInput);
     }
+  }
+
+  /// The pages beside lead here: so there is one that says what is the matter.
+  WrittenPage without(std::size_t i, const std::string& problem, int status) const {
+    const CaseFile& file = files_[i];
+    OutputFile page(page_of(file));
+    page.stream() << page_without_report(file.title.empty() ? file.name : file.title, problem,
+                                         source_of(i));
+    page.commit();
+    return {without_page(file, problem), {{"case", file.name}, {"problem", problem}}, status, {}};
+  }
+
+  /// A process that died, whatever it did, costs its own page.
+  void take(std::size_t i, const Reply& reply) {
+    if (reply.exit == 0) {
+      pages_[i] = written_page_from_json(Json::parse(reply.out));
+      return;
+    }
+    std::string problem = reply.err.substr(0, reply.err.find('\n'));
+    if (problem.empty())
+      problem = reply.killed ? "making the page took more than an hour"
+                             : "the process that made the page died";
+    pages_[i] = without(i, problem, kEnvironment);
+    pages_[i].problems.push_back(fmt::format("{}: {}", files_[i].name, problem));
+  }
+
+  void say(const IndexEntry& entry) const {
     if (options_.common.quiet || options_.common.json) return;
-    const IndexEntry& entry = entries_.back();
     fmt::print("{:<10} {:<32} {}\n", entry.problem.empty() ? to_string(entry.verdict) : "no page",
                entry.case_name, entry.problem.empty() ? entry.claims : entry.problem);
     std::fflush(stdout);
   }
 
-  void take(const WrittenPage& written) {
-    entries_.push_back(written.entry);
-    cases_.push_back(written.json);
-    machine_ = written.machine;
-    status_ = worst(status_, written.status);
-    problems_.insert(problems_.end(), written.problems.begin(), written.problems.end());
-  }
-
   int end() {
+    std::vector<IndexEntry> entries;
+    std::vector<std::string> problems;
+    Json cases = Json::array();
+    int status = kDone;
+    for (const WrittenPage& page : pages_) {
+      entries.push_back(page.entry);
+      cases.push_back(page.json);
+      problems.insert(problems.end(), page.problems.begin(), page.problems.end());
+      status = worst(status, page.status);
+    }
     OutputFile index(place_.index);
-    index.stream() << index_page(entries_, machine_);
+    index.stream() << index_page(entries, this_machine());
     index.commit();
     if (options_.common.json) {
       print_json(
-          Json{{"cases", cases_}, {"index", place_.index.string()}, {"seconds", watch_.seconds()}});
+          Json{{"cases", cases}, {"index", place_.index.string()}, {"seconds", watch_.seconds()}});
     } else if (!options_.common.quiet) {
-      fmt::print("wrote {}: {} cases\n", printable(place_.index.string(), 200), entries_.size());
+      fmt::print("wrote {}: {} cases\n", printable(place_.index.string(), 200), entries.size());
     }
     std::cout.flush();
-    say_problems(problems_);
-    return status_;
-  }
-
-  /// The pages beside lead here: so there is one that says what is the matter.
-  void skip(const CaseFile& file, const PageSource& source, const std::exception& problem) {
-    OutputFile page(page_of(file));
-    page.stream() << page_without_report(file.title.empty() ? file.name : file.title,
-                                         problem.what(), source);
-    page.commit();
-    entries_.push_back(without_page(file, problem.what()));
-    cases_.push_back({{"case", file.name}, {"problem", problem.what()}});
-    status_ = worst(status_, kBadInput);
+    say_problems(problems);
+    return status;
   }
 
   const ReportArguments& options_;
@@ -306,11 +334,7 @@ class Reports {
   Place place_;
   Progress progress_;
   Stopwatch watch_;
-  std::vector<IndexEntry> entries_;
-  std::vector<std::string> problems_;
-  Json cases_ = Json::array();
-  Machine machine_ = this_machine();
-  int status_ = kDone;
+  std::vector<WrittenPage> pages_;
 };
 
 int report_all(const ReportArguments& options) {
@@ -344,8 +368,8 @@ void register_report(CLI::App& program, Action& action) {
   command
       ->add_option(
           "--budget", options->budget,
-          "Seconds of measuring error against run time (default 4, with --all 0.5 a case); "
-          "0 leaves it out")
+          "Seconds of measuring error against run time (default 4; with --all 0.5 a case, without "
+          "libraries that take longer to compile than to measure); 0 leaves it out")
       ->type_name("SECONDS")
       ->check(number_from_zero());
   command

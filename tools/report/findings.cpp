@@ -197,6 +197,7 @@ class Investigation {
     ComparisonOptions what{.tolerances = {1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13, 1e-15},
                            .code = options_.code,
                            .budget = options_.budget,
+                           .quick = options_.quick,
                            .reference_limit = std::max(2 * options_.budget, 2.0),
                            .give_up = give_up()};
     if (options_.progress)
@@ -204,6 +205,11 @@ class Investigation {
         options_.progress(doing, 0.5 + share / 2);
       };
     MethodComparison contest = compare_methods(model_, *result_.scene, what);
+    if (options_.quick)
+      contest.notes.emplace_back(
+          "measured beside the reports on other cases, and without Boost.Odeint, which takes "
+          "longer "
+          "to compile than all else: a report on this case alone has it");
     if (contest.no_reference.empty())
       result_.contest = std::move(contest);
     else

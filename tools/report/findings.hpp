@@ -23,6 +23,7 @@ namespace casimir::tools {
 struct ReportOptions {
   std::string scene = "default";
   double budget = 4;       ///< seconds of measuring error against run time; 0: not at all
+  bool quick = false;      ///< as of ComparisonOptions
   double time_limit = 0;   ///< seconds for the whole; 0: none
   double obstruction = 0;  ///< seconds for a proof that there is no further integral; 0: not at all
   SceneOptions code = {};

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/analysis/stress/cell.hpp"
-#include "tools/stress/children.hpp"
+#include "tools/cli/children.hpp"
 
 namespace casimir::tools {
 

@@ -69,7 +69,10 @@ class Gathering {
     const std::vector<std::string>& names = asked ? options_.methods : usual_methods();
     for (std::size_t i = 0; i < names.size(); ++i) {
       tell(options_, "compiling", static_cast<double>(i) / static_cast<double>(names.size()));
-      add(method_named(names[i]), asked);
+      const Method& method = method_named(names[i]);
+      // A library of headers alone, which are compiled with the equations.
+      const bool slow = !method.outside.empty() && !method.header.empty();
+      if (!(options_.quick && !asked && slow)) add(method, asked);
     }
     if (ready_.empty()) throw EnvironmentError("there is nothing to measure: " + first_reason_);
     // Ours first; the order asked for otherwise.

@@ -22,7 +22,9 @@ struct ComparisonOptions {
   SceneOptions code = {};  ///< of the specialised code: parameters that are kept, for one
   int digits = 30;
   double budget = 8;
-  int repeat = 0;               ///< > 0: rounds for everybody, instead of a budget
+  int repeat = 0;  ///< > 0: rounds for everybody, instead of a budget
+  /// Without `methods`: leaves out what takes longer to compile than to measure.
+  bool quick = false;
   double reference_limit = 60;  ///< seconds
   std::function<bool()> give_up = {};
   /// Told what is being done and which share of it is done.

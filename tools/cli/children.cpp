@@ -1,4 +1,4 @@
-#include "tools/stress/children.hpp"
+#include "tools/cli/children.hpp"
 
 #include <fmt/format.h>
 #include <poll.h>
