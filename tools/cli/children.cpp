@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -33,11 +34,25 @@ struct Child {
   bool writes() const { return pipes[0] >= 0 || pipes[1] >= 0; }
 };
 
+constexpr std::size_t kMostTidy = 256;
+std::array<std::atomic<pid_t>, kMostTidy> g_tidy;  ///< processes; 0: none
+
+/// Exchanges one entry for another, if there is one.
+void exchange_tidy(pid_t old, pid_t now) {
+  for (std::atomic<pid_t>& process : g_tidy) {
+    pid_t expected = old;
+    if (process.compare_exchange_strong(expected, now)) return;
+  }
+}
+
 [[noreturn]] void be_child(const Job& job, const std::array<int, 2>& out,
                            const std::array<int, 2>& err, pid_t parent) {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  for (std::atomic<pid_t>& process : g_tidy) process = 0;  // those of the parent
+  if (!job.tidies) {
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+  }
+  prctl(PR_SET_PDEATHSIG, job.tidies ? SIGTERM : SIGKILL);
   if (getppid() != parent) _exit(127);  // it had ended before
   dup2(out[1], STDOUT_FILENO);
   dup2(err[1], STDERR_FILENO);
@@ -64,6 +79,7 @@ Child begin(const std::vector<Job>& jobs, std::size_t number) {
   const pid_t child = fork();
   if (child < 0) throw SystemError(fmt::format("no new process: {}", std::strerror(errno)));
   if (child == 0) be_child(jobs[number], out, err, parent);
+  if (jobs[number].tidies) exchange_tidy(0, child);
   close(out[1]);
   close(err[1]);
   const auto longest = std::chrono::duration_cast<Clock::duration>(
@@ -113,6 +129,7 @@ void bury(Child& child) {
   int status = 0;
   while (waitpid(child.process, &status, 0) < 0 && errno == EINTR) {
   }
+  exchange_tidy(child.process, 0);
   if (WIFEXITED(status)) child.reply.exit = WEXITSTATUS(status);
 }
 
@@ -141,6 +158,13 @@ void do_jobs(const std::vector<Job>& jobs, int at_once,
       child = children.erase(child);
     }
   }
+}
+
+void end_children() noexcept {
+  for (const std::atomic<pid_t>& process : g_tidy)
+    if (const pid_t child = process; child > 0) kill(child, SIGTERM);
+  for (const std::atomic<pid_t>& process : g_tidy)
+    if (const pid_t child = process; child > 0) waitpid(child, nullptr, 0);
 }
 
 }  // namespace casimir::tools

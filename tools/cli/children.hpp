@@ -12,6 +12,8 @@ struct Job {
   /// It may replace the process by another program.
   std::function<int()> work;
   double longest = 0;  ///< seconds after which the child is killed
+  /// It writes files: where this process is ended by a signal, it gets SIGTERM and is waited for.
+  bool tidies = false;
 };
 
 /// What came of it.
@@ -30,5 +32,9 @@ struct Reply {
 void do_jobs(const std::vector<Job>& jobs, int at_once,
              const std::function<void(std::size_t job, const Reply& reply)>& done,
              const std::function<bool()>& more = {});
+
+/// For a signal handler: ends the children that tidy up after themselves. Only async-signal-safe
+/// calls.
+void end_children() noexcept;
 
 }  // namespace casimir::tools

@@ -13,6 +13,7 @@
 
 #include "codegen/compile.hpp"
 #include "symbolic/error.hpp"
+#include "tools/cli/children.hpp"
 #include "tools/cli/errors.hpp"
 
 namespace casimir::tools {
@@ -45,6 +46,7 @@ std::atomic<bool> g_hold, g_noted;
 
 void on_signal(int signal) {
   if (signal == SIGINT && g_hold && !g_noted.exchange(true)) return;
+  end_children();
   abandon_compile();
   for (int i = 0; i < kSlots; ++i) {
     if (g_used[i]) unlink(g_paths[i]);

@@ -231,7 +231,7 @@ class Reports {
                         std::cout << to_json(made(i)).dump();
                         return 0;
                       },
-                      kLongest});
+                      kLongest, true});
     progress_.begin("reports");
     const int at_once = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     std::size_t ended = 0;
