@@ -69,6 +69,51 @@ class Cases(unittest.TestCase):
             top.integrate(duration=1, initial={"M1": True})
 
 
+class Maps(unittest.TestCase):
+    def test_a_bundled_map_is_proved_searched_and_iterated(self):
+        self.assertIn("lyness", casimir.maps())
+        self.assertNotIn("lyness", casimir.cases())
+        lyness = casimir.load_map("lyness")
+        self.assertTrue(lyness.verify())
+        refuted = lyness.verify(integral="x + y")
+        self.assertFalse(refuted)
+        self.assertIsInstance(refuted.witness.value, Fraction)
+        found = lyness.with_values({"a": 2}).search(3)
+        self.assertEqual((len(found), found.no_polynomial, found.no_rational), (1, True, False))
+        orbit = lyness.iterate(1000, every=100, a=2)
+        self.assertTrue(orbit.success)
+        self.assertEqual(orbit.y.shape, (2, 11))
+        self.assertEqual(list(orbit.t[:3]), [0, 100, 200])
+        self.assertLess(max(orbit.drift.values()), 1e-12)
+
+    def test_the_states_are_those_of_the_formula(self):
+        shear = casimir.Map('title = "s"\n[phase_space]\nvariables = ["x", "y"]\n[map]\nx = "x + y^2"\ny = "y/2"\n'
+                            '[[scene]]\nname = "default"\ninitial = { x = "1", y = "1" }\nduration = "3"\n')
+        orbit = shear.iterate(3, initial={"y": 2})
+        np.testing.assert_array_equal(orbit.y, [[1, 5, 6, 6.25], [2, 1, 0.5, 0.25]])
+        self.assertEqual(orbit.state, [6.25, 0.25])
+
+    def test_a_flow_is_discretised(self):
+        kahan = casimir.load("euler").discretise()
+        self.assertTrue(kahan.verify())
+        self.assertEqual(casimir.load("euler").discretise(step="1/10").parameters, kahan.parameters[:-1])
+        again = pickle.loads(pickle.dumps(kahan.with_values({"eps": "1/10"})))
+        self.assertNotIn("eps", again.parameters)
+        degrees = casimir.load("euler").kahan_degrees(6)
+        self.assertEqual((degrees.growth, degrees.entropy), ("polynomial", 0.0))
+        with self.assertRaises(casimir.RequestError):
+            casimir.load("euler").discretise("moser-veselov")
+        with self.assertRaises(casimir.ModelError):
+            casimir.load("kepler-sphere").discretise()
+
+    def test_each_kind_says_where_the_other_is_read(self):
+        with self.assertRaises(casimir.CaseError):
+            casimir.load("lyness")
+        with self.assertRaises(casimir.CaseError) as caught:
+            casimir.load_map("euler")
+        self.assertIn("casimir.load", caught.exception.hint)
+
+
 class Proofs(unittest.TestCase):
     def test_a_case_is_proved(self):
         verification = casimir.load("kovalevskaya").verify()
@@ -351,7 +396,7 @@ def load_tests(loader, tests, ignore):
     readme = Path(__file__).resolve().parents[3] / "tools" / "python" / "README.md"
     tests.addTests(doctest.DocFileSuite(str(readme), module_relative=False))
     tests.addTests(doctest.DocTestSuite(casimir))
-    for name in ("_case", "_exact", "_html", "_progress"):
+    for name in ("_case", "_exact", "_html", "_map", "_progress"):
         tests.addTests(doctest.DocTestSuite(sys.modules[f"casimir.{name}"], optionflags=doctest.ELLIPSIS,
                                             extraglobs={"casimir": casimir}))
     with contextlib.suppress(ImportError):

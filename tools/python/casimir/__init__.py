@@ -23,16 +23,20 @@ from ._errors import (
     SingularPoint,
     UndecidedError,
 )
+from ._map import Map, load_map, maps
 from ._results import (
     Balance,
     Condition,
     Conditions,
     DarbouxPolynomial,
+    Degrees,
     Ensemble,
     Equilibrium,
     Exponent,
     Exponents,
     Found,
+    Iterates,
+    MapSearch,
     Obstruction,
     Orbit,
     Proof,
@@ -51,8 +55,8 @@ for _folder in ("cases", "../../../../share/casimir/cases"):
     _core.add_case_folder(_path.join(_path.dirname(__file__), _folder))
 
 __all__ = [
-    "Balance", "Case", "CaseError", "Condition", "Conditions", "DarbouxPolynomial", "Ensemble",
-    "EnvironmentProblem", "Equilibrium", "Error", "Exponent", "Exponents", "Found", "ModelError", "NoAnswer",
-    "Obstruction", "Orbit", "Proof", "RequestError", "Search", "Section", "SingularPoint", "Solution", "System",
-    "UndecidedError", "Verification", "Witness", "cases", "load", "methods",
+    "Balance", "Case", "CaseError", "Condition", "Conditions", "DarbouxPolynomial", "Degrees", "Ensemble",
+    "EnvironmentProblem", "Equilibrium", "Error", "Exponent", "Exponents", "Found", "Iterates", "Map", "MapSearch",
+    "ModelError", "NoAnswer", "Obstruction", "Orbit", "Proof", "RequestError", "Search", "Section", "SingularPoint",
+    "Solution", "System", "UndecidedError", "Verification", "Witness", "cases", "load", "load_map", "maps", "methods",
 ]

@@ -13,6 +13,7 @@ from ._results import (
     Condition,
     Conditions,
     DarbouxPolynomial,
+    Degrees,
     Ensemble,
     Equilibrium,
     Exponents,
@@ -24,15 +25,17 @@ from ._results import (
     Solution,
     Verification,
     exponents_of,
-    proof_of,
     search_of,
     solution_of,
+    verification_of,
 )
 from ._system import System
 from ._text import case_text
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
+
+    from ._map import Map
 
 #: One expression, or several.
 Expressions = Union[Expression, Iterable[Expression], None]
@@ -221,14 +224,8 @@ class Case:
         >>> load("euler").verify(integral="M1").witness.value
         Fraction(...)
         """
-        answer = self._core.verify(texts_of(integral), texts_of(casimir), texts_of(invariant_relation),
-                                   texts_of(identity), texts_of(on), time_limit)
-        proofs = answer["proofs"]
-        return Verification(
-            answer["verdict"],
-            [proof_of(one) for one in proofs if not one["note"]],
-            [proof_of(one) for one in proofs if one["note"]],
-        )
+        return verification_of(self._core.verify(texts_of(integral), texts_of(casimir), texts_of(invariant_relation),
+                                                 texts_of(identity), texts_of(on), time_limit))
 
     def search(self, degree: int, *, casimirs: bool = False, on: Expressions = None,
                functions: Expressions = None, weights: Mapping[str, Expression] | None = None,
@@ -274,6 +271,31 @@ class Case:
         facts = self._core.obstruct(scene, texts_of(along), free, time_limit, memory)
         verdict = "proved" if facts.pop("proved") else "undecided"
         return Obstruction(verdict=verdict, **{**facts, "parameters": dict(facts["parameters"])})
+
+    # Maps.
+
+    def discretise(self, method: str = "kahan", step: Expression | None = None) -> Map:
+        """Kahan's map of quadratic equations, or the implicit midpoint rule ('midpoint') of linear ones.
+
+        :param step: without it the step is a parameter.
+
+        >>> load("euler").discretise().parameters[-1]
+        'eps'
+        """
+        if method not in ("kahan", "midpoint"):
+            raise RequestError(f"{method!r} makes no map: 'kahan' and 'midpoint' do")
+        from ._map import Map
+
+        text = _core.discretised(self._core, method, None if step is None else text_of(step))
+        return Map(text, name=f"{self.name}-{method}")
+
+    def kahan_degrees(self, iterates: int = 0, *, time_limit: float = 0, memory: float = 0) -> Degrees:
+        """The degrees of the iterates of Kahan's map. What they suggest is evidence and no proof.
+
+        >>> load("euler").kahan_degrees(8).growth
+        'polynomial'
+        """
+        return Degrees(**_core.kahan_degrees(self._core, iterates, time_limit, memory))
 
     # Numbers.
 

@@ -119,6 +119,82 @@ class Verification(Sequence[Proof]):
         return table(["verdict", "claim", "", "evidence"], rows)
 
 
+def verification_of(answer: dict[str, Any]) -> Verification:
+    """The object for what the C++ side says of the claims of a case."""
+    proofs = answer["proofs"]
+    return Verification(
+        answer["verdict"],
+        [proof_of(one) for one in proofs if not one["note"]],
+        [proof_of(one) for one in proofs if one["note"]],
+    )
+
+
+@dataclass(frozen=True)
+class MapSearch(Sequence[str]):
+    """Integrals of a map that were found, each of them proved. True where it is proved that there is none."""
+
+    integrals: list[str]
+    densities: list[str]  #: of measures that the map keeps, up to sign
+    no_polynomial: bool  #: proved: no polynomial of the degree is an integral
+    no_rational: bool  #: proved: nor is a quotient of them
+    polynomials: int  #: at most so many independent ones
+    relations: int  #: a general orbit lies on at most so many hypersurfaces of the degree
+    density_space: int  #: at most so many polynomials P with a density 1/P
+    generic: list[str]  #: parameters that all this is about generic values of
+    reason: str  #: why functions that seem to exist are not shown
+
+    def __getitem__(self, index):
+        return self.integrals[index]
+
+    def __len__(self) -> int:
+        return len(self.integrals)
+
+    def _repr_html_(self) -> str:
+        rows = [("integral", text) for text in self.integrals] + [("density", text) for text in self.densities]
+        return table(["proved", ""], rows)
+
+
+@dataclass(frozen=True)
+class Degrees:
+    """The degrees of a map's iterates. What they suggest of the next ones is no proof."""
+
+    degrees: list[int]  #: of the first, second, .. iterate
+    growth: str  #: 'polynomial', 'exponential' or 'unclear'
+    growth_degree: int | None  #: of polynomial growth
+    formula: str  #: as '2*n^2 + 1', where all of them obey it
+    recurrence: str  #: as 'd(n+2) = 3*d(n+1) - d(n)'
+    ratio: float | None  #: of exponential growth
+
+    @property
+    def entropy(self) -> float | None:
+        """The logarithm of the ratio; 0 for polynomial growth."""
+        import math
+
+        if self.ratio is not None:
+            return math.log(self.ratio)
+        return 0.0 if self.growth == "polynomial" else None
+
+
+@dataclass(frozen=True)
+class Iterates:
+    """An orbit of a map."""
+
+    t: Any  #: array (m,): the numbers of the steps
+    y: Any  #: array (n, m): the states there
+    steps: int  #: that were done
+    names: list[str]  #: of the entries of a state
+    state: list[float]  #: the last one that is finite
+    finite: bool  #: false: the next state is none
+    stopped: bool  #: by the time limit
+    drift: dict[str, float]  #: of each invariant
+    seconds: float
+
+    @property
+    def success(self) -> bool:
+        """Whether all steps were done."""
+        return self.finite and not self.stopped
+
+
 @dataclass(frozen=True)
 class Found:
     """A function that a search found."""

@@ -8,6 +8,8 @@ namespace casimir::python {
 void bind_errors(pybind11::module_& module);
 /// Cases: reading, proofs, searches, code.
 void bind_case(pybind11::module_& module);
+/// Maps: reading, proofs, searches, degrees, orbits.
+void bind_maps(pybind11::module_& module);
 /// Runs of one initial state and of many.
 void bind_motion(pybind11::module_& module);
 /// Poincare sections and equilibria.

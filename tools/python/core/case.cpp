@@ -16,12 +16,6 @@ namespace casimir::python {
 
 namespace {
 
-/// The text of a file that was just read as a case.
-std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 std::vector<Entry> entries(const Values& values, const std::string& where) {
   std::vector<Entry> result;
   for (const auto& [name, value] : values)
@@ -41,11 +35,24 @@ std::vector<Text> typed(const Names& texts, const std::string& where) {
   return result;
 }
 
+std::string text_of_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Values with_others(Values values, const Values& others) {
+  for (const auto& value : others) {
+    std::erase_if(values, [&](const auto& other) { return other.first == value.first; });
+    values.push_back(value);
+  }
+  return values;
+}
+
 std::shared_ptr<Case> Case::load(const std::string& name) {
   const ExactAlgebra guard;
   const std::shared_ptr<Case> result(new Case);
   result->source_ = tools::load_case(name);
-  result->text_ = contents(result->source_.file);
+  result->text_ = text_of_file(result->source_.file);
   result->build();
   return result;
 }
@@ -71,17 +78,9 @@ std::shared_ptr<Case> Case::with(const Values& parameters, const Values& initial
   const std::shared_ptr<Case> result(new Case);
   result->text_ = text_;
   result->source_ = source_;
-  result->parameters_ = parameters_;
-  result->initial_ = initial_;
+  result->parameters_ = with_others(parameters_, parameters);
+  result->initial_ = with_others(initial_, initial);
   result->rounded_ = rounded_ || rounded;
-  const auto put = [](Values& into, const Values& values) {
-    for (const auto& value : values) {
-      std::erase_if(into, [&](const auto& other) { return other.first == value.first; });
-      into.push_back(value);
-    }
-  };
-  put(result->parameters_, parameters);
-  put(result->initial_, initial);
   result->build();
   return result;
 }

@@ -59,7 +59,13 @@ class Case {
 
 /// What Python typed, with a place for messages.
 Text typed(const std::string& text, const std::string& where);
-/// The same for a list.
+/// The text of a file that was just read as a case.
+std::string text_of_file(const std::string& path);
+
+/// The values, with others in the place of those that have the same names.
+Values with_others(Values values, const Values& others);
+
+/// The same as `typed` for a list.
 std::vector<Text> typed(const Names& texts, const std::string& where);
 
 }  // namespace casimir::python

@@ -8,11 +8,11 @@
 #include "symbolic/search/darboux.hpp"
 #include "symbolic/search/exponents.hpp"
 #include "symbolic/search/search.hpp"
-#include "tools/analysis/proof/prove_in_process.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/python/core/bindings.hpp"
 #include "tools/python/core/case.hpp"
+#include "tools/python/core/exact_work.hpp"
 #include "tools/python/core/guard.hpp"
 #include "tools/show/system_view.hpp"
 #include "tools/typeset/latex.hpp"
@@ -21,12 +21,6 @@ namespace casimir::python {
 namespace py = pybind11;
 using namespace py::literals;
 
-namespace {
-
-/// Thrown to leave a computation after Ctrl-C.
-struct Interrupted {};
-
-/// Watches a search: the time that it may take, and Ctrl-C.
 search::Watch watched(Interrupt& interrupt, double seconds, double memory) {
   search::Watch watch;
   const std::function<bool()> late = time_limit(seconds);
@@ -36,23 +30,6 @@ search::Watch watched(Interrupt& interrupt, double seconds, double memory) {
   };
   if (memory > 0) watch.memory_limit = memory;
   return watch;
-}
-
-/// Does exact work without Python's lock, where no other thread does any; Ctrl-C ends it where it
-/// looks for that.
-/// \param convert  makes what Python sees of the outcome, with Python's lock.
-template <class Work, class Convert>
-py::object exactly(Interrupt& interrupt, const Work& work, const Convert& convert) {
-  py::object result;
-  try {
-    const ExactAlgebra guard;
-    const auto outcome = work();
-    const py::gil_scoped_acquire python;
-    result = convert(outcome);
-  } catch (const Interrupted&) {
-  }
-  interrupt.raise();
-  return result;
 }
 
 py::dict to_python(const Proof& proof) {
@@ -72,26 +49,25 @@ py::dict to_python(const Proof& proof) {
                   "integrals"_a = proof.integrals, "findings"_a = findings);
 }
 
-py::object verify(const Case& self, const Names& integrals, const Names& casimirs,
-                  const Names& relations, const Names& identities, const Names& on,
-                  double seconds) {
+Candidates candidates_of(const Names& integrals, const Names& casimirs, const Names& relations,
+                         const Names& identities, const Names& on) {
   Candidates candidates;
   candidates.integrals = typed(integrals, "integral");
   candidates.casimirs = typed(casimirs, "casimir");
   candidates.invariant_relations = typed(relations, "invariant_relation");
   candidates.identities = typed(identities, "identity");
   candidates.on = typed(on, "on");
-  Interrupt interrupt;
-  const Model& model = self.model();
-  const auto prove_all = [&] {
-    if (seconds > 0) return prove_within(seconds, model, candidates, [](const Proof&) {});
-    return prove(model, candidates, [&](const Proof&) { return !interrupt(); });
-  };
-  return exactly(interrupt, prove_all, [&](const std::vector<Proof>& outcome) {
-    py::list proofs;
-    for (const Proof& proof : outcome) proofs.append(to_python(proof));
-    return py::dict("verdict"_a = to_string(overall(model, outcome)), "proofs"_a = proofs);
-  });
+  return candidates;
+}
+
+namespace {
+
+py::object verify(const Case& self, const Names& integrals, const Names& casimirs,
+                  const Names& relations, const Names& identities, const Names& on,
+                  double seconds) {
+  return verified(self.model(), self.model(),
+                  candidates_of(integrals, casimirs, relations, identities, on), seconds,
+                  [](const auto&... arguments) { return prove(arguments...); });
 }
 
 py::dict to_python(const Case& self, const search::Found& found) {
