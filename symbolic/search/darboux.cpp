@@ -337,4 +337,20 @@ DarbouxReport find_darboux(const Model& model, int degree, const Watch& watch) {
   return report;
 }
 
+RationalReport find_rational(const Model& model, int degree, const Watch& watch) {
+  DarbouxReport report = find_darboux(model, degree, watch);
+  const bool only_rational = std::ranges::none_of(report.combinations, [](const auto& own) {
+    return own.kind == DarbouxCombination::Kind::integral && !own.rational;
+  });
+  RationalReport result;
+  result.complete = report.complete && report.all_integrals_combined && only_rational;
+  result.reason = report.reason;
+  if (result.reason.empty() && !result.complete)
+    result.reason = "whether other products are integrals was not decided";
+  result.generic = report.generic;
+  for (DarbouxCombination& own : report.combinations)
+    if (own.rational) result.integrals.push_back(std::move(own));
+  return result;
+}
+
 }  // namespace casimir::search

@@ -53,4 +53,25 @@ struct DarbouxReport {
 /// \throws ModelError  where the equations of motion are not polynomials
 DarbouxReport find_darboux(const Model& model, int degree, const Watch& watch = {});
 
+/// Integrals that are quotients of polynomials.
+struct RationalReport {
+  std::vector<DarbouxCombination> integrals;  ///< with those that are products of integer powers
+  /// There are no others with factors up to the degree that do not follow from these and the
+  /// polynomial integrals, for generic parameters.
+  bool complete = false;
+  std::string reason;
+  std::vector<std::string> generic;  ///< parameters
+};
+
+/// Those with irreducible factors up to a degree.
+///
+/// Theorem (Darboux): of a rational integral in lowest terms every irreducible factor of the
+/// numerator and of the denominator is a Darboux polynomial or a polynomial integral. So there are
+/// no others with factors up to the degree where all irreducible Darboux polynomials up to it are
+/// known (with algebraic coefficients too) and all of their products that are integrals, and these
+/// are quotients: products of others with these may be quotients too. `find_darboux` says the first
+/// two of itself.
+/// \throws ModelError  as `find_darboux`
+RationalReport find_rational(const Model& model, int degree, const Watch& watch = {});
+
 }  // namespace casimir::search

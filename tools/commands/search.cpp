@@ -89,54 +89,6 @@ int search_structure(const SearchArguments& options, const Model& model, SearchW
                 watch);
 }
 
-/// Quotients of polynomials that the motion keeps.
-///
-/// Theorem (Darboux): of a rational integral in lowest terms every irreducible factor of the
-/// numerator and of the denominator is a Darboux polynomial or a polynomial integral. So there are
-/// no others with factors up to the degree where all irreducible Darboux polynomials up to it are
-/// known (with algebraic coefficients too) and all of their products that are integrals. Both are
-/// what `find_darboux` says of itself.
-int search_rational(const SearchArguments& options, const Model& model, SearchWatch& watch) {
-  search::DarbouxReport report = search::find_darboux(model, options.degree, watch.watch());
-  // Where others are integrals as well, products of theirs and of these may be quotients too.
-  const bool only_rational =
-      std::none_of(report.combinations.begin(), report.combinations.end(), [](const auto& own) {
-        return own.kind == search::DarbouxCombination::Kind::integral && !own.rational;
-      });
-  std::erase_if(report.combinations, [](const auto& own) { return !own.rational; });
-  const bool complete = report.complete && report.all_integrals_combined && only_rational;
-  if (report.reason.empty() && !complete)
-    report.reason = "whether other products are integrals was not decided";
-  const double seconds = watch.end();
-  if (options.common.json) {
-    nlohmann::ordered_json json{{"case", model.name},
-                                {"degree", options.degree},
-                                {"kind", "rational"},
-                                {"integrals", nlohmann::ordered_json::array()},
-                                {"trivial", 0},
-                                {"verdict", complete ? "proved" : "undecided"},
-                                {"generic", report.generic}};
-    for (const auto& own : report.combinations) json["integrals"].push_back(own.text);
-    if (!complete) json["reason"] = report.reason;
-    json["seconds"] = seconds;
-    print_json(json);
-  } else if (!options.common.quiet) {
-    const bool colour = may_colour(1);
-    fmt::print("{}: integrals that are quotients of polynomials, with factors up to degree {}\n",
-               model.name, options.degree);
-    for (const auto& own : report.combinations)
-      fmt::print("  {}   {}\n", own.text, verdict_text(own.verdict, colour));
-    if (complete)
-      fmt::print("No others that do not follow from these and the polynomial integrals: {}\n",
-                 verdict_text(Verdict::proved, colour));
-    else
-      fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
-                 report.reason);
-    fmt::print("{} found, {:.3f} s\n", report.combinations.size(), seconds);
-  }
-  return complete ? kDone : kUndecided;
-}
-
 int search_case(const SearchArguments& options) {
   const AnyCaseFile file = load_any_case(options.case_name);
   if (const auto* map = std::get_if<MapCaseFile>(&file)) return search_map_case(*map, options);
@@ -145,7 +97,9 @@ int search_case(const SearchArguments& options) {
   if (options.common.scene_given) model.scene(options.common.scene);
   SearchWatch watch(options.common, model.name, memory_allowed().value_or(2e9));
   if (is_structure(options)) return search_structure(options, model, watch);
-  if (options.rational) return search_rational(options, model, watch);
+  if (options.rational)
+    return answer(options, model, search::find_rational(model, options.degree, watch.watch()),
+                  watch);
   if (options.darboux) {
     return answer(options, model, search::find_darboux(model, options.degree, watch.watch()),
                   watch);

@@ -114,6 +114,34 @@ class Maps(unittest.TestCase):
         self.assertIn("casimir.load", caught.exception.hint)
 
 
+class Structure(unittest.TestCase):
+    def test_brackets_of_bare_equations(self):
+        oscillator = casimir.Case(equations={"q": "p", "p": "-q"}, variables=["q", "p"])
+        found = oscillator.hamiltonian(0)
+        self.assertEqual(found.verdict, "proved")
+        self.assertEqual(found[0]["jacobi"], "proved")
+        self.assertIn("q,p", found[0]["brackets"])
+        damped = casimir.Case(equations={"q": "p", "p": "-q - p"}, variables=["q", "p"]).hamiltonian(0)
+        self.assertEqual(len(damped), 0)
+
+    def test_what_is_not_proved_is_no_truth_value(self):
+        algebraic = casimir.Case(equations={"x": "y", "y": "-x"}, variables=["x", "y"]).rational(1)
+        self.assertEqual(algebraic.verdict, "undecided")
+        with self.assertRaises(casimir.UndecidedError):
+            bool(algebraic)
+        with self.assertRaises(AttributeError):
+            algebraic.nothing
+
+    def test_tensors_symmetries_and_relations(self):
+        euler = casimir.load("euler")
+        self.assertTrue(euler.tensors(2, 1))
+        with self.assertRaises(casimir.ModelError):  # it needs numbers
+            euler.relate(euler)
+        one, other = (euler.with_values({"a1": 1, "a2": 2, "a3": last}) for last in (3, 4))
+        self.assertEqual(one.relate(other).verdict, "refuted")
+        self.assertEqual(len(casimir.load("lagrange").symmetries()), 1)
+
+
 class Proofs(unittest.TestCase):
     def test_a_case_is_proved(self):
         verification = casimir.load("kovalevskaya").verify()

@@ -34,12 +34,14 @@ from ._results import (
     Equilibrium,
     Exponent,
     Exponents,
+    Findings,
     Found,
     Iterates,
     MapSearch,
     Obstruction,
     Orbit,
     Proof,
+    Relation,
     Search,
     Section,
     Solution,
@@ -56,7 +58,7 @@ for _folder in ("cases", "../../../../share/casimir/cases"):
 
 __all__ = [
     "Balance", "Case", "CaseError", "Condition", "Conditions", "DarbouxPolynomial", "Degrees", "Ensemble",
-    "EnvironmentProblem", "Equilibrium", "Error", "Exponent", "Exponents", "Found", "Iterates", "Map", "MapSearch",
-    "ModelError", "NoAnswer", "Obstruction", "Orbit", "Proof", "RequestError", "Search", "Section", "SingularPoint",
+    "EnvironmentProblem", "Equilibrium", "Error", "Exponent", "Exponents", "Findings", "Found", "Iterates", "Map", "MapSearch",
+    "ModelError", "NoAnswer", "Obstruction", "Orbit", "Proof", "Relation", "RequestError", "Search", "Section", "SingularPoint",
     "Solution", "System", "UndecidedError", "Verification", "Witness", "cases", "load", "load_map", "maps", "methods",
 ]

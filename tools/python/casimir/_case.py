@@ -17,9 +17,11 @@ from ._results import (
     Ensemble,
     Equilibrium,
     Exponents,
+    Findings,
     Found,
     Obstruction,
     Orbit,
+    Relation,
     Search,
     Section,
     Solution,
@@ -258,6 +260,53 @@ class Case:
     def darboux(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> list[DarbouxPolynomial]:
         """Irreducible polynomials whose zero level is invariant, up to a degree."""
         return [DarbouxPolynomial(**one) for one in self._core.darboux(degree, time_limit, memory)["found"]]
+
+    def rational(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> Findings:
+        """Integrals that are quotients of polynomials, with factors up to a degree.
+
+        >>> Case(equations={"x": "2*x", "y": "3*y"}, variables=["x", "y"]).rational(1).found
+        ['x^3/y^2']
+        """
+        return Findings(_core.rational(self._core, degree, time_limit, memory), "rational integrals")
+
+    def tensors(self, rank: int, degree: int, *, forms: bool = False, time_limit: float = 0,
+                memory: float = 0) -> Findings:
+        """Skew tensors with polynomial components that the motion keeps: rank 1 are fields, 2 bivectors.
+
+        :param forms: differential forms instead.
+        :returns: dictionaries with `components` by the names of the variables; `dimensions` of the space.
+
+        >>> load("euler").tensors(2, 1).verdict
+        'proved'
+        """
+        return Findings(_core.tensors(self._core, rank, forms, degree, time_limit, memory),
+                        "forms" if forms else "tensors")
+
+    def hamiltonian(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> Findings:
+        """Poisson brackets of the equations of motion alone, up to a degree, with their Hamiltonians.
+
+        >>> Case(equations={"q": "p", "p": "-q"}, variables=["q", "p"]).hamiltonian(0)[0]["hamiltonian"]
+        '(q^2 + p^2)/2'
+        """
+        return Findings(_core.brackets(self._core, degree, False, time_limit, memory), "brackets")
+
+    def bihamiltonian(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> Findings:
+        """Second brackets, compatible with that of the case, with their Lenard chains."""
+        return Findings(_core.brackets(self._core, degree, True, time_limit, memory), "second brackets")
+
+    def symmetries(self, *, time_limit: float = 0, memory: float = 0) -> Findings:
+        """Linear symmetries of bracket and Hamiltonian, with their integrals by Noether's theorem."""
+        return Findings(_core.symmetries(self._core, time_limit, memory), "linear symmetries")
+
+    def relate(self, other: Case, *, bracket_only: bool = False, time_limit: float = 0,
+               memory: float = 0) -> Relation:
+        """Whether the other case is this one in linear coordinates; parameters need numbers.
+
+        >>> top = load("euler").with_values({"a1": 1, "a2": 2, "a3": 3})
+        >>> top.relate(load("euler").with_values({"a1": 3, "a2": 1, "a3": 2})).verdict
+        'proved'
+        """
+        return Relation(**_core.relate(self._core, other._core, not bracket_only, time_limit, memory))
 
     def exponents(self, weights: Mapping[str, Expression] | None = None, *, time_limit: float = 0,
                   memory: float = 0) -> Exponents:

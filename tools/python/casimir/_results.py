@@ -129,6 +129,59 @@ def verification_of(answer: dict[str, Any]) -> Verification:
     )
 
 
+class Findings(Sequence[dict[str, Any]]):
+    """What a search for structure found, each a dictionary. Attributes say what is known of the whole.
+
+    `verdict` is 'proved' where it is proved that there is nothing else, and `reason` says why it is not.
+    """
+
+    def __init__(self, facts: dict[str, Any], what: str):
+        self._facts = {key: value for key, value in facts.items() if key != "found"}
+        self._what = what
+        self.found: list[Any] = facts["found"]
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return self.__dict__["_facts"][name]
+        except KeyError:
+            raise AttributeError(name) from None
+
+    def __dir__(self):
+        return [*super().__dir__(), *self._facts]
+
+    def __getitem__(self, index):
+        return self.found[index]
+
+    def __len__(self) -> int:
+        return len(self.found)
+
+    def __bool__(self) -> bool:
+        return _truth(self._facts["verdict"], f"whether there are other {self._what}")
+
+    def __repr__(self) -> str:
+        end = "no others: proved" if self.verdict == "proved" else f"others: undecided, {self.reason}"
+        return "\n".join([f"<{len(self)} {self._what}; {end}>"] + [f"  {one}" for one in self.found])
+
+    def _repr_html_(self) -> str:
+        rows = [(one if isinstance(one, str) else _listed(one),) for one in self.found]
+        return table([self._what], rows)
+
+
+@dataclass(frozen=True)
+class Relation:
+    """Whether one case is another in linear coordinates. True where there is such a map."""
+
+    verdict: str  #: 'proved': there is a map; 'refuted': there is none with real coefficients
+    map: dict[str, str]  #: the variables of the second case over those of the first
+    factor: str  #: c of H_B(T x) = c*H_A(x) + F(x)
+    casimir_part: str  #: F, a function of Casimir functions
+    differences: list[tuple[str, str, str]]  #: by which there is none: name, of the first, of the second
+    reason: str  #: of what is not proved
+
+    def __bool__(self) -> bool:
+        return _truth(self.verdict, "the relation")
+
+
 @dataclass(frozen=True)
 class MapSearch(Sequence[str]):
     """Integrals of a map that were found, each of them proved. True where it is proved that there is none."""

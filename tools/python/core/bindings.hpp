@@ -10,6 +10,8 @@ void bind_errors(pybind11::module_& module);
 void bind_case(pybind11::module_& module);
 /// Maps: reading, proofs, searches, degrees, orbits.
 void bind_maps(pybind11::module_& module);
+/// Invariant tensors, Poisson brackets, rational integrals, isomorphisms.
+void bind_structure(pybind11::module_& module);
 /// Runs of one initial state and of many.
 void bind_motion(pybind11::module_& module);
 /// Poincare sections and equilibria.

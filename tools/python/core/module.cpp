@@ -7,6 +7,7 @@ PYBIND11_MODULE(_core, module) {
   casimir::python::bind_errors(module);
   casimir::python::bind_case(module);
   casimir::python::bind_maps(module);
+  casimir::python::bind_structure(module);
   casimir::python::bind_motion(module);
   casimir::python::bind_section(module);
 }

@@ -220,4 +220,35 @@ void print(const Model& model, int degree, const search::DarbouxReport& report, 
   fmt::print("{} found, {:.3f} s\n", report.found.size(), seconds);
 }
 
+nlohmann::ordered_json to_json(const Model& model, int degree, const search::RationalReport& report,
+                               double seconds) {
+  nlohmann::ordered_json json{{"case", model.name},
+                              {"degree", degree},
+                              {"kind", "rational"},
+                              {"integrals", nlohmann::ordered_json::array()},
+                              {"trivial", 0},
+                              {"verdict", report.complete ? "proved" : "undecided"},
+                              {"generic", report.generic}};
+  for (const search::DarbouxCombination& own : report.integrals)
+    json["integrals"].push_back(own.text);
+  if (!report.complete) json["reason"] = report.reason;
+  json["seconds"] = seconds;
+  return json;
+}
+
+void print(const Model& model, int degree, const search::RationalReport& report, double seconds) {
+  const bool colour = may_colour(1);
+  fmt::print("{}: integrals that are quotients of polynomials, with factors up to degree {}\n",
+             model.name, degree);
+  for (const search::DarbouxCombination& own : report.integrals)
+    fmt::print("  {}   {}\n", own.text, verdict_text(own.verdict, colour));
+  if (report.complete)
+    fmt::print("No others that do not follow from these and the polynomial integrals: {}\n",
+               verdict_text(Verdict::proved, colour));
+  else
+    fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
+               report.reason);
+  fmt::print("{} found, {:.3f} s\n", report.integrals.size(), seconds);
+}
+
 }  // namespace casimir::tools

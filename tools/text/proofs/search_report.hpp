@@ -16,10 +16,13 @@ nlohmann::ordered_json to_json(const Model& model, int degree,
                                const search::ConditionReport& report, double seconds);
 nlohmann::ordered_json to_json(const Model& model, int degree, const search::DarbouxReport& report,
                                double seconds);
+nlohmann::ordered_json to_json(const Model& model, int degree, const search::RationalReport& report,
+                               double seconds);
 
 /// The same for a person.
 void print(const Model& model, int degree, const search::Report& report, double seconds);
 void print(const Model& model, int degree, const search::ConditionReport& report, double seconds);
 void print(const Model& model, int degree, const search::DarbouxReport& report, double seconds);
+void print(const Model& model, int degree, const search::RationalReport& report, double seconds);
 
 }  // namespace casimir::tools
