@@ -228,6 +228,30 @@ std::vector<InvariantPlane> planes_of(const HamiltonianSystem& system, const Sur
   return invariant_planes(system, relations);
 }
 
+/// Where the case names too few Casimir functions, no level of those is a leaf: that is said, by
+/// the rank of the bracket at one point, as what may be missing.
+std::string missing_casimirs(const HamiltonianSystem& system) {
+  const unsigned n = static_cast<unsigned>(system.variables.size());
+  GiNaC::exmap point;
+  for (unsigned i = 0; i < n; ++i)
+    point[system.variables[i]] = GiNaC::numeric(2 * long{i} * i + 3 * long{i} + 7, 5 + long{i});
+  GiNaC::matrix bracket(n, n);
+  try {
+    for (unsigned i = 0; i < n; ++i)
+      for (unsigned j = 0; j < n; ++j) bracket(i, j) = system.poisson[i][j].subs(point).normal();
+  } catch (const GiNaC::pole_error&) {
+    return "";
+  }
+  for (std::size_t k = 0; k < bracket.nops(); ++k)
+    if (!GiNaC::is_a<GiNaC::numeric>(bracket.op(k))) return "";  // a free parameter
+  const unsigned rank = bracket.rank();
+  if (rank + system.casimirs.size() >= n) return "";
+  return fmt::format(
+      "; the bracket has rank {} in dimension {}, and of its {} Casimir functions the case names "
+      "{}: levels of all of them are needed",
+      rank, n, n - rank, system.casimirs.size());
+}
+
 void decide(const HamiltonianSystem& system, const Surfaces& along, unsigned order,
             const search::Watch& watch, Obstruction& result) {
   result.parameters = system.parameters;
@@ -253,9 +277,11 @@ void decide(const HamiltonianSystem& system, const Surfaces& along, unsigned ord
         "no further rational integral: proved; meromorphic ones are not excluded, since the "
         "equation "
         "has an irregular singular point");
-  if (planes.empty() && result.examined.empty()) throw NotDecided("no invariant surface was found");
   if (result.examined.empty())
-    throw NotDecided("no curve gave a variational equation that could be examined");
+    throw NotDecided((planes.empty()
+                          ? "no invariant surface was found"
+                          : "no curve gave a variational equation that could be examined") +
+                     missing_casimirs(system));
   throw NotDecided(
       "every equation that was examined has a solvable identity component, or was not decided");
 }

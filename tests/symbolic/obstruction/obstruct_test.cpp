@@ -212,6 +212,24 @@ TEST(Obstruct, CasimirFunctionsHaveToBeAllOnes) {
   }));
 }
 
+TEST(Obstruct, SaysThatCasimirFunctionsAreMissing) {
+  const auto of = [](const std::string& casimirs) {
+    return obstruction_of(build_model(parse_case(
+        "title = \"A test\"\nsource = \"a test\"\nhamiltonian = \"(M1^2 + 2*M2^2 + 4*M3^2)/2 + "
+        "(3*p1^2 + p2^2 + 7*p3^2)/2\"\n[phase_space]\nvariables = [\"M1\", \"M2\", \"M3\", \"p1\", "
+        "\"p2\", \"p3\"]\nalgebra = \"so(4)\"\n" +
+            casimirs,
+        "test.toml")));
+  };
+  const Obstruction without = of("");
+  EXPECT_NE(without.reason.find("of its 2 Casimir functions the case names 0"), std::string::npos)
+      << without.reason;
+  const Obstruction with =
+      of("[casimirs]\nF1 = \"M1^2 + M2^2 + M3^2 + p1^2 + p2^2 + p3^2\"\nF2 = \"M1*p1 + M2*p2 + "
+         "M3*p3\"\n");
+  EXPECT_TRUE(with.proved) << with.reason;
+}
+
 /// Of a case that ought to be left alone, whether a line of what was left out says so.
 bool leaves_out(const Obstruction& answer, const std::string& words) {
   return !answer.proved &&
