@@ -90,8 +90,8 @@ BigFloat PreciseLook::branch(const PreciseStep& step, std::size_t place, BigFloa
   if (!sides()) throw UnknownBranch();
   const double enough = behind.log2() - static_cast<double>(BigFloat::precision());
   int side = 0;
-  constexpr int kMostRounds = 500;
-  for (int round = 0; round < kMostRounds && (behind - before).log2() > enough; ++round) {
+  constexpr int kMostHalvings = 500;
+  for (int round = 0; round < kMostHalvings && (behind - before).log2() > enough; ++round) {
     const BigFloat middle = (before * last - behind * first) / (last - first);
     const BigFloat u = argument(step, place, middle);
     if (u.is_zero() || middle == before || middle == behind) {

@@ -64,10 +64,10 @@ void conserve_case(const CaseFile& file, const ConserveArguments& options,
   if (scenes.empty() && !options.all) model.scene("default");  // throws: there is none
   const Scene* drawn = picture ? &model.scene(options.common.scene) : nullptr;
   if (picture) picture->title = fmt::format("{}, scene {}", model.name, drawn->name);
-  ConserveOptions what{.run = options.run.request(),
-                       .code = options.kept.in<SceneOptions>(),
-                       .bound = options.bound,
-                       .give_up = give_up};
+  ConservationOptions what{.run = options.run.request(),
+                           .code = options.kept.in<SceneOptions>(),
+                           .bound = options.bound,
+                           .give_up = give_up};
   const double runs = static_cast<double>(scenes.size() * options.methods.size());
   double done = 0;
   if (share.bar.visible())

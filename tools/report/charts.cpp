@@ -30,20 +30,6 @@ std::vector<std::vector<std::size_t>> groups_of(const std::vector<std::string>& 
   return groups;
 }
 
-/// How many samples are shown: up to where the state that swings fastest has turned so often.
-std::size_t legible_samples(const Motion& motion) {
-  constexpr int kTurns = 30;
-  std::vector<int> turns(motion.names.size(), 0);
-  for (std::size_t k = 2; k < motion.times.size(); ++k) {
-    for (std::size_t i = 0; i < turns.size(); ++i) {
-      const double before = motion.states[k - 1][i] - motion.states[k - 2][i];
-      const double after = motion.states[k][i] - motion.states[k - 1][i];
-      if (before * after < 0 && ++turns[i] > kTurns) return k;
-    }
-  }
-  return motion.times.size();
-}
-
 Chart panel(const Motion& motion, const std::vector<std::size_t>& group, std::size_t samples) {
   Chart chart;
   std::vector<std::string> names;
@@ -70,6 +56,19 @@ std::string label_of(const PlottedFunction& function) {
 }
 
 }  // namespace
+
+std::size_t legible_samples(const Motion& motion) {
+  constexpr int kTurns = 30;
+  std::vector<int> turns(motion.names.size(), 0);
+  for (std::size_t k = 2; k < motion.times.size(); ++k) {
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+      const double before = motion.states[k - 1][i] - motion.states[k - 2][i];
+      const double after = motion.states[k][i] - motion.states[k - 1][i];
+      if (before * after < 0 && ++turns[i] > kTurns) return k;
+    }
+  }
+  return motion.times.size();
+}
 
 std::string motion_svg(const Motion& motion) {
   const std::size_t samples = legible_samples(motion);

@@ -14,6 +14,9 @@ namespace casimir::tools {
 /// first part of the motion that can be read.
 std::string motion_svg(const Motion& motion);
 
+/// How many samples that shows: up to where the state that swings fastest has turned so often.
+std::size_t legible_samples(const Motion& motion);
+
 /// The crossings of orbits: chaotic ones grey. An angle is drawn over one period, in units of pi.
 Chart section_chart(const std::array<PlottedFunction, 2>& plotted,
                     const std::vector<OrbitReport>& orbits);

@@ -163,7 +163,7 @@ class Investigation {
 
   /// Every scene by every method, none for longer than a reader would wait.
   void conserve() {
-    result_.drift_bound = ConserveOptions{}.bound;
+    result_.drift_bound = ConservationOptions{}.bound;
     for (const Scene& scene : model_.scenes) {
       if (!scene.unusable.empty() || !scene.duration) continue;
       for (const std::string& method : conserving_methods()) {
@@ -180,7 +180,7 @@ class Investigation {
     constexpr double kLongestRun = 5;
     const double seconds =
         options_.time_limit > 0 ? std::clamp(left(), 1e-3, kLongestRun) : kLongestRun;
-    const ConserveOptions what{.code = options_.code, .give_up = time_limit(seconds)};
+    const ConservationOptions what{.code = options_.code, .give_up = time_limit(seconds)};
     std::vector<DriftRecord> drifts;
     Row row = conserve_scene(model_, scene, method, what, &drifts);
     if (row.end == RowEnd::ran && row.status == Status::stopped) {

@@ -3,9 +3,13 @@
 // HTML.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdlib>
+
 #include <nlohmann/json.hpp>
 
 #include "symbolic/error.hpp"
+#include "tools/report/charts.hpp"
 #include "tools/report/page.hpp"
 #include "tools/report/script/script.hpp"
 
@@ -76,9 +80,33 @@ Json cut(const LiveSystem::Cut& section) {
   return json;
 }
 
+/// With as many digits as a picture shows, and so few places in the page.
+double for_a_picture(double value) {
+  constexpr int kDigits = 5;
+  const std::string text = fmt::format("{:.{}g}", value, kDigits);
+  return std::strtod(text.c_str(), nullptr);
+}
+
+/// The motion as it is drawn first, in the form in which the script has it; null where its states
+/// are not those that the script integrates.
+Json first_picture(const LiveSystem& live, const Motion& motion) {
+  constexpr std::size_t kMost = 400;
+  const std::size_t shown = std::min(legible_samples(motion), motion.times.size());
+  if (motion.names != live.states || shown < 2) return nullptr;
+  const std::size_t every = (shown + kMost - 1) / kMost;
+  Json times = Json::array(), samples = Json::array();
+  for (std::size_t k = 0; k < shown; k += every) {
+    times.push_back(for_a_picture(motion.times[k]));
+    Json state = Json::array();
+    for (const double x : motion.states[k]) state.push_back(for_a_picture(x));
+    samples.push_back(std::move(state));
+  }
+  return {{"times", std::move(times)}, {"samples", std::move(samples)}};
+}
+
 }  // namespace
 
-std::string live_part(const LiveSystem& live, const std::string& scene,
+std::string live_part(const LiveSystem& live, const Motion& motion, const std::string& scene,
                       const std::string& command) {
   Json functions = Json::array();
   for (const std::string& name : live.functions) functions.push_back(printable(name, 200));
@@ -94,6 +122,7 @@ std::string live_part(const LiveSystem& live, const std::string& scene,
                      {"conditions", watched(live.conditions)},
                      {"constraints", watched(live.constraints)},
                      {"section", live.section ? cut(*live.section) : Json(nullptr)},
+                     {"motion", first_picture(live, motion)},
                      {"layout", layout(live.series)},
                      {"wasm", base64(live.series.bytes)}};
   return "<div id=\"live-place\"></div>\n<script type=\"application/json\" id=\"live-data\">" +

@@ -93,7 +93,7 @@ std::string typeset_live(const Model& model, const Findings& findings, const Pic
   };
   try {
     const LiveSystem live = live_system(model, *findings.scene, pictures.drawn_section);
-    return live_part(live, findings.scene->name,
+    return live_part(live, *findings.motion, findings.scene->name,
                      "casimir integrate " + printable(typed(source), 4000));
   } catch (const ModelError& problem) {
     return none(problem);

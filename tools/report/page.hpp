@@ -39,8 +39,10 @@ std::string page_end(const std::string& script);
 std::string system_part(const Model& model);
 std::string claims_part(const Model& model, const Findings& findings);
 /// What the script of the page integrates, as an element with data.
+/// \param motion  the same, which is shown until the script has its own
 /// \param command  that does the same on the command line
-std::string live_part(const LiveSystem& live, const std::string& scene, const std::string& command);
+std::string live_part(const LiveSystem& live, const Motion& motion, const std::string& scene,
+                      const std::string& command);
 /// The script of a report.
 std::string page_script();
 std::string code_part(const Findings& findings);

@@ -1,100 +1,24 @@
 #include "tools/runs/conserve_run.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-
-#include "tools/analysis/estimate/reference_state.hpp"
-#include "tools/cli/errors.hpp"
+#include <optional>
 
 namespace casimir::tools {
-namespace {
-
-constexpr double kTolerance = 1e-12;
-/// A stiff scene takes more from a method that is not made for it, and would take hours.
-constexpr unsigned long long kMostStiffSteps = 200'000;
-
-/// Whether a scene may be refused: its motion ends, comes close to where the variables end, or
-/// takes another method.
-bool may_be_refused(const Scene& scene) {
-  return scene.extreme == Extreme::blowup || scene.extreme == Extreme::gimbal ||
-         scene.extreme == Extreme::stiff;
-}
-
-/// Which invariant drifted most, for the table.
-double largest_drift(const Trajectory& trajectory) {
-  double drift = 0;
-  for (const InvariantRecord& record : trajectory.invariants) drift = std::max(drift, record.drift);
-  return drift;
-}
-
-}  // namespace
-
-const std::vector<std::string>& conserving_methods() {
-  static const std::vector<std::string> kMethods{"taylor", "dop853", "gauss8"};
-  return kMethods;
-}
 
 Row conserve_scene(const Model& model, const Scene& scene, const Method& method,
-                   const ConserveOptions& options, std::vector<DriftRecord>* drifts) {
-  SceneOptions code = options.code;
-  code.observe = std::vector<std::string>{};
-  const PreparedScene run = prepare(model, scene, code);
-  Settings settings = settings_for(options.run, run, kTolerance);
-  settings.give_up = options.give_up;
-  if (options.progress) {
-    settings.progress = [&options, duration = std::abs(settings.duration),
-                         calls = 0U](double t) mutable {
-      constexpr unsigned kBetween = 256;  // a step of a small system is faster than a clock
-      if (++calls % kBetween == 0 && duration > 0) options.progress(std::abs(t) / duration);
+                   const ConservationOptions& options, std::vector<DriftRecord>* drifts) {
+  ConservationOptions watched = options;
+  std::optional<DriftRecord> drift;
+  if (drifts)
+    watched.watch = [&](Settings& settings, const std::vector<std::string>& invariants) {
+      drift.emplace(std::string(method.name), invariants, settings.duration);
+      drift->follow(settings);
     };
+  const Conservation result = conserve(model, scene, method, watched);
+  if (drift && result.trajectory) {
+    drift->finish(*result.trajectory);
+    drifts->push_back(*drift);
   }
-  if (scene.extreme == Extreme::stiff && settings.max_steps == 0)
-    settings.max_steps = kMostStiffSteps;
-  DriftRecord drift(std::string(method.name), run.specialisation.invariant_names,
-                    settings.duration);
-  if (drifts) drift.follow(settings);
-  Row row{.case_name = model.name,
-          .scene = scene.name,
-          .method = std::string(method.name),
-          .tolerance = settings.rtol};
-  if (!suits(run, method)) {
-    row.end = method.splits ? RowEnd::does_not_split : RowEnd::refused;
-    row.refused = true;
-    return row;
-  }
-  Trajectory trajectory;
-  try {
-    trajectory =
-        integrate(compile_for(run, method).module, method, settings, run.initial, run.parameters);
-  } catch (const std::invalid_argument& problem) {
-    throw UsageError(problem.what());
-  }
-  if (drifts) {
-    drift.finish(trajectory);
-    drifts->push_back(drift);
-  }
-  row.drift = largest_drift(trajectory);
-  row.seconds = trajectory.seconds;
-  row.steps = trajectory.steps;
-  row.evaluations = trajectory.evaluations;
-  row.status = trajectory.status;
-  if (trajectory.status == Status::ok && !scene.reference.empty() && !options.run.duration) {
-    // A run with many digits for a state that nobody asked for may take minutes and gigabytes.
-    const ReferenceStateOrReason truth =
-        reference_state_of(scene, run, {.only_the_file = true, .give_up = options.give_up});
-    if (truth.truth) row.error = error_of(trajectory.state, *truth.truth);
-  }
-  row.refused = trajectory.status != Status::ok && may_be_refused(scene);
-  // Written so that a drift that is not a number fails too.
-  row.failed = !row.refused && (trajectory.status != Status::ok || !(row.drift <= options.bound));
-  if (trajectory.status == Status::ok && row.failed) {
-    row.end = RowEnd::drifted;
-    row.bound = options.bound;
-  }
-  return row;
+  return result.row;
 }
 
 }  // namespace casimir::tools

@@ -79,8 +79,8 @@ void print(const MapModel& map, const Scene& scene, const Iterated& run) {
 
 /// Doubles hold whole numbers up to 2^53.
 std::uint64_t whole_steps(double value, const std::string& what) {
-  constexpr double kMost = 9007199254740992.0;
-  if (!(value >= 0) || value > kMost || value != std::floor(value))
+  constexpr double kMostWhole = 9007199254740992.0;
+  if (!(value >= 0) || value > kMostWhole || value != std::floor(value))
     throw UsageError(
         fmt::format("{} of a map is a whole number of steps, and {:g} is none", what, value));
   return static_cast<std::uint64_t>(value);

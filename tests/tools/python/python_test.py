@@ -11,6 +11,7 @@ import threading
 import time
 import unittest
 import warnings
+from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
 
@@ -397,6 +398,119 @@ class Runs(unittest.TestCase):
     def test_generated_code(self):
         self.assertIn("namespace", casimir.load("euler").generate())
         self.assertIn("euler_rhs", casimir.load("euler").generate(language="c"))
+
+
+class Studies(unittest.TestCase):
+    """What measures motions: against closed forms, and against the other ways to the same numbers."""
+
+    circle = dict(equations={"q": "w*p", "p": "-w*q"}, variables=["q", "p"], integrals={"E": "q^2 + p^2"},
+                  parameters={"w": "1"}, initial={"q": 1, "p": 0}, duration=10)
+
+    def test_digits_are_right_or_not_there(self):
+        end = casimir.Case(equations={"x": "x"}, variables=["x"], initial={"x": 1}, duration=1).precise(60)
+        self.assertTrue(end.success)
+        exact = Decimal("2.71828182845904523536028747135266249775724709369995957496696763")
+        self.assertLess(abs(end.state["x"] - exact), Decimal("1e-58"))
+        with self.assertRaises(casimir.RequestError):
+            casimir.load("euler").precise(16)
+        pole = casimir.Case(equations={"x": "x^2"}, variables=["x"], initial={"x": 1}, duration=2).precise(30)
+        self.assertFalse(pole.success)
+        self.assertEqual(pole.status, "singularity")
+
+    def test_boxes_contain_the_solution(self):
+        case = casimir.Case(**self.circle)
+        box = case.enclose(duration="1", sample_every="1/4")
+        self.assertTrue(box)
+        self.assertEqual([sample.time for sample in box.samples], [Fraction(k, 4) for k in range(5)])
+        low, high = box.end["q"]
+        # cos 1, from its series: the first term that is left out bounds what is left out
+        cosine = sum(Fraction((-1) ** k, math.factorial(2 * k)) for k in range(20))
+        self.assertLessEqual(low, cosine)
+        self.assertLessEqual(cosine, high)
+        self.assertLess(box.radius, 1e-13)
+        self.assertNotIn({"q": Fraction(1), "p": Fraction(0)}, box.end)
+
+    def test_boxes_over_ranges_are_for_every_value(self):
+        case = casimir.Case(**self.circle)
+        box = case.enclose(duration="1", ranges={"w": ("99/100", "101/100")})
+        self.assertEqual(box.names, ["q", "p", "w"])
+        for frequency in (0.99, 1.0, 1.01):
+            low, high = box.end["q"]
+            self.assertLess(low, Fraction(math.cos(frequency)))
+            self.assertGreater(high, Fraction(math.cos(frequency)))
+        with self.assertRaises(casimir.CaseError) as caught:
+            case.enclose(ranges={"W": (0, 1)})
+        self.assertIn("'w'", str(caught.exception))
+        with self.assertRaises(casimir.RequestError):
+            case.enclose(ranges={"w": (1, 0)})
+
+    def test_what_has_no_end_is_not_enclosed(self):
+        pole = casimir.Case(equations={"x": "x^2"}, variables=["x"], initial={"x": 1}, duration=2).enclose()
+        self.assertFalse(pole.success)
+        self.assertLess(pole.end.time, 1)
+        with self.assertRaises(casimir.UndecidedError):
+            bool(pole)
+
+    def test_drifts_are_those_of_each_method(self):
+        runs = casimir.load("kovalevskaya").conserve(methods=["taylor", "dopri5"], tolerance=1e-6, bound=1e-13)
+        self.assertEqual([run.method for run in runs], ["taylor", "dopri5"])
+        self.assertEqual(set(runs[0].drifts), {"H", "F1", "F2", "K"})
+        self.assertEqual(runs[1].drift, max(runs[1].drifts.values()))
+        self.assertFalse(runs)
+        self.assertEqual(runs[1].status, "drifted")
+        self.assertTrue(casimir.load("kovalevskaya").conserve(methods=["taylor"]))
+
+    def test_frequencies_of_an_oscillator(self):
+        found = casimir.Case(**{**self.circle, "duration": 2000}).with_values({"w": "sqrt(2)"}).frequencies(lines=1)
+        self.assertTrue(found.quasi_periodic)
+        self.assertAlmostEqual(found.base[0], math.sqrt(2), delta=1e-12)
+        self.assertEqual(len(found.variables["q"]["lines"]), 1)
+        with self.assertRaises(casimir.RequestError):
+            casimir.Case(equations={"x": "x^2"}, variables=["x"], initial={"x": 1}, duration=2).frequencies()
+
+    def test_a_sweep_has_an_axis_for_each_name(self):
+        case = casimir.Case(**self.circle)
+        grid = case.sweep({"w": [1, 2], "angle": np.linspace(0, 1, 3)}, lets={"q": "cos(angle)", "p": "-sin(angle)"},
+                          duration=1, tolerance=1e-12)
+        self.assertTrue(grid.success)
+        self.assertEqual(list(grid.axes), ["w", "angle"])
+        self.assertEqual(grid["q"].shape, (2, 3))
+        for i, frequency in enumerate(grid.axes["w"]):
+            np.testing.assert_allclose(grid["q"][i], np.cos(grid.axes["angle"] + frequency), atol=1e-11)
+        self.assertEqual(case.sweep({"w": "1:2:5"}, duration=1)["q"].shape, (5,))
+        for wrong in ({"W": [1]}, {"w": "1:2"}, {}):
+            with self.assertRaises((casimir.CaseError, casimir.RequestError)):
+                case.sweep(wrong)
+        with self.assertRaises(casimir.RequestError) as caught:
+            case.sweep({"w": [1]}, do="exponent")
+        self.assertIn("exponents", str(caught.exception))
+
+    def test_a_sweep_of_exponents_tells_chaos_from_order(self):
+        swing = casimir.load("henon-heiles").with_values({"A": "1", "B": "1"})
+        megno = swing.sweep({"x": [0.01, 0.02]}, do="indicators", duration=200)["megno"]
+        self.assertTrue((megno < 3).all())
+
+    def test_methods_are_compared_by_error_and_time(self):
+        table = casimir.load("euler").compare(methods=["taylor", "dop853"], tolerances=[1e-6, 1e-10], budget=0.2)
+        self.assertEqual({row.method for row in table if row.code == "specialised"}, {"taylor", "dop853"})
+        errors, seconds = table.curve("dop853")
+        self.assertEqual(len(errors), 2)
+        self.assertGreater(errors[0], errors[1])
+        self.assertTrue((seconds > 0).all())
+
+    def test_progress_ends_what_it_watches(self):
+        class Enough(Exception):
+            pass
+
+        def stop(share):
+            raise Enough
+
+        top = casimir.load("kovalevskaya")
+        for long in (lambda: top.precise(200, duration=1000, progress=stop),
+                     lambda: top.enclose(duration=10000, progress=stop),
+                     lambda: top.sweep({"r": np.linspace(1, 2, 400)}, duration=1000, progress=stop)):
+            with self.assertRaises(Enough):
+                long()
 
 
 class Process(unittest.TestCase):

@@ -87,7 +87,7 @@ bool closed_form_pays(const PreparedScene& run, const Settings& settings) {
   if (settings.fixed_step > 0 || !run.parameters.empty()) return false;
   // Series take about half a step for that, 0.3 to 1 us; the form of a top 2 ms, and 20 us each
   // time that it is shown, at most 4096 times.
-  constexpr double kLong = 1e5, kStepsOfSample = 30;
+  constexpr double kLongEnough = 1e5, kStepsOfSample = 30;
   std::vector<double> inputs = run.initial;
   inputs.push_back(0);  // the time
   double size = 0, rate = 0;
@@ -98,7 +98,7 @@ bool closed_form_pays(const PreparedScene& run, const Settings& settings) {
     return false;
   }
   for (const double x : run.initial) size = std::max(size, std::abs(x));
-  double least = kLong;
+  double least = kLongEnough;
   if (settings.sample_every > 0)
     least += kStepsOfSample * 2 * std::abs(settings.duration) / settings.sample_every;
   return std::abs(settings.duration) * rate > least * size;

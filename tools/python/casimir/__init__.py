@@ -24,6 +24,7 @@ from ._errors import (
     UndecidedError,
 )
 from ._map import Map, load_map, maps
+from ._measured import Box, Comparison, Conservation, Enclosure, Frequencies, PreciseEnd, Run, Sweep
 from ._results import (
     Balance,
     Condition,
@@ -57,8 +58,10 @@ for _folder in ("cases", "../../../../share/casimir/cases"):
     _core.add_case_folder(_path.join(_path.dirname(__file__), _folder))
 
 __all__ = [
-    "Balance", "Case", "CaseError", "Condition", "Conditions", "DarbouxPolynomial", "Degrees", "Ensemble",
-    "EnvironmentProblem", "Equilibrium", "Error", "Exponent", "Exponents", "Findings", "Found", "Iterates", "Map", "MapSearch",
-    "ModelError", "NoAnswer", "Obstruction", "Orbit", "Proof", "Relation", "RequestError", "Search", "Section", "SingularPoint",
-    "Solution", "System", "UndecidedError", "Verification", "Witness", "cases", "load", "load_map", "maps", "methods",
+    "Balance", "Box", "Case", "CaseError", "Comparison", "Condition", "Conditions", "Conservation",
+    "DarbouxPolynomial", "Degrees", "Enclosure", "Ensemble", "EnvironmentProblem", "Equilibrium", "Error", "Exponent",
+    "Exponents", "Findings", "Found", "Frequencies", "Iterates", "Map", "MapSearch", "ModelError", "NoAnswer",
+    "Obstruction", "Orbit", "PreciseEnd", "Proof", "Relation", "RequestError", "Run", "Search", "Section",
+    "SingularPoint", "Solution", "Sweep", "System", "UndecidedError", "Verification", "Witness", "cases", "load",
+    "load_map", "maps", "methods",
 ]

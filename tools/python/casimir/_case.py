@@ -9,6 +9,17 @@ from . import _core
 from ._errors import RequestError
 from ._exact import Expression, is_float, pairs_of, text_of, texts_of
 from ._progress import Progress, told
+from ._measured import (
+    Comparison,
+    Conservation,
+    Enclosure,
+    Frequencies,
+    PreciseEnd,
+    Run,
+    Sweep,
+    enclosure_of,
+    precise_of,
+)
 from ._results import (
     Condition,
     Conditions,
@@ -446,6 +457,105 @@ class Case:
         """The right-hand side of the scene 'default' as a function f(t, y), for SciPy's solvers."""
         return self.system().rhs
 
+    def precise(self, digits: int, *, duration: Expression | None = None, scene: str = "default",
+                initial: Mapping[str, Expression] | None = None, time_limit: float = 0,
+                progress: Progress = None, **parameters: Expression) -> PreciseEnd:
+        """The state at the end with any number of digits, each of them checked by a second run.
+
+        :param digits: 17 to 5000.
+        :param duration: exactly; without it that of the scene.
+
+        >>> end = Case(equations={"x": "x"}, variables=["x"], initial={"x": 1}, duration=1).precise(40)
+        >>> end.state["x"]
+        Decimal('2.718281828459045235360287471352662497757')
+        """
+        case = self.with_values(parameters, initial) if parameters or initial else self
+        return precise_of(_core.precise(case._core, scene, digits, None if duration is None else text_of(duration),
+                                        time_limit, told(progress)))
+
+    def enclose(self, *, duration: Expression | None = None, initial_radius: Expression = 0,
+                ranges: Mapping[str, tuple[Expression, Expression]] | None = None, digits: int = 0,
+                sample_every: Expression | None = None, scene: str = "default",
+                initial: Mapping[str, Expression] | None = None, time_limit: float = 0,
+                progress: Progress = None, **parameters: Expression) -> Enclosure:
+        """Boxes that provably contain the solutions of a scene.
+
+        :param initial_radius: by how much each initial value may be off, on both sides.
+        :param ranges: parameters that may have any value of an interval, by name.
+        :param digits: of the arithmetic; 0: double precision.
+        :param sample_every: time between boxes on the way.
+
+        >>> box = load("kovalevskaya").enclose(duration=1)
+        >>> box.success, box.radius < 1e-10
+        (True, True)
+        """
+        case = self.with_values(parameters, initial) if parameters or initial else self
+        intervals = [(str(name), (text_of(low), text_of(high))) for name, (low, high) in (ranges or {}).items()]
+        return enclosure_of(_core.enclosed(case._core, scene, None if duration is None else text_of(duration),
+                                           text_of(initial_radius), intervals, digits,
+                                           None if sample_every is None else text_of(sample_every), time_limit,
+                                           told(progress)))
+
+    def conserve(self, *, methods: Sequence[str] = (), bound: float = 1e-9, duration: float | None = None,
+                 tolerance: float | None = None, scene: str = "default", time_limit: float = 0,
+                 progress: Progress = None) -> Conservation:
+        """The drift of every invariant along the scene by each method. True where none is beyond the bound.
+
+        >>> bool(load("euler").conserve(methods=["taylor"]))
+        True
+        """
+        return Conservation([Run(**one) for one in _core.conserved(self._core, scene, list(methods), bound, duration,
+                                                                  tolerance, time_limit, told(progress))])
+
+    def frequencies(self, *, lines: int = 5, method: str = "auto", duration: float | None = None,
+                    tolerance: float | None = None, scene: str = "default", time_limit: float = 0,
+                    progress: Progress = None) -> Frequencies:
+        """The strongest lines in the spectrum of each variable, and a base of their frequencies.
+
+        :param lines: of each variable.
+
+        >>> swing = Case(equations={"q": "p", "p": "-q"}, variables=["q", "p"], initial={"q": 1, "p": 0})
+        >>> [round(one, 9) for one in swing.frequencies(duration=1000).base]
+        [1.0]
+        """
+        return Frequencies(**_core.frequencies(self._core, scene, method, lines, duration, tolerance, time_limit,
+                                               told(progress)))
+
+    def compare(self, *, methods: Sequence[str] = (), tolerances: Sequence[float] = (1e-3, 1e-6, 1e-9, 1e-12),
+                budget: float = 8, quick: bool = False, duration: float | None = None, scene: str = "default",
+                time_limit: float = 0, progress: Progress = None) -> Comparison:
+        """Error against run time of methods, ours and those of other libraries, in interleaved rounds.
+
+        :param methods: without them all that suit the case.
+        :param budget: seconds for all rounds; `quick` leaves out what takes longer to compile than to run.
+        """
+        facts = _core.compared(self._core, scene, list(methods), list(tolerances), budget, quick, duration,
+                               time_limit, told(progress))
+        return Comparison(**{**facts, "rows": [Run(**one) for one in facts["rows"]]})
+
+    def sweep(self, over: Mapping[str, Any], *, do: str = "integrate", lets: Mapping[str, Expression] | None = None,
+              method: str = "auto", duration: float | None = None, tolerance: float | None = None, orbits: int = 16,
+              points: int = 200, scene: str = "default", jobs: int = 0, time_limit: float = 0,
+              progress: Progress = None) -> Sweep:
+        """The same study at every point of a grid.
+
+        :param over: arrays of values by name, of parameters, variables or names that `lets` use; or '0:1:11'.
+        :param do: 'integrate', 'section', 'exponents', 'indicators' or 'rotation'.
+        :param lets: initial values and parameters as expressions over the names of the grid.
+        :returns: arrays with an axis for each name, by column.
+
+        >>> grid = load("kovalevskaya").sweep({"r": [1, 2, 3]}, duration=1)
+        >>> grid["M1"].shape, grid.success
+        ((3,), True)
+        """
+        axes = [f"{name}={values if isinstance(values, str) else _listed_values(values)}"
+                for name, values in over.items()]
+        facts = _core.sweep(self._core, scene, do, method, axes,
+                            [f"{name}={text_of(value)}" for name, value in (lets or {}).items()],
+                            duration, tolerance, orbits, points, jobs, time_limit, told(progress))
+        return Sweep(axes=dict(facts["axes"]), columns=facts["columns"], status=facts["status"],
+                     principal=facts["principal"])
+
     def section(self, *, plane: Expression | None = None, direction: str | None = None,
                 plot: Sequence[Expression] = (), energy: float | None = None,
                 casimirs: Mapping[str, float] | None = None, orbits: int = 40, points: int = 500,
@@ -475,6 +585,12 @@ class Case:
     def equilibria(self, scene: str = "default") -> list[Equilibrium]:
         """Equilibria and relative equilibria on the level of a scene. There may be others."""
         return [Equilibrium(**one) for one in _core.equilibria(self._core, scene)["equilibria"]]
+
+
+def _listed_values(values: Any) -> str:
+    import numpy
+
+    return ",".join(repr(float(value)) for value in numpy.asarray(values, dtype=float).ravel())
 
 
 def _restored(text: str, file: str, parameters, initial, rounded: bool) -> Case:

@@ -14,6 +14,12 @@ void bind_maps(pybind11::module_& module);
 void bind_structure(pybind11::module_& module);
 /// Runs of one initial state and of many.
 void bind_motion(pybind11::module_& module);
+/// What a motion conserves, its frequencies, methods compared.
+void bind_measured(pybind11::module_& module);
+/// The same study at every point of a grid.
+void bind_sweep(pybind11::module_& module);
+/// Runs with any number of digits, and enclosures.
+void bind_exact_runs(pybind11::module_& module);
 /// Poincare sections and equilibria.
 void bind_section(pybind11::module_& module);
 

@@ -85,6 +85,26 @@ std::shared_ptr<Case> Case::with(const Values& parameters, const Values& initial
   return result;
 }
 
+std::shared_ptr<const Case> Case::with_scene_parameters(const Values& parameters) const {
+  const ExactAlgebra guard;
+  const std::shared_ptr<Case> result(new Case);
+  result->text_ = text_;
+  result->source_ = source_;
+  result->parameters_ = parameters_;
+  result->initial_ = initial_;
+  result->rounded_ = rounded_;
+  Names known;
+  for (const ParameterText& parameter : source_.parameters) known.push_back(parameter.name.value);
+  for (const auto& [name, value] : entries(parameters, "parameters")) {
+    if (std::ranges::find(known, name.value) == known.end())
+      throw name.error("'" + printable(name.value) + "' is not a parameter of this case", 0,
+                       suggest_or_list(name.value, known, "parameters"));
+    set_in_scenes(result->source_, &SceneText::parameters, name, value);
+  }
+  result->build();
+  return result;
+}
+
 void Case::build() {
   const CaseFile changed = with_initial_values(source_, entries(initial_, "initial"), rounded_);
   model_ = std::make_unique<Model>(tools::model_of(changed, entries(parameters_, "parameters")));

@@ -30,6 +30,10 @@ class Case {
   /// \throws CaseError  with the nearest name for one that is none.
   std::shared_ptr<Case> with(const Values& parameters, const Values& initial, bool rounded) const;
 
+  /// The same case with other values of parameters in all scenes, which stay parameters.
+  /// \throws CaseError  with the nearest name for one that is none.
+  std::shared_ptr<const Case> with_scene_parameters(const Values& parameters) const;
+
   /// The text that it was read from, without the changes.
   const std::string& text() const { return text_; }
   /// What names it in messages.

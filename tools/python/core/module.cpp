@@ -9,5 +9,8 @@ PYBIND11_MODULE(_core, module) {
   casimir::python::bind_maps(module);
   casimir::python::bind_structure(module);
   casimir::python::bind_motion(module);
+  casimir::python::bind_measured(module);
+  casimir::python::bind_sweep(module);
+  casimir::python::bind_exact_runs(module);
   casimir::python::bind_section(module);
 }

@@ -14,6 +14,7 @@
 #include "tools/python/core/bindings.hpp"
 #include "tools/python/core/case.hpp"
 #include "tools/python/core/guard.hpp"
+#include "tools/python/core/requests.hpp"
 #include "tools/text/runs/run_report.hpp"
 #include "tools/text/runs/trust_report.hpp"
 
@@ -22,29 +23,6 @@ namespace py = pybind11;
 using namespace py::literals;
 
 namespace {
-
-using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
-using Choice = std::optional<double>;
-
-/// What is asked of a run. \param tolerance, rtol, atol  none: as `RunRequest` says.
-RunRequest request(Choice duration, Choice tolerance, Choice rtol, Choice atol) {
-  RunRequest result;
-  result.duration = duration;
-  result.tolerance = tolerance;
-  result.rtol = rtol;
-  result.atol = atol;
-  return result;
-}
-
-/// `work` with what the libraries say of impossible settings as an error of the package.
-template <class Work>
-auto settled(const Work& work) {
-  try {
-    return work();
-  } catch (const std::invalid_argument& problem) {
-    throw RequestError(problem.what());
-  }
-}
 
 /// States as columns: the shape that SciPy gives them.
 template <class State>

@@ -12,6 +12,8 @@ class LivePage {
     this.build(place);
     this.runner = this.worker(message => this.moved(message));
     this.change();
+    // Meanwhile the motion that casimir integrated: what the worker finds first is the same.
+    if (data.motion) this.chart(data.motion);
   }
 
   worker(take) {
@@ -22,7 +24,7 @@ class LivePage {
       else take(message.data);
     };
     worker.onerror = event => this.say(`The browser does not let this page compute: ${event.message || 'no worker'}`);
-    const {wasm, ...data} = this.data;
+    const {wasm, motion, ...data} = this.data;
     worker.postMessage({kind: 'module', bytes: this.bytes, data});
     return worker;
   }

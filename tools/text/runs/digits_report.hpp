@@ -28,9 +28,6 @@ struct DigitsReport {
   std::vector<std::string> state() const;
 };
 
-/// A number with that many significant digits, in the style of printf's %g.
-std::string decimal_text(const cln::cl_F& value, int digits);
-
 nlohmann::ordered_json to_json(const DigitsReport& report);
 void print_text(const DigitsReport& report);
 

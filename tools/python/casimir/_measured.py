@@ -1,0 +1,239 @@
+"""What studies of motions answer: drifts, frequencies, comparisons, sweeps, and numbers that are right."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any
+
+from ._html import table
+from ._results import _truth
+
+
+@dataclass(frozen=True)
+class Run:
+    """A measured run of one method."""
+
+    method: str
+    tolerance: float
+    status: str  #: 'ok', 'drifted', 'wrong', 'does_not_split', or how the integration ended
+    ok: bool  #: it arrived, and nothing is wrong with it
+    failed: bool  #: it counts as a failure
+    error: float  #: relative, of the end state; NaN where there is no reference state
+    drift: float  #: the largest of all invariants
+    seconds: float
+    steps: int
+    evaluations: int
+    spread: float  #: half the distance of the quartiles of the times of repeated runs
+    code: str  #: 'specialised' or 'general'
+    reason: str  #: a sentence, where the status needs one
+    drifts: dict[str, float] = field(default_factory=dict)  #: of each invariant
+
+
+@dataclass(frozen=True)
+class Conservation(Sequence[Run]):
+    """Runs whose invariants were watched. True where none failed."""
+
+    runs: list[Run]
+
+    def __getitem__(self, index):
+        return self.runs[index]
+
+    def __len__(self) -> int:
+        return len(self.runs)
+
+    def __bool__(self) -> bool:
+        return not any(run.failed for run in self.runs)
+
+    def _repr_html_(self) -> str:
+        rows = [(run.method, run.status, f"{run.drift:.1e}", f"{run.seconds:.3g}") for run in self.runs]
+        return table(["method", "status", "largest drift", "seconds"], rows)
+
+
+@dataclass(frozen=True)
+class Frequencies:
+    """The spectrum of a motion."""
+
+    base: list[float]  #: every settled line is a combination of these with small whole numbers
+    errors: list[float]  #: of them
+    quasi_periodic: bool  #: the strong lines are the same in both halves of the motion
+    variables: dict[str, dict[str, Any]]  #: `lines`, whether it is an `angle`, and the `rest` that they leave
+    samples: int
+    interval: float  #: the time between two samples
+    warnings: list[str]
+
+    def _repr_html_(self) -> str:
+        rows = [(name, f"{line['frequency']:.15g}", f"{line['error']:.0e}", f"{line['amplitude']:.5g}")
+                for name, spectrum in self.variables.items() for line in spectrum["lines"]]
+        return table(["variable", "frequency", "error", "amplitude"], rows, "; ".join(self.warnings))
+
+
+@dataclass(frozen=True)
+class Comparison(Sequence[Run]):
+    """Error against run time of several methods."""
+
+    rows: list[Run]
+    outside: list[str]  #: methods of other libraries
+    scene: str
+    reference: str  #: where the reference state is from
+    bound: float  #: of its error
+    conditioning: float  #: growth of small changes
+    notes: list[str]  #: what was left out, and why
+
+    def __getitem__(self, index):
+        return self.rows[index]
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def curve(self, method: str, code: str = "specialised") -> tuple[Any, Any]:
+        """Arrays of the errors and run times of the rows of a method that are good."""
+        import numpy
+
+        good = [row for row in self.rows if row.method == method and row.code == code and row.ok]
+        return numpy.array([row.error for row in good]), numpy.array([row.seconds for row in good])
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws error against run time on axes of matplotlib, and returns the axes."""
+        if ax is None:
+            from matplotlib import pyplot
+
+            ax = pyplot.gca()
+        for method, code in dict.fromkeys((row.method, row.code) for row in self.rows):
+            errors, seconds = self.curve(method, code)
+            if len(errors):
+                label = method if code == "specialised" else f"{method} {code}"
+                ax.loglog(errors, seconds, marker=".", linestyle="--" if method in self.outside else "-", label=label)
+        ax.set_xlabel("error")
+        ax.set_ylabel("run time in s")
+        ax.legend()
+        return ax
+
+    def _repr_html_(self) -> str:
+        rows = [(row.method, row.code, f"{row.tolerance:.0e}", row.status, f"{row.error:.1e}", f"{row.seconds:.3g}")
+                for row in self.rows]
+        return table(["method", "code", "tolerance", "status", "error", "seconds"], rows, f"reference: {self.reference}")
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """What a study found at the points of a grid: `sweep["M1"]` has an axis for each name."""
+
+    axes: dict[str, Any]  #: the values of each name
+    columns: dict[str, Any]  #: arrays over the grid
+    status: list[str]  #: 'ok', 'singularity', .. of each point; the last axis runs fastest
+    principal: str  #: the column that matters most, or empty
+
+    def __getitem__(self, column: str):
+        return self.columns[column]
+
+    @property
+    def success(self) -> bool:
+        """Whether every point was done to its end."""
+        return all(status == "ok" for status in self.status)
+
+    def plot(self, ax: Any = None, column: str | None = None) -> Any:
+        """Draws a column over one or two axes with matplotlib, and returns the axes."""
+        if ax is None:
+            from matplotlib import pyplot
+
+            ax = pyplot.gca()
+        name = column or self.principal or next(iter(self.columns))
+        (first, x), *others = self.axes.items()
+        ax.set_xlabel(first)
+        if not others:
+            ax.plot(x, self.columns[name])
+            ax.set_ylabel(name)
+        elif len(others) == 1:
+            (second, y), = others
+            mesh = ax.pcolormesh(x, y, self.columns[name].T, shading="nearest")
+            ax.figure.colorbar(mesh, ax=ax, label=name)
+            ax.set_ylabel(second)
+        else:
+            raise ValueError("a grid of more than two names is no picture: choose from its arrays")
+        return ax
+
+
+@dataclass(frozen=True)
+class PreciseEnd:
+    """The end of a run with many digits. Numbers have those of the digits that two runs agree in."""
+
+    state: dict[str, Decimal]
+    time: Decimal
+    status: str  #: 'ok', or how it ended
+    reason: str  #: a sentence, where that is something else
+    digits: int | None  #: in which the runs agree; None where none has checked the other
+    lost: int  #: digits that the motion magnified errors by
+    steps: int
+    runs: int
+
+    @property
+    def success(self) -> bool:
+        """Whether it reached the end with all its digits."""
+        return self.status == "ok"
+
+
+def precise_of(facts: dict[str, Any]) -> PreciseEnd:
+    """The object for what the C++ side says of a run."""
+    state = {name: Decimal(value) for name, value in facts["state"].items()}
+    return PreciseEnd(**{**facts, "state": state, "time": Decimal(facts["time"])})
+
+
+@dataclass(frozen=True)
+class Box:
+    """States at a time, all of them within intervals with rational ends."""
+
+    time: Fraction
+    intervals: dict[str, tuple[Fraction, Fraction]]
+
+    def __getitem__(self, name: str) -> tuple[Fraction, Fraction]:
+        return self.intervals[name]
+
+    def __contains__(self, state: Any) -> bool:
+        """Whether numbers by name, or in order, are in the box."""
+        values = [state[name] for name in self.intervals] if hasattr(state, "keys") else list(state)
+        return len(values) == len(self.intervals) and all(
+            low <= Fraction(value) <= high for value, (low, high) in zip(values, self.intervals.values()))
+
+
+@dataclass(frozen=True)
+class Enclosure:
+    """What is proved of the solutions of a scene: that they exist up to the time of `end`, and are in its boxes.
+
+    True where that is the time asked for.
+    """
+
+    end: Box
+    samples: list[Box]
+    names: list[str]
+    radius: float  #: the largest half width of the box at the end
+    status: str  #: 'ok', or why it ended before
+    reason: str
+    contracted_by: list[str]  #: the integrals that made the boxes smaller
+    doubts: list[str]  #: sentences on those that could not
+    steps: int
+    seconds: float
+
+    @property
+    def success(self) -> bool:
+        """Whether it reached its time."""
+        return self.status == "ok"
+
+    def __bool__(self) -> bool:
+        return _truth("proved" if self.success else "undecided", "the enclosure up to its time")
+
+    def _repr_html_(self) -> str:
+        rows = [(name, repr(float(low)), repr(float(high))) for name, (low, high) in self.end.intervals.items()]
+        return table(["", "from", "to"], rows, f"t = {float(self.end.time):.6g}: {self.reason or 'proved'}")
+
+
+def enclosure_of(facts: dict[str, Any]) -> Enclosure:
+    """The object for what the C++ side says of an enclosure."""
+
+    def box(one: dict[str, Any]) -> Box:
+        ends = [(Fraction(low), Fraction(high)) for low, high in one["box"]]
+        return Box(Fraction(one["time"]), dict(zip(facts["names"], ends)))
+
+    return Enclosure(**{**facts, "end": box(facts["end"]), "samples": [box(one) for one in facts["samples"]]})

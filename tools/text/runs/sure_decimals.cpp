@@ -1,0 +1,74 @@
+#include "tools/text/runs/sure_decimals.hpp"
+
+#include <cln/integer_io.h>
+#include <cln/rational.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "runtime/digits/agreed_run.hpp"
+
+namespace casimir::tools {
+namespace {
+
+/// The digits of round(|x| 10^shift).
+std::string scaled_digits(const cln::cl_RA& x, long shift) {
+  const cln::cl_I power = cln::expt_pos(cln::cl_I(10), cln::cl_I(std::max(std::abs(shift), 1L)));
+  const cln::cl_RA scaled = shift > 0   ? cln::cl_RA(cln::abs(x) * power)
+                            : shift < 0 ? cln::cl_RA(cln::abs(x) / power)
+                                        : cln::abs(x);
+  std::ostringstream text;
+  text << cln::round1(scaled);
+  return text.str();
+}
+
+/// Mantissa digits and a decimal exponent in the style of printf's %g.
+std::string laid_out(std::string digits, long exponent, long most) {
+  digits.erase(std::max<std::size_t>(digits.find_last_not_of('0') + 1, 1));
+  if (exponent < -5 || exponent >= most) {
+    if (digits.size() > 1) digits.insert(1, ".");
+    return fmt::format("{}e{}{:02}", digits, exponent < 0 ? '-' : '+', std::abs(exponent));
+  }
+  if (exponent < 0)
+    return "0." + std::string(static_cast<std::size_t>(-exponent - 1), '0') + digits;
+  const auto whole = static_cast<std::size_t>(exponent) + 1;
+  if (digits.size() <= whole) return digits + std::string(whole - digits.size(), '0');
+  return digits.insert(whole, ".");
+}
+
+}  // namespace
+
+std::string decimal_text(const cln::cl_F& value, int digits) {
+  if (cln::zerop(value)) return "0";
+  const cln::cl_RA x = cln::rational(value);
+  const cln::decoded_float parts = cln::decode_float(value);
+  constexpr double kLog10Of2 = 0.30102999566398120;
+  auto exponent = static_cast<long>(
+      std::floor(kLog10Of2 * static_cast<double>(cln::cl_I_to_long(parts.exponent)) +
+                 std::log10(cln::double_approx(parts.mantissa))));
+  std::string text = scaled_digits(x, digits - 1 - exponent);
+  // The logarithm may be off beside a power of ten, and rounding may reach one.
+  for (; static_cast<int>(text.size()) > digits; text = scaled_digits(x, digits - 1 - exponent))
+    ++exponent;
+  for (; static_cast<int>(text.size()) < digits; text = scaled_digits(x, digits - 1 - exponent))
+    --exponent;
+  return (cln::minusp(value) ? "-" : "") + laid_out(text, exponent, digits);
+}
+
+std::string sure_text(const cln::cl_F& value, const cln::cl_F& check, int most) {
+  const int digits = agreed_digits(check, value, most);
+  return digits == 0 ? "0" : decimal_text(value, digits);
+}
+
+std::vector<std::string> sure_texts(const std::vector<cln::cl_F>& values,
+                                    const std::vector<cln::cl_F>* check, int most) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    texts.push_back(check ? sure_text(values[i], (*check)[i], most)
+                          : decimal_text(values[i], most));
+  return texts;
+}
+
+}  // namespace casimir::tools
