@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "runtime/digits/cancellation.hpp"
 #include "runtime/program/zero_states.hpp"
 
 namespace casimir {
@@ -70,27 +71,49 @@ class Search {
       zero.push_back(cln::zerop(start[i]));
     rhs_ = at_rest(*problem_.rhs, states_that_stay_zero(*problem_.rhs, zero));
     problem_.rhs = &rhs_;
+    cancelled_ = cancelled_at(std::vector<cln::cl_R>(start.begin(), start.end() - 1), 0);
   }
   Search(const Search&) = delete;
   Search& operator=(const Search&) = delete;
 
   AgreedRun operator()() {
     find_loss();
-    int working = wanted_ + best_.lost;
+    int working = wanted_ + best_.lost + cancelled_;
     for (int round = 0; round < kMostRounds && !stopped_; ++round) {
       compare(working, wanted_);
-      if (best_.digits >= wanted_) break;
+      // Series whose coefficients are rounding do not converge: more digits may.
+      const bool converged = best_.run.status != Status::no_convergence;
+      if (converged && best_.digits >= wanted_ && !more_cancels_at_the_end()) break;
       // A state beside a singularity may have no more digits however many are spent.
       if (best_.run.status != Status::ok && round > 1) break;
       // Nothing in common: the loss is not known, only that it is more.
-      working =
-          best_.digits == 0 ? 2 * working : std::max(working + kMoreDigits, wanted_ + best_.lost);
+      working = best_.digits == 0
+                    ? 2 * working
+                    : std::max(working + kMoreDigits, wanted_ + best_.lost + cancelled_);
       if (precise_run_bytes(problem_, working) > kMostBytes) break;
     }
     return std::move(best_);
   }
 
  private:
+  int cancelled_at(std::vector<cln::cl_R> state, const cln::cl_R& time) const {
+    state.push_back(time);
+    return cancelled_digits(rhs_, state, problem_.start(wanted_).back(), wanted_ + kMoreDigits);
+  }
+
+  /// Two runs that lose all their digits in the same difference agree as well.
+  bool more_cancels_at_the_end() {
+    if (best_.run.status != Status::ok) return false;
+    const std::vector<cln::cl_R> start = problem_.start(wanted_);
+    std::vector<cln::cl_R> inputs(best_.run.state.begin(), best_.run.state.end());
+    inputs.insert(inputs.end(), start.begin() + static_cast<std::ptrdiff_t>(inputs.size()),
+                  start.end() - 1);
+    const int there = cancelled_at(std::move(inputs), best_.run.time);
+    if (there <= cancelled_) return false;
+    cancelled_ = there;
+    return true;
+  }
+
   /// What the motion costs, by runs with a quarter of the digits: a few hundredths of the work.
   void find_loss() {
     constexpr int kLeast = 12, kWorthwhile = 40;
@@ -165,6 +188,7 @@ class Search {
   PreciseProblem problem_;
   Program rhs_;  ///< of the problem, at rest where the solution is
   int wanted_;
+  int cancelled_ = 0;  ///< digits that the rates lose where they were looked at
   const std::function<void(int)>& begin_;
   AgreedRun best_;
   bool stopped_ = false;

@@ -1,6 +1,9 @@
 #include "runtime/digits/precise_branch.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 
 #include "runtime/evaluate.hpp"
 
@@ -45,7 +48,7 @@ BigFloat PreciseLook::size(const PreciseStep& step) {
   const double begin = double_of(step.begin), end = double_of(step.begin + step.size);
   const double part =
       (*look_)({begin, end, x0.data(), x1.data(), &state_at, &step, nullptr, nullptr});
-  if (part >= 1) return step.size;
+  if (part >= 1) return up_to_unseen_branch(step);
   const BigFloat shorter = times(step.size, part);
   const StepWatch::Watched* const met = look_->met();
   jumps_ = false;
@@ -61,6 +64,73 @@ BigFloat PreciseLook::size(const PreciseStep& step) {
   BigFloat behind = branch(step, met->place, shorter);
   if (met->kind != StepWatch::Kind::side) landing_ = behind;
   return behind;
+}
+
+BigFloat PreciseLook::up_to_unseen_branch(const PreciseStep& step) {
+  using Kind = StepWatch::Kind;
+  BigFloat size = step.size;
+  for (const StepWatch::Watched& watched : watch_.watched()) {
+    if (watched.kind != Kind::side && watched.kind != Kind::jump) continue;
+    const std::optional<BigFloat> beyond = other_side(step, watched.place);
+    if (!beyond) continue;
+    const BigFloat behind = branch(step, watched.place, *beyond);
+    if (!((behind - size).sign() * step.size.sign() < 0)) continue;
+    size = behind;
+    landing_.reset();
+    jumps_ = false;
+    if (watched.kind == Kind::jump) landing_ = behind;
+  }
+  return size;
+}
+
+std::optional<BigFloat> PreciseLook::other_side(const PreciseStep& step, std::size_t place) const {
+  constexpr double kPlaces[] = {0, 0.27, 0.52, 0.78, 1};
+  constexpr std::size_t kCount = std::size(kPlaces);
+  BigFloat at[kCount], value[kCount];
+  int side = 0;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    at[i] = times(step.size, kPlaces[i]);
+    value[i] = argument(step, place, at[i]);
+    if (side == 0) side = value[i].sign();
+    if (side * value[i].sign() < 0) return at[i];
+  }
+  for (std::size_t i = 0; i + 2 < kCount; ++i)
+    if (auto found = beyond_dip(step, place, {at[i], at[i + 1], at[i + 2]},
+                                {value[i], value[i + 1], value[i + 2]}))
+      return found;
+  return std::nullopt;
+}
+
+/// By parabolas through three places, each time nearer to where the argument is least.
+std::optional<BigFloat> PreciseLook::beyond_dip(const PreciseStep& step, std::size_t place,
+                                                std::array<BigFloat, 3> at,
+                                                std::array<BigFloat, 3> value) const {
+  // What comes down to no thousandth of what is beside it turns elsewhere.
+  constexpr double kNearZero = -10;  // of log2
+  constexpr int kRounds = 40;
+  const int side = value[1].sign();
+  const double beside = std::max(value[0].log2(), value[2].log2());
+  const BigFloat low = at[0], high = at[2];
+  for (int round = 0; round < kRounds; ++round) {
+    const BigFloat left = at[1] - at[0], right = at[2] - at[1];
+    const BigFloat rise = (value[2] - value[1]) / right, fall = (value[1] - value[0]) / left;
+    const BigFloat bend = (rise - fall) / (left + right);
+    if (bend.sign() * side <= 0) return std::nullopt;
+    // The parabola is least where fall + bend (2 s - at[0] - at[1]) = 0.
+    const BigFloat vertex = times(at[0] + at[1] - fall / bend, 0.5);
+    if (!((vertex - low).sign() * (high - vertex).sign() > 0)) return std::nullopt;
+    const BigFloat u = argument(step, place, vertex);
+    if (u.sign() * side < 0) return vertex;
+    if (u.is_zero() || vertex == at[1]) return std::nullopt;
+    if (round > 1 && u.log2() > beside + kNearZero) return std::nullopt;
+    const BigFloat aside = vertex - at[1];
+    const BigFloat near = vertex - aside, far = vertex + aside;
+    at = {near < far ? near : far, vertex, near < far ? far : near};
+    for (std::size_t i = 0; i < at.size(); ++i) value[i] = argument(step, place, at[i]);
+    for (const std::size_t i : {std::size_t{0}, std::size_t{2}})
+      if (value[i].sign() * side < 0) return at[i];
+  }
+  return std::nullopt;
 }
 
 BigFloat PreciseLook::argument(const PreciseStep& step, std::size_t place,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -41,6 +42,14 @@ class PreciseLook {
   bool ends_behind_jump() const { return jumps_; }
 
  private:
+  /// The same where doubles see no branch: two zeros that are nearer to each other than doubles
+  /// tell, as those of x^2 - 10^(-40), are passed in one step.
+  BigFloat up_to_unseen_branch(const PreciseStep& step);
+  /// A place within the step at which an argument has another sign than before; or nothing.
+  std::optional<BigFloat> other_side(const PreciseStep& step, std::size_t place) const;
+  std::optional<BigFloat> beyond_dip(const PreciseStep& step, std::size_t place,
+                                     std::array<BigFloat, 3> at,
+                                     std::array<BigFloat, 3> value) const;
   BigFloat argument(const PreciseStep& step, std::size_t place, const BigFloat& h) const;
   BigFloat branch(const PreciseStep& step, std::size_t place, BigFloat behind) const;
 

@@ -108,15 +108,16 @@ class Biermann : public ClosedForm {
         slope_(part(at.f[1], 2)),
         bend_(part(at.f[0] * at.f[3], 24)),
         last_(part(at.f[0] * at.f[4], 48)),
-        momentum_(1 / cln::double_approx(a)) {}
+        momentum_(1 / cln::double_approx(a)),
+        lost_(lost_digits()) {}
 
   void at(const TwoDoubles& elapsed, double* x) const override {
     TwoDoubles t = elapsed;
     const auto values = function_(t);
     if (!values) {  // the series: what is left out is less than the last digit
-      const double s = t.high;
-      x[0] = start_ + s * (v_ + s * (slope_ / 2));
-      x[1] = (v_ + s * slope_) * momentum_;
+      const double s = t.high, third = 12 * c_ * v_, fourth = 12 * (bend_ + c_ * slope_);
+      x[0] = start_ + s * (v_ + s * (slope_ / 2 + s * third / 6));
+      x[1] = (v_ + s * (slope_ + s * (third / 2 + s * fourth / 6))) * momentum_;
       return;
     }
     const auto [p, p1] = *values;
@@ -133,12 +134,42 @@ class Biermann : public ClosedForm {
     return function_.separatrix() ? kSeparatrixHorizon / (2 * function_.rate())
                                   : std::numeric_limits<double>::infinity();
   }
+  /// How much cancellation costs, beside the size of the motion.
+  double lost() const { return lost_; }
   double error() const override {
     constexpr double kOfQuotient = 10;  // of two values of the function
-    return kOfQuotient * evaluated_error(function_.argument());
+    return std::max(kOfQuotient * evaluated_error(function_.argument()), lost_);
   }
 
  private:
+  /// What is left of the digits where p comes so near to c that their difference loses them: far
+  /// from a start beside an unstable rest. The largest error in the motion beside its size, from
+  /// the derivatives of the quotient, at places that are denser towards half a period, where p is
+  /// least.
+  double lost_digits() const {
+    constexpr int kPlaces = 60;
+    constexpr double kOfValue = 4 * std::numeric_limits<double>::epsilon();
+    const double whole = std::isfinite(function_.period()) ? function_.period() : horizon();
+    double size = std::abs(start_), largest = 0;
+    for (int k = 1; k <= kPlaces; ++k) {
+      const double aside = std::exp2(-k);
+      for (const double share : {0.5 - aside / 2, k == kPlaces ? 0.5 : aside / 2}) {
+        TwoDoubles t{share * whole, 0};
+        const auto values = function_(t);
+        if (!values) continue;
+        const auto [p, p1] = *values;
+        const double w = p - c_;
+        const double above = -v_ * p1 + slope_ * w + bend_, below = 2 * w * w - last_;
+        const double by_p = (slope_ * below - above * 4 * w) / (below * below);
+        const double error =
+            kOfValue * ((std::abs(p) + std::abs(c_)) * std::abs(by_p) + std::abs(p1 * v_ / below));
+        size = std::max(size, std::abs(start_ + above / below));
+        largest = std::max(largest, error);
+      }
+    }
+    return size > 0 ? largest / size : 0;
+  }
+
   static double part(const N& of, int of_whole) {
     return cln::double_approx(of / cln::cl_float(cln::cl_RA(of_whole), of));
   }
@@ -159,6 +190,7 @@ class Biermann : public ClosedForm {
 
   Weierstrass function_;
   double start_, v_, c_, slope_, bend_, last_, momentum_;
+  double lost_;  ///< see `lost_digits`
 };
 
 N value(const std::vector<N>& f, const N& x) {
@@ -248,7 +280,13 @@ Recognised polynomial_force(const Motion& motion) {
   const bool rests = cln::zerop(v) && cln::zerop(at.f[1]);
   if (!rests && !bounded(f, q, v))
     return {nullptr, "the motion is not bounded: its closed form has poles"};
-  return {std::make_shared<Biermann>(at, q, v, a), ""};
+  if (rests) return at_rest(motion);
+  auto form = std::make_shared<Biermann>(at, q, v, a);
+  // Written so that what is no number is refused too.
+  constexpr double kMostLost = 1e-12;
+  if (!(form->lost() < kMostLost))
+    return {nullptr, "it starts so near to a rest that its closed form has not all digits"};
+  return {std::move(form), ""};
 }
 
 }  // namespace casimir::exact

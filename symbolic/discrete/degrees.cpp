@@ -136,7 +136,9 @@ std::vector<int> degrees_of(const ModularMap& map, const DegreeRequest& request,
   Line line(map);
   line.resize(kFirstPoints, watch);
   std::vector<int> degrees;
-  const int iterates = request.iterates.value_or(kMostIterates);
+  // A shift of n variables needs as many steps before what it does to one of them shows.
+  const int iterates =
+      request.iterates.value_or(std::max(kMostIterates, 2 * static_cast<int>(map.dimension()) + 4));
   while (static_cast<int>(degrees.size()) < iterates) {
     watch.begin("iterate " + std::to_string(degrees.size() + 1));
     line.step();

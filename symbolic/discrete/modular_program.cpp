@@ -43,6 +43,9 @@ std::size_t ModularProgram::compile(const GiNaC::ex& e) {
     const auto number = cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(e).to_cl_N());
     const std::optional<Element> value = PrimeField().reduce(number);
     if (!value) throw ModelError("a number of the map has a multiple of 2^61 - 1 as denominator");
+    // It would be no term at all, and the degree another one.
+    if (*value == Element{} && !cln::zerop(number))
+      throw ModelError("a number of the map is a multiple of 2^61 - 1");
     return add({Kind::constant, 0, 0, *value});
   }
   if (GiNaC::is_a<GiNaC::add>(e) || GiNaC::is_a<GiNaC::mul>(e)) {

@@ -104,6 +104,13 @@ std::string rounded(double value, double scale) {
   return std::abs(value) <= 1e-7 * scale ? "0" : fmt::format("{:.6g}", value);
 }
 
+/// The same of a state; where it is proved to be small and not 0, it is not rounding.
+std::string state_text(double value, double scale, const ProvedEquilibrium* proof) {
+  const bool known =
+      proof != nullptr && proof->proved && std::abs(value) > cln::double_approx(proof->radius);
+  return known ? fmt::format("{:.6g}", value) : rounded(value, scale);
+}
+
 void print_equilibria(const ProvedEquilibrium& proof, const std::string& ranges) {
   if (!proof.proved) {
     fmt::print("  not proved: {}\n", proof.reason);
@@ -135,7 +142,7 @@ void print_equilibria(const Model& model, const Scene& scene, const Answer& answ
     std::string state, values;
     for (std::size_t i = 0; i < e.state.size(); ++i)
       state += fmt::format("{}{} = {}", i > 0 ? ", " : "", model.variables[i].get_name(),
-                           rounded(e.state[i], report.size));
+                           state_text(e.state[i], report.size, proof));
     for (const auto& value : e.eigenvalues) {
       const std::string real = rounded(value.real(), scale),
                         imaginary = rounded(value.imag(), scale);

@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/sweep/indicators.hpp"
 #include "tools/analysis/sweep/integrations.hpp"
 #include "tools/analysis/sweep/lyapunov.hpp"
@@ -306,6 +307,8 @@ int sweep_in(const Ranks& ranks, const SweepArguments& options) {
   if (integrations) report.warnings = warnings_on(*integrations, outcome);
   if (const auto* indicators = dynamic_cast<const Indicators*>(doing.get()))
     report.warnings = warnings_on(*indicators);
+  if (const std::string unwatched = unwatched_parts(p.model, *p.scene); !unwatched.empty())
+    report.warnings.push_back(unwatched);
   if (options.common.json)
     print_json(sweep_json(report));
   else if (!options.common.quiet)

@@ -11,6 +11,7 @@
 #include "runtime/digits/agreed_run.hpp"
 #include "symbolic/expression/decimal.hpp"
 #include "symbolic/expression/expression.hpp"
+#include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/run/exact_values.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
@@ -140,7 +141,8 @@ int integrate_with_digits(const DigitsRequest& request) {
                             .agreed = agreed,
                             .digits = request.digits,
                             .generate_seconds = generated,
-                            .seconds = run_time_since(begin)};
+                            .seconds = run_time_since(begin),
+                            .doubt = unwatched_parts(model, scene)};
   if (!request.output.empty()) write_samples(request.output, report);
   if (request.common.json) {
     print_json(to_json(report));

@@ -9,6 +9,7 @@
 #include <iostream>
 #include <optional>
 
+#include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/run/ensemble_check.hpp"
 #include "tools/analysis/run/ensemble_kernel.hpp"
 #include "tools/cli/case_library.hpp"
@@ -190,8 +191,10 @@ void print_text(const Report& report) {
 /// On how the members were made, and on those that were integrated again by themselves.
 std::vector<std::string> warnings_on(const EnsembleKernel& kernel, const PreparedScene& run,
                                      const Settings& settings,
-                                     const std::vector<CheckedMember>& checked) {
+                                     const std::vector<CheckedMember>& checked,
+                                     const std::string& unwatched) {
   std::vector<std::string> warnings;
+  if (!unwatched.empty()) warnings.push_back(unwatched);
   if (may_pass_over(run, settings)) warnings.emplace_back(kUnseenBetweenSteps);
   if (!kernel.warning.empty()) warnings.push_back(kernel.warning);
   for (const CheckedMember& member : checked)
@@ -272,7 +275,8 @@ int integrate_ensemble(const EnsembleRequest& request) {
     throw UsageError(problem.what());
   }
   const std::vector<std::string> warnings =
-      warnings_on(kernel, run, settings, check_members(run, method, settings, ensemble, result));
+      warnings_on(kernel, run, settings, check_members(run, method, settings, ensemble, result),
+                  unwatched_parts(model, scene));
   const Report report{run, method, settings, kernel, result, warnings};
   if (!request.output.empty()) write_table(request.output, table_of(report));
   if (request.common.json) {

@@ -61,8 +61,10 @@ inline double error(const Program& program, const Start& start, const Rational& 
   const std::vector<double> truth = run_state(program, start, duration);
   double size = 1, worst = x.empty() ? 1 : 0;
   for (const double at : truth) size = std::max(size, std::abs(at));
-  for (std::size_t i = 0; i < x.size(); ++i)
-    worst = std::max(worst, std::abs(x[i] - truth[i]) / size);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double off = std::abs(x[i] - truth[i]) / size;
+    if (!(off <= worst)) worst = off;  // also what is no number
+  }
   return worst;
 }
 

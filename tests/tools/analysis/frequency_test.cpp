@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/tools/analysis/systems.hpp"
+#include "tools/analysis/frequency/analysed_motion.hpp"
 #include "tools/analysis/frequency/motion_frequencies.hpp"
 #include "tools/analysis/frequency/rotation.hpp"
 #include "tools/analysis/frequency/spectrum.hpp"
@@ -130,6 +132,53 @@ TEST(Rotation, IslandsAreNoCurve) {
 TEST(Rotation, ChaosHasNone) {
   EXPECT_EQ(rotation_of(standard_map(5, 0.3, 1, 2000)).kind, Rotation::Kind::none);
   EXPECT_EQ(rotation_of(standard_map(0.9716, 0.01, 0.01, 2000)).kind, Rotation::Kind::none);
+}
+
+/// q'' = -w^2 q from (1, 0), up to a time.
+MotionFrequencies of_oscillator(const std::string& w, const std::string& duration,
+                                std::size_t lines) {
+  const Model model =
+      model_of("title = \"t\"\n[phase_space]\nvariables = [\"q\", \"p\"]\n[equations]\nq = \"" + w +
+               "*p\"\np = \"-" + w + "*q\"\n[[scene]]\nname = \"default\"\n" +
+               "initial = { q = \"1\", p = \"0\" }\nduration = \"" + duration + "\"\n");
+  const PreparedScene run = prepare(model, model.scene("default"));
+  return analysed_motion(model, model.scene("default"), run, {}, lines).found;
+}
+
+/// Samples at 4096 times in 1000 would show 20 at 5.7359, as sharply as if it were there.
+TEST(AnalysedMotion, AFastLineIsNotSeenFolded) {
+  for (const char* w : {"20", "100"}) {
+    const MotionFrequencies found = of_oscillator(w, "1000", 2);
+    ASSERT_EQ(found.base.size(), 1U) << w;
+    EXPECT_NEAR(found.base[0], std::stod(w), 1e-10);
+    EXPECT_TRUE(found.settled);
+    EXPECT_TRUE(found.warnings.empty()) << found.warnings.front();
+  }
+}
+
+TEST(AnalysedMotion, WhatIsFasterThanAnySamplesIsSaidToBe) {
+  const MotionFrequencies found = of_oscillator("1000", "1000", 2);
+  EXPECT_FALSE(found.settled);
+  EXPECT_TRUE(found.base.empty());
+  ASSERT_FALSE(found.warnings.empty());
+}
+
+TEST(AnalysedMotion, RoundingIsNoBase) {
+  for (const char* duration : {"200", "1000", "3000"}) {
+    const MotionFrequencies found = of_oscillator("1", duration, 4);
+    ASSERT_EQ(found.base.size(), 1U) << duration;
+    EXPECT_NEAR(found.base[0], 1, 1e-10);
+  }
+}
+
+/// Two lines of which the run sees no beat are one, which is told.
+TEST(MotionFrequencies, LinesThatAreTooNearToBeToldApartAreAWarning) {
+  for (const double apart : {1e-3, 1e-4, 1e-5}) {
+    SampledMotion motion{{"w"}, {false}, {}, 0.25};
+    for (int j = 0; j < 4096; ++j)
+      motion.states.push_back({std::cos(0.25 * j) + std::cos((1 + apart) * 0.25 * j)});
+    EXPECT_FALSE(frequencies_of(motion, 3).warnings.empty()) << apart;
+  }
 }
 
 }  // namespace

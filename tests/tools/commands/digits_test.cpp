@@ -290,5 +290,46 @@ TEST(Digits, WhatDoesNotFitIsRefused) {
       0);
 }
 
+/// A system of x and y, run with thirty digits.
+Outcome two_equations(const std::string& x, const std::string& y, const std::string& start,
+                      const std::string& digits = "30") {
+  const Folder folder;
+  const std::string file = folder.write(
+      "two.toml", "[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"" + x +
+                      "\"\ny = \"" + y + "\"\n[[scene]]\nname = \"default\"\ninitial = { " + start +
+                      " }\nduration = \"1\"\n");
+  return run_in(folder, {"integrate", file, "--digits", digits, "--json"});
+}
+
+/// 1 - cos(y) has no digit left of 30 or 40 where y is 10^(-40), in both of two runs.
+TEST(DigitsOf, ADifferenceThatLosesAllOfThem) {
+  const Outcome outcome =
+      two_equations("(1 - cos(y))/y^2", "0", "x = \"0\", y = \"10^(-40)\"", "60");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.json().at("state").at("x"), "0.5");
+  const Outcome few = two_equations("(1 - cos(y))/y^2", "0", "x = \"0\", y = \"10^(-40)\"");
+  if (few.status == 0) EXPECT_EQ(few.json().at("state").at("x"), "0.5");
+}
+
+/// Two zeros of the argument are nearer to each other than doubles tell.
+TEST(DigitsOf, KinksAndJumpsThatDoublesDoNotSee) {
+  const Outcome kinks = two_equations("1", "abs(x^2 - 10^(-12))", "x = \"-1/3\", y = \"0\"");
+  ASSERT_EQ(kinks.status, 0) << kinks.err;
+  // 1/9 - 10^(-12) + 8/3*10^(-18)
+  EXPECT_EQ(kinks.json().at("state").at("y"), "0.111111111110111113777777777778");
+  const Outcome jumps = two_equations("1", "sign(x^2 - 10^(-40))", "x = \"-1/3\", y = \"0\"");
+  ASSERT_EQ(jumps.status, 0) << jumps.err;
+  EXPECT_EQ(jumps.json().at("state").at("y"), "0.99999999999999999996");
+  const Outcome none = two_equations("1", "abs(x^2 + 10^(-40))", "x = \"-1/3\", y = \"0\"");
+  ASSERT_EQ(none.status, 0) << none.err;
+  EXPECT_EQ(none.json().at("state").at("y"), "0.111111111111111111111111111111");
+}
+
+TEST(DigitsOf, APartThatCancelsIsWarnedOf) {
+  const Outcome outcome = two_equations("sqrt(x)^2 - 2", "0", "x = \"1\", y = \"0\"");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.json().at("warnings").dump().find("sqrt(x)"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace casimir::test

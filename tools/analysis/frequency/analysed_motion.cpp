@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "runtime/program/interpreter.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/section/periods.hpp"
 
@@ -41,6 +44,43 @@ MotionFrequencies frequencies_of(const AssessedRun& run, const std::vector<std::
   return frequencies_of(motion, lines);
 }
 
+/// Whether the variables change faster than their lines say: then lines have been folded back from
+/// beyond the highest frequency that the samples can tell, to a place that no spectrum shows. The
+/// mean square of a rate is the sum of (frequency * amplitude)^2 / 2 over all lines (Parseval), of
+/// which those that were not found have no more than the rest at the highest frequency.
+bool turns_faster(const AssessedRun& motion, const PreparedScene& run,
+                  const MotionFrequencies& found) {
+  constexpr double kFaster = 1.3;
+  const Specialisation& s = run.specialisation;
+  const Interpreter rates(s.rhs);
+  const std::size_t n = found.variables.size(), count = motion.trajectory.samples.size();
+  std::vector<double> inputs(s.rhs.inputs.size()), rate(s.rhs.outputs.size()), squares(n), sizes(n);
+  std::ranges::copy(run.parameters, inputs.begin() + static_cast<std::ptrdiff_t>(n));
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::vector<double>& x = motion.trajectory.samples[k];
+    std::ranges::copy(x, inputs.begin());
+    inputs.back() = static_cast<double>(k) * found.interval;
+    if (motion.settings.duration < 0) inputs.back() = -inputs.back();
+    rates(inputs.data(), rate.data());
+    for (std::size_t i = 0; i < n; ++i) {
+      squares[i] += rate[i] * rate[i] / static_cast<double>(count);
+      sizes[i] += x[i] * x[i] / static_cast<double>(count);
+    }
+  }
+  const double highest = std::numbers::pi / found.interval;
+  for (std::size_t i = 0; i < n; ++i) {
+    const VariableSpectrum& variable = found.variables[i];
+    // Of an angle q the lines are those of exp(i q), whose rate has the size of that of q.
+    double known = 0;
+    for (const MotionLine& line : variable.lines)
+      known += std::pow(line.frequency * line.amplitude, 2) / (variable.angle ? 1 : 2);
+    const double size = variable.angle ? 1 : sizes[i];
+    known += std::pow(variable.rest * highest, 2) * size;
+    if (squares[i] > kFaster * kFaster * known) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 AnalysedMotion analysed_motion(const Model& model, const Scene& scene, const PreparedScene& run,
@@ -49,6 +89,7 @@ AnalysedMotion analysed_motion(const Model& model, const Scene& scene, const Pre
   if (!(duration > 0)) throw RequestError("frequencies need a duration that is not 0");
   const std::vector<bool> angles = angles_of(model, scene, run);
   AnalysedMotion result;
+  bool folded = false;
   for (std::size_t samples = kFewestSamples;; samples *= 4) {
     AssessmentOptions denser = how;
     denser.sample_every = duration / static_cast<double>(samples);
@@ -57,7 +98,18 @@ AnalysedMotion analysed_motion(const Model& model, const Scene& scene, const Pre
     MotionFrequencies& found = result.found;
     found = frequencies_of(result.run, run.specialisation.states, angles, denser.sample_every,
                            samples, lines);
-    if (found.near_folding <= kFolded || 4 * samples > kMostSamples || !found.settled) break;
+    folded = turns_faster(result.run, run, found);
+    if (4 * samples > kMostSamples) break;
+    if (!folded && (found.near_folding <= kFolded || !found.settled)) break;
+  }
+  if (folded) {
+    result.found.settled = false;
+    result.found.base.clear();
+    result.found.base_errors.clear();
+    result.found.warnings.push_back(fmt::format(
+        "the variables change faster than these lines say: some are beyond {:.4g}, the highest "
+        "frequency that {} states can tell, and seen at another; take a shorter duration",
+        std::numbers::pi / result.found.interval, result.found.samples));
   }
   const ErrorEstimate& trust = result.run.trust;
   if (trust.known && trust.error_estimate > kBadState)

@@ -14,6 +14,8 @@ namespace {
 constexpr double kFullTurn = 2 * std::numbers::pi;
 /// A line is strong by this share of the strongest one of its variable.
 constexpr double kStrong = 1e-3;
+/// Below this share of the strongest one a line is rounding.
+constexpr double kRoundingLine = 1e-10;
 /// The strong lines of a regular motion are told so much better than their width.
 constexpr double kSettled = 0.02;
 /// Whole numbers in combinations, and how many frequencies a base is tried with.
@@ -59,7 +61,9 @@ std::vector<Known> distinct_lines(const MotionFrequencies& all, double width) {
     double largest = 0;
     for (const MotionLine& line : variable.lines) largest = std::max(largest, line.amplitude);
     for (const MotionLine& line : variable.lines)
-      if (line.settled && std::abs(line.frequency) > width / 8)
+      // What is known no better than the width of a line says nothing of a base.
+      if (line.settled && line.error <= kSettled * width &&
+          line.amplitude > kRoundingLine * largest && std::abs(line.frequency) > width / 8)
         lines.push_back(
             {largest > 0 ? line.amplitude / largest : 0, {std::abs(line.frequency), line.error}});
   }
@@ -157,8 +161,9 @@ bool has_near_lines(const MotionFrequencies& all, double width) {
       if (!variable.angle && line.frequency > 0 && line.frequency < kApart * width) return true;
       for (const MotionLine& other : variable.lines) {
         const double difference = std::abs(other.frequency - line.frequency);
+        // Of two lines that are nearer than the run can tell, one and a weak rest are found.
         if (&other != &line && difference < kApart * width &&
-            other.amplitude > kStrong * variable.lines.front().amplitude)
+            other.amplitude > kRoundingLine * variable.lines.front().amplitude)
           return true;
       }
     }

@@ -11,6 +11,7 @@
 #include "codegen/optimise/scale_exponentials.hpp"
 #include "runtime/step/stiffness.hpp"
 #include "tools/analysis/error.hpp"
+#include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/estimate/near_singular.hpp"
 #include "tools/analysis/estimate/rounding_of_rates.hpp"
 #include "tools/analysis/run/drift_check.hpp"
@@ -189,15 +190,18 @@ class Judge {
   /// One run; what `smoothness` finds ends it.
   void run_it(SmoothnessWatch* smoothness = nullptr) {
     singular_.emplace(run_);
+    parts_.emplace(model_, run_);
     Settings settings = result_.settings;
-    if (singular_->divides() || smoothness)
+    if (singular_->divides() || parts_->any() || smoothness)
       settings.watch = [&, smoothness](double t, const double* x) {
         singular_->see(t, x);
+        if (parts_->any()) parts_->see(t, x);
         if (smoothness) smoothness->see(t, x);
       };
-    if (smoothness)
-      settings.give_up = [smoothness, limit = settings.give_up] {
-        return !smoothness->finding().empty() || (limit && limit());
+    if (smoothness || parts_->any())
+      settings.give_up = [this, smoothness, limit = settings.give_up] {
+        return parts_->lost() || (smoothness && !smoothness->finding().empty()) ||
+               (limit && limit());
       };
     const auto run = [&] {
       try {
@@ -213,6 +217,7 @@ class Judge {
       options_.around(settings, run);
     else
       run();
+    if (parts_->lost()) parts_->end(result_.trajectory);
   }
 
   /// Of code that is compiled in the middle of a run.
@@ -242,6 +247,7 @@ class Judge {
   const PreparedScene& run_;
   const AssessmentOptions& options_;
   std::optional<NearSingular> singular_;
+  std::optional<CancelledParts> parts_;
   /// While `auto` looks whether its first choice is right.
   std::shared_ptr<SmoothnessWatch*> smoothness_ = std::make_shared<SmoothnessWatch*>(nullptr);
   AssessedRun result_;

@@ -7,8 +7,10 @@
 
 #include "codegen/optimise/differentiate.hpp"
 #include "codegen/optimise/lower.hpp"
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/model/given_functions.hpp"
 #include "tools/analysis/error.hpp"
+#include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/run/drift_check.hpp"
 #include "tools/analysis/run/elliptic_lift.hpp"
 #include "tools/analysis/run/exact_values.hpp"
@@ -39,11 +41,27 @@ Program one_output(const Program& program, std::size_t k) {
   return codegen::without_dead_code(one);
 }
 
+bool has_any(const GiNaC::ex& e, const std::vector<GiNaC::symbol>& symbols) {
+  return std::ranges::any_of(symbols, [&](const GiNaC::symbol& x) { return e.has(x); });
+}
+
+/// The case without what it assumes of its variables: the start obeys that, and what comes after
+/// it need not.
+Model wherever_it_goes(const Model& model) {
+  Model result = model;
+  std::erase_if(result.assumptions, [&](const Assumption& assumption) {
+    return has_any(assumption.difference, model.variables);
+  });
+  return result;
+}
+
 /// The integrals that are proved without further conditions. That of an invariant is the identity
-/// dI/dt = 0 of functions, on the assumptions of the case, in which every scene is.
-std::vector<KnownIntegral> known_integrals(const Model& model, const Specialisation& s,
+/// dI/dt = 0 of functions, on the assumptions of the case that are about parameters alone, which
+/// every scene obeys.
+std::vector<KnownIntegral> known_integrals(const Model& given, const Specialisation& s,
                                            std::size_t dimension,
                                            std::vector<std::string>& doubts) {
+  const Model model = wherever_it_goes(given);
   std::vector<KnownIntegral> result;
   const auto late = time_limit(kProofSeconds);
   for (std::size_t k = 0; k < s.invariant_names.size(); ++k) {
@@ -180,6 +198,38 @@ ValidatedMotion enclosed(PreparedEnclosure prepared, const ValidatedOptions& opt
   return motion;
 }
 
+/// As the other one, over the ranges of parameters. \throws ModelError  for one that has no value in
+/// the middle of these
+std::vector<GiNaC::ex> cancelled_parts(const Model& model, const Scene& scene,
+                                       const ValidatedOptions& options) {
+  if (!options.ranges.empty()) casimir::cancelled_parts(model, scene);
+  return casimir::cancelled_parts(model, scene_over(model, scene, options.ranges));
+}
+
+/// A name that no variable or parameter has.
+std::string unused_name(const Model& model, std::size_t number) {
+  std::string name = fmt::format("casimir_part_{}", number);
+  const auto taken = [&](const GiNaC::symbol& x) { return x.get_name() == name; };
+  while (std::ranges::any_of(model.variables, taken) ||
+         std::ranges::any_of(model.parameters, taken))
+    name += '_';
+  return name;
+}
+
+/// The case with a further variable for each of these parts, whose rate it is. Where a box of the
+/// solutions of all this exists, the parts had values all along the way: a step evaluates every
+/// rate over all of it.
+std::pair<Model, Scene> with_parts_as_rates(const Model& model, const Scene& scene,
+                                            const std::vector<GiNaC::ex>& parts) {
+  std::pair<Model, Scene> result{model, scene};
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    result.first.variables.emplace_back(unused_name(result.first, k + 1));
+    result.first.field.push_back(parts[k]);
+    result.second.initial.emplace_back(0);
+  }
+  return result;
+}
+
 /// Without the states from `first` up to `last`.
 void drop_states(ValidatedMotion& motion, std::size_t first, std::size_t last) {
   const auto drop = [first, last](auto& list) {
@@ -215,11 +265,52 @@ ValidatedMotion enclosed_lift(const Model& model, const Scene& scene,
   return motion;
 }
 
+/// The message names a part that is not watched where it is not.
+[[noreturn]] void refuse_parts(const GiNaC::ex& part, const char* what) {
+  throw RequestError(fmt::format(
+      "{} does not go with equations in which a part cancels that need not have a value: they were "
+      "written with {}",
+      what, printable(expression_text(part), 80)));
+}
+
+/// What has parts that cancel: see `with_parts_as_rates`.
+ValidatedMotion enclosed_with_parts(const Model& model, const Scene& scene,
+                                    const ValidatedOptions& options,
+                                    const std::vector<GiNaC::ex>& parts) {
+  const auto [lifted, start] = with_parts_as_rates(model, scene, parts);
+  ValidatedOptions all = options;
+  if (all.observe)
+    for (std::size_t k = model.variables.size(); k < lifted.variables.size(); ++k)
+      all.observe->push_back(lifted.variables[k].get_name());
+  PreparedEnclosure prepared = specialised(lifted, start, all);
+  const Specialisation& s = prepared.specialisation;
+  const auto own = static_cast<std::size_t>(std::ranges::count_if(s.state_indices, [&](int state) {
+    return static_cast<std::size_t>(state) < model.variables.size();
+  }));
+  const std::size_t states = s.states.size();
+  if (!all.radii.empty() || cln::plusp(all.initial_radius) || !all.ranges.empty()) {
+    std::vector<cln::cl_RA> radii = all.radii;
+    if (radii.empty()) {
+      radii.assign(own, all.initial_radius);
+      for (const std::string& name : s.parameters) radii.push_back(radius_of(all.ranges, name));
+    }
+    radii.insert(radii.begin() + static_cast<std::ptrdiff_t>(own), states - own, cln::cl_RA(0));
+    all.radii = std::move(radii);
+  }
+  prepared.problem = problem_of(model, all, prepared);
+  ValidatedMotion motion = enclosed(std::move(prepared), all);
+  drop_states(motion, own, states);
+  return motion;
+}
+
 }  // namespace
 
 PreparedEnclosure prepare_enclosure(const Model& model, const Scene& scene,
                                     const ValidatedOptions& options) {
   require_exact_values(model, scene, "an enclosure with a certificate or of crossings");
+  const auto parts = cancelled_parts(model, scene, options);
+  if (!parts.empty())
+    refuse_parts(parts.front(), "an enclosure with a certificate or of crossings");
   PreparedEnclosure prepared = specialised(model, scene, options);
   prepared.problem = problem_of(model, options, prepared);
   return prepared;
@@ -230,7 +321,12 @@ ValidatedMotion enclose(const Model& model, const Scene& scene, const ValidatedO
     const auto [own, own_scene] = in_scene(model, scene);
     if (has_elliptic_functions(own)) return enclosed_lift(own, own_scene, options);
   }
-  if (has_elliptic_functions(model)) return enclosed_lift(model, scene, options);
+  const auto parts = cancelled_parts(model, scene, options);
+  if (has_elliptic_functions(model)) {
+    if (!parts.empty()) refuse_parts(parts.front(), "an enclosure of elliptic functions");
+    return enclosed_lift(model, scene, options);
+  }
+  if (!parts.empty()) return enclosed_with_parts(model, scene, options, parts);
   return enclosed(prepare_enclosure(model, scene, options), options);
 }
 

@@ -168,6 +168,7 @@ class PreciseEnd:
     lost: int  #: digits that the motion magnified errors by
     steps: int
     runs: int
+    warnings: list[str]
 
     @property
     def success(self) -> bool:

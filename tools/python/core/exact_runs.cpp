@@ -5,6 +5,7 @@
 #include "runtime/digits/agreed_run.hpp"
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/expression/expression.hpp"
+#include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/run/exact_values.hpp"
 #include "tools/analysis/run/validated.hpp"
 #include "tools/python/core/bindings.hpp"
@@ -76,9 +77,14 @@ py::object precise(const Case& self, const std::string& scene, int digits,
       return interrupt() || (late && late());
     };
     const AgreedRun agreed = agreed_run(std::move(problem), digits);
+    const std::string doubt = unwatched_parts(model, of);
     const py::gil_scoped_acquire python;
     interrupt.raise();
-    result = to_python(s, agreed, digits);
+    py::dict facts = to_python(s, agreed, digits);
+    Names warnings;
+    if (!doubt.empty()) warnings.push_back(doubt);
+    facts["warnings"] = warnings;
+    result = facts;
   }
   interrupt.finish();
   return result;

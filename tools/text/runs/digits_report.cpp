@@ -89,7 +89,8 @@ Status DigitsReport::status() const {
 }
 
 std::string DigitsReport::reason() const {
-  if (status() != Status::no_convergence) return agreed.run.reason;
+  if (agreed.run.status != Status::ok) return agreed.run.reason;
+  if (status() == Status::ok) return {};
   return fmt::format("runs with {} and {} digits agree in {} of the {} digits asked for only",
                      agreed.check.digits, agreed.run.digits, agreed.digits, digits);
 }
@@ -108,6 +109,7 @@ std::string DigitsReport::stop_time() const {
 
 std::vector<std::string> DigitsReport::warnings() const {
   std::vector<std::string> warnings;
+  if (!doubt.empty()) warnings.push_back(doubt);
   if (!agreed.checked) {
     warnings.emplace_back("no second run has checked these digits");
   } else if (agreed.digits < digits) {

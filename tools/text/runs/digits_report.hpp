@@ -15,6 +15,7 @@ struct DigitsReport {
   const AgreedRun& agreed;
   int digits = 0;  ///< asked for
   double generate_seconds = 0, seconds = 0;
+  std::string doubt = {};  ///< of the system itself: a sentence, or empty
 
   /// The status of the whole: that of the run, and `no_convergence` for one whose digits could not
   /// be had.

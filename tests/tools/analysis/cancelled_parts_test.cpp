@@ -1,0 +1,123 @@
+// Equations in which a part cancels that need not have a value: sqrt(x)^2 is x where x is not
+// negative, and nothing elsewhere.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/tools/analysis/systems.hpp"
+#include "tools/analysis/error.hpp"
+#include "tools/analysis/estimate/cancelled_parts.hpp"
+#include "tools/analysis/run/validated.hpp"
+#include "tools/analysis/solve.hpp"
+
+namespace casimir::test {
+namespace {
+
+double value(const cln::cl_RA& x) { return cln::double_approx(x); }
+
+ValidatedMotion enclosed(const Model& model, const ValidatedOptions& options = {}) {
+  return enclose(model, model.scene("default"), options);
+}
+
+/// What cancels to x, is to have values, and has none for x < 0.
+const char* const kParts[] = {"sqrt(x)^2",     "sqrt(x)*sqrt(x)", "exp(log(x))",
+                              "(x^(1/2))^4/x", "x + 0*log(x)",    "x + sqrt(x) - sqrt(x)"};
+
+TEST(CancelledParts, EndAnEnclosureWhereTheyHaveNoValue) {
+  for (const char* part : kParts) {
+    // x = 2 - exp(t)
+    const Model model = one_equation(std::string(part) + " - 2", "2");
+    const ValidatedMotion motion = enclosed(model);
+    EXPECT_EQ(motion.run.status, ValidatedStatus::no_enclosure) << part;
+    EXPECT_LE(value(motion.run.end.time), std::log(2.)) << part;
+    EXPECT_GT(value(motion.run.end.time), std::log(2.) - 1e-6) << part;
+    EXPECT_EQ(motion.names, std::vector<std::string>{"x"}) << part;
+    EXPECT_EQ(motion.run.end.states.size(), 1U) << part;
+  }
+}
+
+TEST(CancelledParts, LeaveAnEnclosureAloneWhereTheyHaveValues) {
+  const ValidatedMotion motion = enclosed(one_equation("sqrt(x)^2 - 2", "1/2"));
+  ASSERT_EQ(motion.run.status, ValidatedStatus::ok) << motion.run.reason;
+  const RationalInterval& x = motion.run.end.states[0];
+  EXPECT_LE(value(x.low), 2 - std::exp(0.5));
+  EXPECT_GE(value(x.high), 2 - std::exp(0.5));
+  EXPECT_LT(motion.run.radius(), 1e-13);
+}
+
+TEST(CancelledParts, OfEveryStartAreWanted) {
+  ValidatedOptions options;
+  options.initial_radius = 2;
+  const ValidatedMotion motion = enclosed(one_equation("sqrt(x)^2", "1"), options);
+  EXPECT_NE(motion.run.status, ValidatedStatus::ok);
+  EXPECT_EQ(motion.run.end.time, 0);
+}
+
+TEST(CancelledParts, OfEveryParameterAreWanted) {
+  const Model model = model_of(
+      "title = \"t\"\n[phase_space]\nvariables = [\"x\"]\n[parameters]\na = {}\n[equations]\n"
+      "x = \"x*a/a\"\n[[scene]]\nname = \"default\"\ninitial = { x = \"1\" }\n"
+      "parameters = { a = \"1\" }\nduration = \"1\"\n");
+  ValidatedOptions options;
+  options.ranges = {{"a", cln::cl_RA(1) / 2}};
+  EXPECT_EQ(enclosed(model, options).run.status, ValidatedStatus::ok);
+  options.ranges = {{"a", cln::cl_RA(2)}};
+  EXPECT_NE(enclosed(model, options).run.status, ValidatedStatus::ok);
+}
+
+TEST(CancelledParts, HaveNoCertificates) {
+  const Model model = one_equation("sqrt(x)^2 - 2", "1/2");
+  try {
+    prepare_enclosure(model, model.scene("default"));
+    FAIL() << "was prepared";
+  } catch (const RequestError& problem) {
+    EXPECT_NE(std::string(problem.what()).find("sqrt(x)"), std::string::npos) << problem.what();
+  }
+}
+
+TEST(CancelledParts, EndARunWithTheTimesBetweenWhichTheyCease) {
+  for (const char* part : kParts) {
+    const Model model = one_equation(std::string(part) + " - 2", "2");
+    for (const char* method : {"auto", "dop853"}) {
+      SolveOptions options;
+      options.method = method;
+      const Solution motion = solve(model, model.scene("default"), options);
+      EXPECT_EQ(motion.trajectory().status, Status::singularity) << part << ' ' << method;
+      EXPECT_LE(motion.trajectory().time, std::log(2.)) << part << ' ' << method;
+    }
+  }
+  const Model pole = one_equation("x/x - 3", "2");
+  const Solution motion = solve(pole, pole.scene("default"), {});
+  EXPECT_EQ(motion.trajectory().status, Status::singularity);
+  const Model fine = one_equation("sqrt(x)^2 - 2", "1/2");
+  EXPECT_TRUE(solve(fine, fine.scene("default"), {}).ok());
+}
+
+TEST(CancelledParts, ThatEveryStateHasAreNone) {
+  const Model model = one_equation("x*2/2 + sqrt(4)", "1");
+  EXPECT_TRUE(cancelled_parts(model, model.scene("default")).empty());
+  EXPECT_TRUE(unwatched_parts(model, model.scene("default")).empty());
+  const Model root = one_equation("sqrt(x)^2", "1");
+  EXPECT_NE(unwatched_parts(root, root.scene("default")).find("sqrt(x)"), std::string::npos);
+}
+
+/// y + |x| is an integral where x > 0 alone, and the motion leaves that: a box around the motion is
+/// made no smaller by it.
+TEST(Validated, AnIntegralThatNeedsAnAssumptionOnVariablesContractsNothing) {
+  const Model model = model_of(
+      "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\ndomain = [\"x > "
+      "0\"]\n[equations]\n"
+      "x = \"-1\"\ny = \"1\"\n[integrals]\nF = \"y + abs(x)\"\n[[scene]]\nname = \"default\"\n"
+      "initial = { x = \"1\", y = \"0\" }\nduration = \"2\"\n");
+  ValidatedOptions options;
+  options.initial_radius = cln::cl_RA(1) / 10;
+  const ValidatedMotion motion = enclosed(model, options);
+  ASSERT_EQ(motion.run.status, ValidatedStatus::ok) << motion.run.reason;
+  EXPECT_TRUE(motion.run.contracted_by.empty());
+  ASSERT_EQ(motion.doubts.size(), 1U);
+  EXPECT_LE(value(motion.run.end.states[1].low), 1.9);
+  EXPECT_GE(value(motion.run.end.states[1].high), 2.1);
+}
+
+}  // namespace
+}  // namespace casimir::test

@@ -1,0 +1,141 @@
+#include "tools/analysis/estimate/cancelled_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "codegen/optimise/lower.hpp"
+#include "codegen/optimise/terms.hpp"
+#include "symbolic/algebra/number_text.hpp"
+
+namespace casimir {
+namespace {
+
+using GiNaC::ex;
+
+ex bound(const Model& model, const Scene& scene, const ex& part) {
+  try {
+    return model.at_parameters(part, scene);
+  } catch (const GiNaC::pole_error&) {
+    throw ModelError(
+        fmt::format("scene \"{}\": {}, which the equations were written with, has no "
+                    "value",
+                    printable(scene.name), printable(expression_text(part), 80)));
+  }
+}
+
+/// The variables, the time, and the parameters.
+std::vector<GiNaC::symbol> symbols_in(const Model& model) {
+  std::vector<GiNaC::symbol> symbols = model.variables;
+  if (model.time) symbols.push_back(*model.time);
+  return symbols;
+}
+
+bool is_pole_of_polynomial(const ex& part, const std::vector<GiNaC::symbol>& symbols) {
+  if (!GiNaC::is_a<GiNaC::power>(part) || !part.op(1).info(GiNaC::info_flags::negint)) return false;
+  GiNaC::lst list;
+  for (const GiNaC::symbol& symbol : symbols) list.append(symbol);
+  return part.op(0).is_polynomial(list);
+}
+
+Program program_of_parts(const std::vector<ex>& parts, const std::vector<GiNaC::symbol>& symbols) {
+  codegen::Dag dag(symbols, symbols.size());
+  std::vector<codegen::Scaled> outputs;
+  std::vector<std::string> inputs, labels;
+  for (const GiNaC::symbol& symbol : symbols) inputs.push_back(symbol.get_name());
+  for (const ex& part : parts) {
+    outputs.push_back(dag.convert(part));
+    labels.push_back(fmt::format("part{}", labels.size() + 1));
+  }
+  return codegen::lowered(codegen::system_of(dag, symbols.size(), outputs), inputs, labels);
+}
+
+}  // namespace
+
+std::vector<ex> cancelled_parts(const Model& model, const Scene& binding) {
+  std::vector<ex> fields, parts;
+  if (model.domain.empty() && model.bracket_domain.empty()) return parts;
+  for (const ex& rate : model.field) fields.push_back(model.at_parameters(rate, binding));
+  for (const std::vector<ex>* list : {&model.domain, &model.bracket_domain}) {
+    for (const ex& written : *list) {
+      const ex part = bound(model, binding, written);
+      const auto is_it = [&](const ex& other) { return other.is_equal(part); };
+      const auto shows_it = [&](const ex& rate) { return rate.has(part); };
+      if (GiNaC::is_a<GiNaC::numeric>(part) || std::ranges::any_of(parts, is_it) ||
+          std::ranges::any_of(fields, shows_it))
+        continue;
+      parts.push_back(part);
+    }
+  }
+  return parts;
+}
+
+std::string unwatched_parts(const Model& model, const Scene& scene) {
+  std::string texts;
+  for (const ex& part : cancelled_parts(model, scene))
+    texts += (texts.empty() ? "" : ", ") + printable(expression_text(part), 80);
+  if (texts.empty()) return {};
+  return fmt::format(
+      "the equations were written with {}, which cancels in them: whether it has a value all along "
+      "the motion was not looked at",
+      texts);
+}
+
+CancelledParts::CancelledParts(const Model& model, const PreparedScene& run)
+    : has_time_(model.time.has_value()) {
+  const Specialisation& s = run.specialisation;
+  const std::vector<GiNaC::symbol> symbols = symbols_in(model);
+  std::vector<ex> parts;
+  for (const ex& part : cancelled_parts(model, model.scene(s.scene))) {
+    const auto is_left_out = [&](const GiNaC::symbol& x) {
+      return part.has(x) && std::ranges::find(s.states, x.get_name()) == s.states.end();
+    };
+    const bool varies =
+        std::ranges::any_of(symbols, [&](const GiNaC::symbol& x) { return part.has(x); });
+    if (varies && std::ranges::any_of(model.variables, is_left_out)) continue;
+    parts.push_back(part);
+    poles_.push_back(is_pole_of_polynomial(part, symbols));
+    texts_.push_back(printable(expression_text(part), 80));
+  }
+  if (parts.empty()) return;
+  values_.emplace(program_of_parts(parts, symbols));
+  inputs_.resize(symbols.size());
+  now_.resize(parts.size());
+  for (const std::string& name : s.states)
+    places_.push_back(static_cast<std::size_t>(
+        std::ranges::find(symbols, name, [](const auto& x) { return x.get_name(); }) -
+        symbols.begin()));
+  see(0, run.initial.data());
+}
+
+bool CancelledParts::see(double t, const double* x) {
+  if (lost_) return false;
+  for (std::size_t i = 0; i < places_.size(); ++i) inputs_[places_[i]] = x[i];
+  if (has_time_) inputs_.back() = t;
+  (*values_)(inputs_.data(), now_.data());
+  for (std::size_t k = 0; k < now_.size() && !lost_; ++k) {
+    const bool passed = poles_[k] && !before_.empty() && now_[k] * before_[k] < 0;
+    if (!std::isfinite(now_[k]) || passed) lost_ = k;
+  }
+  if (lost_) {
+    lost_time_ = t;
+    return false;
+  }
+  before_ = now_;
+  time_ = t;
+  state_.assign(x, x + places_.size());
+  return true;
+}
+
+void CancelledParts::end(Trajectory& trajectory) const {
+  trajectory.status = Status::singularity;
+  trajectory.reason = fmt::format(
+      "{}, which the equations were written with, ceases to have a value between t = {:.6g} and "
+      "t = {:.6g}; it cancels in them, and what goes on is no solution of the case",
+      texts_[*lost_], time_, lost_time_);
+  trajectory.time = time_;
+  if (!state_.empty()) trajectory.state = state_;
+}
+
+}  // namespace casimir
