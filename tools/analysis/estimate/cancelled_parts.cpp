@@ -14,6 +14,21 @@ namespace {
 
 using GiNaC::ex;
 
+/// The scene of the case that a run is of; for one that was made otherwise, one that leaves all
+/// parameters open.
+Scene scene_of(const Model& model, const std::string& name) {
+  const auto found = std::ranges::find(model.scenes, name, &Scene::name);
+  if (found != model.scenes.end()) return *found;
+  Scene open;
+  open.name = name;
+  open.parameters.assign(model.parameters.begin(), model.parameters.end());
+  return open;
+}
+
+bool has_any(const ex& e, const std::vector<GiNaC::symbol>& symbols) {
+  return std::ranges::any_of(symbols, [&](const GiNaC::symbol& x) { return e.has(x); });
+}
+
 ex bound(const Model& model, const Scene& scene, const ex& part) {
   try {
     return model.at_parameters(part, scene);
@@ -25,7 +40,7 @@ ex bound(const Model& model, const Scene& scene, const ex& part) {
   }
 }
 
-/// The variables, the time, and the parameters.
+/// The variables and the time.
 std::vector<GiNaC::symbol> symbols_in(const Model& model) {
   std::vector<GiNaC::symbol> symbols = model.variables;
   if (model.time) symbols.push_back(*model.time);
@@ -87,13 +102,12 @@ CancelledParts::CancelledParts(const Model& model, const PreparedScene& run)
   const Specialisation& s = run.specialisation;
   const std::vector<GiNaC::symbol> symbols = symbols_in(model);
   std::vector<ex> parts;
-  for (const ex& part : cancelled_parts(model, model.scene(s.scene))) {
+  for (const ex& part : cancelled_parts(model, scene_of(model, s.scene))) {
     const auto is_left_out = [&](const GiNaC::symbol& x) {
       return part.has(x) && std::ranges::find(s.states, x.get_name()) == s.states.end();
     };
-    const bool varies =
-        std::ranges::any_of(symbols, [&](const GiNaC::symbol& x) { return part.has(x); });
-    if (varies && std::ranges::any_of(model.variables, is_left_out)) continue;
+    if (has_any(part, model.parameters) || std::ranges::any_of(model.variables, is_left_out))
+      continue;
     parts.push_back(part);
     poles_.push_back(is_pole_of_polynomial(part, symbols));
     texts_.push_back(printable(expression_text(part), 80));

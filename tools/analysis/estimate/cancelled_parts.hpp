@@ -24,7 +24,8 @@ std::string unwatched_parts(const Model& model, const Scene& scene);
 /// Watches along a run in double precision that these parts have values.
 class CancelledParts {
  public:
-  /// Parts of which a variable is not integrated are not watched.
+  /// Parts of which a variable is not integrated, or whose parameters have no known value, are not
+  /// watched.
   CancelledParts(const Model& model, const PreparedScene& run);
 
   /// Whether there is anything to watch.
