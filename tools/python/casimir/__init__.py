@@ -10,6 +10,7 @@ True
 """
 
 import os.path as _path
+from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 from . import _core
 from ._case import Case, System, cases, load
@@ -24,34 +25,49 @@ from ._errors import (
     UndecidedError,
 )
 from ._map import Map, load_map, maps
-from ._measured import Box, Comparison, Conservation, Enclosure, Frequencies, PreciseEnd, Run, Sweep
-from ._results import (
-    Balance,
-    Condition,
-    Conditions,
-    DarbouxPolynomial,
-    Degrees,
-    Ensemble,
-    Equilibrium,
-    Exponent,
-    Exponents,
-    Findings,
-    Found,
-    Iterates,
-    MapSearch,
-    Obstruction,
-    Orbit,
-    Proof,
-    Relation,
-    Search,
-    Section,
-    Solution,
-    Verification,
-    Witness,
-)
+
+if _TYPE_CHECKING:
+    from ._measured import Box, Comparison, Conservation, Enclosure, Frequencies, PreciseEnd, Run, Sweep
+    from ._results import (
+        Balance,
+        Condition,
+        Conditions,
+        DarbouxPolynomial,
+        Degrees,
+        Ensemble,
+        Equilibrium,
+        Exponent,
+        Exponents,
+        Findings,
+        Found,
+        Iterates,
+        MapSearch,
+        Obstruction,
+        Orbit,
+        Proof,
+        Relation,
+        Search,
+        Section,
+        Solution,
+        Verification,
+        Witness,
+    )
 
 __version__ = _core.__version__
 methods = _core.methods
+
+
+
+def __getattr__(name: str):
+    """What commands answer is read when it is named: see `_lazy`."""
+    if name in __all__:
+        from . import _measured, _results
+
+        for module in (_results, _measured):
+            if hasattr(module, name):
+                return getattr(module, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
 
 # The bundled cases: beside the package in a build tree, and below the prefix where it is installed.
 for _folder in ("cases", "../../../../share/casimir/cases"):

@@ -8,40 +8,8 @@ from typing import TYPE_CHECKING, Any, Union
 from . import _core
 from ._errors import RequestError
 from ._exact import Expression, is_float, pairs_of, text_of, texts_of
+from ._lazy import Lazy
 from ._progress import Progress, told
-from ._measured import (
-    Comparison,
-    Conservation,
-    Enclosure,
-    Frequencies,
-    PreciseEnd,
-    Run,
-    Sweep,
-    enclosure_of,
-    precise_of,
-)
-from ._results import (
-    Condition,
-    Conditions,
-    DarbouxPolynomial,
-    Degrees,
-    Ensemble,
-    Equilibrium,
-    Exponents,
-    Findings,
-    Found,
-    Obstruction,
-    Orbit,
-    Relation,
-    Search,
-    Section,
-    Solution,
-    Verification,
-    exponents_of,
-    search_of,
-    solution_of,
-    verification_of,
-)
 from ._system import System
 from ._text import case_text
 
@@ -49,6 +17,31 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from ._map import Map
+    from ._measured import (
+        Comparison,
+        Conservation,
+        Enclosure,
+        Frequencies,
+        PreciseEnd,
+        Sweep,
+    )
+    from ._results import (
+        Conditions,
+        DarbouxPolynomial,
+        Degrees,
+        Ensemble,
+        Equilibrium,
+        Exponents,
+        Findings,
+        Obstruction,
+        Relation,
+        Search,
+        Section,
+        Solution,
+        Verification,
+    )
+
+_results, _measured = Lazy("._results"), Lazy("._measured")
 
 #: One expression, or several.
 Expressions = Union[Expression, Iterable[Expression], None]
@@ -237,8 +230,9 @@ class Case:
         >>> load("euler").verify(integral="M1").witness.value
         Fraction(...)
         """
-        return verification_of(self._core.verify(texts_of(integral), texts_of(casimir), texts_of(invariant_relation),
-                                                 texts_of(identity), texts_of(on), time_limit))
+        return _results.verification_of(
+            self._core.verify(texts_of(integral), texts_of(casimir), texts_of(invariant_relation), texts_of(identity),
+                              texts_of(on), time_limit))
 
     def search(self, degree: int, *, casimirs: bool = False, on: Expressions = None,
                functions: Expressions = None, weights: Mapping[str, Expression] | None = None,
@@ -259,18 +253,19 @@ class Case:
                 raise RequestError("free parameters go with neither casimirs nor a level")
             facts = self._core.conditions(degree, texts_of(free), texts_of(functions), pairs_of(weights),
                                           time_limit, memory)
-            return Conditions(
-                search_of(facts["generic"]),
-                [Condition(**{**one, "found": [Found(**f) for f in one["found"]]}) for one in facts["conditions"]],
+            return _results.Conditions(
+                _results.search_of(facts["generic"]),
+                [_results.Condition(**{**one, "found": [_results.Found(**f) for f in one["found"]]})
+                 for one in facts["conditions"]],
                 facts["complete"],
                 facts["reason"],
             )
-        return search_of(self._core.search(degree, casimirs, texts_of(on), texts_of(functions),
-                                           pairs_of(weights), time_limit, memory))
+        return _results.search_of(self._core.search(degree, casimirs, texts_of(on), texts_of(functions),
+                                                    pairs_of(weights), time_limit, memory))
 
     def darboux(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> list[DarbouxPolynomial]:
         """Irreducible polynomials whose zero level is invariant, up to a degree."""
-        return [DarbouxPolynomial(**one) for one in self._core.darboux(degree, time_limit, memory)["found"]]
+        return [_results.DarbouxPolynomial(**one) for one in self._core.darboux(degree, time_limit, memory)["found"]]
 
     def rational(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> Findings:
         """Integrals that are quotients of polynomials, with factors up to a degree.
@@ -278,7 +273,7 @@ class Case:
         >>> Case(equations={"x": "2*x", "y": "3*y"}, variables=["x", "y"]).rational(1).found
         ['x^3/y^2']
         """
-        return Findings(_core.rational(self._core, degree, time_limit, memory), "rational integrals")
+        return _results.Findings(_core.rational(self._core, degree, time_limit, memory), "rational integrals")
 
     def tensors(self, rank: int, degree: int, *, forms: bool = False, time_limit: float = 0,
                 memory: float = 0) -> Findings:
@@ -290,8 +285,8 @@ class Case:
         >>> load("euler").tensors(2, 1).verdict
         'proved'
         """
-        return Findings(_core.tensors(self._core, rank, forms, degree, time_limit, memory),
-                        "forms" if forms else "tensors")
+        return _results.Findings(_core.tensors(self._core, rank, forms, degree, time_limit, memory),
+                                 "forms" if forms else "tensors")
 
     def hamiltonian(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> Findings:
         """Poisson brackets of the equations of motion alone, up to a degree, with their Hamiltonians.
@@ -299,15 +294,15 @@ class Case:
         >>> Case(equations={"q": "p", "p": "-q"}, variables=["q", "p"]).hamiltonian(0)[0]["hamiltonian"]
         '(q^2 + p^2)/2'
         """
-        return Findings(_core.brackets(self._core, degree, False, time_limit, memory), "brackets")
+        return _results.Findings(_core.brackets(self._core, degree, False, time_limit, memory), "brackets")
 
     def bihamiltonian(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> Findings:
         """Second brackets, compatible with that of the case, with their Lenard chains."""
-        return Findings(_core.brackets(self._core, degree, True, time_limit, memory), "second brackets")
+        return _results.Findings(_core.brackets(self._core, degree, True, time_limit, memory), "second brackets")
 
     def symmetries(self, *, time_limit: float = 0, memory: float = 0) -> Findings:
         """Linear symmetries of bracket and Hamiltonian, with their integrals by Noether's theorem."""
-        return Findings(_core.symmetries(self._core, time_limit, memory), "linear symmetries")
+        return _results.Findings(_core.symmetries(self._core, time_limit, memory), "linear symmetries")
 
     def relate(self, other: Case, *, bracket_only: bool = False, time_limit: float = 0,
                memory: float = 0) -> Relation:
@@ -317,12 +312,12 @@ class Case:
         >>> top.relate(load("euler").with_values({"a1": 3, "a2": 1, "a3": 2})).verdict
         'proved'
         """
-        return Relation(**_core.relate(self._core, other._core, not bracket_only, time_limit, memory))
+        return _results.Relation(**_core.relate(self._core, other._core, not bracket_only, time_limit, memory))
 
     def exponents(self, weights: Mapping[str, Expression] | None = None, *, time_limit: float = 0,
                   memory: float = 0) -> Exponents:
         """Balances and Kovalevskaya exponents."""
-        return exponents_of(self._core.exponents(pairs_of(weights), time_limit, memory))
+        return _results.exponents_of(self._core.exponents(pairs_of(weights), time_limit, memory))
 
     def obstruct(self, *, along: Expressions = None, free: str = "", scene: str = "default", time_limit: float = 0,
                  memory: float = 0) -> Obstruction:
@@ -330,7 +325,7 @@ class Case:
         with a free parameter, for which of its real values they do not."""
         facts = self._core.obstruct(scene, texts_of(along), free, time_limit, memory)
         verdict = "proved" if facts.pop("proved") else "undecided"
-        return Obstruction(verdict=verdict, **{**facts, "parameters": dict(facts["parameters"])})
+        return _results.Obstruction(verdict=verdict, **{**facts, "parameters": dict(facts["parameters"])})
 
     # Maps.
 
@@ -355,7 +350,7 @@ class Case:
         >>> load("euler").kahan_degrees(8).growth
         'polynomial'
         """
-        return Degrees(**_core.kahan_degrees(self._core, iterates, time_limit, memory))
+        return _results.Degrees(**_core.kahan_degrees(self._core, iterates, time_limit, memory))
 
     # Numbers.
 
@@ -407,7 +402,7 @@ class Case:
             duration = float(times[numpy.abs(times).argmax()])
         motion = _core.integrate(case._core, scene, method, duration, tolerance, rtol, atol, observe, project,
                                  time_limit, told(progress))
-        return solution_of(motion, times)
+        return _results.solution_of(motion, times)
 
     def ensemble(self, initial: ArrayLike, *, variables: Sequence[str] | None = None,
                  parameters: Mapping[str, Any] | None = None,
@@ -438,7 +433,7 @@ class Case:
         answer = _core.ensemble(self._core, scene, method, initial, list(variables or self.variables), values,
                                 names, duration, tolerance, rtol, atol, jobs, time_limit, told(progress))
         drift = answer["drift"]
-        return Ensemble(
+        return _results.Ensemble(
             y=answer["states"], t=answer["t"], status=answer["status"],
             drift={name: drift[:, k] for k, name in enumerate(answer["invariant_names"])},
             steps=answer["steps"], names=answer["names"], seconds=answer["seconds"], jobs=answer["jobs"],
@@ -470,8 +465,9 @@ class Case:
         Decimal('2.718281828459045235360287471352662497757')
         """
         case = self.with_values(parameters, initial) if parameters or initial else self
-        return precise_of(_core.precise(case._core, scene, digits, None if duration is None else text_of(duration),
-                                        time_limit, told(progress)))
+        return _measured.precise_of(
+            _core.precise(case._core, scene, digits, None if duration is None else text_of(duration), time_limit,
+                          told(progress)))
 
     def enclose(self, *, duration: Expression | None = None, initial_radius: Expression = 0,
                 ranges: Mapping[str, tuple[Expression, Expression]] | None = None, digits: int = 0,
@@ -491,10 +487,10 @@ class Case:
         """
         case = self.with_values(parameters, initial) if parameters or initial else self
         intervals = [(str(name), (text_of(low), text_of(high))) for name, (low, high) in (ranges or {}).items()]
-        return enclosure_of(_core.enclosed(case._core, scene, None if duration is None else text_of(duration),
-                                           text_of(initial_radius), intervals, digits,
-                                           None if sample_every is None else text_of(sample_every), time_limit,
-                                           told(progress)))
+        return _measured.enclosure_of(
+            _core.enclosed(case._core, scene, None if duration is None else text_of(duration),
+                           text_of(initial_radius), intervals, digits,
+                           None if sample_every is None else text_of(sample_every), time_limit, told(progress)))
 
     def conserve(self, *, methods: Sequence[str] = (), bound: float = 1e-9, duration: float | None = None,
                  tolerance: float | None = None, scene: str = "default", time_limit: float = 0,
@@ -504,8 +500,8 @@ class Case:
         >>> bool(load("euler").conserve(methods=["taylor"]))
         True
         """
-        return Conservation([Run(**one) for one in _core.conserved(self._core, scene, list(methods), bound, duration,
-                                                                  tolerance, time_limit, told(progress))])
+        runs = _core.conserved(self._core, scene, list(methods), bound, duration, tolerance, time_limit, told(progress))
+        return _measured.Conservation([_measured.Run(**one) for one in runs])
 
     def frequencies(self, *, lines: int = 5, method: str = "auto", duration: float | None = None,
                     tolerance: float | None = None, scene: str = "default", time_limit: float = 0,
@@ -518,8 +514,8 @@ class Case:
         >>> [round(one, 9) for one in swing.frequencies(duration=1000).base]
         [1.0]
         """
-        return Frequencies(**_core.frequencies(self._core, scene, method, lines, duration, tolerance, time_limit,
-                                               told(progress)))
+        return _measured.Frequencies(**_core.frequencies(self._core, scene, method, lines, duration, tolerance,
+                                                         time_limit, told(progress)))
 
     def compare(self, *, methods: Sequence[str] = (), tolerances: Sequence[float] = (1e-3, 1e-6, 1e-9, 1e-12),
                 budget: float = 8, quick: bool = False, duration: float | None = None, scene: str = "default",
@@ -531,7 +527,7 @@ class Case:
         """
         facts = _core.compared(self._core, scene, list(methods), list(tolerances), budget, quick, duration,
                                time_limit, told(progress))
-        return Comparison(**{**facts, "rows": [Run(**one) for one in facts["rows"]]})
+        return _measured.Comparison(**{**facts, "rows": [_measured.Run(**one) for one in facts["rows"]]})
 
     def sweep(self, over: Mapping[str, Any], *, do: str = "integrate", lets: Mapping[str, Expression] | None = None,
               method: str = "auto", duration: float | None = None, tolerance: float | None = None, orbits: int = 16,
@@ -553,8 +549,8 @@ class Case:
         facts = _core.sweep(self._core, scene, do, method, axes,
                             [f"{name}={text_of(value)}" for name, value in (lets or {}).items()],
                             duration, tolerance, orbits, points, jobs, time_limit, told(progress))
-        return Sweep(axes=dict(facts["axes"]), columns=facts["columns"], status=facts["status"],
-                     principal=facts["principal"])
+        return _measured.Sweep(axes=dict(facts["axes"]), columns=facts["columns"], status=facts["status"],
+                               principal=facts["principal"])
 
     def section(self, *, plane: Expression | None = None, direction: str | None = None,
                 plot: Sequence[Expression] = (), energy: float | None = None,
@@ -580,11 +576,11 @@ class Case:
         facts = _core.section(self._core, scene, None if plane is None else text_of(plane),
                               None if direction is None else direction == "up", [text_of(one) for one in plot],
                               energy, list((casimirs or {}).items()), orbits, points, tolerance, jobs, told(progress))
-        return Section(**{**facts, "orbits": [Orbit(**one) for one in facts["orbits"]]})
+        return _results.Section(**{**facts, "orbits": [_results.Orbit(**one) for one in facts["orbits"]]})
 
     def equilibria(self, scene: str = "default") -> list[Equilibrium]:
         """Equilibria and relative equilibria on the level of a scene. There may be others."""
-        return [Equilibrium(**one) for one in _core.equilibria(self._core, scene)["equilibria"]]
+        return [_results.Equilibrium(**one) for one in _core.equilibria(self._core, scene)["equilibria"]]
 
 
 def _listed_values(values: Any) -> str:

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Union
+from typing import TYPE_CHECKING, Union
 
 from . import _core
 from ._exact import Expression, is_float, pairs_of, texts_of
-from ._results import Degrees, Iterates, MapSearch, Verification, verification_of
+from ._lazy import Lazy
+
+if TYPE_CHECKING:
+    from ._results import Degrees, Iterates, MapSearch, Verification
+
+_results = Lazy("._results")
 
 #: One expression, or several.
 Expressions = Union[Expression, Iterable[Expression], None]
@@ -104,7 +109,7 @@ class Map:
         >>> load_map("lyness").verify().verdict
         'proved'
         """
-        return verification_of(self._core.verify(texts_of(integral), texts_of(casimir), texts_of(invariant_relation),
+        return _results.verification_of(self._core.verify(texts_of(integral), texts_of(casimir), texts_of(invariant_relation),
                                                  texts_of(identity), texts_of(on), time_limit))
 
     def search(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> MapSearch:
@@ -114,7 +119,7 @@ class Map:
         >>> len(found), found.no_polynomial
         (1, True)
         """
-        return MapSearch(**self._core.search(degree, time_limit, memory))
+        return _results.MapSearch(**self._core.search(degree, time_limit, memory))
 
     def degrees(self, iterates: int = 0, *, time_limit: float = 0, memory: float = 0) -> Degrees:
         """The degrees of the iterates on a general line. What they suggest is evidence and no proof.
@@ -122,7 +127,7 @@ class Map:
         >>> load_map("henon-area-preserving").degrees(5).degrees
         [2, 4, 8, 16, 32]
         """
-        return Degrees(**self._core.degrees(iterates, time_limit, memory))
+        return _results.Degrees(**self._core.degrees(iterates, time_limit, memory))
 
     def iterate(self, steps: int, *, every: int = 1, initial: Mapping[str, Expression] | None = None,
                 scene: str = "default", time_limit: float = 0, **parameters: Expression) -> Iterates:
@@ -136,7 +141,7 @@ class Map:
         (2, 11)
         """
         case = self.with_values(parameters, initial) if parameters or initial else self
-        return Iterates(**case._core.iterate(scene, steps, every, time_limit))
+        return _results.Iterates(**case._core.iterate(scene, steps, every, time_limit))
 
 
 def _restored(text: str, file: str, parameters, initial, rounded: bool) -> Map:
