@@ -57,7 +57,6 @@ __version__ = _core.__version__
 methods = _core.methods
 
 
-
 def __getattr__(name: str):
     """What commands answer is read when it is named: see `_lazy`."""
     if name in __all__:

@@ -109,8 +109,9 @@ class Map:
         >>> load_map("lyness").verify().verdict
         'proved'
         """
-        return _results.verification_of(self._core.verify(texts_of(integral), texts_of(casimir), texts_of(invariant_relation),
-                                                 texts_of(identity), texts_of(on), time_limit))
+        return _results.verification_of(
+            self._core.verify(texts_of(integral), texts_of(casimir), texts_of(invariant_relation), texts_of(identity),
+                              texts_of(on), time_limit))
 
     def search(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> MapSearch:
         """Integrals that are quotients of polynomials up to a degree, and densities of invariant measures.
