@@ -533,6 +533,14 @@ class Process(unittest.TestCase):
                   "assert 'numpy' not in sys.modules\n")
         subprocess.run([sys.executable, "-c", script], check=True)
 
+    def test_what_answers_are_is_read_when_one_is_wanted(self):
+        script = ("import sys, casimir\n"
+                  "assert not {'casimir._results', 'casimir._measured', 'dataclasses'} & set(sys.modules)\n"
+                  "assert isinstance(casimir.load('euler').verify(), casimir.Verification)\n"
+                  "assert all(hasattr(casimir, name) for name in casimir.__all__)\n"
+                  "assert not hasattr(casimir, 'Enclosures')\n")
+        subprocess.run([sys.executable, "-c", script], check=True)
+
 
 def load_tests(loader, tests, ignore):
     readme = Path(__file__).resolve().parents[3] / "tools" / "python" / "README.md"
