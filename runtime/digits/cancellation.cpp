@@ -62,9 +62,9 @@ std::optional<double> lost_of(const Program& rates, const std::vector<cln::cl_R>
 
 int cancelled_digits(const Program& rates, const std::vector<cln::cl_R>& at,
                      const cln::cl_R& duration, int digits) {
-  constexpr int kMostDigits = 20000;
+  constexpr int kMostBallDigits = 20000;
   constexpr double kUsual = 3;  // of the rounding of a few operations
-  for (int with = digits; with <= kMostDigits; with *= 2) {
+  for (int with = digits; with <= kMostBallDigits; with *= 2) {
     const auto lost = lost_of(rates, at, duration, with);
     if (!lost) continue;
     const double tens = *lost * kDigitsOfBit;
