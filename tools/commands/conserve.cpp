@@ -21,6 +21,7 @@
 #include "tools/runs/scene_values.hpp"
 #include "tools/tables/table.hpp"
 #include "tools/text/runs/row_table.hpp"
+#include "tools/text/runs/run_report.hpp"
 
 namespace casimir::tools {
 namespace {

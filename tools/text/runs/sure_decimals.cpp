@@ -1,5 +1,6 @@
 #include "tools/text/runs/sure_decimals.hpp"
 
+#include <cln/integer.h>
 #include <cln/integer_io.h>
 #include <cln/rational.h>
 #include <fmt/format.h>
