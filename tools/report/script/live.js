@@ -8,12 +8,12 @@ class LivePage {
     this.duration = data.duration;
     this.task = 0;
     this.workers = [];
-    this.bytes = Uint8Array.from(atob(data.wasm), c => c.charCodeAt(0));
     this.build(place);
+    // At first the motion that casimir integrated: what the worker finds is the same.
+    if (data.motion) this.chart(data.motion);
+    this.bytes = Uint8Array.from(atob(data.wasm), c => c.charCodeAt(0));
     this.runner = this.worker(message => this.moved(message));
     this.change();
-    // Meanwhile the motion that casimir integrated: what the worker finds first is the same.
-    if (data.motion) this.chart(data.motion);
   }
 
   worker(take) {
