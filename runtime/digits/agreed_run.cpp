@@ -79,11 +79,13 @@ class Search {
   AgreedRun operator()() {
     find_loss();
     int working = wanted_ + best_.lost + cancelled_;
+    bool cancels = false;
     for (int round = 0; round < kMostRounds && !stopped_; ++round) {
       compare(working, wanted_);
       // Series whose coefficients are rounding do not converge: more digits may.
       const bool converged = best_.run.status != Status::no_convergence;
-      if (converged && best_.digits >= wanted_ && !more_cancels_at_the_end()) break;
+      cancels = false;
+      if (converged && best_.digits >= wanted_ && !(cancels = more_cancels_at_the_end())) break;
       // A state beside a singularity may have no more digits however many are spent.
       if (best_.run.status != Status::ok && round > 1) break;
       // Nothing in common: the loss is not known, only that it is more.
@@ -92,6 +94,8 @@ class Search {
                     : std::max(working + kMoreDigits, wanted_ + best_.lost + cancelled_);
       if (precise_run_bytes(problem_, working) > kMostBytes) break;
     }
+    // No run was made with the digits that these would take: that two agree says nothing.
+    if (cancels) best_.digits = 0;
     return std::move(best_);
   }
 

@@ -36,6 +36,10 @@ Solution solve(const Model& model, const Scene& scene, const SolveOptions& optio
     run();
   };
   solution.run_ = integrate_assessed(model, *solution.scene_, how);
+  // The end may be before the last step: see CancelledParts.
+  const double end = std::abs(solution.run_.trajectory.time);
+  while (solution.steps_.size() > 1 && std::abs(solution.steps_.back().time) > end)
+    solution.steps_.pop_back();
   return solution;
 }
 

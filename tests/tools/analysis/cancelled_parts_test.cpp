@@ -81,14 +81,24 @@ TEST(CancelledParts, EndARunWithTheTimesBetweenWhichTheyCease) {
     for (const char* method : {"auto", "dop853"}) {
       SolveOptions options;
       options.method = method;
+      options.dense = true;
+      options.sample_every = 0.125;
       const Solution motion = solve(model, model.scene("default"), options);
       EXPECT_EQ(motion.trajectory().status, Status::singularity) << part << ' ' << method;
       EXPECT_LE(motion.trajectory().time, std::log(2.)) << part << ' ' << method;
+      EXPECT_EQ(motion.steps().back().time, motion.trajectory().time) << part << ' ' << method;
+      for (const std::vector<double>& x : motion.trajectory().samples)
+        EXPECT_GE(x[0], 0) << part << ' ' << method;
     }
   }
   const Model pole = one_equation("x/x - 3", "2");
   const Solution motion = solve(pole, pole.scene("default"), {});
   EXPECT_EQ(motion.trajectory().status, Status::singularity);
+  const Model never = one_equation("sqrt(x - 5)^2", "1");
+  const Solution none = solve(never, never.scene("default"), {});
+  EXPECT_EQ(none.trajectory().status, Status::singularity);
+  EXPECT_EQ(none.trajectory().time, 0);
+  EXPECT_EQ(none.trajectory().state, std::vector<double>{1});
   const Model fine = one_equation("sqrt(x)^2 - 2", "1/2");
   EXPECT_TRUE(solve(fine, fine.scene("default"), {}).ok());
 }

@@ -157,7 +157,7 @@ TEST(AnalysedMotion, AFastLineIsNotSeenFolded) {
 }
 
 TEST(AnalysedMotion, WhatIsFasterThanAnySamplesIsSaidToBe) {
-  const MotionFrequencies found = of_oscillator("1000", "1000", 2);
+  const MotionFrequencies found = of_oscillator("1000", "1000", 1);
   EXPECT_FALSE(found.settled);
   EXPECT_TRUE(found.base.empty());
   ASSERT_FALSE(found.warnings.empty());

@@ -308,7 +308,8 @@ TEST(DigitsOf, ADifferenceThatLosesAllOfThem) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.json().at("state").at("x"), "0.5");
   const Outcome few = two_equations("(1 - cos(y))/y^2", "0", "x = \"0\", y = \"10^(-40)\"");
-  if (few.status == 0) EXPECT_EQ(few.json().at("state").at("x"), "0.5");
+  // Fewer digits are right as well, or refused.
+  EXPECT_TRUE(few.status == 5 || few.json().at("state").at("x") == "0.5") << few.out;
 }
 
 /// Two zeros of the argument are nearer to each other than doubles tell.

@@ -120,6 +120,7 @@ CancelledParts::CancelledParts(const Model& model, const PreparedScene& run)
     places_.push_back(static_cast<std::size_t>(
         std::ranges::find(symbols, name, [](const auto& x) { return x.get_name(); }) -
         symbols.begin()));
+  state_ = run.initial;
   see(0, run.initial.data());
 }
 
@@ -144,12 +145,25 @@ bool CancelledParts::see(double t, const double* x) {
 
 void CancelledParts::end(Trajectory& trajectory) const {
   trajectory.status = Status::singularity;
+  const std::string when = before_.empty()
+                               ? "has no value at the start"
+                               : fmt::format(
+                                     "ceases to have a value between t = {:.6g} and t = "
+                                     "{:.6g}",
+                                     time_, lost_time_);
   trajectory.reason = fmt::format(
-      "{}, which the equations were written with, ceases to have a value between t = {:.6g} and "
-      "t = {:.6g}; it cancels in them, and what goes on is no solution of the case",
-      texts_[*lost_], time_, lost_time_);
+      "{}, which the equations were written with, {}; it cancels in them, and what goes on is no "
+      "solution of the case",
+      texts_[*lost_], when);
   trajectory.time = time_;
-  if (!state_.empty()) trajectory.state = state_;
+  trajectory.state = state_;
+  // The last step led beyond.
+  std::size_t kept = 0;
+  while (kept < trajectory.sample_times.size() &&
+         std::abs(trajectory.sample_times[kept]) <= std::abs(time_))
+    ++kept;
+  trajectory.sample_times.resize(kept);
+  trajectory.samples.resize(std::min(kept, trajectory.samples.size()));
 }
 
 }  // namespace casimir

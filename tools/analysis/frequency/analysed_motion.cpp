@@ -76,7 +76,7 @@ bool turns_faster(const AssessedRun& motion, const PreparedScene& run,
       known += std::pow(line.frequency * line.amplitude, 2) / (variable.angle ? 1 : 2);
     const double size = variable.angle ? 1 : sizes[i];
     known += std::pow(variable.rest * highest, 2) * size;
-    if (squares[i] > kFaster * kFaster * known) return true;
+    if (!(squares[i] <= kFaster * kFaster * known)) return true;  // also what is no number
   }
   return false;
 }

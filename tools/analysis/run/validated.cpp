@@ -244,9 +244,19 @@ void drop_states(ValidatedMotion& motion, std::size_t first, std::size_t last) {
   for (StateBox& box : motion.run.samples) drop(box.states);
 }
 
+/// The message names a part that is not watched where it is not.
+[[noreturn]] void refuse_parts(const GiNaC::ex& part, const char* what) {
+  throw RequestError(fmt::format(
+      "{} does not go with equations in which a part cancels that need not have a value: they were "
+      "written with {}",
+      what, printable(expression_text(part), 80)));
+}
+
 /// What has elliptic functions: see EllipticLift.
 ValidatedMotion enclosed_lift(const Model& model, const Scene& scene,
                               const ValidatedOptions& options) {
+  const auto parts = cancelled_parts(model, scene, options);
+  if (!parts.empty()) refuse_parts(parts.front(), "an enclosure of elliptic functions");
   const EllipticLift lift = elliptic_lift(model, scene, options);
   PreparedEnclosure prepared = specialised(lift.model, lift.scene, options);
   const Specialisation& s = prepared.specialisation;
@@ -263,14 +273,6 @@ ValidatedMotion enclosed_lift(const Model& model, const Scene& scene,
   ValidatedMotion motion = enclosed(std::move(prepared), with_radii);
   drop_states(motion, own, all);
   return motion;
-}
-
-/// The message names a part that is not watched where it is not.
-[[noreturn]] void refuse_parts(const GiNaC::ex& part, const char* what) {
-  throw RequestError(fmt::format(
-      "{} does not go with equations in which a part cancels that need not have a value: they were "
-      "written with {}",
-      what, printable(expression_text(part), 80)));
 }
 
 /// What has parts that cancel: see `with_parts_as_rates`.
@@ -321,11 +323,8 @@ ValidatedMotion enclose(const Model& model, const Scene& scene, const ValidatedO
     const auto [own, own_scene] = in_scene(model, scene);
     if (has_elliptic_functions(own)) return enclosed_lift(own, own_scene, options);
   }
+  if (has_elliptic_functions(model)) return enclosed_lift(model, scene, options);
   const auto parts = cancelled_parts(model, scene, options);
-  if (has_elliptic_functions(model)) {
-    if (!parts.empty()) refuse_parts(parts.front(), "an enclosure of elliptic functions");
-    return enclosed_lift(model, scene, options);
-  }
   if (!parts.empty()) return enclosed_with_parts(model, scene, options, parts);
   return enclosed(prepare_enclosure(model, scene, options), options);
 }
