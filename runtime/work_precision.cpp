@@ -21,7 +21,7 @@ constexpr int kLeastRounds = 3;
 constexpr int kMostRounds = 31;
 
 /// An entrant on its way through the rounds.
-struct Runner {
+struct TimedRunner {
   const Entrant* entrant;
   Sample* sample;
   Settings bare;  ///< without anything that watches
@@ -42,7 +42,7 @@ double processor_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-double run_once(const Runner& runner, const ReferenceState& truth) {
+double run_once(const TimedRunner& runner, const ReferenceState& truth) {
   const Entrant& e = *runner.entrant;
   const Trajectory end = integrate(*e.module, *e.method, runner.bare, e.initial, e.parameters);
   const double error = end.status == Status::ok ? error_of(end.state, truth, e.which) : kInfinity;
@@ -86,30 +86,31 @@ Sample watched_run(const Entrant& e, const ReferenceState& truth, double longest
 
 /// How many rounds each takes part in, so that all of them together keep to the budget: equal time
 /// for each, and what the short ones leave over goes to the others.
-void share_out(std::vector<Runner>& runners, const Plan& plan) {
+void share_out(std::vector<TimedRunner>& runners, const Plan& plan) {
   if (plan.rounds > 0) {
-    for (Runner& runner : runners) runner.rounds = plan.rounds;
+    for (TimedRunner& runner : runners) runner.rounds = plan.rounds;
     return;
   }
-  const auto rounds_for = [&](const Runner& runner, double share) {
-    const int least = Runner::is_long(runner.turn_seconds(), plan) ? 1 : kLeastRounds;
+  const auto rounds_for = [&](const TimedRunner& runner, double share) {
+    const int least = TimedRunner::is_long(runner.turn_seconds(), plan) ? 1 : kLeastRounds;
     return std::clamp(static_cast<int>(std::min(share / runner.turn_seconds(), 1e6)), least,
                       kMostRounds);
   };
   const auto cost = [&](double share) {
-    return std::accumulate(runners.begin(), runners.end(), 0., [&](double sum, const Runner& r) {
-      return sum + rounds_for(r, share) * r.turn_seconds();
-    });
+    return std::accumulate(runners.begin(), runners.end(), 0.,
+                           [&](double sum, const TimedRunner& r) {
+                             return sum + rounds_for(r, share) * r.turn_seconds();
+                           });
   };
   double low = 0, high = plan.budget;
   for (int halving = 0; halving < 40; ++halving) {
     const double middle = (low + high) / 2;
     (cost(middle) > plan.budget ? high : low) = middle;
   }
-  for (Runner& runner : runners) runner.rounds = rounds_for(runner, low);
+  for (TimedRunner& runner : runners) runner.rounds = rounds_for(runner, low);
 }
 
-void take_turn(Runner& runner, const ReferenceState& truth) {
+void take_turn(TimedRunner& runner, const ReferenceState& truth) {
   if (runner.batch > 1) run_once(runner, truth);
   const double start = processor_seconds();
   double spent = 0;
@@ -120,17 +121,17 @@ void take_turn(Runner& runner, const ReferenceState& truth) {
   runner.seconds.push_back(spent / runner.batch);
 }
 
-void timed_rounds(std::vector<Runner>& runners, const ReferenceState& truth, const Plan& plan,
+void timed_rounds(std::vector<TimedRunner>& runners, const ReferenceState& truth, const Plan& plan,
                   const std::function<void(double)>& spent) {
   int rounds = 0;
-  for (const Runner& runner : runners) rounds = std::max(rounds, runner.rounds);
+  for (const TimedRunner& runner : runners) rounds = std::max(rounds, runner.rounds);
   std::vector<std::size_t> order(runners.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::mt19937 dice(1);
   for (int round = 0; round < rounds; ++round) {
     std::shuffle(order.begin(), order.end(), dice);
     for (const std::size_t i : order) {
-      Runner& runner = runners[i];
+      TimedRunner& runner = runners[i];
       // Spreads its rounds evenly over all of them.
       if ((round + 1) * runner.rounds / rounds == round * runner.rounds / rounds) continue;
       take_turn(runner, truth);
@@ -140,7 +141,7 @@ void timed_rounds(std::vector<Runner>& runners, const ReferenceState& truth, con
   }
 }
 
-void summarise(Runner& runner) {
+void summarise(TimedRunner& runner) {
   std::vector<double>& seconds = runner.seconds;
   std::sort(seconds.begin(), seconds.end());
   const auto quantile = [&](double share) {
@@ -185,7 +186,7 @@ std::vector<Sample> measure(std::span<const Entrant> entrants, const ReferenceSt
                             const Plan& plan) {
   std::vector<Sample> samples;
   samples.reserve(entrants.size());  // runners point into it
-  std::vector<Runner> runners;
+  std::vector<TimedRunner> runners;
   // The first runs are about so much of the whole.
   constexpr double kFirstRuns = 0.1;
   const auto report = [&](double share) {
@@ -201,22 +202,22 @@ std::vector<Sample> measure(std::span<const Entrant> entrants, const ReferenceSt
     Sample& sample = samples.back();
     report(kFirstRuns * static_cast<double>(i + 1) / static_cast<double>(entrants.size()));
     if (!sample.refused.empty() || sample.status != Status::ok) continue;
-    Runner runner{&entrant, &sample, entrant.settings};
+    TimedRunner runner{&entrant, &sample, entrant.settings};
     runner.bare.monitor = false;
     runner.bare.sample_every = 0;
     runner.bare.give_up = {};
-    if (!Runner::is_long(sample.seconds, plan)) sample.seconds = run_once(runner, truth);
+    if (!TimedRunner::is_long(sample.seconds, plan)) sample.seconds = run_once(runner, truth);
     runner.batch = static_cast<int>(std::ceil(kTurn / std::max(sample.seconds, kTurn * 1e-4)));
     runners.push_back(runner);
   }
   share_out(runners, plan);
   double total = 0, spent = 0;
-  for (const Runner& runner : runners) total += runner.rounds * runner.turn_seconds();
+  for (const TimedRunner& runner : runners) total += runner.rounds * runner.turn_seconds();
   timed_rounds(runners, truth, plan, [&](double seconds) {
     spent += seconds;
     report(kFirstRuns + (1 - kFirstRuns) * std::min(spent / total, 1.));
   });
-  for (Runner& runner : runners) summarise(runner);
+  for (TimedRunner& runner : runners) summarise(runner);
   return samples;
 }
 

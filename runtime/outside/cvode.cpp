@@ -16,8 +16,8 @@ namespace {
 using sundials::Owned;
 using sundials::Problem;
 
-int jacobian(realtype t, N_Vector y, N_Vector, SUNMatrix j, void* data, N_Vector, N_Vector,
-             N_Vector) {
+int cvode_jacobian(realtype t, N_Vector y, N_Vector, SUNMatrix j, void* data, N_Vector, N_Vector,
+                   N_Vector) {
   auto* problem = static_cast<Problem*>(data);
   ++problem->jacobians;
   problem->functions->jacobian(t, N_VGetArrayPointer(y), problem->parameters, SM_DATA_D(j));
@@ -25,10 +25,10 @@ int jacobian(realtype t, N_Vector y, N_Vector, SUNMatrix j, void* data, N_Vector
 }
 
 /// The objects of one CVODE run.
-class Solver {
+class CvodeRun {
  public:
-  Solver(const Module& module, const Method& method, const Settings& settings, Problem& problem,
-         const std::vector<double>& initial)
+  CvodeRun(const Module& module, const Method& method, const Settings& settings, Problem& problem,
+           const std::vector<double>& initial)
       : context_(sundials::new_context()), state_(sundials::new_vector(initial, context_.get())) {
     const bool stiff = method.name == "cvode-bdf";
     memory_ = CVodeCreate(stiff ? CV_BDF : CV_ADAMS, context_.get());
@@ -45,9 +45,9 @@ class Solver {
     else
       use_functional_iteration();
   }
-  ~Solver() { CVodeFree(&memory_); }
-  Solver(const Solver&) = delete;
-  Solver& operator=(const Solver&) = delete;
+  ~CvodeRun() { CVodeFree(&memory_); }
+  CvodeRun(const CvodeRun&) = delete;
+  CvodeRun& operator=(const CvodeRun&) = delete;
 
   void* memory() { return memory_; }
   N_Vector state() { return state_.get(); }
@@ -61,7 +61,7 @@ class Solver {
     matrix_.reset(SUNDenseMatrix(n, n, context_.get()));
     linear_.reset(SUNLinSol_Dense(state_.get(), matrix_.get(), context_.get()));
     CVodeSetLinearSolver(memory_, linear_.get(), matrix_.get());
-    if (module.functions().jacobian != nullptr) CVodeSetJacFn(memory_, jacobian);
+    if (module.functions().jacobian != nullptr) CVodeSetJacFn(memory_, cvode_jacobian);
   }
 
   Owned<SUNContext> context_;
@@ -72,7 +72,7 @@ class Solver {
   void* memory_ = nullptr;
 };
 
-Status meaning(int flag) {
+Status status_of_cvode(int flag) {
   switch (flag) {
     case CV_RHSFUNC_FAIL:
     case CV_FIRST_RHSFUNC_ERR:
@@ -88,7 +88,7 @@ Status meaning(int flag) {
   }
 }
 
-void read_counts(void* memory, Trajectory& trajectory) {
+void read_cvode_counts(void* memory, Trajectory& trajectory) {
   long steps = 0;
   long failures = 0;
   long evaluations = 0;
@@ -108,7 +108,7 @@ void integrate_with_cvode(const Module& module, const Method& method, const Sett
                           const double* parameters, Observer& observer, Trajectory& trajectory) {
   Problem problem{&module.functions(), parameters};
   if (!sundials::starts_well(problem, settings, trajectory)) return;
-  Solver solver(module, method, settings, problem, trajectory.state);
+  CvodeRun solver(module, method, settings, problem, trajectory.state);
   const Owned<N_Vector> between(N_VClone(solver.state()));
   const sundials::Stepper stepper{
       [&](realtype* t) {
@@ -118,10 +118,10 @@ void integrate_with_cvode(const Module& module, const Method& method, const Sett
         CVodeGetDky(solver.memory(), t, 0, between.get());
         std::copy_n(N_VGetArrayPointer(between.get()), N_VGetLength(between.get()), x);
       },
-      meaning};
+      status_of_cvode};
   sundials::integrate(problem, settings, observer, trajectory, N_VGetArrayPointer(solver.state()),
                       stepper);
-  read_counts(solver.memory(), trajectory);
+  read_cvode_counts(solver.memory(), trajectory);
   trajectory.jacobians = problem.jacobians;
 }
 

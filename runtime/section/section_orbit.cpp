@@ -48,18 +48,18 @@ void RunningOrbit::join(const LaneOfStep& step, const PlaneOfOrbit& plane) {
   }
 }
 
-std::vector<Passage> RunningOrbit::passages_in(const LaneOfStep& step,
-                                               const PlaneOfOrbit& plane) const {
+std::vector<PolynomialRoot> RunningOrbit::passages_in(const LaneOfStep& step,
+                                                      const PlaneOfOrbit& plane) const {
   const double least = step.range.least[step.lane] + shift_,
                largest = step.range.largest[step.lane] + shift_;
-  std::vector<Passage> all;
+  std::vector<PolynomialRoot> all;
   const auto add_level = [&](long long level, double value) {
     const bool above = cell_ >= level;
     if (above ? least > value : largest < value) return;
     std::vector<double> c;
     for (int k = 0; k <= step.step.order; ++k) c.push_back(step.coefficient(k));
     c[0] += shift_ - value;
-    for (const Passage& passage : passages(c, step.taken(), above))
+    for (const PolynomialRoot& passage : passages(c, step.taken(), above))
       if (passage.rising == plane.upwards)
         all.push_back({exact_place(step, plane, passage.at, value), passage.rising});
   };
@@ -71,7 +71,7 @@ std::vector<Passage> RunningOrbit::passages_in(const LaneOfStep& step,
              to = static_cast<long long>(std::ceil(largest / plane.period));
   for (long long level = from; level <= to; ++level)
     add_level(level, static_cast<double>(level) * plane.period);
-  std::ranges::sort(all, {}, &Passage::at);
+  std::ranges::sort(all, {}, &PolynomialRoot::at);
   return all;
 }
 
@@ -133,7 +133,7 @@ bool RunningOrbit::see(const LaneOfStep& step, const PlaneOfOrbit& plane,
     join(step, plane);
   else
     begin(step, plane);
-  for (const Passage& passage : passages_in(step, plane)) {
+  for (const PolynomialRoot& passage : passages_in(step, plane)) {
     if (result_.size() == settings.points) break;
     record(step, passage.at, settings);
     since_ = 0;

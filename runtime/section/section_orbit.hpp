@@ -56,7 +56,7 @@ class RunningOrbit {
   void begin(const LaneOfStep& step, const PlaneOfOrbit& plane);
   /// Makes the values of this step those that follow the last one's.
   void join(const LaneOfStep& step, const PlaneOfOrbit& plane);
-  std::vector<Passage> passages_in(const LaneOfStep& step, const PlaneOfOrbit& plane) const;
+  std::vector<PolynomialRoot> passages_in(const LaneOfStep& step, const PlaneOfOrbit& plane) const;
   /// The place where the function itself is `value`, next to where its series is.
   double exact_place(const LaneOfStep& step, const PlaneOfOrbit& plane, double at,
                      double value) const;

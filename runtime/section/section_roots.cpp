@@ -74,14 +74,14 @@ class Isolation {
   }
 
   /// Without pairs between which the polynomial is zero to rounding: it touches zero there.
-  std::vector<Passage> found() const {
+  std::vector<PolynomialRoot> found() const {
     double size = 0;
     for (std::size_t k = c_.size(); k-- > 0;) size = size * std::abs(end_) + std::abs(c_[k]);
-    std::vector<Passage> result;
-    for (const Passage& passage : found_) {
-      constexpr double kRounding = 0x1p-49;
+    std::vector<PolynomialRoot> result;
+    for (const PolynomialRoot& passage : found_) {
+      constexpr double kLostInBracket = 0x1p-49;
       if (!result.empty() &&
-          std::abs(value((result.back().at + passage.at) / 2 / end_)) <= kRounding * size)
+          std::abs(value((result.back().at + passage.at) / 2 / end_)) <= kLostInBracket * size)
         result.pop_back();
       else
         result.push_back(passage);
@@ -117,12 +117,12 @@ class Isolation {
 
   const Coefficients& c_;
   const double end_;
-  std::vector<Passage> found_;
+  std::vector<PolynomialRoot> found_;
 };
 
 }  // namespace
 
-std::vector<Passage> passages(const std::vector<double>& c, double end, bool above) {
+std::vector<PolynomialRoot> passages(const std::vector<double>& c, double end, bool above) {
   Coefficients b = bernstein(c, end);
   if (b.front() == 0 || (b.front() > 0) != above)
     b.front() = above ? std::numeric_limits<double>::min() : -std::numeric_limits<double>::min();

@@ -5,7 +5,7 @@
 namespace casimir {
 
 /// Where a polynomial passes through zero.
-struct Passage {
+struct PolynomialRoot {
   double at = 0;
   bool rising = false;
 };
@@ -19,6 +19,6 @@ struct Passage {
 /// \param c  coefficients of s^0, s^1, ..
 /// \param above  the side from which it comes: on the joint of two steps what rounding says of the
 ///     sign of c[0] does not count, else a passage there would be seen twice or never.
-std::vector<Passage> passages(const std::vector<double>& c, double end, bool above);
+std::vector<PolynomialRoot> passages(const std::vector<double>& c, double end, bool above);
 
 }  // namespace casimir

@@ -9,11 +9,19 @@
 namespace casimir {
 namespace {
 
-template <class Matrix>
-Eigen::CompleteOrthogonalDecomposition<Matrix> decomposed(const Matrix& a, double threshold) {
-  Eigen::CompleteOrthogonalDecomposition<Matrix> result(a.rows(), a.cols());
+using Decomposition = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
+
+Decomposition decomposed(const Eigen::MatrixXd& a, double threshold) {
+  Decomposition result(a.rows(), a.cols());
   result.setThreshold(threshold);
   result.compute(a);
+  return result;
+}
+
+/// The same linear map of real and imaginary parts: of twice the rank, and as long.
+Eigen::MatrixXd in_real_numbers(const Eigen::MatrixXcd& a) {
+  Eigen::MatrixXd result(2 * a.rows(), 2 * a.cols());
+  result << a.real(), -a.imag(), a.imag(), a.real();
   return result;
 }
 
@@ -33,7 +41,13 @@ Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& a, const Eigen::VectorX
 
 Eigen::VectorXcd shortest_solution(const Eigen::MatrixXcd& a, const Eigen::VectorXcd& b,
                                    double threshold) {
-  return decomposed(a, threshold).solve(b);
+  Eigen::VectorXd parts(2 * b.size());
+  parts << b.real(), b.imag();
+  const Eigen::VectorXd x = shortest_solution(in_real_numbers(a), parts, threshold);
+  Eigen::VectorXcd result(a.cols());
+  result.real() = x.head(a.cols());
+  result.imag() = x.tail(a.cols());
+  return result;
 }
 
 Eigen::Index rank_of(const Eigen::MatrixXd& a, double threshold) {
@@ -41,7 +55,7 @@ Eigen::Index rank_of(const Eigen::MatrixXd& a, double threshold) {
 }
 
 Eigen::Index rank_of(const Eigen::MatrixXcd& a, double threshold) {
-  return decomposed(a, threshold).rank();
+  return rank_of(in_real_numbers(a), threshold) / 2;
 }
 
 std::optional<Eigen::VectorXcd> eigenvalues_of(const Eigen::MatrixXd& a) {

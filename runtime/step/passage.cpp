@@ -15,7 +15,7 @@ constexpr double kNoNumbers = 1e300;
 /// By how much small changes of the start may grow, and how large they are.
 constexpr double kMostGrowth = 1000, kChange = 1e-9;
 /// Local errors relative to the state.
-constexpr double kLeastTolerance = 1e-15;
+constexpr double kLeastOfPassage = 1e-15;
 /// Of the time and of the way, a step in which nothing can happen that rounding does not hide.
 constexpr double kLeastOfTime = 64 * kEpsilon, kLeastOfWay = 1e-22;
 /// By how much of its size such a step may change the state, and how much of that may be in doubt.
@@ -129,7 +129,7 @@ double Passage::attempt(double t, const State& x, double end) {
   }
   gain_ = std::move(rows[kColumns - 1]);
   if (!finite(gain_)) return kNoNumbers;
-  const double tolerance = std::max(run_.rtol, kLeastTolerance);
+  const double tolerance = std::max(run_.rtol, kLeastOfPassage);
   double error = 0;
   moved_ = largest(gain_);
   apart_ = 0;

@@ -21,7 +21,7 @@ constexpr double kNegligiblePower = -40, kLeastPower = -60;
 /// By how much the argument of an oscillation may change in a step.
 constexpr double kTurn = 2;
 /// Of the largest argument in a step: what counts as zero, and where a step behind a branch ends.
-constexpr double kZero = 1e-11, kBehind = 1e-12, kRounding = 2e-15;
+constexpr double kZero = 1e-11, kBehind = 1e-12, kRoundingOfSamples = 2e-15;
 constexpr double kShorter = 0.4;
 
 /// The next of numbers between 0 and 1 that no motion follows.
@@ -467,7 +467,7 @@ double StepLook::landing(const casimir_step& trial, const StepWatch::Watched& wa
   const double slope = std::abs((last - first) / ((behind - before) * (trial.t1 - trial.t0)));
   double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(trial.t0) * slope;
   for (std::size_t i = 0; i < kPlaces && places_[i] <= before; ++i)
-    rounding = std::max(rounding, kRounding * std::abs(sampled_[i][watched.place]));
+    rounding = std::max(rounding, kRoundingOfSamples * std::abs(sampled_[i][watched.place]));
   const double far = behind;
   constexpr int kMostRounds = 60;
   int side = 0;

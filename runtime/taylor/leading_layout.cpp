@@ -5,7 +5,7 @@
 namespace casimir {
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
+std::size_t place_of(int i) { return static_cast<std::size_t>(i); }
 
 double entry(const std::vector<double>& numbers, std::size_t i) {
   return numbers.empty() ? 0 : numbers[i];
@@ -31,7 +31,7 @@ std::vector<std::vector<LeadingTables::Term>> LeadingTables::rows_of(
     const std::vector<std::vector<Term>>& lanes) const {
   std::size_t most = 0;
   for (const auto& terms : lanes) most = std::max(most, terms.size());
-  std::vector<std::vector<Term>> rows(most, std::vector<Term>(index(width_), Term{0, 0, 0, 0}));
+  std::vector<std::vector<Term>> rows(most, std::vector<Term>(place_of(width_), Term{0, 0, 0, 0}));
   for (std::size_t lane = 0; lane < lanes.size(); ++lane)
     for (std::size_t e = 0; e < lanes[lane].size(); ++e) rows[e][lane] = lanes[lane][e];
   return rows;
@@ -43,22 +43,22 @@ void LeadingTables::add_factors(const std::vector<Term>& lanes, std::vector<doub
 }
 
 void LeadingTables::add_constants(const QuadraticForm& form, int block) {
-  std::vector<Term> lanes(index(width_));
+  std::vector<Term> lanes(place_of(width_));
   for (int i = 0; i < width_ && block * width_ + i < states_; ++i) {
-    const std::size_t rate = index(block * width_ + i);
-    lanes[index(i)] = {0, -1, form.constant[rate], entry(form.constant_rest, rate)};
+    const std::size_t rate = place_of(block * width_ + i);
+    lanes[place_of(i)] = {0, -1, form.constant[rate], entry(form.constant_rest, rate)};
   }
   add_factors(lanes, constant_);
 }
 
 void LeadingTables::add_linear(const QuadraticForm& form, int block) {
-  std::vector<std::vector<Term>> lanes(index(width_));
+  std::vector<std::vector<Term>> lanes(place_of(width_));
   for (int i = 0; i < width_ && block * width_ + i < states_; ++i) {
-    const std::size_t rate = index(block * width_ + i);
+    const std::size_t rate = place_of(block * width_ + i);
     for (int j = 0; j < states_; ++j) {
-      const double factor = form.linear[rate][index(j)];
-      const double rest = form.linear_rest.empty() ? 0 : form.linear_rest[rate][index(j)];
-      if (factor != 0) lanes[index(i)].push_back({j, -1, factor, rest});
+      const double factor = form.linear[rate][place_of(j)];
+      const double rest = form.linear_rest.empty() ? 0 : form.linear_rest[rate][place_of(j)];
+      if (factor != 0) lanes[place_of(i)].push_back({j, -1, factor, rest});
     }
   }
   for (const std::vector<Term>& row : rows_of(lanes)) {
@@ -68,12 +68,12 @@ void LeadingTables::add_linear(const QuadraticForm& form, int block) {
 }
 
 void LeadingTables::add_products(const QuadraticForm& form, int block) {
-  std::vector<std::vector<Term>> lanes(index(width_));
+  std::vector<std::vector<Term>> lanes(place_of(width_));
   for (int i = 0; i < width_ && block * width_ + i < states_; ++i) {
-    const std::size_t rate = index(block * width_ + i);
+    const std::size_t rate = place_of(block * width_ + i);
     for (const QuadraticForm::Product& p : form.products)
       if (p.factor[rate] != 0)
-        lanes[index(i)].push_back({p.first, p.second, p.factor[rate], entry(p.rest, rate)});
+        lanes[place_of(i)].push_back({p.first, p.second, p.factor[rate], entry(p.rest, rate)});
   }
   for (const std::vector<Term>& row : rows_of(lanes)) {
     add_factors(row, product_factor_);

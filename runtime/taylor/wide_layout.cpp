@@ -9,7 +9,7 @@
 namespace casimir {
 namespace {
 
-constexpr int kEmpty = -1;
+constexpr int kEmptyLane = -1;
 
 /// Which product stands in which lane: where possible in that of a rate that needs it, and in a
 /// register with others that the same register of rates needs.
@@ -30,7 +30,7 @@ std::vector<int> slots_of_products(const QuadraticForm& form, int width, int reg
   }
   std::sort(order.begin(), order.end());
   for (const auto& [needs, p] : order) {
-    int best = kEmpty;
+    int best = kEmptyLane;
     std::size_t least = static_cast<std::size_t>(registers);
     for (const int i : needed_by[static_cast<std::size_t>(p)]) {
       const std::size_t used = lanes[static_cast<std::size_t>(i % width)].size();
@@ -39,12 +39,12 @@ std::vector<int> slots_of_products(const QuadraticForm& form, int width, int reg
         best = i;
       }
     }
-    if (best == kEmpty)
+    if (best == kEmptyLane)
       rest.push_back(p);
     else
       lanes[static_cast<std::size_t>(best % width)].emplace_back(best / width, p);
   }
-  std::vector<int> slots(static_cast<std::size_t>(registers * width), kEmpty);
+  std::vector<int> slots(static_cast<std::size_t>(registers * width), kEmptyLane);
   for (int lane = 0; lane < width; ++lane) {
     auto& wanted = lanes[static_cast<std::size_t>(lane)];
     std::sort(wanted.begin(), wanted.end());
@@ -52,7 +52,7 @@ std::vector<int> slots_of_products(const QuadraticForm& form, int width, int reg
       slots[m * static_cast<std::size_t>(width) + static_cast<std::size_t>(lane)] =
           wanted[m].second;
   }
-  for (const int p : rest) *std::find(slots.begin(), slots.end(), kEmpty) = p;
+  for (const int p : rest) *std::find(slots.begin(), slots.end(), kEmptyLane) = p;
   return slots;
 }
 
@@ -98,7 +98,7 @@ class WideLayout {
     tables_.left_.resize(slots_.size());
     tables_.right_.resize(slots_.size());
     for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
-      const bool empty = slots_[slot] == kEmpty;
+      const bool empty = slots_[slot] == kEmptyLane;
       tables_.left_.data()[slot] = state_index(empty ? 0 : product_in(slot).first);
       tables_.right_.data()[slot] = state_index(empty ? 0 : product_in(slot).second);
     }
@@ -111,7 +111,7 @@ class WideLayout {
   /// What register b of the rates takes of the product in a slot: nothing beyond the last rate.
   double factor(std::size_t slot, int b, int lane) const {
     const int rate = b * width_ + lane;
-    if (slots_[slot] == kEmpty || rate >= form_.states) return 0;
+    if (slots_[slot] == kEmptyLane || rate >= form_.states) return 0;
     return product_in(slot).factor[index(rate)];
   }
 

@@ -162,7 +162,7 @@ MidRad outwards(const ArbBall& ball) {
 namespace casimir {
 
 using validated::ArbBall;
-using A = Arithmetic<ArbBall>;
+using ArbArithmetic = Arithmetic<ArbBall>;
 
 namespace {
 
@@ -180,19 +180,19 @@ void check_arc(const ArbBall& a) {
 
 }  // namespace
 
-ArbBall A::pi() {
+ArbBall ArbArithmetic::pi() {
   ArbBall result;
   arb_const_pi(result.raw(), ArbBall::precision());
   return result;
 }
 
-ArbBall A::sqrt(const N& a) {
+ArbBall ArbArithmetic::sqrt(const N& a) {
   if (is_zero(a)) return a;
   check_positive(a, "square root of a number that may be negative");
   return validated::applied_to(arb_sqrt, a);
 }
 
-ArbBall A::power(const N& a, const N& e) {
+ArbBall ArbArithmetic::power(const N& a, const N& e) {
   check_positive(a, "broken power of a number that may not be positive");
   ArbBall result;
   arb_pow(result.raw(), a.raw(), e.raw(), ArbBall::precision());
@@ -200,24 +200,26 @@ ArbBall A::power(const N& a, const N& e) {
   return result;
 }
 
-ArbBall A::function(Op op, const N& a) { return validated::applied_to(arb_function(op), a); }
+ArbBall ArbArithmetic::function(Op op, const N& a) {
+  return validated::applied_to(arb_function(op), a);
+}
 
-ArbBall A::log(const N& a) {
+ArbBall ArbArithmetic::log(const N& a) {
   check_positive(a, "logarithm of a number that may not be positive");
   return validated::applied_to(arb_log, a);
 }
 
-ArbBall A::asin(const N& a) {
+ArbBall ArbArithmetic::asin(const N& a) {
   check_arc(a);
   return validated::applied_to(arb_asin, a);
 }
 
-ArbBall A::acos(const N& a) {
+ArbBall ArbArithmetic::acos(const N& a) {
   check_arc(a);
   return validated::applied_to(arb_acos, a);
 }
 
-ArbBall A::atan2(const N& y, const N& x) {
+ArbBall ArbArithmetic::atan2(const N& y, const N& x) {
   const bool exact =
       validated::is_exact(y) && validated::is_exact(x) && !(is_zero(y) && is_zero(x));
   if (!exact && validated::contains_zero(y) && arb_is_positive(x.raw()) == 0)
@@ -227,12 +229,12 @@ ArbBall A::atan2(const N& y, const N& x) {
   return result;
 }
 
-int A::sign(const N& a) {
+int ArbArithmetic::sign(const N& a) {
   if (arb_contains_zero(a.raw()) != 0) throw std::domain_error("a sign that is not certain");
   return arb_is_negative(a.raw()) != 0 ? -1 : 1;
 }
 
-ArbBall A::convolution(const Series& u, const Series& v, int k, int from, int to) {
+ArbBall ArbArithmetic::convolution(const Series& u, const Series& v, int k, int from, int to) {
   ArbBall result;
   if (to < from) return result;
   const auto first = static_cast<std::size_t>(from), other = static_cast<std::size_t>(k - from);
@@ -241,7 +243,7 @@ ArbBall A::convolution(const Series& u, const Series& v, int k, int from, int to
   return result;
 }
 
-ArbBall A::weighted(const Series& u, const Series& v, int k, int from, int to) {
+ArbBall ArbArithmetic::weighted(const Series& u, const Series& v, int k, int from, int to) {
   ArbBall result, part;
   for (int j = from; j <= to; ++j) {
     arb_mul_si(part.raw(), u[static_cast<std::size_t>(j)].raw(), j, ArbBall::precision());

@@ -70,28 +70,28 @@ using validated::kUnderflow;
 using validated::kUnit;
 using validated::MidRad;
 using validated::upwards;
-using A = Arithmetic<MidRad>;
+using MidRadArithmetic = Arithmetic<MidRad>;
 
-MidRad A::from(const cln::cl_RA& value) {
+MidRad MidRadArithmetic::from(const cln::cl_RA& value) {
   if (cln::zerop(value)) return MidRad(0);
   const validated::BallPrecision precision(validated::kBits);
   return validated::outwards(ArbBall(value));
 }
 
-MidRad A::pi() {
+MidRad MidRadArithmetic::pi() {
   ArbBall ball;
   arb_const_pi(ball.raw(), validated::kBits);
   return validated::outwards(ball);
 }
 
-MidRad A::sqrt(const N& a) {
+MidRad MidRadArithmetic::sqrt(const N& a) {
   if (is_exact(a) && a.mid == 0) return a;
   if (!(a.mid > 0) || contains_zero(a))
     throw std::domain_error("square root of a number that may be negative");
   return applied_to(arb_sqrt, a);
 }
 
-MidRad A::power(const N& a, const N& e) {
+MidRad MidRadArithmetic::power(const N& a, const N& e) {
   if (!(a.mid > 0) || contains_zero(a))
     throw std::domain_error("broken power of a number that may not be positive");
   if (!is_usable(a) || !is_usable(e)) throw std::domain_error("the numbers have become too large");
@@ -101,9 +101,9 @@ MidRad A::power(const N& a, const N& e) {
   return validated::outwards(base);
 }
 
-MidRad A::function(Op op, const N& a) { return applied_to(arb_function(op), a); }
+MidRad MidRadArithmetic::function(Op op, const N& a) { return applied_to(arb_function(op), a); }
 
-MidRad A::log(const N& a) {
+MidRad MidRadArithmetic::log(const N& a) {
   if (!(a.mid > 0) || contains_zero(a))
     throw std::domain_error("logarithm of a number that may not be positive");
   return applied_to(arb_log, a);
@@ -118,17 +118,17 @@ void check_arc(const MidRad& a) {
 }
 }  // namespace
 
-MidRad A::asin(const N& a) {
+MidRad MidRadArithmetic::asin(const N& a) {
   check_arc(a);
   return applied_to(arb_asin, a);
 }
 
-MidRad A::acos(const N& a) {
+MidRad MidRadArithmetic::acos(const N& a) {
   check_arc(a);
   return applied_to(arb_acos, a);
 }
 
-MidRad A::atan2(const N& y, const N& x) {
+MidRad MidRadArithmetic::atan2(const N& y, const N& x) {
   const bool exact = is_exact(y) && is_exact(x) && (y.mid != 0 || x.mid != 0);
   const bool off_the_cut = !contains_zero(y) || (x.mid > 0 && !contains_zero(x));
   if (!exact && !off_the_cut) throw std::domain_error("an angle that may be on its cut");
@@ -139,7 +139,7 @@ MidRad A::atan2(const N& y, const N& x) {
   return validated::outwards(angle);
 }
 
-int A::sign(const N& a) {
+int MidRadArithmetic::sign(const N& a) {
   if (!is_usable(a) || contains_zero(a)) throw std::domain_error("a sign that is not certain");
   return a.mid < 0 ? -1 : 1;
 }
@@ -210,11 +210,11 @@ MidRad weighted_sum(const MidRad* a, const MidRad* b, int from, int to) {
 
 }  // namespace
 
-MidRad A::convolution(const Series& u, const Series& v, int k, int from, int to) {
+MidRad MidRadArithmetic::convolution(const Series& u, const Series& v, int k, int from, int to) {
   return plain_sum(u.data(), v.data() + k, from, to);
 }
 
-MidRad A::weighted(const Series& u, const Series& v, int k, int from, int to) {
+MidRad MidRadArithmetic::weighted(const Series& u, const Series& v, int k, int from, int to) {
   return weighted_sum(u.data(), v.data() + k, from, to);
 }
 

@@ -22,7 +22,7 @@ Plot drift_of(const Findings& findings) {
 
 /// General code has a table of its own, and would lie on top of the specialised.
 Plot method_comparison_of(const Findings& findings) {
-  Plot plot = picture_of(*findings.contest);
+  Plot plot = tools::picture_of(*findings.contest);
   std::erase_if(plot.curves,
                 [](const Curve& curve) { return curve.style == Curve::Style::variant; });
   return plot;

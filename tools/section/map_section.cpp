@@ -156,7 +156,7 @@ class MapSection {
           orbit.judged ? nlohmann::ordered_json(orbit.chaotic) : nlohmann::ordered_json(nullptr);
       one["megno"] = orbit.judged ? nlohmann::ordered_json(exact_text(orbit.megno))
                                   : nlohmann::ordered_json(nullptr);
-      if (!rotations_.empty()) one["rotation"] = to_json(rotations_[k]);
+      if (!rotations_.empty()) one["rotation"] = tools::to_json(rotations_[k]);
       one["seed"] = nlohmann::ordered_json::object();
       const auto& states = orbits_.specialisation().states;
       for (std::size_t i = 0; i < states.size(); ++i)

@@ -14,7 +14,7 @@ namespace casimir::test {
 namespace {
 
 constexpr double kClose = 3e-16;
-const Rational half = Rational(1) / 2, third = Rational(1) / 3, tenth = Rational(1) / 10;
+const Rational half = Rational(1) / 2, one_third = Rational(1) / 3, tenth = Rational(1) / 10;
 
 /// x' = x * (A x + k), A as its elements 11, 22, 33, 12, 13, 23.
 Program gyrostat(const Start& A, const Start& k) {
@@ -52,39 +52,39 @@ Program top(const Top& of) {
 }
 
 TEST(ClosedGyrostat, OfThreeMoments) {
-  const Start k{tenth, Rational(1) / 5, third};
-  for (const Start& A : {Start{1, half, third, 0, 0, 0}, Start{-1, half, 3, 0, 0, 0},
-                         Start{1, half, third, Rational(1) / 7, -third, tenth}})
-    for (const Start& x : {Start{1, half, third}, Start{-third, 2, 0}, Start{0, 0, -1}})
+  const Start k{tenth, Rational(1) / 5, one_third};
+  for (const Start& A : {Start{1, half, one_third, 0, 0, 0}, Start{-1, half, 3, 0, 0, 0},
+                         Start{1, half, one_third, Rational(1) / 7, -one_third, tenth}})
+    for (const Start& x : {Start{1, half, one_third}, Start{-one_third, 2, 0}, Start{0, 0, -1}})
       for (const Rational& t : {Rational(1) / 1000, Rational(-20) / 3})
         EXPECT_LT(error(gyrostat(A, k), x, t), kClose) << A[0] << ' ' << x[0] << ' ' << t;
 }
 
 TEST(ClosedGyrostat, OfEqualMoments) {
-  const Start x{1, half, third};
-  for (const Start& A : {Start{1, 1, third, 0, 0, 0}, Start{2, third, 2, 0, 0, 0},
+  const Start x{1, half, one_third};
+  for (const Start& A : {Start{1, 1, one_third, 0, 0, 0}, Start{2, one_third, 2, 0, 0, 0},
                          Start{1, 1, 1, 0, 0, 0}, Start{0, 0, 0, 0, 0, 0}})
     for (const Start& k :
-         {Start{tenth, Rational(1) / 5, third}, Start{0, 0, third}, Start{1, 0, 0}})
+         {Start{tenth, Rational(1) / 5, one_third}, Start{0, 0, one_third}, Start{1, 0, 0}})
       EXPECT_LT(error(gyrostat(A, k), x, 10), kClose) << A[0] << ' ' << k[0];
   // Almost equal: the poles go far away.
   const Rational near = 1 + 1 / cln::expt(Rational(10), 12);
-  EXPECT_LT(error(gyrostat({1, near, third, 0, 0, 0}, {tenth, 0, third}), x, 40), kClose);
+  EXPECT_LT(error(gyrostat({1, near, one_third, 0, 0, 0}, {tenth, 0, one_third}), x, 40), kClose);
 }
 
 TEST(ClosedGyrostat, OnOneAxisAndWithoutARotor) {
-  const Start x{1, half, third};
-  const Start A{1, half, third, 0, 0, 0};
+  const Start x{1, half, one_third};
+  const Start A{1, half, one_third, 0, 0, 0};
   for (const Start& k : {Start{0, 0, 3}, Start{0, half, 0}, Start{Rational(-1) / 5, 0, 0}})
     EXPECT_LT(error(gyrostat(A, k), x, 10), kClose) << k[0];
   // Turned axes of the free body.
-  EXPECT_LT(error(gyrostat({1, half, third, tenth, 0, 0}, {0, 0, 0}), x, 30), kClose);
+  EXPECT_LT(error(gyrostat({1, half, one_third, tenth, 0, 0}, {0, 0, 0}), x, 30), kClose);
   EXPECT_LT(error(gyrostat(A, {0, 0, 1000}), x, 2), kClose);
 }
 
 // Rotation about the middle axis with a rotor too weak to steady it.
 TEST(ClosedGyrostat, NextToASeparatrix) {
-  const Start A{1, half, third, 0, 0, 0}, k{0, Rational(1) / 20, 0};
+  const Start A{1, half, one_third, 0, 0, 0}, k{0, Rational(1) / 20, 0};
   for (const int digits : {3, 6, 12, 25}) {
     const Rational tiny = 1 / cln::expt(Rational(10), digits);
     EXPECT_LT(error(gyrostat(A, k), {tiny, 1, tiny}, 100), kClose) << digits;
@@ -113,27 +113,27 @@ TEST(ClosedGyrostat, OnASeparatrix) {
 }
 
 TEST(ClosedGyrostat, StaysWhereItRests) {
-  EXPECT_EQ(error(gyrostat({1, half, third, 0, 0, 0}, {0, 1, 0}), {0, 5, 0}, 1000), 0);
+  EXPECT_EQ(error(gyrostat({1, half, one_third, 0, 0, 0}, {0, 1, 0}), {0, 5, 0}, 1000), 0);
 }
 
 TEST(ClosedTop, OfEveryKind) {
   const Top common{1, half, 0, 1};
-  for (const Top& of :
-       {common, Top{1, Rational(3) / 4, third, 1}, Top{2, 5, -1, -third}, Top{-1, half, tenth, 1}})
-    for (const Start& x : {Start{half, third, 2, Rational(3) / 5, 0, Rational(4) / 5},
+  for (const Top& of : {common, Top{1, Rational(3) / 4, one_third, 1}, Top{2, 5, -1, -one_third},
+                        Top{-1, half, tenth, 1}})
+    for (const Start& x : {Start{half, one_third, 2, Rational(3) / 5, 0, Rational(4) / 5},
                            Start{1, half, Rational(1) / 4, Rational(3) / 5, 0, Rational(4) / 5},
                            Start{-1, 2, -half, 0, Rational(3) / 5, Rational(-4) / 5},
-                           Start{half, third, 2, 1, 2, 3}})  // a direction of another length
+                           Start{half, one_third, 2, 1, 2, 3}})  // a direction of another length
       for (const Rational& t : {Rational(1) / 1000, Rational(-10) / 3})
         EXPECT_LT(error(top(of), x, t), kClose) << of.a1 << ' ' << x[0] << ' ' << t;
 }
 
 TEST(ClosedTop, WithoutWeight) {
-  const Start x{half, third, 2, Rational(3) / 5, 0, Rational(4) / 5};
-  EXPECT_LT(error(top({1, half, third, 0}), x, 30), kClose);
+  const Start x{half, one_third, 2, Rational(3) / 5, 0, Rational(4) / 5};
+  EXPECT_LT(error(top({1, half, one_third, 0}), x, 30), kClose);
   EXPECT_LT(error(top({1, 1, 0, 0}), x, 30), kClose);
   EXPECT_LT(error(top({1, half, 0, 0}), {0, 0, 2, half, half, half}, 30), kClose);
-  EXPECT_LT(error(top({1, half, 0, 0}), {half, third, 0, half, half, half}, 30), kClose);
+  EXPECT_LT(error(top({1, half, 0, 0}), {half, one_third, 0, half, half, half}, 30), kClose);
 }
 
 // M = 0 at the start, a plane pendulum to and fro and around, no momentum along the vertical or
@@ -144,8 +144,8 @@ TEST(ClosedTop, FromSpecialStarts) {
   for (const Start& x :
        {Start{0, 0, 0, g1, 0, g3}, Start{0, 0, 1, g1, 0, g3}, Start{0, half, 0, g1, 0, g3},
         Start{0, 3, 0, g1, 0, g3}, Start{g3, 0, -g1, g1, 0, g3}, Start{1, 0, 0, g1, 0, g3},
-        Start{half, third, 1, 0, 0, 0}, Start{0, third, 1, 0, 0, 1}, Start{0, third, 1, 0, 0, -1},
-        Start{0, third, 0, 0, 0, -1}})
+        Start{half, one_third, 1, 0, 0, 0}, Start{0, one_third, 1, 0, 0, 1},
+        Start{0, one_third, 1, 0, 0, -1}, Start{0, one_third, 0, 0, 0, -1}})
     EXPECT_LT(error(top(of), x, 5), kClose) << x[0] << ' ' << x[1];
   // Where M vanishes on the way.
   EXPECT_LT(error(top(of), {0, 0, 3, g1, 0, g3}, 12), kClose);
@@ -210,7 +210,7 @@ TEST(ClosedTop, SphericalPendulumsAndOtherOrders) {
   field[g2] = {{1, g3, M1}, {-half, M3, g1}};
   field[g3] = {{1, g1, M2}, {-1, g2, M1}};
   for (const auto& rate : field) add_rate(turned, rate);
-  EXPECT_LT(error(turned.program(), {0, e3, e1, third, 2, half}, 50), kClose);
+  EXPECT_LT(error(turned.program(), {0, e3, e1, one_third, 2, half}, 50), kClose);
 }
 
 // What is zero along a motion stays so, and is no small number.
@@ -234,7 +234,7 @@ TEST(ClosedTop, AMillionPeriods) {
   using Big = boost::multiprecision::cpp_bin_float_100;
   const Program program = top({1, half, 0, 1});
   const Recognised found =
-      closed_form(program, exact({half, third, 2, Rational(3) / 5, 0, Rational(4) / 5}));
+      closed_form(program, exact({half, one_third, 2, Rational(3) / 5, 0, Rational(4) / 5}));
   ASSERT_TRUE(found.form);
   const Big l = 2, E = Big(1) / 4 + Big(1) / 9 + Big(8) / 5, c = Big(3) / 10 + Big(8) / 5;
   // 2 u^3 - (E + l^2) u^2 + (2 c l - 2) u + E - c^2, by Viete's cosines.
@@ -261,10 +261,11 @@ TEST(ClosedTop, AMillionPeriods) {
 
 // The precession, and the states of a gyrostat, after a hundred periods and more.
 TEST(ClosedTop, ManyPeriodsAgainstManyDigits) {
-  EXPECT_LT(error(top({1, half, 0, 1}), {half, third, 2, Rational(3) / 5, 0, Rational(4) / 5}, 400),
-            kClose);
-  EXPECT_LT(error(gyrostat({1, half, third, 0, 0, 0}, {tenth, Rational(1) / 5, third}),
-                  {1, half, third}, 1500),
+  EXPECT_LT(
+      error(top({1, half, 0, 1}), {half, one_third, 2, Rational(3) / 5, 0, Rational(4) / 5}, 400),
+      kClose);
+  EXPECT_LT(error(gyrostat({1, half, one_third, 0, 0, 0}, {tenth, Rational(1) / 5, one_third}),
+                  {1, half, one_third}, 1500),
             kClose);
 }
 
@@ -283,7 +284,7 @@ TEST(ClosedTop, RefusesAllElse) {
         {{half, 2, 4}, {-1, 5, 1}}, {{1, 5, 0}, {-half, 2, 3}}, {{1, 3, 1}, {-1, 4, 0}}};
     if (rate >= 0) field[static_cast<std::size_t>(rate)].push_back(term);
     for (const auto& terms : field) add_rate(b, terms);
-    return refused(b, {half, third, 2, 1, 0, 2});
+    return refused(b, {half, one_third, 2, 1, 0, 2});
   };
   EXPECT_FALSE(bent(-1, {0, 0}));
   EXPECT_TRUE(bent(0, {tenth, 1, 2}));
@@ -299,7 +300,7 @@ TEST(ClosedTop, RefusesAllElse) {
         {{-half, 1, 2}, {1, 1}}, {{1, 2, 0}, {-1, 0}}, {{-half, 0, 1}}};
     if (rate >= 0) field[static_cast<std::size_t>(rate)].push_back(term);
     for (const auto& terms : field) add_rate(b, terms);
-    return refused(b, {half, third, 2});
+    return refused(b, {half, one_third, 2});
   };
   EXPECT_FALSE(skew(-1, {0, 0}));
   EXPECT_TRUE(skew(0, {tenth, 1, 2}));

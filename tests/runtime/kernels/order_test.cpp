@@ -133,11 +133,11 @@ INSTANTIATE_TEST_SUITE_P(Runtime, Order, testing::ValuesIn(own_methods()),
 TEST(Dopri5, IsThatOfBoost) {
   constexpr double kStep = 0.1;
   constexpr int kSteps = 200;
-  using State = std::array<double, 3>;
+  using Place = std::array<double, 3>;
   const std::vector<double> start = euler_solution(0);
-  State x{start[0], start[1], start[2]};
-  boost::numeric::odeint::runge_kutta_dopri5<State> stepper;
-  const auto rhs = [](const State& y, State& dy, double t) {
+  Place x{start[0], start[1], start[2]};
+  boost::numeric::odeint::runge_kutta_dopri5<Place> stepper;
+  const auto rhs = [](const Place& y, Place& dy, double t) {
     Euler::rhs(t, y.data(), nullptr, dy.data());
   };
   for (int i = 0; i < kSteps; ++i) stepper.do_step(rhs, x, i * kStep, kStep);

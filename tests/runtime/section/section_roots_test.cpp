@@ -31,7 +31,7 @@ double value(const Coefficients& c, double s) {
 TEST(Passages, OfAProductAreItsFactors) {
   const std::vector<double> roots{0.1, 0.35, 0.35001, 0.6, 0.95};
   const Coefficients c = with_roots({0.1, 0.35, 0.35001, 0.6, 0.95, -0.2, 1.3});
-  const std::vector<Passage> found = passages(c, 1, value(c, 0) > 0);
+  const std::vector<PolynomialRoot> found = passages(c, 1, value(c, 0) > 0);
   ASSERT_EQ(found.size(), roots.size());
   for (std::size_t i = 0; i < roots.size(); ++i) {
     EXPECT_NEAR(found[i].at, roots[i], 1e-8);
@@ -51,7 +51,7 @@ TEST(Passages, OfAChebyshevPolynomialAreItsSixteenZeros) {
     for (std::size_t k = 0; k < before.size(); ++k) next[k] -= before[k];
     before = std::exchange(c, next);
   }
-  const std::vector<Passage> found = passages(c, 1, true);
+  const std::vector<PolynomialRoot> found = passages(c, 1, true);
   ASSERT_EQ(found.size(), 16U);
   for (std::size_t i = 0; i < 16; ++i) {
     const double root = (1 - std::cos(std::acos(-1.) * (2 * static_cast<double>(i) + 1) / 32)) / 2;
@@ -80,15 +80,15 @@ TEST(Passages, OnTheJointOfTwoStepsCountOnce) {
       for (std::size_t k = rest.size() - 1; k > i; --k) rest[k - 1] += cut * rest[k];
     rest[0] += (round % 3 - 1) * 1e-16;  // the rounding of a step
     const bool above = value(c, 0) > 0;
-    const std::vector<Passage> first = passages(c, cut, above);
+    const std::vector<PolynomialRoot> first = passages(c, cut, above);
     const bool side = above != (first.size() % 2 == 1);
-    const std::vector<Passage> second = passages(rest, 1 - cut, side);
+    const std::vector<PolynomialRoot> second = passages(rest, 1 - cut, side);
     EXPECT_EQ(first.size() + second.size(), 1U) << root << ' ' << round;
   }
 }
 
 TEST(Passages, BackwardsInTimeAreFoundToo) {
-  const std::vector<Passage> found = passages(with_roots({-0.5, -2}), -1, true);
+  const std::vector<PolynomialRoot> found = passages(with_roots({-0.5, -2}), -1, true);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found[0].at, -0.5, 1e-15);
   EXPECT_FALSE(found[0].rising);

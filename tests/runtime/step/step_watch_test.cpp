@@ -17,8 +17,8 @@
 namespace casimir::test {
 namespace {
 
-Trajectory run(const Program& rhs, std::vector<double> start, double duration, bool looks = true,
-               double begin = 0) {
+Trajectory watched_run(const Program& rhs, std::vector<double> start, double duration,
+                       bool looks = true, double begin = 0) {
   Module module = uncompiled_module(rhs, {}, std::nullopt, {});
   if (!looks) module = Module::from_functions(module.functions());
   Settings settings;
@@ -62,12 +62,12 @@ Program front(const cln::cl_RA& width, bool by_cosh) {
 TEST(StepWatch, FrontsOfHyperbolicFunctionsAreNotSteppedOver) {
   const cln::cl_RA width = cln::cl_RA(1) / 100;  // 300 before the front: cosh^2 is a number still
   for (const bool by_cosh : {false, true}) {
-    const Trajectory seen = run(front(width, by_cosh), {0}, 4);
+    const Trajectory seen = watched_run(front(width, by_cosh), {0}, 4);
     ASSERT_EQ(seen.status, Status::ok) << seen.reason;
     EXPECT_NEAR(seen.state[0], 1, 1e-12) << by_cosh;
   }
   // The twin: without looking, the front is not met.
-  const Trajectory blind = run(front(width, false), {0}, 4, false);
+  const Trajectory blind = watched_run(front(width, false), {0}, 4, false);
   EXPECT_EQ(blind.state[0], 0);
 }
 
@@ -152,11 +152,11 @@ TEST(StepWatch, LowerQuotientsAreWatchedWhereNumbersAreExtreme) {
 /// q^2 = (3 - t)^2 + c t^2/9: from the wall at 0 it comes back.
 TEST(Steps, DoNotPassAWallOverThatNoTailAnnounces) {
   const cln::cl_RA small = cln::cl_RA(1) / cln::expt(cln::cl_I(10), 20);
-  const Trajectory orbit = run(repelled(small, false), {3, -1}, 5);
+  const Trajectory orbit = watched_run(repelled(small, false), {3, -1}, 5);
   ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
   EXPECT_NEAR(orbit.state[0], 2, 1e-5);  // the turn is 1e-10 wide
   EXPECT_NEAR(orbit.state[1], 1, 1e-5);
-  EXPECT_NEAR(run(repelled(small, false), {3, -1}, 5, false).state[0], -2, 1e-9);
+  EXPECT_NEAR(watched_run(repelled(small, false), {3, -1}, 5, false).state[0], -2, 1e-9);
 }
 
 /// x' = sqrt((t - 3)^2 + 10^(-24)) and log((t - 3)^2 + 10^(-24)) turn within 1e-12.
@@ -170,7 +170,7 @@ TEST(StepWatch, RootsAndLogarithmsAreWatchedWhereTheyTurnLikeKinks) {
     const Program rhs = lines.program();
     const StepWatch watch(rhs);
     EXPECT_TRUE(watch.looks(nullptr, nullptr));
-    const Trajectory orbit = run(rhs, {0}, 5);
+    const Trajectory orbit = watched_run(rhs, {0}, 5);
     ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
     // Of |z|, and of 2 log|z|.
     const double truth = op == Op::sqrt ? 6.5 : 2 * (3 * std::log(3.) - 3 + 2 * std::log(2.) - 2);
@@ -189,7 +189,7 @@ TEST(Steps, DoNotPassAPeakOfAQuotientOver) {
     const int peak = lines.op(Op::div, w, lines.op(Op::mul, q2, q2));
     lines.output(lines.op(Op::add, lines.number(1), peak));
     const Program rhs = lines.program();
-    const Trajectory orbit = run(rhs, {0}, 20);
+    const Trajectory orbit = watched_run(rhs, {0}, 20);
     ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
     // Next to t = 3 the time rounds by up to 0x1p-52, and x changes by inverse_width in each unit.
     const double rounding = 2 * 0x1p-52 * inverse_width;
@@ -197,7 +197,7 @@ TEST(Steps, DoNotPassAPeakOfAQuotientOver) {
         << inverse_width;
     EXPECT_LT(orbit.steps, 300U) << inverse_width;
     if (inverse_width >= 10000) {
-      EXPECT_LT(run(rhs, {0}, 20, false).state[0], 20.1);
+      EXPECT_LT(watched_run(rhs, {0}, 20, false).state[0], 20.1);
     }
   }
 }
@@ -210,10 +210,10 @@ TEST(Steps, DoNotPassAShortSignOver) {
   const int sum = lines.op(Op::add, lines.number(1), lines.op(Op::sign, u));
   lines.output(lines.op(Op::div, sum, lines.number(2)));
   const Program rhs = lines.program();
-  const Trajectory orbit = run(rhs, {0}, 60);
+  const Trajectory orbit = watched_run(rhs, {0}, 60);
   ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
   EXPECT_NEAR(orbit.state[0], 10 * 2 * std::acos(0.99), 1e-11);  // ten times
-  EXPECT_EQ(run(rhs, {0}, 60, false).state[0], 0);
+  EXPECT_EQ(watched_run(rhs, {0}, 60, false).state[0], 0);
 }
 
 /// x' = 10^60 exp(-130 - (100 (t - 3))^2), whose exponential is never above e^-130.
@@ -224,7 +224,7 @@ TEST(Steps, DoNotPassAPulseOverThatALargeFactorMakes) {
   const int u = lines.op(Op::neg, lines.op(Op::add, lines.number(130), lines.op(Op::mul, z, z)));
   const cln::cl_RA factor = cln::expt(cln::cl_I(10), 60);
   lines.output(lines.op(Op::mul, lines.number(factor), lines.op(Op::exp, u)));
-  const Trajectory orbit = run(lines.program(), {0}, 20);
+  const Trajectory orbit = watched_run(lines.program(), {0}, 20);
   ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
   const double truth = std::sqrt(std::acos(-1)) / 100 * 1e60 * std::exp(-130);
   EXPECT_NEAR(orbit.state[0] / truth, 1, 1e-12);
@@ -232,7 +232,7 @@ TEST(Steps, DoNotPassAPulseOverThatALargeFactorMakes) {
 
 TEST(Steps, EndWhereAModulusTurns) {
   for (const double c : {0.5, 1.0, 2.25}) {
-    const Trajectory orbit = run(modulus(cln::rational(cln::cl_DF(c))), {0}, 5);
+    const Trajectory orbit = watched_run(modulus(cln::rational(cln::cl_DF(c))), {0}, 5);
     ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
     EXPECT_NEAR(orbit.state[0], (c * c + (5 - c) * (5 - c)) / 2, 1e-13) << c;
     EXPECT_LT(orbit.steps, 30U);
@@ -242,7 +242,7 @@ TEST(Steps, EndWhereAModulusTurns) {
 /// At exactly zero the first term that is not zero says on which side the series begins.
 TEST(Steps, BeginAtTheCornerOfAModulusInBothDirections) {
   for (const double way : {1., -1.}) {
-    const Trajectory orbit = run(modulus(0), {0}, 2 * way);
+    const Trajectory orbit = watched_run(modulus(0), {0}, 2 * way);
     ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
     EXPECT_NEAR(orbit.state[0], 2 * way, 1e-14);
   }
@@ -256,7 +256,7 @@ TEST(Steps, SeeADipOfAModulusBetweenTheirEnds) {
   lines.output(lines.op(Op::abs, u));
   const Program dip = lines.program();
   const double d = std::sqrt(1e-3), whole = 2. / 3 - 2e-3;
-  const Trajectory orbit = run(dip, {0}, 2);
+  const Trajectory orbit = watched_run(dip, {0}, 2);
   ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
   EXPECT_NEAR(orbit.state[0], whole + 2 * (2 * d * d * d - 2 * d * d * d / 3), 1e-13);
 }
@@ -300,7 +300,7 @@ TEST(Steps, DoNotCreepWhereCoefficientsAreBeyondAllDoubles) {
   const int e = lines.op(Op::exp, u), one = lines.op(Op::add, lines.number(1), e);
   const int above = lines.op(Op::mul, lines.number(100), e);
   lines.output(lines.op(Op::div, above, lines.op(Op::mul, one, one)));
-  const Trajectory orbit = run(lines.program(), {0}, 6, true, -1);
+  const Trajectory orbit = watched_run(lines.program(), {0}, 6, true, -1);
   EXPECT_EQ(orbit.status, Status::non_finite);
   EXPECT_LT(orbit.steps, 200000U);
 }
@@ -311,7 +311,7 @@ TEST(Steps, DoNotChatterForLong) {
   Builder lines({"x"});
   const int root = lines.op(Op::sqrt, lines.op(Op::abs, 0));
   lines.output(lines.op(Op::neg, lines.op(Op::mul, lines.op(Op::sign, 0), root)));
-  const Trajectory orbit = run(lines.program(), {1}, 5);
+  const Trajectory orbit = watched_run(lines.program(), {1}, 5);
   EXPECT_NE(orbit.status, Status::ok);
   EXPECT_GE(orbit.time, 2 - 1e-9);
   EXPECT_LT(orbit.steps + orbit.rejected, 500000U);
@@ -321,14 +321,14 @@ TEST(Steps, DoNotPassAPulseOver) {
   const double area = std::sqrt(std::acos(-1));
   for (const int inverse_width : {10, 100, 1000, 10000}) {
     const Program rhs = pulse(cln::cl_RA(1) / inverse_width);
-    const Trajectory orbit = run(rhs, {0}, 20);
+    const Trajectory orbit = watched_run(rhs, {0}, 20);
     ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
     // Rounding the time moves a pulse by 1e-15, a ten billionth of the narrowest one.
     EXPECT_NEAR(orbit.state[0], area, inverse_width > 1000 ? 1e-11 : 1e-12) << inverse_width;
     EXPECT_LT(orbit.steps, 300U) << inverse_width;
   }
   // Without the look it is gone.
-  EXPECT_LT(run(pulse(cln::cl_RA(1) / 1000), {0}, 20, false).state[0], 1e-3);
+  EXPECT_LT(watched_run(pulse(cln::cl_RA(1) / 1000), {0}, 20, false).state[0], 1e-3);
 }
 
 /// Two peaks, between which the exponent is at the beginning, within and at the end of a step what
@@ -344,7 +344,7 @@ TEST(Steps, DoNotPassOneOfTwoPeaksOver) {
   lines.output(lines.op(Op::exp, u));
   const Program rhs = lines.program();
   for (const auto& [v, truth] : {std::pair{0., 0.17057071128447514}, {0.1, 0.16924439278900793}}) {
-    const Trajectory orbit = run(rhs, {1, v, 0}, 40);
+    const Trajectory orbit = watched_run(rhs, {1, v, 0}, 40);
     ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
     EXPECT_NEAR(orbit.state[2], truth, 1e-12) << v;
   }
@@ -378,13 +378,13 @@ TEST(Steps, EndWhereARootLosesItsRealValue) {
   Builder lines({"x"});
   const int u = lines.op(Op::sub, lines.number(1), lines.time());
   lines.output(lines.op(Op::sqrt, u));
-  const Trajectory orbit = run(lines.program(), {0}, 2);
+  const Trajectory orbit = watched_run(lines.program(), {0}, 2);
   EXPECT_NE(orbit.status, Status::ok);
   EXPECT_NEAR(orbit.time, 1, 1e-6);
 }
 
 TEST(Settings, ARunBeginsAtAnyTime) {
-  const Trajectory orbit = run(modulus(0), {0}, 2, true, 3);
+  const Trajectory orbit = watched_run(modulus(0), {0}, 2, true, 3);
   ASSERT_EQ(orbit.status, Status::ok) << orbit.reason;
   EXPECT_NEAR(orbit.state[0], 8, 1e-13);
   EXPECT_EQ(orbit.time, 5);

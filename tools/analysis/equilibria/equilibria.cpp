@@ -19,7 +19,7 @@ namespace {
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
-constexpr std::size_t kStarts = 400;
+constexpr std::size_t kMostStarts = 400;
 // Of eigenvalues, relative to the largest: rounding splits a triple zero by the cube root of its
 // size.
 constexpr double kZero = 1e-5;
@@ -229,7 +229,7 @@ constexpr double kNear = 1e-6;
 /// the residual smaller: at a multiple root it comes nearer by a part each time.
 bool solve(const Scaled& equations, Place& place) {
   constexpr int kRounds = 200, kFree = 30;
-  constexpr double kLongest = 2, kShrinks = 0.7;
+  constexpr double kLongestCorrection = 2, kShrinks = 0.7;
   double last = equations.error(place);
   for (int round = 0; round < kRounds; ++round) {
     if (!std::isfinite(last)) return false;
@@ -237,8 +237,9 @@ bool solve(const Scaled& equations, Place& place) {
         shortest_solution(equations.derivative(place), equations.residual(place), 1e-10);
     const double length = step.norm();
     if (!std::isfinite(length)) return false;
-    const Place next = equations.moved(
-        place, length > kLongest ? Vector(-step * (kLongest / length)) : Vector(-step));
+    const Place next = equations.moved(place, length > kLongestCorrection
+                                                  ? Vector(-step * (kLongestCorrection / length))
+                                                  : Vector(-step));
     const double error = equations.error(next);
     const bool shrinks = error < kShrinks * last;
     if (!shrinks && last < kSolved) return true;
@@ -307,8 +308,8 @@ bool joined(const Scaled& equations, const Place& a, const Place& b) {
 /// The same matrix in other units of the states, in which rows and columns are alike: eigenvalues
 /// stay, and its size is one of them (Osborne: J. ACM 7, 338, 1960).
 Matrix balanced(Matrix a) {
-  constexpr int kSweeps = 20;
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+  constexpr int kMostSweeps = 20;
+  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     for (Eigen::Index i = 0; i < a.rows(); ++i) {
       const double diagonal = std::abs(a(i, i));
       const double row = a.row(i).cwiseAbs().sum() - diagonal,
@@ -453,8 +454,8 @@ EquilibriumReport find_equilibria(const Model& model, const Scene& scene,
   std::mt19937_64 random(1);
   const Scaled scaled(equations, integrals.size(), random);
   Collection collection(equations, scaled, random);
-  for (; report.starts < kStarts; ++report.starts) {
-    tick(static_cast<double>(report.starts) / kStarts);
+  for (; report.starts < kMostStarts; ++report.starts) {
+    tick(static_cast<double>(report.starts) / kMostStarts);
     Place place = scaled.random_place(random);
     if (report.starts == 0) place.x = equations.start();
     if (solve(scaled, place)) collection.add(place);

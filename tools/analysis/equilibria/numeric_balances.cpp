@@ -15,13 +15,13 @@ namespace casimir {
 namespace {
 
 using Number = std::complex<double>;
-using Vector = Eigen::VectorXcd;
-using Matrix = Eigen::MatrixXcd;
+using ComplexVector = Eigen::VectorXcd;
+using ComplexMatrix = Eigen::MatrixXcd;
 
-constexpr std::size_t kStarts = 600;
+constexpr std::size_t kStartsOfBalances = 600;
 // Of exponents: rounding splits a double one by the square root of its size, a triple one by the
 // cube root; the mean of the parts has no more error than a simple one.
-constexpr double kNear = 1e-4;
+constexpr double kNearBalance = 1e-4;
 
 Number power(Number x, unsigned long exponent) {
   Number result = 1;
@@ -31,13 +31,13 @@ Number power(Number x, unsigned long exponent) {
 
 /// g_i x_i + F_i(x) and its derivative.
 struct Values {
-  Vector residual;
-  Matrix derivative;
+  ComplexVector residual;
+  ComplexMatrix derivative;
 };
 
-Values values_at(const search::LeadingSystem& system, const Vector& x) {
+Values values_at(const search::LeadingSystem& system, const ComplexVector& x) {
   const auto n = static_cast<Eigen::Index>(system.weights.size());
-  Values result{Vector::Zero(n), Matrix::Zero(n, n)};
+  Values result{ComplexVector::Zero(n), ComplexMatrix::Zero(n, n)};
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto place = static_cast<std::size_t>(i);
     result.residual(i) = system.weights[place] * x(i);
@@ -63,24 +63,24 @@ Values values_at(const search::LeadingSystem& system, const Vector& x) {
 }
 
 /// Newton's iteration with the shortest step that the linear equations allow.
-std::optional<Vector> solved(const search::LeadingSystem& system, Vector x) {
+std::optional<ComplexVector> solved(const search::LeadingSystem& system, ComplexVector x) {
   constexpr int kRounds = 80;
-  constexpr double kSmall = 1e-13, kZero = 1e-7;  // the zero solution is approached fast
+  constexpr double kSmall = 1e-13, kZeroOfBalance = 1e-7;  // the zero solution is approached fast
   for (int round = 0; round < kRounds; ++round) {
     const Values values = values_at(system, x);
     const double scale = 1 + x.norm();
     if (!std::isfinite(values.residual.norm())) return std::nullopt;
-    Vector step = shortest_solution(values.derivative, values.residual, 1e-10);
+    ComplexVector step = shortest_solution(values.derivative, values.residual, 1e-10);
     if (values.residual.norm() < kSmall * scale && step.norm() < 1e-9 * scale)
-      return x.norm() < kZero ? std::nullopt : std::optional(x);
+      return x.norm() < kZeroOfBalance ? std::nullopt : std::optional(x);
     if (step.norm() > scale) step *= scale / step.norm();
     x -= step;
   }
   return std::nullopt;
 }
 
-struct Point {
-  Vector place;
+struct BalancePoint {
+  ComplexVector place;
   std::vector<Number> exponents;  ///< in order
   bool has_complex_exponents = false;
   Eigen::Index family = 0;  ///< its dimension
@@ -93,7 +93,7 @@ std::vector<Number> with_means(const std::vector<ConditionedEigenvalue>& eigenva
     Number sum = 0;
     double count = 0;
     for (const ConditionedEigenvalue& other : eigenvalues) {
-      if (std::abs(other.value - value) > kNear * std::max(1., std::abs(value))) continue;
+      if (std::abs(other.value - value) > kNearBalance * std::max(1., std::abs(value))) continue;
       sum += other.value;
       ++count;
     }
@@ -105,36 +105,36 @@ std::vector<Number> with_means(const std::vector<ConditionedEigenvalue>& eigenva
 /// What an error of a matrix may have made of an eigenvalue: to first order by its condition, and
 /// in any case by Elsner's theorem (Linear Algebra Appl. 71, 77, 1985), which holds for multiple
 /// ones, too: they are split by the n-th root.
-double eigenvalue_error(const Matrix& matrix, const ConditionedEigenvalue& eigenvalue) {
+double eigenvalue_error(const ComplexMatrix& matrix, const ConditionedEigenvalue& eigenvalue) {
   constexpr double kError = 1e-10;  // of the balance, hence of the matrix, relative to its size
   const double size = std::max(1., matrix.norm()), n = static_cast<double>(matrix.cols());
   return size * std::min(eigenvalue.condition * kError, 2 * std::pow(kError, 1 / n));
 }
 
 /// Empty where the exponents cannot be computed.
-std::optional<Point> described(const search::LeadingSystem& system, const Vector& x) {
-  const Matrix matrix = values_at(system, x).derivative;
+std::optional<BalancePoint> described(const search::LeadingSystem& system, const ComplexVector& x) {
+  const ComplexMatrix matrix = values_at(system, x).derivative;
   const auto eigenvalues = conditioned_eigenvalues_of(matrix);
   if (!eigenvalues) return std::nullopt;
-  Point result{x, with_means(*eigenvalues), false, 0};
+  BalancePoint result{x, with_means(*eigenvalues), false, 0};
   result.has_complex_exponents = std::ranges::any_of(*eigenvalues, [&](const auto& eigenvalue) {
     return std::abs(eigenvalue.value.imag()) > eigenvalue_error(matrix, eigenvalue);
   });
   std::sort(result.exponents.begin(), result.exponents.end(), [](const Number& a, const Number& b) {
-    return std::pair(std::round(a.real() / kNear), a.imag()) <
-           std::pair(std::round(b.real() / kNear), b.imag());
+    return std::pair(std::round(a.real() / kNearBalance), a.imag()) <
+           std::pair(std::round(b.real() / kNearBalance), b.imag());
   });
   result.family = matrix.cols() - rank_of(matrix, 1e-7);
   return result;
 }
 
 /// Points that differ by signs and symmetries only have the same exponents, and one stands for all.
-bool same(const Point& a, const Point& b) {
+bool same(const BalancePoint& a, const BalancePoint& b) {
   if (a.family != b.family) return false;
   std::vector<Number> others = b.exponents;  // rounding may have changed their order
   for (const Number& value : a.exponents) {
     const auto near = std::ranges::find_if(others, [&](const Number& other) {
-      return std::abs(other - value) <= 10 * kNear * std::max(1., std::abs(value));
+      return std::abs(other - value) <= 10 * kNearBalance * std::max(1., std::abs(value));
     });
     if (near == others.end()) return false;
     others.erase(near);
@@ -154,7 +154,7 @@ std::string text_of(Number value, int digits) {
                      std::abs(imaginary), digits);
 }
 
-search::Balance balance_of(const search::LeadingSystem& system, const Point& point) {
+search::Balance balance_of(const search::LeadingSystem& system, const BalancePoint& point) {
   constexpr int kDigits = 12, kFewDigits = 6;
   search::Balance result;
   for (Eigen::Index i = 0; i < point.place.size(); ++i)
@@ -180,11 +180,11 @@ NumericBalances find_numeric_balances(const search::LeadingSystem& system,
                                       const std::function<void(double)>& tick) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
-  std::vector<Point> points;
+  std::vector<BalancePoint> points;
   NumericBalances result;
-  for (; result.starts < kStarts; ++result.starts) {
-    tick(static_cast<double>(result.starts) / kStarts);
-    Vector x(static_cast<Eigen::Index>(system.weights.size()));
+  for (; result.starts < kStartsOfBalances; ++result.starts) {
+    tick(static_cast<double>(result.starts) / kStartsOfBalances);
+    ComplexVector x(static_cast<Eigen::Index>(system.weights.size()));
     constexpr double kScales[] = {0.3, 1, 4, 16};
     const double scale = kScales[result.starts / 3 % 4];
     for (Number& entry : x) {
@@ -193,14 +193,14 @@ NumericBalances find_numeric_balances(const search::LeadingSystem& system,
       entry = scale * Number(real, result.starts % 2 == 0 ? imaginary : 0);
       if (result.starts % 3 == 2 && normal(random) > 0) entry = 0;
     }
-    const std::optional<Vector> place = solved(system, x);
+    const std::optional<ComplexVector> place = solved(system, x);
     if (!place) continue;
-    std::optional<Point> point = described(system, *place);
+    std::optional<BalancePoint> point = described(system, *place);
     if (point && std::none_of(points.begin(), points.end(),
-                              [&](const Point& known) { return same(known, *point); }))
+                              [&](const BalancePoint& known) { return same(known, *point); }))
       points.push_back(std::move(*point));
   }
-  for (const Point& point : points) {
+  for (const BalancePoint& point : points) {
     result.balances.push_back(balance_of(system, point));
     result.has_complex_exponents |= point.has_complex_exponents;
   }

@@ -13,7 +13,7 @@ namespace {
 /// Steps in all columns together: a tenth of a second where the equations are quadratic, and half a
 /// second where they are interpreted.
 constexpr unsigned long long kSteps = 60000, kInterpretedSteps = 6000;
-constexpr std::size_t kStarts = 16;
+constexpr std::size_t kStartsOfGrowth = 16;
 constexpr double kTightest = 1e-15;
 /// Of base orbits: near separatrices their own errors would pass for the distance from them.
 constexpr double kLoosest = 1e-10;
@@ -174,8 +174,8 @@ class Follower {
   /// The points are evenly spread over the steps, which are shortest where much happens.
   void follow_from_later() {
     const std::vector<Point> path = path_;
-    for (std::size_t k = 1; k <= kStarts; ++k) {
-      const std::size_t at = k * path.size() / (kStarts + 1);
+    for (std::size_t k = 1; k <= kStartsOfGrowth; ++k) {
+      const std::size_t at = k * path.size() / (kStartsOfGrowth + 1);
       if (at == 0 || at + 1 >= path.size()) continue;
       std::vector<double> direction;  // of both signs, and the same in every run
       for (std::size_t i = 0; i < sizes_.size(); ++i)

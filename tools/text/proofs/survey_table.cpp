@@ -16,13 +16,13 @@ namespace {
 
 int total(const OperationCount& count) { return count.mul + count.add + count.div + count.calls; }
 
-struct Column {
+struct SurveyColumn {
   std::string head;
   bool right = false;
 };
 
-const std::vector<Column>& columns() {
-  static const std::vector<Column> kColumns{
+const std::vector<SurveyColumn>& columns() {
+  static const std::vector<SurveyColumn> kColumns{
       {"case"},         {"section"},         {"title"},
       {"phase space"},  {"variables", true}, {"proved", true},
       {"scenes", true}, {"general", true},   {"specialised", true},
@@ -122,7 +122,7 @@ nlohmann::ordered_json to_json(const std::vector<SurveyRow>& rows) {
 std::string to_text(const std::vector<SurveyRow>& rows) {
   constexpr std::size_t kTitle = 2, kLongestTitle = 44;
   std::vector<std::vector<std::string>> lines(1);
-  for (const Column& column : columns()) lines[0].push_back(column.head);
+  for (const SurveyColumn& column : columns()) lines[0].push_back(column.head);
   for (const SurveyRow& row : rows) {
     lines.push_back(cells(row));
     lines.back()[kTitle] = printable(row.title, kLongestTitle);
@@ -145,7 +145,7 @@ std::string to_text(const std::vector<SurveyRow>& rows) {
 
 std::string to_markdown(const std::vector<SurveyRow>& rows) {
   std::string text = "|", rule = "|";
-  for (const Column& column : columns()) {
+  for (const SurveyColumn& column : columns()) {
     text += " " + column.head + " |";
     rule += column.right ? " ---: |" : " --- |";
   }
