@@ -50,7 +50,7 @@ PhaseSpaceText Reader::phase_space(const toml::table& table, const std::string& 
     space.vector_fields = vector_fields(as_table(*fields, "[phase_space.vector_fields]"));
   if (table.contains("variables") || !space.vector_fields) {
     required(table, "variables", what);
-    space.variables = texts(table, "variables");
+    space.variables = name_list(table, "variables");
   } else {
     space.variables = space.vector_fields->coordinates;
     space.variables.insert(space.variables.end(), space.vector_fields->momenta.begin(),
@@ -95,9 +95,9 @@ VectorFieldsText Reader::vector_fields(const toml::table& table) const {
   result.where = place(table.source());
   required(table, "coordinates", what);
   required(table, "momenta", what);
-  result.coordinates = texts(table, "coordinates");
-  result.momenta = texts(table, "momenta");
-  result.velocities = texts(table, "velocities");
+  result.coordinates = name_list(table, "coordinates");
+  result.momenta = name_list(table, "momenta");
+  result.velocities = name_list(table, "velocities");
   if (const toml::node* frame = table.get("frame")) {
     const toml::array& rows = as_array(*frame, "'frame'");
     if (rows.size() != result.momenta.size())
@@ -165,7 +165,7 @@ SceneText Reader::scene(const toml::table& table, const std::string& what) const
   result.initial = entries(required(table, "initial", what), "'initial'");
   result.duration = optional_text(table, "duration");
   result.on = texts(table, "on");
-  result.observe = texts(table, "observe");
+  result.observe = name_list(table, "observe");
   result.extreme = optional_text(table, "extreme");
   result.reference = optional_entries(table, "reference");
   return result;
@@ -188,21 +188,26 @@ std::vector<ParameterText> Reader::parameters(const toml::table& root) const {
     }
     const toml::table& table = *value.as_table();
     allow(table, what, {"assume"});
-    ParameterText parameter{key_text(key), {}};
-    // So is the name of an arbitrary function written, and it comes from [functions] alone.
-    if (function_name(parameter.name.value)) check_name(parameter.name, "a parameter");
+    std::vector<Text> assumptions;
     const toml::node* assume = table.get("assume");
     if (assume != nullptr && assume->is_array()) {
-      parameter.assume = texts(table, "assume");
+      assumptions = texts(table, "assume");
     } else if (assume != nullptr) {
-      parameter.assume = {text(*assume, "'assume'")};
+      assumptions = {text(*assume, "'assume'")};
     }
-    result.push_back(std::move(parameter));
+    for (FamilyMember& member : members_of(key_text(key), integers_)) {
+      // So is the name of an arbitrary function written, and it comes from [functions] alone.
+      if (function_name(member.name.value)) check_name(member.name, "a parameter");
+      const auto indices = std::make_shared<const Indices>(std::move(member.indices));
+      for (Text& assumption : assumptions) assumption.indices = indices;
+      result.push_back({std::move(member.name), assumptions});
+    }
   }
-  std::sort(result.begin(), result.end(), [](const ParameterText& a, const ParameterText& b) {
-    return std::pair(a.name.where.line, a.name.where.column) <
-           std::pair(b.name.where.line, b.name.where.column);
-  });
+  std::stable_sort(result.begin(), result.end(),
+                   [](const ParameterText& a, const ParameterText& b) {
+                     return std::pair(a.name.where.line, a.name.where.column) <
+                            std::pair(b.name.where.line, b.name.where.column);
+                   });
   return result;
 }
 
@@ -280,6 +285,7 @@ MapCaseFile Reader::map_case(const toml::table& root, CaseFile file) const {
 }
 
 AnyCaseFile Reader::read(const toml::table& root) {
+  read_integers(root);
   CaseFile file = read_common(root);
   if (gives_next_values(root)) return map_case(root, std::move(file));
   for (const char* key : {"map_sign", "symmetry"}) {

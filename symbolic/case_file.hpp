@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "symbolic/error.hpp"
+#include "symbolic/expression/indices.hpp"
 
 namespace casimir {
 
@@ -35,6 +36,8 @@ struct Text {
   std::string value;
   Location where;      ///< of the first character of `value`
   SourceLine excerpt;  ///< the source line, if `value` stands in it unchanged
+  /// What letters stand for in it, where its key is one of a family; may be null.
+  std::shared_ptr<const Indices> indices{};
 
   /// The error that something is wrong at `offset` bytes into this text.
   CaseError error(const std::string& what, std::size_t offset = 0,

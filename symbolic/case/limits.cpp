@@ -26,6 +26,8 @@ const std::vector<LimitName>& limit_names() {
       {"bits", &Limits::bits, "bits of a number", 1e9},
       {"size", &Limits::size, "terms and factors of an expression as it is written", kAny},
       {"terms", &Limits::terms, "terms of an expanded polynomial", kAny},
+      {"repetitions", &Limits::repetitions,
+       "names of a family, or terms that the sums of an expression write out", kAny},
       {"work", &Limits::work, "products of two terms in the proof of one claim, for each variable",
        kAny}};
   return names;

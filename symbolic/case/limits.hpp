@@ -19,6 +19,7 @@ struct Limits {
   double bits = 1e5;
   double size = 4e6;
   double terms = 1e6;
+  double repetitions = 1e5;
   double work = 1e9;
 
   /// How whoever sets the limits lets others raise one: `{}` stands for its name. In messages.

@@ -4,14 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #define TOML_EXCEPTIONS 1
 #include <toml++/toml.h>
 
+#include "symbolic/case/name_families.hpp"
 #include "symbolic/case/toml_keys.hpp"
 #include "symbolic/case_file.hpp"
 
@@ -145,6 +150,15 @@ class TomlReader {
     return result;
   }
 
+  /// The same for names, of which some may be families as in "q[1..3]".
+  std::vector<Text> name_list(const toml::table& table, const char* key) const {
+    std::vector<Text> result;
+    for (const Text& given : texts(table, key))
+      for (FamilyMember& member : members_of(given, integers_))
+        result.push_back(std::move(member.name));
+    return result;
+  }
+
   std::vector<std::vector<Text>> matrix(const toml::table& table, const char* key) const {
     std::vector<std::vector<Text>> rows;
     for (const toml::node& item :
@@ -162,15 +176,20 @@ class TomlReader {
     return rows;
   }
 
-  /// The key-value pairs of a table of strings, in the order of the file.
+  /// The key-value pairs of a table of strings, in the order of the file. A key may stand for a
+  /// family, as "q[i=1..n]"; then the value is read for each i.
   std::vector<Entry> entries(const toml::node& node, const std::string& what) const {
     std::vector<Entry> result;
     for (const auto& [key, value] : as_table(node, what)) {
-      result.emplace_back(key_text(key),
-                          text(value, fmt::format("'{}'", printable(std::string(key.str()))),
-                               root_key_hint(key.str())));
+      const Text given = text(value, fmt::format("'{}'", printable(std::string(key.str()))),
+                              root_key_hint(key.str()));
+      for (FamilyMember& member : members_of(key_text(key), integers_)) {
+        result.emplace_back(std::move(member.name), given);
+        if (!member.indices.empty())
+          result.back().second.indices = std::make_shared<const Indices>(std::move(member.indices));
+      }
     }
-    std::sort(result.begin(), result.end(), [](const Entry& a, const Entry& b) {
+    std::stable_sort(result.begin(), result.end(), [](const Entry& a, const Entry& b) {
       return std::pair(a.first.where.line, a.first.where.column) <
              std::pair(b.first.where.line, b.first.where.column);
     });
@@ -194,8 +213,30 @@ class TomlReader {
     for (const toml::node& item : *node->as_array()) read(as_table(item, what), what);
   }
 
+  /// Integers that stand in [definitions] as they are: they may be bounds of families.
+  void read_integers(const toml::table& root) {
+    const toml::node* node = root.get("definitions");
+    if (node == nullptr || !node->is_table()) return;
+    for (const auto& [key, value] : *node->as_table()) {
+      const auto plain = value.value_exact<int64_t>();
+      const auto quoted = value.value_exact<std::string>();
+      long number = 0;
+      if (plain) {
+        number = *plain;
+      } else if (quoted) {
+        const auto [end, problem] =
+            std::from_chars(quoted->data(), quoted->data() + quoted->size(), number);
+        if (problem != std::errc() || end != quoted->data() + quoted->size()) continue;
+      } else {
+        continue;
+      }
+      integers_[std::string(key.str())] = number;
+    }
+  }
+
   std::string file_;
   std::vector<SourceLine> lines_;
+  Indices integers_;
 };
 
 }  // namespace casimir

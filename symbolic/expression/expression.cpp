@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 #include <unordered_set>
+#include <utility>
 
 #include "symbolic/case/limits.hpp"
 #include "symbolic/expression/arbitrary_call.hpp"
@@ -16,6 +17,7 @@
 #include "symbolic/expression/elliptic.hpp"
 #include "symbolic/expression/expression_range.hpp"
 #include "symbolic/expression/expression_size.hpp"
+#include "symbolic/expression/indices.hpp"
 #include "symbolic/expression/name_characters.hpp"
 #include "symbolic/expression/notation.hpp"
 #include "symbolic/expression/principal_values.hpp"
@@ -306,12 +308,17 @@ class Parser {
   Quantity name() {
     const std::size_t start = at_;
     std::string word = read_name(text_.value, at_, end_);
+    if (const std::optional<long> index = value_of_index(word, start))
+      return {GiNaC::numeric(*index), 20, 0, 1};
+    if (peek() == '[') word = member_of(word);
     if (names_.find(word) == nullptr) word = usual_name(word);
     if (const ElementaryFunction* function = find_elementary_function(word))
       return call(*function, start);
     if (peek() == '(' && names_.find(word) == nullptr) {
       if (word == "diff") return partial_derivative(start);
       if (word == "rate") return rate(start);
+      if (word == "sum" || word == "product") return repeated(word == "sum", start);
+      if (word == "mod") return remainder(start);
       if (const EllipticFunction* function = find_elliptic_function(word))
         return call(*function, start);
       if (find_with_subscript(word, names_) == nullptr)
@@ -330,6 +337,116 @@ class Parser {
       return arbitrary_call(known->value, *function, start);
     for (const ex& part : known->parts ? *known->parts : std::vector<ex>{}) add_part(part);
     return *known;
+  }
+
+  /// What a letter with a range stands for here; of no other name.
+  std::optional<long> value_of_index(const std::string& word, std::size_t start) {
+    std::optional<long> value;
+    for (const auto& [letter, now] : indices_)
+      if (letter == word) value = now;
+    if (!value && text_.indices && text_.indices->contains(word)) value = text_.indices->at(word);
+    if (value && names_.find(word) != nullptr)
+      fail_at(start, fmt::format("'{}' has a range here and is a name of this case as well", word));
+    return value;
+  }
+
+  /// An integer that is known where it is read.
+  long integer(const char* what) {
+    peek();
+    const std::size_t start = at_;
+    const ex value = sum().value;
+    constexpr long kMost = 1000000000;
+    if (!value.info(GiNaC::info_flags::integer) || GiNaC::abs(value) > kMost)
+      fail_at(start, fmt::format("{} has to be an integer", what),
+              "one that is known here, as 3, or n where [definitions] has n = 3");
+    return GiNaC::ex_to<GiNaC::numeric>(value).to_long();
+  }
+
+  /// The indices behind the name of a family, and the name of the member that they are of.
+  std::string member_of(const std::string& family) {
+    ++at_;
+    std::vector<long> places;
+    do {
+      const std::size_t start = at_;
+      places.push_back(integer("an index"));
+      if (places.back() < 0) fail_at(start, "an index is not negative");
+    } while (accept(','));
+    if (!accept(']')) unexpected("',' or ']'");
+    return indexed_name(family, places);
+  }
+
+  /// mod(a, b): what is left of the integer a, from 0 to b - 1.
+  Quantity remainder(std::size_t start) {
+    if (!accept('(')) unexpected("'('");
+    const long a = integer("what is divided");
+    if (!accept(',')) unexpected("',' of mod(a, b)");
+    const long b = integer("what it is divided by");
+    if (!accept(')')) unexpected("')'");
+    if (b <= 0) fail_at(start, "mod(a, b) needs b > 0");
+    return {GiNaC::numeric((a % b + b) % b), 20, 0, 1};
+  }
+
+  /// sum(i, a, b, F) and product(i, a, b, F): F for i = a .. b, of which nothing is left if b < a.
+  Quantity repeated(bool is_sum, std::size_t start) {
+    const Depth depth(*this);
+    if (!accept('(')) unexpected("'('");
+    const std::string letter = this->letter();
+    if (!accept(',')) unexpected("',' and the first value");
+    const long first = integer("the first value");
+    if (!accept(',')) unexpected("',' and the last value");
+    const long last = integer("the last value");
+    if (!accept(',')) unexpected(is_sum ? "',' and the terms" : "',' and the factors");
+    constexpr double kCharactersOfTerm = 1000;
+    const std::size_t body = at_;
+    Quantity total{is_sum ? 0 : 1};
+    GiNaC::exvector parts;
+    for (long k = first; k <= last; ++k) {
+      check(++repetitions_, &Limits::repetitions, start,
+            "sums here write out more than {:.0f} terms");
+      at_ = body;
+      indices_.emplace_back(letter, k);
+      const Quantity next = sum();
+      indices_.pop_back();
+      parts.push_back(next.value);
+      total.bits = is_sum ? std::max(total.bits, next.bits) : total.bits + next.bits;
+      total.degree = is_sum ? std::max(total.degree, next.degree) : total.degree + next.degree;
+      total.nodes += next.nodes;
+      total.depth = std::max(total.depth, next.depth + 1);
+      checked(total, start);
+      // A body of blanks is read as often as any other.
+      repetitions_ += static_cast<double>(at_ - body) / kCharactersOfTerm;
+    }
+    if (parts.empty()) at_ = end_of_argument(body);
+    if (!accept(')')) unexpected("')'");
+    if (is_sum) total.bits += std::ceil(std::log2(1 + static_cast<double>(parts.size())));
+    total.value =
+        evaluated(start, [&] { return is_sum ? ex(GiNaC::add(parts)) : ex(GiNaC::mul(parts)); });
+    return checked(total, start);
+  }
+
+  /// The letter that a sum goes over.
+  std::string letter() {
+    peek();
+    const std::size_t start = at_;
+    if (at_ >= end_ || !is_name_start(text_.value[at_])) unexpected("the letter of the index");
+    std::string word = read_name(text_.value, at_, end_);
+    if (names_.find(word) != nullptr)
+      fail_at(start, fmt::format("'{}' is a name of this case, and no index", printable(word)));
+    if (value_of_index(word, start))
+      fail_at(start, fmt::format("the index '{}' has a range already", printable(word)));
+    return word;
+  }
+
+  /// Where the argument that begins there ends, which nobody reads.
+  std::size_t end_of_argument(std::size_t at) const {
+    int open = 0;
+    for (; at < end_; ++at) {
+      const char c = text_.value[at];
+      if (c == '(' || c == '[' || c == '{') ++open;
+      if (c == ')' || c == ']' || c == '}') --open;
+      if (open < 0) break;
+    }
+    return at;
   }
 
   /// U(r), U'(r), .. of an arbitrary function.
@@ -477,7 +594,9 @@ class Parser {
   std::size_t at_;
   std::size_t end_;
   int depth_ = 0;
-  bool imaginary_unit_ = false;  ///< `I` has been read
+  double repetitions_ = 0;                             ///< of all sums and products
+  std::vector<std::pair<std::string, long>> indices_;  ///< of those that are open
+  bool imaginary_unit_ = false;                        ///< `I` has been read
   std::vector<ex> parts_;
   std::unordered_set<ex> seen_;
 };
