@@ -28,6 +28,7 @@ class Reader : private TomlReader {
 
  private:
   CaseFile read_common(const toml::table& root);
+  void read_claims(const toml::table& root, CaseFile& result) const;
   MapCaseFile map_case(const toml::table& root, CaseFile file) const;
   PhaseSpaceText phase_space(const toml::table& table, const std::string& what) const;
   VectorFieldText vector_field(const Text& momentum, const toml::node& node,
@@ -295,31 +296,7 @@ AnyCaseFile Reader::read(const toml::table& root) {
   return file;
 }
 
-CaseFile Reader::read_common(const toml::table& root) {
-  allow(root, "the case file", root_keys());
-  CaseFile result;
-  result.file = file_;
-  result.name = printable(std::filesystem::path(file_).stem().string(), 200);
-  result.title = plain(root, "title");
-  result.source = plain(root, "source");
-  result.book = plain(root, "book");
-  for (const Text& tag : texts(root, "tags")) result.tags.push_back(one_line(tag.value));
-  result.integrable = boolean(root, "integrable");
-  result.superintegrable = boolean(root, "superintegrable");
-  result.hamiltonian = optional_text(root, "hamiltonian");
-  result.lagrangian = optional_text(root, "lagrangian");
-  const toml::node* space = root.get("phase_space");
-  if (space == nullptr) {
-    throw CaseError({file_, 1, 1}, "the case file needs a table [phase_space]", line(1).text());
-  }
-  result.phase_space = phase_space(as_table(*space, "[phase_space]"), "[phase_space]");
-  result.parameters = parameters(root);
-  for (ParameterText& function : functions(root)) result.parameters.push_back(std::move(function));
-  result.definitions = optional_entries(root, "definitions");
-  result.casimirs = optional_entries(root, "casimirs");
-  result.integrals = optional_entries(root, "integrals");
-  if (root.contains("equations")) result.equations = optional_entries(root, "equations");
-
+void Reader::read_claims(const toml::table& root, CaseFile& result) const {
   each(root, "conditional", [&](const toml::table& table, const std::string& what) {
     result.conditionals.push_back(level(table, what));
     required(table, "on", what);
@@ -346,6 +323,34 @@ CaseFile Reader::read_common(const toml::table& root) {
     result.identities.push_back({name(table, what), text(required(table, "left", what), "'left'"),
                                  optional_text(table, "right"), texts(table, "on")});
   });
+}
+
+CaseFile Reader::read_common(const toml::table& root) {
+  allow(root, "the case file", root_keys());
+  CaseFile result;
+  result.file = file_;
+  result.name = printable(std::filesystem::path(file_).stem().string(), 200);
+  result.title = plain(root, "title");
+  result.source = plain(root, "source");
+  result.book = plain(root, "book");
+  for (const Text& tag : texts(root, "tags")) result.tags.push_back(one_line(tag.value));
+  result.integrable = boolean(root, "integrable");
+  result.superintegrable = boolean(root, "superintegrable");
+  result.hamiltonian = optional_text(root, "hamiltonian");
+  result.lagrangian = optional_text(root, "lagrangian");
+  const toml::node* space = root.get("phase_space");
+  if (space == nullptr) {
+    throw CaseError({file_, 1, 1}, "the case file needs a table [phase_space]", line(1).text());
+  }
+  result.phase_space = phase_space(as_table(*space, "[phase_space]"), "[phase_space]");
+  result.parameters = parameters(root);
+  for (ParameterText& function : functions(root)) result.parameters.push_back(std::move(function));
+  result.definitions = optional_entries(root, "definitions");
+  result.casimirs = optional_entries(root, "casimirs");
+  result.integrals = optional_entries(root, "integrals");
+  if (root.contains("equations")) result.equations = optional_entries(root, "equations");
+
+  read_claims(root, result);
   if (const toml::node* section = root.get("section")) {
     const toml::table& table = as_table(*section, "[section]");
     allow(table, "[section]", {"function", "direction", "plot", "labels", "energy", "casimirs"});

@@ -240,11 +240,7 @@ class Carrier {
 
 }  // namespace
 
-void Atlas::add(const Model& model, bool canonical) {
-  const bool changes_variables =
-      std::any_of(model.maps.begin(), model.maps.end(),
-                  [](const PoissonMap& map) { return !map.inverses.empty() && !map.to.empty(); });
-  if (!changes_variables || !model.poisson) return;
+std::size_t Atlas::set_of(const Model& model, bool canonical) {
   Coordinates own{model.name, model.variables,     *model.poisson, canonical, {}, {},
                   {},         model.linear_bracket};
   for (const Assumption& a : model.assumptions) {
@@ -276,6 +272,10 @@ void Atlas::add(const Model& model, bool canonical) {
     known->canonical = canonical;
     known->linear_bracket = own.linear_bracket;
   }
+  return from;
+}
+
+void Atlas::add_changes(const Model& model, std::size_t from) {
   const std::vector<ex> names(sets[from].variables.begin(), sets[from].variables.end());
   const GiNaC::exmap own_names = substitution(model.variables, names);
   for (const PoissonMap& map : model.maps) {
@@ -303,6 +303,14 @@ void Atlas::add(const Model& model, bool canonical) {
     changes.push_back(std::move(forward));
     changes.push_back(std::move(backward));
   }
+}
+
+void Atlas::add(const Model& model, bool canonical) {
+  const bool changes_variables =
+      std::any_of(model.maps.begin(), model.maps.end(),
+                  [](const PoissonMap& map) { return !map.inverses.empty() && !map.to.empty(); });
+  if (!changes_variables || !model.poisson) return;
+  add_changes(model, set_of(model, canonical));
 }
 
 std::size_t Atlas::set_for(const PoissonMap& map) {

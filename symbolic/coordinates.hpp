@@ -56,6 +56,10 @@ struct Atlas {
   std::vector<const CoordinateChange*> path(std::size_t from, std::size_t to, bool forward) const;
 
  private:
+  /// The set of the variables of a model, which is known from now on.
+  std::size_t set_of(const Model& model, bool canonical);
+  /// The changes along the maps of a model, whose variables are those of the set `from`.
+  void add_changes(const Model& model, std::size_t from);
   std::size_t set_for(const PoissonMap& map);
 };
 

@@ -232,17 +232,42 @@ BallEvaluator::Value BallEvaluator::angle_of(const Value& y, const Value& x) {
   return checked(std::move(result));
 }
 
+BallEvaluator::Value BallEvaluator::elliptic(const GiNaC::function& f) {
+  std::vector<Value> arguments;
+  for (std::size_t i = 0; i < f.nops(); ++i) arguments.push_back(value(f.op(i)));
+  std::vector<acb_srcptr> balls;
+  for (const Value& argument : arguments) balls.push_back(argument.ball().raw());
+  Ball result;
+  if (!elliptic_ball(f.get_name(), result.raw(), balls, bits_)) throw NotCertified{};
+  return checked(std::move(result));
+}
+
+BallEvaluator::Value BallEvaluator::arc_of(const Value& v, bool sine) {
+  if (v.exact && cln::abs(*v.exact) == 1) smooth_ = false;
+  if (sine && v.exact && cln::zerop(*v.exact)) return number(0);
+  if (!sine && v.exact && *v.exact == 1) return number(0);
+  if (numbers_ == Numbers::real) {
+    // An argument that is exactly 1 or -1 has a value; a ball around it leaves that open.
+    if (v.exact && cln::abs(*v.exact) > 1) throw NotCertified{};
+    if (!v.exact) {
+      Ball room;  // v^2 - 1
+      acb_mul(room.raw(), v.ball().raw(), v.ball().raw(), bits_);
+      acb_sub_ui(room.raw(), room.raw(), 1, bits_);
+      if (room.sign() != -1) throw NotCertified{};
+    }
+  }
+  Ball result;
+  if (sine)
+    acb_asin(result.raw(), v.ball().raw(), bits_);
+  else
+    acb_acos(result.raw(), v.ball().raw(), bits_);
+  if (numbers_ == Numbers::real) arb_zero(acb_imagref(result.raw()));
+  return checked(std::move(result));
+}
+
 BallEvaluator::Value BallEvaluator::function(const GiNaC::function& f) {
   const std::string name = f.get_name();
-  if (is_elliptic_function(f)) {
-    std::vector<Value> arguments;
-    for (std::size_t i = 0; i < f.nops(); ++i) arguments.push_back(value(f.op(i)));
-    std::vector<acb_srcptr> balls;
-    for (const Value& argument : arguments) balls.push_back(argument.ball().raw());
-    Ball result;
-    if (!elliptic_ball(name, result.raw(), balls, bits_)) throw NotCertified{};
-    return checked(std::move(result));
-  }
+  if (is_elliptic_function(f)) return elliptic(f);
   const Value v = value(f.op(0));
   if (name == "atan2") return angle_of(v, Value(value(f.op(1))));
   const bool zero = v.exact && cln::zerop(*v.exact);
@@ -281,25 +306,7 @@ BallEvaluator::Value BallEvaluator::function(const GiNaC::function& f) {
     if (zero) return number(0);
     acb_atan(result.raw(), v.ball().raw(), bits_);
   } else if (name == "asin" || name == "acos") {
-    const bool sine = name == "asin";
-    if (v.exact && cln::abs(*v.exact) == 1) smooth_ = false;
-    if (sine && zero) return number(0);
-    if (v.exact && *v.exact == 1 && !sine) return number(0);
-    if (numbers_ == Numbers::real) {
-      // An argument that is exactly 1 or -1 has a value; a ball around it leaves that open.
-      if (v.exact && cln::abs(*v.exact) > 1) throw NotCertified{};
-      if (!v.exact) {
-        Ball room;  // 1 - v^2
-        acb_mul(room.raw(), v.ball().raw(), v.ball().raw(), bits_);
-        acb_sub_ui(room.raw(), room.raw(), 1, bits_);
-        if (room.sign() != -1) throw NotCertified{};
-      }
-    }
-    if (sine)
-      acb_asin(result.raw(), v.ball().raw(), bits_);
-    else
-      acb_acos(result.raw(), v.ball().raw(), bits_);
-    if (numbers_ == Numbers::real) arb_zero(acb_imagref(result.raw()));
+    return arc_of(v, name == "asin");
   } else {
     throw NotCertified{};
   }

@@ -85,6 +85,9 @@ class BallEvaluator {
   Value whole_power(const Value& base, const cln::cl_I& exponent) const;
   Value root(const Value& base, unsigned long order);
   Value function(const GiNaC::function& f);
+  Value elliptic(const GiNaC::function& f);
+  /// asin v, or acos v.
+  Value arc_of(const Value& v, bool sine);
   Value angle_of(const Value& y, const Value& x);
   /// \throws NotCertified  unless the sign is known
   int certain_sign(const Value& v) const;

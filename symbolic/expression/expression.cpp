@@ -310,8 +310,8 @@ class Parser {
     std::string word = read_name(text_.value, at_, end_);
     if (const std::optional<long> index = value_of_index(word, start))
       return {GiNaC::numeric(*index), 20, 0, 1};
-    if (peek() == '[') word = member_of(word);
     if (names_.find(word) == nullptr) word = usual_name(word);
+    if (peek() == '[' && find_elementary_function(word) == nullptr) word = member_of(word);
     if (const ElementaryFunction* function = find_elementary_function(word))
       return call(*function, start);
     if (peek() == '(' && names_.find(word) == nullptr) {
@@ -432,6 +432,10 @@ class Parser {
     std::string word = read_name(text_.value, at_, end_);
     if (names_.find(word) != nullptr)
       fail_at(start, fmt::format("'{}' is a name of this case, and no index", printable(word)));
+    Text given = text_;
+    given.value = word;
+    given.where.column += static_cast<int>(start);
+    check_name(given, "an index");
     if (value_of_index(word, start))
       fail_at(start, fmt::format("the index '{}' has a range already", printable(word)));
     return word;

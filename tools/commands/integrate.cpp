@@ -288,11 +288,8 @@ void check_frequencies(const IntegrateArguments& options) {
         "--digits, --ensemble, --as, --output and --plot");
 }
 
-int integrate_case(const IntegrateArguments& options) {
-  check_frequencies(options);
-  options.picture.check();
-  options.print.check(options.picture.wanted());
-  if (options.validated) return enclose_case(options);
+/// What goes with enclosures alone, or not with each other.
+void check_unvalidated(const IntegrateArguments& options) {
   if (options.initial_radius) throw UsageError("--initial-radius needs --validated");
   if (!options.certificate.empty()) throw UsageError("--certificate needs --validated");
   for (const std::string& word : options.common.params)
@@ -301,6 +298,14 @@ int integrate_case(const IntegrateArguments& options) {
     throw UsageError("--plot goes with a run in double precision, not with --digits or --ensemble");
   if (options.picture.wanted() && !options.as.empty())
     throw UsageError("--plot does not go with --as; --in integrates and draws in other variables");
+}
+
+int integrate_case(const IntegrateArguments& options) {
+  check_frequencies(options);
+  options.picture.check();
+  options.print.check(options.picture.wanted());
+  if (options.validated) return enclose_case(options);
+  check_unvalidated(options);
   if (options.digits) {
     if (!options.ensemble.empty()) throw UsageError("--digits does not go with --ensemble");
     if (options.run.asked.projects()) throw UsageError("--project does not go with --digits");

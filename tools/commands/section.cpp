@@ -32,8 +32,6 @@
 namespace casimir::tools {
 namespace {
 
-/// Starts of Newton's method for cycles.
-constexpr std::size_t kStarts = 400;
 /// Orbits are begun in turns, of so many at least: they fill the registers of some cores.
 constexpr std::size_t kOrbitsOfTurn = 16, kTurns = 4;
 
@@ -81,8 +79,9 @@ class Section {
         report.rotations.push_back(rotation_of_orbit(problem_, orbit));
     if (options_.longest_cycle() > 0) {
       progress_.begin(model_.name + ": cycles");
-      report.cycles = find_cycles(level_, cutter_, starts(report), options_.longest_cycle(),
-                                  [this](double share) { progress_.show(share); });
+      report.cycles = find_cycles(
+          level_, cutter_, cycle_starts(level_, domain(), report.orbits, options_.longest_cycle()),
+          options_.longest_cycle(), [this](double share) { progress_.show(share); });
       cut_short_ = cut_short_ || cutter_.interrupted();
       if (options_.validated)
         report.proofs = enclose_cycles(model_, model_.scene(options_.common.scene), problem_,
@@ -171,29 +170,6 @@ class Section {
       report.warnings.push_back(
           fmt::format("only {} different points of the section were found for {} orbits",
                       report.orbits.size(), options_.orbits));
-  }
-
-  /// For cycles: points all over the section, and where orbits nearly close.
-  std::vector<PlacedPoint> starts(const SectionReport& report) {
-    std::vector<PlacedPoint> result = spread_out(level_, domain(), kStarts);
-    const auto n = static_cast<Eigen::Index>(problem_.states());
-    for (const OrbitReport& orbit : report.orbits) {
-      for (std::size_t length = 1; length <= options_.longest_cycle(); ++length) {
-        double nearest = std::numeric_limits<double>::infinity();
-        std::optional<PlacedPoint> best;
-        for (std::size_t i = 0; i + length < orbit.places.size(); ++i) {
-          const auto at = [&](std::size_t k) -> LevelSet::Vector {
-            return Eigen::Map<const LevelSet::Vector>(
-                orbit.orbit.states.data() + static_cast<Eigen::Index>(k) * n, n);
-          };
-          const double d = level_.difference(at(i), at(i + length)).norm();
-          if (d < nearest) best = {at(i), orbit.places[i]};
-          nearest = std::min(nearest, d);
-        }
-        if (best) result.push_back(*best);
-      }
-    }
-    return result;
   }
 
   void warn_of_orbits(SectionReport& report) const {

@@ -327,6 +327,54 @@ int sweep(const SweepArguments& options) {
   }
 }
 
+/// The grid, and what is done at its points.
+void add_study(CLI::App& command, SweepArguments& options) {
+  command
+      .add_option("--over", options.over,
+                  "NAME=FROM:TO:N, both ends included, or NAME=A,B,C: a parameter, or the initial "
+                  "value of a variable (repeatable: all combinations, the last fastest)")
+      ->allow_extra_args(false)
+      ->type_name("NAME=FROM:TO:N");
+  command
+      .add_option("--let", options.lets,
+                  "NAME=EXPR: a parameter or an initial value as an expression of what --over "
+                  "varies, as in --over theta=0:Pi:50 --let g1=sin(theta) (repeatable)")
+      ->allow_extra_args(false)
+      ->type_name("NAME=EXPR");
+  command
+      .add_option("--do", options.task,
+                  "What is done at each point: integrate (default); section: orbits on the level "
+                  "of the point, how many are chaotic; exponents: the largest Lyapunov exponent; "
+                  "indicators: MEGNO and GALI of deviations on the level of the proved integrals; "
+                  "rotation: the rotation number of the point's orbit in the section")
+      ->check(one_of({kIntegrate, kSection, kExponents, kIndicators, kRotation}))
+      ->type_name("WHAT");
+  command.add_option("--orbits", options.orbits, "Orbits of a section (default 16)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000));
+  command.add_option("--points", options.points, "Crossings of each orbit (default 200)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10000000));
+}
+
+/// The table and its picture.
+void add_output(CLI::App& command, SweepArguments& options) {
+  command
+      .add_option(
+          "--output", options.output,
+          "Write the results to this .csv, .npz, .h5 or .hdf5 file (default: CASE-sweep.csv)")
+      ->type_name("FILE");
+  command
+      .add_option("--plot", options.plot,
+                  "Draw a map: one column over a grid of two axes, the first across")
+      ->type_name("FILE.svg|png|pdf");
+  command
+      .add_option("--colour", options.colour,
+                  "The column that is drawn (default: exponent, megno, rotation, chaotic; of "
+                  "integrate there is none)")
+      ->type_name("COLUMN");
+}
+
 }  // namespace
 
 void register_sweep(CLI::App& program, Action& action) {
@@ -340,32 +388,7 @@ void register_sweep(CLI::App& program, Action& action) {
   add_common(*command, options->common);
   options->start.add_to(*command);
   add_case(*command, options->case_name);
-  command
-      ->add_option("--over", options->over,
-                   "NAME=FROM:TO:N, both ends included, or NAME=A,B,C: a parameter, or the initial "
-                   "value of a variable (repeatable: all combinations, the last fastest)")
-      ->allow_extra_args(false)
-      ->type_name("NAME=FROM:TO:N");
-  command
-      ->add_option("--let", options->lets,
-                   "NAME=EXPR: a parameter or an initial value as an expression of what --over "
-                   "varies, as in --over theta=0:Pi:50 --let g1=sin(theta) (repeatable)")
-      ->allow_extra_args(false)
-      ->type_name("NAME=EXPR");
-  command
-      ->add_option("--do", options->task,
-                   "What is done at each point: integrate (default); section: orbits on the level "
-                   "of the point, how many are chaotic; exponents: the largest Lyapunov exponent; "
-                   "indicators: MEGNO and GALI of deviations on the level of the proved integrals; "
-                   "rotation: the rotation number of the point's orbit in the section")
-      ->check(one_of({kIntegrate, kSection, kExponents, kIndicators, kRotation}))
-      ->type_name("WHAT");
-  command->add_option("--orbits", options->orbits, "Orbits of a section (default 16)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 100000));
-  command->add_option("--points", options->points, "Crossings of each orbit (default 200)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 10000000));
+  add_study(*command, *options);
   command->add_option("--method", options->method, "A method, or auto: " + method_list())
       ->type_name("NAME");
   add_run_options(*command, options->run);
@@ -378,20 +401,7 @@ void register_sweep(CLI::App& program, Action& action) {
   command->add_option("--jobs", options->jobs, "Threads (default: all processors)")
       ->type_name("N")
       ->check(count_from_one());
-  command
-      ->add_option(
-          "--output", options->output,
-          "Write the results to this .csv, .npz, .h5 or .hdf5 file (default: CASE-sweep.csv)")
-      ->type_name("FILE");
-  command
-      ->add_option("--plot", options->plot,
-                   "Draw a map: one column over a grid of two axes, the first across")
-      ->type_name("FILE.svg|png|pdf");
-  command
-      ->add_option("--colour", options->colour,
-                   "The column that is drawn (default: exponent, megno, rotation, chaotic; of "
-                   "integrate there is none)")
-      ->type_name("COLUMN");
+  add_output(*command, *options);
   options->picture.add_to(*command);
   command->add_flag("--restart", options->restart, "Throw away the points that are done");
   command->callback([options, &action] { action = [options] { return sweep(*options); }; });

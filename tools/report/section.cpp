@@ -16,7 +16,8 @@ void cut_section(const CaseFile& file, const Model& model, const Scene& scene, P
   const SectionProblem problem = section_problem(model, scene, section_request(file, model));
   const LevelSet level(problem);
   const OrbitCutter cutter(problem, {kTolerance, 0, time_limit(kLongest)}, kOrbits * kPoints);
-  const std::vector<OrbitReport> orbits = domain_orbits(level, cutter, kOrbits, kPoints);
+  const std::vector<OrbitReport> orbits =
+      domain_orbits(level, cutter, domain_of_motion(level, cutter), kOrbits, kPoints);
   if (orbits.empty()) return;
   const Chart chart = section_chart(problem.plotted, orbits);
   pictures.section_caption = fmt::format(

@@ -2,13 +2,11 @@
 
 // Several numbers in one register, by the vector extensions of GCC and Clang.
 
+#include "runtime/kernels/inline.hpp"
 #include "runtime/kernels/unroll.hpp"
 #include "runtime/module_abi.h"
 
 namespace casimir_kernel {
-
-#define CASIMIR_INLINE inline __attribute__((always_inline))
-#define CASIMIR_INLINE_LAMBDA __attribute__((always_inline))
 
 template <int width>
 struct LaneTypes;

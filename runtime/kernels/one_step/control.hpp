@@ -11,6 +11,7 @@
 //     static void jacobian(double t, const double* x, const double* p, double* J);  // optional,
 //   };                                                                          // n*n by columns
 
+#include "runtime/kernels/inline.hpp"
 #include "runtime/kernels/unroll.hpp"
 #include "runtime/module_abi.h"
 
@@ -183,164 +184,231 @@ enum class Trial { done, not_finite, not_solved };
 /// untouched: what is returned is always the last accepted state. With a fixed step there is no
 /// error control, but a step whose error estimate exceeds the state itself ends the run.
 template <class System, class Step>
-void march(const casimir_run* run, double* x, casimir_outcome* out) {
-  constexpr int n = System::n;
-  constexpr double kSafety = 0.9, kShrink = 0.2, kGrow = 6;
-  // How fast the step may grow again that was too long to be solved.
-  constexpr double kRelief = requires(Step s) { s.settle(1.); }
+class March {
+  static constexpr int n = System::n;
+  static constexpr double kSafety = 0.9, kShrink = 0.2, kGrow = 6;
+  /// How fast the step may grow again that was too long to be solved.
+  static constexpr double kRelief = requires(Step s) { s.settle(1.); }
   ? 2 : 1.1;
-  Step step;
-  double carry[n], next[n], next_carry[n];
-  double t = run->t_begin, t_carry = 0;
-  const double span = run->t_end - run->t_begin;
-  const bool adaptive = !(run->fixed_step > 0);
-  casimir_run asked = *run;
-  if (!adaptive) {  // then `error` is measured against the state itself
-    asked.rtol = 1;
-    asked.atol = largest<n>(x);
-  }
-  unsigned long long steps = 0, rejected = 0;
-  out->steps = out->rejected = out->evaluations = out->jacobians = 0;
-  out->t = t;
-  out->status = CASIMIR_NON_FINITE;
-  if (!all_finite<n>(x) || !__builtin_isfinite(span)) return;
-  out->status = CASIMIR_OK;
-  if (span == 0) return;
 
-  double h = span, pieces = 0;
-  int status = CASIMIR_OK;
-  if (!step.begin(&asked, span, x)) status = CASIMIR_NON_FINITE;
-  if (!adaptive) {
-    pieces = __builtin_ceil(magnitude(span) / run->fixed_step * (1 - 4 * kEpsilon));
-    pieces = larger(pieces, 1);
-    h = span / pieces;
-    if (!(pieces < 0x1p53)) status = CASIMIR_STEP_UNDERFLOW;
-  } else if (status == CASIMIR_OK) {
-    h = run->first_step;
-    if (!(h > 0)) {
-      h = magnitude(first_step<System>(run, x, step.f, span, Step::power));
-      h = larger(h, 0x1p-40 * magnitude(t));
-      ++step.evaluations;
-    }
-    if (span < 0) h = -h;
-  }
-  for (int i = 0; i < n; ++i) carry[i] = 0;
+ public:
+  March(const casimir_run* run, double* x, casimir_outcome* out)
+      : run_(run),
+        x_(x),
+        out_(out),
+        adaptive_(!(run->fixed_step > 0)),
+        span_(run->t_end - run->t_begin),
+        asked_(*run),
+        t_(run->t_begin),
+        ceiling_(magnitude(span_)),
+        pace_(run->t_begin) {}
 
-  double most = kGrow, ceiling = magnitude(span);
-  int failure = CASIMIR_STEP_UNDERFLOW;
-  bool there = false;
-  Pace pace(t);
-  while (status == CASIMIR_OK && !there) {
-    if (run->max_steps && steps + rejected >= run->max_steps) {
-      status = CASIMIR_MAX_STEPS;
-      break;
+  void go() {
+    for (int i = 0; i < n; ++i) state_[i] = x_[i];
+    if (!all_finite<n>(state_) || !__builtin_isfinite(span_)) status_ = CASIMIR_NON_FINITE;
+    if (status_ == CASIMIR_OK && span_ != 0) {
+      begin();
+      while (status_ == CASIMIR_OK && !there_) {
+        double t1 = t_, t1_carry = t_carry_, trial = h_;
+        if (!may_go_on() || !plan(t1, t1_carry, trial)) break;
+        if (attempt(t1, trial)) {
+          accept(t1, t1_carry);
+          if (adaptive_) choose_next(trial);
+        } else {
+          reject(trial);
+        }
+      }
     }
-    if (adaptive && !run->max_steps && pace.hopeless(steps + rejected, t, run->t_end)) {
-      status = CASIMIR_STEP_UNDERFLOW;
-      if (has_shrunk(h, t - run->t_begin, steps))
-        status = status_of_vanished_step<n>(t - run->t_begin, x, step.f, status);
-      break;
+    finish();
+  }
+
+ private:
+  void begin() {
+    if (!adaptive_) {  // then `error` is measured against the state itself
+      asked_.rtol = 1;
+      asked_.atol = largest<n>(state_);
     }
-    double t1 = t, t1_carry = t_carry, trial = h;
-    if (adaptive) {
-      const double rest = (run->t_end - t) - t_carry;
-      there = magnitude(rest) <= 1.01 * magnitude(h);
-      if (there)
+    if (!step_.begin(&asked_, span_, state_)) status_ = CASIMIR_NON_FINITE;
+    h_ = span_;
+    if (!adaptive_) {
+      pieces_ = __builtin_ceil(magnitude(span_) / run_->fixed_step * (1 - 4 * kEpsilon));
+      pieces_ = larger(pieces_, 1);
+      h_ = span_ / pieces_;
+      if (!(pieces_ < 0x1p53)) status_ = CASIMIR_STEP_UNDERFLOW;
+    } else if (status_ == CASIMIR_OK) {
+      h_ = run_->first_step;
+      if (!(h_ > 0)) {
+        h_ = magnitude(first_step<System>(run_, state_, step_.f, span_, Step::power));
+        h_ = larger(h_, 0x1p-40 * magnitude(t_));
+        ++step_.evaluations;
+      }
+      if (span_ < 0) h_ = -h_;
+    }
+    for (int i = 0; i < n; ++i) carry_[i] = 0;
+  }
+
+  /// The end of a run whose steps lead nowhere.
+  void give_up(int failure) {
+    status_ = status_of_vanished_step<n>(t_ - run_->t_begin, state_, step_.f, failure);
+  }
+
+  bool may_go_on() {
+    if (run_->max_steps && steps_ + rejected_ >= run_->max_steps) {
+      status_ = CASIMIR_MAX_STEPS;
+      return false;
+    }
+    if (adaptive_ && !run_->max_steps && pace_.hopeless(steps_ + rejected_, t_, run_->t_end)) {
+      status_ = CASIMIR_STEP_UNDERFLOW;
+      if (has_shrunk(h_, t_ - run_->t_begin, steps_)) give_up(status_);
+      return false;
+    }
+    return true;
+  }
+
+  /// The length of the next step and the time at its end; false where it would be none.
+  CASIMIR_INLINE bool plan(double& t1, double& t1_carry, double& trial) {
+    if (adaptive_) {
+      const double rest = (run_->t_end - t_) - t_carry_;
+      there_ = magnitude(rest) <= 1.01 * magnitude(h_);
+      if (there_)
         trial = rest;
-      else if (magnitude(h) <= larger(16 * kEpsilon * magnitude(t), 16 * kSmallest)) {
-        status = status_of_vanished_step<n>(t - run->t_begin, x, step.f, failure);
-        break;
-      } else if (magnitude(rest) < 2 * magnitude(h)) {
+      else if (magnitude(h_) <= larger(16 * kEpsilon * magnitude(t_), 16 * kSmallest)) {
+        give_up(failure_);
+        return false;
+      } else if (magnitude(rest) < 2 * magnitude(h_)) {
         trial = rest / 2;
       }
       add_carried(t1, t1_carry, trial);
     } else {
-      const double index = static_cast<double>(steps + 1);
-      there = index >= pieces;
-      t1 = run->t_begin + index * h;
+      const double index = static_cast<double>(steps_ + 1);
+      there_ = index >= pieces_;
+      t1 = run_->t_begin + index * h_;
       t1_carry = 0;
     }
-    if (there) t1 = run->t_end;
+    if (there_) t1 = run_->t_end;
+    return true;
+  }
 
-    double part = 1;
-    Trial result = step.attempt(t, x, carry, trial, adaptive);
-    bool good = result == Trial::done && step.error <= 1;
+  CASIMIR_INLINE casimir_step seen(double t1) const {
+    return {t_, t1, state_, next_, &Step::dense, &step_, rate_at_start(step_), rate_at_end(step_)};
+  }
+
+  /// A trial of a step: whether it may be taken.
+  CASIMIR_INLINE bool attempt(double t1, double trial) {
+    part_ = 1;
+    result_ = step_.attempt(t_, state_, carry_, trial, adaptive_);
+    bool good = result_ == Trial::done && step_.error <= 1;
     if (good) {
-      for (int i = 0; i < n; ++i) {
-        if constexpr (requires { step.increment; }) {
-          next[i] = x[i];
-          next_carry[i] = carry[i];
-          add_carried(next[i], next_carry[i], step.increment[i]);
-        } else {
-          next[i] = step.next[i];
-          next_carry[i] = step.next_carry[i];
-        }
-      }
-      if (run->project && all_finite<n>(next)) run->project(run->projector, t1, next, next_carry);
-      if (!all_finite<n>(next) || !step.arrive(t1, next)) {
+      add_increment();
+      if (run_->project && all_finite<n>(next_))
+        run_->project(run_->projector, t1, next_, next_carry_);
+      if (!all_finite<n>(next_) || !step_.arrive(t1, next_)) {
         good = false;
-        result = Trial::not_finite;
-      } else if (run->look && adaptive) {
-        const casimir_step seen = {
-            t, t1, x, next, &Step::dense, &step, rate_at_start(step), rate_at_end(step)};
-        part = run->look(run->looker, &seen);
-        good = part >= 1;
+        result_ = Trial::not_finite;
+      } else if (run_->look && adaptive_) {
+        const casimir_step trial_step = seen(t1);
+        part_ = run_->look(run_->looker, &trial_step);
+        good = part_ >= 1;
       }
     }
-    if (result == Trial::done && !(step.error <= 1e300)) result = Trial::not_finite;
-    if (!good) {
-      ++rejected;
-      there = false;
-      failure = result == Trial::not_finite                ? CASIMIR_NON_FINITE
-                : result == Trial::not_solved || !adaptive ? CASIMIR_NO_CONVERGENCE
-                                                           : CASIMIR_STEP_UNDERFLOW;
-      if (!adaptive) {
-        status = status_of_vanished_step<n>(t - run->t_begin, x, step.f, failure);
-        break;
-      }
-      const double factor = kSafety / rough_root(step.error, Step::power);
-      h = trial * (part < 1                      ? part
-                   : result == Trial::not_solved ? 0.5
-                   : result != Trial::done       ? 0.25
-                   : factor < kShrink            ? kShrink
-                                                 : factor);
-      most = 1;
-      if (result == Trial::not_solved) ceiling = magnitude(trial) / 2;
-      continue;
-    }
-    ++steps;
-    int stop = 0;
-    if (run->observe) {
-      const casimir_step seen = {
-          t, t1, x, next, &Step::dense, &step, rate_at_start(step), rate_at_end(step)};
-      stop = run->observe(run->observer, &seen);
-    }
-    step.accept();
-    t = t1;
-    t_carry = t1_carry;
+    if (result_ == Trial::done && !(step_.error <= 1e300)) result_ = Trial::not_finite;
+    return good;
+  }
+
+  CASIMIR_INLINE void add_increment() {
     for (int i = 0; i < n; ++i) {
-      x[i] = next[i];
-      carry[i] = next_carry[i];
-    }
-    // A motion that begins at zero has no size at first, and one that comes back to it keeps its.
-    if (!adaptive) asked.atol = larger(asked.atol, largest<n>(x));
-    if (stop && !there) status = CASIMIR_STOPPED;
-    if (adaptive) {
-      double factor = kSafety / rough_root(step.error, Step::power);
-      if constexpr (requires { step.settle(factor); }) factor = step.settle(factor);
-      h = trial * (factor > most ? most : factor < kShrink ? kShrink : factor);
-      if (magnitude(h) > ceiling) h = span < 0 ? -ceiling : ceiling;
-      if (ceiling < magnitude(span)) ceiling *= kRelief;
-      most = kGrow;
-      failure = CASIMIR_STEP_UNDERFLOW;
+      if constexpr (requires(Step s) { s.increment; }) {
+        next_[i] = state_[i];
+        next_carry_[i] = carry_[i];
+        add_carried(next_[i], next_carry_[i], step_.increment[i]);
+      } else {
+        next_[i] = step_.next[i];
+        next_carry_[i] = step_.next_carry[i];
+      }
     }
   }
-  out->status = status;
-  out->t = t;
-  out->steps = steps;
-  out->rejected = rejected;
-  out->evaluations = step.evaluations;
-  out->jacobians = step.jacobians;
+
+  /// What is tried next, or the end.
+  __attribute__((noinline)) void reject(double trial) {
+    ++rejected_;
+    there_ = false;
+    failure_ = result_ == Trial::not_finite                 ? CASIMIR_NON_FINITE
+               : result_ == Trial::not_solved || !adaptive_ ? CASIMIR_NO_CONVERGENCE
+                                                            : CASIMIR_STEP_UNDERFLOW;
+    if (!adaptive_) {
+      give_up(failure_);
+      return;
+    }
+    const double factor = kSafety / rough_root(step_.error, Step::power);
+    h_ = trial * (part_ < 1                      ? part_
+                  : result_ == Trial::not_solved ? 0.5
+                  : result_ != Trial::done       ? 0.25
+                  : factor < kShrink             ? kShrink
+                                                 : factor);
+    most_ = 1;
+    if (result_ == Trial::not_solved) ceiling_ = magnitude(trial) / 2;
+  }
+
+  CASIMIR_INLINE void accept(double t1, double t1_carry) {
+    ++steps_;
+    int stop = 0;
+    if (run_->observe) {
+      const casimir_step step = seen(t1);
+      stop = run_->observe(run_->observer, &step);
+    }
+    step_.accept();
+    t_ = t1;
+    t_carry_ = t1_carry;
+    for (int i = 0; i < n; ++i) {
+      state_[i] = next_[i];
+      carry_[i] = next_carry_[i];
+    }
+    // A motion that begins at zero has no size at first, and one that comes back to it keeps its.
+    if (!adaptive_) asked_.atol = larger(asked_.atol, largest<n>(state_));
+    if (stop && !there_) status_ = CASIMIR_STOPPED;
+  }
+
+  CASIMIR_INLINE void choose_next(double trial) {
+    double factor = kSafety / rough_root(step_.error, Step::power);
+    if constexpr (requires(Step s) { s.settle(1.); }) factor = step_.settle(factor);
+    h_ = trial * (factor > most_ ? most_ : factor < kShrink ? kShrink : factor);
+    if (magnitude(h_) > ceiling_) h_ = span_ < 0 ? -ceiling_ : ceiling_;
+    if (ceiling_ < magnitude(span_)) ceiling_ *= kRelief;
+    most_ = kGrow;
+    failure_ = CASIMIR_STEP_UNDERFLOW;
+  }
+
+  void finish() {
+    for (int i = 0; i < n; ++i) x_[i] = state_[i];
+    out_->status = status_;
+    out_->t = t_;
+    out_->steps = steps_;
+    out_->rejected = rejected_;
+    out_->evaluations = step_.evaluations;
+    out_->jacobians = step_.jacobians;
+  }
+
+  const casimir_run* run_;
+  double* x_;
+  casimir_outcome* out_;
+  const bool adaptive_;
+  const double span_;
+  casimir_run asked_;
+  Step step_;
+  double state_[n], carry_[n], next_[n], next_carry_[n];
+  double t_, t_carry_ = 0;
+  double h_ = 0, pieces_ = 0, most_ = kGrow, ceiling_;
+  double part_ = 1;  // of a step that was looked at, what is tried next
+  Trial result_ = Trial::done;
+  unsigned long long steps_ = 0, rejected_ = 0;
+  int status_ = CASIMIR_OK, failure_ = CASIMIR_STEP_UNDERFLOW;
+  bool there_ = false;
+  Pace pace_;
+};
+
+template <class System, class Step>
+void march(const casimir_run* run, double* x, casimir_outcome* out) {
+  March<System, Step>(run, x, out).go();
 }
 
 }  // namespace casimir_kernel

@@ -117,36 +117,28 @@ std::optional<unsigned> always_independent_set(const Prover& prover, const Polyn
   return std::nullopt;
 }
 
+/// Why so many functions are not counted on the generic leaf: a sentence, or nothing.
+std::string why_not_counted(const std::optional<GenericRank>& leaf, std::size_t functions) {
+  if (!leaf) return "no point of the domain was found to take the rank of the bracket at";
+  if (!leaf->uneven.empty()) return leaf->uneven;
+  if (!leaf->exact)
+    return fmt::format("the leaves are only known to have dimension {} or more", leaf->rank);
+  constexpr std::size_t kMaxFunctions = 16;
+  if (functions > kMaxFunctions)
+    return fmt::format("more than {} integrals: their choice is not searched", kMaxFunctions);
+  const std::size_t needed = leaf->rank / 2;
+  if (functions >= needed) return {};
+  return fmt::format("leaves of dimension {} need {} independent integrals in involution; {} known",
+                     leaf->rank, needed, functions);
+}
+
 /// Integrals in involution that are independent on the generic leaf: as many as half its dimension?
 void decide_liouville(Prover& prover, Proof& proof) {
   const std::vector<NamedExpression> functions = with_hamiltonian(prover.model(), {});
   const auto leaf = bracket_rank(prover);
-  if (!leaf) {
-    proof.reason = "no point of the domain was found to take the rank of the bracket at";
-    return;
-  }
-  if (!leaf->uneven.empty()) {
-    proof.reason = leaf->uneven;
-    return;
-  }
-  if (!leaf->exact) {
-    proof.reason =
-        fmt::format("the leaves are only known to have dimension {} or more", leaf->rank);
-    return;
-  }
-  constexpr std::size_t kMaxFunctions = 16;
-  if (functions.size() > kMaxFunctions) {
-    proof.reason =
-        fmt::format("more than {} integrals: their choice is not searched", kMaxFunctions);
-    return;
-  }
+  proof.reason = why_not_counted(leaf, functions.size());
+  if (!proof.reason.empty()) return;
   const std::size_t needed = leaf->rank / 2;
-  if (functions.size() < needed) {
-    proof.reason =
-        fmt::format("leaves of dimension {} need {} independent integrals in involution; {} known",
-                    leaf->rank, needed, functions.size());
-    return;
-  }
   PolynomialRows flows;
   for (const NamedExpression& f : functions) flows.push_back(prover.flow(f.value));
   const std::vector<unsigned> commutes = commuting(prover, functions);

@@ -90,6 +90,10 @@ class Matcher {
     bool all = true;
   };
   Spectra spectra() const;
+  std::vector<Polynomial> equations_of_traces(const PolynomialRing& ring,
+                                              const std::vector<std::size_t>& quadratic) const;
+  std::optional<Known> known_of(const std::vector<GiNaC::ex>& values,
+                                const std::vector<std::size_t>& quadratic) const;
   bool try_spectra(const LinearFamily& family);
   bool bind_hamiltonian(LinearFamily& family, const Known& known) const;
   bool take_all_to(LinearFamily& family, std::vector<std::pair<Vector, Vector>> pairs,
@@ -176,18 +180,9 @@ RationalMatrix Matcher::constant_bracket(const LinearCase& c) const {
   return result;
 }
 
-/// The values of c and of the multiples of quadratic Casimir functions that the spectra allow.
-///
-/// Theorem: with Hessians A, B at the origin and A' = c A + sum m_k C_k'', an isomorphism T has
-/// T^t B T = A'. For a linear bracket the Killing forms obey K_B = T K_A T^t, so that
-/// T^t (B K_B) = (A' K_A) T^t; for a constant bracket Q = T P T^t, so that (Q B) T = T (P A'). So
-/// the operators have the same traces of powers. The C_k are all quadratic Casimir functions.
-Matcher::Spectra Matcher::spectra() const {
-  std::vector<std::size_t> quadratic;
-  if (linear_)
-    for (std::size_t k = 0; k < pair_.casimirs.size(); ++k)
-      if (degree_of(pair_.casimirs[k]) == 2) quadratic.push_back(k);
-  const PolynomialRing ring(quadratic.size() + 2);  // c, the multiples, 1/c
+/// The equations for c, the m_k and 1/c, in this order, that the traces of powers are the same.
+std::vector<Polynomial> Matcher::equations_of_traces(
+    const PolynomialRing& ring, const std::vector<std::size_t>& quadratic) const {
   using Matrix = std::vector<std::vector<Polynomial>>;
   const auto constant = [&](const RationalMatrix& m) {
     Matrix result;
@@ -235,6 +230,40 @@ Matcher::Spectra Matcher::spectra() const {
     power_a = multiply(power_a, of_a);
     power_b = multiply(power_b, of_b);
   }
+  return equations;
+}
+
+/// The factor and the multiples, where they are rational and the factor is not 0.
+std::optional<Matcher::Known> Matcher::known_of(const std::vector<GiNaC::ex>& values,
+                                                const std::vector<std::size_t>& quadratic) const {
+  const auto rational = [](const GiNaC::ex& value) -> std::optional<cl_RA> {
+    if (!value.info(GiNaC::info_flags::rational)) return std::nullopt;
+    return cln::the<cl_RA>(GiNaC::ex_to<GiNaC::numeric>(value).to_cl_N());
+  };
+  Known known;
+  known.multiples.resize(pair_.casimirs.size());
+  known.factor = rational(values[0]);
+  if (!known.factor || cln::zerop(*known.factor)) return std::nullopt;
+  for (std::size_t k = 0; k < quadratic.size(); ++k) {
+    known.multiples[quadratic[k]] = rational(values[1 + k]);
+    if (!known.multiples[quadratic[k]]) return std::nullopt;
+  }
+  return known;
+}
+
+/// The values of c and of the multiples of quadratic Casimir functions that the spectra allow.
+///
+/// Theorem: with Hessians A, B at the origin and A' = c A + sum m_k C_k'', an isomorphism T has
+/// T^t B T = A'. For a linear bracket the Killing forms obey K_B = T K_A T^t, so that
+/// T^t (B K_B) = (A' K_A) T^t; for a constant bracket Q = T P T^t, so that (Q B) T = T (P A'). So
+/// the operators have the same traces of powers. The C_k are all quadratic Casimir functions.
+Matcher::Spectra Matcher::spectra() const {
+  std::vector<std::size_t> quadratic;
+  if (linear_)
+    for (std::size_t k = 0; k < pair_.casimirs.size(); ++k)
+      if (degree_of(pair_.casimirs[k]) == 2) quadratic.push_back(k);
+  const PolynomialRing ring(quadratic.size() + 2);  // c, the multiples, 1/c
+  const std::vector<Polynomial> equations = equations_of_traces(ring, quadratic);
   std::vector<std::size_t> unknowns;
   for (std::size_t i = 0; i < ring.size(); ++i) unknowns.push_back(i);
   Spectra spectra;
@@ -244,22 +273,12 @@ Matcher::Spectra Matcher::spectra() const {
                   branch.solved.size() == unknowns.size();
     if (!branch.decided) continue;
     find_real_values(branch, unknowns, ring.size(), [&](const std::vector<GiNaC::ex>& values) {
-      Known known;
-      known.multiples.resize(pair_.casimirs.size());
-      const auto rational = [&](const GiNaC::ex& value) -> std::optional<cl_RA> {
-        if (!value.info(GiNaC::info_flags::rational)) return std::nullopt;
-        return cln::the<cl_RA>(GiNaC::ex_to<GiNaC::numeric>(value).to_cl_N());
-      };
-      known.factor = rational(values[0]);
-      if (!known.factor || cln::zerop(*known.factor)) return false;
-      for (std::size_t k = 0; k < quadratic.size(); ++k) {
-        known.multiples[quadratic[k]] = rational(values[1 + k]);
-        if (!known.multiples[quadratic[k]]) return false;
-      }
+      const std::optional<Known> known = known_of(values, quadratic);
+      if (!known) return false;
       const bool again = std::any_of(result.begin(), result.end(), [&](const Known& other) {
-        return other.factor == known.factor && other.multiples == known.multiples;
+        return other.factor == known->factor && other.multiples == known->multiples;
       });
-      if (!again) result.push_back(known);
+      if (!again) result.push_back(*known);
       return result.size() > 20;  // several members of each family
     });
   }

@@ -379,6 +379,63 @@ class Runs(unittest.TestCase):
             self.assertTrue(result._repr_html_().startswith("<table>"))
             self.assertIn(part, result._repr_html_())
 
+    def test_cycles_of_a_section_are_proved_and_close(self):
+        henon = casimir.load("henon-heiles")
+        cut = henon.section(orbits=6, points=60, cycles=1, proved=True, rotation=True)
+        self.assertTrue(cut.cycles)
+        self.assertTrue(all(orbit.rotation is not None for orbit in cut.orbits))
+        proved = [cycle for cycle in cut.cycles if cycle.proof.verdict == "proved"]
+        self.assertTrue(proved)
+        for cycle in proved:
+            low, high = cycle.proof.period
+            self.assertLess(high - low, Fraction(1, 10**8))
+            self.assertAlmostEqual(float(low), cycle.period, 6)
+            start = dict(zip(cut.names, cycle.states[0]))
+            end = henon.integrate(initial=start, duration=cycle.period).y[:, -1]
+            np.testing.assert_allclose(end, cycle.states[0], atol=1e-5)
+            self.assertEqual(cycle.proof.kind, cycle.kind)
+        with self.assertRaises(casimir.RequestError):
+            henon.section(proved=True)
+
+    def test_rotation_numbers_lie_in_the_unit_interval_or_have_a_reason(self):
+        for orbit in casimir.load("henon-heiles").section(orbits=4, points=300, rotation=True):
+            rotation = orbit.rotation
+            if rotation.kind == "none":
+                self.assertTrue(rotation.reason)
+                self.assertIsNone(rotation.number)
+            else:
+                self.assertTrue(0 <= rotation.number <= 1 and rotation.error < 1e-3, rotation)
+
+    def test_proved_equilibria_contain_those_that_were_found(self):
+        pendulum = casimir.Case(hamiltonian="p^2/2 - cos(q)", variables=["q", "p"], canonical=True,
+                                initial={"q": 1, "p": 0}, duration=1)
+        rests = pendulum.equilibria(proved=True)
+        self.assertEqual({rest.proof.stability for rest in rests if rest.proof.verdict == "proved"},
+                         {"stable", "unstable"})
+        for rest in rests:
+            self.assertTrue(rest.proof)
+            for (low, high), value in zip(rest.proof.enclosure.values(), rest.state):
+                self.assertLess(max(abs(float(low) - value), abs(float(high) - value)), 1e-6)
+        self.assertIsNone(pendulum.equilibria()[0].proof)
+
+    def test_a_certificate_is_checked_and_a_bent_one_refused(self):
+        import tempfile
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "run.json")
+            box = casimir.load("euler").enclose(duration=1, certificate=path)
+            checked = casimir.check(path)
+            self.assertTrue(checked)
+            self.assertEqual(checked.kind, "run")
+            for name, (low, high) in checked.parts[0]["enclosure"].items():  # in other arithmetic
+                self.assertLess(high - low, Fraction(1, 10**10))
+                self.assertTrue(low <= box.end.intervals[name][1] and box.end.intervals[name][0] <= high)
+            path.write_text(path.read_text().replace("euler", "eulex", 1))
+            with self.assertRaises(casimir.CaseError):
+                casimir.check(path)  # its digest is that of another text
+            with self.assertRaises(casimir.CaseError):
+                casimir.check(Path(folder, "none.json"))
+
     def test_equilibria(self):
         pendulum = casimir.Case(hamiltonian="p^2/2 - cos(q)", variables=["q", "p"], canonical=True,
                                 initial={"q": 1, "p": 0}, duration=1)

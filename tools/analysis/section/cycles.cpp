@@ -168,6 +168,30 @@ std::array<std::complex<double>, 2> Cycle::multipliers() const {
   return {first, 1. / first};
 }
 
+std::vector<PlacedPoint> cycle_starts(const LevelSet& level, const std::vector<PlacedPoint>& domain,
+                                      const std::vector<OrbitReport>& orbits, std::size_t longest) {
+  constexpr std::size_t kSpread = 400;
+  std::vector<PlacedPoint> result = spread_out(level, domain, kSpread);
+  const auto n = static_cast<Eigen::Index>(level.problem().states());
+  for (const OrbitReport& orbit : orbits) {
+    const auto at = [&](std::size_t k) -> LevelSet::Vector {
+      return Eigen::Map<const LevelSet::Vector>(
+          orbit.orbit.states.data() + static_cast<Eigen::Index>(k) * n, n);
+    };
+    for (std::size_t length = 1; length <= longest; ++length) {
+      double nearest = std::numeric_limits<double>::infinity();
+      std::optional<PlacedPoint> best;
+      for (std::size_t i = 0; i + length < orbit.places.size(); ++i) {
+        const double d = level.difference(at(i), at(i + length)).norm();
+        if (d < nearest) best = {at(i), orbit.places[i]};
+        nearest = std::min(nearest, d);
+      }
+      if (best) result.push_back(*best);
+    }
+  }
+  return result;
+}
+
 CycleSearch find_cycles(const LevelSet& level, const OrbitCutter& cutter,
                         const std::vector<PlacedPoint>& starts, std::size_t longest,
                         const std::function<void(double)>& progress) {

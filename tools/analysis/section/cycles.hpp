@@ -34,6 +34,11 @@ struct CycleSearch {
   std::size_t degenerate = 0;  ///< members of families: the trace is 2, as in integrable systems
 };
 
+/// Where Newton's method for cycles is begun: at points all over the section, and where orbits
+/// nearly close after 1, 2, .. `longest` crossings.
+std::vector<PlacedPoint> cycle_starts(const LevelSet& level, const std::vector<PlacedPoint>& domain,
+                                      const std::vector<OrbitReport>& orbits, std::size_t longest);
+
 /// Cycles up to a length, by Newton's method on the return map from each of the starts. Its
 /// derivative follows from the variational equations, along the level and the plane. Finds what
 /// the starts lead to: there may be others.

@@ -48,7 +48,8 @@ PointResult Sections::cut(std::size_t point, int threads,
   const SectionProblem problem = section_problem(model_, scene, request_);
   const LevelSet level(problem);
   const OrbitCutter cutter(problem, {tolerance_, threads, give_up}, orbits_ * points_);
-  const std::vector<OrbitReport> orbits = domain_orbits(level, cutter, orbits_, points_);
+  const std::vector<OrbitReport> orbits =
+      domain_orbits(level, cutter, domain_of_motion(level, cutter), orbits_, points_);
   if (cutter.interrupted())
     return {Status::stopped, std::vector<double>(columns().size(), kUnknown)};
   double crossings = 0, regular = 0, chaotic = 0, exponent = kUnknown, off = 0;

@@ -24,14 +24,16 @@ from ._errors import (
     SingularPoint,
     UndecidedError,
 )
+from ._check import check
 from ._map import Map, load_map, maps
 
 if _TYPE_CHECKING:
-    from ._measured import Box, Comparison, Conservation, Enclosure, Frequencies, PreciseEnd, Run, Sweep
+    from ._measured import Box, Checked, Comparison, Conservation, Enclosure, Frequencies, PreciseEnd, Run, Sweep
     from ._results import (
         Balance,
         Condition,
         Conditions,
+        Cycle,
         DarbouxPolynomial,
         Degrees,
         Ensemble,
@@ -45,7 +47,10 @@ if _TYPE_CHECKING:
         Obstruction,
         Orbit,
         Proof,
+        ProvedCycle,
+        ProvedEquilibrium,
         Relation,
+        Rotation,
         Search,
         Section,
         Solution,
@@ -73,10 +78,10 @@ for _folder in ("cases", "../../../../share/casimir/cases"):
     _core.add_case_folder(_path.join(_path.dirname(__file__), _folder))
 
 __all__ = [
-    "Balance", "Box", "Case", "CaseError", "Comparison", "Condition", "Conditions", "Conservation",
+    "Balance", "Box", "Case", "CaseError", "Checked", "Comparison", "Condition", "Conditions", "Conservation", "Cycle",
     "DarbouxPolynomial", "Degrees", "Enclosure", "Ensemble", "EnvironmentProblem", "Equilibrium", "Error", "Exponent",
     "Exponents", "Findings", "Found", "Frequencies", "Iterates", "Map", "MapSearch", "ModelError", "NoAnswer",
-    "Obstruction", "Orbit", "PreciseEnd", "Proof", "Relation", "RequestError", "Run", "Search", "Section",
-    "SingularPoint", "Solution", "Sweep", "System", "UndecidedError", "Verification", "Witness", "cases", "load",
+    "Obstruction", "Orbit", "PreciseEnd", "Proof", "ProvedCycle", "ProvedEquilibrium", "Relation", "RequestError", "Rotation", "Run", "Search", "Section",
+    "SingularPoint", "Solution", "Sweep", "System", "UndecidedError", "Verification", "Witness", "cases", "check", "load",
     "load_map", "maps", "methods",
 ]

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from os import PathLike
 from typing import TYPE_CHECKING, Any, Union
 
 from . import _core
-from ._errors import RequestError
+from ._errors import NoAnswer, RequestError
 from ._exact import Expression, is_float, pairs_of, text_of, texts_of
 from ._lazy import Lazy
 from ._progress import Progress, told
@@ -471,8 +472,8 @@ class Case:
 
     def enclose(self, *, duration: Expression | None = None, initial_radius: Expression = 0,
                 ranges: Mapping[str, tuple[Expression, Expression]] | None = None, digits: int = 0,
-                sample_every: Expression | None = None, scene: str = "default",
-                initial: Mapping[str, Expression] | None = None, time_limit: float = 0,
+                sample_every: Expression | None = None, certificate: str | PathLike[str] | None = None,
+                scene: str = "default", initial: Mapping[str, Expression] | None = None, time_limit: float = 0,
                 progress: Progress = None, **parameters: Expression) -> Enclosure:
         """Boxes that provably contain the solutions of a scene.
 
@@ -480,6 +481,8 @@ class Case:
         :param ranges: parameters that may have any value of an interval, by name.
         :param digits: of the arithmetic; 0: double precision.
         :param sample_every: time between boxes on the way.
+        :param certificate: a file for every step, which `casimir.check` verifies in other arithmetic.
+        :raises NoAnswer: where a certificate was asked for and does not pass that; nothing is written then.
 
         >>> box = load("kovalevskaya").enclose(duration=1)
         >>> box.success, box.radius < 1e-10
@@ -487,10 +490,16 @@ class Case:
         """
         case = self.with_values(parameters, initial) if parameters or initial else self
         intervals = [(str(name), (text_of(low), text_of(high))) for name, (low, high) in (ranges or {}).items()]
-        return _measured.enclosure_of(
-            _core.enclosed(case._core, scene, None if duration is None else text_of(duration),
-                           text_of(initial_radius), intervals, digits,
-                           None if sample_every is None else text_of(sample_every), time_limit, told(progress)))
+        facts = _core.enclosed(case._core, scene, None if duration is None else text_of(duration),
+                               text_of(initial_radius), intervals, digits,
+                               None if sample_every is None else text_of(sample_every), certificate is not None,
+                               time_limit, told(progress))
+        text, reason = facts.pop("certificate"), facts.pop("uncertified")
+        if reason:
+            raise NoAnswer(f"no certificate was written: {reason}")
+        if certificate is not None and text:
+            _measured.write_text(certificate, text)
+        return _measured.enclosure_of(facts)
 
     def conserve(self, *, methods: Sequence[str] = (), bound: float = 1e-9, duration: float | None = None,
                  tolerance: float | None = None, scene: str = "default", time_limit: float = 0,
@@ -555,6 +564,7 @@ class Case:
     def section(self, *, plane: Expression | None = None, direction: str | None = None,
                 plot: Sequence[Expression] = (), energy: float | None = None,
                 casimirs: Mapping[str, float] | None = None, orbits: int = 40, points: int = 500,
+                cycles: int = 0, proved: bool = False, rotation: bool = False,
                 tolerance: float = 1e-14, scene: str = "default", jobs: int = 0,
                 progress: Progress = None) -> Section:
         """A Poincare section on one level of energy and Casimir functions.
@@ -564,23 +574,38 @@ class Case:
         :param plot: two functions of the state.
         :param energy, casimirs: the level; without them that of the scene.
         :param orbits, points: how many, and the crossings of each.
+        :param cycles: the most crossings of periodic orbits that are looked for; there may be others.
+        :param proved: whether each of these is enclosed by a box that provably has exactly one.
+        :param rotation: whether the rotation numbers of the orbits are wanted.
         :param progress: told the share of the crossings that are there: a function of it, or a bar of tqdm.
         :returns: orbits with points (count, 2), times (count,) and states (count, n).
 
         >>> cut = load("kovalevskaya").section(orbits=3, points=5)
         >>> cut[0].points.shape
         (5, 2)
+        >>> cut = load("henon-heiles").section(orbits=4, points=50, cycles=1, proved=True)
+        >>> sum(cycle.proof.verdict == "proved" for cycle in cut.cycles) > 0
+        True
         """
+        if proved and cycles == 0:
+            raise RequestError("proved=True is for cycles: say how long they may be, as cycles=2")
         if direction not in (None, "up", "down"):
             raise RequestError(f"{direction!r} is no direction: 'up' and 'down' are")
         facts = _core.section(self._core, scene, None if plane is None else text_of(plane),
                               None if direction is None else direction == "up", [text_of(one) for one in plot],
-                              energy, list((casimirs or {}).items()), orbits, points, tolerance, jobs, told(progress))
-        return _results.Section(**{**facts, "orbits": [_results.Orbit(**one) for one in facts["orbits"]]})
+                              energy, list((casimirs or {}).items()), orbits, points, cycles, proved, rotation, tolerance, jobs,
+                              told(progress))
+        return _results.section_of(facts)
 
-    def equilibria(self, scene: str = "default") -> list[Equilibrium]:
-        """Equilibria and relative equilibria on the level of a scene. There may be others."""
-        return [_results.Equilibrium(**one) for one in _core.equilibria(self._core, scene)["equilibria"]]
+    def equilibria(self, scene: str = "default", *, proved: bool = False) -> list[Equilibrium]:
+        """Equilibria and relative equilibria on the level of a scene. There may be others.
+
+        :param proved: whether each is enclosed by a box that provably has exactly one, and its stability decided.
+
+        >>> [rest.proof.verdict for rest in load("henon-heiles").equilibria(proved=True)][:1]
+        ['proved']
+        """
+        return [_results.equilibrium_of(one) for one in _core.equilibria(self._core, scene, proved)["equilibria"]]
 
 
 def _listed_values(values: Any) -> str:

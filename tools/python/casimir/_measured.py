@@ -238,3 +238,53 @@ def enclosure_of(facts: dict[str, Any]) -> Enclosure:
         return Box(Fraction(one["time"]), dict(zip(facts["names"], ends)))
 
     return Enclosure(**{**facts, "end": box(facts["end"]), "samples": [box(one) for one in facts["samples"]]})
+
+
+@dataclass(frozen=True)
+class Checked:
+    """What a file of certificates proves. True where all of it holds."""
+
+    kind: str  #: 'run', 'cycles' or 'horseshoe'
+    parts: list[dict[str, Any]]  #: of each certificate: whether it `holds`, the `reason` where not, and what it says
+
+    @property
+    def holds(self) -> bool:
+        """Whether all of it is proved."""
+        return all(part["holds"] for part in self.parts)
+
+    @property
+    def reason(self) -> str:
+        """Why not: a sentence on the first that does not hold, or nothing."""
+        return next((part["reason"] for part in self.parts if not part["holds"]), "")
+
+    def __bool__(self) -> bool:
+        return self.holds
+
+    def _repr_html_(self) -> str:
+        rows = [(part["of_case"], "proved" if part["holds"] else part["reason"]) for part in self.parts]
+        return table(["case", self.kind], rows)
+
+
+def checked_of(kind: str, parts: list[dict[str, Any]]) -> Checked:
+    """The object for what the C++ side says of certificates."""
+    for part in parts:
+        for name in ("enclosure", "levels"):
+            if name in part:
+                part[name] = {of: (Fraction(low), Fraction(high)) for of, (low, high) in part[name].items()}
+        if "period" in part:
+            part["period"] = tuple(Fraction(end) for end in part["period"])
+        if "entropy" in part:
+            part["entropy"] = Fraction(part["entropy"])
+    return Checked(kind, parts)
+
+
+def write_text(path: Any, text: str) -> None:
+    """Writes a file of text, which is whole or is not there."""
+    import os
+    import tempfile
+
+    folder = os.path.dirname(os.path.abspath(path))
+    with tempfile.NamedTemporaryFile("w", dir=folder, delete=False, encoding="ascii") as file:
+        file.write(text)
+    os.chmod(file.name, 0o644)
+    os.replace(file.name, path)

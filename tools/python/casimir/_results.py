@@ -434,6 +434,70 @@ class Equilibrium:
     family: int  #: dimension of the family on the level; 0: isolated
     degenerate: bool
     residual: float  #: the largest rate that is left
+    proof: ProvedEquilibrium | None = None  #: where it was asked for
+
+
+@dataclass(frozen=True)
+class ProvedEquilibrium:
+    """What is proved of an equilibrium: there is exactly one in the enclosure. True where it is proved."""
+
+    verdict: str  #: 'proved' or 'undecided'
+    reason: str
+    enclosure: dict[str, tuple[Fraction, Fraction]] = field(default_factory=dict)
+    velocities: list[tuple[Fraction, Fraction]] = field(default_factory=list)  #: of the symmetries
+    radius: Fraction | None = None  #: the largest half width of these
+    stability: str = "undecided"  #: 'stable' (Lyapunov), 'unstable' or 'undecided'
+
+    def __bool__(self) -> bool:
+        return _truth(self.verdict, "the equilibrium")
+
+
+@dataclass(frozen=True)
+class Rotation:
+    """How an orbit of a section turns, in turns from one point to the next, up to whole turns."""
+
+    kind: str  #: 'curve', 'islands', 'cycle', or 'none', with the reason
+    number: float | None
+    error: float | None
+    parts: int  #: how many islands, or the length of the cycle
+    inner: float | None  #: of islands, in turns per `parts` points along one of them
+    inner_error: float | None
+    directed: bool  #: whether `number` is told from 1 - `number`
+    reason: str
+
+
+@dataclass(frozen=True)
+class ProvedCycle:
+    """What is proved of a periodic orbit: exactly one crosses the plane in the enclosure. True where it is proved."""
+
+    verdict: str  #: 'proved' or 'undecided'
+    reason: str
+    enclosure: dict[str, tuple[Fraction, Fraction]] = field(default_factory=dict)
+    period: tuple[Fraction, Fraction] | None = None
+    trace: tuple[Fraction, Fraction] | None = None
+    radius: Fraction | None = None
+    kind: str = "undecided"  #: 'elliptic', 'hyperbolic', 'inverse hyperbolic' or 'undecided'
+
+    def __bool__(self) -> bool:
+        return _truth(self.verdict, "the cycle")
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """A periodic orbit of a section."""
+
+    points: Any  #: array (length, 2): the plotted pair
+    states: Any  #: array (length, n)
+    period: float
+    trace: float  #: of the derivative of the return map along it
+    multipliers: tuple[complex, complex]
+    kind: str  #: 'elliptic', 'hyperbolic' or 'inverse hyperbolic'
+    stable: bool  #: it is elliptic
+    residual: float  #: how far it is from closing
+    proof: ProvedCycle | None = None  #: where it was asked for
+
+    def __len__(self) -> int:
+        return len(self.points)
 
 
 @dataclass(frozen=True)
@@ -449,6 +513,7 @@ class Orbit:
     leaves_level: bool  #: a crossing was further off the level than a section allows, and dropped
     returns: bool
     status: str
+    rotation: Rotation | None = None  #: where it was asked for
 
 
 @dataclass(frozen=True)
@@ -460,6 +525,8 @@ class Section(Sequence[Orbit]):
     level: str  #: 'H = 1.5, F1 = 1'
     labels: tuple[str, str]  #: of the axes
     names: list[str] = field(default_factory=list)  #: of the entries of a state
+    cycles: list[Cycle] = field(default_factory=list)  #: periodic orbits, where they were asked for
+    degenerate_cycles: int = 0  #: how many more belong to families, as in integrable systems
 
     def __getitem__(self, index):
         return self.orbits[index]
@@ -573,3 +640,42 @@ def solution_of(motion: Any, times) -> Solution:
         drift={name: record["drift"] for name, record in invariants.items()}, invariants=invariants,
         trust=motion.trust(), warnings=facts["warnings"], advice=facts["advice"], left_out=facts["left_out"],
     )
+
+
+def _exact(ends: Any) -> tuple[Fraction, Fraction]:
+    return Fraction(ends[0]), Fraction(ends[1])
+
+
+def _exact_box(box: dict[str, Any]) -> dict[str, tuple[Fraction, Fraction]]:
+    return {name: _exact(ends) for name, ends in box.items()}
+
+
+def _proof_of(facts: dict[str, Any] | None, kind: type) -> Any:
+    if facts is None:
+        return None
+    given = {"verdict": "proved" if facts["proved"] else "undecided", "reason": facts["reason"]}
+    for name, value in facts.items():
+        if name == "enclosure":
+            given[name] = _exact_box(value)
+        elif name == "radius":
+            given[name] = Fraction(value)
+        elif name == "velocities":
+            given[name] = [_exact(ends) for ends in value]
+        elif name in ("period", "trace"):
+            given[name] = _exact(value)
+        elif name not in ("proved", "reason"):
+            given[name] = value
+    return kind(**given)
+
+
+def equilibrium_of(facts: dict[str, Any]) -> Equilibrium:
+    """The object for what the C++ side says of an equilibrium."""
+    return Equilibrium(**{**facts, "proof": _proof_of(facts["proof"], ProvedEquilibrium)})
+
+
+def section_of(facts: dict[str, Any]) -> Section:
+    """The object for what the C++ side says of a section."""
+    orbits = [Orbit(**{**one, "rotation": one["rotation"] and Rotation(**one["rotation"])}) for one in facts["orbits"]]
+    cycles = [Cycle(**{**one, "multipliers": tuple(one["multipliers"]), "proof": _proof_of(one["proof"], ProvedCycle)})
+              for one in facts["cycles"]]
+    return Section(**{**facts, "orbits": orbits, "cycles": cycles})

@@ -5,13 +5,17 @@
 #include "runtime/digits/agreed_run.hpp"
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/expression/expression.hpp"
+#include "tools/analysis/certificate/certificate_file.hpp"
 #include "tools/analysis/estimate/cancelled_parts.hpp"
 #include "tools/analysis/run/exact_values.hpp"
 #include "tools/analysis/run/validated.hpp"
 #include "tools/python/core/bindings.hpp"
+#include "tools/python/core/boxes.hpp"
 #include "tools/python/core/case.hpp"
 #include "tools/python/core/guard.hpp"
 #include "tools/python/core/requests.hpp"
+#include "tools/runs/certified_motion.hpp"
+#include "tools/text/runs/certificate_report.hpp"
 #include "tools/text/runs/sure_decimals.hpp"
 
 namespace casimir::python {
@@ -90,15 +94,8 @@ py::object precise(const Case& self, const std::string& scene, int digits,
   return result;
 }
 
-py::list to_python(const std::vector<RationalInterval>& box) {
-  py::list result;
-  for (const RationalInterval& x : box)
-    result.append(py::make_tuple(rational_text(x.low), rational_text(x.high)));
-  return result;
-}
-
 py::dict to_python(const StateBox& box) {
-  return py::dict("time"_a = rational_text(box.time), "box"_a = to_python(box.states));
+  return py::dict("time"_a = rational_text(box.time), "box"_a = exact_ends(box.states));
 }
 
 std::string to_string(ValidatedStatus status) {
@@ -129,12 +126,22 @@ py::dict to_python(const ValidatedMotion& motion) {
                   "doubts"_a = motion.doubts, "steps"_a = run.steps, "seconds"_a = run.seconds);
 }
 
+/// The certificate as a file, or why there is none.
+std::pair<std::string, std::string> certificate_or_reason(const RunCertificate& certificate,
+                                                          const std::function<bool()>& give_up) {
+  const CheckedCertificate checked = check_certificate(certificate, give_up);
+  if (checked.holds()) return {certificate_text(certificate), {}};
+  return {{}, tools::CertificateReport{certificate, checked}.reason()};
+}
+
 /// \param ranges  each parameter with the ends of its interval
+/// \param certify  whether what is enclosed is certified: `certificate` then is the text of a file, or
+///                 empty, with the reason.
 py::object enclosed(
     const Case& self, const std::string& scene, const std::optional<std::string>& duration,
     const std::string& initial_radius,
     const std::vector<std::pair<std::string, std::pair<std::string, std::string>>>& ranges,
-    int digits, const std::optional<std::string>& sample_every, double seconds,
+    int digits, const std::optional<std::string>& sample_every, bool certify, double seconds,
     const py::object& progress) {
   Interrupt interrupt(progress);
   const auto late = time_limit(seconds);
@@ -163,11 +170,20 @@ py::object enclosed(
       interrupt.show(share);
       return interrupt() || (late && late());
     };
-    const ValidatedMotion motion =
-        settled([&] { return enclose(model, model.scene(scene), options); });
+    RunCertificate certificate;
+    const ValidatedMotion motion = settled([&] {
+      return certify ? tools::certified_motion(model, model.scene(scene), options, certificate)
+                     : enclose(model, model.scene(scene), options);
+    });
+    std::pair<std::string, std::string> written;
+    if (certify && motion.run.status == ValidatedStatus::ok)
+      written = certificate_or_reason(certificate, [&] { return interrupt() || (late && late()); });
     const py::gil_scoped_acquire python;
     interrupt.raise();
-    result = to_python(motion);
+    py::dict facts = to_python(motion);
+    facts["certificate"] = written.first;
+    facts["uncertified"] = written.second;
+    result = facts;
   }
   interrupt.finish();
   return result;

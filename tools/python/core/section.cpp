@@ -9,8 +9,10 @@
 #include <algorithm>
 
 #include "tools/analysis/equilibria/equilibria.hpp"
+#include "tools/analysis/equilibria/validated_equilibria.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/python/core/bindings.hpp"
+#include "tools/python/core/boxes.hpp"
 #include "tools/python/core/case.hpp"
 #include "tools/python/core/guard.hpp"
 
@@ -40,17 +42,66 @@ py::dict to_python(const OrbitReport& orbit) {
       "status"_a = to_string(orbit.orbit.status));
 }
 
+py::object to_python(const Rotation& rotation) {
+  const bool none = rotation.kind == Rotation::Kind::none;
+  const bool islands = rotation.kind == Rotation::Kind::islands;
+  const auto known = [](bool is, double value) {
+    return is ? py::object(py::float_(value)) : py::object(py::none());
+  };
+  return py::dict("kind"_a = to_string(rotation.kind), "number"_a = known(!none, rotation.number),
+                  "error"_a = known(!none, rotation.error), "parts"_a = rotation.parts,
+                  "inner"_a = known(islands, rotation.inner_number),
+                  "inner_error"_a = known(islands, rotation.inner_error),
+                  "directed"_a = rotation.directed, "reason"_a = rotation.reason);
+}
+
+py::dict to_python(const ProvedCycle& proof, const Names& states) {
+  py::dict result("proved"_a = proof.proved, "reason"_a = proof.reason);
+  if (!proof.proved) return result;
+  result["enclosure"] = exact_ends(states, proof.state);
+  result["period"] = exact_ends(proof.period);
+  result["trace"] = exact_ends(proof.trace);
+  result["radius"] = rational_text(proof.radius);
+  result["kind"] = proof.kind();
+  return result;
+}
+
+py::list cycles_of(const PoincareSection& cut) {
+  const Names& states = cut.problem->run.specialisation.states;
+  py::list list;
+  for (std::size_t k = 0; k < cut.cycles.cycles.size(); ++k) {
+    const Cycle& cycle = cut.cycles.cycles[k];
+    py::array_t<double> points({cycle.length(), std::size_t{2}}),
+        at({cycle.length(), states.size()});
+    for (std::size_t i = 0; i < cycle.length(); ++i) {
+      std::ranges::copy(cycle.points[i].place, points.mutable_data() + 2 * i);
+      std::copy_n(cycle.points[i].x.data(), states.size(), at.mutable_data() + i * states.size());
+    }
+    py::dict one("points"_a = points, "states"_a = at, "period"_a = cycle.period,
+                 "trace"_a = cycle.trace, "residual"_a = cycle.residual, "kind"_a = cycle.kind(),
+                 "stable"_a = cycle.stable(), "multipliers"_a = cycle.multipliers(),
+                 "proof"_a = py::none());
+    if (!cut.proofs.empty()) one["proof"] = to_python(cut.proofs[k], states);
+    list.append(one);
+  }
+  return list;
+}
+
 py::dict section(const Case& self, const std::string& scene,
                  const std::optional<std::string>& plane, const std::optional<bool>& upwards,
                  const Names& pair, std::optional<double> energy,
                  const std::vector<std::pair<std::string, double>>& casimirs, std::size_t orbits,
-                 std::size_t points, double tolerance, int jobs, const py::object& progress) {
+                 std::size_t points, std::size_t cycles, bool proved, bool rotation,
+                 double tolerance, int jobs, const py::object& progress) {
   if (!pair.empty() && pair.size() != 2)
     throw RequestError("a section shows two functions of the state");
   Interrupt interrupt(progress);
   PoincareOptions options;
   options.orbits = orbits;
   options.points = points;
+  options.longest_cycle = cycles;
+  options.prove_cycles = proved;
+  options.rotation = rotation;
   options.tolerance = tolerance;
   options.jobs = jobs;
   options.give_up = [&] { return interrupt(); };
@@ -70,9 +121,15 @@ py::dict section(const Case& self, const std::string& scene,
     const PoincareSection cut = casimir::section(model, model.scene(scene), options);
     const py::gil_scoped_acquire python;
     py::list list;
-    for (const OrbitReport& orbit : cut.orbits) list.append(to_python(orbit));
+    for (std::size_t k = 0; k < cut.orbits.size(); ++k) {
+      py::dict orbit = to_python(cut.orbits[k]);
+      orbit["rotation"] =
+          cut.rotations.empty() ? py::object(py::none()) : to_python(cut.rotations[k]);
+      list.append(orbit);
+    }
     result = py::dict(
-        "orbits"_a = list, "plane"_a = cut.problem->plane_text,
+        "orbits"_a = list, "cycles"_a = cycles_of(cut),
+        "degenerate_cycles"_a = cut.cycles.degenerate, "plane"_a = cut.problem->plane_text,
         "level"_a = cut.problem->level_text(),
         "labels"_a = py::make_tuple(cut.problem->plotted[0].label, cut.problem->plotted[1].label),
         "names"_a = cut.problem->run.specialisation.states);
@@ -81,18 +138,36 @@ py::dict section(const Case& self, const std::string& scene,
   return result;
 }
 
-py::dict equilibria(const Case& self, const std::string& scene) {
+py::dict to_python(const ProvedEquilibrium& proof, const Names& states) {
+  py::dict result("proved"_a = proof.proved, "reason"_a = proof.reason);
+  if (!proof.proved) return result;
+  result["enclosure"] = exact_ends(states, proof.state);
+  result["velocities"] = exact_ends(proof.velocities);
+  result["radius"] = rational_text(proof.radius);
+  result["stability"] = to_string(proof.stability);
+  return result;
+}
+
+/// \param proved  each is enclosed as well
+py::dict equilibria(const Case& self, const std::string& scene, bool proved) {
   const ExactAlgebra guard;
   const Model& model = self.model();
   const EquilibriumReport report = find_equilibria(model, model.scene(scene), [](double) {});
+  std::vector<ProvedEquilibrium> proofs;
+  if (proved) proofs = enclose_equilibria(model, model.scene(scene), report);
+  Names states;
+  for (const GiNaC::symbol& x : model.variables) states.push_back(x.get_name());
   const py::gil_scoped_acquire python;
   py::list list;
-  for (const Equilibrium& one : report.equilibria)
+  for (std::size_t k = 0; k < report.equilibria.size(); ++k) {
+    const Equilibrium& one = report.equilibria[k];
     list.append(py::dict(
         "state"_a =
             py::array_t<double>(static_cast<py::ssize_t>(one.state.size()), one.state.data()),
         "velocities"_a = one.velocities, "eigenvalues"_a = one.eigenvalues, "family"_a = one.family,
-        "degenerate"_a = one.degenerate, "growth"_a = one.growth(), "residual"_a = one.residual));
+        "degenerate"_a = one.degenerate, "growth"_a = one.growth(), "residual"_a = one.residual,
+        "proof"_a = proofs.empty() ? py::object(py::none()) : to_python(proofs[k], states)));
+  }
   return py::dict("symmetries"_a = report.symmetries, "level"_a = report.level,
                   "equilibria"_a = list, "starts"_a = report.starts);
 }

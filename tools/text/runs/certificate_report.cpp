@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "tools/cli/errors.hpp"
-#include "tools/text/runs/enclosure_report.hpp"
 #include "tools/text/runs/outward_decimals.hpp"
 #include "tools/text/runs/run_report.hpp"
 
