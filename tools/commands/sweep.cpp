@@ -12,12 +12,6 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "tools/analysis/estimate/cancelled_parts.hpp"
-#include "tools/analysis/sweep/indicators.hpp"
-#include "tools/analysis/sweep/integrations.hpp"
-#include "tools/analysis/sweep/lyapunov.hpp"
-#include "tools/analysis/sweep/rotations.hpp"
-#include "tools/analysis/sweep/sections.hpp"
 #include "tools/analysis/sweep/sweep.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
@@ -31,12 +25,11 @@
 #include "tools/cli/progress.hpp"
 #include "tools/runs/scene_values.hpp"
 #include "tools/section/request.hpp"
-#include "tools/sweep/grid_options.hpp"
 #include "tools/sweep/map_picture.hpp"
 #include "tools/sweep/mpi_ranks.hpp"
+#include "tools/sweep/study.hpp"
 #include "tools/sweep/table.hpp"
 #include "tools/text/runs/run_report.hpp"
-#include "tools/text/runs/trust_report.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -55,69 +48,28 @@ struct SweepArguments {
   bool restart = false;
 };
 
-constexpr const char *kIntegrate = "integrate", *kSection = "section", *kExponents = "exponents",
-                     *kIndicators = "indicators", *kRotation = "rotation";
-
-/// What follows orbits until they have their points, and not for a time.
-bool cuts(const std::string& task) { return task == kSection || task == kRotation; }
-
-/// Of a step in a section: every crossing keeps the level to 1e-10.
-constexpr double kSectionTolerance = 1e-14;
-
 /// Everything that a sweep needs, in each rank.
 struct Prepared {
   Model model;
-  Grid grid;
-  const Scene* scene = nullptr;
-  PreparedScene run;
-  const Method* method = nullptr;
-  Settings settings;
+  const Scene* scene;
+  SweepStudy study;
 
   Prepared(const SweepArguments& options, const CaseFile& file)
       : model(model_of(file, options.common.parameter_values())),
-        grid(read_grid(options.over, options.lets, model)),
         scene(&model.scene(options.common.scene)),
-        method(&method_named(options.method)) {
-    SceneOptions how;
-    const std::vector<std::string> set = names_set(grid, options.lets);
-    for (const GiNaC::symbol& p : model.parameters)
-      if (std::ranges::find(set, p.get_name()) != set.end())
-        how.keep_parameters.push_back(p.get_name());
-    if (!options.observe.empty()) how.observe = options.observe;
-    run = prepare(model, *scene, how);
-    RunRequest how_far = options.run.request();
-    // A section goes on until it has its points.
-    if (cuts(options.task) && !scene->duration) how_far.duration = 0;
-    settings = settings_for(how_far, run);
-    settings.invariant_terms = nullptr;
-    if (cuts(options.task)) {
-      if (method->name != "taylor")
-        throw UsageError(fmt::format("--do {}: orbits follow Taylor series", options.task));
-      settings.rtol = kSectionTolerance;
-    }
+        study(model, *scene, asked(options, file, model)) {}
+
+  static StudyRequest asked(const SweepArguments& options, const CaseFile& file,
+                            const Model& model) {
+    StudyRequest request{options.task, options.method, options.over, options.lets};
+    if (!options.observe.empty()) request.observe = options.observe;
+    request.run = options.run.request();
+    if (follows_crossings(options.task)) request.section = section_request(file, model);
+    request.orbits = options.orbits;
+    request.points = options.points;
+    return request;
   }
 };
-
-/// What is done at each point: a new one is a file in `sweep/` and a line here.
-std::unique_ptr<SweepTask> task_of(const SweepArguments& options, const CaseFile& file,
-                                   const Prepared& p, const GridPoints& places) {
-  if (options.task == kSection)
-    return std::make_unique<Sections>(p.model, *p.scene, places, section_request(file, p.model),
-                                      options.orbits, options.points, kSectionTolerance);
-  if (options.task == kRotation)
-    return std::make_unique<Rotations>(p.model, *p.scene, places, section_request(file, p.model),
-                                       options.points, kSectionTolerance);
-  if (options.task == kExponents || options.task == kIndicators) {
-    if (p.run.specialisation.uses_time)
-      throw UsageError(fmt::format("--do {}: the equations depend on the time", options.task));
-    if (options.task == kIndicators)
-      return std::make_unique<Indicators>(p.model, *p.scene, p.run, places, *p.method, p.settings);
-    return std::make_unique<LyapunovExponents>(p.model, *p.scene, p.run, places, *p.method,
-                                               p.settings);
-  }
-  return std::make_unique<Integrations>(p.run, places, *p.method, p.settings, p.grid.points(),
-                                        options.run.request());
-}
 
 /// How often each status occurs.
 std::map<std::string, std::size_t> counts_of(const std::vector<PointResult>& rows) {
@@ -141,10 +93,10 @@ Json sweep_json(const SweepReport& report) {
   const Prepared& p = report.prepared;
   Json json = {{"case", p.model.name},
                {"scene", p.scene->name},
-               {"method", p.method->name},
-               {"tolerance", p.settings.rtol},
+               {"method", p.study.method().name},
+               {"tolerance", p.study.settings().rtol},
                {"over", Json::array()}};
-  for (const Axis& axis : p.grid.axes)
+  for (const Axis& axis : p.study.grid().axes)
     json["over"].push_back({{"name", axis.name},
                             {"from", exact_text(axis.values.front())},
                             {"to", exact_text(axis.values.back())},
@@ -170,9 +122,9 @@ void print_sweep(const SweepReport& report) {
   const Prepared& p = report.prepared;
   const SweepOutcome& outcome = report.outcome;
   fmt::print("{}, scene '{}', {} at tolerance {:g}, {} point{}\n", p.model.name,
-             printable(p.scene->name), p.method->name, p.settings.rtol, outcome.points,
-             outcome.points == 1 ? "" : "s");
-  for (const Axis& axis : p.grid.axes)
+             printable(p.scene->name), p.study.method().name, p.study.settings().rtol,
+             outcome.points, outcome.points == 1 ? "" : "s");
+  for (const Axis& axis : p.study.grid().axes)
     fmt::print("  {} from {:g} to {:g}, {} value{}\n", axis_title(axis), axis.values.front(),
                axis.values.back(), axis.values.size(), axis.values.size() == 1 ? "" : "s");
   fmt::print("  {} computed in {} by {} rank{}, {} thread{} each, {} points in a register",
@@ -212,40 +164,19 @@ int sweep_status(const SweepReport& report, bool interrupted) {
   }
   if (failed == 0) return kDone;
   std::string where;
-  const std::vector<double> values = report.prepared.grid.at(first);
+  const std::vector<double> values = report.prepared.study.grid().at(first);
   for (std::size_t i = 0; i < values.size(); ++i)
     where += fmt::format("{}{} = {:g}", i == 0 ? "" : ", ",
-                         axis_title(report.prepared.grid.axes[i]), values[i]);
+                         axis_title(report.prepared.study.grid().axes[i]), values[i]);
   std::cerr << fmt::format(
       "casimir: error: {} of {} points could not be integrated to the end; the first is point {}, "
       "{}{}: {}\n",
       failed, outcome.points, first + 1, where,
-      cuts(report.options.task) ? std::string{}
-                                : ", at t = " + exact_text(outcome.rows[first].values.front()),
+      follows_crossings(report.options.task)
+          ? std::string{}
+          : ", at t = " + exact_text(outcome.rows[first].values.front()),
       reason_of(outcome.rows[first].status));
   return kNotContinued;
-}
-
-/// On how the points were integrated, and on those that were integrated again by themselves.
-std::vector<std::string> warnings_on(const Integrations& task, const SweepOutcome& outcome) {
-  std::vector<std::string> warnings;
-  if (!task.warning().empty()) warnings.push_back(task.warning());
-  if (task.passes_over()) warnings.emplace_back(kUnseenBetweenSteps);
-  if (!outcome.complete) return warnings;
-  for (const CheckedMember& point : task.check(outcome.rows))
-    for (const std::string& warning : warnings_of(point.trust, task.constant_step()))
-      warnings.push_back(fmt::format("point {}: {}", point.member + 1, warning));
-  return warnings;
-}
-
-/// On what the deviations keep to.
-std::vector<std::string> warnings_on(const Indicators& task) {
-  std::vector<std::string> warnings;
-  if (!task.left_out().empty())
-    warnings.push_back(
-        fmt::format("deviations keep to the level of what is proved alone, which {} {} not",
-                    fmt::join(task.left_out(), ", "), task.left_out().size() == 1 ? "is" : "are"));
-  return warnings;
 }
 
 /// What is to be drawn, checked before any point is done.
@@ -269,12 +200,9 @@ int sweep_in(const Ranks& ranks, const SweepArguments& options) {
   const std::string output = options.output.empty() ? file.name + "-sweep.csv" : options.output;
   check_sweep_output(output);
   const Prepared p(options, file);
-  const GridPoints places(p.model, *p.scene, p.run, p.grid,
-                          read_lets(options.lets, p.grid, p.model));
-  const std::unique_ptr<SweepTask> doing = task_of(options, file, p, places);
-  const SweepTask& task = *doing;
-  const auto* integrations = dynamic_cast<const Integrations*>(doing.get());
-  const std::optional<MapPicture> picture = picture_of(options, p.grid, task);
+  const Grid& grid = p.study.grid();
+  const SweepTask& task = p.study.task();
+  const std::optional<MapPicture> picture = picture_of(options, grid, task);
   Progress progress(ranks.speaks() && !options.common.quiet);
   progress.begin("sweep of " + p.model.name);
   hold_interrupts(true);
@@ -285,10 +213,14 @@ int sweep_in(const Ranks& ranks, const SweepArguments& options) {
   how.progress = [&](double share) { progress.show(share); };
   const auto start = std::chrono::steady_clock::now();
   const SweepOutcome outcome =
-      sweep_over(task, p.grid, ranks, how, [&](const std::vector<PointResult>& rows) {
-        const SweepTable table{
-            p.model.name,   p.scene->name, std::string(p.method->name), p.settings.rtol, p.grid,
-            task.columns(), rows};
+      sweep_over(task, grid, ranks, how, [&](const std::vector<PointResult>& rows) {
+        const SweepTable table{p.model.name,
+                               p.scene->name,
+                               std::string(p.study.method().name),
+                               p.study.settings().rtol,
+                               grid,
+                               task.columns(),
+                               rows};
         write_sweep(output, table);
         if (picture) draw_map(*picture, table);
       });
@@ -302,13 +234,9 @@ int sweep_in(const Ranks& ranks, const SweepArguments& options) {
       outcome,
       output,
       options.jobs > 0 ? options.jobs : ranks.processors(),
-      integrations ? integrations->lanes() : 1,
+      p.study.lanes(),
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
-  if (integrations) report.warnings = warnings_on(*integrations, outcome);
-  if (const auto* indicators = dynamic_cast<const Indicators*>(doing.get()))
-    report.warnings = warnings_on(*indicators);
-  if (const std::string unwatched = unwatched_parts(p.model, *p.scene); !unwatched.empty())
-    report.warnings.push_back(unwatched);
+  report.warnings = p.study.warnings(outcome.rows, outcome.complete);
   if (options.common.json)
     print_json(sweep_json(report));
   else if (!options.common.quiet)

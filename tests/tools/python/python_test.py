@@ -501,6 +501,19 @@ class Studies(unittest.TestCase):
         with self.assertRaises(casimir.RequestError):
             case.enclose(ranges={"w": (1, 0)})
 
+    def test_a_sweep_refuses_what_the_command_refuses_and_warns_as_it_does(self):
+        forced = casimir.Case(equations={"q": "p", "p": "-q + a*cos(t)"}, variables=["q", "p"], time="t",
+                              parameters={"a": "1"}, initial={"q": 1, "p": 0}, duration=1)
+        self.assertEqual(forced.sweep({"a": [1, 2]}).warnings, [])
+        for do in ("exponents", "indicators"):
+            with self.assertRaises(casimir.RequestError):
+                forced.sweep({"a": [1, 2]}, do=do)
+        with self.assertRaises(casimir.RequestError):
+            casimir.load("henon-heiles").sweep({"x": [0, 0.1]}, do="section", method="dop853")
+        hidden = casimir.Case(equations={"x": "a*sqrt(x)^2 - 2"}, variables=["x"], parameters={"a": "1"},
+                              initial={"x": 1}, duration=2).sweep({"a": [1]})
+        self.assertTrue(any("sqrt" in warning for warning in hidden.warnings), hidden.warnings)
+
     def test_what_has_no_end_is_not_enclosed(self):
         pole = casimir.Case(equations={"x": "x^2"}, variables=["x"], initial={"x": 1}, duration=2).enclose()
         self.assertFalse(pole.success)

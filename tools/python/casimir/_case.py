@@ -559,7 +559,7 @@ class Case:
                             [f"{name}={text_of(value)}" for name, value in (lets or {}).items()],
                             duration, tolerance, orbits, points, jobs, time_limit, told(progress))
         return _measured.Sweep(axes=dict(facts["axes"]), columns=facts["columns"], status=facts["status"],
-                               principal=facts["principal"])
+                               principal=facts["principal"], warnings=facts["warnings"])
 
     def section(self, *, plane: Expression | None = None, direction: str | None = None,
                 plot: Sequence[Expression] = (), energy: float | None = None,

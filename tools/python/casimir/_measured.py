@@ -125,6 +125,7 @@ class Sweep:
     columns: dict[str, Any]  #: arrays over the grid
     status: list[str]  #: 'ok', 'singularity', .. of each point; the last axis runs fastest
     principal: str  #: the column that matters most, or empty
+    warnings: list[str] = field(default_factory=list)  #: what is in doubt: sentences
 
     def __getitem__(self, column: str):
         return self.columns[column]

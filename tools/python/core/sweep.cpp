@@ -4,19 +4,14 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <memory>
+#include <limits>
 
-#include "tools/analysis/sweep/indicators.hpp"
-#include "tools/analysis/sweep/integrations.hpp"
-#include "tools/analysis/sweep/lyapunov.hpp"
 #include "tools/analysis/sweep/ranks.hpp"
-#include "tools/analysis/sweep/rotations.hpp"
-#include "tools/analysis/sweep/sections.hpp"
 #include "tools/python/core/bindings.hpp"
 #include "tools/python/core/case.hpp"
 #include "tools/python/core/guard.hpp"
 #include "tools/python/core/requests.hpp"
-#include "tools/sweep/grid_options.hpp"
+#include "tools/sweep/study.hpp"
 
 namespace casimir::python {
 namespace py = pybind11;
@@ -24,75 +19,8 @@ using namespace py::literals;
 
 namespace {
 
-/// Of a step in a section: every crossing keeps the level to 1e-10.
-constexpr double kSectionSteps = 1e-14;
-
-/// What is asked of a sweep.
-struct SweepRequest {
-  std::string task, method;
-  Names over, lets;
-  RunRequest run;
-  std::size_t orbits, points;
-  int jobs;
-};
-
-bool follows_crossings(const std::string& task) { return task == "section" || task == "rotation"; }
-
-/// A grid with what it is studied by. Each part refers to those before it.
-class SweepStudy {
- public:
-  SweepStudy(const Model& model, const Scene& scene, const SweepRequest& asked)
-      : grid_(tools::read_grid(asked.over, asked.lets, model)) {
-    if (grid_.axes.empty()) throw RequestError("a sweep goes over at least one name");
-    SceneOptions how;
-    const Names set = tools::names_set(grid_, asked.lets);
-    for (const GiNaC::symbol& p : model.parameters)
-      if (std::ranges::find(set, p.get_name()) != set.end())
-        how.keep_parameters.push_back(p.get_name());
-    run_ = prepare(model, scene, how);
-    RunRequest how_far = asked.run;
-    if (follows_crossings(asked.task) && !scene.duration) how_far.duration = 0;
-    settings_ = settings_for(how_far, run_);
-    settings_.invariant_terms = nullptr;
-    places_ = std::make_unique<GridPoints>(model, scene, run_, grid_,
-                                           tools::read_lets(asked.lets, grid_, model));
-    task_ = task(model, scene, asked);
-  }
-
-  const Grid& grid() const { return grid_; }
-  const SweepTask& task() const { return *task_; }
-
- private:
-  std::unique_ptr<SweepTask> task(const Model& model, const Scene& scene,
-                                  const SweepRequest& asked) const {
-    const Method& method = method_named(asked.method);
-    if (asked.task == "integrate")
-      return std::make_unique<Integrations>(run_, *places_, method, settings_, grid_.points(),
-                                            asked.run);
-    if (asked.task == "section")
-      return std::make_unique<Sections>(model, scene, *places_, SectionRequest{}, asked.orbits,
-                                        asked.points, kSectionSteps);
-    if (asked.task == "rotation")
-      return std::make_unique<Rotations>(model, scene, *places_, SectionRequest{}, asked.points,
-                                         kSectionSteps);
-    if (asked.task == "indicators")
-      return std::make_unique<Indicators>(model, scene, run_, *places_, method, settings_);
-    if (asked.task == "exponents")
-      return std::make_unique<LyapunovExponents>(model, scene, run_, *places_, method, settings_);
-    throw RequestError("'" + printable(asked.task) + "' is nothing that a sweep does: " +
-                       suggest_or_list(asked.task, {"integrate", "section", "exponents",
-                                                    "indicators", "rotation"}));
-  }
-
-  Grid grid_;
-  PreparedScene run_;
-  Settings settings_;
-  std::unique_ptr<GridPoints> places_;
-  std::unique_ptr<SweepTask> task_;
-};
-
 /// All points, in parts so that somebody can be told how far it is.
-std::vector<PointResult> points_of(const SweepStudy& study, int jobs, Interrupt& interrupt,
+std::vector<PointResult> points_of(const tools::SweepStudy& study, int jobs, Interrupt& interrupt,
                                    const std::function<bool()>& late) {
   constexpr std::size_t kParts = 64, kLeast = 16;
   const std::size_t all = study.grid().points();
@@ -110,7 +38,8 @@ std::vector<PointResult> points_of(const SweepStudy& study, int jobs, Interrupt&
   return rows;
 }
 
-py::dict to_python(const SweepStudy& study, const std::vector<PointResult>& rows) {
+py::dict to_python(const tools::SweepStudy& study, const std::vector<PointResult>& rows,
+                   const Names& warnings) {
   const Names columns = study.task().columns();
   py::list axes, status;
   std::vector<py::ssize_t> shape;
@@ -129,7 +58,7 @@ py::dict to_python(const SweepStudy& study, const std::vector<PointResult>& rows
     values[py::str(columns[k])] = column;
   }
   return py::dict("axes"_a = axes, "columns"_a = values, "status"_a = status,
-                  "principal"_a = study.task().principal_column());
+                  "principal"_a = study.task().principal_column(), "warnings"_a = warnings);
 }
 
 py::object sweep(const Case& self, const std::string& scene, const std::string& task,
@@ -141,14 +70,19 @@ py::object sweep(const Case& self, const std::string& scene, const std::string& 
   {
     const ExactAlgebra guard;
     const Model& model = self.model();
-    const SweepRequest asked{task,   method, over, lets, request(duration, tolerance),
-                             orbits, points, jobs};
+    tools::StudyRequest asked{task, method, over, lets};
+    asked.run = request(duration, tolerance);
+    asked.orbits = orbits;
+    asked.points = points;
     settled([&] {
-      const SweepStudy study(model, model.scene(scene), asked);
+      const tools::SweepStudy study(model, model.scene(scene), asked);
       const std::vector<PointResult> rows = points_of(study, jobs, interrupt, time_limit(seconds));
+      const bool complete = std::ranges::none_of(
+          rows, [](const PointResult& row) { return row.status == Status::stopped; });
+      const Names warnings = study.warnings(rows, complete);
       const py::gil_scoped_acquire python;
       interrupt.raise();
-      result = to_python(study, rows);
+      result = to_python(study, rows, warnings);
       return 0;
     });
   }
