@@ -95,9 +95,23 @@ class Expansion {
     return letter.value;
   }
 
+  void check_known(std::size_t begin, std::size_t end, const Indices& indices) const {
+    for (std::size_t at = begin; at < end;) {
+      std::size_t to = at;
+      while (to < end && is_name_part(text_.value[to])) ++to;
+      const std::string word = text_.value.substr(at, to - at);
+      if (!word.empty() && is_name_start(word[0]) && !known_.contains(word) &&
+          !indices.contains(word))
+        throw text_.error(fmt::format("'{}' is no integer that is known here", word), at,
+                          "a bound is an integer, or a name that [definitions] says is one: n = 3");
+      at = std::max(to, at + 1);
+    }
+  }
+
   long integer(std::size_t begin, std::size_t end, const Indices& indices) const {
     const std::size_t other = text_.value.find_first_not_of(kOfBounds, begin);
     if (other < end) throw text_.error("a bound has integers, letters, +, - and * only", other);
+    check_known(begin, end, indices);
     NameTable names;
     for (const Indices& table : {known_, indices})
       for (const auto& [name, value] : table) names.add(name, {GiNaC::numeric(value)});

@@ -128,12 +128,12 @@ TEST_F(Families, KeysStandForTheirMembers) {
 
 TEST_F(Families, KeysThatMeanNothingAreRefusedWithTheirPlace) {
   const std::pair<const char*, const char*> wrong[] = {
-      {"q[1..m]", "6: 'm' is not declared"},
+      {"q[1..m]", "6: 'm' is no integer that is known here"},
       {"q[1..3", "2: '[' is not closed"},
       {"[1..3]", "1: an index stands behind a name"},
       {"q[i=1..2, i=1..2]", "11: the index 'i' has a range already"},
       {"q[n=1..2]", "3: 'n' is a number of this case, and no index"},
-      {"q[i]", "3: 'i' is not declared"},
+      {"q[i]", "3: 'i' is no integer that is known here"},
       {"q[1/2..3]", "4: a bound has integers"},
       {"q[-1..2]", "3: an index is not negative"},
       {"q[sum(i,1,9,1)]", "6: a bound has integers"},
