@@ -32,6 +32,9 @@ using GiNaC::ex;
 /// Recursive descent over one range of the text. Sums and products are collected before GiNaC sees
 /// them, since adding term by term costs quadratic time.
 class Parser {
+  /// A body of so many characters is as much work as a term.
+  static constexpr double kCharactersOfTerm = 1000;
+
  public:
   Parser(const Text& text, Scope& names, std::size_t begin, std::size_t end)
       : text_(text), names_(names), at_(begin), end_(end) {}
@@ -127,6 +130,7 @@ class Parser {
     for (char c = peek(); c == '+' || c == '-'; c = peek()) {
       const std::size_t offset = at_++;
       const Quantity next = product();
+      if (next.vector != total.vector) fail_at(offset, "a vector and a number are added");
       terms.push_back(c == '+' ? next.value : -next.value);
       total.bits = std::max(total.bits, next.bits) + 1;
       total.degree = std::max(total.degree, next.degree);
@@ -163,7 +167,8 @@ class Parser {
   Quantity braced() {
     if (!accept('{'))
       fail("unexpected " + here() + ", expected '{'", "as in \\frac{a}{b}, with both in braces");
-    Quantity q = sum();
+    const std::size_t start = at_;
+    const Quantity q = number_of(start, sum());
     if (!accept('}')) unexpected("'}'");
     return q;
   }
@@ -176,6 +181,10 @@ class Parser {
       const std::size_t offset = at_;
       at_ += std::max<std::size_t>(1, 1 + latex_command(text_.value, at_).size());
       const Quantity next = unary();
+      if (next.vector && (c == '/' || total.vector))
+        fail_at(offset, c == '/' ? "this divides by a vector" : "a vector times a vector",
+                "write dot(a, b) or cross(a, b)");
+      total.vector = total.vector || next.vector;
       if (c == '/' && next.value.is_zero()) fail_at(offset, "division by zero");
       factors.push_back(c == '*' ? next.value : evaluated(offset, [&] {
         return ex(GiNaC::pow(next.value, -1));
@@ -210,7 +219,8 @@ class Parser {
     peek();
     const std::size_t offset = at_;
     if (!accept_power()) return base;
-    const Quantity exponent = peek() == '{' ? braced() : unary();
+    if (base.vector) fail_at(offset, "a vector has no powers", "its square is dot(a, a)");
+    const Quantity exponent = number_of(offset, peek() == '{' ? braced() : unary());
     Quantity q{0, base.bits, base.degree, base.nodes + exponent.nodes,
                1 + std::max(base.depth, exponent.depth)};
     if (GiNaC::is_a<GiNaC::numeric>(exponent.value)) {
@@ -319,6 +329,8 @@ class Parser {
       if (word == "rate") return rate(start);
       if (word == "sum" || word == "product") return repeated(word == "sum", start);
       if (word == "mod") return remainder(start);
+      if (word == "dot") return scalar_product(start);
+      if (word == "cross") return vector_product(start);
       if (const EllipticFunction* function = find_elliptic_function(word))
         return call(*function, start);
       if (find_with_subscript(word, names_) == nullptr)
@@ -332,6 +344,7 @@ class Parser {
     }
     const Quantity* known = names_.find(word);
     if (known == nullptr) known = find_with_subscript(word, names_);
+    if (known == nullptr && component_) return component_of(word, start);
     if (known == nullptr) undeclared(word, start);
     if (const auto function = named_function(known->value))
       return arbitrary_call(known->value, *function, start);
@@ -354,7 +367,7 @@ class Parser {
   long integer(const char* what) {
     peek();
     const std::size_t start = at_;
-    const ex value = sum().value;
+    const ex value = number_of(start, sum()).value;
     constexpr long kMost = 1000000000;
     if (!value.info(GiNaC::info_flags::integer) || GiNaC::abs(value) > kMost)
       fail_at(start, fmt::format("{} has to be an integer", what),
@@ -396,7 +409,6 @@ class Parser {
     if (!accept(',')) unexpected("',' and the last value");
     const long last = integer("the last value");
     if (!accept(',')) unexpected(is_sum ? "',' and the terms" : "',' and the factors");
-    constexpr double kCharactersOfTerm = 1000;
     const std::size_t body = at_;
     Quantity total{is_sum ? 0 : 1};
     GiNaC::exvector parts;
@@ -407,6 +419,10 @@ class Parser {
       indices_.emplace_back(letter, k);
       const Quantity next = sum();
       indices_.pop_back();
+      if (next.vector && !is_sum) fail_at(start, "a product of vectors");
+      if (k > first && next.vector != total.vector)
+        fail_at(start, "a vector and a number are added");
+      total.vector = next.vector;
       parts.push_back(next.value);
       total.bits = is_sum ? std::max(total.bits, next.bits) : total.bits + next.bits;
       total.degree = is_sum ? std::max(total.degree, next.degree) : total.degree + next.degree;
@@ -453,6 +469,134 @@ class Parser {
     return at;
   }
 
+  /// Of a part of the text where no vector can stand.
+  const Quantity& number_of(std::size_t start, const Quantity& q) const {
+    if (q.vector) fail_at(start, "a number stands here, and no vector");
+    return q;
+  }
+
+  /// How many of x1, x2, .. are there.
+  long members(const std::string& family) {
+    long count = 0;
+    while (names_.find(indexed_name(family, {count + 1})) != nullptr) ++count;
+    return count;
+  }
+
+  /// The component that is asked for of x = (x1, x2, ..). All vectors of a `dot` are as long.
+  Quantity component_of(const std::string& family, std::size_t start) {
+    const long count = members(family);
+    if (count == 0) undeclared(family, start);
+    if (dimension_ == 0) dimension_ = count;
+    if (count != dimension_)
+      fail_at(start, fmt::format("'{}' has {} components, and {} are needed here", family, count,
+                                 dimension_));
+    const Quantity& known = *names_.find(indexed_name(family, {*component_}));
+    for (const ex& part : known.parts ? *known.parts : std::vector<ex>{}) add_part(part);
+    Quantity q = known;
+    q.vector = true;
+    return q;
+  }
+
+  /// The component k of the vector that is written from `begin` on; leaves its end as the place.
+  Quantity component_at(std::size_t begin, long k) {
+    check(++repetitions_, &Limits::repetitions, begin,
+          "sums here write out more than {:.0f} terms");
+    const std::optional<long> before = component_;
+    component_ = k;
+    at_ = begin;
+    Quantity q = sum();
+    component_ = before;
+    repetitions_ += static_cast<double>(at_ - begin) / kCharactersOfTerm;
+    if (!q.vector)
+      fail_at(begin, "a vector stands here",
+              "a name x is one where x1, x2, .. are declared, and x is not");
+    return q;
+  }
+
+  /// a1*b1 + a2*b2 + .., or minus the last one.
+  Quantity combined(const std::vector<std::pair<Quantity, Quantity>>& pairs, bool difference,
+                    std::size_t start) const {
+    Quantity total{0};
+    GiNaC::exvector terms;
+    for (const auto& [a, b] : pairs) {
+      const ex term = a.value * b.value;
+      terms.push_back(difference && !terms.empty() ? -term : term);
+      total.bits = std::max(total.bits, a.bits + b.bits);
+      total.degree = std::max(total.degree, a.degree + b.degree);
+      total.nodes += a.nodes + b.nodes;
+      total.depth = std::max({total.depth, a.depth + 2, b.depth + 2});
+      checked(total, start);
+    }
+    total.bits += std::ceil(std::log2(1 + static_cast<double>(pairs.size())));
+    total.value = evaluated(start, [&] { return ex(GiNaC::add(terms)); });
+    return checked(total, start);
+  }
+
+  /// dot(a, b) of vectors of any length.
+  Quantity scalar_product(std::size_t start) {
+    const Depth depth(*this);
+    if (!accept('(')) unexpected("'('");
+    const long before = std::exchange(dimension_, 0);
+    const std::size_t left = at_;
+    std::vector<std::pair<Quantity, Quantity>> pairs;
+    for (long k = 1; k == 1 || k <= dimension_; ++k) {
+      const Quantity a = component_at(left, k);
+      if (!accept(',')) unexpected("',' of dot(a, b)");
+      const std::size_t right = at_;
+      const Quantity b = component_at(right, k);
+      pairs.emplace_back(a, b);
+    }
+    if (!accept(')')) unexpected("')'");
+    dimension_ = before;
+    return combined(pairs, false, start);
+  }
+
+  /// The component k of cross(a, b), of which `left` is the place of a. Its place is then its end.
+  Quantity component_of_product(std::size_t left, long k, std::size_t start) {
+    const long next = k % 3 + 1, last = next % 3 + 1;
+    std::vector<std::pair<Quantity, Quantity>> pairs;
+    for (const auto& [i, j] : {std::pair(next, last), std::pair(last, next)}) {
+      const Quantity a = component_at(left, i);
+      if (!accept(',')) unexpected("',' of cross(a, b)");
+      const Quantity b = component_at(at_, j);
+      pairs.emplace_back(a, b);
+    }
+    if (!accept(')')) unexpected("')'");
+    Quantity q = combined(pairs, true, start);
+    q.vector = true;
+    return q;
+  }
+
+  /// cross(a, b) within `dot` and `cross`, and cross(a, b)[k] everywhere.
+  Quantity vector_product(std::size_t start) {
+    const Depth depth(*this);
+    if (!accept('(')) unexpected("'('");
+    const std::size_t left = at_;
+    const long before = std::exchange(dimension_, 3);
+    if (before != 0 && before != 3)
+      fail_at(start, fmt::format("cross(a, b) has 3 components, and {} are needed here", before));
+    Quantity q = component_of_product(left, component_.value_or(1), start);
+    if (peek() == '[') {
+      ++at_;
+      dimension_ = before;
+      const std::size_t place = at_;
+      const long k = integer("an index");
+      if (k < 1 || k > 3) fail_at(place, "a vector of cross(a, b) has the components 1 to 3");
+      if (!accept(']')) unexpected("']'");
+      const std::size_t end = std::exchange(at_, left);
+      dimension_ = 3;
+      q = component_of_product(left, k, start);
+      q.vector = false;
+      at_ = end;
+      dimension_ = before;
+      return q;
+    }
+    if (!component_)
+      fail_at(start, "cross(a, b) is a vector",
+              "it stands in dot(.., ..), or has an index: cross(a, b)[1]");
+    return q;  // and all vectors beside it have three components
+  }
+
   /// U(r), U'(r), .. of an arbitrary function.
   Quantity arbitrary_call(const ex& symbol, const FunctionName& function, std::size_t start) {
     peek();
@@ -476,7 +620,8 @@ class Parser {
     std::vector<Quantity> given;
     if (peek() != ')') {
       do {
-        given.push_back(sum());
+        const std::size_t offset = at_;
+        given.push_back(number_of(offset, sum()));
       } while (accept(','));
     }
     if (!accept(')')) unexpected("',' or ')'");
@@ -493,9 +638,9 @@ class Parser {
   /// {F, G}
   Quantity bracket() {
     const std::size_t start = at_++;
-    const Quantity f = sum();
+    const Quantity f = number_of(start, sum());
     if (!accept(',')) unexpected("',' of a bracket {F, G}");
-    const Quantity g = sum();
+    const Quantity g = number_of(start, sum());
     if (!accept('}')) unexpected("'}'");
     const Dynamics* dynamics = names_.dynamics();
     if (dynamics == nullptr || !dynamics->has_bracket())
@@ -598,6 +743,8 @@ class Parser {
   std::size_t at_;
   std::size_t end_;
   int depth_ = 0;
+  std::optional<long> component_;                      ///< of vectors that is asked for
+  long dimension_ = 0;                                 ///< of all vectors here; 0: not known yet
   double repetitions_ = 0;                             ///< of all sums and products
   std::vector<std::pair<std::string, long>> indices_;  ///< of those that are open
   bool imaginary_unit_ = false;                        ///< `I` has been read

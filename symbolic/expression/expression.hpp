@@ -24,6 +24,7 @@ struct Quantity {
   /// The functions, roots and quotients that were read on the way. GiNaC may have made something of
   /// them that has values where they have none, as x of exp(log(x)).
   std::shared_ptr<const std::vector<GiNaC::ex>> parts{};
+  bool vector = false;  ///< one component of a vector, within `dot` and `cross` alone
 
   static Quantity symbol(const GiNaC::symbol& s) { return {s, 1, 1, 1}; }
 };

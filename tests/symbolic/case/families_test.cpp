@@ -93,6 +93,108 @@ TEST_F(Families, WhatIsMeantOtherwiseIsRefusedWithItsPlace) {
     EXPECT_TRUE(error_of(text).starts_with(message)) << text << ": " << error_of(text);
 }
 
+class Vectors : public Families {
+ protected:
+  Vectors() {
+    for (const char* name : {"a1", "a2", "a3", "b1", "b2", "b3", "c1", "c2", "c3", "p1", "p2", "s"})
+      names_.add(name, Quantity::symbol(symbols_.try_emplace(name, name).first->second));
+  }
+};
+
+TEST_F(Vectors, ObeyTheirIdentities) {
+  const std::pair<const char*, const char*> same[] = {
+      {"dot(a, b)", "a1*b1 + a2*b2 + a3*b3"},
+      {"dot(p, p)", "p1^2 + p2^2"},
+      {"cross(a, b)[1]", "a2*b3 - a3*b2"},
+      {"cross(a, b)[n]", "a1*b2 - a2*b1"},
+      {"dot(cross(a, b), a)", "0"},
+      {"dot(cross(a, b), c)", "a1*(b2*c3 - b3*c2) + a2*(b3*c1 - b1*c3) + a3*(b1*c2 - b2*c1)"},
+      {"cross(a, cross(b, c))[2]", "b2*dot(a, c) - c2*dot(a, b)"},
+      {"dot(cross(a, b), cross(a, b))", "dot(a, a)*dot(b, b) - dot(a, b)^2"},
+      {"dot(s*a - 2*(b + c)/s, a)", "s*dot(a, a) - 2*(dot(b, a) + dot(c, a))/s"},
+      {"dot(dot(a, b)*c, -a)", "-dot(a, b)*dot(c, a)"},
+      {"sum(k, 1, 3, cross(a, b)[k]^2)", "dot(cross(a, b), cross(a, b))"},
+      {"dot(sum(i, 1, 2, i*a), b)", "3*dot(a, b)"},
+      {"sqrt(dot(a, a))*a[2]", "sqrt(a1^2 + a2^2 + a3^2)*a2"},
+  };
+  for (const auto& [vectors, plain] : same)
+    EXPECT_TRUE((parse(vectors) - parse(plain)).expand().is_zero())
+        << vectors << " is " << parse(vectors);
+}
+
+TEST_F(Vectors, WhatIsNoVectorAlgebraIsRefusedWithItsPlace) {
+  const std::pair<const char*, const char*> wrong[] = {
+      {"a", "1: 'a' is not declared"},
+      {"dot(a*b, c)", "6: a vector times a vector"},
+      {"dot(a, 1/b)", "9: this divides by a vector"},
+      {"dot(a + 1, b)", "7: a vector and a number are added"},
+      {"dot(1 - a, b)", "7: a vector and a number are added"},
+      {"dot(a^2, b)", "6: a vector has no powers"},
+      {"dot(s^a, b)", "6: a number stands here, and no vector"},
+      {"dot(sin(a), b)", "9: a number stands here, and no vector"},
+      {"dot(a, s)", "7: a vector stands here"},
+      {"dot(a, p)", "8: 'p' has 2 components, and 3 are needed here"},
+      {"dot(p, cross(a, b))", "8: cross(a, b) has 3 components, and 2 are needed here"},
+      {"dot(a, q)", "8: 'q' is not declared"},
+      {"dot(a)", "6: unexpected ')'"},
+      {"dot(a, b, c)", "9: unexpected ','"},
+      {"cross(a, b)", "1: cross(a, b) is a vector"},
+      {"cross(a, b)[4]", "13: a vector of cross(a, b) has"},
+      {"cross(p, p)[1]", "7: 'p' has 2 components, and 3 are needed here"},
+      {"dot(product(i, 1, 2, a), b)", "5: a product of vectors"},
+      {"dot(x[a]*a, b)", "7: a number stands here"},
+  };
+  for (const auto& [text, message] : wrong)
+    EXPECT_TRUE(error_of(text).starts_with(message)) << text << ": " << error_of(text);
+  std::string nested = "a";
+  for (int i = 0; i < 60; ++i) nested = "cross(a, " + nested + ")";
+  EXPECT_NE(error_of(nested + "[1]").find("write out more than"), std::string::npos);
+}
+
+TEST_F(Vectors, AHeavyBodyIsTheOneThatIsWrittenOut) {
+  const Model body = model_of(R"toml(
+[phase_space]
+variables = ["M[1..3]", "g[1..3]"]
+[definitions]
+"w[i=1..3]" = "a[i]*M[i]"
+[parameters]
+"a[1..3]" = {}
+"r[1..3]" = {}
+[equations]
+"M[k=1..3]" = "cross(M, w)[k] + cross(g, r)[k]"
+"g[k=1..3]" = "cross(g, w)[k]"
+[integrals]
+F1 = "dot(g, g)"
+F2 = "dot(M, g)"
+E = "sum(i, 1, 3, a[i]*M[i]^2)/2 + dot(r, g)"
+wrong = "dot(M, M)"
+)toml");
+  const Model plain = model_of(R"toml(
+hamiltonian = "(a1*M1^2 + a2*M2^2 + a3*M3^2)/2 + r1*g1 + r2*g2 + r3*g3"
+[phase_space]
+variables = ["M1", "M2", "M3", "g1", "g2", "g3"]
+algebra = "e(3)"
+[parameters]
+a1 = {}
+a2 = {}
+a3 = {}
+r1 = {}
+r2 = {}
+r3 = {}
+)toml");
+  GiNaC::exmap rename;
+  for (std::size_t i = 0; i < 6; ++i) {
+    rename[body.variables[i]] = plain.variables[i];
+    rename[body.parameters[i]] = plain.parameters[i];
+  }
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_TRUE((body.field[i].subs(rename) - plain.field[i]).expand().is_zero()) << i;
+  for (const Proof& proof : prove(body))
+    if (proof.kind == ClaimKind::integral)
+      EXPECT_EQ(proof.verdict, proof.name == "wrong" ? Verdict::refuted : Verdict::proved)
+          << proof.name;
+}
+
 // A name of the case is never taken for a function of the language.
 TEST_F(Families, NamesOfTheCaseComeFirst) {
   names_.add("sum", {GiNaC::numeric(7)});
