@@ -97,8 +97,8 @@ double SectionReturn<Ball>::enclosed_step(double proposed, double expected) {
   const double before = expected - h / 4 - elapsed_;
   if (before > h / 8 && before < h) h = on_grid(before);
   bool full = true;
-  constexpr int kTries = 60;
-  for (int k = 0; k < kTries && h > 0; ++k) {
+  constexpr int kTriesToReturn = 60;
+  for (int k = 0; k < kTriesToReturn && h > 0; ++k) {
     const double by = lohner_.shortened_by(Ball(h), full);
     if (by == 0) return h;
     full = false;
