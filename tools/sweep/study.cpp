@@ -67,7 +67,7 @@ SweepStudy::SweepStudy(const Model& model, const Scene& scene, const StudyReques
   if (crossings && !scene.duration) how_far.duration = 0;
   settings_ = settings_for(how_far, run_);
   settings_.invariant_terms = nullptr;
-  if (crossings && method_->name != "taylor" && method_->name != "auto")
+  if (crossings && method_->name != "taylor")
     throw RequestError(asked.task + " of a sweep: orbits follow Taylor series");
   if (crossings) settings_.rtol = kSectionTolerance;
   places_ =

@@ -1,35 +1,25 @@
 // Systems of n parts: sums, products, members of families, and keys that stand for many names.
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+#include <variant>
+
 #include "symbolic/case/name_families.hpp"
-#include "symbolic/expression/expression.hpp"
+#include "symbolic/discrete/map_case.hpp"
 #include "symbolic/prove.hpp"
 #include "tests/symbolic/cases.hpp"
+#include "tests/symbolic/expression/reads_expressions.hpp"
 
 namespace casimir::test {
 namespace {
 
-class Families : public testing::Test {
+class Families : public ReadsExpressions {
  protected:
-  Families() {
-    for (const char* name : {"x1", "x2", "x3", "x12", "x1_12", "y", "j"})
-      names_.add(name, Quantity::symbol(symbols_.try_emplace(name, name).first->second));
+  Families(std::initializer_list<const char*> names = {"x1", "x2", "x3", "x12", "x1_12", "y", "j"})
+      : ReadsExpressions(names) {
     names_.add("n", {GiNaC::numeric(3)});
   }
-  GiNaC::ex parse(const std::string& text) {
-    return parse_expression({text, {"test", 1, 1}, text}, names_).value;
-  }
-  std::string error_of(const std::string& text) {
-    try {
-      parse(text);
-    } catch (const CaseError& error) {
-      return std::to_string(error.where().column) + ": " + error.text();
-    }
-    return "accepted";
-  }
-
-  std::map<std::string, GiNaC::symbol> symbols_;
-  NameTable names_;
 };
 
 std::string names_in(const std::string& text) {
@@ -44,12 +34,7 @@ std::string names_in(const std::string& text) {
 }
 
 std::string error_of_names(const std::string& text) {
-  try {
-    names_in(text);
-  } catch (const CaseError& error) {
-    return std::to_string(error.where().column) + ": " + error.text();
-  }
-  return "accepted";
+  return error_in([&] { names_in(text); });
 }
 
 TEST_F(Families, SumsAndProductsAreWrittenOut) {
@@ -95,10 +80,9 @@ TEST_F(Families, WhatIsMeantOtherwiseIsRefusedWithItsPlace) {
 
 class Vectors : public Families {
  protected:
-  Vectors() {
-    for (const char* name : {"a1", "a2", "a3", "b1", "b2", "b3", "c1", "c2", "c3", "p1", "p2", "s"})
-      names_.add(name, Quantity::symbol(symbols_.try_emplace(name, name).first->second));
-  }
+  Vectors()
+      : Families({"a1", "a2", "a3", "b1", "b2", "b3", "c1", "c2", "c3", "p1", "p2", "s", "x1", "x2",
+                  "x3"}) {}
 };
 
 TEST_F(Vectors, ObeyTheirIdentities) {
@@ -115,6 +99,8 @@ TEST_F(Vectors, ObeyTheirIdentities) {
       {"dot(dot(a, b)*c, -a)", "-dot(a, b)*dot(c, a)"},
       {"sum(k, 1, 3, cross(a, b)[k]^2)", "dot(cross(a, b), cross(a, b))"},
       {"dot(sum(i, 1, 2, i*a), b)", "3*dot(a, b)"},
+      {"dot(cross(a, b)[1]*p, p) + dot(p, cross(a, b)[2]*p)",
+       "((a2*b3 - a3*b2) + (a3*b1 - a1*b3))*(p1^2 + p2^2)"},
       {"sqrt(dot(a, a))*a[2]", "sqrt(a1^2 + a2^2 + a3^2)*a2"},
   };
   for (const auto& [vectors, plain] : same)
@@ -331,16 +317,42 @@ wrong = "sum(i, 1, n, q[i, 1]*p[i, 2])"
   }
 }
 
+TEST_F(Families, AMapHasItsNextValuesByFamilies) {
+  const AnyCaseFile file = parse_any_case(R"toml(
+[phase_space]
+variables = ["x[1..n]"]
+[definitions]
+n = 3
+[map]
+"x[i=1..n]" = "x[mod(i, n) + 1]"
+)toml",
+                                          "test.toml");
+  const auto& next = std::get<MapCaseFile>(file).next;
+  ASSERT_EQ(next.size(), 3u);
+  EXPECT_EQ(next[2].first.value, "x3");
+  EXPECT_EQ(next[2].second.indices->at("i"), 3);
+}
+
+// What the page on case files shows is a case, and what it says of it is proved.
+TEST_F(Families, TheExampleOfThePageOnCaseFilesIsRead) {
+  std::ifstream stream(CASIMIR_SOURCE_DIR "/cases/FORMAT.md");
+  const std::string page((std::istreambuf_iterator<char>(stream)), {});
+  const std::size_t families = page.find("## Families"), begin = page.find("```toml", families) + 8;
+  ASSERT_LT(families, begin);
+  const Model ring = model_of(page.substr(begin, page.find("```", begin) - begin));
+  EXPECT_EQ(ring.variables.size(), 10u);
+  std::size_t proved = 0;
+  for (const Proof& proof : prove(ring))
+    proved += proof.kind == ClaimKind::integral && proof.verdict == Verdict::proved;
+  EXPECT_EQ(proved, 2u);
+}
+
 // A letter of a range that is a name of the case would mean two things.
 TEST_F(Families, ALetterThatIsANameIsRefusedWhereItIsUsed) {
   std::string text = kRing;
   text.insert(text.find("[parameters]\n") + 13, "i = {}\n");
-  try {
-    model_of(text);
-    FAIL() << "accepted";
-  } catch (const CaseError& error) {
-    EXPECT_NE(error.text().find("name of this case"), std::string::npos) << error.text();
-  }
+  const std::string error = error_in([&] { model_of(text); });
+  EXPECT_NE(error.find("is a name of this case"), std::string::npos) << error;
 }
 
 }  // namespace

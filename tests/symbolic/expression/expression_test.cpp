@@ -5,30 +5,16 @@
 #include <random>
 
 #include "symbolic/expression/expression_size.hpp"
+#include "tests/symbolic/expression/reads_expressions.hpp"
 
 namespace casimir {
 namespace {
 
-class Expression : public testing::Test {
+class Expression : public test::ReadsExpressions {
  protected:
-  Expression() {
-    names_.add("x", Quantity::symbol(x_));
-    names_.add("y", Quantity::symbol(y_));
-  }
-  GiNaC::ex parse(const std::string& text) {
-    return parse_expression({text, {"test", 1, 1}, text}, names_).value;
-  }
-  std::string error_of(const std::string& text) {
-    try {
-      parse(text);
-    } catch (const CaseError& error) {
-      return std::to_string(error.where().column) + ": " + error.text();
-    }
-    return "accepted";
-  }
+  Expression() : ReadsExpressions({"x", "y"}) {}
 
-  GiNaC::symbol x_{"x"}, y_{"y"};
-  NameTable names_;
+  const GiNaC::symbol x_ = symbol("x"), y_ = symbol("y");
 };
 
 TEST_F(Expression, ReadsNumbersExactly) {

@@ -6,34 +6,14 @@
 
 #include <random>
 
-#include "symbolic/expression/expression.hpp"
+#include "tests/symbolic/expression/reads_expressions.hpp"
 
 namespace casimir::test {
 namespace {
 
-class Notation : public testing::Test {
+class Notation : public ReadsExpressions {
  protected:
-  Notation() {
-    for (const char* name : {"x", "y", "M1", "gamma_1", "w12"}) declare(name);
-  }
-  void declare(const std::string& name) { names_.add(name, Quantity::symbol(symbol(name))); }
-  GiNaC::symbol symbol(const std::string& name) {
-    return symbols_.try_emplace(name, name).first->second;
-  }
-  GiNaC::ex parse(const std::string& text) {
-    return parse_expression({text, {"test", 1, 1}, text}, names_).value;
-  }
-  std::string error_of(const std::string& text) {
-    try {
-      parse(text);
-    } catch (const CaseError& error) {
-      return std::to_string(error.where().column) + ": " + error.text();
-    }
-    return "accepted";
-  }
-
-  std::map<std::string, GiNaC::symbol> symbols_;
-  NameTable names_;
+  Notation() : ReadsExpressions({"x", "y", "M1", "gamma_1", "w12"}) {}
 };
 
 TEST_F(Notation, MeansWhatTheOwnOneMeans) {
