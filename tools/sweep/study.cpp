@@ -68,7 +68,8 @@ SweepStudy::SweepStudy(const Model& model, const Scene& scene, const StudyReques
   settings_ = settings_for(how_far, run_);
   settings_.invariant_terms = nullptr;
   if (crossings && method_->name != "taylor")
-    throw RequestError(asked.task + " of a sweep: orbits follow Taylor series");
+    throw RequestError(fmt::format(
+        "'{}' follows orbits by Taylor series: no other method goes with it", asked.task));
   if (crossings) settings_.rtol = kSectionTolerance;
   places_ =
       std::make_unique<GridPoints>(model, scene, run_, grid_, read_lets(asked.lets, grid_, model));
@@ -91,7 +92,8 @@ std::unique_ptr<SweepTask> SweepStudy::task_of(const StudyRequest& asked) const 
         "'" + printable(asked.task) + "' is nothing that a sweep does: " +
         suggest_or_list(asked.task, {kIntegrate, kSection, kExponents, kIndicators, kRotation}));
   if (run_.specialisation.uses_time)
-    throw RequestError(asked.task + " of a sweep: the equations depend on the time");
+    throw RequestError(fmt::format(
+        "'{}' is for equations that do not depend on the time, and these do", asked.task));
   if (asked.task == kIndicators)
     return std::make_unique<Indicators>(model_, scene_, run_, *places_, *method_, settings_);
   return std::make_unique<LyapunovExponents>(model_, scene_, run_, *places_, *method_, settings_);

@@ -430,6 +430,12 @@ class Runs(unittest.TestCase):
             for name, (low, high) in checked.parts[0]["enclosure"].items():  # in other arithmetic
                 self.assertLess(high - low, Fraction(1, 10**10))
                 self.assertTrue(low <= box.end.intervals[name][1] and box.end.intervals[name][0] <= high)
+            self.assertEqual([file.name for file in Path(folder).iterdir()], ["run.json"])
+            with self.assertRaises(FileNotFoundError):
+                casimir.load("euler").enclose(duration=1, certificate=Path(folder, "none", "run.json"))
+            pole = casimir.Case(equations={"x": "x^2"}, variables=["x"], initial={"x": 1}, duration=2)
+            self.assertFalse(pole.enclose(certificate=Path(folder, "pole.json")).success)
+            self.assertFalse(Path(folder, "pole.json").exists())
             path.write_text(path.read_text().replace("euler", "eulex", 1))
             with self.assertRaises(casimir.CaseError):
                 casimir.check(path)  # its digest is that of another text

@@ -481,7 +481,8 @@ class Case:
         :param ranges: parameters that may have any value of an interval, by name.
         :param digits: of the arithmetic; 0: double precision.
         :param sample_every: time between boxes on the way.
-        :param certificate: a file for every step, which `casimir.check` verifies in other arithmetic.
+        :param certificate: a file for every step, which `casimir.check` verifies in other arithmetic. None is written of
+            a run that ends before its time.
         :raises NoAnswer: where a certificate was asked for and does not pass that; nothing is written then.
 
         >>> box = load("kovalevskaya").enclose(duration=1)

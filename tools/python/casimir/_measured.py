@@ -282,10 +282,13 @@ def checked_of(kind: str, parts: list[dict[str, Any]]) -> Checked:
 def write_text(path: Any, text: str) -> None:
     """Writes a file of text, which is whole or is not there."""
     import os
-    import tempfile
 
-    folder = os.path.dirname(os.path.abspath(path))
-    with tempfile.NamedTemporaryFile("w", dir=folder, delete=False, encoding="ascii") as file:
-        file.write(text)
-    os.chmod(file.name, 0o644)
-    os.replace(file.name, path)
+    part = f"{os.fspath(path)}.{os.getpid()}.part"
+    try:
+        with open(part, "x", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+        os.replace(part, path)
+    except BaseException:
+        if os.path.exists(part):
+            os.remove(part)
+        raise

@@ -55,13 +55,21 @@ py::object to_python(const Rotation& rotation) {
                   "directed"_a = rotation.directed, "reason"_a = rotation.reason);
 }
 
-py::dict to_python(const ProvedCycle& proof, const Names& states) {
+/// What a proof of an equilibrium and one of a cycle have in common.
+template <class Proof>
+py::dict facts_of(const Proof& proof, const Names& states) {
   py::dict result("proved"_a = proof.proved, "reason"_a = proof.reason);
   if (!proof.proved) return result;
   result["enclosure"] = exact_ends(states, proof.state);
+  result["radius"] = rational_text(proof.radius);
+  return result;
+}
+
+py::dict to_python(const ProvedCycle& proof, const Names& states) {
+  py::dict result = facts_of(proof, states);
+  if (!proof.proved) return result;
   result["period"] = exact_ends(proof.period);
   result["trace"] = exact_ends(proof.trace);
-  result["radius"] = rational_text(proof.radius);
   result["kind"] = proof.kind();
   return result;
 }
@@ -139,11 +147,9 @@ py::dict section(const Case& self, const std::string& scene,
 }
 
 py::dict to_python(const ProvedEquilibrium& proof, const Names& states) {
-  py::dict result("proved"_a = proof.proved, "reason"_a = proof.reason);
+  py::dict result = facts_of(proof, states);
   if (!proof.proved) return result;
-  result["enclosure"] = exact_ends(states, proof.state);
   result["velocities"] = exact_ends(proof.velocities);
-  result["radius"] = rational_text(proof.radius);
   result["stability"] = to_string(proof.stability);
   return result;
 }
