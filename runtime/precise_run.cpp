@@ -28,7 +28,7 @@ constexpr double kFollowed = 0.5, kSmallPart = 0.4, kMostHalvings = 200;
 /// these digits, ..
 constexpr int kUncertainDigits = 8;
 /// .. and it is so much nearer than the way made.
-constexpr double kNear = -10;
+constexpr double kNearLog10 = -10;
 
 slong bits_for(int digits) {
   return static_cast<slong>((digits + kGuardDigits) * kLog2Of10 + kSlack);
@@ -152,7 +152,7 @@ class Runner {
     // A step that does not move the time: the disk of convergence has closed, whatever the reason.
     const bool closed =
         run_.steps > 0 && step < time_.log2() - resolution - kGuardDigits * kLog2Of10;
-    const bool near = predicted && singularity->distance.log2() < predicted->log2() + kNear;
+    const bool near = predicted && singularity->distance.log2() < predicted->log2() + kNearLog10;
     const bool again = predicted && predicted_ &&
                        (*predicted - *predicted_).log2() < predicted->log2() - resolution;
     predicted_ = predicted;

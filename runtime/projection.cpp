@@ -11,7 +11,7 @@ namespace casimir {
 namespace {
 
 /// An invariant as near to its level as its terms can be rounded needs nothing.
-constexpr long double kRounding = 0x1p-54L;
+constexpr long double kRoundingOfProjection = 0x1p-54L;
 /// A state is not moved by more than this part of its size: then it is the step that is wrong.
 constexpr double kFarthest = 1e-3;
 constexpr int kSteps = 3;
@@ -68,7 +68,7 @@ bool Projector::improve(double t, double* x, double* carry) {
   for (std::size_t k = 0; k < chosen_.size(); ++k) {
     const long double gap = std::abs(values[k] - level_[k]);
     if (!std::isfinite(gap)) return false;
-    needed |= gap > kRounding * std::max(sizes[k], std::abs(level_[k]));
+    needed |= gap > kRoundingOfProjection * std::max(sizes[k], std::abs(level_[k]));
   }
   if (!needed) return false;
 

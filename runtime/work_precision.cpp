@@ -16,9 +16,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// A turn lasts at least so long.
-constexpr double kTurn = 2e-4;
+constexpr double kTurnSeconds = 2e-4;
 constexpr int kLeastRounds = 3;
-constexpr int kMostRounds = 31;
+constexpr int kMostTimings = 31;
 
 /// An entrant on its way through the rounds.
 struct TimedRunner {
@@ -94,7 +94,7 @@ void share_out(std::vector<TimedRunner>& runners, const Plan& plan) {
   const auto rounds_for = [&](const TimedRunner& runner, double share) {
     const int least = TimedRunner::is_long(runner.turn_seconds(), plan) ? 1 : kLeastRounds;
     return std::clamp(static_cast<int>(std::min(share / runner.turn_seconds(), 1e6)), least,
-                      kMostRounds);
+                      kMostTimings);
   };
   const auto cost = [&](double share) {
     return std::accumulate(runners.begin(), runners.end(), 0.,
@@ -207,7 +207,8 @@ std::vector<Sample> measure(std::span<const Entrant> entrants, const ReferenceSt
     runner.bare.sample_every = 0;
     runner.bare.give_up = {};
     if (!TimedRunner::is_long(sample.seconds, plan)) sample.seconds = run_once(runner, truth);
-    runner.batch = static_cast<int>(std::ceil(kTurn / std::max(sample.seconds, kTurn * 1e-4)));
+    runner.batch =
+        static_cast<int>(std::ceil(kTurnSeconds / std::max(sample.seconds, kTurnSeconds * 1e-4)));
     runners.push_back(runner);
   }
   share_out(runners, plan);

@@ -1,5 +1,7 @@
 #!/usr/bin/env bash
-# Checks who includes whom, and that no code names a case. Prints FILE:LINE: offence for each.
+# Checks who includes whom, that no code names a case, and that a constant of a source has a name which no
+# other source of its layer uses: sources are compiled many at a time, in groups that change with each new
+# file. Prints FILE:LINE: offence for each.
 #
 #   tools/check_layers.sh [ROOT]       checks the tree at ROOT (by default this one)
 #   tools/check_layers.sh --self-test  bends a small tree in each way and expects to be told
@@ -42,6 +44,46 @@ match($0, /^[^:]+:[0-9]+:/) {
   }
 }'
 
+# Reads "FILE:LINE:TEXT" of every constexpr in a source, prints those outside of all functions whose name is
+# in another source of the layer too. Of "int kA = 1, kB = 2" both names count. What computes in long numbers
+# is compiled apart from the rest of runtime/, and each kernel by itself.
+# shellcheck disable=SC2016
+readonly constant_rules='
+function layer(file) {
+  if (file ~ /^tools\/analysis\//) return "tools/analysis"
+  if (file ~ /^tests\/runtime\//) return "tests/runtime"
+  if (file ~ /^runtime\/(certificate|digits|exact)\//) return "runtime/digits"
+  if (file ~ /^runtime\/kernels\//) return file
+  return substr(file, 1, index(file, "/") - 1)
+}
+match($0, /^[^:]+:[0-9]+:/) {
+  place = substr($0, 1, RLENGTH - 1)
+  text = substr($0, RLENGTH + 1)
+  file = place
+  sub(/:[0-9]+$/, "", file)
+  outer = text !~ /^ /
+  while (match(text, /[^A-Za-z0-9_]k[A-Z][A-Za-z0-9]*(\[\])?( = |\{)/)) {
+    name = substr(text, RSTART + 1, RLENGTH - 1)
+    text = substr(text, RSTART + RLENGTH)
+    gsub(/[^A-Za-z0-9]/, "", name)
+    key = layer(file) " " name
+    if (!((key, file) in seen)) users[key] = users[key] file "\n"
+    seen[key, file] = 1
+    if (outer) { ++outers; outer_place[outers] = place; outer_file[outers] = file; outer_key[outers] = key }
+  }
+}
+END {
+  for (i = 1; i <= outers; ++i) {
+    count = split(users[outer_key[i]], others, "\n") - 1
+    for (j = 1; j <= count; ++j)
+      if (others[j] != outer_file[i]) {
+        split(outer_key[i], words, " ")
+        print outer_place[i] ": the constant " words[2] " is in " others[j] " too"
+        break
+      }
+  }
+}'
+
 # The sources below the given folders of the tree; folders that are not there have none.
 sources() {
   local folder
@@ -67,23 +109,32 @@ named_cases() {
     sed -E 's/^([^:]+:[0-9]+):[[:space:]]*(.*)$/\1: names a case: \2/'
 }
 
+shared_constants() {
+  sources symbolic codegen runtime tools tests/runtime |
+    grep '[.]cpp$' |
+    xargs -r -d '\n' grep -HnE '^[[:space:]]*(static |inline )?constexpr ' |
+    awk "$constant_rules"
+}
+
 check() {
   local offences
   cd "$1"
-  offences=$(forbidden_includes; named_cases) || true
+  offences=$(forbidden_includes; named_cases; shared_constants) || true
   [[ -n $offences ]] || return 0
   printf '%s\n' "$offences"
   return 1
 }
 
-# expect TREE FILE TEXT MESSAGE: TEXT as the only line of FILE must be reported, and as MESSAGE.
+# expect TREE FILE TEXT MESSAGE [BEFORE]: TEXT as the only line of FILE must be reported, and as MESSAGE, after
+# the line BEFORE.
 expect() {
-  local tree=$1 file=$2 text=$3 message=$4 output status=0
+  local tree=$1 file=$2 text=$3 message=$4 before=${5-} output status=0
   mkdir -p "$tree/$(dirname "$file")"
   printf '%s\n' "$text" >"$tree/$file"
   output=$(check "$tree") || status=$?
   rm "$tree/$file"
   if [[ -n $message ]]; then message="$file:1: $message"; fi
+  if [[ -n $before ]]; then message=$before${message:+$'\n'$message}; fi
   if [[ $output != "$message" || $status -ne $((${#message} > 0)) ]]; then
     printf 'self-test: %s in %s\n  expected: %s\n  reported: %s (status %d)\n' \
       "$text" "$file" "${message:-nothing}" "${output:-nothing}" "$status"
@@ -131,6 +182,14 @@ self_test() {
   bent tools/analysis/a.cpp '#include "codegen/compile.hpp"' ''
   bent tools/a.cpp 'help("for instance: casimir show top");' ''
   bent tools/a.cpp '// such as "top"' ''
+
+  printf 'constexpr int kFew = 1;\n' >"$tree/tools/few.cpp"
+  bent tools/many.cpp 'constexpr int kMany = 9, kFew = 2;' \
+    'the constant kFew is in tools/few.cpp too' "tools/few.cpp:1: the constant kFew is in tools/many.cpp too"
+  bent tools/many.cpp '  constexpr double kFew[] = {2};' \
+    '' "tools/few.cpp:1: the constant kFew is in tools/many.cpp too"
+  bent tools/many.cpp 'constexpr int kFewer = 2;' ''
+  bent tools/analysis/few.cpp 'constexpr int kFew = 2;' ''
 
   if [[ $failed -eq 0 ]]; then printf 'self-test passed\n'; fi
   return "$failed"

@@ -18,7 +18,7 @@ namespace casimir::codegen {
 namespace {
 
 constexpr int kShortDigits = 8;
-constexpr int kLargestExponent = 40'000;  // binary; beyond every type here
+constexpr int kLargestBinaryExponent = 40'000;  // binary; beyond every type here
 
 /// The exact value in a message, without pages of digits.
 std::string brief(const cln::cl_RA& value) { return printable(rational_text(value)); }
@@ -138,7 +138,7 @@ Real nearest(const cln::cl_RA& value) {
   if (value == 0) return 0;
   const cln::cl_RA size = cln::abs(value);
   const long exponent = binary_exponent(size);
-  if (exponent > kLargestExponent || exponent < -kLargestExponent) {
+  if (exponent > kLargestBinaryExponent || exponent < -kLargestBinaryExponent) {
     throw ModelError("the number " + brief(value) + " is outside the range of the number type");
   }
   const long shift =

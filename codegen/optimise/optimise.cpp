@@ -17,7 +17,7 @@ namespace {
 
 // An expansion that is much longer than what it expands loses, and takes long to lose.
 constexpr std::size_t kAlwaysTried = 150;
-constexpr std::size_t kMostTerms = 1500;
+constexpr std::size_t kMostTermsOfASystem = 1500;
 constexpr std::size_t kMostGrowth = 4;
 // Longer sums are not looked for in an expansion.
 constexpr std::size_t kMostTermsOfSum = 30;
@@ -104,7 +104,7 @@ class Choice {
     consider_factored(structural);
     consider(structural);
     const std::size_t limit =
-        std::min(kMostTerms, std::max(kAlwaysTried, kMostGrowth * term_count(structural)));
+        std::min(kMostTermsOfASystem, std::max(kAlwaysTried, kMostGrowth * term_count(structural)));
     const auto expansion = expanded(structural, limit);
     if (!expansion) return;
     const TermSystem joined = with_squares_joined(*expansion);

@@ -7,7 +7,7 @@
 namespace casimir::codegen::wasm {
 namespace {
 
-constexpr int kAt = 0;  ///< the local that holds 8 k
+constexpr int kEightK = 0;  ///< the local that holds 8 k
 
 int index(std::size_t i) { return static_cast<int>(i); }
 
@@ -74,7 +74,7 @@ void SeriesBodies::value(Body& body, int line) const {
 }
 
 /// Coefficient k.
-void SeriesBodies::next(Body& body, int line) const { body.get(kAt).load(place(line)); }
+void SeriesBodies::next(Body& body, int line) const { body.get(kEightK).load(place(line)); }
 
 Body SeriesBodies::prepare() const {
   Body body;
@@ -135,7 +135,7 @@ struct SeriesBodies::Recurrence {
   }
 
   void sum(Body& body, int function, int u, int v, int from, bool to_k) const {
-    body.integer(u).integer(v).get(kAt).integer(kDouble * from).get(kAt);
+    body.integer(u).integer(v).get(kEightK).integer(kDouble * from).get(kEightK);
     if (!to_k) body.integer(kDouble).add(Code::i32_sub);
     body.call(function);
   }
@@ -147,9 +147,9 @@ struct SeriesBodies::Recurrence {
   }
   /// k as a double.
   static void order(Body& body) {
-    body.get(kAt).add(Code::f64_from_i32).number(1. / kDouble).add(Code::f64_mul);
+    body.get(kEightK).add(Code::f64_from_i32).number(1. / kDouble).add(Code::f64_mul);
   }
-  static void coefficient(Body& body, int series) { body.get(kAt).load(series); }
+  static void coefficient(Body& body, int series) { body.get(kEightK).load(series); }
 
   void begin(Body& body, const SeriesStep& step) const;
   void extend(Body& body, const SeriesStep& step) const;
@@ -205,7 +205,7 @@ void SeriesBodies::Recurrence::extend(Body& body, const SeriesStep& step) const 
   if (step.rule == SeriesRule::power) return power(body);
   if (step.rule == SeriesRule::angle) return angle(body);
   if (step.rule == SeriesRule::constant) return;  // its coefficients stay zero
-  body.get(kAt);
+  body.get(kEightK);
   switch (step.rule) {
     case SeriesRule::integral:  // k y_k = s sum of j a_j f_{k-j}
       weighted(body, a, f, true);
@@ -242,7 +242,7 @@ void SeriesBodies::Recurrence::side(Body& body, int a) const {
   add_operation(
       body, Op::sign, bodies.imports_, [&] { coefficient(body, a); }, [] {});
   body.store(u).add(Code::end);
-  body.get(kAt).load_at(u);
+  body.get(kEightK).load_at(u);
   coefficient(body, a);
   body.add(Code::f64_mul).store(bodies.places_[i]);
 }
@@ -251,7 +251,7 @@ void SeriesBodies::Recurrence::side(Body& body, int a) const {
 void SeriesBodies::Recurrence::power(Body& body) const {
   const Instruction& line = bodies.flow_.code[i];
   const int a = bodies.place(line.a), y = bodies.places_[i];
-  body.get(kAt);
+  body.get(kEightK);
   bodies.value(body, line.b);
   weighted(body, a, y, true);
   body.add(Code::f64_mul);
@@ -267,11 +267,11 @@ void SeriesBodies::Recurrence::angle(Body& body) const {
   const Instruction& line = bodies.flow_.code[i];
   const int a = bodies.place(line.a), b = bodies.place(line.b);
   const int y = bodies.places_[i], r = bodies.helpers_[i];
-  body.get(kAt);
+  body.get(kEightK);
   plain(body, b, b, 0, true);
   plain(body, a, a, 0, true);
   body.add(Code::f64_add).store(r);
-  body.get(kAt);
+  body.get(kEightK);
   weighted(body, a, b, true);
   weighted(body, b, a, true);
   body.add(Code::f64_sub);
@@ -313,7 +313,7 @@ void SeriesBodies::extend_line(Body& body, std::size_t i) const {
     for (const SeriesStep& step : series_steps(line.op)) Recurrence{*this, i}.extend(body, step);
     return;
   }
-  body.get(kAt);
+  body.get(kEightK);
   switch (line.op) {
     case Op::mul:
       extend_product(body, line);
@@ -346,11 +346,11 @@ Body SeriesBodies::extend() const {
 Body SeriesBodies::advance() const {
   constexpr int kShare = 1;
   Body body;  // unit/(k + 1)
-  body.load_at(at_.unit).get(kAt).integer(kDouble).add(Code::i32_add).add(Code::f64_from_i32);
+  body.load_at(at_.unit).get(kEightK).integer(kDouble).add(Code::i32_add).add(Code::f64_from_i32);
   body.number(1. / kDouble).add(Code::f64_mul).set(kShare);
   body.set(kShare + 1);
   for (std::size_t i = 0; i < states_; ++i) {
-    body.get(kAt);
+    body.get(kEightK);
     next(body, flow_.outputs[i]);
     body.get(kShare).add(Code::f64_div).get(kShare + 1).add(Code::f64_mul);
     body.store(state(i) + kDouble);

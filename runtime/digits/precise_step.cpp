@@ -7,7 +7,7 @@
 namespace casimir {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
 /// The last quarter of the orders tells the radius of convergence: gaps in a series do not deceive.
 std::size_t last_quarter(std::size_t order) { return order - order / 4; }
@@ -17,7 +17,7 @@ double by_the_tail(const std::vector<double>& sizes, double bits) {
   const std::size_t order = sizes.size() - 1;
   std::size_t first = 0;
   while (first < order && std::isinf(sizes[first])) ++first;
-  double radius = kInfinity;
+  double radius = kNoBound;
   for (std::size_t k = std::max(first + 1, last_quarter(order)); k <= order; ++k)
     radius = std::min(radius, (sizes[first] - sizes[k]) / static_cast<double>(k - first));
   return radius - bits / static_cast<double>(std::max<std::size_t>(order - first, 1));
@@ -25,7 +25,7 @@ double by_the_tail(const std::vector<double>& sizes, double bits) {
 
 /// log2 of the largest coefficient of each order.
 std::vector<double> sizes_of(const std::vector<LongSeries>& states) {
-  std::vector<double> sizes(states[0].size(), -kInfinity);
+  std::vector<double> sizes(states[0].size(), -kNoBound);
   for (const LongSeries& series : states) {
     for (std::size_t k = 0; k < sizes.size(); ++k) sizes[k] = std::max(sizes[k], series[k].log2());
   }
@@ -51,7 +51,7 @@ double log2_step(const std::vector<LongSeries>& states,
   constexpr std::size_t kFew = 4;
   std::size_t few = kFew;
   while (few < order && std::isinf(sizes[few - kFew])) ++few;
-  double size = -kInfinity;
+  double size = -kNoBound;
   for (std::size_t k = 0; k <= std::min(few, order); ++k)
     size = std::max(size, sizes[k] + static_cast<double>(k) * step);
   if (std::isinf(size)) return step;

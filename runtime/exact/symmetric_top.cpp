@@ -139,7 +139,7 @@ class InOrder {
   std::function<Moved(const Ball&)> motion_;
 };
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// q stays, and M and G turn uniformly.
 Recognised steady(const Motion& motion, const Top& top, const Places& at) {
@@ -152,9 +152,10 @@ Recognised steady(const Motion& motion, const Top& top, const Places& at) {
     return Moved{turn * M, turn * G, q};
   };
   const double rate = std::abs(cln::double_approx(v));
-  return {std::make_shared<BallForm>(motion.initial, InOrder(at, top.spin, turned),
-                                     rate > 0 ? 2 * 3.14159265358979 / rate : kInfinity, kInfinity),
-          ""};
+  return {
+      std::make_shared<BallForm>(motion.initial, InOrder(at, top.spin, turned),
+                                 rate > 0 ? 2 * 3.14159265358979 / rate : kUnbounded, kUnbounded),
+      ""};
 }
 
 /// Without weight, r = 0: M turns with the rate -P, and in the frame that turns with it g' = a g *
@@ -182,7 +183,7 @@ Recognised free_top(const Motion& motion, const Top& top, const Places& at) {
   };
   const double period = 2 * 3.14159265358979 / std::abs(cln::double_approx(top.a * length));
   return {
-      std::make_shared<BallForm>(motion.initial, InOrder(at, top.spin, moved), period, kInfinity),
+      std::make_shared<BallForm>(motion.initial, InOrder(at, top.spin, moved), period, kUnbounded),
       ""};
 }
 
@@ -378,7 +379,7 @@ Recognised symmetric_top(const Motion& motion) {
   if (lattice.kind == Kind::three)
     return {std::make_shared<BallForm>(motion.initial,
                                        InOrder(at, top.spin, TurningPart(top, nutation, lattice)),
-                                       cln::double_approx(lattice.period), kInfinity),
+                                       cln::double_approx(lattice.period), kUnbounded),
             ""};
   const double rate = cln::double_approx(lattice.rate);
   if (lattice.kind == Kind::hyperbolic)

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr int kColumns = 6;
-constexpr int kMostTrials = 2000;
+constexpr int kMostTrialsOfPassage = 2000;
 /// In the place of an error.
 constexpr double kNoNumbers = 1e300;
 /// By how much small changes of the start may grow, and how large they are.
@@ -77,7 +77,7 @@ bool Passage::goes(double t, State& x, double end) {
   const double scale = std::max(largest(x), std::abs(way) * largest(rate_));
   State carry(states_);
   double h = way;
-  for (int trial = 0; trial < kMostTrials; ++trial) {
+  for (int trial = 0; trial < kMostTrialsOfPassage; ++trial) {
     const double rest = end - t;
     const bool last = std::abs(h) >= std::abs(rest);
     const double to = last ? end : t + h;

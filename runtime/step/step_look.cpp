@@ -21,7 +21,7 @@ constexpr double kNegligiblePower = -40, kLeastPower = -60;
 /// By how much the argument of an oscillation may change in a step.
 constexpr double kTurn = 2;
 /// Of the largest argument in a step: what counts as zero, and where a step behind a branch ends.
-constexpr double kZero = 1e-11, kBehind = 1e-12, kRoundingOfSamples = 2e-15;
+constexpr double kZeroOfSamples = 1e-11, kBehind = 1e-12, kRoundingOfSamples = 2e-15;
 constexpr double kShorter = 0.4;
 
 /// The next of numbers between 0 and 1 that no motion follows.
@@ -407,7 +407,7 @@ double StepLook::defined(const casimir_step& trial, const StepWatch::Watched& wa
 double StepLook::up_to_branch(const casimir_step& trial, const StepWatch::Watched& watched) {
   const bool turns = watched.kind == StepWatch::Kind::turn;
   // A jump on whose wrong side rounding has put the start comes at once.
-  const double relative = watched.kind == StepWatch::Kind::side ? kZero : 0;
+  const double relative = watched.kind == StepWatch::Kind::side ? kZeroOfSamples : 0;
   const Values sampled = sampled_at(watched);
   const auto at = [&](std::size_t i) { return sampled[i]; };
   double size = 0;

@@ -5,8 +5,8 @@
 namespace casimir::validated {
 namespace {
 
-/// A time of the run is a whole multiple of 2^-kTimeBits of the whole time: a double, exactly.
-constexpr int kTimeBits = 46;
+/// A time of the run is a whole multiple of 2^-kStepBits of the whole time: a double, exactly.
+constexpr int kStepBits = 46;
 constexpr int kTries = 60;
 
 double down_to(double grid, double h) { return std::floor(h / grid) * grid; }
@@ -55,7 +55,7 @@ double FlowMap::enclosed_step(Lohner<MidRad>& lohner, double proposed, double la
 bool FlowMap::go(Lohner<MidRad>& lohner, const MidRad& time) {
   int exponent = 0;
   std::frexp(time.mid, &exponent);
-  grid_ = std::ldexp(1., exponent - kTimeBits);
+  grid_ = std::ldexp(1., exponent - kStepBits);
   // A multiple of the grid that is not below any of the times.
   const double end = (std::floor(upwards(time.mid + time.rad) / grid_) + 1) * grid_;
   double elapsed = 0;

@@ -14,7 +14,7 @@ namespace {
 /// gradient, ..
 constexpr double kLeastOfGradient = 1e-4;
 /// .. and of any other, which is a direction only.
-constexpr double kLeast = 1e-10;
+constexpr double kLeastOfFrame = 1e-10;
 
 using Column = std::span<double>;
 
@@ -138,7 +138,7 @@ Frame frame_along(const std::vector<std::vector<double>>& first, const Matrix<do
   std::vector<std::size_t> order(others.columns);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, [&](auto a, auto b) { return reach[a] > reach[b]; });
-  for (const std::size_t j : order) basis.add(column(j), kLeast);
+  for (const std::size_t j : order) basis.add(column(j), kLeastOfFrame);
   // Where the columns were dependent any others will do.
   for (std::size_t i = 0; i < n && !basis.full(); ++i) {
     std::vector<double> axis(n);

@@ -10,7 +10,7 @@
 namespace casimir {
 namespace {
 
-constexpr int kMostParts = 30;
+constexpr int kMostPartsOfKey = 30;
 
 /// The end of the string that starts at `at`, which is a quotation mark; that of the text where it
 /// is not closed.
@@ -110,7 +110,7 @@ std::optional<int> line_of_deep_key(const std::string& toml) {
       while (i < text.size() && text[i] != '\n') ++i;
       continue;
     }
-    if (c == '.' && ++dots >= kMostParts) return line;
+    if (c == '.' && ++dots >= kMostPartsOfKey) return line;
     if (c == '\n') ++line;
     if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) dots = 0;
     ++i;

@@ -12,7 +12,7 @@ namespace casimir::obstruction {
 namespace {
 
 /// Most variables for which all coordinate planes are tried: 2^n of them.
-constexpr std::size_t kMostVariables = 10;
+constexpr std::size_t kMostVariablesOfPlanes = 10;
 
 GiNaC::ex substituted(const GiNaC::ex& expression, const GiNaC::exmap& values) {
   try {
@@ -149,7 +149,8 @@ std::vector<InvariantPlane> invariant_planes(const HamiltonianSystem& system,
                                              const std::vector<std::vector<GiNaC::ex>>& relations) {
   std::vector<InvariantPlane> result;
   const std::size_t n = system.variables.size();
-  if (n > kMostVariables) throw NotDecided("more than ten variables: give a plane with --along");
+  if (n > kMostVariablesOfPlanes)
+    throw NotDecided("more than ten variables: give a plane with --along");
   // With one degree of freedom left there are two more variables than Casimir functions at most.
   const std::size_t along = system.casimirs.size() + 2;
   for (std::size_t size = n > along ? n - along : 1; size + 2 <= n; ++size) {

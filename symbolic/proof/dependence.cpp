@@ -17,7 +17,7 @@
 namespace casimir {
 namespace {
 
-constexpr mp_limb_t kPrime = (mp_limb_t{1} << 61) - 1;
+constexpr mp_limb_t kPrimeOfRank = (mp_limb_t{1} << 61) - 1;
 constexpr std::size_t kMaxMonomials = 700;
 constexpr std::size_t kSpareRows = 10;  ///< equations beyond the unknowns
 
@@ -49,7 +49,7 @@ std::optional<cln::cl_RA> reconstructed(mp_limb_t value) {
   fmpz_t modulus;
   fmpq_t rational;
   fmpz_init_set_ui(residue_value, value);
-  fmpz_init_set_ui(modulus, kPrime);
+  fmpz_init_set_ui(modulus, kPrimeOfRank);
   fmpq_init(rational);
   std::optional<cln::cl_RA> result;
   if (fmpq_reconstruct_fmpz(rational, residue_value, modulus) != 0)
@@ -64,7 +64,7 @@ std::optional<cln::cl_RA> reconstructed(mp_limb_t value) {
 class ResidueMatrix {
  public:
   ResidueMatrix(std::size_t rows, std::size_t columns) {
-    nmod_mat_init(value_, static_cast<slong>(rows), static_cast<slong>(columns), kPrime);
+    nmod_mat_init(value_, static_cast<slong>(rows), static_cast<slong>(columns), kPrimeOfRank);
   }
   ~ResidueMatrix() { nmod_mat_clear(value_); }
   ResidueMatrix(const ResidueMatrix&) = delete;

@@ -224,8 +224,8 @@ std::size_t rank_of_constants(const PolynomialRows& rows, std::size_t variables)
   return rank(std::move(values));
 }
 
-constexpr std::size_t kPoints = 4;       // of a piece
-constexpr std::size_t kManyPoints = 24;  // where pieces have to be found
+constexpr std::size_t kPointsOfPiece = 4;  // of a piece
+constexpr std::size_t kManyPoints = 24;    // where pieces have to be found
 
 }  // namespace
 
@@ -251,7 +251,7 @@ std::optional<RealPoint> PiecePoints::draw() {
 }
 
 bool PiecePoints::add_point() {
-  if (pieces_.size() != 1 || pieces_[0].points.size() >= kPoints) return false;
+  if (pieces_.size() != 1 || pieces_[0].points.size() >= kPointsOfPiece) return false;
   auto point = draw();
   if (!point) return false;
   pieces_[0].points.push_back(std::move(*point));
@@ -273,7 +273,8 @@ void PiecePoints::sort_by_signs(const FunctionRing::Pieces& what) {
     if (std::find(signs.begin(), signs.end(), 0) != signs.end()) continue;
     Piece& piece = found[signs];
     piece.rigid = what.rigid;
-    if (!what.rigid || piece.points.size() < kPoints) piece.points.push_back(std::move(*point));
+    if (!what.rigid || piece.points.size() < kPointsOfPiece)
+      piece.points.push_back(std::move(*point));
   }
   std::vector<std::string> parts;
   for (auto& [signs, piece] : found) {

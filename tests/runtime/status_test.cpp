@@ -9,8 +9,8 @@
 namespace casimir::test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 Settings settings_for(double duration, double tolerance = 1e-10) {
   Settings settings;
@@ -79,7 +79,7 @@ TEST_P(Outcome, EndOfTheDomainIsNotPassed) {
 }
 
 TEST_P(Outcome, StartWithoutANumberIsRefused) {
-  for (const double bad : {kNaN, kInfinity}) {
+  for (const double bad : {kNoNumber, kInfinite}) {
     const Trajectory orbit = run<Oscillator>(GetParam(), settings_for(1), {1, bad});
     EXPECT_EQ(orbit.status, Status::non_finite);
     EXPECT_EQ(orbit.time, 0);
@@ -158,12 +158,12 @@ TEST_P(Outcome, SettingsWithoutMeaningAreRefused) {
   };
   refused([](Settings& s) { s.rtol = s.atol = 0; });
   refused([](Settings& s) { s.rtol = -1e-6; });
-  refused([](Settings& s) { s.rtol = kNaN; });
-  refused([](Settings& s) { s.atol = kInfinity; });
-  refused([](Settings& s) { s.duration = kInfinity; });
-  refused([](Settings& s) { s.duration = kNaN; });
+  refused([](Settings& s) { s.rtol = kNoNumber; });
+  refused([](Settings& s) { s.atol = kInfinite; });
+  refused([](Settings& s) { s.duration = kInfinite; });
+  refused([](Settings& s) { s.duration = kNoNumber; });
   refused([](Settings& s) { s.fixed_step = -1; });
-  refused([](Settings& s) { s.sample_every = kNaN; });
+  refused([](Settings& s) { s.sample_every = kNoNumber; });
   refused([](Settings& s) { s.sample_every = 1e-12; });
   EXPECT_THROW(run<Oscillator>(GetParam(), settings_for(1), {1}), std::invalid_argument);
   EXPECT_THROW(run<Oscillator>(GetParam(), settings_for(1), {1, 0, 0}), std::invalid_argument);

@@ -33,7 +33,7 @@ namespace casimir::tools {
 namespace {
 
 /// Orbits are begun in turns, of so many at least: they fill the registers of some cores.
-constexpr std::size_t kOrbitsOfTurn = 16, kTurns = 4;
+constexpr std::size_t kOrbitsOfTurn = 16, kTurnsOfFigure = 4;
 
 /// What is kept of all crossings: the state, the pair, time and growth.
 void check_memory(const SectionArguments& options, std::size_t states) {
@@ -148,7 +148,8 @@ class Section {
   /// In a few turns: after the first, orbits begin where none has been.
   void follow_spread(SectionReport& report) {
     PicturePlaces taken;
-    const std::size_t turns = std::clamp<std::size_t>(options_.orbits / kOrbitsOfTurn, 1, kTurns);
+    const std::size_t turns =
+        std::clamp<std::size_t>(options_.orbits / kOrbitsOfTurn, 1, kTurnsOfFigure);
     for (std::size_t turn = 0; turn < turns && !cutter_.interrupted(); ++turn) {
       // Half of them at first: the sea of chaos is large.
       const std::size_t first_half = turns == 1 ? options_.orbits : options_.orbits / 2;

@@ -9,7 +9,7 @@ namespace casimir::tools {
 namespace {
 
 constexpr std::size_t kIntervals = 400;
-constexpr double kRounding = 1e-16;
+constexpr double kRoundingOfDrift = 1e-16;
 
 /// A logarithmic axis has no zero. Where a drift only passes through it the line goes on; one that
 /// is always zero is drawn at the size of rounding, so that it is seen.
@@ -18,7 +18,7 @@ Curve without_zeros(Curve curve) {
   if (std::ranges::any_of(curve.points, positive)) {
     std::erase_if(curve.points, [&](const auto& point) { return !positive(point); });
   } else {
-    for (auto& point : curve.points) point.second = kRounding;
+    for (auto& point : curve.points) point.second = kRoundingOfDrift;
   }
   return curve;
 }

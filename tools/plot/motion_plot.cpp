@@ -13,7 +13,7 @@ namespace {
 
 /// A step of a Taylor series may be a third of a period: so many samples make a smooth curve of it.
 constexpr double kSamplesPerStep = 24;
-constexpr double kFewestSamples = 2000, kMostSamples = 40000;
+constexpr double kFewestSamples = 2000, kMostSamplesOfPicture = 40000;
 
 /// What a user wants drawn: `t`, a state of the run, or an expression.
 std::vector<std::vector<double>> columns(const Model& model, const Scene& scene,
@@ -59,7 +59,7 @@ Motion motion_of(const PreparedScene& run, const AssessedRun& judged, double eve
   settings.duration = judged.trajectory.time;
   if (settings.duration == 0) return motion;
   const double samples = std::clamp(kSamplesPerStep * static_cast<double>(judged.trajectory.steps),
-                                    kFewestSamples, kMostSamples);
+                                    kFewestSamples, kMostSamplesOfPicture);
   settings.sample_every = every > 0 ? every : std::abs(settings.duration) / samples;
   settings.monitor = false;
   settings.give_up = nullptr;

@@ -10,7 +10,7 @@ namespace {
 constexpr const char* kLight =
     "--ink:#1b1d21;--paper:#fff;--soft:#5b616b;--line:#dcdfe4;--panel:#f5f6f8;--link:#0a58a8;"
     "--proved:#0b6b3a;--refuted:#a4161a;--undecided:#7a5200;";
-constexpr const char* kDark =
+constexpr const char* kDarkStyle =
     "--ink:#e6e6e6;--paper:#16181c;--soft:#a3a9b3;--line:#363a41;--panel:#1f2227;--link:#7db7ff;"
     "--proved:#5fd38d;--refuted:#ff8a80;--undecided:#ffcf66;";
 
@@ -124,7 +124,7 @@ std::string page_style() {
   const std::string light =
       fmt::format(":root{{color-scheme:light dark;{}{}}}", kLight, plot_variables(false));
   const std::string dark =
-      fmt::format("@media screen and (prefers-color-scheme:dark){{:root{{{}{}}}}}", kDark,
+      fmt::format("@media screen and (prefers-color-scheme:dark){{:root{{{}{}}}}}", kDarkStyle,
                   plot_variables(true));
   return light + "\n" + dark + kRules + "@media print{" + kPrint + "}\n";
 }

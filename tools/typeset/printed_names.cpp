@@ -10,7 +10,7 @@ namespace {
 
 using Pair = std::pair<std::string_view, std::string_view>;
 
-constexpr auto kGreek = std::to_array<Pair>(
+constexpr auto kGreekNames = std::to_array<Pair>(
     {{"alpha", "α"},  {"beta", "β"},  {"gamma", "γ"}, {"delta", "δ"}, {"epsilon", "ε"},
      {"zeta", "ζ"},   {"eta", "η"},   {"theta", "θ"}, {"iota", "ι"},  {"kappa", "κ"},
      {"lambda", "λ"}, {"mu", "μ"},    {"nu", "ν"},    {"xi", "ξ"},    {"pi", "π"},
@@ -52,8 +52,8 @@ std::string printed_name(std::string_view name) {
   const std::string_view digits = name.substr(letters);
   if (!std::ranges::all_of(digits, is_digit)) return std::string(name);
   std::string result(name.substr(0, letters));
-  const auto greek = std::ranges::find(kGreek, std::string_view(result), &Pair::first);
-  if (greek != kGreek.end()) result = greek->second;
+  const auto greek = std::ranges::find(kGreekNames, std::string_view(result), &Pair::first);
+  if (greek != kGreekNames.end()) result = greek->second;
   for (const char digit : digits) result += kLowered.at(static_cast<std::size_t>(digit - '0'));
   return result;
 }
@@ -72,7 +72,7 @@ std::size_t length_of_character(unsigned char first) {
 
 /// The Greek letter at this place as LaTeX has it, and how long it is; or nothing.
 Pair greek_at(const std::string& text, std::size_t place) {
-  for (const auto& [name, letter] : kGreek)
+  for (const auto& [name, letter] : kGreekNames)
     if (std::string_view(text).substr(place).starts_with(letter) && name != "Pi")
       return {name, letter};
   return {};

@@ -20,7 +20,7 @@ namespace {
 
 using GiNaC::ex;
 
-constexpr unsigned long kMostParts = 48;  ///< of an inverse function
+constexpr unsigned long kMostPartsOfAngle = 48;  ///< of an inverse function
 
 /// The integers c_k for which T_n(c) = sum c_k c^k, or U_n for `second`.
 std::vector<cln::cl_I> chebyshev(unsigned long n, bool second) {
@@ -195,7 +195,7 @@ std::optional<Angles::PartOfAngle> Angles::part_of_inverse(std::size_t index,
         inverse_sine_cosine(ex(table_.generators()[index].value), table_.generators()[index].order);
     return PartOfAngle{std::move(s), std::move(c), 1};
   }
-  if (parts > kMostParts) return std::nullopt;
+  if (parts > kMostPartsOfAngle) return std::nullopt;
   unsigned long n = machine_word(parts);
   auto part = first_part(index, n % 2 == 0);
   if (!part) return std::nullopt;

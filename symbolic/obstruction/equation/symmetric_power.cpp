@@ -13,7 +13,7 @@ namespace casimir::obstruction {
 namespace {
 
 constexpr long kLargestDegreeOfPower = 1500;
-constexpr mp_limb_t kPrime = 4611686018427387847UL;  // the largest below 2^62
+constexpr mp_limb_t kPrimeOfPowers = 4611686018427387847UL;  // the largest below 2^62
 
 /// The orders that a combination of products of m solutions may have at a singular point, as a
 /// series without logarithms and exponentials: sums of i times one exponent and m - i times the
@@ -101,7 +101,7 @@ std::optional<Univariate> kernel(const Recursion& map, long degree,
       fmpz_set(fmpz_mat_entry(matrix, i, j), image->coeffs + i);
   }
   nmod_mat_t modular;
-  nmod_mat_init(modular, height, degree + 1, kPrime);
+  nmod_mat_init(modular, height, degree + 1, kPrimeOfPowers);
   fmpz_mat_get_nmod_mat(modular, matrix);
   // A rank modulo a prime is never above the true one.
   const bool injective = nmod_mat_rank(modular) == degree + 1;

@@ -23,7 +23,7 @@ using GiNaC::symbol;
 using Field = std::vector<std::vector<Univariate>>;  ///< a matrix over Q[t]/f
 
 constexpr int kMostCuts = 2;
-constexpr std::size_t kMostFreedom = 6;  ///< for which all directions are sought
+constexpr std::size_t kMostFreeDirections = 6;  ///< for which all directions are sought
 
 Polynomial polynomial_of(const ex& e, const PolynomialRing& ring,
                          const std::vector<symbol>& unknowns) {
@@ -289,7 +289,7 @@ void examine_lines_in_space(const HamiltonianSystem& system, const std::function
                             Obstruction& result) {
   const auto potential = potential_in_space(system);
   if (!potential) return;
-  if (potential->q.size() > kMostFreedom) {
+  if (potential->q.size() > kMostFreeDirections) {
     result.left_out.emplace_back("straight lines: more than six degrees of freedom");
     return;
   }

@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::size_t kMostZeros = 150;
 /// Beyond these a basis is given up: what it leaves is no basis, and finds fewer zeros or none.
-constexpr GroebnerLimits kLimits{.reductions = 600, .elements = 100, .terms = 1000, .bits = 3000};
+constexpr GroebnerLimits kLimitsOfPoints{
+    .reductions = 600, .elements = 100, .terms = 1000, .bits = 3000};
 
 using Exponents = std::vector<unsigned long>;
 using Vector = std::vector<cln::cl_RA>;
@@ -181,7 +182,7 @@ Univariate value_at(const Polynomial& polynomial, const AlgebraicPoint& point) {
 CommonZeros common_zeros(const std::vector<Polynomial>& equations,
                          const std::function<void()>& tick) {
   const PolynomialRing& ring = equations.front().ring();
-  std::vector<Polynomial> basis = groebner_basis(equations, kLimits);
+  std::vector<Polynomial> basis = groebner_basis(equations, kLimitsOfPoints);
   CommonZeros result;
   tick();
   const Quotient first(basis, ring);
@@ -192,7 +193,7 @@ CommonZeros common_zeros(const std::vector<Polynomial>& equations,
     basis.push_back(in_variable(square_free(powers.minimal), ring.variable(i)));
   }
   tick();
-  const Quotient radical(groebner_basis(basis, kLimits), ring);
+  const Quotient radical(groebner_basis(basis, kLimitsOfPoints), ring);
   tick();
   if (radical.size() > 0) add_points(radical, ring, equations, result);
   return result;

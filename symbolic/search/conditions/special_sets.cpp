@@ -9,7 +9,7 @@
 namespace casimir::search {
 namespace {
 
-constexpr double kWork = 4e9;  // operations modulo a prime
+constexpr double kMostWorkOfSets = 4e9;  // operations modulo a prime
 constexpr std::size_t kMostSets = 40;
 
 class SetSearch {
@@ -34,7 +34,7 @@ class SetSearch {
   std::size_t rank_around(const SpecialSet& set) const;
   void look_at(const Conditions& conditions);
   void look_for_factors(const Polynomial& condition);
-  bool spent() const { return work_ > kWork || found_.size() >= kMostSets; }
+  bool spent() const { return work_ > kMostWorkOfSets || found_.size() >= kMostSets; }
 
   const System& system_;
   const std::vector<std::size_t>& free_;
@@ -158,7 +158,7 @@ std::size_t SetSearch::rank_at(const SpecialSet& set) const {
     best = std::max(best, rank);
     work_ += cost_;
   }
-  watch_.tick(std::min(1., work_ / kWork));
+  watch_.tick(std::min(1., work_ / kMostWorkOfSets));
   return best;
 }
 
@@ -202,7 +202,7 @@ void SetSearch::look_for_factors(const Polynomial& condition) {
     }
     std::erase_if(block.rows, [](const auto& row) { return row.empty(); });
     if (block.rows.empty()) continue;
-    work_ += kWork / 500;
+    work_ += kMostWorkOfSets / 500;
     const RankConditions own = rank_conditions(system_, block, rest, watch_);
     if (own.factors.size() > kMostFactors) continue;
     for (const Polynomial& factor : own.factors) look_at({condition, factor});

@@ -15,7 +15,7 @@
 namespace casimir::test {
 namespace {
 
-constexpr int kOrder = 20;
+constexpr int kSeriesOrder = 20;
 
 int width_of(const std::string& target) {
   return target == "avx512" ? 8 : target == "avx2" ? 4 : 2;
@@ -24,18 +24,18 @@ int width_of(const std::string& target) {
 /// The largest difference of a coefficient, relative to the largest coefficient of its order.
 double difference(const Program& program, const std::vector<double>& x,
                   const std::vector<double>& parameters, double t, double unit, int width) {
-  TaylorJet<double> jet(program, Arithmetic<double>{}, parameters, kOrder);
+  TaylorJet<double> jet(program, Arithmetic<double>{}, parameters, kSeriesOrder);
   const auto& truth = jet.expand(t, x, unit);
   auto layout = ProgramLayout::of(program, parameters.size(), width);
   if (!layout) return 1;
-  layout->start(kOrder, parameters.data());
+  layout->start(kSeriesOrder, parameters.data());
   const std::size_t n = x.size();
-  std::vector<double> rows((kOrder + 1) * n);
+  std::vector<double> rows((kSeriesOrder + 1) * n);
   std::copy(x.begin(), x.end(), rows.begin());
   double worst = 0;
   for (int repeat = 0; repeat < 2; ++repeat) {  // nothing is left of the first expansion
     layout->expand(t, unit, rows.data(), static_cast<int>(n));
-    for (std::size_t k = 0; k <= kOrder; ++k) {
+    for (std::size_t k = 0; k <= kSeriesOrder; ++k) {
       double size = 0, apart = 0;
       for (std::size_t i = 0; i < n; ++i) {
         size = std::max(size, std::abs(truth[i][k]));

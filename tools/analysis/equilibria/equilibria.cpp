@@ -22,7 +22,7 @@ using Matrix = Eigen::MatrixXd;
 constexpr std::size_t kMostStarts = 400;
 // Of eigenvalues, relative to the largest: rounding splits a triple zero by the cube root of its
 // size.
-constexpr double kZero = 1e-5;
+constexpr double kZeroEigenvalue = 1e-5;
 
 /// The integrals of degree 1 that are no Casimirs.
 std::vector<GiNaC::ex> linear_integrals(const Model& model, std::vector<std::string>& names) {
@@ -223,7 +223,7 @@ class Scaled {
 constexpr double kSolved = 1e-11;
 /// Pivots below it are zero: directions in which the equations do not change to first order.
 constexpr double kFlat = 1e-8;
-constexpr double kNear = 1e-6;
+constexpr double kNearEachOther = 1e-6;
 
 /// Newton's iteration with the shortest step that the linear equations allow, as long as it makes
 /// the residual smaller: at a multiple root it comes nearer by a part each time.
@@ -294,7 +294,7 @@ bool joined(const Scaled& equations, const Place& a, const Place& b) {
   Place here = a;
   double left = equations.distance(here, b);
   for (int way = 0; way < kWays; ++way) {
-    if (left < kNear) return true;
+    if (left < kNearEachOther) return true;
     Place next = Scaled::between(here, b, std::min(1., kShort / left));
     if (!solve(equations, next)) return false;
     const double still = equations.distance(next, b);
@@ -342,7 +342,7 @@ std::optional<Equilibrium> described(const Equations& equations, const Scaled& s
   // A flat direction is known to kFlat of the units, and its eigenvalues to the root of that.
   const double unit_rate = scaled.rate() / scaled.length();
   const double zero = result.degenerate ? 2 * std::sqrt(kFlat * unit_rate * linearised.norm())
-                                        : kZero * matrix.norm();
+                                        : kZeroEigenvalue * matrix.norm();
   constexpr double kRounding = 3e-7;  // of a double eigenvalue: the root of that of an entry
   const double small = std::max(zero, kRounding * linearised.norm());
   for (const std::complex<double>& value : *values) {
@@ -366,7 +366,7 @@ bool alike(const Equilibrium& a, const Equilibrium& b) {
     distance = std::max(distance, std::abs(a.eigenvalues[i] - b.eigenvalues[i]));
     largest = std::max({largest, std::abs(a.eigenvalues[i]), std::abs(b.eigenvalues[i])});
   }
-  return distance <= std::sqrt(kNear) * largest;
+  return distance <= std::sqrt(kNearEachOther) * largest;
 }
 
 /// What was found: equilibria with all points that belong to each.
@@ -412,7 +412,7 @@ class Collection {
     if (found.velocities.size() != first.velocities.size()) return false;
     const Place& nearest = *std::ranges::min_element(
         group.points, {}, [&](const Place& point) { return scaled_.distance(point, place); });
-    if (scaled_.distance(nearest, place) < kNear) return true;
+    if (scaled_.distance(nearest, place) < kNearEachOther) return true;
     if (found.degenerate != first.degenerate) return false;
     if (found.degenerate && joined_straight(scaled_, nearest, place)) return true;
     if (found.family == 0 || found.family != first.family) return false;

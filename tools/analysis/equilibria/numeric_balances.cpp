@@ -142,9 +142,9 @@ bool same(const BalancePoint& a, const BalancePoint& b) {
   return true;
 }
 
-constexpr double kRounding = 1e-7;  // of what is computed from double precision twice
+constexpr double kRoundingOfBalance = 1e-7;  // of what is computed from double precision twice
 
-double without_rounding(double x) { return std::abs(x) < kRounding ? 0 : x; }
+double without_rounding(double x) { return std::abs(x) < kRoundingOfBalance ? 0 : x; }
 
 std::string text_of(Number value, int digits) {
   const double real = without_rounding(value.real()), imaginary = without_rounding(value.imag());

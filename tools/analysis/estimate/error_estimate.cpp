@@ -13,16 +13,16 @@
 namespace casimir {
 namespace {
 
-constexpr double kUnitRoundoff = 0x1p-53;
+constexpr double kRoundoff = 0x1p-53;
 /// Relative changes of a state whose growth is measured. The first that stays small is taken: where
 /// a change grows to the size of the state itself, it says too little about smaller ones.
 constexpr double kChanges[] = {0x1p-26, 0x1p-36, 0x1p-46};
-constexpr double kSmall = 0.05;
+constexpr double kSmallGrowth = 0.05;
 /// Rounding errors that grow to this size leave no digits to speak of.
 constexpr double kSpoiled = 1e-3;
 constexpr double kSixDigits = 1e-6;
 /// Of the run that is repeated: no whole number of periods of anything between them.
-constexpr double kSamples = 61.8;
+constexpr double kSamplesOfRun = 61.8;
 /// Seconds of a run that is repeated though it takes long, since it may have passed something over.
 constexpr double kLongestToRepeat = 10;
 constexpr double kCrossCheckTolerance = 1e-10;
@@ -59,7 +59,7 @@ class Neighbours {
     // Only a run that is watched goes on where products of states are beyond all numbers.
     constexpr double kHuge = 1e130;
     tight_.monitor = std::ranges::max(sizes) > kHuge;
-    tight_.sample_every = std::abs(settings.duration) / kSamples;
+    tight_.sample_every = std::abs(settings.duration) / kSamplesOfRun;
     tight_.invariant_changes = nullptr;
     tight_.rtol = std::max(settings.rtol / 100, 2 * kLeastTolerance);
     tight_.atol = settings.atol / 100;
@@ -114,7 +114,7 @@ class Neighbours {
       if (neighbour.status != Status::ok) return std::nullopt;
       const double apart = distance(neighbour.state, better_.state, sizes_);
       largest = std::max(largest, apart / change);
-      if (apart < kSmall) break;
+      if (apart < kSmallGrowth) break;
     }
     return largest;
   }
@@ -146,7 +146,7 @@ std::optional<Conditioning> conditioning_at_end(const Neighbours& neighbours, st
 double estimate_without_repeat(double growth, const Settings& settings,
                                const Trajectory& trajectory) {
   const auto steps = static_cast<double>(trajectory.steps);
-  double drift = 0.03 * kUnitRoundoff * std::sqrt(steps);
+  double drift = 0.03 * kRoundoff * std::sqrt(steps);
   for (const InvariantRecord& record : trajectory.invariants) drift = std::max(drift, record.drift);
   return growth * drift + steps * settings.rtol;
 }
@@ -223,7 +223,7 @@ bool grows(const PreparedScene& run, const std::vector<double>& sizes) {
 }  // namespace
 
 bool ErrorEstimate::died_out() const {
-  return beyond_double && conditioning * kUnitRoundoff < kSpoiled;
+  return beyond_double && conditioning * kRoundoff < kSpoiled;
 }
 
 namespace {
@@ -290,15 +290,14 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
   trust.error_estimate =
       trust.input_rounding + (repeated ? distance(neighbours.better().state, trajectory.state,
                                                   end_sizes(run, trajectory)) +
-                                             growth * kUnitRoundoff
+                                             growth * kRoundoff
                                        : estimate_without_repeat(growth, settings, trajectory));
   if (repeated) {
     const double rounding =
         rounding_of_rates(run, compiled.module, neighbours.better(), end_sizes(run, trajectory));
     trust.error_estimate += std::min(rounding * growth, std::max(rounding, 1.));
   }
-  if (grows(run, sizes))
-    trust.error_estimate += kUnitRoundoff * static_cast<double>(trajectory.steps);
+  if (grows(run, sizes)) trust.error_estimate += kRoundoff * static_cast<double>(trajectory.steps);
   if (!method.series || may_hide) {
     const CrossCheck check =
         cross_check(run, method, settings, trajectory, end_sizes(run, trajectory), growth);
@@ -306,12 +305,12 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
     trust.error_estimate = std::max(trust.error_estimate, check.distance);
   }
   trust.unconfirmed = trust.unconfirmed || (may_hide && !has_time && short_of_end);
-  trust.beyond_double = !(trust.on_the_way * kUnitRoundoff < kSpoiled);
+  trust.beyond_double = !(trust.on_the_way * kRoundoff < kSpoiled);
   // Which way the motion took was decided by rounding: all of the state is in doubt, which the
   // growth up to the end does not show.
   if (trust.died_out()) trust.error_estimate = std::max(trust.error_estimate, 1.);
   if (!flow) return trust;
-  if (trust.beyond_double) trust.six_digits_until = flow->time_of(kSixDigits / kUnitRoundoff);
+  if (trust.beyond_double) trust.six_digits_until = flow->time_of(kSixDigits / kRoundoff);
   if (flow->followed > 0 && flow->followed < 0.99 * std::abs(trajectory.time))
     trust.followed = flow->followed;
   return trust;

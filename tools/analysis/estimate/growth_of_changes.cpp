@@ -17,7 +17,7 @@ constexpr std::size_t kStartsOfGrowth = 16;
 constexpr double kTightest = 1e-15;
 /// Of base orbits: near separatrices their own errors would pass for the distance from them.
 constexpr double kLoosest = 1e-10;
-constexpr double kMost = 1e250;
+constexpr double kMostGrowth = 1e250;
 /// Of deviations, which enter linearly: far below the states, whose errors rule the steps. Where
 /// the states rest they rule nothing, and deviations are as large as states.
 constexpr double kUnit = 0x1p-130, kUnitAtRest = 1;
@@ -37,7 +37,7 @@ class Deviation {
     for (std::size_t i = 0; i < n; ++i)
       size = std::max(size, std::abs(state[n + i]) / (unit_ * sizes_[i]));
     reached_ = std::abs(t);
-    now_ = std::min(size, kMost);
+    now_ = std::min(size, kMostGrowth);
     if (now_ >= 2 * growth_.back().factor) growth_.push_back({reached_, now_});
   }
 
@@ -48,14 +48,14 @@ class Deviation {
     const double power = std::max(std::log2(largest / half), 1.);
     const double rate = 2 * std::log(largest / half) / reached_;
     const bool exponential = power > 3;
-    for (double factor = 2 * largest; factor < kMost; factor *= 2) {
+    for (double factor = 2 * largest; factor < kMostGrowth; factor *= 2) {
       const double t = exponential ? reached_ + std::log(factor / largest) / rate
                                    : reached_ * std::pow(factor / largest, 1 / power);
       if (!(t < end)) break;
       growth_.push_back({t, factor});
     }
-    now_ = std::min(kMost, exponential ? largest * std::exp(rate * (end - reached_))
-                                       : largest * std::pow(end / reached_, power));
+    now_ = std::min(kMostGrowth, exponential ? largest * std::exp(rate * (end - reached_))
+                                             : largest * std::pow(end / reached_, power));
   }
 
   const std::vector<Growth>& growth() const { return growth_; }
@@ -131,13 +131,13 @@ class Follower {
     };
     // More is not told apart, and deviations that begin as large as states would overflow.
     settings.give_up = [&] {
-      return deviation.now() >= kMost || (settings_.give_up && settings_.give_up());
+      return deviation.now() >= kMostGrowth || (settings_.give_up && settings_.give_up());
     };
     std::vector<double> start = from.state;
     for (std::size_t i = 0; i < n; ++i) start.push_back(unit_ * sizes_[i] * part * direction[i]);
     const Trajectory run =
         integrate(*module_, *find_method("taylor"), settings, start, run_.parameters);
-    const bool grown = run.status == Status::stopped && deviation.now() >= kMost;
+    const bool grown = run.status == Status::stopped && deviation.now() >= kMostGrowth;
     if (run.status != Status::ok && run.status != Status::max_steps && !grown) return std::nullopt;
     result_.followed = std::min(result_.followed, std::abs(from.time) + deviation.reached());
     deviation.extrapolate(std::abs(settings.duration));

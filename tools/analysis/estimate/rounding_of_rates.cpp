@@ -12,7 +12,7 @@ namespace casimir {
 namespace {
 
 /// Enough for a cancellation of all digits of a double, and for many more.
-constexpr slong kBits = 512;
+constexpr slong kBitsOfRates = 512;
 /// Of the largest rate on the way, the least difference that counts.
 constexpr double kKept = 1e-9;
 
@@ -63,7 +63,7 @@ bool has_rates(const Module& module, double t, const std::vector<double>& x,
 double rounding_of_rates(const PreparedScene& run, const Module& module,
                          const Trajectory& trajectory, const std::vector<double>& sizes) {
   if (only_sums_and_products(run.specialisation.rhs)) return 0;
-  const Precision precision(kBits);
+  const Precision precision(kBitsOfRates);
   const double* const parameters = run.parameters.empty() ? nullptr : run.parameters.data();
   const std::size_t n = sizes.size();
   std::vector<double> rates(n), largest(n), worst(n), sum(n);
@@ -88,7 +88,7 @@ double rounding_of_rates(const PreparedScene& run, const Module& module,
 double rounding_of_rates_at(const PreparedScene& run, const Module& module, double t,
                             const std::vector<double>& x, double left) {
   if (only_sums_and_products(run.specialisation.rhs)) return 0;
-  const Precision precision(kBits);
+  const Precision precision(kBitsOfRates);
   const double* const parameters = run.parameters.empty() ? nullptr : run.parameters.data();
   std::vector<double> rates(x.size());
   module.functions().rhs(t, x.data(), parameters, rates.data());

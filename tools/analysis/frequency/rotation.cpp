@@ -16,8 +16,8 @@ namespace casimir {
 namespace {
 
 constexpr double kCircle = 2 * std::numbers::pi;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kFewest = 48, kMostParts = 24, kLongestCycle = 256;
+constexpr double kNoRotation = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kFewestReturns = 48, kMostParts = 24, kLongestCycle = 256;
 constexpr std::size_t kSignals = 6, kLines = 3, kMostMultiple = 5;
 /// Beside the size of the coordinates, and beside the extent of the orbit.
 constexpr double kPoint = 1e-10, kReturned = 1e-8;
@@ -30,7 +30,7 @@ constexpr double kOffLine = 0.35, kMayBeOff = 0.08;
 constexpr double kGap = 0.1, kGapOfPoints = 12;
 /// The longest curve, in units of the extent of the orbit: what jumps from island to island is as
 /// long as its points are many.
-constexpr double kLongest = 12, kLongestStep = 0.02;
+constexpr double kLongestCurve = 12, kLongestStep = 0.02;
 /// The mean distance of neighbours on the curve beside that of a point to the nearest of all: what
 /// jumps from island to island has other points nearer by.
 constexpr double kMostApart = 10;
@@ -120,7 +120,7 @@ struct Line {
 
   bool is_curve(std::size_t n) const {
     const auto points = static_cast<double>(n);
-    return bent < kInLine && off < kMayBeOff && length < kLongest + kLongestStep * points &&
+    return bent < kInLine && off < kMayBeOff && length < kLongestCurve + kLongestStep * points &&
            gap < std::min(kGap, kGapOfPoints / points);
   }
 };
@@ -319,10 +319,10 @@ bool apart(const OrbitPoints& first, const OrbitPoints& second, double number) {
 
 Rotation none(std::string reason) {
   return {.kind = Rotation::Kind::none,
-          .number = kNone,
-          .error = kNone,
-          .inner_number = kNone,
-          .inner_error = kNone,
+          .number = kNoRotation,
+          .error = kNoRotation,
+          .inner_number = kNoRotation,
+          .inner_error = kNoRotation,
           .reason = std::move(reason)};
 }
 
@@ -361,7 +361,7 @@ Rotation rotation_on_islands(const OrbitPoints& points, const OrbitPoints& first
   if (inner.error * static_cast<double>(first.size()) > kWanders)
     return none("its frequency is not the same in the first and in the second half");
   Rotation result{.kind = Rotation::Kind::islands,
-                  .number = kNone,
+                  .number = kNoRotation,
                   .error = 0,
                   .parts = parts,
                   .inner_number = inner.number,
@@ -390,8 +390,8 @@ std::string to_string(Rotation::Kind kind) {
 }
 
 Rotation rotation_of(const OrbitPoints& given) {
-  if (given.size() < kFewest)
-    return none(fmt::format("{} points are too few: at least {}", given.size(), kFewest));
+  if (given.size() < kFewestReturns)
+    return none(fmt::format("{} points are too few: at least {}", given.size(), kFewestReturns));
   const bool finite =
       std::ranges::all_of(given.coordinates, [](double x) { return std::isfinite(x); });
   if (!finite) return none("some of its points are no numbers");
@@ -400,18 +400,20 @@ Rotation rotation_of(const OrbitPoints& given) {
     return {.kind = Rotation::Kind::cycle,
             .number = 0,
             .parts = 1,
-            .inner_number = kNone,
+            .inner_number = kNoRotation,
             .reason = {}};
   if (const auto length = cycle_of(points)) {
     const auto steps = steps_about_middle(points, *length);
-    return {.kind = Rotation::Kind::cycle,
-            .number = steps ? static_cast<double>(*steps) / static_cast<double>(*length) : kNone,
-            .parts = *length,
-            .inner_number = kNone,
-            .reason = {}};
+    return {
+        .kind = Rotation::Kind::cycle,
+        .number = steps ? static_cast<double>(*steps) / static_cast<double>(*length) : kNoRotation,
+        .parts = *length,
+        .inner_number = kNoRotation,
+        .reason = {}};
   }
   if (const auto found = curve_of(points)) return rotation_on_curve(points, *found);
-  for (std::size_t parts = 2; parts <= kMostParts && points.size() / parts >= kFewest; ++parts) {
+  for (std::size_t parts = 2; parts <= kMostParts && points.size() / parts >= kFewestReturns;
+       ++parts) {
     const OrbitPoints first = part_of(points, parts);
     if (const auto inner = curve_of(first))
       return rotation_on_islands(points, first, *inner, parts);

@@ -18,8 +18,8 @@ using Signal = std::vector<Complex>;
 
 constexpr double kTurn = 2 * std::numbers::pi;
 /// Of Hanning's window: the wings of a line fall like the 9th power of the distance.
-constexpr int kOrder = 4;
-constexpr int kNewtonRounds = 12, kSweeps = 2;
+constexpr int kWindowOrder = 4;
+constexpr int kRoundsOfLine = 12, kSweepsOfLines = 2;
 /// Beside the signal, what is left is rounding.
 constexpr double kNothing = 1e-15;
 
@@ -29,7 +29,7 @@ std::vector<double> window(std::size_t n) {
   double sum = 0;
   for (std::size_t j = 0; j < n; ++j) {
     w[j] = std::pow(1 - std::cos(kTurn * (static_cast<double>(j) + 0.5) / static_cast<double>(n)),
-                    kOrder);
+                    kWindowOrder);
     sum += w[j];
   }
   for (double& x : w) x /= sum;
@@ -66,7 +66,7 @@ class Analysis {
       extend();
       fit();
     }
-    for (int k = 0; k < kSweeps && !lines_.empty(); ++k) sweep();
+    for (int k = 0; k < kSweepsOfLines && !lines_.empty(); ++k) sweep();
     result.rest = norm(rest_);
     std::ranges::sort(lines_, std::greater{},
                       [](const SpectralLine& line) { return std::abs(line.amplitude); });
@@ -134,7 +134,7 @@ class Analysis {
   /// The frequency near `begin` at which the square of the spectrum is largest.
   double maximum(const Signal& z, double begin, double cell) const {
     double frequency = begin;
-    for (int round = 0; round < kNewtonRounds; ++round) {
+    for (int round = 0; round < kRoundsOfLine; ++round) {
       const auto [value, first, second] = spectrum_at(z, frequency);
       const double slope = 2 * std::real(first * std::conj(value));
       const double bend = 2 * (std::norm(first) + std::real(second * std::conj(value)));

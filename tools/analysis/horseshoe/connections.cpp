@@ -13,8 +13,8 @@ using Matrix = Eigen::MatrixXd;
 /// Places in a fundamental domain of an unstable branch, returns that are followed, where it
 /// begins and how near a cycle it has to come, both in sizes of the section.
 constexpr int kBranchPlaces = 260;
-constexpr std::size_t kReturns = 14;
-constexpr double kStart = 1e-5, kNear = 0.3, kArrived = 2e-4;
+constexpr std::size_t kReturnsOfManifold = 14;
+constexpr double kStart = 1e-5, kNearCycle = 0.3, kArrivedAtCycle = 2e-4;
 /// Connections along which the two directions cannot be told apart prove nothing.
 constexpr double kLeastAngle = 1e-6;
 constexpr std::size_t kMostOfAPair = 12;
@@ -76,13 +76,13 @@ class ConnectionFinder {
   }
 
   bool near(const Vector& x, std::size_t target, std::size_t phase) const {
-    return (x - cycles_[target].points[phase]).norm() < kNear * size_;
+    return (x - cycles_[target].points[phase]).norm() < kNearCycle * size_;
   }
 
   /// One fundamental domain of a branch.
   void scan(double side) {
     const double factor = std::abs(source().unstable);
-    const std::size_t returns = kReturns * std::max<std::size_t>(1, source().length());
+    const std::size_t returns = kReturnsOfManifold * std::max<std::size_t>(1, source().length());
     Orbit before;
     double t_before = 0;
     for (int k = 0; k <= kBranchPlaces && !late(); ++k) {
@@ -97,7 +97,7 @@ class ConnectionFinder {
 
   void compare(const Orbit& a, const Orbit& b, double t_a, double t_b) {
     for (std::size_t k = 1; k < std::min(a.size(), b.size()); ++k) {
-      if ((a[k] - b[k]).norm() > kNear * size_) return;  // neighbours no more
+      if ((a[k] - b[k]).norm() > kNearCycle * size_) return;  // neighbours no more
       for (const std::size_t target : to_) {
         for (std::size_t phase = 0; phase < cycles_[target].length(); ++phase) {
           if (!near(a[k], target, phase) || !near(b[k], target, phase)) continue;
@@ -133,7 +133,7 @@ class ConnectionFinder {
       const auto arrived = newton(t, returns, bracket);
       if (!arrived) break;
       best = described(t, returns, bracket);
-      if (!best || *arrived < kArrived * size_) break;
+      if (!best || *arrived < kArrivedAtCycle * size_) break;
       returns += cycles_[bracket.target].length();
     }
     return best;

@@ -12,9 +12,9 @@ namespace {
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
-constexpr int kNewtonRounds = 14;
-constexpr std::size_t kOrbitPoints = 400, kRandomPoints = 240, kStartsOfALength = 160;
-constexpr double kSame = 1e-7;
+constexpr int kRoundsOfFixedPoint = 14;
+constexpr std::size_t kOrbitPoints = 400, kRandomStarts = 240, kStartsOfALength = 160;
+constexpr double kSameOrbit = 1e-7;
 /// What grows less at a return makes no horseshoe that could be proved.
 constexpr double kLeastGrowth = 1.6;
 
@@ -68,9 +68,9 @@ class CycleFinder {
     std::mt19937 random(20240607);
     std::normal_distribution<double> normal;
     constexpr int kFollowed = 8;
-    for (std::size_t k = 0; k < kRandomPoints && !(give_up_ && give_up_()); ++k) {
+    for (std::size_t k = 0; k < kRandomStarts && !(give_up_ && give_up_()); ++k) {
       Vector y = system_.start;
-      const double reach = size * (0.1 + 0.9 * static_cast<double>(k) / kRandomPoints);
+      const double reach = size * (0.1 + 0.9 * static_cast<double>(k) / kRandomStarts);
       for (double& one : y) one += reach * normal(random);
       if (!map_.project(y) || !(map_.plane_rate(y) > 0) || y.norm() > 5 * size) continue;
       follow(y, kFollowed);
@@ -111,7 +111,7 @@ class CycleFinder {
 
   std::optional<HyperbolicCycle> newton(Vector x, std::size_t length) const {
     const double size = 1e-3 + x.norm();
-    for (int round = 0; round < kNewtonRounds; ++round) {
+    for (int round = 0; round < kRoundsOfFixedPoint; ++round) {
       const auto orbit = iterated(map_, x, length);
       if (!orbit) return std::nullopt;
       Matrix product = Matrix::Identity(2, 2);
@@ -188,11 +188,11 @@ class CycleFinder {
   void keep(const HyperbolicCycle& cycle) {
     if (!(cycle.growth() > kLeastGrowth)) return;
     for (std::size_t k = 1; k < cycle.length(); ++k)
-      if ((cycle.points[k] - cycle.points[0]).norm() < kSame * (1 + cycle.points[0].norm()))
+      if ((cycle.points[k] - cycle.points[0]).norm() < kSameOrbit * (1 + cycle.points[0].norm()))
         return;  // a shorter one
     for (const HyperbolicCycle& other : found_)
       for (const Vector& point : other.points)
-        if ((point - cycle.points[0]).norm() < kSame * (1 + point.norm())) return;
+        if ((point - cycle.points[0]).norm() < kSameOrbit * (1 + point.norm())) return;
     found_.push_back(cycle);
   }
 

@@ -8,8 +8,8 @@
 namespace casimir::horseshoe {
 namespace {
 
-constexpr int kOrder = 18, kMaxSteps = 3000;
-constexpr double kStepError = 1e-17, kSingular = 1e-13, kMet = 3e-14;
+constexpr int kOrderOfReturn = 18, kMaxSteps = 3000;
+constexpr double kStepError = 1e-17, kSingularReturn = 1e-13, kPlaneMet = 3e-14;
 
 }  // namespace
 
@@ -24,8 +24,8 @@ NumericReturn::NumericReturn(const SectionSystem& system)
     : system_(system),
       flow_(validated::joined(system.rates, system.jacobian.program, system.jacobian.entries)),
       n_(system.states()),
-      jet_(flow_.rates, {}, {}, kOrder),
-      jet_with_jacobian_(flow_.both, {}, {}, kOrder),
+      jet_(flow_.rates, {}, {}, kOrderOfReturn),
+      jet_with_jacobian_(flow_.both, {}, {}, kOrderOfReturn),
       plane_(system.plane),
       constraints_(system.constraints),
       gradients_(system.gradients.program),
@@ -83,10 +83,10 @@ bool NumericReturn::project(Vector& x) const {
     const Matrix gradient = gradients(x);
     if (!residual.allFinite() || !gradient.allFinite()) return false;
     const double size = residual.cwiseAbs().maxCoeff();
-    const double rounding = kMet * (gradient.cwiseAbs().maxCoeff() * x.norm() + 1e-300);
+    const double rounding = kPlaneMet * (gradient.cwiseAbs().maxCoeff() * x.norm() + 1e-300);
     if (size <= rounding || (round > 4 && size <= 30 * rounding && size >= before)) return true;
     before = size;
-    Vector step = shortest_solution(gradient.transpose(), residual, kSingular);
+    Vector step = shortest_solution(gradient.transpose(), residual, kSingularReturn);
     const double longest = 0.5 * (1 + x.norm());
     if (step.norm() > longest) step *= longest / step.norm();
     x -= step;
@@ -101,18 +101,18 @@ void NumericReturn::expand(const Vector& x, bool with_derivative, Piece& piece) 
   double first = 0, last = 0, before = 0;
   for (const std::vector<double>& series : *piece.states) {
     first = std::max({first, std::abs(series[0]), std::abs(series[1])});
-    last = std::max(last, std::abs(series[kOrder]));
-    before = std::max(before, std::abs(series[kOrder - 1]));
+    last = std::max(last, std::abs(series[kOrderOfReturn]));
+    before = std::max(before, std::abs(series[kOrderOfReturn - 1]));
   }
   const auto reach = [&](double size, int k) {
     return size > 0 ? std::pow(kStepError * first / size, 1. / k) : INFINITY;
   };
-  piece.step = std::min({reach(last, kOrder), reach(before, kOrder - 1), 1e3});
+  piece.step = std::min({reach(last, kOrderOfReturn), reach(before, kOrderOfReturn - 1), 1e3});
   if (!with_derivative) return;
   const auto n = static_cast<Eigen::Index>(n_);
-  piece.tangents.assign(kOrder + 1, Matrix::Zero(n, n));
+  piece.tangents.assign(kOrderOfReturn + 1, Matrix::Zero(n, n));
   piece.tangents[0] = Matrix::Identity(n, n);
-  for (std::size_t k = 0; k < kOrder; ++k) {
+  for (std::size_t k = 0; k < kOrderOfReturn; ++k) {
     for (std::size_t e = 0; e < flow_.entries.size(); ++e) {
       const std::vector<double>& series = jet.series_of(flow_.entry_lines[e]);
       for (std::size_t j = 0; j <= k; ++j) {

@@ -22,7 +22,7 @@ namespace casimir {
 namespace {
 
 /// Of `auto`, without a tolerance: where rounding takes over.
-constexpr double kSmoothTolerance = 1e-15, kStiffTolerance = 1e-13;
+constexpr double kSmoothTolerance = 1e-15, kToleranceOfStiffRun = 1e-13;
 /// What `auto` takes where coefficients of Taylor series are beyond all doubles.
 constexpr const char* kWithoutSeries = "dop853";
 constexpr double kToleranceWithoutSeries = 1e-13;
@@ -119,7 +119,7 @@ class Judge {
       else if (result_.trajectory.status == Status::non_finite)
         try_without_series();
     } else {
-      prepare(method_named(kStiffMethod), settings_for(options_.run, run_, kStiffTolerance));
+      prepare(method_named(kStiffMethod), settings_for(options_.run, run_, kToleranceOfStiffRun));
       run_it();
       if (!options_.run.tolerance && !options_.run.atol) try_small_states();
     }

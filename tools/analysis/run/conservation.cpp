@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kConservingTolerance = 1e-12;
 /// A stiff scene takes more from a method that is not made for it, and would take hours.
-constexpr unsigned long long kMostStiffSteps = 200'000;
+constexpr unsigned long long kMostStiffStepsWatched = 200'000;
 
 /// Whether a scene may be refused: its motion ends, comes close to where the variables end, or
 /// takes another method.
@@ -79,7 +79,7 @@ Conservation conserve(const Model& model, const Scene& scene, const Method& meth
   settings.give_up = options.give_up;
   show_progress(settings, options);
   if (scene.extreme == Extreme::stiff && settings.max_steps == 0)
-    settings.max_steps = kMostStiffSteps;
+    settings.max_steps = kMostStiffStepsWatched;
   Conservation result;
   result.invariants = run.specialisation.invariant_names;
   if (options.watch) options.watch(settings, result.invariants);

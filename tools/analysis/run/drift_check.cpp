@@ -7,7 +7,7 @@
 namespace casimir {
 namespace {
 
-constexpr double kSeconds = 10;
+constexpr double kSecondsOfCheck = 10;
 
 bool declares(const Model& model, const std::string& name) {
   try {
@@ -31,7 +31,7 @@ Proof proof_of(const Model& model, const std::string& invariant) {
   }
   Candidates candidates;
   candidates.integrals.push_back({name, {"--integral", 1, 1}, name});
-  const std::vector<Proof> proofs = prove_within(kSeconds, named, candidates, {});
+  const std::vector<Proof> proofs = prove_within(kSecondsOfCheck, named, candidates, {});
   return proofs.empty() ? Proof{} : proofs.front();
 }
 

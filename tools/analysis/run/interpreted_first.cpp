@@ -23,7 +23,7 @@ using Integration = std::function<ModuleFunctions::Integration>;
 /// interpreted, and of the same in a Taylor series of order 20.
 constexpr double kLine = 1.5e-9, kSeriesLine = 60e-9;
 /// Evaluations of the right-hand side in a step of Radau IIA with s stages, for each stage.
-constexpr double kSweeps = 5;
+constexpr double kSweepsOfStage = 5;
 /// Nominal seconds of interpreted steps from which on compiled code, which is about twice as fast,
 /// is worth its compilation: those, or these for each line of the program, which the compiler
 /// takes.
@@ -186,7 +186,7 @@ std::optional<Interpreted> interpreted_by(const PreparedScene& run, const Method
   if (stages == 0 || rhs.outputs.size() > kMostInterpretedStiff) return std::nullopt;
   SparseProgram jacobian = codegen::jacobian(rhs, rhs.outputs.size());
   return Interpreted{interpreted_radau(rhs, {jacobian.program, jacobian.entries}, stages),
-                     kSweeps * stages * kLine * lines};
+                     kSweepsOfStage * stages * kLine * lines};
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace casimir {
 namespace {
 
 /// No further invariant is proved after so many seconds.
-constexpr double kProofSeconds = 20;
+constexpr double kSecondsOfProof = 20;
 
 /// The rates, and zero for each parameter that takes part as a state.
 Program with_resting(Program rates, const std::vector<std::string>& resting) {
@@ -63,7 +63,7 @@ std::vector<KnownIntegral> known_integrals(const Model& given, const Specialisat
                                            std::vector<std::string>& doubts) {
   const Model model = wherever_it_goes(given);
   std::vector<KnownIntegral> result;
-  const auto late = time_limit(kProofSeconds);
+  const auto late = time_limit(kSecondsOfProof);
   for (std::size_t k = 0; k < s.invariant_names.size(); ++k) {
     const std::string& name = s.invariant_names[k];
     if (late()) {

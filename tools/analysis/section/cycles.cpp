@@ -13,9 +13,9 @@ namespace {
 using Vector = LevelSet::Vector;
 using Matrix = Eigen::MatrixXd;
 
-constexpr int kNewtonRounds = 25;
+constexpr int kRoundsOfCycle = 25;
 /// Newton's method has arrived where a return is so near, relative to the size of the state.
-constexpr double kArrived = 1e-9, kSame = 1e-6;
+constexpr double kReturnsWithin = 1e-9, kSameCycle = 1e-6;
 /// Traces nearer to 2 belong to families of cycles.
 constexpr double kDegenerate = 1e-5;
 constexpr double kAreaKept = 1e-4;
@@ -36,8 +36,8 @@ class Newton {
       : level_(level), cutter_(cutter), length_(length) {}
 
   void run(std::vector<Attempt>& attempts, const std::function<void(double)>& progress) {
-    for (int round = 0; round < kNewtonRounds && !cutter_.interrupted(); ++round) {
-      progress(static_cast<double>(round) / kNewtonRounds);
+    for (int round = 0; round < kRoundsOfCycle && !cutter_.interrupted(); ++round) {
+      progress(static_cast<double>(round) / kRoundsOfCycle);
       std::vector<Attempt*> active;
       for (Attempt& attempt : attempts)
         if (!attempt.failed && !attempt.arrived) active.push_back(&attempt);
@@ -104,7 +104,7 @@ class Newton {
     }
     // Nothing is gained any more, and where it is the return is near.
     if (step.norm() < 1e-11 * size) {
-      attempt.arrived = attempt.miss.norm() < kArrived * size;
+      attempt.arrived = attempt.miss.norm() < kReturnsWithin * size;
       attempt.failed = !attempt.arrived;
       return;
     }
@@ -120,7 +120,7 @@ class Newton {
 };
 
 bool same_point(const LevelSet& level, const Vector& a, const Vector& b) {
-  return level.difference(a, b).norm() < kSame * (1 + a.norm());
+  return level.difference(a, b).norm() < kSameCycle * (1 + a.norm());
 }
 
 /// Whether it is run through several times.

@@ -10,11 +10,11 @@
 namespace casimir {
 namespace {
 
-constexpr int kMostSteps = 60;
+constexpr int kMostStepsToLevel = 60;
 /// Of level functions beside their gradients.
-constexpr double kMet = 1e-13;
+constexpr double kLevelMet = 1e-13;
 /// Of pivots beside the largest.
-constexpr double kSingular = 1e-15;
+constexpr double kSingularLevel = 1e-15;
 
 double wrapped(double value, double period) {
   return period > 0 ? value - period * std::round(value / period) : value;
@@ -53,7 +53,7 @@ bool LevelSet::project(Vector& x, const std::array<double, 2>* pair, bool energy
   Vector residual(rows);
   double before = 0;
   Vector step = Vector::Zero(x.size()), start = x;
-  for (int round = 0; round < kMostSteps; ++round) {
+  for (int round = 0; round < kMostStepsToLevel; ++round) {
     evaluate(x.data());
     const Eigen::MatrixXd gradient = gradients(x).leftCols(rows);
     for (Eigen::Index i = 0; i < levels; ++i)
@@ -70,7 +70,7 @@ bool LevelSet::project(Vector& x, const std::array<double, 2>* pair, bool energy
     const double scale = x.norm();
     bool met = true;
     for (Eigen::Index i = 0; i < rows && met; ++i)
-      met = std::abs(residual[i]) <= kMet * (gradient.col(i).norm() * scale + 1e-300);
+      met = std::abs(residual[i]) <= kLevelMet * (gradient.col(i).norm() * scale + 1e-300);
     if (met) return true;
     // Half a step back where a step has made it worse.
     if (round > 0 && size > 2 * before && step.norm() > 1e-3 * (1 + scale)) {
@@ -82,7 +82,7 @@ bool LevelSet::project(Vector& x, const std::array<double, 2>* pair, bool energy
     start = x;
     Eigen::MatrixXd system = gradient.transpose();
     if (!energy) system.row(0).setZero();
-    step = -shortest_solution(system, residual, kSingular);
+    step = -shortest_solution(system, residual, kSingularLevel);
     const double longest = 0.5 * (1 + scale);
     if (step.norm() > longest) step *= longest / step.norm();
     x += step;

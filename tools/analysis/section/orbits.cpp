@@ -13,7 +13,7 @@ using Vector = LevelSet::Vector;
 /// More crossings than this take longer than a compiler.
 constexpr std::size_t kWorthCompiling = 100000;
 /// To find out whether orbits return: so often, and to a state not so many times larger.
-constexpr std::size_t kReturns = 8;
+constexpr std::size_t kReturnsOfSeed = 8;
 constexpr double kEscaped = 10;
 constexpr unsigned long long kStepsBetween = 20000, kStepsToReturn = 3000;
 
@@ -87,7 +87,7 @@ Returning OrbitCutter::returning() const {
     const std::vector<Vector> none(seeds.size(),
                                    Vector::Zero(static_cast<Eigen::Index>(problem_.states())));
     std::vector<bool> result;
-    for (const SectionOrbit& orbit : with_deviations(seeds, none, kReturns).orbits)
+    for (const SectionOrbit& orbit : with_deviations(seeds, none, kReturnsOfSeed).orbits)
       result.push_back(orbit.status == Status::ok && stays(seeds[result.size()], orbit));
     return result;
   };
@@ -108,7 +108,7 @@ namespace {
 
 /// Deviations of regular orbits grow like the time, at most like its third power.
 constexpr double kLargestPower = 3;
-constexpr std::size_t kFewest = 10;
+constexpr std::size_t kFewestOrbits = 10;
 
 /// Drops the crossings from the first that is off the level.
 void check_level(const LevelSet& level, OrbitReport& report) {
@@ -153,8 +153,8 @@ double megno_of(const SectionOrbit& orbit) {
 void judge_growth(OrbitReport& report) {
   const SectionOrbit& orbit = report.orbit;
   // One that runs to infinity is neither regular nor chaotic.
-  report.judged =
-      orbit.size() >= kFewest && (orbit.status == Status::ok || orbit.status == Status::stopped);
+  report.judged = orbit.size() >= kFewestOrbits &&
+                  (orbit.status == Status::ok || orbit.status == Status::stopped);
   if (!report.judged) return;
   const std::size_t first = orbit.size() / 10;
   const double growth = orbit.growth.back() - orbit.growth[first],

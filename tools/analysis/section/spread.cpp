@@ -15,7 +15,7 @@ namespace {
 
 using Vector = LevelSet::Vector;
 
-constexpr int kRandomPoints = 1500, kRounds = 5, kParents = 120, kChildren = 4;
+constexpr int kRandomPointsOfLevel = 1500, kRoundsOfSpread = 5, kParents = 120, kChildren = 4;
 /// Points that are crossed at a smaller angle are next to tangencies.
 constexpr double kLeastSpeed = 1e-6;
 constexpr double kFarAway = 30;
@@ -135,9 +135,9 @@ std::vector<PlacedPoint> points_of_domain(const LevelSet& level, const Returning
                                           const std::vector<Vector>& known) {
   Search search(level, returning);
   for (const Vector& x : known) search.add(x);
-  search.random(kRandomPoints);
+  search.random(kRandomPointsOfLevel);
   search.sift();
-  for (int round = 0; round < kRounds && !search.empty(); ++round) {
+  for (int round = 0; round < kRoundsOfSpread && !search.empty(); ++round) {
     search.grow();
     search.sift();
   }

@@ -20,7 +20,7 @@ namespace {
 using State = Eigen::VectorXd;
 using Square = Eigen::MatrixXd;
 
-constexpr int kMostOrder = 48, kMostRounds = 60;
+constexpr int kMostPassages = 48, kMostRounds = 60;
 /// Of points in double: what holds there to this is taken to hold.
 constexpr double kPointHolds = 1e-9;
 /// Directions in which the equations say nothing: along families of cycles.
@@ -58,7 +58,7 @@ bool near(const std::optional<double>& a, const std::optional<double>& b) {
 int order_of(const Model& model, const std::vector<GiNaC::ex>& image) {
   const GiNaC::exmap start = some_point(model, 1);
   GiNaC::exmap here = start;
-  for (int order = 1; order <= kMostOrder; ++order) {
+  for (int order = 1; order <= kMostPassages; ++order) {
     GiNaC::exmap next;
     bool back = true;
     for (std::size_t i = 0; i < image.size(); ++i) {
@@ -70,8 +70,9 @@ int order_of(const Model& model, const std::vector<GiNaC::ex>& image) {
     here = std::move(next);
     if (back) return order;
   }
-  throw RequestError(fmt::format(
-      "the symmetry is of no order up to {}: applied so often it is not the identity", kMostOrder));
+  throw RequestError(
+      fmt::format("the symmetry is of no order up to {}: applied so often it is not the identity",
+                  kMostPassages));
 }
 
 /// dS f = f(S) at points in general position.

@@ -26,7 +26,7 @@ constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 /// Of gradients beside the largest: those of dependent integrals.
 constexpr double kDependent = 1e-9;
 /// The proofs of a sweep take no longer than this.
-constexpr double kProofSeconds = 20;
+constexpr double kSecondsOfIntegrals = 20;
 /// A direction that grows like the time is 4 times as long in the last quarter as in the one before
 /// the middle; half of that in the logarithm tells them apart.
 constexpr double kGrows = 0.5;
@@ -39,7 +39,7 @@ struct Judged {
 
 /// Which of the invariants are proved, and so that nothing but the assumptions is needed.
 Judged judged_invariants(const Model& model, const std::vector<std::string>& names) {
-  const Verification verification = verify(model, kProofSeconds);
+  const Verification verification = verify(model, kSecondsOfIntegrals);
   Judged result;
   for (const std::string& name : names) {
     const bool proved = std::ranges::any_of(verification.proofs, [&](const Proof& proof) {

@@ -13,8 +13,8 @@ namespace casimir {
 namespace {
 
 /// After each such part of the time the deviation is made small again.
-constexpr int kParts = 256;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr int kPartsOfRun = 256;
+constexpr double kNoExponent = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -47,23 +47,23 @@ PointResult LyapunovExponents::follow(const Module& module, std::size_t point,
   std::vector<double> state = deviating_.initial;
   std::copy(start.begin(), start.end(), state.begin());
   Settings settings = settings_;
-  settings.duration /= kParts;
+  settings.duration /= kPartsOfRun;
   settings.monitor = false;
   settings.give_up = give_up;
-  double growth = 0, half = kNone, time = 0, steps = 0;
-  for (int part = 0; part < kParts; ++part) {
+  double growth = 0, half = kNoExponent, time = 0, steps = 0;
+  for (int part = 0; part < kPartsOfRun; ++part) {
     const Trajectory piece = integrate(module, method_, settings, state, parameters);
     time += piece.time;
     steps += static_cast<double>(piece.steps);
-    if (piece.status != Status::ok) return {piece.status, {time, kNone, kNone, steps}};
+    if (piece.status != Status::ok) return {piece.status, {time, kNoExponent, kNoExponent, steps}};
     state = piece.state;
     double size = 0;
     for (std::size_t i = n; i < state.size(); ++i) size = std::hypot(size, state[i]);
     if (!(size > 0) || !std::isfinite(size))
-      return {Status::non_finite, {time, kNone, kNone, steps}};
+      return {Status::non_finite, {time, kNoExponent, kNoExponent, steps}};
     growth += std::log(size);
     for (std::size_t i = n; i < state.size(); ++i) state[i] /= size;
-    if (2 * (part + 1) == kParts) half = growth / time;
+    if (2 * (part + 1) == kPartsOfRun) half = growth / time;
   }
   return {Status::ok, {settings_.duration, growth / settings_.duration, half, steps}};
 }
@@ -72,7 +72,7 @@ std::vector<PointResult> LyapunovExponents::run(const std::vector<std::size_t>& 
                                                 const std::function<bool()>& give_up) const {
   return each_with_module(
       deviating_, method_, points, threads, give_up,
-      {Status::stopped, {kNone, kNone, kNone, kNone}},
+      {Status::stopped, {kNoExponent, kNoExponent, kNoExponent, kNoExponent}},
       [&](const Module& module, std::size_t point) { return follow(module, point, give_up); });
 }
 

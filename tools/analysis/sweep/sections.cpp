@@ -12,7 +12,7 @@
 namespace casimir {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoIndicator = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -51,8 +51,8 @@ PointResult Sections::cut(std::size_t point, int threads,
   const std::vector<OrbitReport> orbits =
       domain_orbits(level, cutter, domain_of_motion(level, cutter), orbits_, points_);
   if (cutter.interrupted())
-    return {Status::stopped, std::vector<double>(columns().size(), kUnknown)};
-  double crossings = 0, regular = 0, chaotic = 0, exponent = kUnknown, off = 0;
+    return {Status::stopped, std::vector<double>(columns().size(), kNoIndicator)};
+  double crossings = 0, regular = 0, chaotic = 0, exponent = kNoIndicator, off = 0;
   Status status = Status::ok;
   for (const OrbitReport& orbit : orbits) {
     crossings += static_cast<double>(orbit.places.size());
@@ -69,7 +69,7 @@ PointResult Sections::cut(std::size_t point, int threads,
 std::vector<PointResult> Sections::run(const std::vector<std::size_t>& points, int threads,
                                        const std::function<bool()>& give_up) const {
   std::vector<PointResult> results(
-      points.size(), {Status::stopped, std::vector<double>(columns().size(), kUnknown)});
+      points.size(), {Status::stopped, std::vector<double>(columns().size(), kNoIndicator)});
   // The orbits of one section are what the threads share.
   for (std::size_t k = 0; k < points.size() && !(give_up && give_up()); ++k)
     results[k] = cut(points[k], threads, give_up);

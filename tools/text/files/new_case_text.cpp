@@ -11,7 +11,7 @@ namespace casimir::tools {
 namespace {
 
 constexpr std::size_t kCommentColumn = 30;
-constexpr std::size_t kWidth = 100;
+constexpr std::size_t kWidthOfCase = 100;
 
 /// Code and what is said about it, in columns; a comment that does not fit stands before.
 std::string line(const std::string& code, const std::string& comment) {
@@ -23,9 +23,9 @@ std::string line(const std::string& code, const std::string& comment) {
 std::string list(const std::string& before, const std::vector<std::string>& items,
                  const std::string& after) {
   const std::string all = fmt::format("{}", fmt::join(items, ", "));
-  if (before.size() + all.size() + after.size() <= kWidth) return before + all + after + "\n";
+  if (before.size() + all.size() + after.size() <= kWidthOfCase) return before + all + after + "\n";
   std::string text = before + "\n";
-  for (const std::string& part : wrapped(all, kWidth - 2)) text += "  " + part + "\n";
+  for (const std::string& part : wrapped(all, kWidthOfCase - 2)) text += "  " + part + "\n";
   return text + after + "\n";
 }
 
