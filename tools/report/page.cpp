@@ -158,16 +158,17 @@ std::string reproduce_part(const Model& model, const Findings& findings, const P
 
 std::string report_page(const Model& model, const Findings& findings, const Pictures& pictures,
                         const PageSource& source) {
-  const std::string body = notes_part(findings, pictures) + typeset_system(model) +
-                           claims_part(model, findings) +
-                           typeset_live(model, findings, pictures, source) + code_part(findings) +
-                           motion_part(findings, pictures) + theorems_part(model, findings) +
-                           drift_part(findings, pictures) + section_part(model, pictures) +
-                           work_precision_part(findings, pictures) + runs_part(findings) +
-                           machine_part(findings) + reproduce_part(model, findings, source);
+  // The script comes before the pictures: the motion that it draws does not wait for them.
+  const std::string body =
+      notes_part(findings, pictures) + typeset_system(model) + claims_part(model, findings) +
+      typeset_live(model, findings, pictures, source) + page_script() + code_part(findings) +
+      motion_part(findings, pictures) + theorems_part(model, findings) +
+      drift_part(findings, pictures) + section_part(model, pictures) +
+      work_precision_part(findings, pictures) + runs_part(findings) + machine_part(findings) +
+      reproduce_part(model, findings, source);
   return page_head(model.title, "Report on " + model.name + ": equations, proofs, code and runs") +
          head_part(model, findings) + contents(body, source) + "<main>\n" + body + "</main>\n" +
-         page_end(page_script());
+         page_end("");
 }
 
 std::string page_without_report(const std::string& title, const std::string& problem,

@@ -77,6 +77,7 @@ class PlotView {
   constructor(svg) {
     const n = svg.dataset.axes.split(' ').map(Number), height = svg.viewBox.baseVal.height;
     this.svg = svg;
+    svg.dataset.view = '';
     this.x = new PlotAxis(n[0], n[1], n[4], n[5], n[8] === 1);
     this.y = new PlotAxis(height - n[2], height - n[3], n[6], n[7], n[9] === 1);
     this.whole = [this.x, this.y];
@@ -237,4 +238,7 @@ class PlotView {
   }
 }
 
-for (const svg of document.querySelectorAll('figure svg[data-axes]')) new PlotView(svg);
+// The pictures that stand in the page: they come after the script.
+document.addEventListener('DOMContentLoaded', () => {
+  for (const svg of document.querySelectorAll('figure svg[data-axes]:not([data-view])')) new PlotView(svg);
+});
