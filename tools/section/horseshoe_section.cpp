@@ -11,26 +11,11 @@
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
-#include "tools/show/notation.hpp"
-#include "tools/text/files/plain_case.hpp"
+#include "tools/runs/certified_horseshoe.hpp"
 #include "tools/text/runs/horseshoe_report.hpp"
 
 namespace casimir::tools {
 namespace {
-
-/// What others need to verify the theorem.
-HorseshoeCertificate certificate_of_answer(const Horseshoe& answer, const Model& model, Scene scene,
-                                           const SectionRequest& request) {
-  // The theorem is about no time, and a scene need not have one.
-  if (!scene.duration) scene.duration = 1;
-  std::vector<std::string> states;
-  for (const GiNaC::symbol& x : model.variables) states.push_back(x.get_name());
-  const GiNaC::ex plane =
-      model.at_parameters(request.plane ? request.plane->function : model.section->function, scene);
-  return certificate_of(answer, model.name,
-                        plain_case(model, scene, {}, states, answer.system.level_names),
-                        Notation(model).case_text(answer.system.upwards ? plane : -plane));
-}
 
 /// Writes it, if it holds. \return  kDone, or another exit status where it is not known to.
 int write_certificate(const std::string& path, const HorseshoeCertificate& certificate,
@@ -82,8 +67,8 @@ int prove_horseshoe(const Common& common, const Model& model, const SectionReque
   if (certificate.empty()) return kDone;
   std::cout.flush();
   const Scene& scene = model.scene(common.scene);
-  return write_certificate(certificate, certificate_of_answer(answer, model, scene, request),
-                           common, options.give_up);
+  return write_certificate(certificate, certified_horseshoe(answer, model, scene, request), common,
+                           options.give_up);
 }
 
 }  // namespace casimir::tools

@@ -442,6 +442,61 @@ class Runs(unittest.TestCase):
             with self.assertRaises(casimir.CaseError):
                 casimir.check(Path(folder, "none.json"))
 
+    def test_chaos_is_a_theorem_with_a_certificate_or_undecided(self):
+        import tempfile
+
+        duffing = casimir.Case(equations={"c": "-s", "s": "c", "x": "y/4", "y": "(x - x^3)/4 + c/12"},
+                               variables=["c", "s", "x", "y"], integrals={"R": "c^2 + s^2"},
+                               initial={"c": 1, "s": 0, "x": "1/10", "y": "1/7"}, duration=10)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "chaos.json")
+            chaos = duffing.horseshoe(plane="s", certificate=path)
+            self.assertEqual(chaos.verdict, "proved", chaos.reason)
+            self.assertTrue(chaos)
+            self.assertGreater(chaos.entropy, 0)
+            self.assertIn("no further real-analytic integral", chaos.theorem)
+            self.assertTrue(all(of in chaos.sets and to in chaos.sets for of, to in chaos.coverings))
+            low, high = chaos.levels["R"]
+            self.assertTrue(low <= 1 <= high)
+            checked = casimir.check(path)
+            self.assertTrue(checked)
+            self.assertEqual(checked.parts[0]["entropy"], chaos.entropy)
+            none = duffing.with_values(initial={"y": 0}).horseshoe(plane="s", certificate=Path(folder, "none.json"),
+                                                                   time_limit=0.01)
+            self.assertEqual(none.verdict, "undecided")
+            self.assertFalse(Path(folder, "none.json").exists())
+            with self.assertRaises(casimir.UndecidedError):
+                bool(none)
+        with self.assertRaises(casimir.RequestError):
+            duffing.horseshoe(plane="s", direction="sideways")
+
+    def test_the_program_makes_pages_and_the_matrix_of_extreme_scenes(self):
+        import tempfile
+        from unittest import mock
+
+        euler = casimir.load("euler")
+        with tempfile.TemporaryDirectory() as folder:
+            page = euler.with_values({"a1": 2}).report(Path(folder, "page.html"), budget=0)
+            self.assertEqual(page.verdict, "proved")
+            self.assertIn("--param a1=2", Path(page).read_text())
+            self.assertEqual([file.name for file in Path(folder).iterdir()], ["page.html"])
+            with self.assertRaisesRegex(casimir.RequestError, "must end in .html"):
+                euler.report(Path(folder, "page.txt"))
+            with self.assertRaises(casimir.EnvironmentProblem):
+                euler.report(Path(folder, "none", "page.html"))
+        cells = euler.stress(scene="separatrix", methods=["auto", "dop853"])
+        self.assertEqual([(cell.method, cell.verdict) for cell in cells], [("auto", "right"), ("dop853", "right")])
+        self.assertTrue(cells)
+        with self.assertRaisesRegex(casimir.RequestError, "no method 'dop85'"):
+            euler.stress(methods=["dop85"])
+        with self.assertRaisesRegex(casimir.RequestError, "starts of the case file"):
+            euler.with_values(initial={"M1": 1}).stress()
+        program = sys.modules["casimir._program"]
+        with mock.patch.object(program, "__file__", "/nowhere/casimir/_program.py"), \
+                mock.patch.object(program.shutil, "which", return_value=None):
+            with self.assertRaisesRegex(casimir.EnvironmentProblem, "'casimir' is not there"):
+                euler.stress()
+
     def test_equilibria(self):
         pendulum = casimir.Case(hamiltonian="p^2/2 - cos(q)", variables=["q", "p"], canonical=True,
                                 initial={"q": 1, "p": 0}, duration=1)

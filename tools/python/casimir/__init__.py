@@ -28,7 +28,8 @@ from ._check import check
 from ._map import Map, load_map, maps
 
 if _TYPE_CHECKING:
-    from ._measured import Box, Checked, Comparison, Conservation, Enclosure, Frequencies, PreciseEnd, Run, Sweep
+    from ._measured import Box, Checked, Comparison, Conservation, Enclosure, Frequencies, Horseshoe, PreciseEnd, Run, Sweep
+    from ._program import Cell, Report, Stress
     from ._results import (
         Balance,
         Condition,
@@ -65,9 +66,9 @@ methods = _core.methods
 def __getattr__(name: str):
     """What commands answer is read when it is named: see `_lazy`."""
     if name in __all__:
-        from . import _measured, _results
+        from . import _measured, _program, _results
 
-        for module in (_results, _measured):
+        for module in (_results, _measured, _program):
             if hasattr(module, name):
                 return getattr(module, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
@@ -78,10 +79,11 @@ for _folder in ("cases", "../../../../share/casimir/cases"):
     _core.add_case_folder(_path.join(_path.dirname(__file__), _folder))
 
 __all__ = [
-    "Balance", "Box", "Case", "CaseError", "Checked", "Comparison", "Condition", "Conditions", "Conservation", "Cycle",
-    "DarbouxPolynomial", "Degrees", "Enclosure", "Ensemble", "EnvironmentProblem", "Equilibrium", "Error", "Exponent",
-    "Exponents", "Findings", "Found", "Frequencies", "Iterates", "Map", "MapSearch", "ModelError", "NoAnswer",
-    "Obstruction", "Orbit", "PreciseEnd", "Proof", "ProvedCycle", "ProvedEquilibrium", "Relation", "RequestError", "Rotation", "Run", "Search", "Section",
-    "SingularPoint", "Solution", "Sweep", "System", "UndecidedError", "Verification", "Witness", "cases", "check", "load",
-    "load_map", "maps", "methods",
+    "Balance", "Box", "Case", "CaseError", "Cell", "Checked", "Comparison", "Condition", "Conditions", "Conservation",
+    "Cycle", "DarbouxPolynomial", "Degrees", "Enclosure", "Ensemble", "EnvironmentProblem", "Equilibrium", "Error",
+    "Exponent", "Exponents", "Findings", "Found", "Frequencies", "Horseshoe", "Iterates", "Map", "MapSearch",
+    "ModelError", "NoAnswer", "Obstruction", "Orbit", "PreciseEnd", "Proof", "ProvedCycle", "ProvedEquilibrium",
+    "Relation", "Report", "RequestError", "Rotation", "Run", "Search", "Section", "SingularPoint", "Solution",
+    "Stress", "Sweep", "System", "UndecidedError", "Verification", "Witness", "cases", "check", "load", "load_map",
+    "maps", "methods",
 ]

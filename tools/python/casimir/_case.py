@@ -23,9 +23,11 @@ if TYPE_CHECKING:
         Conservation,
         Enclosure,
         Frequencies,
+        Horseshoe,
         PreciseEnd,
         Sweep,
     )
+    from ._program import Report, Stress
     from ._results import (
         Conditions,
         DarbouxPolynomial,
@@ -42,7 +44,7 @@ if TYPE_CHECKING:
         Verification,
     )
 
-_results, _measured = Lazy("._results"), Lazy("._measured")
+_results, _measured, _program = Lazy("._results"), Lazy("._measured"), Lazy("._program")
 
 #: One expression, or several.
 Expressions = Union[Expression, Iterable[Expression], None]
@@ -495,11 +497,7 @@ class Case:
                                text_of(initial_radius), intervals, digits,
                                None if sample_every is None else text_of(sample_every), certificate is not None,
                                time_limit, told(progress))
-        text, reason = facts.pop("certificate"), facts.pop("uncertified")
-        if reason:
-            raise NoAnswer(f"no certificate was written: {reason}")
-        if certificate is not None and text:
-            _measured.write_text(certificate, text)
+        _write_certificate(certificate, facts)
         return _measured.enclosure_of(facts)
 
     def conserve(self, *, methods: Sequence[str] = (), bound: float = 1e-9, duration: float | None = None,
@@ -590,13 +588,66 @@ class Case:
         """
         if proved and cycles == 0:
             raise RequestError("proved=True is for cycles: say how long they may be, as cycles=2")
-        if direction not in (None, "up", "down"):
-            raise RequestError(f"{direction!r} is no direction: 'up' and 'down' are")
         facts = _core.section(self._core, scene, None if plane is None else text_of(plane),
-                              None if direction is None else direction == "up", [text_of(one) for one in plot],
+                              _upwards(direction), [text_of(one) for one in plot],
                               energy, list((casimirs or {}).items()), orbits, points, cycles, proved, rotation, tolerance, jobs,
                               told(progress))
         return _results.section_of(facts)
+
+    def horseshoe(self, *, plane: Expression | None = None, direction: str | None = None,
+                  energy: float | None = None, casimirs: Mapping[str, float] | None = None, longest: int = 0,
+                  certificate: str | PathLike[str] | None = None, scene: str = "default", time_limit: float = 120,
+                  progress: Progress = None) -> Horseshoe:
+        """A proof that returns to a plane are chaotic on one level, and that there is no further analytic integral.
+
+        :param plane, direction, energy, casimirs: as of `section`.
+        :param longest: the length of the cycles that h-sets are put around; 0: up to 2.
+        :param certificate: a file that `casimir.check` verifies in other arithmetic; none is written where nothing
+            is proved.
+        :param time_limit: seconds; where nothing is found in that time nothing is said.
+        :raises NoAnswer: where a certificate was asked for and does not pass that; nothing is written then.
+
+        >>> chaos = load("euler-poisson").horseshoe(scene="chaotic")  # doctest: +SKIP
+        >>> chaos.verdict, chaos.entropy > 0.2  # doctest: +SKIP
+        ('proved', True)
+        """
+        facts = _core.horseshoe(self._core, scene, None if plane is None else text_of(plane), _upwards(direction),
+                                energy, list((casimirs or {}).items()), longest, certificate is not None, time_limit,
+                                told(progress))
+        _write_certificate(certificate, facts)
+        return _measured.horseshoe_of(facts)
+
+    def report(self, file: str | PathLike[str], *, budget: float | None = None, scene: str | None = None,
+               time_limit: float = 0) -> Report:
+        """Writes one page about the case: equations, proofs, code, motion, drift, section, error against run time.
+
+        The page needs nothing but itself and integrates in a browser. The program `casimir` makes it.
+
+        :param file: its name, which ends in '.html'.
+        :param budget: seconds of measuring error against run time; 0 leaves that out.
+
+        >>> import tempfile
+        >>> page = load("euler").report(tempfile.mktemp(suffix=".html"), budget=0)
+        >>> page.verdict
+        'proved'
+        """
+        return _program.report(self, file, budget, scene, time_limit)
+
+    def stress(self, *, methods: Sequence[str] = (), tolerance: float | None = None, scene: str | None = None,
+               every_scene: bool = False, cell_limit: float = 5, time_limit: float = 0) -> Stress:
+        """Extreme scenes by every method, each answer judged against a reference state.
+
+        The program `casimir` runs them, each in a process of its own.
+
+        :param methods: without them 'auto', all of casimir's own and the multistep methods of SUNDIALS.
+        :param every_scene: scenes that are not extreme too.
+        :param cell_limit: seconds for one run.
+
+        >>> cells = load("euler").stress(scene="separatrix", methods=["auto", "dop853"])
+        >>> [cell.verdict for cell in cells], bool(cells)
+        (['right', 'right'], True)
+        """
+        return _program.stress(self, methods, tolerance, scene, every_scene, cell_limit, time_limit)
 
     def equilibria(self, scene: str = "default", *, proved: bool = False) -> list[Equilibrium]:
         """Equilibria and relative equilibria on the level of a scene. There may be others.
@@ -607,6 +658,21 @@ class Case:
         ['proved']
         """
         return [_results.equilibrium_of(one) for one in _core.equilibria(self._core, scene, proved)["equilibria"]]
+
+
+def _upwards(direction: str | None) -> bool | None:
+    if direction not in (None, "up", "down"):
+        raise RequestError(f"{direction!r} is no direction: 'up' and 'down' are")
+    return None if direction is None else direction == "up"
+
+
+def _write_certificate(file: str | PathLike[str] | None, facts: dict[str, Any]) -> None:
+    """Takes the text of a certificate out of the facts, and writes it where a file was asked for."""
+    text, reason = facts.pop("certificate"), facts.pop("uncertified")
+    if reason:
+        raise NoAnswer(f"no certificate was written: {reason}")
+    if file is not None and text:
+        _measured.write_text(file, text)
 
 
 def _listed_values(values: Any) -> str:

@@ -242,6 +242,46 @@ def enclosure_of(facts: dict[str, Any]) -> Enclosure:
 
 
 @dataclass(frozen=True)
+class Horseshoe:
+    """Chaos as a theorem. True where it is proved; where none was found nothing is said, as of an undecided claim."""
+
+    theorem: str  #: what is proved, in a sentence; empty where nothing is
+    reason: str  #: where nothing is proved: how far the search came
+    entropy: Fraction  #: the topological entropy of the return map is not below it
+    radius: Fraction  #: nor is the spectral radius of the graph of coverings below this
+    plane: str
+    upwards: bool  #: in which direction it is crossed
+    levels: dict[str, tuple[Fraction, Fraction]]  #: for all values in these intervals
+    names: list[str]  #: of the entries of a state
+    sets: dict[str, list[float]]  #: the centres of the h-sets
+    coverings: list[tuple[str, str]]  #: each h-set with one that it covers
+    cycles: int  #: hyperbolic ones that were found
+    connections: int  #: orbits between them
+
+    @property
+    def verdict(self) -> str:
+        """'proved' or 'undecided'."""
+        return "proved" if self.theorem else "undecided"
+
+    def __bool__(self) -> bool:
+        return _truth(self.verdict, "whether there is a horseshoe")
+
+    def _repr_html_(self) -> str:
+        if not self.theorem:
+            return table(["horseshoe"], [(self.reason,)])
+        return table(["h-set", "covers"], [
+            (name, ", ".join(to for of, to in self.coverings if of == name)) for name in self.sets], self.theorem)
+
+
+def horseshoe_of(facts: dict[str, Any]) -> Horseshoe:
+    """The object for what the C++ side says of a horseshoe."""
+    facts = {**facts}
+    facts.pop("proved")
+    return Horseshoe(**{**facts, "entropy": Fraction(facts["entropy"]), "radius": Fraction(facts["radius"]),
+                        "levels": {of: (Fraction(low), Fraction(high)) for of, (low, high) in facts["levels"].items()}})
+
+
+@dataclass(frozen=True)
 class Checked:
     """What a file of certificates proves. True where all of it holds."""
 

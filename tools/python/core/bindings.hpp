@@ -22,6 +22,8 @@ void bind_sweep(pybind11::module_& module);
 void bind_exact_runs(pybind11::module_& module);
 /// What a file of certificates proves.
 void bind_certificates(pybind11::module_& module);
+/// Chaos as a theorem.
+void bind_horseshoe(pybind11::module_& module);
 /// Poincare sections and equilibria.
 void bind_section(pybind11::module_& module);
 

@@ -13,5 +13,6 @@ PYBIND11_MODULE(_core, module) {
   casimir::python::bind_sweep(module);
   casimir::python::bind_exact_runs(module);
   casimir::python::bind_certificates(module);
+  casimir::python::bind_horseshoe(module);
   casimir::python::bind_section(module);
 }

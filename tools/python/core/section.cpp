@@ -15,6 +15,7 @@
 #include "tools/python/core/boxes.hpp"
 #include "tools/python/core/case.hpp"
 #include "tools/python/core/guard.hpp"
+#include "tools/python/core/section_request.hpp"
 
 namespace casimir::python {
 namespace py = pybind11;
@@ -118,14 +119,9 @@ py::dict section(const Case& self, const std::string& scene,
   {
     const ExactAlgebra guard;
     const Model& model = self.model();
-    const auto function = [&](const std::string& text) {
-      return FunctionText{model.parse(typed(text, "section")), text};
-    };
-    if (plane) options.request.plane = function(*plane);
-    options.request.upwards = upwards;
-    for (const std::string& text : pair) options.request.pair.push_back(function(text));
-    options.request.energy = energy;
-    options.request.casimirs = casimirs;
+    options.request = section_request(model, plane, upwards, energy, casimirs);
+    for (const std::string& text : pair)
+      options.request.pair.push_back({model.parse(typed(text, "section")), text});
     const PoincareSection cut = casimir::section(model, model.scene(scene), options);
     const py::gil_scoped_acquire python;
     py::list list;

@@ -1,0 +1,141 @@
+"""What the program `casimir` makes: pages, and the matrix of extreme scenes, each run in a process of its own."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ._errors import CaseError, EnvironmentProblem, Error, RequestError
+from ._html import table
+
+if TYPE_CHECKING:
+    from ._case import Case
+
+#: Exit statuses of the program that say that something is wrong with what was asked or with the machine.
+_BAD_INPUT, _ENVIRONMENT = 2, 4
+
+
+@dataclass(frozen=True)
+class Report:
+    """A page about a case that was written."""
+
+    file: str
+    verdict: str  #: of all claims: 'proved', 'refuted' or 'undecided'
+    claims: dict[str, int]  #: how many are 'proved', 'refuted' and 'undecided'
+    plots: list[str]  #: the pictures in it
+    notes: list[str]  #: what was left out for a reason of the case
+    problems: list[str]  #: what this machine did not allow
+    seconds: float
+
+    def __fspath__(self) -> str:
+        return self.file
+
+
+@dataclass(frozen=True)
+class Cell:
+    """An extreme scene by one method."""
+
+    scene: str
+    method: str
+    verdict: str  #: 'right', 'warned', 'refused', 'n/a', 'failed', 'coarse' or 'wrong'
+    status: str  #: how the run ended
+    error: float | None  #: of the largest state; None where there is no end or no reference state
+    seconds: float
+    outside: bool  #: the method is that of another library
+
+
+@dataclass(frozen=True)
+class Stress(Sequence[Cell]):
+    """Extreme scenes by every method. True where no method of casimir is wrong."""
+
+    cells: list[Cell]
+
+    def __getitem__(self, index):
+        return self.cells[index]
+
+    def __len__(self) -> int:
+        return len(self.cells)
+
+    def __bool__(self) -> bool:
+        return not any(cell.verdict == "wrong" and not cell.outside for cell in self.cells)
+
+    def _repr_html_(self) -> str:
+        methods = list(dict.fromkeys(cell.method for cell in self.cells))
+        scenes = list(dict.fromkeys(cell.scene for cell in self.cells))
+        of = {(cell.scene, cell.method): cell.verdict for cell in self.cells}
+        return table(["scene", *methods], [(scene, *(of.get((scene, one), "") for one in methods)) for scene in scenes])
+
+
+def program() -> str:
+    """The program: that of the same build or prefix, or the first one on PATH.
+
+    :raises EnvironmentProblem: where there is none: a wheel has the libraries alone.
+    """
+    here = Path(__file__).parent  # not where a link of a build tree leads
+    for place in (here / "../../casimir", here / "../../../../bin/casimir"):
+        if place.is_file() and os.access(place, os.X_OK):
+            return str(place.absolute())
+    if found := shutil.which("casimir"):
+        return found
+    raise EnvironmentProblem("the program 'casimir' is not there: it makes pages and the matrix of extreme scenes")
+
+
+def _answer(case: Case, words: Sequence[str], scene: str | None, initial: bool) -> dict[str, Any]:
+    """The JSON document of a command about the case."""
+    core = case._core
+    if core.changed_initial and not initial:
+        raise RequestError(f"{words[0]} takes the starts of the case file: write a case with another one")
+    with tempfile.TemporaryDirectory(prefix="casimir-") as folder:
+        file = Path(folder, core.name.replace("/", "_") + ".toml")
+        file.write_text(core.text, encoding="utf-8")
+        line = [program(), words[0], str(file), *words[1:], "--json"]
+        for option, values in (("--param", core.changed_parameters), ("--initial", core.changed_initial)):
+            for name, value in values:
+                line += [option, f"{name}={value}"]
+        if scene is not None:
+            line += ["--scene", scene]
+        done = subprocess.run(line, capture_output=True, text=True, check=False)
+    try:
+        answer = json.loads(done.stdout)
+    except ValueError:
+        raise Error(f"casimir {words[0]} ended with status {done.returncode}: {done.stderr.strip()}") from None
+    if "error" in answer and "text" in answer["error"]:
+        kinds = {_BAD_INPUT: CaseError if "line" in answer["error"] else RequestError, _ENVIRONMENT: EnvironmentProblem}
+        raise kinds.get(done.returncode, Error)(answer["error"]["text"].removeprefix("casimir: error: "))
+    return answer
+
+
+def report(case: Case, file: str | os.PathLike[str], budget: float | None, scene: str | None, time_limit: float) -> Report:
+    """Writes a page. See `Case.report`."""
+    words = ["report", "--output", os.path.abspath(file)]
+    if budget is not None:
+        words += ["--budget", repr(float(budget))]
+    if time_limit > 0:
+        words += ["--time-limit", repr(float(time_limit))]
+    answer = _answer(case, words, scene, True)
+    return Report(**{name: answer[name] for name in Report.__dataclass_fields__})
+
+
+def stress(case: Case, methods: Sequence[str], tolerance: float | None, scene: str | None, every_scene: bool,
+           cell_limit: float, time_limit: float) -> Stress:
+    """Runs extreme scenes. See `Case.stress`."""
+    words = ["stress", "--cell-limit", repr(float(cell_limit))]
+    if methods:
+        words += ["--method", ",".join(methods)]
+    if tolerance is not None:
+        words += ["--tolerance", repr(float(tolerance))]
+    if every_scene:
+        words.append("--every-scene")
+    if time_limit > 0:
+        words += ["--time-limit", repr(float(time_limit))]
+    answer = _answer(case, words, scene, False)
+    return Stress([Cell(scene=row["scene"], method=row["method"], verdict=row["verdict"], status=row["status"],
+                        error=None if row["error"] is None else float(row["error"]),
+                        seconds=row["seconds"], outside=row["outside"]) for row in answer["rows"]])
