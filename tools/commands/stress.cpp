@@ -318,8 +318,8 @@ int stress(const StressArguments& options) {
   return kDone;
 }
 
-constexpr const char* kDescription =
-    "Run stiff and extreme scenes by every method, as 'integrate' does, and judge every answer.\n"
+constexpr const char* kJudgements =
+    "Every cell is what 'integrate' answers, and what is said of it:\n"
     "  right    it says ok, and its error is one that the tolerance explains: at most 1000 * "
     "steps\n"
     "           * growth * (tolerance + 2^-52), where growth is how much small changes of the "
@@ -342,7 +342,9 @@ constexpr const char* kDescription =
 
 void register_stress(CLI::App& program, Action& action) {
   auto options = std::make_shared<StressArguments>();
-  CLI::App* command = program.add_subcommand("stress", kDescription);
+  CLI::App* command = program.add_subcommand(
+      "stress", "Extreme scenes by every method: no answer may be silently wrong");
+  command->footer(kJudgements);
   add_common(*command, options->common);
   add_in(*command, options->in);
   command->add_option(

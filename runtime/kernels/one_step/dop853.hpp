@@ -38,12 +38,19 @@ struct Step {
   }
 
   Trial attempt(double t, const double* start, const double*, double size, bool) {
-    const double* k1 = f;
-    double y[n];
     h = size;
     extended = false;
     CASIMIR_UNROLL
     for (int i = 0; i < n; ++i) x[i] = start[i];
+    find_stages(t);
+    find_increment_and_error();
+    return all_finite<n>(increment) ? Trial::done : Trial::not_finite;
+  }
+
+  /// The right-hand sides k2 to k12 of a step of h from x.
+  void find_stages(double t) {
+    const double* k1 = f;
+    double y[n];
     CASIMIR_UNROLL
     for (int i = 0; i < n; ++i) y[i] = x[i] + h * (a21 * k1[i]);
     System::rhs(t + c2 * h, y, p, k2);
@@ -89,6 +96,12 @@ struct Step {
                   a12_8 * k8[i] + a12_9 * k9[i] + a12_10 * k10[i] + a12_11 * k11[i]);
     System::rhs(t + h, y, p, k12);
     evaluations += 11;
+  }
+
+  /// The step's increment, and its error as a part of what is allowed.
+  void find_increment_and_error() {
+    const double* k1 = f;
+    double y[n];
     double squares5 = 0, squares3 = 0;
     for (int i = 0; i < n; ++i) {
       y[i] = b1_rest * k1[i] + b9_rest * k9[i] + b12_rest * k12[i] + b1 * k1[i] + b6 * k6[i] +
@@ -107,7 +120,6 @@ struct Step {
     }
     const double mix = squares5 + 0.01 * squares3;
     error = mix > 0 ? magnitude(h) * squares5 / __builtin_sqrt(n * mix) : mix;
-    return all_finite<n>(increment) ? Trial::done : Trial::not_finite;
   }
 
   bool arrive(double t1, const double* x1) {

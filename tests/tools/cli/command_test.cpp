@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <sstream>
 #include <thread>
 
 #include "tests/tools/program.hpp"
@@ -23,6 +24,20 @@ TEST(Help, IsThereWithoutAnOption) {
   const Outcome unknown = run({"help", "verfy"});
   EXPECT_EQ(unknown.status, 2);
   EXPECT_NE(unknown.err.find("'verify'"), std::string::npos) << unknown.err;
+}
+
+TEST(Help, SaysOfEachCommandOneLine) {
+  std::istringstream help(run({"help"}).out);
+  std::string line;
+  while (std::getline(help, line) && line != "Subcommands:") {
+  }
+  int commands = 0;
+  while (std::getline(help, line) && !line.empty()) {
+    EXPECT_TRUE(line.starts_with("  ") && line.size() > 2 && line[2] != ' ') << line;
+    EXPECT_LE(line.size(), 120U) << line;
+    ++commands;
+  }
+  EXPECT_GT(commands, 20);
 }
 
 /// What is written is CSV, whatever the name says.
