@@ -24,19 +24,19 @@ std::string shell_word(const std::string& word) {
   return result + "'";
 }
 
-struct Entry {
+struct ContentsEntry {
   const char *id, *words;
 };
-constexpr Entry kContents[] = {{"system", "System"},
-                               {"claims", "Claims"},
-                               {"code", "Generated code"},
-                               {"motion", "Motion"},
-                               {"drift", "Drift"},
-                               {"section", "Section"},
-                               {"work-precision", "Error against time"},
-                               {"runs", "Runs"},
-                               {"machine", "Machine"},
-                               {"reproduce", "Reproduce"}};
+constexpr ContentsEntry kContents[] = {{"system", "System"},
+                                       {"claims", "Claims"},
+                                       {"code", "Generated code"},
+                                       {"motion", "Motion"},
+                                       {"drift", "Drift"},
+                                       {"section", "Section"},
+                                       {"work-precision", "Error against time"},
+                                       {"runs", "Runs"},
+                                       {"machine", "Machine"},
+                                       {"reproduce", "Reproduce"}};
 
 std::string contents(const std::string& body, const PageSource& source) {
   std::string text = "<nav aria-label=\"Contents\"><ul>\n";
@@ -48,7 +48,7 @@ std::string contents(const std::string& body, const PageSource& source) {
   link(source.index, "All cases", "up");
   link(source.before, "← before", "prev");
   link(source.after, "next →", "next");
-  for (const Entry& entry : kContents) {
+  for (const ContentsEntry& entry : kContents) {
     if (body.find(fmt::format("<section id=\"{}\"", entry.id)) != std::string::npos)
       text += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", entry.id, entry.words);
   }

@@ -13,8 +13,6 @@ namespace {
 
 using Vector = LevelSet::Vector;
 
-/// Of a state that is meant to be on the level.
-constexpr double kNear = 1e-9;
 constexpr std::size_t kTries = 12;
 
 std::optional<std::size_t> column_of(const EnsembleFile& file, const std::string& name) {
@@ -26,7 +24,7 @@ std::optional<std::size_t> column_of(const EnsembleFile& file, const std::string
 /// A state from the file, moved the last bit to the level.
 Vector state_of(const LevelSet& level, Vector x, const std::string& where) {
   const double distance = level.distance_from_level(x.data());
-  if (!(distance <= kNear)) {
+  if (!(distance <= kSeedOnLevel)) {
     throw UsageError(fmt::format(
         "{}: the seed is not on the level {}, but off by {:.2g} of the size of its terms", where,
         level.problem().level_text(), distance));

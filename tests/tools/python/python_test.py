@@ -27,6 +27,20 @@ class Cases(unittest.TestCase):
         self.assertEqual(top.variables, ["M1", "M2", "M3", "g1", "g2", "g3"])
         self.assertIn("default", top.scenes)
 
+    def test_other_variables_are_those_of_the_command_line(self):
+        top = casimir.load("kovalevskaya").with_values({"r": 2})
+        angles = top.in_variables("euler-angles")
+        self.assertEqual(len(angles.variables), 6)
+        self.assertNotIn("M1", angles.variables)
+        for case in (angles, pickle.loads(pickle.dumps(angles))):
+            self.assertTrue(case.verify())
+            motion, own = case.integrate(duration=2), top.integrate(duration=2)
+            self.assertTrue(motion.success)
+            self.assertAlmostEqual(motion.invariants["H"]["initial"], own.invariants["H"]["initial"],
+                                   places=13)
+        with self.assertRaises(casimir.ModelError):
+            top.in_variables("euler-angels")
+
     def test_an_unknown_name_gets_the_nearest(self):
         with self.assertRaises(casimir.CaseError) as caught:
             casimir.load("kovalevskya")
@@ -441,6 +455,43 @@ class Runs(unittest.TestCase):
                 casimir.check(path)  # its digest is that of another text
             with self.assertRaises(casimir.CaseError):
                 casimir.check(Path(folder, "none.json"))
+
+    def test_proofs_are_written_for_coq(self):
+        import tempfile
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "euler.v")
+            proof = casimir.load("euler").verify(certificate=path)
+            self.assertEqual(proof.verdict, "proved")
+            self.assertIn("ring", path.read_text())
+            self.assertIsInstance(proof.left_out, list)
+            false = casimir.load("euler").verify(integral="M1", certificate=Path(folder, "false.v"))
+            self.assertEqual(false.verdict, "refuted")
+            none = Path(folder, "henon.v")
+            top = casimir.load("henon-heiles")
+            answer = top.obstruct()
+            if answer.verdict == "proved":
+                try:
+                    top.obstruct(certificate=none)
+                    self.assertIn("Theorem", none.read_text())
+                except casimir.NoAnswer:
+                    self.assertFalse(none.exists())
+            self.assertFalse(Path(folder, "false.v").exists())
+            for wrong in ("euler.txt", "1.v", "a b.v"):
+                with self.assertRaises(casimir.RequestError):
+                    casimir.load("euler").verify(certificate=Path(folder, wrong))
+
+    def test_orbits_of_a_section_begin_at_seeds(self):
+        top = casimir.load("henon-heiles")
+        own = top.section(orbits=3, points=20)
+        again = top.section(seeds=[orbit.seed for orbit in own], points=20)
+        self.assertEqual(len(again), 3)
+        for orbit, other in zip(own, again):
+            np.testing.assert_allclose(orbit.points, other.points, rtol=0, atol=1e-9)
+        with self.assertRaisesRegex(casimir.RequestError, "seed 1 is not on the level"):
+            top.section(seeds=own[0].seed + 0.1, points=5)
+        with self.assertRaisesRegex(casimir.RequestError, "numbers instead of 4"):
+            top.section(seeds=[[1.0, 2.0]], points=5)
 
     def test_chaos_is_a_theorem_with_a_certificate_or_undecided(self):
         import tempfile

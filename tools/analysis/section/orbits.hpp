@@ -74,6 +74,9 @@ struct OrbitReport {
 /// their terms.
 inline constexpr double kOnLevel = 1e-10;
 
+/// A state that somebody wants an orbit to begin at is on the level to this.
+inline constexpr double kSeedOnLevel = 1e-9;
+
 /// Checks and judges what was cut.
 std::vector<OrbitReport> judged_orbits(const LevelSet& level, SectionResult result,
                                        const std::vector<LevelSet::Vector>& seeds);

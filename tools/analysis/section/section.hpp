@@ -15,6 +15,8 @@ namespace casimir {
 struct PoincareOptions {
   SectionRequest request = {};  ///< plane, level, plotted pair; without it those of the case
   std::size_t orbits = 40, points = 500;
+  std::vector<std::vector<double>> seeds = {};  ///< states on the level that orbits begin at;
+                                                ///< without any they are spread over the domain
   double tolerance = 1e-14;
   std::size_t longest_cycle = 0;       ///< cycles of up to so many crossings are looked for
   bool prove_cycles = false;           ///< and enclosed: see `enclose_cycles`

@@ -28,7 +28,18 @@ from ._check import check
 from ._map import Map, load_map, maps
 
 if _TYPE_CHECKING:
-    from ._measured import Box, Checked, Comparison, Conservation, Enclosure, Frequencies, Horseshoe, PreciseEnd, Run, Sweep
+    from ._measured import (
+        Box,
+        Checked,
+        Comparison,
+        Conservation,
+        Enclosure,
+        Frequencies,
+        Horseshoe,
+        PreciseEnd,
+        Run,
+        Sweep,
+    )
     from ._program import Cell, Report, Stress
     from ._results import (
         Balance,

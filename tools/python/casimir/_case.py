@@ -145,7 +145,7 @@ class Case:
 
     def __reduce__(self):
         core = self._core
-        return _restored, (core.text, core.file, core.changed_parameters, core.changed_initial, core.rounded)
+        return _restored, (core.text, core.file, core.changed_parameters, core.changed_initial, core.rounded, core.set)
 
     def __repr__(self) -> str:
         return f"<casimir.Case {self.name}: {self.title}>"
@@ -199,6 +199,20 @@ class Case:
         rounded = any(is_float(value) for value in (initial or {}).values())
         return Case._of(self._core.with_values(pairs_of(parameters), pairs_of(initial), rounded))
 
+    def in_variables(self, variables: str) -> Case:
+        """The case in other variables: equations, integrals and scenes, carried along the maps of the bundled cases.
+
+        Starts that are changed afterwards stay those of the case's own variables.
+
+        :param variables: the name of a set, as 'euler-angles', 'andoyer' or 'quaternions'.
+        :raises ModelError: for an unknown set, or one that no maps lead to.
+        :raises SingularPoint: where a scene begins at a point that these variables cannot describe.
+
+        >>> load("kovalevskaya").in_variables("euler-angles").variables[:3]
+        ['theta', 'phi', 'psi']
+        """
+        return Case._of(self._core.in_variables(variables))
+
     def show(self, format: str = "text") -> dict[str, Any]:
         """The system as formulas: 'text' in the notation of case files, or 'latex'."""
         return self._core.show(format)
@@ -221,11 +235,13 @@ class Case:
 
     def verify(self, integral: Expressions = None, *, casimir: Expressions = None,
                invariant_relation: Expressions = None, identity: Expressions = None, on: Expressions = None,
-               time_limit: float = 0) -> Verification:
+               certificate: str | PathLike[str] | None = None, time_limit: float = 0) -> Verification:
         """Proves or refutes every claim of the case, or these candidates instead.
 
         :param integral, casimir, invariant_relation, identity: an expression, or a list of them.
         :param on: functions whose common zero level a candidate is restricted to.
+        :param certificate: a file NAME.v that the proof assistant Coq checks by itself; none is written where not
+            everything is proved. Its `left_out` says which claims have no theorem there.
         :param time_limit: in seconds; what is not reached by then is undecided.
 
         >>> load("kovalevskaya").verify().verdict
@@ -233,9 +249,12 @@ class Case:
         >>> load("euler").verify(integral="M1").witness.value
         Fraction(...)
         """
-        return _results.verification_of(
-            self._core.verify(texts_of(integral), texts_of(casimir), texts_of(invariant_relation), texts_of(identity),
-                              texts_of(on), time_limit))
+        _check_name_for_coq(certificate)
+        answer = self._core.verify(texts_of(integral), texts_of(casimir), texts_of(invariant_relation),
+                                   texts_of(identity), texts_of(on), certificate is not None, time_limit)
+        if "certificate" in answer:
+            _write_certificate(certificate, answer)
+        return _results.verification_of(answer)
 
     def search(self, degree: int, *, casimirs: bool = False, on: Expressions = None,
                functions: Expressions = None, weights: Mapping[str, Expression] | None = None,
@@ -322,11 +341,20 @@ class Case:
         """Balances and Kovalevskaya exponents."""
         return _results.exponents_of(self._core.exponents(pairs_of(weights), time_limit, memory))
 
-    def obstruct(self, *, along: Expressions = None, free: str = "", scene: str = "default", time_limit: float = 0,
+    def obstruct(self, *, along: Expressions = None, free: str = "", scene: str = "default",
+                 certificate: str | PathLike[str] | None = None, time_limit: float = 0,
                  memory: float = 0) -> Obstruction:
         """Whether the variational equations along a particular solution exclude a further integral;
-        with a free parameter, for which of its real values they do not."""
-        facts = self._core.obstruct(scene, texts_of(along), free, time_limit, memory)
+        with a free parameter, for which of its real values they do not.
+
+        :param certificate: a file NAME.v with the linear algebra of the proof, which Coq checks; none is written where
+            nothing is proved.
+        :raises NoAnswer: where the proof has no linear algebra; nothing is written then.
+        """
+        _check_name_for_coq(certificate)
+        facts = self._core.obstruct(scene, texts_of(along), free, certificate is not None, time_limit, memory)
+        if "certificate" in facts:
+            _write_certificate(certificate, facts)
         verdict = "proved" if facts.pop("proved") else "undecided"
         return _results.Obstruction(verdict=verdict, **{**facts, "parameters": dict(facts["parameters"])})
 
@@ -375,6 +403,7 @@ class Case:
     def integrate(self, t_eval: ArrayLike | None = None, *, initial: Mapping[str, Expression] | None = None,
                   duration: float | None = None, scene: str = "default", method: str = "auto",
                   tolerance: float | None = None, rtol: float | None = None, atol: float | None = None,
+                  step: float | None = None, max_steps: int = 0,
                   observe: Sequence[str] | None = None, project: bool = False, time_limit: float = 0,
                   progress: Progress = None, **parameters: Expression) -> Solution:
         """Integrates a scene from time 0.
@@ -384,6 +413,8 @@ class Case:
         :param duration: without it the last of `t_eval`, or that of the scene; negative: backwards.
         :param method: 'auto', or one of `casimir.methods()`.
         :param tolerance: sets `rtol` and `atol`.
+        :param step: of all steps, instead of an error that is kept.
+        :param max_steps: after which it ends, and is no success. 0: no limit.
         :param project: onto every invariant that is proved.
         :param time_limit: in seconds; what was reached by then is returned, and is no success. 0: none.
         :param progress: told the share that is done: a function of it, or a bar of tqdm. `auto` may
@@ -403,8 +434,8 @@ class Case:
             raise RequestError("t_eval is a list of times")
         if times is not None and duration is None:
             duration = float(times[numpy.abs(times).argmax()])
-        motion = _core.integrate(case._core, scene, method, duration, tolerance, rtol, atol, observe, project,
-                                 time_limit, told(progress))
+        motion = _core.integrate(case._core, scene, method, duration, tolerance, rtol, atol, step, max_steps, observe,
+                                 project, time_limit, told(progress))
         return _results.solution_of(motion, times)
 
     def ensemble(self, initial: ArrayLike, *, variables: Sequence[str] | None = None,
@@ -563,7 +594,7 @@ class Case:
     def section(self, *, plane: Expression | None = None, direction: str | None = None,
                 plot: Sequence[Expression] = (), energy: float | None = None,
                 casimirs: Mapping[str, float] | None = None, orbits: int = 40, points: int = 500,
-                cycles: int = 0, proved: bool = False, rotation: bool = False,
+                seeds: ArrayLike | None = None, cycles: int = 0, proved: bool = False, rotation: bool = False,
                 tolerance: float = 1e-14, scene: str = "default", jobs: int = 0,
                 progress: Progress = None) -> Section:
         """A Poincare section on one level of energy and Casimir functions.
@@ -573,6 +604,7 @@ class Case:
         :param plot: two functions of the state.
         :param energy, casimirs: the level; without them that of the scene.
         :param orbits, points: how many, and the crossings of each.
+        :param seeds: array (orbits, n) of states on the level that orbits begin at, instead of a spread of them.
         :param cycles: the most crossings of periodic orbits that are looked for; there may be others.
         :param proved: whether each of these is enclosed by a box that provably has exactly one.
         :param rotation: whether the rotation numbers of the orbits are wanted.
@@ -590,8 +622,8 @@ class Case:
             raise RequestError("proved=True is for cycles: say how long they may be, as cycles=2")
         facts = _core.section(self._core, scene, None if plane is None else text_of(plane),
                               _upwards(direction), [text_of(one) for one in plot],
-                              energy, list((casimirs or {}).items()), orbits, points, cycles, proved, rotation, tolerance, jobs,
-                              told(progress))
+                              energy, list((casimirs or {}).items()), orbits, _rows(seeds), points, cycles, proved,
+                              rotation, tolerance, jobs, told(progress))
         return _results.section_of(facts)
 
     def horseshoe(self, *, plane: Expression | None = None, direction: str | None = None,
@@ -660,15 +692,37 @@ class Case:
         return [_results.equilibrium_of(one) for one in _core.equilibria(self._core, scene, proved)["equilibria"]]
 
 
+def _rows(states: ArrayLike | None) -> list[list[float]]:
+    import numpy
+
+    if states is None:
+        return []
+    rows = numpy.atleast_2d(numpy.asarray(states, dtype=float))
+    if rows.ndim != 2 or rows.size == 0:
+        raise RequestError("seeds are an array with a row for each orbit")
+    return rows.tolist()
+
+
 def _upwards(direction: str | None) -> bool | None:
     if direction not in (None, "up", "down"):
         raise RequestError(f"{direction!r} is no direction: 'up' and 'down' are")
     return None if direction is None else direction == "up"
 
 
+def _check_name_for_coq(file: str | PathLike[str] | None) -> None:
+    from pathlib import Path
+
+    if file is None:
+        return
+    stem = Path(file).stem
+    if Path(file).suffix != ".v" or not (stem.isascii() and stem.isidentifier() and stem[0] != "_"):
+        raise RequestError(f"{str(file)!r}: the name of a certificate is a letter, then letters, digits and '_', and "
+                           "ends in .v")
+
+
 def _write_certificate(file: str | PathLike[str] | None, facts: dict[str, Any]) -> None:
     """Takes the text of a certificate out of the facts, and writes it where a file was asked for."""
-    text, reason = facts.pop("certificate"), facts.pop("uncertified")
+    text, reason = facts.pop("certificate"), facts.pop("uncertified", "")
     if reason:
         raise NoAnswer(f"no certificate was written: {reason}")
     if file is not None and text:
@@ -681,6 +735,8 @@ def _listed_values(values: Any) -> str:
     return ",".join(repr(float(value)) for value in numpy.asarray(values, dtype=float).ravel())
 
 
-def _restored(text: str, file: str, parameters, initial, rounded: bool) -> Case:
+def _restored(text: str, file: str, parameters, initial, rounded: bool, variables: str = "") -> Case:
     core = _core.Case.from_text(text, file)
-    return Case._of(core.with_values(parameters, initial, rounded) if parameters or initial else core)
+    if parameters or initial:
+        core = core.with_values(parameters, initial, rounded)
+    return Case._of(core.in_variables(variables) if variables else core)

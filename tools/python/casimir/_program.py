@@ -99,6 +99,8 @@ def _answer(case: Case, words: Sequence[str], scene: str | None, initial: bool) 
         for option, values in (("--param", core.changed_parameters), ("--initial", core.changed_initial)):
             for name, value in values:
                 line += [option, f"{name}={value}"]
+        if core.set:
+            line += ["--in", core.set]
         if scene is not None:
             line += ["--scene", scene]
         done = subprocess.run(line, capture_output=True, text=True, check=False)
@@ -112,7 +114,8 @@ def _answer(case: Case, words: Sequence[str], scene: str | None, initial: bool) 
     return answer
 
 
-def report(case: Case, file: str | os.PathLike[str], budget: float | None, scene: str | None, time_limit: float) -> Report:
+def report(case: Case, file: str | os.PathLike[str], budget: float | None, scene: str | None,
+           time_limit: float) -> Report:
     """Writes a page. See `Case.report`."""
     words = ["report", "--output", os.path.abspath(file)]
     if budget is not None:

@@ -72,7 +72,8 @@ def proof_of(facts: dict[str, Any]) -> Proof:
 class Verification(Sequence[Proof]):
     """The proofs of a case's claims, or of candidates, in order. True where all that counts is proved."""
 
-    def __init__(self, verdict: str, proofs: list[Proof], notes: list[Proof]):
+    def __init__(self, verdict: str, proofs: list[Proof], notes: list[Proof], left_out: list[str] | None = None):
+        self.left_out = left_out or []  #: claims that have no theorem in the certificate, with the reasons
         self.verdict = verdict  #: the worst among the claims
         self.proofs = proofs
         self.notes = notes  #: what is said beside the claims, and never counts
@@ -126,6 +127,7 @@ def verification_of(answer: dict[str, Any]) -> Verification:
         answer["verdict"],
         [proof_of(one) for one in proofs if not one["note"]],
         [proof_of(one) for one in proofs if one["note"]],
+        answer.get("left_out"),
     )
 
 
@@ -414,6 +416,7 @@ class Obstruction:
     survivors: list[dict[str, Any]]  #: real values of a free parameter that are not excluded alike
     sequences: list[dict[str, Any]]  #: intervals in which only numbers survive that obey conditions
     rational: bool = False  #: not proved, but that there is no further rational integral
+    left_out: list[str] = field(default_factory=list, repr=False)  #: what has no theorem in the certificate
 
     def __bool__(self) -> bool:
         return _truth(self.verdict, "the obstruction")

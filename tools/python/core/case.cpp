@@ -11,6 +11,7 @@
 #include "tools/analysis/scene_values.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/python/core/guard.hpp"
+#include "tools/runs/atlas.hpp"
 
 namespace casimir::python {
 
@@ -72,12 +73,29 @@ Case::~Case() {
   model_.reset();
 }
 
-std::shared_ptr<Case> Case::with(const Values& parameters, const Values& initial,
-                                 bool rounded) const {
-  const ExactAlgebra guard;
+std::shared_ptr<Case> Case::copied() const {
   const std::shared_ptr<Case> result(new Case);
   result->text_ = text_;
   result->source_ = source_;
+  result->parameters_ = parameters_;
+  result->initial_ = initial_;
+  result->rounded_ = rounded_;
+  result->set_ = set_;
+  return result;
+}
+
+std::shared_ptr<Case> Case::in_variables(const std::string& set) const {
+  const ExactAlgebra guard;
+  const std::shared_ptr<Case> result = copied();
+  result->set_ = set;
+  result->build();
+  return result;
+}
+
+std::shared_ptr<Case> Case::with(const Values& parameters, const Values& initial,
+                                 bool rounded) const {
+  const ExactAlgebra guard;
+  const std::shared_ptr<Case> result = copied();
   result->parameters_ = with_others(parameters_, parameters);
   result->initial_ = with_others(initial_, initial);
   result->rounded_ = rounded_ || rounded;
@@ -87,12 +105,7 @@ std::shared_ptr<Case> Case::with(const Values& parameters, const Values& initial
 
 std::shared_ptr<const Case> Case::with_scene_parameters(const Values& parameters) const {
   const ExactAlgebra guard;
-  const std::shared_ptr<Case> result(new Case);
-  result->text_ = text_;
-  result->source_ = source_;
-  result->parameters_ = parameters_;
-  result->initial_ = initial_;
-  result->rounded_ = rounded_;
+  const std::shared_ptr<Case> result = copied();
   Names known;
   for (const ParameterText& parameter : source_.parameters) known.push_back(parameter.name.value);
   for (const auto& [name, value] : entries(parameters, "parameters")) {
@@ -107,7 +120,8 @@ std::shared_ptr<const Case> Case::with_scene_parameters(const Values& parameters
 
 void Case::build() {
   const CaseFile changed = with_initial_values(source_, entries(initial_, "initial"), rounded_);
-  model_ = std::make_unique<Model>(tools::model_of(changed, entries(parameters_, "parameters")));
+  model_ = std::make_unique<Model>(
+      tools::in_variables(tools::model_of(changed, entries(parameters_, "parameters")), set_));
 }
 
 tools::Written Case::shown(const GiNaC::ex& e) const {

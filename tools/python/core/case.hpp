@@ -34,6 +34,13 @@ class Case {
   /// \throws CaseError  with the nearest name for one that is none.
   std::shared_ptr<const Case> with_scene_parameters(const Values& parameters) const;
 
+  /// The same case in other variables, as "euler-angles": equations, integrals and scenes are
+  /// carried along the maps of the bundled cases. Starts that `with` changes stay those of the
+  /// case's own variables.
+  /// \throws ModelError  for an unknown set, or one that no maps lead to
+  /// \throws SingularPoint  where a scene begins at a point that these variables cannot describe
+  std::shared_ptr<Case> in_variables(const std::string& set) const;
+
   /// The text that it was read from, without the changes.
   const std::string& text() const { return text_; }
   /// What names it in messages.
@@ -42,7 +49,9 @@ class Case {
   const Values& parameters() const { return parameters_; }
   /// The same.
   const Values& initial() const { return initial_; }
-  /// Whether one of these is a double.
+  /// The variables that it is in; empty: its own.
+  const std::string& set() const { return set_; }
+  /// Whether one of the starts is a double.
   bool rounded() const { return rounded_; }
   /// With the changes.
   const Model& model() const { return *model_; }
@@ -51,12 +60,15 @@ class Case {
 
  private:
   Case() = default;
+  /// The same text and the same changes, without a model.
+  std::shared_ptr<Case> copied() const;
   void build();
 
   std::string text_;
   CaseFile source_;
   Values parameters_, initial_;
   bool rounded_ = false;
+  std::string set_;
   std::unique_ptr<Model> model_;
   mutable std::unique_ptr<tools::Notation> notation_;  ///< made where it is asked for
 };

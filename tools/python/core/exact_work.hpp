@@ -2,6 +2,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include <functional>
+
 #include "symbolic/prove.hpp"
 #include "symbolic/search/watch.hpp"
 #include "tools/analysis/proof/prove_in_process.hpp"
@@ -47,9 +49,12 @@ pybind11::object exactly(Interrupt& interrupt, const Work& work, const Convert& 
 /// \param proving  `prove` or `prove_map`
 /// \param base     the model that says which claims count
 /// \param seconds  0: no limit
+/// \param also     adds facts to these, from the proofs and the verdict
 template <class System, class Proving>
-pybind11::object verified(const System& system, const Model& base, const Candidates& candidates,
-                          double seconds, const Proving& proving) {
+pybind11::object verified(
+    const System& system, const Model& base, const Candidates& candidates, double seconds,
+    const Proving& proving,
+    const std::function<void(pybind11::dict&, const std::vector<Proof>&, Verdict)>& also = {}) {
   using namespace pybind11::literals;
   Interrupt interrupt;
   const auto prove_all = [&] {
@@ -59,7 +64,10 @@ pybind11::object verified(const System& system, const Model& base, const Candida
   return exactly(interrupt, prove_all, [&](const std::vector<Proof>& outcome) {
     pybind11::list proofs;
     for (const Proof& proof : outcome) proofs.append(to_python(proof));
-    return pybind11::dict("verdict"_a = to_string(overall(base, outcome)), "proofs"_a = proofs);
+    const Verdict verdict = overall(base, outcome);
+    pybind11::dict facts("verdict"_a = to_string(verdict), "proofs"_a = proofs);
+    if (also) also(facts, outcome, verdict);
+    return facts;
   });
 }
 

@@ -122,12 +122,15 @@ class Motion {
 
 Motion integrate(const std::shared_ptr<Case>& self, const std::string& scene,
                  const std::string& method, Choice duration, Choice tolerance, Choice rtol,
-                 Choice atol, const std::optional<Names>& observe, bool project, double time_limit,
+                 Choice atol, Choice step, unsigned long long max_steps,
+                 const std::optional<Names>& observe, bool project, double time_limit,
                  const py::object& progress) {
   Interrupt interrupt(progress);
   SolveOptions options;
   options.method = method;
   options.run = request(duration, tolerance, rtol, atol);
+  options.run.step = step;
+  options.run.max_steps = max_steps;
   options.run.project = project;
   options.code.observe = observe;
   options.dense = true;

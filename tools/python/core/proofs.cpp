@@ -3,6 +3,8 @@
 #include <pybind11/stl.h>
 
 #include "codegen/emit_cpp.hpp"
+#include "symbolic/certificate.hpp"
+#include "symbolic/obstruction/certificate/coq_linear_algebra.hpp"
 #include "symbolic/obstruction/obstruct.hpp"
 #include "symbolic/prove.hpp"
 #include "symbolic/search/darboux.hpp"
@@ -62,12 +64,24 @@ Candidates candidates_of(const Names& integrals, const Names& casimirs, const Na
 
 namespace {
 
+/// \param certify  whether a file for Coq is wanted, where everything is proved: `certificate` is its
+///                 text then, and `left_out` says which claims are not in it.
 py::object verify(const Case& self, const Names& integrals, const Names& casimirs,
-                  const Names& relations, const Names& identities, const Names& on,
+                  const Names& relations, const Names& identities, const Names& on, bool certify,
                   double seconds) {
-  return verified(self.model(), self.model(),
-                  candidates_of(integrals, casimirs, relations, identities, on), seconds,
-                  [](const auto&... arguments) { return prove(arguments...); });
+  const Candidates candidates = candidates_of(integrals, casimirs, relations, identities, on);
+  return verified(
+      self.model(), self.model(), candidates, seconds,
+      [](const auto&... arguments) { return prove(arguments...); },
+      [&](py::dict& facts, const std::vector<Proof>& proofs, Verdict verdict) {
+        if (!certify || verdict != Verdict::proved) return;
+        const Certificate certificate = coq_certificate(self.model(), candidates, proofs);
+        Names left_out;
+        for (const Uncertified& claim : certificate.left_out)
+          left_out.push_back(to_string(claim.kind) + (" " + claim.name + ": ") + claim.reason);
+        facts["certificate"] = certificate.text;
+        facts["left_out"] = left_out;
+      });
 }
 
 py::dict to_python(const Case& self, const search::Found& found) {
@@ -176,8 +190,20 @@ py::object exponents(const Case& self, const Values& weights, double seconds, do
   });
 }
 
+/// The linear algebra of a proof as a file for Coq, or why there is none.
+py::dict certificate_of(const obstruction::Obstruction& result) {
+  try {
+    const obstruction::LinearCertificate certificate = obstruction::linear_certificate(result);
+    return py::dict("certificate"_a = certificate.text, "left_out"_a = certificate.left_out,
+                    "uncertified"_a = "");
+  } catch (const obstruction::NoCertificate& problem) {
+    return py::dict("certificate"_a = "", "left_out"_a = Names{},
+                    "uncertified"_a = std::string(problem.what()));
+  }
+}
+
 py::object obstruct(const Case& self, const std::string& scene, const Names& along,
-                    const std::string& free, double seconds, double memory) {
+                    const std::string& free, bool certify, double seconds, double memory) {
   Interrupt interrupt;
   const auto find = [&] {
     return obstruction::find_obstruction(self.model(), {scene, typed(along, "along"), free},
@@ -197,11 +223,13 @@ py::object obstruct(const Case& self, const std::string& scene, const Names& alo
     py::list sequences;
     for (const obstruction::FreeSequence& one : result.sequences)
       sequences.append(py::dict("range"_a = one.range, "conditions"_a = one.conditions));
-    return py::dict("proved"_a = result.proved, "rational"_a = result.rational.has_value(),
-                    "parameters"_a = result.parameters, "survivors"_a = survivors,
-                    "sequences"_a = sequences, "theorem"_a = result.theorem,
-                    "excluded"_a = result.excluded, "reason"_a = result.reason,
-                    "examined"_a = examined);
+    py::dict facts("proved"_a = result.proved, "rational"_a = result.rational.has_value(),
+                   "parameters"_a = result.parameters, "survivors"_a = survivors,
+                   "sequences"_a = sequences, "theorem"_a = result.theorem,
+                   "excluded"_a = result.excluded, "reason"_a = result.reason,
+                   "examined"_a = examined);
+    if (certify && result.proved) facts.attr("update")(certificate_of(result));
+    return facts;
   });
 }
 
@@ -294,6 +322,8 @@ void bind_case(py::module_& module) {
       .def_static("load", &Case::load)
       .def_static("from_text", &Case::from_text)
       .def("with_values", &Case::with)
+      .def("in_variables", &Case::in_variables)
+      .def_property_readonly("set", &Case::set)
       .def_property_readonly("text", &Case::text)
       .def_property_readonly("file", &Case::file)
       .def_property_readonly("changed_parameters", &Case::parameters)

@@ -100,14 +100,16 @@ py::dict section(const Case& self, const std::string& scene,
                  const std::optional<std::string>& plane, const std::optional<bool>& upwards,
                  const Names& pair, std::optional<double> energy,
                  const std::vector<std::pair<std::string, double>>& casimirs, std::size_t orbits,
-                 std::size_t points, std::size_t cycles, bool proved, bool rotation,
-                 double tolerance, int jobs, const py::object& progress) {
+                 const std::vector<std::vector<double>>& seeds, std::size_t points,
+                 std::size_t cycles, bool proved, bool rotation, double tolerance, int jobs,
+                 const py::object& progress) {
   if (!pair.empty() && pair.size() != 2)
     throw RequestError("a section shows two functions of the state");
   Interrupt interrupt(progress);
   PoincareOptions options;
   options.orbits = orbits;
   options.points = points;
+  options.seeds = seeds;
   options.longest_cycle = cycles;
   options.prove_cycles = proved;
   options.rotation = rotation;
