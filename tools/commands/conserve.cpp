@@ -47,14 +47,14 @@ struct Picture {
 };
 
 /// The bar over all that is run: `part` of it is one case, which begins at `before`.
-struct Share {
+struct ShareOfRuns {
   Progress& bar;
   double before = 0, part = 1;
 };
 
 void conserve_case(const CaseFile& file, const ConserveArguments& options,
-                   const std::function<bool()>& give_up, const Share& share, std::vector<Row>& rows,
-                   Picture* picture) {
+                   const std::function<bool()>& give_up, const ShareOfRuns& share,
+                   std::vector<Row>& rows, Picture* picture) {
   const Model model = in_variables(
       options.kept.model_of(options.start.in(file), options.common.parameter_values()), options.in);
   std::vector<const Scene*> scenes;
@@ -88,7 +88,7 @@ void conserve_case(const CaseFile& file, const ConserveArguments& options,
 
 /// Of a map: what it claims to keep is watched along the iterates.
 void conserve_map_case(MapCaseFile file, const ConserveArguments& options,
-                       const std::function<bool()>& give_up, const Share& share,
+                       const std::function<bool()>& give_up, const ShareOfRuns& share,
                        std::vector<Row>& rows) {
   const RunRequest asked = options.run.request();
   const bool of_methods = options.methods_given || asked.rtol || asked.atol || asked.tolerance ||
@@ -112,7 +112,7 @@ void conserve_map_case(MapCaseFile file, const ConserveArguments& options,
 }
 
 void conserve_any_case(const AnyCaseFile& any, const ConserveArguments& options,
-                       const std::function<bool()>& give_up, const Share& share,
+                       const std::function<bool()>& give_up, const ShareOfRuns& share,
                        std::vector<Row>& rows, Picture* picture) {
   if (const auto* map = std::get_if<MapCaseFile>(&any))
     conserve_map_case(*map, options, give_up, share, rows);

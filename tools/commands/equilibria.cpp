@@ -27,7 +27,7 @@ struct EquilibriaArguments {
 };
 
 /// What was found, and with `--validated` what is proved of each.
-struct Answer {
+struct EquilibriaAnswer {
   EquilibriumReport report;
   std::vector<ProvedEquilibrium> proofs;  ///< one for each, or none
   std::string ranges;                     ///< of parameters that the proofs are for, or empty
@@ -65,8 +65,8 @@ nlohmann::ordered_json equilibria_json(const Model& model, const ProvedEquilibri
   return json;
 }
 
-nlohmann::ordered_json equilibria_json(const Model& model, const Scene& scene, const Answer& answer,
-                                       double seconds) {
+nlohmann::ordered_json equilibria_json(const Model& model, const Scene& scene,
+                                       const EquilibriaAnswer& answer, double seconds) {
   const EquilibriumReport& report = answer.report;
   nlohmann::ordered_json json{{"case", model.name},
                               {"scene", scene.name},
@@ -124,7 +124,7 @@ void print_equilibria(const ProvedEquilibrium& proof, const std::string& ranges)
                  : fmt::format("proved to be {}", to_string(proof.stability)));
 }
 
-void print_equilibria(const Model& model, const Scene& scene, const Answer& answer,
+void print_equilibria(const Model& model, const Scene& scene, const EquilibriaAnswer& answer,
                       double seconds) {
   const EquilibriumReport& report = answer.report;
   constexpr std::size_t kMost = 12;
@@ -180,7 +180,8 @@ int equilibria(const EquilibriaArguments& options) {
   return with_search_errors(options.common, options.case_name, [&] {
     SearchWatch watch(options.common, model.name);
     watch.watch().begin("equilibria");
-    Answer answer{find_equilibria(model, scene, watch.watch().tick), {}, ranges_text(given)};
+    EquilibriaAnswer answer{
+        find_equilibria(model, scene, watch.watch().tick), {}, ranges_text(given)};
     if (options.validated) answer.proofs = enclose_equilibria(model, scene, answer.report, ranges);
     const double seconds = watch.end();
     if (options.common.json)

@@ -6,16 +6,18 @@
 #include <iostream>
 #include <memory>
 
+#include "tools/analysis/certificate/certificate_file.hpp"
 #include "tools/analysis/section/orbit_rotation.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
+#include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/plot/gnuplot.hpp"
+#include "tools/runs/certified_cycles.hpp"
 #include "tools/runs/enclosed_run.hpp"
 #include "tools/runs/scene_values.hpp"
-#include "tools/section/cycle_file.hpp"
 #include "tools/section/horseshoe_section.hpp"
 #include "tools/section/map_section.hpp"
 #include "tools/section/picture.hpp"
@@ -47,9 +49,9 @@ void check_memory(const SectionArguments& options, std::size_t states) {
 }
 
 /// One section from the options to the report.
-class Section {
+class SectionCommand {
  public:
-  Section(const SectionArguments& options, const CaseFile& file)
+  SectionCommand(const SectionArguments& options, const CaseFile& file)
       : options_(options),
         case_(options.start.in(file), options.common,
               options.validated && options.longest_cycle() > 0),
@@ -218,8 +220,14 @@ class Section {
   }
 
   void write_certificates(const SectionReport& report) const {
-    const std::size_t count = write_cycle_certificates(
-        options_.certificate, model_, model_.scene(options_.common.scene), problem_, report.proofs);
+    const std::vector<CycleCertificate> certificates =
+        certified_cycles(model_, model_.scene(options_.common.scene), problem_, report.proofs);
+    const std::size_t count = certificates.size();
+    if (count > 0) {
+      OutputFile file(options_.certificate);
+      file.stream() << certificate_text(certificates);
+      file.commit();
+    }
     if (count < report.proved())
       std::cerr << fmt::format("casimir: {} of {} proved cycles have no certificate\n",
                                report.proved() - count, report.proved());
@@ -348,7 +356,7 @@ int section(const SectionArguments& options) {
   if (!options.symmetry.empty()) return cycle_with_symmetry(options, file);
   if (options.horseshoe) return horseshoe_of(options, file);
   if (options.validated && options.longest_cycle() == 0) return crossings_of_scene(options, file);
-  return Section(options, file).run();
+  return SectionCommand(options, file).run();
 }
 
 }  // namespace

@@ -49,12 +49,12 @@ struct SweepArguments {
 };
 
 /// Everything that a sweep needs, in each rank.
-struct Prepared {
+struct PreparedSweep {
   Model model;
   const Scene* scene;
   SweepStudy study;
 
-  Prepared(const SweepArguments& options, const CaseFile& file)
+  PreparedSweep(const SweepArguments& options, const CaseFile& file)
       : model(model_of(file, options.common.parameter_values())),
         scene(&model.scene(options.common.scene)),
         study(model, *scene, asked(options, file, model)) {}
@@ -80,7 +80,7 @@ std::map<std::string, std::size_t> counts_of(const std::vector<PointResult>& row
 
 struct SweepReport {
   const SweepArguments& options;
-  const Prepared& prepared;
+  const PreparedSweep& prepared;
   const Ranks& ranks;
   const SweepOutcome& outcome;
   std::string output;
@@ -90,7 +90,7 @@ struct SweepReport {
 };
 
 Json sweep_json(const SweepReport& report) {
-  const Prepared& p = report.prepared;
+  const PreparedSweep& p = report.prepared;
   Json json = {{"case", p.model.name},
                {"scene", p.scene->name},
                {"method", p.study.method().name},
@@ -119,7 +119,7 @@ Json sweep_json(const SweepReport& report) {
 }
 
 void print_sweep(const SweepReport& report) {
-  const Prepared& p = report.prepared;
+  const PreparedSweep& p = report.prepared;
   const SweepOutcome& outcome = report.outcome;
   fmt::print("{}, scene '{}', {} at tolerance {:g}, {} point{}\n", p.model.name,
              printable(p.scene->name), p.study.method().name, p.study.settings().rtol,
@@ -199,7 +199,7 @@ int sweep_in(const Ranks& ranks, const SweepArguments& options) {
   const CaseFile file = options.start.in(load_case(options.case_name));
   const std::string output = options.output.empty() ? file.name + "-sweep.csv" : options.output;
   check_sweep_output(output);
-  const Prepared p(options, file);
+  const PreparedSweep p(options, file);
   const Grid& grid = p.study.grid();
   const SweepTask& task = p.study.task();
   const std::optional<MapPicture> picture = picture_of(options, grid, task);

@@ -16,7 +16,7 @@ namespace {
 constexpr int kColours = 12;
 
 /// The frame of a picture and the values along its sides.
-struct Frame {
+struct ChartFrame {
   double left, right, top, bottom;
   std::array<double, 2> x, y;
 
@@ -46,7 +46,7 @@ std::array<double, 2> range_of(const Chart& chart, bool of_x, double margin) {
 }
 
 /// A line through few points.
-std::string line_path(const Frame& frame, const Chart::Curve& curve) {
+std::string line_path(const ChartFrame& frame, const Chart::Curve& curve) {
   constexpr double kApart = 0.12;
   std::string path;
   PicturePoints part;
@@ -69,7 +69,7 @@ std::string line_path(const Frame& frame, const Chart::Curve& curve) {
 }
 
 /// Points, each place once.
-std::string dots_path(const Frame& frame, const Chart::Curve& curve, double raster) {
+std::string dots_path(const ChartFrame& frame, const Chart::Curve& curve, double raster) {
   std::set<std::pair<long, long>> taken;
   std::string path;
   for (const auto& point : curve.points) {
@@ -94,7 +94,7 @@ std::string number_text(double value) {
 }
 
 /// gnuplot's pictures have their ticks so too: a path and, beside it, a group with the words.
-std::string ticks(const Frame& frame) {
+std::string ticks(const ChartFrame& frame) {
   std::string text;
   const auto tick = [&](const std::string& path, double x, double y, const char* anchor,
                         double value) {
@@ -117,7 +117,7 @@ std::string ticks(const Frame& frame) {
 }
 
 /// \param named  with identifiers and titles
-std::string curves(const Chart& chart, const Frame& frame, double stroke, double raster,
+std::string curves(const Chart& chart, const ChartFrame& frame, double stroke, double raster,
                    bool named) {
   std::string text;
   for (std::size_t i = 0; i < chart.curves.size(); ++i) {
@@ -179,12 +179,13 @@ std::string chart_svg(const Chart& chart) {
   const auto [names, lines] = legend(chart, left);
   const double top = kLine * lines + 6, bottom = top + chart.height;
   const double height = bottom + (chart.x_label.empty() ? 24 : 42);
-  const Frame frame{left,
-                    kChartWidth - kMargin,
-                    top,
-                    bottom,
-                    chart.x_range ? *chart.x_range : range_of(chart, true, chart.dots ? 0.03 : 0),
-                    chart.y_range ? *chart.y_range : range_of(chart, false, 0.05)};
+  const ChartFrame frame{
+      left,
+      kChartWidth - kMargin,
+      top,
+      bottom,
+      chart.x_range ? *chart.x_range : range_of(chart, true, chart.dots ? 0.03 : 0),
+      chart.y_range ? *chart.y_range : range_of(chart, false, 0.05)};
   std::string text = fmt::format(
       "<svg viewBox=\"0 0 {} {}\" role=\"img\" font-family=\"sans-serif\" font-size=\"{}\" "
       "fill=\"var(--plot-ink)\" data-axes=\"{} {} {} {} {} {} {} {} 0 0\">\n<title>{}</title>\n",
@@ -208,12 +209,12 @@ std::string chart_svg(const Chart& chart) {
 
 std::string thumbnail_svg(const Chart& chart) {
   constexpr double kWidth = 120, kHeight = 90, kMargin = 4, kRaster = 1.6;
-  const Frame frame{kMargin,
-                    kWidth - kMargin,
-                    kMargin,
-                    kHeight - kMargin,
-                    chart.x_range ? *chart.x_range : range_of(chart, true, 0.02),
-                    chart.y_range ? *chart.y_range : range_of(chart, false, 0.02)};
+  const ChartFrame frame{kMargin,
+                         kWidth - kMargin,
+                         kMargin,
+                         kHeight - kMargin,
+                         chart.x_range ? *chart.x_range : range_of(chart, true, 0.02),
+                         chart.y_range ? *chart.y_range : range_of(chart, false, 0.02)};
   return fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n", kWidth,
                      kHeight, html::text(chart.title)) +
          curves(chart, frame, chart.dots ? 1.3 : 0.9, kRaster, false) + "</svg>\n";

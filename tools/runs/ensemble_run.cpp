@@ -31,7 +31,7 @@ constexpr std::array kMemberStatuses = {
     Status::drift_exceeded, Status::max_steps,  Status::stopped,        Status::ok};
 
 /// An ensemble that was integrated, and all that a report says of it.
-struct Report {
+struct EnsembleReport {
   const PreparedScene& run;
   const Method& method;
   const Settings& settings;
@@ -83,7 +83,7 @@ Ensemble members(const PreparedScene& run, const EnsembleFile& file) {
   return ensemble;
 }
 
-Table table_of(const Report& report) {
+Table table_of(const EnsembleReport& report) {
   const Specialisation& s = report.spec();
   const std::vector<MemberResult>& members = report.result.members;
   std::vector<std::int64_t> numbers, steps;
@@ -134,7 +134,7 @@ Json to_json(const Specialisation& s, std::size_t number, const MemberResult& me
   return json;
 }
 
-Json to_json(const Report& report) {
+Json to_json(const EnsembleReport& report) {
   Json json = {{"case", report.spec().case_name},
                {"scene", report.spec().scene},
                {"method", report.method.name},
@@ -161,7 +161,7 @@ Json to_json(const Report& report) {
   return json;
 }
 
-void print_text(const Report& report) {
+void print_text(const EnsembleReport& report) {
   const Specialisation& s = report.spec();
   const std::size_t count = report.result.members.size();
   fmt::print("{}, scene '{}', {} at tolerance {:g}, {} member{}\n", s.case_name, printable(s.scene),
@@ -204,7 +204,7 @@ std::vector<std::string> warnings_on(const EnsembleKernel& kernel, const Prepare
 }
 
 /// What went wrong, on stderr.
-int verdict(const Report& report) {
+int verdict(const EnsembleReport& report) {
   const Status worst = report.worst();
   if (worst == Status::ok) return kDone;
   const auto& members = report.result.members;
@@ -277,7 +277,7 @@ int integrate_ensemble(const EnsembleRequest& request) {
   const std::vector<std::string> warnings =
       warnings_on(kernel, run, settings, check_members(run, method, settings, ensemble, result),
                   unwatched_parts(model, scene));
-  const Report report{run, method, settings, kernel, result, warnings};
+  const EnsembleReport report{run, method, settings, kernel, result, warnings};
   if (!request.output.empty()) write_table(request.output, table_of(report));
   if (request.common.json) {
     print_json(to_json(report));

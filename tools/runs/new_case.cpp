@@ -19,7 +19,7 @@ cln::cl_RA ratio(long numerator, long denominator) {
 }
 
 /// Variables with one letter, such as M1, M2, M3.
-struct Block {
+struct BracketBlock {
   std::string letters;
   std::size_t start = 0, size = 0;
   bool commutes = true;  ///< with itself
@@ -29,14 +29,15 @@ std::string letters_of(const std::string& name) {
   return name.substr(0, name.find_first_of("0123456789"));
 }
 
-std::vector<Block> blocks_of(const LieAlgebra& algebra, const std::vector<std::string>& names) {
-  std::vector<Block> blocks;
+std::vector<BracketBlock> blocks_of(const LieAlgebra& algebra,
+                                    const std::vector<std::string>& names) {
+  std::vector<BracketBlock> blocks;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (blocks.empty() || blocks.back().letters != letters_of(names[i]))
       blocks.push_back({letters_of(names[i]), i, 0});
     ++blocks.back().size;
   }
-  for (Block& block : blocks) {
+  for (BracketBlock& block : blocks) {
     const auto inside = [&](std::size_t i) {
       return i >= block.start && i < block.start + block.size;
     };
@@ -80,13 +81,13 @@ class TopBuilder {
 
   /// A letter for parameters that no variable has.
   std::string letter(const std::string& wanted, const std::string& other) const {
-    const bool taken =
-        std::ranges::any_of(blocks_, [&](const Block& block) { return block.letters == wanted; });
+    const bool taken = std::ranges::any_of(
+        blocks_, [&](const BracketBlock& block) { return block.letters == wanted; });
     return taken ? other : wanted;
   }
 
   /// c1*x1^2 + c2*x2^2 + ..
-  void squares(const Block& block, const std::string& letter) {
+  void squares(const BracketBlock& block, const std::string& letter) {
     for (std::size_t i = 0; i < block.size; ++i) {
       const std::string name = fmt::format("{}{}", letter, i + 1);
       squares_.push_back(fmt::format("{}*{}^2",
@@ -97,7 +98,7 @@ class TopBuilder {
 
   /// For three momenta the inverse moments of inertia; for J_ij the coefficient a_i + a_j, one of
   /// Manakov's family of commuting Hamiltonians.
-  void kinetic(const Block& block) {
+  void kinetic(const BracketBlock& block) {
     if (block.letters != "J") return squares(block, letter("a", "k"));
     std::size_t n = 2;
     while (n * (n - 1) / 2 < block.size) ++n;
@@ -110,7 +111,7 @@ class TopBuilder {
     }
   }
 
-  void further(const Block& block, std::size_t number) {
+  void further(const BracketBlock& block, std::size_t number) {
     if (!block.commutes) {
       squares(block, "c");
       quadratic_in_.push_back(block.letters);
@@ -144,7 +145,7 @@ class TopBuilder {
   /// Momenta 1, 1/2, 1/3, ..; vectors of length one with rational components.
   void initial() {
     std::vector<cln::cl_RA> values;
-    for (const Block& block : blocks_) {
+    for (const BracketBlock& block : blocks_) {
       const std::size_t first = values.size();
       if (first == 0 || block.size == 1) {
         for (std::size_t i = 0; i < block.size; ++i)
@@ -161,7 +162,7 @@ class TopBuilder {
   }
 
   std::vector<std::string> names_;
-  std::vector<Block> blocks_;
+  std::vector<BracketBlock> blocks_;
   std::vector<std::string> squares_, linear_;          ///< terms
   std::vector<std::string> quadratic_in_, linear_in_;  ///< blocks
   bool weight_ = false;

@@ -35,7 +35,7 @@ std::string axis_label(const PlottedFunction& function) {
 }
 
 /// An axis of the picture: which part of it is shown.
-struct Axis {
+struct PictureAxis {
   double from = 0, to = 0;  ///< nothing to show where they are equal
   double period = 0;
 
@@ -45,7 +45,7 @@ struct Axis {
 };
 
 /// An angle that does not take all values is cut open where none are.
-Axis cut_open(std::vector<double> values, double period) {
+PictureAxis cut_open(std::vector<double> values, double period) {
   std::ranges::sort(values);
   double widest = values.front() + period - values.back();
   double from = values.front();
@@ -61,7 +61,7 @@ Axis cut_open(std::vector<double> values, double period) {
 }
 
 /// A little more than the values take.
-Axis axis_of(const PlottedFunction& function, std::vector<double> values) {
+PictureAxis axis_of(const PlottedFunction& function, std::vector<double> values) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   if (values.empty()) return {0, is_angle(function) ? function.period : 1, function.period};
   if (is_angle(function)) return cut_open(std::move(values), function.period);
@@ -151,7 +151,7 @@ class Drawing {
  private:
   const std::array<PlottedFunction, 2>& plotted_;
   const Sheet& sheet_;
-  std::array<Axis, 2> axes_;
+  std::array<PictureAxis, 2> axes_;
   std::string blocks_, plots_, scale_;
   int count_ = 0;
 };

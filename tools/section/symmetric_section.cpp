@@ -19,9 +19,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// How far multipliers may be from the unit circle, and what is so far from closing is no cycle.
-constexpr double kOnCircle = 1e-5, kClosed = 1e-6;
-
 std::vector<std::pair<std::string, GiNaC::ex>> read_symmetry(
     const Model& model, const std::vector<std::string>& texts) {
   std::vector<std::pair<std::string, GiNaC::ex>> images;
@@ -53,13 +50,6 @@ double guess_of(const SymmetricSectionRequest& request, const PreparedScene& run
   return value->to_double();
 }
 
-/// Whether neighbours stay near, as far as the linear equations tell.
-bool on_circle(const SymmetricCycle& cycle) {
-  return std::ranges::all_of(cycle.multipliers, [](const std::complex<double>& m) {
-    return std::abs(std::abs(m) - 1) < kOnCircle;
-  });
-}
-
 class SymmetricReport {
  public:
   SymmetricReport(const SymmetricSectionRequest& request, const PreparedScene& run,
@@ -67,18 +57,8 @@ class SymmetricReport {
       : request_(request),
         names_(run.specialisation.states),
         order_(symmetry.order),
-        cycle_(cycle) {
-    if (cycle.closure > kClosed)
-      warnings_.push_back(
-          fmt::format("over all of the period the motion misses its start by {:.1e}: the cycle is "
-                      "too unstable, "
-                      "or no cycle",
-                      cycle.closure));
-    if (!(cycle.state_error < kClosed))
-      warnings_.emplace_back(
-          "a coarser tolerance gives another cycle, or none: where the symmetry is of a whole "
-          "family, one of its members is meant and no other is better");
-  }
+        cycle_(cycle),
+        warnings_(cycle.warnings()) {}
 
   Json json() const {
     Json json = {{"case", request_.model.name},
@@ -91,7 +71,7 @@ class SymmetricReport {
                  {"residual", exact_text(cycle_.residual)},
                  {"closure", exact_text(cycle_.closure)},
                  {"multipliers", Json::array()},
-                 {"stable", on_circle(cycle_)},
+                 {"stable", cycle_.stable()},
                  {"rounds", cycle_.rounds},
                  {"warnings", warnings_}};
     for (std::size_t i = 0; i < names_.size(); ++i)
@@ -114,8 +94,8 @@ class SymmetricReport {
     for (const auto& m : cycle_.multipliers)
       fmt::print(" {:.6f}{}", m.real(),
                  std::abs(m.imag()) < 5e-7 ? "" : fmt::format("{:+.6f}i", m.imag()));
-    fmt::print("\n  {}\n", on_circle(cycle_) ? "all on the unit circle: linearly stable"
-                                             : "not all on the unit circle: unstable");
+    fmt::print("\n  {}\n", cycle_.stable() ? "all on the unit circle: linearly stable"
+                                           : "not all on the unit circle: unstable");
     for (const std::string& warning : warnings_) fmt::print("  warning: {}\n", warning);
   }
 

@@ -15,15 +15,15 @@ bool is_number(const std::string& text) {
 }
 
 /// One part of "2.4": numbers by their size and before letters.
-struct Part {
+struct BookPart {
   bool letters = false;
   std::size_t length = 0;  ///< of a number without leading zeros; the longer one is larger
   std::string text;
-  auto operator<=>(const Part&) const = default;
+  auto operator<=>(const BookPart&) const = default;
 };
 
-std::vector<Part> parts_of(const std::string& book) {
-  std::vector<Part> parts;
+std::vector<BookPart> parts_of(const std::string& book) {
+  std::vector<BookPart> parts;
   std::istringstream stream(book);
   for (std::string text; std::getline(stream, text, '.');) {
     if (is_number(text)) {

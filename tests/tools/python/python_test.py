@@ -481,6 +481,34 @@ class Runs(unittest.TestCase):
                 with self.assertRaises(casimir.RequestError):
                     casimir.load("euler").verify(certificate=Path(folder, wrong))
 
+    def test_cycles_are_certified_and_symmetric_ones_found(self):
+        import tempfile
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "cycles.json")
+            cut = casimir.load("henon-heiles").section(orbits=4, points=50, cycles=1, proved=True, certificate=path)
+            checked = casimir.check(path)
+            self.assertEqual((checked.kind, len(checked.parts)), ("cycles", cut.certified))
+            self.assertTrue(checked)
+            self.assertGreater(cut.certified, 0)
+            with self.assertRaises(casimir.RequestError):
+                casimir.load("henon-heiles").section(orbits=1, points=5, certificate=path)
+        swing = casimir.Case(equations={"q": "p", "p": "-sin(q)"}, variables=["q", "p"], initial={"q": 1, "p": 0},
+                             duration=6.5)
+        cycle = swing.symmetric_cycle({"q": "-q", "p": "-p"})
+        self.assertEqual(cycle.order, 2)
+        # T = 4 K(sin(q0/2)), with q0 where p is zero: by the arithmetic-geometric mean
+        energy = cycle.state[1] ** 2 / 2 - math.cos(cycle.state[0])
+        a, b = 1.0, math.sqrt((1 - energy) / 2)
+        for _ in range(8):
+            a, b = (a + b) / 2, math.sqrt(a * b)
+        self.assertAlmostEqual(cycle.period, 2 * math.pi / a, places=10)
+        self.assertTrue(cycle.stable)
+        with self.assertRaises(casimir.CaseError):
+            swing.symmetric_cycle({"x": "-q"})
+        with self.assertRaises(casimir.RequestError):
+            swing.symmetric_cycle({"q": "-q"})  # does not take motions to motions
+
     def test_orbits_of_a_section_begin_at_seeds(self):
         top = casimir.load("henon-heiles")
         own = top.section(orbits=3, points=20)

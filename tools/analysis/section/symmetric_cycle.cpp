@@ -310,4 +310,26 @@ SymmetricCycle symmetric_cycle(const Model& model, const Scene& scene, const Pre
   return cycle;
 }
 
+bool SymmetricCycle::stable() const {
+  constexpr double kOnCircle = 1e-5;
+  return std::ranges::all_of(multipliers, [](const std::complex<double>& m) {
+    return std::abs(std::abs(m) - 1) < kOnCircle;
+  });
+}
+
+std::vector<std::string> SymmetricCycle::warnings() const {
+  constexpr double kFarFromClosing = 1e-6;
+  std::vector<std::string> result;
+  if (closure > kFarFromClosing)
+    result.push_back(
+        fmt::format("over all of the period the motion misses its start by {:.1e}: the cycle is "
+                    "too unstable, or no cycle",
+                    closure));
+  if (!(state_error < kFarFromClosing))
+    result.emplace_back(
+        "a coarser tolerance gives another cycle, or none: where the symmetry is of a whole "
+        "family, one of its members is meant and no other is better");
+  return result;
+}
+
 }  // namespace casimir

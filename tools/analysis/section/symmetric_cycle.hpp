@@ -36,6 +36,12 @@ struct SymmetricCycle {
   /// T/n behind the inverse of S.
   std::vector<std::complex<double>> multipliers;
   int rounds = 0;  ///< of Newton's method
+
+  /// Whether all multipliers are on the unit circle: neighbours stay near, as far as the linear
+  /// equations tell.
+  bool stable() const;
+  /// Why it may be no cycle, or no isolated one: sentences.
+  std::vector<std::string> warnings() const;
 };
 
 /// What is asked of `symmetric_cycle`.

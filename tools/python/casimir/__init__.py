@@ -66,6 +66,7 @@ if _TYPE_CHECKING:
         Search,
         Section,
         Solution,
+        SymmetricCycle,
         Verification,
         Witness,
     )
@@ -95,6 +96,6 @@ __all__ = [
     "Exponent", "Exponents", "Findings", "Found", "Frequencies", "Horseshoe", "Iterates", "Map", "MapSearch",
     "ModelError", "NoAnswer", "Obstruction", "Orbit", "PreciseEnd", "Proof", "ProvedCycle", "ProvedEquilibrium",
     "Relation", "Report", "RequestError", "Rotation", "Run", "Search", "Section", "SingularPoint", "Solution",
-    "Stress", "Sweep", "System", "UndecidedError", "Verification", "Witness", "cases", "check", "load", "load_map",
-    "maps", "methods",
+    "Stress", "Sweep", "SymmetricCycle", "System", "UndecidedError", "Verification", "Witness", "cases", "check",
+    "load", "load_map", "maps", "methods",
 ]

@@ -41,6 +41,7 @@ if TYPE_CHECKING:
         Search,
         Section,
         Solution,
+        SymmetricCycle,
         Verification,
     )
 
@@ -595,7 +596,7 @@ class Case:
                 plot: Sequence[Expression] = (), energy: float | None = None,
                 casimirs: Mapping[str, float] | None = None, orbits: int = 40, points: int = 500,
                 seeds: ArrayLike | None = None, cycles: int = 0, proved: bool = False, rotation: bool = False,
-                tolerance: float = 1e-14, scene: str = "default", jobs: int = 0,
+                certificate: str | PathLike[str] | None = None, tolerance: float = 1e-14, scene: str = "default", jobs: int = 0,
                 progress: Progress = None) -> Section:
         """A Poincare section on one level of energy and Casimir functions.
 
@@ -608,6 +609,8 @@ class Case:
         :param cycles: the most crossings of periodic orbits that are looked for; there may be others.
         :param proved: whether each of these is enclosed by a box that provably has exactly one.
         :param rotation: whether the rotation numbers of the orbits are wanted.
+        :param certificate: a file of those cycles that are proved, which `casimir.check` verifies in other arithmetic;
+            none is written where none is.
         :param progress: told the share of the crossings that are there: a function of it, or a bar of tqdm.
         :returns: orbits with points (count, 2), times (count,) and states (count, n).
 
@@ -620,11 +623,39 @@ class Case:
         """
         if proved and cycles == 0:
             raise RequestError("proved=True is for cycles: say how long they may be, as cycles=2")
+        if certificate is not None and not proved:
+            raise RequestError("a certificate is of cycles that are proved: say proved=True")
         facts = _core.section(self._core, scene, None if plane is None else text_of(plane),
                               _upwards(direction), [text_of(one) for one in plot],
                               energy, list((casimirs or {}).items()), orbits, _rows(seeds), points, cycles, proved,
-                              rotation, tolerance, jobs, told(progress))
+                              certificate is not None, rotation, tolerance, jobs, told(progress))
+        if certificate is not None:
+            _write_certificate(certificate, facts)
         return _results.section_of(facts)
+
+    def symmetric_cycle(self, symmetry: Mapping[str, Expression], *, period: float | None = None,
+                        keep_period: bool = False, tolerance: float = 1e-14, scene: str = "default",
+                        initial: Mapping[str, Expression] | None = None, time_limit: float = 0,
+                        **parameters: Expression) -> SymmetricCycle:
+        """A periodic orbit with x(t + T/n) = S x(t), as a choreography, by Newton's method from the start of the scene.
+
+        :param symmetry: S: the images of variables, as {'q1': 'q3'}; the others stay.
+        :param period: a guess of T; without it the duration of the scene.
+        :param keep_period: whether T is exactly that.
+        :raises NoAnswer: where none was found.
+
+        >>> swing = Case(equations={"q": "p", "p": "-q - q^3"}, variables=["q", "p"], initial={"q": 1, "p": 0},
+        ...              duration=5)
+        >>> cycle = swing.symmetric_cycle({"q": "-q", "p": "-p"})
+        >>> cycle.order, cycle.closure < 1e-12
+        (2, True)
+        """
+        case = self.with_values(parameters, initial) if parameters or initial else self
+        facts = _core.symmetric_cycle(case._core, scene, pairs_of(symmetry), period, keep_period, tolerance, time_limit)
+        found, reason = facts.pop("found"), facts.pop("reason")
+        if not found:
+            raise NoAnswer(f"no cycle was found: {reason}")
+        return _results.SymmetricCycle(**facts)
 
     def horseshoe(self, *, plane: Expression | None = None, direction: str | None = None,
                   energy: float | None = None, casimirs: Mapping[str, float] | None = None, longest: int = 0,

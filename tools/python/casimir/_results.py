@@ -504,6 +504,23 @@ class Cycle:
 
 
 @dataclass(frozen=True)
+class SymmetricCycle:
+    """A periodic orbit x with x(t + T/n) = S x(t) for a symmetry S of order n. It is found, not proved."""
+
+    state: Any  #: array (n,): where it begins
+    period: float  #: T
+    state_error: float  #: by a second solution at a coarser tolerance
+    period_error: float
+    residual: float  #: how far x(T/n) is from S x(0), relative to the size of the state
+    closure: float  #: the same of x(T) and x(0)
+    multipliers: list[complex]  #: n-th roots of those of Floquet
+    stable: bool  #: all of these are on the unit circle
+    order: int  #: of S
+    names: list[str]  #: of the entries of a state
+    warnings: list[str]
+
+
+@dataclass(frozen=True)
 class Orbit:
     """The crossings of one orbit with the plane of a section."""
 
@@ -530,6 +547,7 @@ class Section(Sequence[Orbit]):
     names: list[str] = field(default_factory=list)  #: of the entries of a state
     cycles: list[Cycle] = field(default_factory=list)  #: periodic orbits, where they were asked for
     degenerate_cycles: int = 0  #: how many more belong to families, as in integrable systems
+    certified: int = 0  #: how many are in the certificate
 
     def __getitem__(self, index):
         return self.orbits[index]

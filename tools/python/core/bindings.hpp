@@ -24,6 +24,8 @@ void bind_exact_runs(pybind11::module_& module);
 void bind_certificates(pybind11::module_& module);
 /// Chaos as a theorem.
 void bind_horseshoe(pybind11::module_& module);
+/// Cycles that a symmetry makes of a part of themselves.
+void bind_symmetric_cycle(pybind11::module_& module);
 /// Poincare sections and equilibria.
 void bind_section(pybind11::module_& module);
 

@@ -15,4 +15,5 @@ PYBIND11_MODULE(_core, module) {
   casimir::python::bind_certificates(module);
   casimir::python::bind_horseshoe(module);
   casimir::python::bind_section(module);
+  casimir::python::bind_symmetric_cycle(module);
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "tools/analysis/certificate/certificate_file.hpp"
 #include "tools/analysis/equilibria/equilibria.hpp"
 #include "tools/analysis/equilibria/validated_equilibria.hpp"
 #include "tools/analysis/error.hpp"
@@ -16,6 +17,7 @@
 #include "tools/python/core/case.hpp"
 #include "tools/python/core/guard.hpp"
 #include "tools/python/core/section_request.hpp"
+#include "tools/runs/certified_cycles.hpp"
 
 namespace casimir::python {
 namespace py = pybind11;
@@ -101,8 +103,8 @@ py::dict section(const Case& self, const std::string& scene,
                  const Names& pair, std::optional<double> energy,
                  const std::vector<std::pair<std::string, double>>& casimirs, std::size_t orbits,
                  const std::vector<std::vector<double>>& seeds, std::size_t points,
-                 std::size_t cycles, bool proved, bool rotation, double tolerance, int jobs,
-                 const py::object& progress) {
+                 std::size_t cycles, bool proved, bool certify, bool rotation, double tolerance,
+                 int jobs, const py::object& progress) {
   if (!pair.empty() && pair.size() != 2)
     throw RequestError("a section shows two functions of the state");
   Interrupt interrupt(progress);
@@ -139,6 +141,12 @@ py::dict section(const Case& self, const std::string& scene,
         "level"_a = cut.problem->level_text(),
         "labels"_a = py::make_tuple(cut.problem->plotted[0].label, cut.problem->plotted[1].label),
         "names"_a = cut.problem->run.specialisation.states);
+    if (certify) {
+      const std::vector<CycleCertificate> certificates =
+          tools::certified_cycles(model, model.scene(scene), *cut.problem, cut.proofs);
+      result["certificate"] = certificates.empty() ? "" : certificate_text(certificates);
+      result["certified"] = certificates.size();
+    }
   }
   interrupt.finish();
   return result;

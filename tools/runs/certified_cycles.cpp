@@ -1,10 +1,8 @@
-#include "tools/section/cycle_file.hpp"
+#include "tools/runs/certified_cycles.hpp"
 
 #include <cln/float.h>
 #include <cln/real.h>
 
-#include "tools/analysis/certificate/certificate_file.hpp"
-#include "tools/cli/output.hpp"
 #include "tools/show/notation.hpp"
 #include "tools/text/files/plain_case.hpp"
 
@@ -20,9 +18,9 @@ GiNaC::ex middle_double(const RationalInterval& interval) {
 
 }  // namespace
 
-std::size_t write_cycle_certificates(const std::string& path, const Model& model,
-                                     const Scene& scene, const SectionProblem& problem,
-                                     const std::vector<ProvedCycle>& proofs) {
+std::vector<CycleCertificate> certified_cycles(const Model& model, const Scene& scene,
+                                               const SectionProblem& problem,
+                                               const std::vector<ProvedCycle>& proofs) {
   std::vector<std::string> states;
   for (const GiNaC::symbol& x : model.variables) states.push_back(x.get_name());
   const std::string plane = Notation(model).case_text(problem.plane_function);
@@ -39,11 +37,7 @@ std::size_t write_cycle_certificates(const std::string& path, const Model& model
                       problem.levels);
     if (certificate) certificates.push_back(std::move(*certificate));
   }
-  if (certificates.empty()) return 0;
-  OutputFile file(path);
-  file.stream() << certificate_text(certificates);
-  file.commit();
-  return certificates.size();
+  return certificates;
 }
 
 }  // namespace casimir::tools
