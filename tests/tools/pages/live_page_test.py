@@ -117,6 +117,16 @@ class LivePage(unittest.TestCase):
         self.assertEqual(browser.said, [])
         self.assertEqual([r for r in browser.requests[1:] if not r.startswith(("blob:", "data:"))], [])
 
+    def test_its_motion_is_drawn_before_the_page_is_read_to_its_end(self):
+        with Browser(slower=4) as browser:
+            browser.open(self.kovalevskaya)
+            self.assertTrue(browser.value(
+                "performance.getEntriesByName('casimir-picture')[0].startTime"
+                " < performance.getEntriesByType('navigation')[0].domInteractive"))
+            told = browser.value("[...document.querySelectorAll('figure svg[data-axes]')].length")
+            self.assertGreater(told, 3)
+            self.assertEqual(browser.value("[...document.querySelectorAll('figure.told')].length"), told)
+
     def test_its_end_state_is_that_of_the_command_line_and_sliders_are_live(self):
         self.assertLess(self.kovalevskaya.stat().st_size, 400_000)
         with Browser() as browser:
