@@ -169,6 +169,35 @@ class Parser {
   /// cross(a, b) within `dot` and `cross`, and cross(a, b)[k] everywhere.
   Quantity vector_product(std::size_t start);
 
+  // Matrices (parser_matrices.cpp).
+
+  struct Matrix;
+  /// trace(A*B + C)
+  Quantity trace(std::size_t start);
+  /// matrix(A*B + C)[i, j]
+  Quantity entry(std::size_t start);
+  /// The one argument of a function of matrices.
+  Matrix matrix_argument(const char* function, std::size_t start);
+  Matrix matrix_sum();
+  /// \param difference  a less b
+  Matrix added(const Matrix& a, const Matrix& b, bool difference, std::size_t offset);
+  Matrix matrix_product();
+  Matrix multiplied(const Matrix& a, const Matrix& b, std::size_t offset);
+  Matrix matrix_unary();
+  Matrix matrix_power();
+  /// A family, a commutator [A, B], transpose(A), skew(M), symmetric(M), something in brackets, or
+  /// a number.
+  Matrix matrix_primary();
+  /// An entry that has to be declared.
+  Quantity member(const std::string& family, const std::vector<long>& places, std::size_t start);
+  /// x12 of x1, x2, .. is no entry of a matrix.
+  void refuse_vector(const std::string& family, std::size_t start) const;
+  /// A11, A12, ..: as many rows as the first row or the first column is long.
+  Matrix of_family(const std::string& family, std::size_t start);
+  /// The matrix of which the entries above the diagonal are declared: M12, M13, M23, .. of a skew
+  /// one, and those of the diagonal of a symmetric one.
+  Matrix of_triangle(bool skew);
+
   const Text& text_;
   Scope& names_;
   std::size_t at_;

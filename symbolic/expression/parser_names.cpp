@@ -29,6 +29,8 @@ Quantity Parser::name() {
     if (word == "mod") return remainder(start);
     if (word == "dot") return scalar_product(start);
     if (word == "cross") return vector_product(start);
+    if (word == "trace") return trace(start);
+    if (word == "matrix") return entry(start);
     if (const EllipticFunction* function = find_elliptic_function(word))
       return call(*function, start);
     if (find_with_subscript(word, names_) == nullptr)
