@@ -1,6 +1,8 @@
 // casimir section --horseshoe: chaos as a theorem.
 #include "tools/section/horseshoe_section.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <iostream>
 

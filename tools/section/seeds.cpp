@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "tools/analysis/section/orbits.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/text/files/ensemble_file.hpp"
 
