@@ -142,16 +142,7 @@ std::size_t complete_numerically(search::ExponentReport& report, const search::W
     return 0;
   }
   watch.begin("numeric balances");
-  NumericBalances found =
-      find_numeric_balances(*report.leading, [&](double share) { watch.tick(share); });
-  // What exact balances have shown remains true.
-  report.balances = std::move(found.balances);
-  if (found.has_complex_exponents)
-    report.conclusions.push_back(
-        "numeric exponents have imaginary parts that rounding does not explain, and what is not "
-        "real is not rational: a proof of them would show that the leading system is not "
-        "algebraically integrable (Yoshida 1983)");
-  return found.starts;
+  return take_numeric_balances(report, [&](double share) { watch.tick(share); });
 }
 
 int exponents(const ExponentsArguments& options) {

@@ -554,6 +554,7 @@ class Runs(unittest.TestCase):
         from unittest import mock
 
         euler = casimir.load("euler")
+        top = euler.with_values({"a1": 1, "a2": 2, "a3": 3})
         with tempfile.TemporaryDirectory() as folder:
             page = euler.with_values({"a1": 2}).report(Path(folder, "page.html"), budget=0)
             self.assertEqual(page.verdict, "proved")
@@ -563,6 +564,18 @@ class Runs(unittest.TestCase):
                 euler.report(Path(folder, "page.txt"))
             with self.assertRaises(casimir.EnvironmentProblem):
                 euler.report(Path(folder, "none", "page.html"))
+        text = casimir.new("pendulums", canonical=2)
+        self.assertEqual(casimir.Case(text, name="pendulums").variables, ["q1", "q2", "p1", "p2"])
+        with self.assertRaises(casimir.RequestError):
+            casimir.new("top", algebra="e(3)", canonical=2)
+        rows = casimir.survey("so(3)")
+        self.assertIn("euler", [row["case"] for row in rows])
+        self.assertEqual({row["verdict"] for row in rows}, {"proved"})
+        exact, numeric = top.exponents(), top.exponents(numeric=True)
+        self.assertEqual((exact.starts, numeric.complete), (0, False))
+        self.assertGreater(numeric.starts, 0)
+        with self.assertRaisesRegex(casimir.RequestError, "numbers for all parameters"):
+            euler.exponents(numeric=True)
         cells = euler.stress(scene="separatrix", methods=["auto", "dop853"])
         self.assertEqual([(cell.method, cell.verdict) for cell in cells], [("auto", "right"), ("dop853", "right")])
         self.assertTrue(cells)

@@ -207,4 +207,16 @@ NumericBalances find_numeric_balances(const search::LeadingSystem& system,
   return result;
 }
 
+std::size_t take_numeric_balances(search::ExponentReport& report,
+                                  const std::function<void(double)>& tick) {
+  NumericBalances found = find_numeric_balances(*report.leading, tick);
+  report.balances = std::move(found.balances);
+  if (found.has_complex_exponents)
+    report.conclusions.push_back(
+        "numeric exponents have imaginary parts that rounding does not explain, and what is not "
+        "real is not rational: a proof of them would show that the leading system is not "
+        "algebraically integrable (Yoshida 1983)");
+  return found.starts;
+}
+
 }  // namespace casimir

@@ -23,4 +23,11 @@ struct NumericBalances {
 NumericBalances find_numeric_balances(const search::LeadingSystem& system,
                                       const std::function<void(double)>& tick);
 
+/// Puts numeric balances in the place of exact ones that are not all: what these have shown stays
+/// among the conclusions.
+/// \param report  with the leading system: all its parameters are numbers
+/// \return  the starts of the iteration
+std::size_t take_numeric_balances(search::ExponentReport& report,
+                                  const std::function<void(double)>& tick);
+
 }  // namespace casimir

@@ -40,7 +40,7 @@ if _TYPE_CHECKING:
         Run,
         Sweep,
     )
-    from ._program import Cell, Report, Stress
+    from ._program import Cell, Report, Stress, new, survey
     from ._results import (
         Balance,
         Condition,
@@ -97,5 +97,5 @@ __all__ = [
     "ModelError", "NoAnswer", "Obstruction", "Orbit", "PreciseEnd", "Proof", "ProvedCycle", "ProvedEquilibrium",
     "Relation", "Report", "RequestError", "Rotation", "Run", "Search", "Section", "SingularPoint", "Solution",
     "Stress", "Sweep", "SymmetricCycle", "System", "UndecidedError", "Verification", "Witness", "cases", "check",
-    "load", "load_map", "maps", "methods",
+    "load", "load_map", "maps", "methods", "new", "survey",
 ]

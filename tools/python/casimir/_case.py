@@ -337,10 +337,14 @@ class Case:
         """
         return _results.Relation(**_core.relate(self._core, other._core, not bracket_only, time_limit, memory))
 
-    def exponents(self, weights: Mapping[str, Expression] | None = None, *, time_limit: float = 0,
-                  memory: float = 0) -> Exponents:
-        """Balances and Kovalevskaya exponents."""
-        return _results.exponents_of(self._core.exponents(pairs_of(weights), time_limit, memory))
+    def exponents(self, weights: Mapping[str, Expression] | None = None, *, numeric: bool = False,
+                  time_limit: float = 0, memory: float = 0) -> Exponents:
+        """Balances and Kovalevskaya exponents.
+
+        :param numeric: by Newton's iteration from random starts in place of the exact analysis: no proof, and others are
+            not excluded. All parameters have to be numbers.
+        """
+        return _results.exponents_of(self._core.exponents(pairs_of(weights), numeric, time_limit, memory))
 
     def obstruct(self, *, along: Expressions = None, free: str = "", scene: str = "default",
                  certificate: str | PathLike[str] | None = None, time_limit: float = 0,

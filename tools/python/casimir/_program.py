@@ -87,6 +87,59 @@ def program() -> str:
     raise EnvironmentProblem("the program 'casimir' is not there: it makes pages and the matrix of extreme scenes")
 
 
+def _document(line: Sequence[str]) -> dict[str, Any]:
+    """What a command line of the program says as JSON."""
+    done = subprocess.run([program(), *line, "--json"], capture_output=True, text=True, check=False)
+    try:
+        answer = json.loads(done.stdout)
+    except ValueError:
+        raise Error(f"casimir {line[0]} ended with status {done.returncode}: {done.stderr.strip()}") from None
+    if "error" in answer and "text" in answer["error"]:
+        kinds = {_BAD_INPUT: CaseError if "line" in answer["error"] else RequestError, _ENVIRONMENT: EnvironmentProblem}
+        raise kinds.get(done.returncode, Error)(answer["error"]["text"].removeprefix("casimir: error: "))
+    return answer
+
+
+def survey(tag: str | None = None, *, time_limit: float = 0) -> list[dict[str, Any]]:
+    """A table of all bundled cases: what is proved, and the operations that specialising saves.
+
+    :param tag: only cases with this tag.
+    :returns: a dictionary for each case: 'case', 'book', 'title', 'verdict', 'claims', 'operations', ..
+
+    >>> [row["verdict"] for row in survey("goryachev-chaplygin")]
+    ['proved']
+    """
+    line = ["survey"]
+    if tag is not None:
+        line += ["--tag", tag]
+    if time_limit > 0:
+        line += ["--time-limit", repr(float(time_limit))]
+    return _document(line)["rows"]
+
+
+def new(name: str, *, algebra: str | None = None, canonical: int = 0, equations: int = 0) -> str:
+    """The text of a commented case file to start from, for `Case(text)` once it says what it is about.
+
+    :param algebra: a top on this Lie algebra, as 'e(3)'; without any of these so(3).
+    :param canonical: instead, so many oscillators in q1 .., p1 ..
+    :param equations: instead, so many equations without a bracket.
+
+    >>> print(new("my-top", algebra="e(3)").splitlines()[0][0])
+    #
+    """
+    line = ["new", name]
+    if algebra is not None:
+        line += ["--algebra", algebra]
+    if canonical:
+        line += ["--canonical", str(canonical)]
+    if equations:
+        line += ["--equations", str(equations)]
+    with tempfile.TemporaryDirectory(prefix="casimir-") as folder:
+        file = Path(folder, "case.toml")
+        _document([*line, "--output", str(file)])
+        return file.read_text(encoding="utf-8")
+
+
 def _answer(case: Case, words: Sequence[str], scene: str | None, initial: bool) -> dict[str, Any]:
     """The JSON document of a command about the case."""
     core = case._core
@@ -95,7 +148,7 @@ def _answer(case: Case, words: Sequence[str], scene: str | None, initial: bool) 
     with tempfile.TemporaryDirectory(prefix="casimir-") as folder:
         file = Path(folder, core.name.replace("/", "_") + ".toml")
         file.write_text(core.text, encoding="utf-8")
-        line = [program(), words[0], str(file), *words[1:], "--json"]
+        line = [words[0], str(file), *words[1:]]
         for option, values in (("--param", core.changed_parameters), ("--initial", core.changed_initial)):
             for name, value in values:
                 line += [option, f"{name}={value}"]
@@ -103,15 +156,7 @@ def _answer(case: Case, words: Sequence[str], scene: str | None, initial: bool) 
             line += ["--in", core.set]
         if scene is not None:
             line += ["--scene", scene]
-        done = subprocess.run(line, capture_output=True, text=True, check=False)
-    try:
-        answer = json.loads(done.stdout)
-    except ValueError:
-        raise Error(f"casimir {words[0]} ended with status {done.returncode}: {done.stderr.strip()}") from None
-    if "error" in answer and "text" in answer["error"]:
-        kinds = {_BAD_INPUT: CaseError if "line" in answer["error"] else RequestError, _ENVIRONMENT: EnvironmentProblem}
-        raise kinds.get(done.returncode, Error)(answer["error"]["text"].removeprefix("casimir: error: "))
-    return answer
+        return _document(line)
 
 
 def report(case: Case, file: str | os.PathLike[str], budget: float | None, scene: str | None,

@@ -387,6 +387,7 @@ class Exponents:
     reason: str
     generic: list[str]
     conclusions: list[str]  #: with the theorem used
+    starts: int = 0  #: of the iteration, where balances are numeric
 
     def _repr_html_(self) -> str:
         rows = [(_listed(one.coefficients), ", ".join(exponent.text for exponent in one.exponents))

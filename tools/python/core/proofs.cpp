@@ -10,6 +10,8 @@
 #include "symbolic/search/darboux.hpp"
 #include "symbolic/search/exponents.hpp"
 #include "symbolic/search/search.hpp"
+#include "tools/analysis/equilibria/numeric_balances.hpp"
+#include "tools/analysis/error.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/python/core/bindings.hpp"
@@ -168,11 +170,19 @@ py::dict to_python(const search::Exponent& exponent) {
                   "multiplicity"_a = exponent.multiplicity, "values"_a = exponent.values);
 }
 
-py::object exponents(const Case& self, const Values& weights, double seconds, double memory) {
+/// \param numeric  balances by Newton's iteration in place of the exact analysis
+py::object exponents(const Case& self, const Values& weights, bool numeric, double seconds,
+                     double memory) {
   Interrupt interrupt;
+  std::size_t starts = 0;
   const auto find = [&] {
-    return search::kovalevskaya_exponents(self.model(), weights_of(weights),
-                                          watched(interrupt, seconds, memory));
+    const search::Watch watch = watched(interrupt, seconds, memory);
+    if (!numeric) return search::kovalevskaya_exponents(self.model(), weights_of(weights), watch);
+    search::ExponentReport report = search::leading_terms(self.model(), weights_of(weights));
+    if (!report.leading) throw RequestError("numeric=True needs numbers for all parameters");
+    report.reason = "exact ones were not asked for";
+    starts = take_numeric_balances(report, [&](double share) { watch.tick(share); });
+    return report;
   };
   return exactly(interrupt, find, [&](const search::ExponentReport& report) {
     py::list balances;
@@ -186,7 +196,7 @@ py::object exponents(const Case& self, const Values& weights, double seconds, do
     return py::dict("weights"_a = report.weights, "left_out"_a = report.left_out,
                     "balances"_a = balances, "complete"_a = report.complete,
                     "reason"_a = report.reason, "generic"_a = report.generic,
-                    "conclusions"_a = report.conclusions);
+                    "conclusions"_a = report.conclusions, "starts"_a = starts);
   });
 }
 
