@@ -132,10 +132,9 @@ class Stress {
     gather();
     find_reference_states();
     fill_cells();
+    matrix_.complete = !out_of_time_;
     return std::move(matrix_);
   }
-
-  bool out_of_time() const { return out_of_time_; }
 
  private:
   void gather() {
@@ -313,9 +312,11 @@ int stress(const StressArguments& options) {
   else if (!options.common.quiet)
     print_matrix(matrix);
   if (!options.plot.empty()) draw_matrix(matrix, options.print.sheet(options.plot));
+  std::cout.flush();
+  if (!matrix.complete)
+    std::cerr << "casimir: error: the time limit was reached before every cell was run\n";
   if (matrix.failed() > 0) return kFailed;
-  if (stress.out_of_time()) throw SystemError("the time limit was reached");
-  return kDone;
+  return matrix.complete ? kDone : kEnvironment;
 }
 
 constexpr const char* kJudgements =

@@ -130,6 +130,7 @@ nlohmann::ordered_json to_json(const StressMatrix& matrix) {
       if (cell.time_error) row["singular_time_error"] = exact_text(*cell.time_error);
     }
   }
+  json["complete"] = matrix.complete;
   for (const Judgement verdict : kAll) json["counts"][to_string(verdict)] = matrix.count(verdict);
   return json;
 }

@@ -22,6 +22,7 @@ struct StressMatrix {
   };
   std::vector<Column> columns;
   std::vector<Line> lines;
+  bool complete = true;  ///< not where the time limit came before the last cell
 
   /// The fastest right cell of a line; -1 where none is right.
   static int fastest(const Line& line);
@@ -43,7 +44,7 @@ std::string to_text(const StressMatrix& matrix);
 /// A line for each cell that is wrong or inaccurate, with the reason.
 std::string complaints(const StressMatrix& matrix);
 
-/// {"rows": [..], "failed": N, "counts": {..}}.
+/// {"rows": [..], "failed": N, "complete": B, "counts": {..}}.
 nlohmann::ordered_json to_json(const StressMatrix& matrix);
 
 /// The same rows as a table, without what only a bench has.

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "symbolic/expression/expression.hpp"
 
@@ -36,6 +37,13 @@ class ReadsExpressions : public testing::Test {
   }
   std::string error_of(const std::string& text) {
     return error_in([&] { parse(text); });
+  }
+
+  /// Each text has an error that begins like this, with its column.
+  template <std::size_t N>
+  void expect_errors(const std::pair<const char*, const char*> (&wrong)[N]) {
+    for (const auto& [text, message] : wrong)
+      EXPECT_TRUE(error_of(text).starts_with(message)) << text << ": " << error_of(text);
   }
 
   std::map<std::string, GiNaC::symbol> symbols_;

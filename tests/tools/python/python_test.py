@@ -464,19 +464,21 @@ class Runs(unittest.TestCase):
             proof = casimir.load("euler").verify(certificate=path)
             self.assertEqual(proof.verdict, "proved")
             self.assertIn("ring", path.read_text())
-            self.assertIsInstance(proof.left_out, list)
+            self.assertEqual([one.split()[0] for one in proof.left_out], ["independence", "rank", "liouville"])
             false = casimir.load("euler").verify(integral="M1", certificate=Path(folder, "false.v"))
             self.assertEqual(false.verdict, "refuted")
-            none = Path(folder, "henon.v")
-            top = casimir.load("henon-heiles")
-            answer = top.obstruct()
-            if answer.verdict == "proved":
-                try:
-                    top.obstruct(certificate=none)
-                    self.assertIn("Theorem", none.read_text())
-                except casimir.NoAnswer:
-                    self.assertFalse(none.exists())
-            self.assertFalse(Path(folder, "false.v").exists())
+            mills = casimir.Case(hamiltonian="(px^2 + py^2 + x^2 + y^2)/2 + x^2*y^2", canonical=True,
+                                 variables=["x", "y", "px", "py"])
+            right = Path(folder, "right.v")
+            self.assertEqual(mills.obstruct(certificate=right).verdict, "proved")
+            self.assertIn("Theorem no_polynomial_", right.read_text())
+            self.assertEqual(casimir.load("henon-heiles").obstruct(certificate=Path(folder, "none.v")).verdict,
+                             "undecided")
+            self.assertEqual(sorted(file.name for file in Path(folder).iterdir()), ["euler.v", "right.v"])
+            # The same files as those of the program, which Coq checks in other tests.
+            program = sys.modules["casimir._case"]._program.program()
+            subprocess.run([program, "verify", "euler", "--certificate", "other.v", "--quiet"], cwd=folder, check=True)
+            self.assertEqual(Path(folder, "other.v").read_text(), path.read_text())
             for wrong in ("euler.txt", "1.v", "a b.v"):
                 with self.assertRaises(casimir.RequestError):
                     casimir.load("euler").verify(certificate=Path(folder, wrong))
@@ -504,6 +506,11 @@ class Runs(unittest.TestCase):
             a, b = (a + b) / 2, math.sqrt(a * b)
         self.assertAlmostEqual(cycle.period, 2 * math.pi / a, places=10)
         self.assertTrue(cycle.stable)
+        for wrong in ({"period": math.nan}, {"period": -3.0}, {"tolerance": math.nan}, {"tolerance": 0.0}):
+            with self.assertRaisesRegex(casimir.RequestError, "positive finite"):
+                swing.symmetric_cycle({"q": "-q", "p": "-p"}, **wrong)
+        with self.assertRaises(casimir.RequestError):
+            swing.integrate(max_steps=-1)
         with self.assertRaises(casimir.CaseError):
             swing.symmetric_cycle({"x": "-q"})
         with self.assertRaises(casimir.RequestError):
@@ -548,6 +555,10 @@ class Runs(unittest.TestCase):
                 bool(none)
         with self.assertRaises(casimir.RequestError):
             duffing.horseshoe(plane="s", direction="sideways")
+        with self.assertRaisesRegex(casimir.RequestError, "finite"):
+            casimir.load("henon-heiles").horseshoe(energy=math.nan)
+        with self.assertRaises(casimir.RequestError):
+            duffing.horseshoe(plane="s", longest=-1)
 
     def test_the_program_makes_pages_and_the_matrix_of_extreme_scenes(self):
         import tempfile
@@ -556,8 +567,13 @@ class Runs(unittest.TestCase):
         euler = casimir.load("euler")
         top = euler.with_values({"a1": 1, "a2": 2, "a3": 3})
         with tempfile.TemporaryDirectory() as folder:
+            page = euler.report(Path(folder, "page.html"), budget=0)
+            self.assertEqual((page.verdict, page.ok), ("proved", True))
             page = euler.with_values({"a1": 2}).report(Path(folder, "page.html"), budget=0)
-            self.assertEqual(page.verdict, "proved")
+            self.assertEqual((page.verdict, page.ok), ("proved", False))  # one of its scenes then overflows
+            cut = euler.report(Path(folder, "cut.html"), budget=0, time_limit=0.01)
+            self.assertFalse(cut.ok)
+            Path(cut).unlink()
             self.assertIn("--param a1=2", Path(page).read_text())
             self.assertEqual([file.name for file in Path(folder).iterdir()], ["page.html"])
             with self.assertRaisesRegex(casimir.RequestError, "must end in .html"):
@@ -568,6 +584,8 @@ class Runs(unittest.TestCase):
         self.assertEqual(casimir.Case(text, name="pendulums").variables, ["q1", "q2", "p1", "p2"])
         with self.assertRaises(casimir.RequestError):
             casimir.new("top", algebra="e(3)", canonical=2)
+        with self.assertRaisesRegex(casimir.RequestError, "cannot name a case"):
+            casimir.new("--json x")
         rows = casimir.survey("so(3)")
         self.assertIn("euler", [row["case"] for row in rows])
         self.assertEqual({row["verdict"] for row in rows}, {"proved"})
@@ -579,6 +597,8 @@ class Runs(unittest.TestCase):
         cells = euler.stress(scene="separatrix", methods=["auto", "dop853"])
         self.assertEqual([(cell.method, cell.verdict) for cell in cells], [("auto", "right"), ("dop853", "right")])
         self.assertTrue(cells)
+        with self.assertRaises(casimir.UndecidedError):
+            bool(euler.stress(every_scene=True, time_limit=0.05))
         with self.assertRaisesRegex(casimir.RequestError, "no method 'dop85'"):
             euler.stress(methods=["dop85"])
         with self.assertRaisesRegex(casimir.RequestError, "starts of the case file"):

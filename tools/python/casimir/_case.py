@@ -439,6 +439,8 @@ class Case:
             raise RequestError("t_eval is a list of times")
         if times is not None and duration is None:
             duration = float(times[numpy.abs(times).argmax()])
+        if max_steps < 0:
+            raise RequestError("max_steps is not negative; 0 is no limit")
         motion = _core.integrate(case._core, scene, method, duration, tolerance, rtol, atol, step, max_steps, observe,
                                  project, time_limit, told(progress))
         return _results.solution_of(motion, times)
@@ -678,6 +680,8 @@ class Case:
         >>> chaos.verdict, chaos.entropy > 0.2  # doctest: +SKIP
         ('proved', True)
         """
+        if longest < 0:
+            raise RequestError("longest is not negative; 0 is the usual length")
         facts = _core.horseshoe(self._core, scene, None if plane is None else text_of(plane), _upwards(direction),
                                 energy, list((casimirs or {}).items()), longest, certificate is not None, time_limit,
                                 told(progress))

@@ -245,6 +245,7 @@ def enclosure_of(facts: dict[str, Any]) -> Enclosure:
 class Horseshoe:
     """Chaos as a theorem. True where it is proved; where none was found nothing is said, as of an undecided claim."""
 
+    proved: bool
     theorem: str  #: what is proved, in a sentence; empty where nothing is
     reason: str  #: where nothing is proved: how far the search came
     entropy: Fraction  #: the topological entropy of the return map is not below it
@@ -261,13 +262,13 @@ class Horseshoe:
     @property
     def verdict(self) -> str:
         """'proved' or 'undecided'."""
-        return "proved" if self.theorem else "undecided"
+        return "proved" if self.proved else "undecided"
 
     def __bool__(self) -> bool:
         return _truth(self.verdict, "whether there is a horseshoe")
 
     def _repr_html_(self) -> str:
-        if not self.theorem:
+        if not self.proved:
             return table(["horseshoe"], [(self.reason,)])
         return table(["h-set", "covers"], [
             (name, ", ".join(to for of, to in self.coverings if of == name)) for name in self.sets], self.theorem)
@@ -275,8 +276,6 @@ class Horseshoe:
 
 def horseshoe_of(facts: dict[str, Any]) -> Horseshoe:
     """The object for what the C++ side says of a horseshoe."""
-    facts = {**facts}
-    facts.pop("proved")
     return Horseshoe(**{**facts, "entropy": Fraction(facts["entropy"]), "radius": Fraction(facts["radius"]),
                         "levels": {of: (Fraction(low), Fraction(high)) for of, (low, high) in facts["levels"].items()}})
 

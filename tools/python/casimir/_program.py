@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ._errors import CaseError, EnvironmentProblem, Error, RequestError
+from ._errors import CaseError, EnvironmentProblem, Error, RequestError, UndecidedError
 from ._html import table
 
 if TYPE_CHECKING:
@@ -33,6 +33,7 @@ class Report:
     notes: list[str]  #: what was left out for a reason of the case
     problems: list[str]  #: what this machine did not allow
     seconds: float
+    ok: bool  #: all is proved, no run of any scene failed, and nothing was left out for want of time or of a program
 
     def __fspath__(self) -> str:
         return self.file
@@ -44,7 +45,8 @@ class Cell:
 
     scene: str
     method: str
-    verdict: str  #: 'right', 'warned', 'refused', 'n/a', 'failed', 'coarse' or 'wrong'
+    verdict: str  #: 'right', 'warned', 'refused', 'inaccurate', 'wrong', or 'unknown' without a reference state
+    refusal: str  #: of 'refused': 'expected', 'not_applicable' or 'failed'; empty for others
     status: str  #: how the run ended
     error: float | None  #: of the largest state; None where there is no end or no reference state
     seconds: float
@@ -56,6 +58,7 @@ class Stress(Sequence[Cell]):
     """Extreme scenes by every method. True where no method of casimir is wrong."""
 
     cells: list[Cell]
+    complete: bool  #: not where the time limit came before the last cell
 
     def __getitem__(self, index):
         return self.cells[index]
@@ -64,7 +67,11 @@ class Stress(Sequence[Cell]):
         return len(self.cells)
 
     def __bool__(self) -> bool:
-        return not any(cell.verdict == "wrong" and not cell.outside for cell in self.cells)
+        if any(cell.verdict == "wrong" and not cell.outside for cell in self.cells):
+            return False
+        if not self.complete:
+            raise UndecidedError("the time limit came before the last cell: whether a method is wrong is undecided")
+        return True
 
     def _repr_html_(self) -> str:
         methods = list(dict.fromkeys(cell.method for cell in self.cells))
@@ -79,7 +86,10 @@ def program() -> str:
     :raises EnvironmentProblem: where there is none: a wheel has the libraries alone.
     """
     here = Path(__file__).parent  # not where a link of a build tree leads
-    for place in (here / "../../casimir", here / "../../../../bin/casimir"):
+    places = [here / "../../../../bin/casimir"]
+    if (here / "../../CMakeCache.txt").is_file():  # a build tree
+        places.insert(0, here / "../../casimir")
+    for place in places:
         if place.is_file() and os.access(place, os.X_OK):
             return str(place.absolute())
     if found := shutil.which("casimir"):
@@ -87,9 +97,9 @@ def program() -> str:
     raise EnvironmentProblem("the program 'casimir' is not there: it makes pages and the matrix of extreme scenes")
 
 
-def _document(line: Sequence[str]) -> dict[str, Any]:
-    """What a command line of the program says as JSON."""
-    done = subprocess.run([program(), *line, "--json"], capture_output=True, text=True, check=False)
+def _document(line: Sequence[str]) -> tuple[dict[str, Any], int]:
+    """What a command line of the program says as JSON, and its exit status."""
+    done = subprocess.run([program(), line[0], "--json", *line[1:]], capture_output=True, text=True, check=False)
     try:
         answer = json.loads(done.stdout)
     except ValueError:
@@ -97,7 +107,7 @@ def _document(line: Sequence[str]) -> dict[str, Any]:
     if "error" in answer and "text" in answer["error"]:
         kinds = {_BAD_INPUT: CaseError if "line" in answer["error"] else RequestError, _ENVIRONMENT: EnvironmentProblem}
         raise kinds.get(done.returncode, Error)(answer["error"]["text"].removeprefix("casimir: error: "))
-    return answer
+    return answer, done.returncode
 
 
 def survey(tag: str | None = None, *, time_limit: float = 0) -> list[dict[str, Any]]:
@@ -114,7 +124,7 @@ def survey(tag: str | None = None, *, time_limit: float = 0) -> list[dict[str, A
         line += ["--tag", tag]
     if time_limit > 0:
         line += ["--time-limit", repr(float(time_limit))]
-    return _document(line)["rows"]
+    return _document(line)[0]["rows"]
 
 
 def new(name: str, *, algebra: str | None = None, canonical: int = 0, equations: int = 0) -> str:
@@ -127,7 +137,7 @@ def new(name: str, *, algebra: str | None = None, canonical: int = 0, equations:
     >>> print(new("my-top", algebra="e(3)").splitlines()[0][0])
     #
     """
-    line = ["new", name]
+    line = ["new"]
     if algebra is not None:
         line += ["--algebra", algebra]
     if canonical:
@@ -136,12 +146,12 @@ def new(name: str, *, algebra: str | None = None, canonical: int = 0, equations:
         line += ["--equations", str(equations)]
     with tempfile.TemporaryDirectory(prefix="casimir-") as folder:
         file = Path(folder, "case.toml")
-        _document([*line, "--output", str(file)])
+        _document([*line, "--output", str(file), "--", name])
         return file.read_text(encoding="utf-8")
 
 
-def _answer(case: Case, words: Sequence[str], scene: str | None, initial: bool) -> dict[str, Any]:
-    """The JSON document of a command about the case."""
+def _answer(case: Case, words: Sequence[str], scene: str | None, initial: bool) -> tuple[dict[str, Any], int]:
+    """The JSON document of a command about the case, and its exit status."""
     core = case._core
     if core.changed_initial and not initial:
         raise RequestError(f"{words[0]} takes the starts of the case file: write a case with another one")
@@ -167,8 +177,8 @@ def report(case: Case, file: str | os.PathLike[str], budget: float | None, scene
         words += ["--budget", repr(float(budget))]
     if time_limit > 0:
         words += ["--time-limit", repr(float(time_limit))]
-    answer = _answer(case, words, scene, True)
-    return Report(**{name: answer[name] for name in Report.__dataclass_fields__})
+    answer, status = _answer(case, words, scene, True)
+    return Report(**{name: answer[name] for name in Report.__dataclass_fields__ if name != "ok"}, ok=status == 0)
 
 
 def stress(case: Case, methods: Sequence[str], tolerance: float | None, scene: str | None, every_scene: bool,
@@ -183,7 +193,8 @@ def stress(case: Case, methods: Sequence[str], tolerance: float | None, scene: s
         words.append("--every-scene")
     if time_limit > 0:
         words += ["--time-limit", repr(float(time_limit))]
-    answer = _answer(case, words, scene, False)
-    return Stress([Cell(scene=row["scene"], method=row["method"], verdict=row["verdict"], status=row["status"],
-                        error=None if row["error"] is None else float(row["error"]),
-                        seconds=row["seconds"], outside=row["outside"]) for row in answer["rows"]])
+    answer, _ = _answer(case, words, scene, False)
+    cells = [Cell(scene=row["scene"], method=row["method"], verdict=row["verdict"], refusal=row.get("refusal", ""),
+                  status=row["status"], error=None if row["error"] is None else float(row["error"]),
+                  seconds=row["seconds"], outside=row["outside"]) for row in answer["rows"]]
+    return Stress(cells, answer["complete"])

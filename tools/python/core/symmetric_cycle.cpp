@@ -7,11 +7,13 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tools/analysis/run/prepared_scene.hpp"
 #include "tools/python/core/bindings.hpp"
 #include "tools/python/core/case.hpp"
 #include "tools/python/core/guard.hpp"
+#include "tools/python/core/requests.hpp"
 
 namespace casimir::python {
 namespace py = pybind11;
@@ -46,13 +48,15 @@ py::dict symmetric_cycle_of(const Case& self, const std::string& scene, const Va
     const ExactAlgebra guard;
     const Model& model = self.model();
     const Scene& of = model.scene(scene);
+    if (period && !(std::isfinite(*period) && *period > 0))
+      throw RequestError("the period must be a positive finite number");
     const PreparedScene run = prepare(model, of, {.observe = Names{}});
     const PhaseSymmetry symmetry = phase_symmetry(model, of, images_of(model, images));
     SymmetricCycleRequest request{.guess = period ? *period : duration_of(run),
                                   .keep_period = keep_period,
                                   .tolerance = tolerance};
     request.give_up = [&] { return interrupt() || (late && late()); };
-    cycle = symmetric_cycle(model, of, run, symmetry, request);
+    cycle = settled([&] { return symmetric_cycle(model, of, run, symmetry, request); });
     states = run.specialisation.states;
     order = symmetry.order;
   }
