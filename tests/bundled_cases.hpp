@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -24,6 +25,23 @@ inline std::vector<std::filesystem::path> cases_of_each_kind() {
   for (const char* name : {"clebsch", "deformable-body", "euler-angles", "euler-e3",
                            "kepler-sphere", "kovalevskaya", "manakov-so5", "neumann", "steklov"})
     files.push_back(CASIMIR_SOURCE_DIR "/cases/" + std::string(name) + ".toml");
+  return files;
+}
+
+/// Whether tests that go through the cases go through every one, as they do in tools/check.
+inline bool wants_every_case() { return std::getenv("CASIMIR_EVERY_CASE") != nullptr; }
+
+/// What a test that is dear goes through, where it is about every case: those of each kind, and of
+/// the others every sixth; all where `wants_every_case()`. The suite of such a test is called
+/// EveryCase, by which tools/check finds it.
+inline std::vector<std::filesystem::path> cases_to_go_through() {
+  std::vector<std::filesystem::path> files = bundled_cases();
+  if (wants_every_case()) return files;
+  const std::vector<std::filesystem::path> kinds = cases_of_each_kind();
+  std::size_t place = 0;
+  std::erase_if(files, [&](const std::filesystem::path& file) {
+    return place++ % 6 != 0 && std::ranges::find(kinds, file) == kinds.end();
+  });
   return files;
 }
 

@@ -14,14 +14,14 @@ namespace casimir::codegen {
 namespace {
 
 /// How tightly the outermost operation of a text binds.
-enum Binding { kSum, kProduct, kPower, kAtom };
+enum TextBinding { kTextSum, kTextProduct, kTextPower, kTextAtom };
 
 struct Text {
   std::string text;
-  Binding binding;
+  TextBinding binding;
 };
 
-std::string at_least(Binding needed, const Text& part) {
+std::string at_least(TextBinding needed, const Text& part) {
   return part.binding < needed ? "(" + part.text + ")" : part.text;
 }
 
@@ -34,7 +34,7 @@ class Printer {
       return sum(dag_[e.node].terms, e.coefficient);
     }
     if (cln::minusp(e.coefficient)) {
-      return {"-" + at_least(kProduct, magnitude(e)), kSum};
+      return {"-" + at_least(kTextProduct, magnitude(e)), kTextSum};
     }
     return magnitude(e);
   }
@@ -44,10 +44,10 @@ class Printer {
   Text magnitude(const Scaled& e) const {
     const cln::cl_RA size = cln::abs(e.coefficient);
     const std::string over = rational_text(cln::denominator(size));
-    if (e.node == Dag::kOne) return {rational_text(size), over == "1" ? kAtom : kProduct};
+    if (e.node == Dag::kOne) return {rational_text(size), over == "1" ? kTextAtom : kTextProduct};
     Text result = node(e.node, cln::numerator(size));
     if (over == "1") return result;
-    return {at_least(kProduct, result) + "/" + over, kProduct};
+    return {at_least(kTextProduct, result) + "/" + over, kTextProduct};
   }
 
   Text node(NodeId id, const cln::cl_I& multiple) const {
@@ -55,17 +55,17 @@ class Printer {
     if (n.kind == NodeKind::product) return product(n.factors, multiple);
     const Text plain = atom(n);
     if (multiple == 1) return plain;
-    return {rational_text(multiple) + "*" + at_least(kPower, plain), kProduct};
+    return {rational_text(multiple) + "*" + at_least(kTextPower, plain), kTextProduct};
   }
 
   Text atom(const Node& n) const {
     switch (n.kind) {
       case NodeKind::symbol:
-        return {dag_.symbol_name(n.symbol), kAtom};
+        return {dag_.symbol_name(n.symbol), kTextAtom};
       case NodeKind::pi:
-        return {"Pi", kAtom};
+        return {"Pi", kTextAtom};
       case NodeKind::number:
-        return {rational_text(n.number), kAtom};
+        return {rational_text(n.number), kTextAtom};
       case NodeKind::sum:
         return sum(n.terms, 1);
       case NodeKind::product:
@@ -77,7 +77,7 @@ class Printer {
     for (const Scaled& argument : n.terms) {
       inside += (inside.empty() ? "" : ", ") + scaled(argument).text;
     }
-    return {std::string(function_row(n.function).name) + "(" + inside + ")", kAtom};
+    return {std::string(function_row(n.function).name) + "(" + inside + ")", kTextAtom};
   }
 
   Text sum(const std::vector<Scaled>& terms, const cln::cl_RA& factor) const {
@@ -90,9 +90,9 @@ class Printer {
       } else {
         result += minus ? " - " : " + ";
       }
-      result += at_least(kProduct, magnitude({coefficient, term.node}));
+      result += at_least(kTextProduct, magnitude({coefficient, term.node}));
     }
-    return {result, kSum};
+    return {result, kTextSum};
   }
 
   Text product(const std::vector<Factor>& factors, const cln::cl_I& multiple) const {
@@ -107,16 +107,16 @@ class Printer {
       place += power(dag_[f.node], cln::abs(f.exponent));
     }
     if (above.empty()) above = "1";
-    if (divisors == 0) return {above, kProduct};
-    return {above + "/" + (divisors > 1 ? "(" + below + ")" : below), kProduct};
+    if (divisors == 0) return {above, kTextProduct};
+    return {above + "/" + (divisors > 1 ? "(" + below + ")" : below), kTextProduct};
   }
 
   std::string power(const Node& base, const cln::cl_RA& exponent) const {
     const Text inner = atom(base);
-    if (exponent == 1) return at_least(kPower, inner);
+    if (exponent == 1) return at_least(kTextPower, inner);
     if (exponent == cln::cl_RA(1) / 2) return "sqrt(" + inner.text + ")";
     const bool whole = cln::denominator(exponent) == 1;
-    return at_least(kAtom, inner) + "^" +
+    return at_least(kTextAtom, inner) + "^" +
            (whole ? rational_text(exponent) : "(" + rational_text(exponent) + ")");
   }
 

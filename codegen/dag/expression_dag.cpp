@@ -16,8 +16,6 @@ namespace casimir::codegen {
 
 namespace {
 
-bool is_integer(const cln::cl_RA& value) { return cln::denominator(value) == 1; }
-
 cln::cl_RA exact_value(const GiNaC::ex& expression) {
   const auto& number = GiNaC::ex_to<GiNaC::numeric>(expression);
   if (!number.is_real()) {

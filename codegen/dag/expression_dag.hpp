@@ -13,6 +13,9 @@
 
 namespace casimir::codegen {
 
+/// Whether an exponent or a coefficient is one.
+inline bool is_integer(const cln::cl_RA& value) { return cln::denominator(value) == 1; }
+
 /// Index of a node of a Dag. Equal expressions have equal indices; the indices themselves follow
 /// the order of construction, so results must never be ordered by them.
 using NodeId = int;

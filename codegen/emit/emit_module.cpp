@@ -40,9 +40,9 @@ std::string origin_text(const Specialisation& spec, bool with_values) {
   return "any values of " + kept + (values.empty() ? "" : ", with " + values);
 }
 
-class ModuleWriter {
+class ModuleText {
  public:
-  explicit ModuleWriter(const Specialisation& spec) : spec_(spec) {
+  explicit ModuleText(const Specialisation& spec) : spec_(spec) {
     for (std::size_t i = 0; i < spec.states.size(); ++i) {
       sources_.push_back("x[" + std::to_string(i) + "]");
     }
@@ -290,7 +290,7 @@ bool needs_math_library(const Specialisation& spec) {
 
 std::string emit_module(const Specialisation& spec, const std::string& kernel_source,
                         bool with_series, const Splitting* splitting) {
-  return ModuleWriter(spec).run(kernel_source, with_series, splitting);
+  return ModuleText(spec).run(kernel_source, with_series, splitting);
 }
 
 }  // namespace casimir

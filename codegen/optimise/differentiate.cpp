@@ -164,7 +164,7 @@ class Derivation {
 };
 
 /// A sum of lines with factors.
-using Terms = std::map<int, cln::cl_RA>;
+using LinearTerms = std::map<int, cln::cl_RA>;
 
 /// The derivatives of each line in some directions; what is missing is zero.
 ///
@@ -201,18 +201,18 @@ class Tangents {
 
  private:
   ProgramWriter& writer() { return derivation_.writer(); }
-  const std::map<int, Terms>& at(int i) const { return terms_[static_cast<std::size_t>(i)]; }
+  const std::map<int, LinearTerms>& at(int i) const { return terms_[static_cast<std::size_t>(i)]; }
 
   void differentiate(std::size_t i, Op op) {
     const bool is_product = op == Op::mul || op == Op::div || op == Op::neg;
     const std::array<int, 2> operands = derivation_.operands(i);
     std::array<int, 2> partials{-1, -1};
-    std::map<int, Terms>& own = terms_[i];
+    std::map<int, LinearTerms>& own = terms_[i];
     for (std::size_t k = 0; k < 2; ++k) {
       if (operands[k] < 0 || at(operands[k]).empty()) continue;
       if (partials[0] < 0) partials = derivation_.partials(i);
       for (const auto& [direction, terms] : at(operands[k])) {
-        const Terms factors = is_product ? terms : Terms{{total(terms), 1}};
+        const LinearTerms factors = is_product ? terms : LinearTerms{{total(terms), 1}};
         for (const auto& [line, factor] : factors) {
           const auto [place, is_new] =
               own[direction].try_emplace(writer().product(partials[k], line), factor);
@@ -229,7 +229,7 @@ class Tangents {
     std::erase_if(own, [](const auto& entry) { return entry.second.empty(); });
   }
 
-  int total(const Terms& terms) {
+  int total(const LinearTerms& terms) {
     int sum = writer().number(0);
     for (const auto& [line, factor] : terms)
       sum = writer().sum(sum, writer().product(writer().number(factor), line));
@@ -237,7 +237,7 @@ class Tangents {
   }
 
   Derivation& derivation_;
-  std::vector<std::map<int, Terms>> terms_;
+  std::vector<std::map<int, LinearTerms>> terms_;
 };
 
 /// The derivatives by each variable.

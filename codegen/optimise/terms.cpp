@@ -13,8 +13,6 @@ namespace casimir::codegen {
 
 namespace {
 
-bool is_integer(const cln::cl_RA& value) { return cln::denominator(value) == 1; }
-
 /// An integer exponent as a machine number.
 int small(const cln::cl_RA& value) {
   constexpr int kLargestExponent = 100'000;

@@ -31,14 +31,14 @@ void states_at(const casimir_lane_step& step, const double* s, std::size_t state
 }
 
 /// What a step is in one of its lanes.
-struct Seen {
+struct SeenLane {
   const casimir_lane_step& step;
   int lane;
   std::size_t states;
 };
 
 void lane_state_at(const casimir_step* step, double t, double* x) {
-  const auto& [all, lane, states] = *static_cast<const Seen*>(step->data);
+  const auto& [all, lane, states] = *static_cast<const SeenLane*>(step->data);
   const double s = (t - step->t0) / all.unit[lane];
   std::fill_n(x, states, 0.);
   for (int k = all.order; k >= 0; --k) {
@@ -70,7 +70,7 @@ auto LaneLook::look(const casimir_lane_step& trial, std::size_t lane, const Look
     x0_[i] = trial.rows[i][lane];
     x1_[i] = end_[i * lanes_.size() + lane];
   }
-  const Seen seen{trial, static_cast<int>(lane), states_};
+  const SeenLane seen{trial, static_cast<int>(lane), states_};
   const double t0 = trial.t[lane], t1 = t0 + trial.taken[lane] * trial.unit[lane];
   return looks(
       casimir_step{t0, t1, x0_.data(), x1_.data(), &lane_state_at, &seen, nullptr, nullptr});
@@ -113,7 +113,7 @@ double LaneLook::of_lane(const casimir_lane_step& trial, int lane) {
     own.member = trial.member[lane];
     own.look.begin(parameters_(own.member), x0_.data());
   }
-  const Seen seen{trial, lane, states_};
+  const SeenLane seen{trial, lane, states_};
   const double t0 = trial.t[lane], t1 = t0 + trial.taken[lane] * trial.unit[lane];
   const casimir_step step{t0, t1, x0_.data(), x1_.data(), &lane_state_at, &seen, nullptr, nullptr};
   lane_state_at(&step, t1, x1_.data());

@@ -42,15 +42,15 @@ numeric number_of(const ex& value) {
   return checked(GiNaC::ex_to<numeric>(value));
 }
 
-numeric evaluate(const ex& e);
+numeric numeric_value(const ex& e);
 
 numeric power(const ex& e) {
-  const numeric base = evaluate(e.op(0));
+  const numeric base = numeric_value(e.op(0));
   // A whole exponent stays exact: the power of a negative number is real.
   const numeric exponent =
       GiNaC::is_a<numeric>(e.op(1)) && GiNaC::ex_to<numeric>(e.op(1)).is_integer()
           ? GiNaC::ex_to<numeric>(e.op(1))
-          : evaluate(e.op(1));
+          : numeric_value(e.op(1));
   const double growth =
       std::abs(exponent.is_real() ? exponent.to_double() : GiNaC::abs(exponent).to_double());
   if (!(growth * std::max(1.0, std::abs(size_of(base))) <= limits().bits)) throw NoValue{};
@@ -67,11 +67,11 @@ void check_inverse(const std::string& function, const GiNaC::exvector& arguments
   }
 }
 
-numeric evaluate(const ex& e) {
+numeric numeric_value(const ex& e) {
   if (GiNaC::is_a<GiNaC::add>(e) || GiNaC::is_a<GiNaC::mul>(e)) {
-    numeric result = evaluate(e.op(0));
+    numeric result = numeric_value(e.op(0));
     for (std::size_t i = 1; i < e.nops(); ++i) {
-      const numeric next = evaluate(e.op(i));
+      const numeric next = numeric_value(e.op(i));
       result = checked(GiNaC::is_a<GiNaC::add>(e) ? result.add(next) : result.mul(next));
     }
     return result;
@@ -79,7 +79,7 @@ numeric evaluate(const ex& e) {
   if (GiNaC::is_a<GiNaC::power>(e)) return power(e);
   if (GiNaC::is_a<GiNaC::function>(e)) {
     GiNaC::exvector arguments;
-    for (std::size_t i = 0; i < e.nops(); ++i) arguments.push_back(evaluate(e.op(i)));
+    for (std::size_t i = 0; i < e.nops(); ++i) arguments.push_back(numeric_value(e.op(i)));
     const GiNaC::function& f = GiNaC::ex_to<GiNaC::function>(e);
     check_inverse(f.get_name(), arguments);
     static const std::set<std::string> exponential = {"exp", "sinh", "cosh", "tanh"};
@@ -95,7 +95,7 @@ numeric evaluate(const ex& e) {
 
 std::optional<numeric> decimal(const ex& value) {
   try {
-    return where_defined([&] { return evaluate(value); });
+    return where_defined([&] { return numeric_value(value); });
   } catch (const NoValue&) {
     return std::nullopt;
   }

@@ -20,7 +20,7 @@ constexpr double kNoDigits = 0.1, kUnderstated = 1000;
 /// How near to the end of the solution a run has to get.
 constexpr Real kNear = 1e-3L;
 /// A state that has become small is measured against this part of the largest.
-constexpr Real kSmallPart = 1e-3L;
+constexpr Real kSmallestPart = 1e-3L;
 
 Real number(const Json& text) { return std::strtold(text.get<std::string>().c_str(), nullptr); }
 
@@ -31,7 +31,7 @@ std::vector<Real> sizes_of(const Scene& scene, const Truth& truth) {
     sizes.push_back(std::max(std::abs(constant(scene.initial[i])), std::abs(truth.state[i])));
   const Real largest = *std::ranges::max_element(sizes);
   for (std::size_t i = 0; i < sizes.size(); ++i) {
-    sizes[i] = std::max(sizes[i], kSmallPart * largest);
+    sizes[i] = std::max(sizes[i], kSmallestPart * largest);
     if (!truth.sizes.empty()) sizes[i] = std::min(sizes[i], truth.sizes[i]);
     if (!(sizes[i] > 0)) sizes[i] = largest > 0 ? largest : 1;
   }

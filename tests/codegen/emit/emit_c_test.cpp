@@ -211,9 +211,9 @@ TEST(EmitC, EveryNumberTypeOfCCompilesStrictly) {
 }
 
 /// All of them in one program, as their names are apart.
-TEST(EmitC, HeadersOfAllCasesGoTogether) {
+TEST(EveryCase, HasAHeaderInCThatGoesWithTheOthers) {
   std::string all;
-  for (const auto& path : test::bundled_cases()) {
+  for (const auto& path : test::cases_to_go_through()) {
     const Model model = build_model(read_case(path));
     all += c_header(specialise(model, model.scenes.at(0)));
   }

@@ -84,10 +84,10 @@ TEST(EmitCpp, TwoProcessesWriteTheSame) {
   }
 }
 
-TEST(EmitCpp, EveryCaseCompilesAloneWithoutWarnings) {
+TEST(EveryCase, HasCodeThatCompilesAloneWithoutWarnings) {
   // A compiler runs for each text: every other case keeps its parameters.
   bool fold = false;
-  for (const auto& path : test::bundled_cases()) {
+  for (const auto& path : test::cases_to_go_through()) {
     const Model model = build_model(read_case(path));
     SpecialiseOptions options;
     options.fold_parameters = fold = !fold;

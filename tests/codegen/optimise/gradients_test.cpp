@@ -47,9 +47,9 @@ std::vector<cln::cl_F> digits_of(const std::vector<cln::cl_RA>& at) {
   return result;
 }
 
-TEST(Gradients, OfCasimirsAreInTheKernelOfTheStructureMatrix) {
+TEST(EveryCase, HasGradientsOfCasimirsInTheKernelOfTheStructureMatrix) {
   int checked = 0;
-  for (const fs::path& path : test::bundled_cases()) {
+  for (const fs::path& path : test::cases_to_go_through()) {
     const Model model = build_model(read_case(path));
     if (!model.poisson || model.casimirs.empty()) continue;
     const Specialisation spec = specialise(model, model.scenes.at(0), with_gradients());
@@ -80,11 +80,11 @@ TEST(Gradients, OfCasimirsAreInTheKernelOfTheStructureMatrix) {
       ++checked;
     }
   }
-  EXPECT_GE(checked, 8);
+  EXPECT_GE(checked, test::wants_every_case() ? 50 : 8);
 }
 
-TEST(Gradients, AreOrthogonalToTheFlow) {
-  for (const fs::path& path : test::bundled_cases()) {
+TEST(EveryCase, HasGradientsOfIntegralsOrthogonalToTheFlow) {
+  for (const fs::path& path : test::cases_to_go_through()) {
     const Model model = build_model(read_case(path));
     const Specialisation spec = specialise(model, model.scenes.at(0), with_gradients());
     Points points;
@@ -106,8 +106,8 @@ TEST(Gradients, AreOrthogonalToTheFlow) {
 
 /// The header's gradients in a shared object, optimised as users do, against 50 digits; in units of
 /// the rounding of the terms.
-TEST(Gradients, CompiledCodeIsExactToRounding) {
-  for (const fs::path& path : test::bundled_cases()) {
+TEST(EveryCase, HasCompiledGradientsExactToRounding) {
+  for (const fs::path& path : test::cases_to_go_through()) {
     const Model model = build_model(read_case(path));
     const Specialisation spec = specialise(model, model.scenes.at(0), with_gradients());
     if (spec.invariant_names.empty()) continue;

@@ -117,7 +117,7 @@ Ball widened(Ball ball, const cln::cl_RA& radius) {
   return ball;
 }
 
-RationalInterval ends_of(const Ball& ball) {
+RationalInterval real_ends_of(const Ball& ball) {
   if (!ball.is_real()) throw NotCertified{};
   validated::ArbBall real;
   arb_set(real.raw(), acb_realref(ball.raw()));
@@ -147,7 +147,7 @@ class Start {
   /// \return  the middle of the box of its value.
   ex add(const GiNaC::symbol& variable, const ex& call) {
     const Ball ball = values_(call);
-    const auto [low, high] = ends_of(ball);
+    const auto [low, high] = real_ends_of(ball);
     values_.set(variable, ball);
     radii_.push_back((high - low) / 2);
     return GiNaC::numeric((low + high) / 2);
