@@ -1,0 +1,93 @@
+#pragma once
+
+#include "runtime/kernels/lanes/lane_estimates.hpp"
+#include "runtime/kernels/lanes/lane_sums.hpp"
+
+namespace casimir_kernel::lanes {
+
+/// For each state; written out where their number is known.
+template <class Series, class Action>
+CASIMIR_INLINE void each_state(const Series& series, Action action) {
+  if constexpr (Series::fixed_states) {
+    CASIMIR_UNROLL
+    for (int i = 0; i < Series::states; ++i) action(i);
+  } else {
+    for (int i = 0; i < series.states; ++i) action(i);
+  }
+}
+
+/// The states in the lanes, summed with carries, and what a trial makes of them. The sums
+/// themselves are the first coefficients of the series.
+template <class Series>
+class States {
+  using V = typename Series::V;
+  using M = Mask<V>;
+  static constexpr int room = Series::room;
+
+ public:
+  explicit States(Series& series) : series_(series) {
+    for (int i = 0; i < series_.states; ++i) series_.row(i)[0] = carry_[i] = V{};
+  }
+
+  void enter(int lane, const double* x) {
+    for (int i = 0; i < series_.states; ++i) {
+      series_.row(i)[0][lane] = x[i];
+      carry_[i][lane] = 0;
+    }
+  }
+
+  /// Those of a lane, which then holds zeros.
+  void leave(int lane, double* x) {
+    for (int i = 0; i < series_.states; ++i) {
+      x[i] = series_.row(i)[0][lane];
+      series_.row(i)[0][lane] = 0;
+    }
+  }
+
+  /// The states, beside each other.
+  const V* now() {
+    for (int i = 0; i < series_.states; ++i) now_[i] = series_.row(i)[0];
+    return now_;
+  }
+  /// Those at the end of the last trial.
+  CASIMIR_INLINE const V* next() const { return next_; }
+
+  /// Sums the series after s units, in four chains. Where what comes out is finite. The product
+  /// with s and the sum with the carry stand in one place: whether they are fused must not depend
+  /// on how the loop is compiled.
+  CASIMIR_INLINE M sum(V s) {
+    const V s2 = s * s, s4 = s2 * s2;
+    V zero = V{};
+    each_state(series_, [&](int i) CASIMIR_INLINE_LAMBDA {
+      const V* c = series_.row(i) + series_.order - 3;
+      V p0 = c[0], p1 = c[1], p2 = c[2], p3 = c[3];
+      for (int k = series_.order - 4; k > 0; k -= 4) {
+        c -= 4;
+        p0 = p0 * s4 + c[0];
+        p1 = p1 * s4 + c[1];
+        p2 = p2 * s4 + c[2];
+        p3 = p3 * s4 + c[3];
+      }
+      V x = c[-1], carry = carry_[i];
+      add(x, carry, ((p0 + p1 * s) + (p2 + p3 * s) * s2) * s);
+      next_[i] = x;
+      next_carry_[i] = carry;
+      zero += x * 0;
+    });
+    return zero == 0;
+  }
+
+  CASIMIR_INLINE void accept(M held) {
+    each_state(series_, [&](int i) CASIMIR_INLINE_LAMBDA {
+      V& x = series_.row(i)[0];
+      x = held ? next_[i] : x;
+      carry_[i] = held ? next_carry_[i] : carry_[i];
+    });
+  }
+
+ private:
+  Series& series_;
+  V carry_[room], next_[room], next_carry_[room], now_[room];
+};
+
+}  // namespace casimir_kernel::lanes
