@@ -82,7 +82,7 @@ class March {
     const double* numbers = nullptr;
     if (!members_.take(lane, x, numbers)) return false;
     series_.enter(lane, numbers);
-    states_.enter(lane, x);
+    states_.enter(series_, lane, x);
     clock_.enter(lane);
     refusals_.enter(lane);
     return true;
@@ -90,7 +90,7 @@ class March {
 
   void leave(int lane) {
     double x[room];
-    states_.leave(lane, x);
+    states_.leave(series_, lane, x);
     members_.hand_back(lane, clock_.time()[lane], x, series_.order);
     clock_.leave(lane);
   }
@@ -112,7 +112,7 @@ class March {
 
   /// The states, and in `rate_` their rates.
   const V* begin() {
-    const V* const x = states_.now();
+    const V* const x = states_.now(series_);
     series_.begin(clock_.time(), x, rate_);
     return x;
   }
@@ -147,7 +147,7 @@ class March {
   /// Whether anything happened that is not just another step of every lane.
   CASIMIR_INLINE bool attempt(V s, M& trying) {
     Trial<V> trial = clock_.trial(s);
-    trial.good = states_.sum(trial.s);
+    trial.good = states_.sum(series_, trial.s);
     if constexpr (Series::smooth) {
       const M plain =
           trying & trial.good & comparison_.spared(trial) & ~trial.there & ~trial.vanished;
@@ -192,7 +192,7 @@ class March {
       refusals_.cut &= ~held;
     }
     clock_.follow(telling, trial);
-    states_.accept(held);
+    states_.accept(series_, held);
   }
 
   // What seldom happens.

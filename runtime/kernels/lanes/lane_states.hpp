@@ -17,7 +17,8 @@ CASIMIR_INLINE void each_state(const Series& series, Action action) {
 }
 
 /// The states in the lanes, summed with carries, and what a trial makes of them. The sums
-/// themselves are the first coefficients of the series.
+/// themselves are the first coefficients of the series, which each function is given: an address
+/// that stands in one place only stays in a register from the size of a step to its end.
 template <class Series>
 class States {
   using V = typename Series::V;
@@ -25,28 +26,28 @@ class States {
   static constexpr int room = Series::room;
 
  public:
-  explicit States(Series& series) : series_(series) {
-    for (int i = 0; i < series_.states; ++i) series_.row(i)[0] = carry_[i] = V{};
+  explicit States(Series& series) {
+    for (int i = 0; i < series.states; ++i) series.row(i)[0] = carry_[i] = V{};
   }
 
-  void enter(int lane, const double* x) {
-    for (int i = 0; i < series_.states; ++i) {
-      series_.row(i)[0][lane] = x[i];
+  void enter(Series& series, int lane, const double* x) {
+    for (int i = 0; i < series.states; ++i) {
+      series.row(i)[0][lane] = x[i];
       carry_[i][lane] = 0;
     }
   }
 
   /// Those of a lane, which then holds zeros.
-  void leave(int lane, double* x) {
-    for (int i = 0; i < series_.states; ++i) {
-      x[i] = series_.row(i)[0][lane];
-      series_.row(i)[0][lane] = 0;
+  void leave(Series& series, int lane, double* x) {
+    for (int i = 0; i < series.states; ++i) {
+      x[i] = series.row(i)[0][lane];
+      series.row(i)[0][lane] = 0;
     }
   }
 
   /// The states, beside each other.
-  const V* now() {
-    for (int i = 0; i < series_.states; ++i) now_[i] = series_.row(i)[0];
+  const V* now(Series& series) {
+    for (int i = 0; i < series.states; ++i) now_[i] = series.row(i)[0];
     return now_;
   }
   /// Those at the end of the last trial.
@@ -55,13 +56,13 @@ class States {
   /// Sums the series after s units, in four chains. Where what comes out is finite. The product
   /// with s and the sum with the carry stand in one place: whether they are fused must not depend
   /// on how the loop is compiled.
-  CASIMIR_INLINE M sum(V s) {
+  CASIMIR_INLINE M sum(Series& series, V s) {
     const V s2 = s * s, s4 = s2 * s2;
     V zero = V{};
-    each_state(series_, [&](int i) CASIMIR_INLINE_LAMBDA {
-      const V* c = series_.row(i) + series_.order - 3;
+    each_state(series, [&](int i) CASIMIR_INLINE_LAMBDA {
+      const V* c = series.row(i) + series.order - 3;
       V p0 = c[0], p1 = c[1], p2 = c[2], p3 = c[3];
-      for (int k = series_.order - 4; k > 0; k -= 4) {
+      for (int k = series.order - 4; k > 0; k -= 4) {
         c -= 4;
         p0 = p0 * s4 + c[0];
         p1 = p1 * s4 + c[1];
@@ -77,16 +78,15 @@ class States {
     return zero == 0;
   }
 
-  CASIMIR_INLINE void accept(M held) {
-    each_state(series_, [&](int i) CASIMIR_INLINE_LAMBDA {
-      V& x = series_.row(i)[0];
+  CASIMIR_INLINE void accept(Series& series, M held) {
+    each_state(series, [&](int i) CASIMIR_INLINE_LAMBDA {
+      V& x = series.row(i)[0];
       x = held ? next_[i] : x;
       carry_[i] = held ? next_carry_[i] : carry_[i];
     });
   }
 
  private:
-  Series& series_;
   V carry_[room], next_[room], next_carry_[room], now_[room];
 };
 
