@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -11,6 +12,7 @@
 #include "symbolic/case/limits.hpp"
 #include "symbolic/expression/arbitrary.hpp"
 #include "symbolic/model/given_functions.hpp"
+#include "symbolic/proof/claims/claim_kinds.hpp"
 #include "symbolic/proof/run_claims.hpp"
 
 namespace casimir {
@@ -36,32 +38,33 @@ std::vector<NamedExpression> read(const Model& model, const std::vector<Text>& t
   return result;
 }
 
+std::vector<Claim> claims_of_file(const Model& model, std::optional<ClaimKind> only) {
+  std::vector<Claim> claims;
+  for (const ClaimRow& row : claim_rows()) {
+    if (!row.read) continue;
+    for (Claim& claim : row.read(model)) {
+      if (!only || only == claim.kind) claims.push_back(std::move(claim));
+    }
+  }
+  return claims;
+}
+
 /// \param written  the case that candidates are read in
 /// \param given  what `model` has for its arbitrary functions
 std::vector<Claim> claims_of(const Model& written, const Model& model, const Candidates& candidates,
                              const GivenFunctions& given) {
-  std::vector<Claim> claims;
-  if (candidates.empty()) {
-    for (const ReadClaims& read_claims : kClaimReaders) {
-      for (Claim& claim : read_claims(model)) {
-        if (!candidates.only || candidates.only == claim.kind) claims.push_back(std::move(claim));
-      }
-    }
-    return claims;
-  }
+  if (candidates.empty()) return claims_of_file(model, candidates.only);
   const std::vector<NamedExpression> on = read(written, candidates.on, given);
-  const auto add = [&](const std::vector<Text>& texts, auto make_claim) {
+  std::vector<Claim> claims, notes;
+  for (const ClaimRow& row : claim_rows()) {
+    if (!row.candidates) continue;
+    const std::vector<Text>& texts = candidates.*row.candidates;
+    require_bracket(row, model, texts);
     for (const NamedExpression& f : read(written, texts, given)) {
-      claims.push_back(make_claim(f, on));
+      claims.push_back(row.make(f, on));
+      if (on.empty()) notes.push_back(judgement_note(model, f));
     }
-  };
-  if (!model.poisson && !candidates.casimirs.empty()) {
-    throw candidates.casimirs[0].error(
-        "a Casimir function needs a bracket, which this case does not have");
   }
-  add(candidates.casimirs, casimir_claim);
-  add(candidates.integrals, integral_claim);
-  add(candidates.invariant_relations, invariant_relation_claim);
   for (const Text& text : candidates.identities) {
     Identity identity = written.parse_identity(text);
     identity.left = given.put(identity.left);
@@ -70,13 +73,7 @@ std::vector<Claim> claims_of(const Model& written, const Model& model, const Can
     identity.on = on;
     claims.push_back(identity_claim(identity));
   }
-  if (on.empty()) {
-    for (const auto* texts :
-         {&candidates.casimirs, &candidates.integrals, &candidates.invariant_relations}) {
-      for (const NamedExpression& f : read(written, *texts, given))
-        claims.push_back(judgement_note(model, f));
-    }
-  }
+  std::move(notes.begin(), notes.end(), std::back_inserter(claims));
   return claims;
 }
 
@@ -126,42 +123,6 @@ std::string to_string(Verdict verdict) {
       break;
   }
   return "undecided";
-}
-
-namespace {
-
-constexpr std::array<std::pair<ClaimKind, const char*>, 15> kKindNames = {{
-    {ClaimKind::skew, "skew"},
-    {ClaimKind::jacobi, "jacobi"},
-    {ClaimKind::casimir, "casimir"},
-    {ClaimKind::integral, "integral"},
-    {ClaimKind::conditional, "conditional"},
-    {ClaimKind::invariant_relation, "invariant_relation"},
-    {ClaimKind::lax, "lax"},
-    {ClaimKind::map, "map"},
-    {ClaimKind::measure, "measure"},
-    {ClaimKind::identity, "identity"},
-    {ClaimKind::involution, "involution"},
-    {ClaimKind::independence, "independence"},
-    {ClaimKind::rank, "rank"},
-    {ClaimKind::liouville, "liouville"},
-    {ClaimKind::judgement, "judgement"},
-}};
-
-}  // namespace
-
-std::string to_string(ClaimKind kind) {
-  for (const auto& [known, name] : kKindNames) {
-    if (known == kind) return name;
-  }
-  return {};
-}
-
-std::optional<ClaimKind> claim_kind_of(const std::string& name) {
-  for (const auto& [kind, known] : kKindNames) {
-    if (name == known) return kind;
-  }
-  return std::nullopt;
 }
 
 std::vector<Proof> pending_claims(const std::vector<Claim>& claims) {
@@ -289,24 +250,11 @@ void decide_for_all(Provers& provers, std::vector<GivenCase>& cases, const Claim
 
 Proof prove_claim(const Model& model, ClaimKind kind, const NamedExpression& f,
                   const std::vector<NamedExpression>& on) {
-  const auto make = [&](const NamedExpression& of,
-                        const std::vector<NamedExpression>& level) -> Claim {
-    switch (kind) {
-      case ClaimKind::casimir:
-        if (!model.poisson)
-          throw ModelError("a Casimir function needs a bracket, which this case does not have");
-        return casimir_claim(of, level);
-      case ClaimKind::integral:
-      case ClaimKind::conditional:
-        return integral_claim(of, level);
-      case ClaimKind::invariant_relation:
-        return invariant_relation_claim(of, level);
-      default:
-        throw ModelError(
-            fmt::format("a claim of the kind '{}' is not about one function", to_string(kind)));
-    }
-  };
-  const Claim claim = make(f, on);
+  const ClaimRow& row = claim_row(kind);
+  if (!row.make)
+    throw ModelError(fmt::format("a claim of the kind '{}' is not about one function", row.name));
+  if (row.without_bracket && !model.poisson) throw ModelError(row.without_bracket);
+  const Claim claim = row.make(f, on);
   Proof proof = undecided(claim);
   if (!has_arbitrary_functions(model)) {
     Provers(model, {claim}).decide(claim, proof);
@@ -315,7 +263,7 @@ Proof prove_claim(const Model& model, ClaimKind kind, const NamedExpression& f,
   Provers provers(model, {claim}, true);
   std::vector<GivenCase> cases =
       given_cases(model, 1, [&](const Model&, const GivenFunctions& given) {
-        return std::vector<Claim>{make(put(f, given), put(on, given))};
+        return std::vector<Claim>{row.make(put(f, given), put(on, given))};
       });
   decide_for_all(provers, cases, claim, 0, proof);
   return proof;
@@ -354,8 +302,7 @@ std::vector<Proof> decide_claims(const Model& model, const std::vector<Claim>& c
 bool counts(const Model& model, const Proof& proof) {
   if (proof.note || !proof.fact) return !proof.note;
   // Integrals that do not commute, and those that follow from others, are no fault there.
-  if (model.superintegrable)
-    return proof.kind == ClaimKind::rank || proof.kind == ClaimKind::liouville;
+  if (model.superintegrable) return claim_row(proof.kind).of_leaves;
   return model.integrable;
 }
 

@@ -245,6 +245,10 @@ Claim measure_claim(const MapModel& map, const NamedExpression& density) {
                   [density](const MapModel& own) { return whole_measure_claim(own, density); });
 }
 
+Claim casimir_claim(const MapModel& /*map*/, const NamedExpression& f, const Functions& on) {
+  return casimir::casimir_claim(f, on);
+}
+
 /// Of an anti-Poisson map the steps need not all be anti-Poisson.
 Claim poisson_claim(const MapModel& map) {
   const std::string name = poisson_name(map);

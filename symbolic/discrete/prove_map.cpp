@@ -2,6 +2,7 @@
 
 #include "symbolic/discrete/map_claims.hpp"
 #include "symbolic/discrete/prove_candidate.hpp"
+#include "symbolic/proof/claims/claim_kinds.hpp"
 #include "symbolic/proof/run_claims.hpp"
 
 namespace casimir {
@@ -15,19 +16,14 @@ std::vector<NamedExpression> read_candidates(const Model& model, const std::vect
 
 std::vector<Claim> candidate_claims(const MapModel& map, const Candidates& candidates) {
   const std::vector<NamedExpression> on = read_candidates(map.base, candidates.on);
-  if (!map.base.poisson && !candidates.casimirs.empty()) {
-    throw candidates.casimirs[0].error(
-        "a Casimir function needs a bracket, which this case does not have");
-  }
   std::vector<Claim> claims;
-  for (const NamedExpression& f : read_candidates(map.base, candidates.casimirs)) {
-    claims.push_back(casimir_claim(f, on));
-    claims.back().subject = Subject::bracket;
+  for (const ClaimRow& row : claim_rows()) {
+    if (!row.candidates) continue;
+    const std::vector<Text>& texts = candidates.*row.candidates;
+    require_bracket(row, map.base, texts);
+    for (const NamedExpression& f : read_candidates(map.base, texts))
+      claims.push_back(row.make_of_map(map, f, on));
   }
-  for (const NamedExpression& f : read_candidates(map.base, candidates.integrals))
-    claims.push_back(discrete::integral_claim(map, f, on));
-  for (const NamedExpression& f : read_candidates(map.base, candidates.invariant_relations))
-    claims.push_back(discrete::invariant_relation_claim(map, f, on));
   for (const Text& text : candidates.identities) {
     Identity identity = map.base.parse_identity(text);
     identity.on = on;
@@ -38,43 +34,13 @@ std::vector<Claim> candidate_claims(const MapModel& map, const Candidates& candi
 
 std::vector<Claim> claims_about(const MapModel& map, const Candidates& candidates) {
   if (!candidates.empty()) return candidate_claims(map, candidates);
-  const Model& model = map.base;
   std::vector<Claim> claims;
-  const auto append = [&](std::vector<Claim> more) {
-    for (Claim& claim : more) claims.push_back(std::move(claim));
-  };
-  append(skew_claims(model));
-  append(jacobi_claims(model));
-  append(frame_claims(model));
-  if (model.poisson) claims.push_back(discrete::poisson_claim(map));
-  append(casimir_claims(model));
-  // A Poisson map carries leaves into leaves, but it may exchange them.
-  for (const auto* list : {&model.casimirs, &model.integrals}) {
-    for (const NamedExpression& f : *list) claims.push_back(discrete::integral_claim(map, f, {}));
+  for (const ClaimRow& row : claim_rows()) {
+    if (!row.read_of_map) continue;
+    for (Claim& claim : row.read_of_map(map)) {
+      if (!candidates.only || candidates.only == claim.kind) claims.push_back(std::move(claim));
+    }
   }
-  for (const LevelClaim& level : model.conditionals) {
-    claims.push_back(discrete::integral_claim(map, level.expression, level.on));
-    claims.back().kind = ClaimKind::conditional;
-  }
-  if (!model.constraints.empty()) {
-    const std::vector<NamedExpression> others(model.constraints.begin(),
-                                              model.constraints.end() - 1);
-    claims.push_back(discrete::invariant_relation_claim(map, model.constraints.back(), others));
-    claims.back().name = "constraints";
-  }
-  for (const LevelClaim& level : model.invariant_relations)
-    claims.push_back(discrete::invariant_relation_claim(map, level.expression, level.on));
-  for (const Measure& measure : model.measures)
-    claims.push_back(discrete::measure_claim(map, measure.density));
-  for (const MapSymmetry& symmetry : map.symmetries)
-    claims.push_back(discrete::symmetry_claim(map, symmetry));
-  append(identity_claims(model));
-  append(involution_claims(model));
-  append(independence_claims(model));
-  append(rank_claims(model));
-  append(discrete::liouville_claims(map));
-  if (candidates.only)
-    std::erase_if(claims, [&](const Claim& claim) { return claim.kind != *candidates.only; });
   return claims;
 }
 

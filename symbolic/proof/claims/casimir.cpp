@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "symbolic/proof/certificate_writer.hpp"
 #include "symbolic/proof/claims/claim.hpp"
+#include "symbolic/proof/claims/theorems.hpp"
 
 namespace casimir {
 
@@ -30,7 +32,8 @@ Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>
           names_of(on),
           values_of(on, f),
           false,
-          Subject::bracket};
+          Subject::bracket,
+          LevelClaim{f, on}};
 }
 
 bool is_casimir(Prover& prover, const NamedExpression& f) {
@@ -43,6 +46,24 @@ std::vector<Claim> casimir_claims(const Model& model) {
   std::vector<Claim> claims;
   for (const NamedExpression& f : model.casimirs) claims.push_back(casimir_claim(f, {}));
   return claims;
+}
+
+void certify_casimir(CertificateWriter& writer, const Statement& statement) {
+  const CertificateWriter::Parts p = writer.parts(statement);
+  std::vector<std::vector<Polynomial>> all;
+  for (std::size_t i = 0; i < writer.dimension(); ++i)
+    all.push_back(CertificateWriter::cofactors(writer.flow(i, p.function), p.level));
+  CoqFile& file = writer.file();
+  file.begin_part(statement.title());
+  const std::string name = "casimir_" + coq_name(p.name);
+  const CoqFunction f = file.define(name, p.function);
+  if (p.level.empty()) {
+    file.state_commutes_with_all(name + "_commutes_with_all", f);
+    return;
+  }
+  const std::vector<CoqFunction> level = writer.define_level(name, p.level);
+  for (std::size_t i = 0; i < writer.dimension(); ++i)
+    file.state_bracket(name + "_commutes_on_its_level_with", i, f, level, all[i]);
 }
 
 }  // namespace casimir

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,11 +19,12 @@ struct Claim {
   std::vector<GiNaC::ex> expressions{};  ///< what it is about, beside the bracket and the flow
   bool note = false;                     ///< said beside the claims; never counts
   Subject subject = Subject::motion;     ///< what of the system it speaks of
+  std::optional<LevelClaim> function{};  ///< of a claim about one function: it, and its level
 };
 
-/// Reads the claims of one kind off a case. A new kind is one new file with such a function, and
-/// one line in `kClaimReaders`.
-using ReadClaims = std::vector<Claim> (*)(const Model&);
+/// What a file of each kind has, and its row in `claim_kinds.cpp` names: what reads its claims off
+/// a case.
+/// {
 
 std::vector<Claim> skew_claims(const Model& model);
 std::vector<Claim> jacobi_claims(const Model& model);
@@ -41,27 +43,7 @@ std::vector<Claim> rank_claims(const Model& model);
 std::vector<Claim> liouville_claims(const Model& model);
 std::vector<Claim> level_liouville_notes(const Model& model);
 std::vector<Claim> unimodularity_notes(const Model& model);
-
-/// In the order in which they are reported.
-inline constexpr ReadClaims kClaimReaders[] = {
-    skew_claims,
-    jacobi_claims,
-    frame_claims,
-    casimir_claims,
-    integral_claims,
-    conditional_claims,
-    invariant_relation_claims,
-    lax_claims,
-    map_claims,
-    measure_claims,
-    identity_claims,
-    involution_claims,
-    independence_claims,
-    rank_claims,
-    liouville_claims,
-    level_liouville_notes,
-    unimodularity_notes,
-};
+/// }
 
 /// Those of the functions that have real values everywhere: they may help with a claim that does
 /// not speak of them, without narrowing its domain.
@@ -79,8 +61,10 @@ std::string hamiltonian_name(const Model& model);
 Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
 /// Whether f commutes with every coordinate.
 bool is_casimir(Prover& prover, const NamedExpression& f);
-/// df/dt = 0, on an invariant level if one is given (kind "conditional" then).
+/// df/dt = 0, on an invariant level if one is given.
 Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
+/// The same, under the name of its own that a case gives it on a level.
+Claim conditional_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
 /// What else can be said of a candidate: Casimir function, dependent on the known integrals,
 /// an integral on a known level.
 Claim judgement_note(const Model& model, const NamedExpression& f);

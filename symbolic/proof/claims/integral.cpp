@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "symbolic/proof/certificate_writer.hpp"
 #include "symbolic/proof/claims/claim.hpp"
+#include "symbolic/proof/claims/theorems.hpp"
 
 namespace casimir {
 namespace {
@@ -56,7 +58,16 @@ Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression
             decide_on_invariant_level(prover, proof, {rate_of(prover, f)}, f, on);
           },
           names_of(on),
-          values_of(on, f)};
+          values_of(on, f),
+          false,
+          Subject::motion,
+          LevelClaim{f, on}};
+}
+
+Claim conditional_claim(const NamedExpression& f, const std::vector<NamedExpression>& on) {
+  Claim claim = integral_claim(f, on);
+  claim.kind = ClaimKind::conditional;
+  return claim;
 }
 
 Claim invariant_relation_claim(const NamedExpression& f, const std::vector<NamedExpression>& on) {
@@ -70,7 +81,10 @@ Claim invariant_relation_claim(const NamedExpression& f, const std::vector<Named
             prover.decide_invariance(proof, all);
           },
           names_of(on),
-          values_of(on, f)};
+          values_of(on, f),
+          false,
+          Subject::motion,
+          LevelClaim{f, on}};
 }
 
 std::vector<Claim> integral_claims(const Model& model) {
@@ -81,10 +95,8 @@ std::vector<Claim> integral_claims(const Model& model) {
 
 std::vector<Claim> conditional_claims(const Model& model) {
   std::vector<Claim> claims;
-  for (const LevelClaim& claim : model.conditionals) {
-    claims.push_back(integral_claim(claim.expression, claim.on));
-    claims.back().kind = ClaimKind::conditional;
-  }
+  for (const LevelClaim& claim : model.conditionals)
+    claims.push_back(conditional_claim(claim.expression, claim.on));
   return claims;
 }
 
@@ -101,6 +113,61 @@ std::vector<Claim> invariant_relation_claims(const Model& model) {
     claims.push_back(invariant_relation_claim(claim.expression, claim.on));
   }
   return claims;
+}
+
+namespace {
+
+/// The names of the theorems about a function.
+struct TheoremNames {
+  std::string function;  ///< what the file calls it
+  const char* theorem;
+};
+
+/// df/dt and the rates of the functions of its level lie in the ideal of the level; that of an
+/// invariant relation contains the function itself.
+void certify_rates(CertificateWriter& writer, const Statement& statement,
+                   const CertificateWriter::Parts& p, const TheoremNames& names, bool relation) {
+  std::vector<Polynomial> zero = p.level;
+  if (relation) zero.push_back(p.function);
+  const CoqFunction& hamiltonian = writer.hamiltonian();
+  const auto rate = [&](const Polynomial& f) {
+    return CertificateWriter::cofactors(writer.bracket(f, hamiltonian.value), zero);
+  };
+  const std::vector<Polynomial> own = rate(p.function);
+  std::vector<std::vector<Polynomial>> others;
+  for (const Polynomial& g : p.level) others.push_back(rate(g));
+
+  CoqFile& file = writer.file();
+  file.begin_part(statement.title());
+  const CoqFunction f = file.define(names.function, p.function);
+  std::vector<CoqFunction> level = writer.define_level(names.function, p.level);
+  if (relation) level.push_back(f);
+  file.state_bracket(names.function + names.theorem, f, hamiltonian, level, own);
+  for (std::size_t k = 0; k < others.size(); ++k)
+    file.state_bracket(level[k].name + "_is_invariant", level[k], hamiltonian, level, others[k]);
+}
+
+const char* conserved(const CertificateWriter::Parts& p) {
+  return p.level.empty() ? "_is_conserved" : "_is_conserved_on_its_level";
+}
+
+}  // namespace
+
+void certify_integral(CertificateWriter& writer, const Statement& statement) {
+  const CertificateWriter::Parts p = writer.parts(statement);
+  certify_rates(writer, statement, p, {"integral_" + coq_name(p.name), conserved(p)}, false);
+}
+
+void certify_conditional(CertificateWriter& writer, const Statement& statement) {
+  const CertificateWriter::Parts p = writer.parts(statement);
+  certify_rates(writer, statement, p,
+                {fmt::format("conditional_{}", statement.number), conserved(p)}, false);
+}
+
+void certify_invariant_relation(CertificateWriter& writer, const Statement& statement) {
+  const CertificateWriter::Parts p = writer.parts(statement);
+  certify_rates(writer, statement, p,
+                {fmt::format("relation_{}", statement.number), "_is_invariant"}, true);
 }
 
 }  // namespace casimir

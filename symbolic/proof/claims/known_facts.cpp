@@ -15,9 +15,9 @@ namespace {
 
 using Functions = std::vector<NamedExpression>;
 
-Proof finding_of(Prover& prover, const Claim& claim, ClaimKind kind) {
+Proof finding_of(Prover& prover, const Claim& claim) {
   Proof proof;
-  proof.kind = kind;
+  proof.kind = claim.kind;
   proof.name = claim.name;
   proof.on = claim.on;
   claim.decide(prover, proof);
@@ -100,12 +100,11 @@ std::vector<Functions> known_levels(const Model& model) {
 }
 
 void judge(Prover& prover, Proof& note, const NamedExpression& f) {
-  const Proof integral = finding_of(prover, integral_claim(f, {}), ClaimKind::integral);
+  const Proof integral = finding_of(prover, integral_claim(f, {}));
   note.verdict = Verdict::proved;
   note.findings.push_back(integral);
   if (integral.verdict == Verdict::proved) {
-    if (prover.model().poisson)
-      note.findings.push_back(finding_of(prover, casimir_claim(f, {}), ClaimKind::casimir));
+    if (prover.model().poisson) note.findings.push_back(finding_of(prover, casimir_claim(f, {})));
     note.findings.push_back(independence_finding(prover, f));
     return;
   }
@@ -117,11 +116,10 @@ void judge(Prover& prover, Proof& note, const NamedExpression& f) {
     const Polynomial value = prover.convert(f.value);
     prover.decide(vanishing, {{f.name, value, [&f] { return f.value; }}}, points);
     if (vanishing.verdict == Verdict::proved) continue;
-    const Proof on_level = finding_of(prover, integral_claim(f, level), ClaimKind::conditional);
+    const Proof on_level = finding_of(prover, conditional_claim(f, level));
     if (on_level.verdict == Verdict::proved) note.findings.push_back(on_level);
   }
-  const Proof relation =
-      finding_of(prover, invariant_relation_claim(f, {}), ClaimKind::invariant_relation);
+  const Proof relation = finding_of(prover, invariant_relation_claim(f, {}));
   if (relation.verdict == Verdict::proved) note.findings.push_back(relation);
 }
 

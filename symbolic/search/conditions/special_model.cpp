@@ -7,6 +7,7 @@
 #include "symbolic/algebra/rational_matrix.hpp"
 #include "symbolic/error.hpp"
 #include "symbolic/functions/function_ring.hpp"
+#include "symbolic/proof/claims/claim_kinds.hpp"
 
 namespace casimir::search {
 namespace {
@@ -57,13 +58,11 @@ std::optional<Model> with_value(const Model& model, const GiNaC::symbol& paramet
         upper.push_back(put((*result.poisson)(i, j)));
     result.poisson = PoissonStructure(result.poisson->coordinates(), upper);
   }
-  result.lax_pairs.clear();
-  result.maps.clear();
+  for (const ClaimRow& row : claim_rows()) {
+    const bool known = row.kind == ClaimKind::casimir || row.kind == ClaimKind::integral;
+    if (row.clear && !known) row.clear(result);
+  }
   result.scenes.clear();
-  result.conditionals.clear();
-  result.invariant_relations.clear();
-  result.measures.clear();
-  result.identities.clear();
   result.section.reset();
   result.fixed.emplace_back(Text{parameter.get_name(), {}, {}}, value);
   return result;

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "symbolic/proof/claims/claim_kinds.hpp"
 #include "symbolic/prove.hpp"
 #include "tests/symbolic/cases.hpp"
 
@@ -104,6 +105,32 @@ std::vector<Twins> twins() {
 
 INSTANTIATE_TEST_SUITE_P(Each, ClaimKind, testing::ValuesIn(twins()),
                          [](const auto& twins) { return std::string(twins.param.kind); });
+
+TEST(Claims, EachRowSaysWhatTheOthersOfItsKindAreCalled) {
+  for (const ClaimRow& row : claim_rows()) {
+    const std::string name = to_string(row.kind);
+    EXPECT_EQ(claim_kind_of(name), row.kind) << name;
+    EXPECT_EQ(claim_row(row.kind).name, name);
+    if (row.name == nullptr) EXPECT_TRUE(row.read || row.read_of_map) << name;
+    // What is asked about can be made, and a theorem is about something that is read.
+    EXPECT_TRUE(row.candidates == nullptr || (row.make && row.make_of_map)) << name;
+    EXPECT_TRUE(row.candidates == nullptr || (row.certify != nullptr) == (row.letter != nullptr))
+        << name;
+    EXPECT_TRUE(row.certify == nullptr || row.read != nullptr) << name;
+  }
+  EXPECT_EQ(claim_kind_of("no kind"), std::nullopt);
+}
+
+TEST(Claims, ARowTakesItsClaimsOutOfACase) {
+  for (const auto& [kind, good, bad] : twins()) {
+    Model model = model_of(good);
+    const ClaimRow& row = claim_row(*claim_kind_of(kind));
+    if (row.clear == nullptr) continue;
+    EXPECT_FALSE(row.read(model).empty()) << kind;
+    row.clear(model);
+    EXPECT_TRUE(row.read(model).empty()) << kind;
+  }
+}
 
 TEST(Claims, LiouvilleNamesWhatIsMissing) {
   const std::string lagrange = "hamiltonian = \"(M1^2 + M2^2 + 2*M3^2)/2 - g3\"\n" + kE3;
