@@ -6,6 +6,7 @@
 
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/prove.hpp"
+#include "tools/text/proofs/claim_words.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -227,9 +228,9 @@ std::vector<Written> Writer::expressions(const std::vector<NamedExpression>& lis
 }
 
 void Writer::add_claims(SystemView& view) const {
-  const auto add = [&](const char* title, const auto& list, const auto& formula) {
+  const auto add = [&](ClaimKind kind, const auto& list, const auto& formula) {
     if (list.empty()) return;
-    view.claims.push_back({title, {}});
+    view.claims.push_back({claim_words(kind).heading, {}});
     for (const auto& claim : list) view.claims.back().formulas.push_back(formula(claim));
   };
   const auto function = [&](const NamedExpression& f) { return named(f); };
@@ -238,14 +239,14 @@ void Writer::add_claims(SystemView& view) const {
     formula.on = expressions(claim.on);
     return formula;
   };
-  add("Casimir functions", model_.casimirs, function);
-  add("integrals", model_.integrals, function);
-  add("integrals on a level", model_.conditionals, level);
-  add("invariant relations", model_.invariant_relations, level);
-  add("densities of invariant measures", model_.measures, [&](const Measure& measure) {
+  add(ClaimKind::casimir, model_.casimirs, function);
+  add(ClaimKind::integral, model_.integrals, function);
+  add(ClaimKind::conditional, model_.conditionals, level);
+  add(ClaimKind::invariant_relation, model_.invariant_relations, level);
+  add(ClaimKind::measure, model_.measures, [&](const Measure& measure) {
     return Formula{{"rho", typeset::letter("rho")}, notation_.expression(measure.density.value)};
   });
-  add("identities", model_.identities, [&](const Identity& identity) {
+  add(ClaimKind::identity, model_.identities, [&](const Identity& identity) {
     return Formula{notation_.expression(identity.left), notation_.expression(identity.right),
                    expressions(identity.on)};
   });

@@ -5,7 +5,9 @@
 
 #include <regex>
 
+#include "symbolic/proof/claims/claim_kinds.hpp"
 #include "tests/tools/program.hpp"
+#include "tools/text/proofs/claim_words.hpp"
 
 namespace casimir::test {
 namespace {
@@ -184,6 +186,18 @@ TEST(VerifyTable, TerminalSetsTheWidthAndAllowsColour) {
   EXPECT_EQ(wide.find('\x1b'), std::string::npos);
   EXPECT_GT(longest(lines_of(wide)), 100U) << wide;
   EXPECT_EQ(run({"verify", "kovalevskaya"}).out.find('\x1b'), std::string::npos);
+}
+
+TEST(VerifyTable, EachKindOfClaimsHasItsWords) {
+  for (const ClaimRow& row : claim_rows()) {
+    const tools::ClaimWords& words = tools::claim_words(row.kind);
+    EXPECT_EQ(words.kind, row.kind);
+    EXPECT_FALSE(std::string(words.one).empty());
+    EXPECT_NE(std::string(words.one), words.many);
+    // What has a list of its own in a case, but matrices and maps, is shown below a heading.
+    const bool list = row.clear && row.kind != ClaimKind::lax && row.kind != ClaimKind::map;
+    if (list) EXPECT_NE(words.heading, nullptr) << to_string(row.kind);
+  }
 }
 
 }  // namespace

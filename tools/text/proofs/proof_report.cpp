@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "tools/text/proofs/claim_words.hpp"
+
 namespace casimir::tools {
 namespace {
 
@@ -40,27 +42,8 @@ std::vector<std::string> conditions_of(const Model& model, const std::vector<Pro
 
 std::vector<std::string> judgement_lines(const Proof& note) {
   std::vector<std::string> lines;
-  for (const Proof& finding : note.findings) {
-    const bool proved = finding.verdict == Verdict::proved;
-    const bool refuted = finding.verdict == Verdict::refuted;
-    const std::string why = finding.evidence.empty() ? "" : " (" + finding.evidence + ")";
-    if (finding.kind == ClaimKind::integral) {
-      lines.push_back(proved    ? "it is a first integral"
-                      : refuted ? "it is no first integral: " + finding.reason
-                                : "whether it is a first integral is undecided");
-    } else if (finding.kind == ClaimKind::casimir) {
-      lines.push_back(proved    ? "it is a Casimir function"
-                      : refuted ? "it is no Casimir function: " + finding.reason
-                                : "whether it is a Casimir function is undecided");
-    } else if (finding.kind == ClaimKind::conditional) {
-      lines.push_back(
-          fmt::format("it is an integral where {} = 0{}", fmt::join(finding.on, " = "), why));
-    } else if (finding.kind == ClaimKind::invariant_relation) {
-      lines.push_back("its zero level is invariant" + why);
-    } else {
-      lines.push_back(proved ? finding.evidence : finding.reason);
-    }
-  }
+  for (const Proof& finding : note.findings)
+    lines.push_back(claim_words(finding.kind).finding(finding));
   return lines;
 }
 

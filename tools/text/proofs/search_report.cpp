@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "tools/cli/output.hpp"
+#include "tools/text/proofs/claim_words.hpp"
 #include "tools/text/proofs/proof_report.hpp"
 
 namespace casimir::tools {
@@ -29,11 +30,9 @@ nlohmann::ordered_json details(const std::vector<Found>& list) {
   return result;
 }
 
-std::string noun(const Report& report, bool plural) {
-  const std::string ending = plural ? "s" : "";
-  if (report.kind == ClaimKind::casimir) return "Casimir function" + ending;
-  if (report.kind == ClaimKind::conditional) return "integral" + ending + " on the level";
-  return "integral" + ending;
+const char* noun(const Report& report, bool plural) {
+  const ClaimWords& words = claim_words(report.kind);
+  return plural ? words.many : words.one;
 }
 
 /// What a person calls it.
