@@ -6,7 +6,8 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <sstream>
+
+#include "symbolic/algebra/number_text.hpp"
 
 namespace casimir {
 namespace {
@@ -125,11 +126,9 @@ std::optional<GiNaC::numeric> elliptic_decimal(const std::string& name,
   std::vector<acb_srcptr> given;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     if (!arguments[i].is_real()) return std::nullopt;
-    std::ostringstream text;
     acb_ptr ball = balls[static_cast<slong>(i) + 1];
-    const GiNaC::ex decimal = GiNaC::ex(arguments[i]).evalf();
-    text << decimal;
-    if (arb_set_str(acb_realref(ball), text.str().c_str(), bits) != 0) return std::nullopt;
+    const std::string decimal = expression_text(GiNaC::ex(arguments[i]).evalf());
+    if (arb_set_str(acb_realref(ball), decimal.c_str(), bits) != 0) return std::nullopt;
     mag_zero(arb_radref(acb_realref(ball)));
     given.push_back(ball);
   }

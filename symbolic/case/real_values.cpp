@@ -1,8 +1,8 @@
 #include "symbolic/case/real_values.hpp"
 
-#include <sstream>
 #include <string>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/expression/elliptic.hpp"
 
 namespace casimir {
@@ -12,9 +12,7 @@ using GiNaC::ex;
 
 /// With zero.
 Assumption compared(const ex& difference, Comparison comparison) {
-  std::ostringstream text;
-  text << difference << ' ' << to_string(comparison) << " 0";
-  return {difference, comparison, text.str()};
+  return {difference, comparison, expression_text(difference) + ' ' + to_string(comparison) + " 0"};
 }
 
 void add_of_power(const ex& base, const ex& exponent, bool complex,

@@ -3,8 +3,7 @@
 #include <cln/integer.h>
 #include <fmt/format.h>
 
-#include <sstream>
-
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/obstruction/equation/kovacic.hpp"
 
 namespace casimir::obstruction {
@@ -18,9 +17,7 @@ void add_to(CurveElement<F>& sum, unsigned roots, const F& value) {
 }
 
 std::string first_letters(const GiNaC::ex& expression) {
-  std::ostringstream text;
-  text << expression;
-  return text.str().substr(0, 60);
+  return expression_text(expression).substr(0, 60);
 }
 
 cln::cl_RA rational_number(const GiNaC::ex& value) {

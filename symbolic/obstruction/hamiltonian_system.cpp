@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 #include <stdexcept>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/expression/arbitrary.hpp"
 #include "symbolic/obstruction/equation/kovacic.hpp"
 #include "symbolic/obstruction/equation/parametric_function.hpp"
@@ -25,11 +25,8 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 GiNaC::exmap numbers(const Model& model, const std::string& scene_name, const std::string& free,
                      std::vector<std::pair<std::string, std::string>>& texts) {
   GiNaC::exmap result;
-  for (const auto& [name, value] : model.fixed) {
-    std::ostringstream text;
-    text << value;
-    texts.emplace_back(name.value, text.str());
-  }
+  for (const auto& [name, value] : model.fixed)
+    texts.emplace_back(name.value, expression_text(value));
   std::vector<std::size_t> needed;
   for (std::size_t i = 0; i < model.parameters.size(); ++i)
     if (!contains(names_in(free), model.parameters[i].get_name())) needed.push_back(i);
@@ -49,9 +46,7 @@ GiNaC::exmap numbers(const Model& model, const std::string& scene_name, const st
     if (!is_rational(scene.parameters[i]))
       throw NotDecided(
           fmt::format("the parameter {} has no rational value: give one with --param", name));
-    std::ostringstream text;
-    text << scene.parameters[i];
-    texts.emplace_back(name, text.str());
+    texts.emplace_back(name, expression_text(scene.parameters[i]));
     result[model.parameters[i]] = scene.parameters[i];
   }
   return result;
@@ -166,9 +161,7 @@ HamiltonianSystem with_value(const HamiltonianSystem& system, const cln::cl_RA& 
   HamiltonianSystem result = system;
   result.free.reset();
   result.numbers[*system.free] = number;
-  std::ostringstream text;
-  text << GiNaC::ex(number);
-  result.parameters.emplace_back(system.free->get_name(), text.str());
+  result.parameters.emplace_back(system.free->get_name(), rational_text(value));
   try {
     result.hamiltonian = system.hamiltonian.subs(is_value);
     for (GiNaC::ex& rate : result.rates) rate = rate.subs(is_value);

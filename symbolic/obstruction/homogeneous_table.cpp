@@ -1,12 +1,12 @@
 #include "symbolic/obstruction/homogeneous_table.hpp"
 
-#include <cln/integer_io.h>
-#include <cln/rational_io.h>
+#include <cln/rational.h>
+#include <fmt/format.h>
 
 #include <set>
-#include <sstream>
 #include <vector>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/obstruction/equation/univariate.hpp"
 
 namespace casimir::obstruction {
@@ -56,10 +56,9 @@ std::vector<TableRow> rows_of(long k) {
 }
 
 std::string described(const TableRow& row, const cl_RA& p) {
-  std::ostringstream text;
-  text << row.constant << (cln::minusp(row.factor) ? " - " : " + ") << cln::abs(row.factor) << "*("
-       << row.start << " + " << row.step << "*p)^2 with p = " << p;
-  return text.str();
+  return fmt::format("{} {} {}*({} + {}*p)^2 with p = {}", rational_text(row.constant),
+                     cln::minusp(row.factor) ? '-' : '+', rational_text(cln::abs(row.factor)),
+                     rational_text(row.start), row.step, rational_text(p));
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 #include <stdexcept>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/obstruction/equation/kovacic.hpp"
 
 namespace casimir::obstruction {
@@ -43,10 +43,8 @@ std::pair<GiNaC::symbol, GiNaC::ex> solved(const HamiltonianSystem& system, cons
     const GiNaC::ex slope = above.coeff(x, 1);
     if (GiNaC::is_a<GiNaC::numeric>(slope)) return {x, (-above.coeff(x, 0) / slope).expand()};
   }
-  std::ostringstream text;
-  text << f;
   throw NotDecided(fmt::format("{} = 0 gives no variable as a polynomial in the others",
-                               text.str().substr(0, 60)));
+                               expression_text(f).substr(0, 60)));
 }
 
 /// One more value, put into those that there are.
@@ -127,10 +125,8 @@ GiNaC::ex InvariantPlane::on(const GiNaC::ex& expression) const {
 std::string InvariantPlane::text(const HamiltonianSystem& system) const {
   std::string result;
   for (const auto& [i, value] : normal) {
-    std::ostringstream text;
-    text << value;
     result += fmt::format("{}{} = {}", result.empty() ? "" : ", ", system.variables[i].get_name(),
-                          text.str());
+                          expression_text(value));
   }
   return result;
 }

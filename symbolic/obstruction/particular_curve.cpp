@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/obstruction/equation/kovacic.hpp"
 
 namespace casimir::obstruction {
@@ -163,12 +163,6 @@ void add_special_energies(const HamiltonianSystem& system, const std::vector<Ste
       result.push_back(GiNaC::numeric(cln::cl_N(cln::cl_RA(-factor.coefficient(0)))));
 }
 
-std::string printed(const ex& expression) {
-  std::ostringstream text;
-  text << expression;
-  return text.str();
-}
-
 /// What is put in for the free parameter: nothing can be where functions have none.
 void add_parameter(const HamiltonianSystem& system, ParticularCurve<RationalFunction>&) {
   if (system.free) throw std::logic_error("a free parameter has no place on this curve");
@@ -192,7 +186,7 @@ ParametricFunction variable_of(const ParametricFunction&) { return ParametricFun
 
 /// An energy in print. GiNaC's order of factors changes from run to run.
 std::string energy_text(const HamiltonianSystem& system, const ex& energy) {
-  if (!system.free) return printed(energy);
+  if (!system.free) return expression_text(energy);
   const CurveField<ParametricFunction> field;
   std::vector<CurveElement<ParametricFunction>> values{
       CurveField<ParametricFunction>::constant(ParametricFunction::parameter())};
@@ -335,7 +329,7 @@ std::vector<Levels> casimir_levels(const HamiltonianSystem& system, const Invari
         }
         levels.relations.push_back({name, own, value});
       }
-      levels.text += fmt::format(", {} = {}", name, printed(value));
+      levels.text += fmt::format(", {} = {}", name, expression_text(value));
     }
     if (differs && known) result.push_back(std::move(levels));
   }

@@ -1,7 +1,6 @@
 #include "symbolic/functions/convert/order_keys.hpp"
 
 #include <algorithm>
-#include <sstream>
 
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/expression/pairs.hpp"
@@ -14,9 +13,7 @@ namespace {
 
 std::string text_of(const GiNaC::numeric& number) {
   if (number.is_integer() && GiNaC::abs(number) < 1000) return std::to_string(number.to_int());
-  std::ostringstream stream;
-  stream << number;
-  return stream.str();
+  return expression_text(number);
 }
 
 }  // namespace

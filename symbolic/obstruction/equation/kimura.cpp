@@ -1,14 +1,13 @@
 #include "symbolic/obstruction/equation/kimura.hpp"
 
 #include <cln/integer.h>
-#include <cln/integer_io.h>
-#include <cln/rational_io.h>
+#include <cln/rational.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 #include <vector>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/obstruction/equation/univariate.hpp"
 
 namespace casimir::obstruction {
@@ -19,12 +18,6 @@ using cln::cl_RA;
 bool is_integer(const cl_RA& value) { return cln::denominator(value) == 1; }
 bool is_odd(const cl_RA& value) { return is_integer(value) && cln::oddp(cln::numerator(value)); }
 bool is_half(const cl_RA& value) { return cln::denominator(value) == 2; }
-
-std::string text(const cl_RA& value) {
-  std::ostringstream stream;
-  stream << value;
-  return stream.str();
-}
 
 /// A row of Schwarz's list, as numerator and denominator; each entry plus an integer, whose sum has
 /// to be even in some rows. The first row, of two halves and anything, is `two_halves` below.
@@ -107,7 +100,7 @@ bool in_row(const Row& row, const std::array<cl_RA, 3>& values) {
 std::optional<std::string> kimura(const SquaredDifferences& squares) {
   const std::array<Root, 3> roots = roots_of(squares);
   if (const auto sum = odd_sum(roots))
-    return fmt::format("a sum of the differences is the odd integer {}", text(*sum));
+    return fmt::format("a sum of the differences is the odd integer {}", rational_text(*sum));
   if (two_halves(roots)) return "Schwarz's list, row 1";
   std::array<cl_RA, 3> values;
   for (std::size_t i = 0; i < 3; ++i) {

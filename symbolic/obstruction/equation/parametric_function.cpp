@@ -1,13 +1,13 @@
 #include "symbolic/obstruction/equation/parametric_function.hpp"
 
 #include <cln/integer.h>
-#include <cln/rational_io.h>
+#include <cln/rational.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 #include <stdexcept>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/obstruction/equation/kovacic.hpp"
 
 namespace casimir::obstruction {
@@ -32,22 +32,13 @@ bool has_further(const Polynomial& polynomial) {
 std::string printed(const Polynomial& polynomial, const CurveNames& names) {
   std::string result;
   for (const auto& [coefficient, exponents] : polynomial.term_list()) {
-    const bool minus = cln::minusp(coefficient);
-    const cln::cl_RA size = cln::abs(coefficient);
     std::string term;
     for (std::size_t i = 0; i < exponents.size(); ++i) {
       if (exponents[i] == 0) continue;
       term += (term.empty() ? "" : "*") + name_of(i, names);
       if (exponents[i] > 1) term += fmt::format("^{}", exponents[i]);
     }
-    std::ostringstream number;
-    number << size;
-    if (term.empty())
-      term = number.str();
-    else if (size != 1)
-      term = number.str() + "*" + term;
-    result += result.empty() ? (minus ? "-" : "") : (minus ? " - " : " + ");
-    result += term;
+    append_term(result, coefficient, term);
   }
   return result.empty() ? "0" : result;
 }

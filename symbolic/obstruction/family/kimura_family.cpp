@@ -1,13 +1,12 @@
 #include "symbolic/obstruction/family/kimura_family.hpp"
 
 #include <cln/integer.h>
-#include <cln/integer_io.h>
-#include <cln/rational_io.h>
+#include <cln/rational.h>
 #include <fmt/format.h>
 
 #include <set>
-#include <sstream>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/obstruction/equation/kimura.hpp"
 #include "symbolic/obstruction/equation/kovacic.hpp"
 #include "symbolic/obstruction/equation/lame.hpp"
@@ -255,12 +254,6 @@ bool says_nothing(const RiemannFamily& family) {
 
 namespace {
 
-std::string text_of(const cl_RA& value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
 /// The residues modulo 2, up to signs, that the third difference may have.
 std::set<cl_RA> residues(const cl_RA& first, const cl_RA& second) {
   const auto folded = [](cl_RA value) {
@@ -321,7 +314,7 @@ std::string condition_text(const RiemannFamily& family, const std::string& name)
                        solved.value_or(family.squares[2].text(name) + " = s^2"));
   }
   for (const cl_RA& r : residues(roots[0], roots[1]))
-    list += (list.empty() ? "" : ", ") + text_of(r);
+    list += (list.empty() ? "" : ", ") + rational_text(r);
   if (list.empty()) return "never";
   if (const auto solved = solved_for_parameter(*changing, name))
     return fmt::format("{} with s = 2*p + r for an integer p and r in {{{}}}", *solved, list);

@@ -3,14 +3,14 @@
 #include <acb.h>
 #include <arb_fmpz_poly.h>
 #include <cln/integer.h>
-#include <cln/rational_io.h>
+#include <cln/rational.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 #include <stdexcept>
 
 #include "symbolic/algebra/flint_conversion.hpp"
+#include "symbolic/algebra/number_text.hpp"
 
 namespace casimir::obstruction {
 namespace {
@@ -128,11 +128,7 @@ RationalInterval RealRoot::value(const RationalFunction& f, const cl_RA& length)
 }
 
 std::string RealRoot::text(const std::string& name) const {
-  std::ostringstream number;
-  if (const auto own = rational()) {
-    number << *own;
-    return number.str();
-  }
+  if (const auto own = rational()) return rational_text(*own);
   RealRoot place = *this;
   for (int i = 0; i < 40; ++i) place.refine();
   return fmt::format("the root of {} near {:.6g}", polynomial_.text(name),

@@ -1,12 +1,12 @@
 #include "symbolic/obstruction/higher/higher_variation.hpp"
 
 #include <cln/integer.h>
-#include <cln/rational_io.h>
+#include <cln/rational.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/obstruction/equation/kovacic.hpp"
 #include "symbolic/obstruction/higher/binary_form.hpp"
 #include "symbolic/obstruction/higher/elliptic_motion.hpp"
@@ -258,25 +258,23 @@ class LocalExpansion {
 };
 
 std::string residue_text(const std::vector<ConstantPolynomial>& field) {
-  std::ostringstream text;
+  std::string text;
   for (std::size_t i = 0; i < field.size(); ++i) {
     if (field[i].empty()) continue;
-    text << (text.str().empty() ? "" : "; ") << "c" << i + 1 << ": ";
+    text += fmt::format("{}c{}: ", text.empty() ? "" : "; ", i + 1);
     bool first = true;
     for (const auto& [monomial, value] : field[i]) {
-      text << (first                ? (cln::minusp(value) ? "-" : "")
-               : cln::minusp(value) ? " - "
-                                    : " + ")
-           << cln::abs(value);
+      text += first ? (cln::minusp(value) ? "-" : "") : cln::minusp(value) ? " - " : " + ";
+      text += rational_text(cln::abs(value));
       first = false;
       for (std::size_t j = 0; j < monomial.size(); ++j) {
         if (monomial[j] == 0) continue;
-        text << "*c" << j + 1;
-        if (monomial[j] > 1) text << "^" << monomial[j];
+        text += fmt::format("*c{}", j + 1);
+        if (monomial[j] > 1) text += fmt::format("^{}", monomial[j]);
       }
     }
   }
-  return text.str();
+  return text;
 }
 
 }  // namespace

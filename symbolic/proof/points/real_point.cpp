@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <sstream>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/algebra/rational_matrix.hpp"
 #include "symbolic/expression/arbitrary.hpp"
 
@@ -192,15 +192,13 @@ std::size_t RealPoint::rank(const PolynomialRows& rows) {
 }
 
 std::string RealPoint::text() const {
-  std::ostringstream stream;
-  bool first = true;
+  std::string text;
   for (std::size_t i = 0; i < std::min(shown_, coordinates_.size()); ++i) {
     const std::string name = ring_->symbols()[i].get_name();
     if (function_name(name)) continue;  // the symbol of an arbitrary function has no value
-    stream << (first ? "" : ", ") << name << " = " << coordinates_[i];
-    first = false;
+    text += (text.empty() ? "" : ", ") + name + " = " + expression_text(coordinates_[i]);
   }
-  return stream.str();
+  return text;
 }
 
 std::size_t own_symbols(const Model& model) {
