@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/program.hpp"
+#include "symbolic/case/limits.hpp"
 
 namespace casimir {
 
@@ -38,8 +39,10 @@ struct WasmSeries {
 /// \param flow  its inputs are the states, the parameters and the time; its outputs are the rates of
 ///              the states, and what else is to be followed as a series, to order - 1.
 /// \param values  of the same inputs.
+/// \param limits  of the constants, see `codegen::constant_value`
 /// \throws ModelError  for constants that are no doubles, and for programs of more than 20,000 lines
-WasmSeries emit_wasm(const Program& flow, std::size_t states, const Program& values, int order);
+WasmSeries emit_wasm(const Program& flow, std::size_t states, const Program& values, int order,
+                     const Limits& limits);
 
 /// Two programs with the same inputs as one: the outputs of the first, then those of the second.
 Program side_by_side(const Program& first, const Program& second);

@@ -95,8 +95,9 @@ using LanePolynomial = std::map<std::pair<int, int>, Number>;
 
 class LaneExpander {
  public:
-  LaneExpander(const Program& program, NumberWriter& numbers)
+  LaneExpander(const Program& program, NumberWriter& numbers, const Limits& limits)
       : program_(program),
+        limits_(limits),
         numbers_(numbers),
         states_(static_cast<int>(program.outputs.size())),
         constant_(codegen::constant_instructions(program)) {}
@@ -106,7 +107,7 @@ class LaneExpander {
     for (std::size_t i = 0; i < program_.code.size(); ++i) {
       // Roots of constants and the like are rounded far beyond double.
       std::optional<LanePolynomial> value =
-          constant_[i] ? plain({codegen::constant_value(program_, static_cast<int>(i))})
+          constant_[i] ? plain({codegen::constant_value(program_, static_cast<int>(i), limits_)})
                        : line(program_.code[i]);
       if (!value) return std::nullopt;
       values_.push_back(std::move(*value));
@@ -190,6 +191,7 @@ class LaneExpander {
   }
 
   const Program& program_;
+  const Limits& limits_;
   NumberWriter& numbers_;
   const int states_;
   const std::vector<bool> constant_;
@@ -339,13 +341,13 @@ class Layout {
 
 }  // namespace
 
-std::optional<LaneForm> lane_form(const Program& rhs) {
+std::optional<LaneForm> lane_form(const Program& rhs, const Limits& limits) {
   const std::size_t states = rhs.outputs.size();
   if (states > CASIMIR_MOST_LANE_STATES || states == 0) return std::nullopt;
   NumberWriter numbers(
       {rhs.inputs.begin() + static_cast<std::ptrdiff_t>(states), rhs.inputs.end() - 1});
   const Program program = codegen::without_dead_code(rhs);
-  const auto rates = LaneExpander(program, numbers).run();
+  const auto rates = LaneExpander(program, numbers, limits).run();
   if (!rates) return std::nullopt;
   return Layout(*rates, numbers).run();
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "runtime/taylor/lane_form.hpp"
+#include "symbolic/case/limits.hpp"
 
 namespace casimir {
 
@@ -11,7 +12,8 @@ namespace casimir {
 /// or quotients of states, products of three, the time, or more than 24 states. What multiplies the
 /// states may be any expression in the run-time parameters; numbers are exact until they are
 /// rounded. Always the same for the same program.
-std::optional<LaneForm> lane_form(const Program& rhs);
+/// \param limits  of these numbers, see `codegen::constant_value`
+std::optional<LaneForm> lane_form(const Program& rhs, const Limits& limits);
 
 /// The text of a module for ensembles of that form: its tables as constants in front of the kernel,
 /// whose loops are then written out.

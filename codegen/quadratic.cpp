@@ -78,15 +78,15 @@ double lost_by_rounding(const cln::cl_RA& exact, double rounded) {
 
 class QuadraticExpander {
  public:
-  explicit QuadraticExpander(const Program& program)
-      : program_(program), constant_(codegen::constant_instructions(program)) {}
+  QuadraticExpander(const Program& program, const Limits& limits)
+      : program_(program), limits_(limits), constant_(codegen::constant_instructions(program)) {}
 
   /// The polynomial of each output.
   std::optional<std::vector<Polynomial>> run() {
     for (std::size_t i = 0; i < program_.code.size(); ++i) {
       // Roots of constants and the like are rounded far beyond double.
       std::optional<Polynomial> value =
-          constant_[i] ? constant(codegen::constant_value(program_, static_cast<int>(i)))
+          constant_[i] ? constant(codegen::constant_value(program_, static_cast<int>(i), limits_))
                        : line(program_.code[i]);
       if (!value) return std::nullopt;
       values_.push_back(std::move(*value));
@@ -121,15 +121,16 @@ class QuadraticExpander {
   }
 
   const Program& program_;
+  const Limits& limits_;
   const std::vector<bool> constant_;
   std::vector<Polynomial> values_;
 };
 
 }  // namespace
 
-std::optional<QuadraticForm> quadratic_form(const Program& rhs,
+std::optional<QuadraticForm> quadratic_form(const Program& rhs, const Limits& limits,
                                             const std::vector<double>& parameters) {
-  const auto rates = QuadraticExpander(with_numbers(rhs, parameters)).run();
+  const auto rates = QuadraticExpander(with_numbers(rhs, parameters), limits).run();
   if (!rates) return std::nullopt;
   const std::size_t n = rates->size();
   QuadraticForm form;

@@ -94,6 +94,7 @@ class Specialiser {
     result_.case_name = model_.name;
     result_.file = model_.file;
     result_.scene = scene_.name;
+    result_.limits = model_.limits;
     result_.title = model_.title;
     result_.taylor = options_.taylor;
     result_.source = model_.source;

@@ -8,6 +8,7 @@
 #include "codegen/optimise/differentiate.hpp"
 #include "codegen/optimise/lower.hpp"
 #include "runtime/program.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/model.hpp"
 
 namespace casimir {
@@ -77,6 +78,8 @@ struct Specialisation {
   /// the duration, 0 where the scene has none.
   Program start;
   bool has_duration = true;
+
+  Limits limits{};  ///< of the model: numbers of the programs are held to them
 
   OperationCount general;      ///< one right-hand side of the case as it is in the file
   OperationCount specialised;  ///< `rhs`

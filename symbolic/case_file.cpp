@@ -196,7 +196,7 @@ std::vector<ParameterText> Reader::parameters(const toml::table& root) const {
     } else if (assume != nullptr) {
       assumptions = {text(*assume, "'assume'")};
     }
-    for (FamilyMember& member : members_of(key_text(key), integers_)) {
+    for (FamilyMember& member : members_of(key_text(key), integers_, limits_)) {
       // So is the name of an arbitrary function written, and it comes from [functions] alone.
       if (function_name(member.name.value)) check_name(member.name, "a parameter");
       const auto indices = std::make_shared<const Indices>(std::move(member.indices));
@@ -370,7 +370,7 @@ CaseFile Reader::read_common(const toml::table& root) {
   return result;
 }
 
-std::string read_text(const std::filesystem::path& path) {
+std::string read_text(const std::filesystem::path& path, const Limits& limits) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
     throw CaseError({path.string()}, "this is a folder; a case file was expected");
@@ -379,7 +379,7 @@ std::string read_text(const std::filesystem::path& path) {
   if (!stream) throw CaseError({path.string()}, "the case file does not exist or cannot be read");
   std::string text;
   char chunk[1 << 14];
-  while (static_cast<double>(text.size()) <= limits().file_bytes &&
+  while (static_cast<double>(text.size()) <= limits.file_bytes &&
          (stream.read(chunk, sizeof chunk), stream.gcount() > 0))
     text.append(chunk, static_cast<std::size_t>(stream.gcount()));
   return text;
@@ -424,8 +424,9 @@ std::string hint_for(const toml::parse_error& problem, const std::string& line) 
 
 }  // namespace
 
-CaseError Text::error(const std::string& what, std::size_t offset, const std::string& hint) const {
-  if (where.line <= 0) return CaseError(where, what, {}, hint);
+CaseError Text::error(const std::string& what, std::size_t offset, const std::string& hint,
+                      double Limits::*limit) const {
+  if (where.line <= 0) return CaseError(where, what, {}, hint, limit);
   Location at = where;
   // Inside a string with escapes or line breaks only the start of the string is known.
   const std::size_t start = static_cast<std::size_t>(std::max(where.column - 1, 0));
@@ -433,7 +434,7 @@ CaseError Text::error(const std::string& what, std::size_t offset, const std::st
   const bool verbatim =
       flat(line.substr(std::min(start, line.size()), value.size())) == flat(value);
   if (verbatim) at.column += static_cast<int>(std::min(offset, value.size()));
-  return CaseError(at, what, line, hint);
+  return CaseError(at, what, line, hint, limit);
 }
 
 const CaseFile& common_part(const AnyCaseFile& any) {
@@ -448,32 +449,32 @@ CaseError MapCaseFile::not_a_flow() const {
       "[[map]] with double brackets claims that a map to another phase space is Poisson");
 }
 
-CaseFile parse_case(const std::string& toml, const std::string& file) {
-  AnyCaseFile any = parse_any_case(toml, file);
+CaseFile parse_case(const std::string& toml, const std::string& file, const Limits& limits) {
+  AnyCaseFile any = parse_any_case(toml, file, limits);
   if (const auto* map = std::get_if<MapCaseFile>(&any)) throw map->not_a_flow();
   return std::get<CaseFile>(std::move(any));
 }
 
-AnyCaseFile parse_any_case(const std::string& toml, const std::string& file) {
-  if (static_cast<double>(toml.size()) > limits().file_bytes)
-    throw CaseError(
-        {file}, fmt::format("the file is larger than {:g} MiB", limits().file_bytes / (1 << 20)),
-        {}, limit_hint(&Limits::file_bytes));
-  Reader reader(toml, file);
+AnyCaseFile parse_any_case(const std::string& toml, const std::string& file, const Limits& limits) {
+  if (static_cast<double>(toml.size()) > limits.file_bytes)
+    throw CaseError({file},
+                    fmt::format("the file is larger than {:g} MiB", limits.file_bytes / (1 << 20)),
+                    {}, limits.hint(&Limits::file_bytes), &Limits::file_bytes);
+  Reader reader(toml, file, limits);
   if (const std::optional<int> number = line_of_deep_key(toml))
     throw CaseError({file, *number, 1}, "a key has too many parts", reader.line(*number).text());
   try {
     AnyCaseFile result = reader.read(toml::parse(toml, std::string_view(file)));
-    const bool complex_numbers = speaks_of_imaginary_unit(toml);
-    std::visit(
+    CaseFile& common = std::visit(
         [](auto& part) -> CaseFile& {
           if constexpr (std::is_same_v<std::decay_t<decltype(part)>, CaseFile>)
             return part;
           else
             return part.file;
         },
-        result)
-        .complex_numbers = complex_numbers;
+        result);
+    common.complex_numbers = speaks_of_imaginary_unit(toml);
+    common.limits = limits;
     return result;
   } catch (const toml::parse_error& problem) {
     const auto begin = problem.source().begin;
@@ -484,12 +485,12 @@ AnyCaseFile parse_any_case(const std::string& toml, const std::string& file) {
   }
 }
 
-CaseFile read_case(const std::filesystem::path& path) {
-  return parse_case(read_text(path), path.string());
+CaseFile read_case(const std::filesystem::path& path, const Limits& limits) {
+  return parse_case(read_text(path, limits), path.string(), limits);
 }
 
-AnyCaseFile read_any_case(const std::filesystem::path& path) {
-  return parse_any_case(read_text(path), path.string());
+AnyCaseFile read_any_case(const std::filesystem::path& path, const Limits& limits) {
+  return parse_any_case(read_text(path, limits), path.string(), limits);
 }
 
 }  // namespace casimir

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/error.hpp"
 #include "symbolic/expression/indices.hpp"
 
@@ -40,8 +41,13 @@ struct Text {
   std::shared_ptr<const Indices> indices{};
 
   /// The error that something is wrong at `offset` bytes into this text.
-  CaseError error(const std::string& what, std::size_t offset = 0,
-                  const std::string& hint = {}) const;
+  CaseError error(const std::string& what, std::size_t offset = 0, const std::string& hint = {},
+                  double Limits::*limit = nullptr) const;
+  /// The same of what exceeds a limit; the hint says what allows more.
+  CaseError beyond(const Limits& limits, double Limits::*limit, const std::string& what,
+                   std::size_t offset = 0) const {
+    return error(what, offset, limits.hint(limit), limit);
+  }
 };
 
 using Entry = std::pair<Text, Text>;  ///< key and value
@@ -178,14 +184,16 @@ struct CaseFile {
   std::vector<IdentityText> identities;
   std::optional<SectionText> section;
   std::vector<SceneText> scenes;
+  Limits limits{};  ///< that it was read under, and that hold for what is made of it
 };
 
-/// Reads a case file of at most 16 MiB.
+/// Reads a case file.
+/// \param limits  hold for the file, and for the model and whatever else is made of it
 /// \throws CaseError  for a file that cannot be read, broken TOML, an unknown or missing key, or a
 ///                    value of the wrong type, with its place.
-CaseFile read_case(const std::filesystem::path& path);
+CaseFile read_case(const std::filesystem::path& path, const Limits& limits = {});
 
 /// The same for text in memory; `file` names it in messages.
-CaseFile parse_case(const std::string& toml, const std::string& file);
+CaseFile parse_case(const std::string& toml, const std::string& file, const Limits& limits = {});
 
 }  // namespace casimir

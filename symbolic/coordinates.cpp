@@ -60,13 +60,13 @@ bool same_names(const std::vector<GiNaC::symbol>& a, const std::vector<GiNaC::sy
 enum class Truth { no, yes, unknown };
 
 /// Whether a condition holds at an exact point: exactly where that is decided, else by 60 digits.
-Truth holds(const Assumption& condition, const GiNaC::exmap& point) {
-  if (condition.holds_at(point)) return Truth::yes;
+Truth holds(const Assumption& condition, const GiNaC::exmap& point, const Limits& limits) {
+  if (condition.holds_at(point, limits)) return Truth::yes;
   const auto decide = [&] {
-    const ex value = substituted(condition.difference, point);
+    const ex value = substituted(condition.difference, point, limits);
     if (const auto constant = exact_constant(value); constant && constant->zero)
       return casimir::holds(condition.comparison, 0) ? Truth::yes : Truth::no;
-    const std::optional<GiNaC::numeric> number = decimal(value);
+    const std::optional<GiNaC::numeric> number = decimal(value, limits.bits);
     if (!number) return Truth::unknown;
     const GiNaC::numeric& x = *number;
     if (!x.is_real()) return Truth::no;
@@ -77,21 +77,23 @@ Truth holds(const Assumption& condition, const GiNaC::exmap& point) {
 }
 
 /// Whether a function that has to vanish does not, as far as can be told.
-bool surely_nonzero(const ex& value) {
+bool surely_nonzero(const ex& value, const Limits& limits) {
   if (const auto constant = exact_constant(value)) return !constant->zero;
-  const std::optional<GiNaC::numeric> number = decimal(value);
+  const std::optional<GiNaC::numeric> number = decimal(value, limits.bits);
   return !number || GiNaC::abs(*number) > GiNaC::pow(GiNaC::numeric(10), GiNaC::numeric(-12));
 }
 
-std::string decimal_text(const ex& value) {
-  const std::optional<GiNaC::numeric> number = real_decimal(value);
+std::string decimal_text(const ex& value, const Limits& limits) {
+  const std::optional<GiNaC::numeric> number = real_decimal(value, limits.bits);
   return number ? fmt::format("{:.6g}", number->to_double()) : "?";
 }
 
-std::string point_text(const std::vector<GiNaC::symbol>& variables, const std::vector<ex>& point) {
+std::string point_text(const std::vector<GiNaC::symbol>& variables, const std::vector<ex>& point,
+                       const Limits& limits) {
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < variables.size(); ++i) {
-    parts.push_back(fmt::format("{} = {}", variables[i].get_name(), decimal_text(point[i])));
+    parts.push_back(
+        fmt::format("{} = {}", variables[i].get_name(), decimal_text(point[i], limits)));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -114,6 +116,7 @@ class Carrier {
 
   Model carry() {
     Model result;
+    result.limits = model_.limits;
     result.name = model_.name;
     result.file = model_.file;
     result.title = fmt::format("{}, in the variables of '{}'", model_.title, set_.name);
@@ -214,9 +217,11 @@ class Carrier {
     result.initial.assign(set_.variables.size(), ex(0));
     if (!scene.unusable.empty()) return result;
     try {
-      result.initial = image_of(atlas_, inverse_, scene.initial);
+      const Limits& limits = model_.limits;
+      result.initial = image_of(atlas_, inverse_, scene.initial, limits);
       for (const NamedExpression& f : map_.on) {
-        if (surely_nonzero(substituted(f.value, substitution(set_.variables, result.initial))))
+        if (surely_nonzero(
+                substituted(f.value, substitution(set_.variables, result.initial), limits), limits))
           throw SingularPoint(fmt::format("{} is not zero there", printable(f.name)));
       }
     } catch (const SingularPoint& problem) {
@@ -371,24 +376,24 @@ std::vector<const CoordinateChange*> Atlas::path(std::size_t from, std::size_t t
 }
 
 std::vector<ex> image_of(const Atlas& atlas, const CoordinateChange& change,
-                         const std::vector<ex>& point) {
+                         const std::vector<ex>& point, const Limits& limits) {
   const Coordinates& from = atlas.sets[change.from];
   const Coordinates& to = atlas.sets[change.to];
   const GiNaC::exmap at = substitution(from.variables, point);
   for (const NamedExpression& f : change.image) {
-    const ex value = substituted(f.value, at);
-    if (surely_nonzero(value)) {
+    const ex value = substituted(f.value, at, limits);
+    if (surely_nonzero(value, limits)) {
       const auto constant = exact_constant(value);
       throw SingularPoint(fmt::format(
           "the point is not in the image of the map '{}': {} = {}, not 0", change.name,
-          printable(f.name), constant ? printable(constant->text) : decimal_text(value)));
+          printable(f.name), constant ? printable(constant->text) : decimal_text(value, limits)));
     }
   }
   std::string failed;
   for (const CoordinateChange::Branch& branch : change.branches) {
     bool inside = true;
     for (const Assumption& condition : branch.domain) {
-      if (holds(condition, at) == Truth::yes) continue;
+      if (holds(condition, at, limits) == Truth::yes) continue;
       inside = false;
       failed = condition.text;
     }
@@ -398,13 +403,13 @@ std::vector<ex> image_of(const Atlas& atlas, const CoordinateChange& change,
       for (const ex& e : branch.expressions) result.push_back(e.subs(at, kPlain));
       const GiNaC::exmap there = substitution(to.variables, result);
       for (const Assumption& condition : to.domain) {
-        if (holds(condition, there) != Truth::yes) {
+        if (holds(condition, there, limits) != Truth::yes) {
           inside = false;
           failed = condition.text;
         }
       }
       for (const ex& e : result) {
-        if (!decimal(e)) inside = false;
+        if (!decimal(e, limits.bits)) inside = false;
       }
       if (inside) return result;
     } catch (const std::bad_alloc&) {
@@ -416,7 +421,7 @@ std::vector<ex> image_of(const Atlas& atlas, const CoordinateChange& change,
     }
   }
   throw SingularPoint(fmt::format("the variables of '{}' are singular at {}{}", to.name,
-                                  point_text(from.variables, point),
+                                  point_text(from.variables, point, limits),
                                   failed.empty() ? "" : fmt::format(" ({} fails)", failed)));
 }
 

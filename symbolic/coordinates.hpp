@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/model.hpp"
 
 namespace casimir {
@@ -65,9 +66,10 @@ struct Atlas {
 
 /// The image of an exact point: the expressions that the first branch in whose domain it lies
 /// gives.
+/// \param limits  of the case that the point is of
 /// \throws SingularPoint  where no branch applies, or the point is not in the image of the map
 std::vector<GiNaC::ex> image_of(const Atlas& atlas, const CoordinateChange& change,
-                                const std::vector<GiNaC::ex>& point);
+                                const std::vector<GiNaC::ex>& point, const Limits& limits);
 
 /// The case in other variables: the Hamiltonian, the integrals, the conditional integrals, the
 /// invariant relations and the Lax pairs are carried along the maps, the scenes along their

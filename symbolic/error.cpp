@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "symbolic/case/limits.hpp"
+
 namespace casimir {
 namespace {
 
@@ -101,11 +103,16 @@ std::string did_you_mean(const std::string& name) {
 
 }  // namespace
 
-CaseError::CaseError(Location where, std::string text, std::string excerpt, std::string hint)
+CaseError::CaseError(Location where, std::string text, std::string excerpt, std::string hint,
+                     double Limits::*limit)
     : std::runtime_error(message(where, text, excerpt, hint)),
       where_(std::move(where)),
       text_(std::move(text)),
-      hint_(std::move(hint)) {}
+      hint_(std::move(hint)),
+      limit_(limit) {}
+
+TooLarge::TooLarge(const std::string& text, const Limits& limits, double Limits::*limit)
+    : ModelError(fmt::format("{}; {}", text, limits.hint(limit))), limit_(limit) {}
 
 std::string same_but_for_case(const std::string& name, const std::vector<std::string>& known) {
   const std::string wanted = folded(name);

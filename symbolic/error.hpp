@@ -6,6 +6,8 @@
 
 namespace casimir {
 
+struct Limits;
+
 /// Where a piece of text stands: a file (or "command line"), and its line and column from 1.
 /// Line 0 means that only the file is known.
 struct Location {
@@ -21,7 +23,9 @@ class CaseError : public std::runtime_error {
   /// \param text  what is wrong and what was expected, without a full stop.
   /// \param excerpt  the source line in which `where.column` points, or empty.
   /// \param hint  for instance "did you mean 'M3'?", or empty.
-  CaseError(Location where, std::string text, std::string excerpt = {}, std::string hint = {});
+  /// \param limit  the one that the input exceeds, or null.
+  CaseError(Location where, std::string text, std::string excerpt = {}, std::string hint = {},
+            double Limits::*limit = nullptr);
 
   /// The place.
   const Location& where() const { return where_; }
@@ -29,10 +33,13 @@ class CaseError : public std::runtime_error {
   const std::string& text() const { return text_; }
   /// As it was given, or empty.
   const std::string& hint() const { return hint_; }
+  /// The limit that the input exceeds, of which the hint says how to raise it; else null.
+  double Limits::*limit() const { return limit_; }
 
  private:
   Location where_;
   std::string text_, hint_;
+  double Limits::*limit_;
 };
 
 /// A mathematical object that cannot be made: brackets of the wrong number, a repeated coordinate.
@@ -42,7 +49,17 @@ class ModelError : public std::runtime_error {
 
 /// An expression that exact algebra cannot treat within the limits of this program.
 class TooLarge : public ModelError {
+ public:
   using ModelError::ModelError;
+  /// Beyond a limit that can be raised.
+  /// \param text  what is too large; behind it stands how to raise the limit
+  TooLarge(const std::string& text, const Limits& limits, double Limits::*limit);
+
+  /// The limit that can be raised; else null.
+  double Limits::*limit() const { return limit_; }
+
+ private:
+  double Limits::*limit_ = nullptr;
 };
 
 /// A point that other variables cannot describe, as the vertical axis in Euler angles.

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "symbolic/algebra/rational_matrix.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/functions/function_ring.hpp"
@@ -65,8 +66,8 @@ void read_fields(const VectorFieldsText& text, const Symbols& variables, Scope& 
 /// Finds the structure functions in the ring of the fields' own functions.
 class StructureFunctions {
  public:
-  StructureFunctions(const Frame& frame, const Symbols& symbols)
-      : frame_(frame), ring_(symbols, {}, expressions(frame)) {
+  StructureFunctions(const Frame& frame, const Symbols& symbols, const Limits& limits)
+      : frame_(frame), ring_(symbols, {}, expressions(frame), limits) {
     for (const auto& field : frame.fields) fields_.push_back(converted(field));
   }
 
@@ -249,7 +250,7 @@ Frame make_frame(const VectorFieldsText& text, const Symbols& variables, const S
   read_fields(text, variables, names, frame);
   Symbols symbols = frame.coordinates;
   symbols.insert(symbols.end(), parameters.begin(), parameters.end());
-  StructureFunctions structure(frame, symbols);
+  StructureFunctions structure(frame, symbols, names.limits());
   frame.structure.assign(k * k * k, 0);
   for (std::size_t i = 0; i < k; ++i) {
     for (std::size_t j = i + 1; j < k; ++j) {

@@ -33,9 +33,10 @@ std::vector<ex> PoissonMap::composed_brackets() const {
   return result;
 }
 
-bool Assumption::holds_at(const GiNaC::exmap& point) const {
+bool Assumption::holds_at(const GiNaC::exmap& point, const Limits& limits) const {
   return where_defined([&] {
-           const std::optional<int> sign = sign_of_constant(substituted(difference, point));
+           const std::optional<int> sign =
+               sign_of_constant(substituted(difference, point, limits), limits.bits);
            return sign && holds(comparison, *sign);
          })
       .value_or(false);
@@ -88,7 +89,8 @@ namespace {
 /// The names of a finished model. What they stand for is measured when it is first used.
 class ModelNames : public NameTable {
  public:
-  explicit ModelNames(const Model& model) : dynamics_(model), complex_(model.complex_numbers) {}
+  explicit ModelNames(const Model& model)
+      : NameTable(model.limits), dynamics_(model), complex_(model.complex_numbers) {}
   const Dynamics* dynamics() override { return &dynamics_; }
   bool complex_numbers() const override { return complex_; }
 
@@ -174,7 +176,7 @@ GiNaC::ex Model::at_parameters(const GiNaC::ex& expression, const Scene& scene) 
     values[parameters[i]] = scene.parameters[i];
     functions = functions || function_name(parameters[i].get_name());
   }
-  ex result = substituted(expression, values);
+  ex result = substituted(expression, values, limits);
   if (!functions) return result;
   for (const GiNaC::symbol& parameter : parameters) {
     const auto function = function_name(parameter.get_name());

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/case_file.hpp"
 #include "symbolic/comparison.hpp"
 #include "symbolic/error.hpp"
@@ -36,7 +37,8 @@ struct Assumption {
 
   /// Whether it holds where `point` gives every symbol a rational value; false also where the
   /// difference has no value there or its sign is not decided by exact arithmetic.
-  bool holds_at(const GiNaC::exmap& point) const;
+  /// \throws TooLarge  beyond the limit `bits`
+  bool holds_at(const GiNaC::exmap& point, const Limits& limits) const;
 };
 
 /// A function whose zero level is invariant (`conditional`: that is a first integral there) on the
@@ -164,6 +166,7 @@ struct Model {
   std::vector<Identity> identities;
   std::optional<Section> section;
   std::vector<Scene> scenes;
+  Limits limits{};  ///< of its file; whatever is computed with the model is held to them
 
   /// The scene of that name; "default" may also mean the first one.
   /// \throws CaseError      if there is none, the message lists the names; or it is unusable

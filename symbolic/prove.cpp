@@ -78,7 +78,7 @@ std::vector<Claim> claims_of(const Model& written, const Model& model, const Can
 }
 
 std::vector<Claim> claims_of(const Model& model, const Candidates& candidates) {
-  return claims_of(model, model, candidates, {});
+  return claims_of(model, model, candidates, {model.limits, {}, {}});
 }
 
 Proof undecided(const Claim& claim) {
@@ -95,9 +95,10 @@ void decide(Prover& prover, const Claim& claim, Proof& proof) {
   const auto start = std::chrono::steady_clock::now();
   try {
     claim.decide(prover, proof);
-  } catch (const TooLarge& limit) {
+  } catch (const TooLarge& beyond) {
     proof.verdict = Verdict::undecided;
-    proof.reason = limit.what();
+    proof.reason = beyond.what();
+    proof.limit = beyond.limit();
   } catch (const std::overflow_error& limit) {
     proof.verdict = Verdict::undecided;
     proof.reason = limit.what();
@@ -106,7 +107,7 @@ void decide(Prover& prover, const Claim& claim, Proof& proof) {
     proof.reason = "a function has no value that is certain at the points tried";
   } catch (const std::bad_alloc&) {
     proof.verdict = Verdict::undecided;
-    proof.reason = out_of_memory();
+    proof.reason = prover.model().limits.out_of_memory();
   }
   proof.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -149,7 +150,7 @@ class Provers {
     for (const Claim& claim : claims)
       all.insert(all.end(), claim.expressions.begin(), claim.expressions.end());
     try {
-      const WorkMeter meter;
+      const WorkMeter meter(model.limits);
       shared_.emplace(model, all);
       if (shared_->ring().implied_positive().empty() && !shared_->ring().is_complex()) return;
       shared_.reset();
@@ -163,16 +164,17 @@ class Provers {
 
   void decide(const Claim& claim, Proof& proof) {
     try {
-      const WorkMeter meter;
+      const WorkMeter meter(model_.limits);
       if (!shared_) own_.emplace(model_, claim.expressions, claim.subject);
       Prover& prover = shared_ ? *shared_ : *own_;
       prover.begin_claim(claim.expressions, claim.subject);
       prover.take_as_inhabited(inhabited_);
       casimir::decide(prover, claim, proof);
-    } catch (const TooLarge& limit) {
-      proof.reason = limit.what();
+    } catch (const TooLarge& beyond) {
+      proof.reason = beyond.what();
+      proof.limit = beyond.limit();
     } catch (const std::bad_alloc&) {
-      proof.reason = out_of_memory();
+      proof.reason = model_.limits.out_of_memory();
     }
   }
 

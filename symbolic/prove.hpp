@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/model.hpp"
 
 namespace casimir {
@@ -57,10 +58,11 @@ struct Proof {
   bool fact = false;                ///< about the system; see `counts`
   bool note = false;                ///< said beside the claims; never counts
   double seconds = 0;
-  std::vector<std::string> on;  ///< the relations that define the level, as written
-  std::string evidence;         ///< for what is proved: what was found, in words
-  std::string residual;         ///< what should have been zero
-  std::string reason;           ///< for what is not proved
+  std::vector<std::string> on;      ///< the relations that define the level, as written
+  std::string evidence;             ///< for what is proved: what was found, in words
+  std::string residual;             ///< what should have been zero
+  std::string reason;               ///< for what is not proved
+  double Limits::*limit = nullptr;  ///< of which `reason` says that it was reached; or null
   std::optional<Witness> witness;
   /// What the verdict depends on beyond the assumptions, as "a != 0"; only of what is proved.
   std::vector<std::string> where;

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
 #include <iostream>
 #include <new>
 #include <stdexcept>
@@ -42,7 +43,7 @@ int fail(Exit status, const std::string& text) {
 
 int run(int argc, char** argv) {
   CommandLine line;
-  Action action;
+  std::function<int()> action;
   if (const std::optional<int> status =
           run_helper(line.app(), {argv + 1, argv + argc}, CASIMIR_VERSION))
     return *status;

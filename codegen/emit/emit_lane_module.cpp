@@ -73,7 +73,8 @@ std::string emit_series_lanes(const Specialisation& spec, const std::string& ker
     names.push_back(unique.unique(spec.rhs.inputs[i]));
   names.emplace_back("t");
   return codegen::head_comment(spec, false) + "\n" + kernel_source +
-         "\nnamespace {\n\nstruct System {\n  " + codegen::lane_series_struct(spec.rhs, names) +
+         "\nnamespace {\n\nstruct System {\n  " +
+         codegen::lane_series_struct(spec.rhs, names, spec.limits) +
          R"(};
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "codegen/emit/emit_series.hpp"
 #include "codegen/emit/series_recurrences.hpp"
 #include "codegen/emit/statements.hpp"
+#include "symbolic/case/limits.hpp"
 
 namespace casimir::codegen {
 namespace {
@@ -70,8 +71,9 @@ std::string expand_in_lanes(const SeriesRecurrences& r) {
 
 }  // namespace
 
-std::string lane_series_struct(const Program& rhs, const std::vector<std::string>& names) {
-  const SeriesRecurrences r = series_recurrences(rhs, names, SeriesValue::lanes);
+std::string lane_series_struct(const Program& rhs, const std::vector<std::string>& names,
+                               const Limits& limits) {
+  const SeriesRecurrences r = series_recurrences(rhs, names, SeriesValue::lanes, limits);
   const std::size_t parameters = r.inputs.size() - r.states - 1;
   std::string base = "casimir_kernel::lanes::Convolved<";
   for (const std::size_t count : {r.states, parameters, rows_of_sums(r).size()})

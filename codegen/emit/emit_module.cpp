@@ -55,6 +55,7 @@ class ModuleText {
     }
     sources_.push_back("t");
     names_.push_back("t");
+    style_.limits = spec_.limits;
     style_.call_prefix = "__builtin_";
     style_.indent = "    ";
   }
@@ -76,7 +77,7 @@ class ModuleText {
     }
     text += "\n" + function("invariants", "values", spec_.invariants, "");
     if (splitting) text += flows(*splitting);
-    if (with_series) text += "\n" + codegen::series_struct(spec_.rhs, names_);
+    if (with_series) text += "\n" + codegen::series_struct(spec_.rhs, names_, spec_.limits);
     text += "};\n\n}  // namespace\n\n";
     text += exports();
     if (with_series)

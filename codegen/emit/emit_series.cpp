@@ -54,8 +54,9 @@ std::string expand_function(const SeriesRecurrences& r) {
 
 }  // namespace
 
-std::string series_struct(const Program& rhs, const std::vector<std::string>& names) {
-  const SeriesRecurrences r = series_recurrences(rhs, names, SeriesValue::number);
+std::string series_struct(const Program& rhs, const std::vector<std::string>& names,
+                          const Limits& limits) {
+  const SeriesRecurrences r = series_recurrences(rhs, names, SeriesValue::number, limits);
   const std::string base = "casimir_kernel::taylor::Convolved<" + std::to_string(r.states) + ", " +
                            std::to_string(r.sums.size()) + ">";
   return "  // Taylor coefficients of solutions: values at the state, and coefficient k of "

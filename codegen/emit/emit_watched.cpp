@@ -11,6 +11,7 @@ namespace casimir {
 std::string emit_watched(const Specialisation& spec, const Program& watched) {
   if (watched.outputs.empty()) return {};
   codegen::StatementStyle style;
+  style.limits = spec.limits;
   style.call_prefix = "__builtin_";
   codegen::Names unique;
   std::vector<std::string> sources, names, targets;

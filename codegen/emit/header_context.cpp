@@ -4,6 +4,7 @@
 
 #include "codegen/emit/identifiers.hpp"
 #include "runtime/program/function_table.hpp"
+#include "symbolic/case/limits.hpp"
 
 namespace casimir::codegen {
 
@@ -23,8 +24,9 @@ std::vector<std::string> taken_names(Language language, bool of_map) {
   return names;
 }
 
-StatementStyle style_for(const HeaderOptions& options) {
+StatementStyle style_for(const HeaderOptions& options, const Limits& limits) {
   StatementStyle style;
+  style.limits = limits;
   style.scalar = options.scalar;
   if (options.language == Language::c) {
     const bool is_float = options.scalar == Scalar::real32;
@@ -50,7 +52,7 @@ StatementStyle style_for(const HeaderOptions& options) {
 HeaderContext::HeaderContext(const Specialisation& specialisation, const HeaderOptions& options)
     : spec(specialisation),
       is_template(options.scalar == Scalar::templated),
-      style(style_for(options)) {
+      style(style_for(options, spec.limits)) {
   Names unique(taken_names(options.language, specialisation.of_map));
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     sources.push_back("x[" + std::to_string(i) + "]");
@@ -99,7 +101,7 @@ std::string HeaderContext::arguments(const std::string& state) const {
 std::string HeaderContext::start_value(std::size_t k, Scalar scalar) const {
   const int i = spec.start.outputs[k];
   const bool rational = is_rational(spec.start, i);
-  return number_text(constant_value(spec.start, i), scalar,
+  return number_text(constant_value(spec.start, i, spec.limits), scalar,
                      rational ? "" : constant_text(spec.start, i))
       .text;
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "runtime/program.hpp"
+#include "symbolic/case/limits.hpp"
 
 namespace casimir {
 
@@ -33,8 +34,10 @@ NumberText number_text(const cln::cl_RA& value, Scalar scalar, const std::string
 
 /// The value of an instruction that depends on no input: exact if it is rational, otherwise an
 /// approximation that rounds correctly to any Scalar.
+/// \param limits  numbers on the way have at most `bits`: of the model that the program is of
 /// \throws ModelError  if it is not a real number.
-cln::cl_RA constant_value(const Program& program, int instruction);
+/// \throws TooLarge  beyond the limit
+cln::cl_RA constant_value(const Program& program, int instruction, const Limits& limits);
 
 /// Whether only additions, multiplications and the like of rationals make up that constant.
 bool is_rational(const Program& program, int instruction);

@@ -20,8 +20,10 @@ namespace {
 /// coefficient k of the same quantities (`v3_k`).
 class SeriesWriter {
  public:
-  SeriesWriter(const Program& rhs, const std::vector<std::string>& names, SeriesValue value)
-      : lanes_(value == SeriesValue::lanes),
+  SeriesWriter(const Program& rhs, const std::vector<std::string>& names, SeriesValue value,
+               const Limits& limits)
+      : limits_(limits),
+        lanes_(value == SeriesValue::lanes),
         program_(without_dead_code(rhs)),
         constant_(constant_instructions(program_)),
         unique_({"V",      "c",      "rate",   "order",     "p",    "most", "states", "blocks",
@@ -61,7 +63,7 @@ class SeriesWriter {
   std::string literal(std::size_t i) {
     const int line = static_cast<int>(i);
     const bool rational = is_rational(program_, line);
-    const NumberText number = number_text(constant_value(program_, line), Scalar::real64,
+    const NumberText number = number_text(constant_value(program_, line, limits_), Scalar::real64,
                                           rational ? "" : constant_text(program_, line));
     std::string text = number.text;
     if (text.find_first_of(".eExX") == std::string::npos) text += ".";
@@ -379,6 +381,7 @@ class SeriesWriter {
     return true;
   }
 
+  const Limits limits_;
   const bool lanes_;
   const Program program_;
   const std::vector<bool> constant_;
@@ -408,8 +411,8 @@ std::string SeriesRecurrences::declared() const {
 }
 
 SeriesRecurrences series_recurrences(const Program& rhs, const std::vector<std::string>& names,
-                                     SeriesValue value) {
-  return SeriesWriter(rhs, names, value).run();
+                                     SeriesValue value, const Limits& limits) {
+  return SeriesWriter(rhs, names, value, limits).run();
 }
 
 }  // namespace casimir::codegen

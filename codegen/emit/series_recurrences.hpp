@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/program.hpp"
+#include "symbolic/case/limits.hpp"
 
 namespace casimir::codegen {
 
@@ -45,7 +46,8 @@ struct SeriesRecurrences {
 };
 
 /// \param names  for each input of the program, the name of its local; the last is the time.
+/// \param limits  of the constants, see `constant_value`
 SeriesRecurrences series_recurrences(const Program& rhs, const std::vector<std::string>& names,
-                                     SeriesValue value);
+                                     SeriesValue value, const Limits& limits);
 
 }  // namespace casimir::codegen

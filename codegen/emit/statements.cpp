@@ -171,8 +171,9 @@ class StatementWriter {
     if (names_[i].empty()) {
       const int index = static_cast<int>(i);
       const bool rational = is_rational(program_, index);
-      const NumberText number = number_text(constant_value(program_, index), style_.scalar,
-                                            rational ? "" : constant_text(program_, index));
+      const NumberText number =
+          number_text(constant_value(program_, index, style_.limits), style_.scalar,
+                      rational ? "" : constant_text(program_, index));
       names_[i] = number.text;
       if (!number.is_plain) {
         names_[i] = "c" + std::to_string(++constant_count_);

@@ -5,6 +5,7 @@
 
 #include "codegen/emit/number_literal.hpp"
 #include "runtime/program.hpp"
+#include "symbolic/case/limits.hpp"
 
 namespace casimir::codegen {
 
@@ -16,6 +17,7 @@ struct StatementStyle {
   std::string call_suffix;            ///< behind them: "q" for __float128
   bool c_casts = false;               ///< (double)(2) instead of double(2)
   std::string indent = "  ";
+  Limits limits{};  ///< of the numbers in it, see `constant_value`
 };
 
 /// The statements of a program: the inputs it uses as named locals, shared values as t1, t2, ..

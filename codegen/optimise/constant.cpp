@@ -54,21 +54,23 @@ cln::cl_R real(const cln::cl_N& value, const Program& program, int i) {
 
 /// Sines of giants take pi to as many digits as these have, and exponentials of them are no
 /// numbers.
-cln::cl_R checked(const cln::cl_R& value, const Program& program, int i) {
-  if (!cln::zerop(value) &&
-      std::abs(cln::float_exponent(cln::cl_float(value))) > static_cast<long>(limits().bits))
-    throw ModelError("the constant " + printable(constant_text(program, i), 200) +
-                     " has more than " + std::to_string(static_cast<long>(limits().bits)) +
-                     " bits; " + limit_hint(&Limits::bits));
+cln::cl_R checked(const cln::cl_R& value, const Program& program, int i, const Limits& limits) {
+  const auto bits = static_cast<long>(limits.bits);
+  if (!cln::zerop(value) && std::abs(cln::float_exponent(cln::cl_float(value))) > bits)
+    throw TooLarge("the constant " + printable(constant_text(program, i), 200) + " has more than " +
+                       std::to_string(bits) + " bits",
+                   limits, &Limits::bits);
   return value;
 }
 
-cln::cl_R approximate(const Program& program, int i, const cln::float_format_t& format) {
+cln::cl_R approximate(const Program& program, int i, const cln::float_format_t& format,
+                      const Limits& limits) {
   const Instruction& code = at(program, i);
   if (code.op == Op::constant) return cln::cl_float(number(program, code), format);
   if (code.op == Op::pi) return cln::pi(format);
-  const cln::cl_R a = checked(approximate(program, code.a, format), program, code.a);
-  const cln::cl_R b = code.b < 0 ? cln::cl_R(0) : approximate(program, code.b, format);
+  const cln::cl_R a =
+      checked(approximate(program, code.a, format, limits), program, code.a, limits);
+  const cln::cl_R b = code.b < 0 ? cln::cl_R(0) : approximate(program, code.b, format, limits);
   switch (code.op) {
     case Op::add:
       return a + b;
@@ -119,9 +121,9 @@ std::string binary(const Program& program, const Instruction& code, const char* 
 }
 
 /// CLN says by errors of its own that a number is too large or too small for it.
-cln::cl_R value_with(const Program& program, int i, int digits) {
+cln::cl_R value_with(const Program& program, int i, int digits, const Limits& limits) {
   try {
-    return checked(approximate(program, i, cln::float_format(digits)), program, i);
+    return checked(approximate(program, i, cln::float_format(digits), limits), program, i, limits);
   } catch (const cln::runtime_exception&) {
     throw ModelError("the constant " + printable(constant_text(program, i), 200) +
                      " is too large or too small");
@@ -147,13 +149,13 @@ bool is_rational(const Program& program, int i) {
   }
 }
 
-cln::cl_RA constant_value(const Program& program, int i) {
+cln::cl_RA constant_value(const Program& program, int i, const Limits& limits) {
   if (is_rational(program, i)) return rational_value(program, i);
   // Two precisions that agree to far more digits than are printed: cancellation has been overcome.
   const cln::cl_RA tolerance = 1 / cln::expt(cln::cl_RA(10), kFirstDigits - 10);
   cln::cl_RA previous = 0;
   for (int digits = kFirstDigits; digits <= kMostDigits; digits *= 2) {
-    const cln::cl_RA value = cln::rational(value_with(program, i, digits));
+    const cln::cl_RA value = cln::rational(value_with(program, i, digits, limits));
     if (value != 0 && cln::abs(value - previous) <= tolerance * cln::abs(value)) return value;
     previous = value;
   }

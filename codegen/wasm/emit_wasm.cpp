@@ -4,6 +4,7 @@
 
 #include "codegen/optimise/lower.hpp"
 #include "codegen/wasm/series_bodies.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/error.hpp"
 
 namespace casimir {
@@ -25,9 +26,9 @@ Body expand_body(int begin, int extend, int advance) {
 }
 
 void add_evaluation(ModuleWriter& module, const char* name, const Program& program,
-                    const Imports& imports, int inputs, int outputs) {
+                    const Imports& imports, int inputs, int outputs, const Limits& limits) {
   Body body;
-  const int locals = add_values(body, program, imports, inputs, outputs);
+  const int locals = add_values(body, program, imports, inputs, outputs, limits);
   module.exported(name, module.function({}, {{locals, Type::f64}}, body));
 }
 
@@ -40,7 +41,8 @@ Program rates_of(Program flow, std::size_t states) {
 
 }  // namespace
 
-WasmSeries emit_wasm(const Program& whole, std::size_t states, const Program& values, int order) {
+WasmSeries emit_wasm(const Program& whole, std::size_t states, const Program& values, int order,
+                     const Limits& limits) {
   constexpr std::size_t kMostLines = 20000;
   const Program flow = codegen::without_dead_code(whole);
   if (flow.code.size() + values.code.size() > kMostLines)
@@ -63,8 +65,9 @@ WasmSeries emit_wasm(const Program& whole, std::size_t states, const Program& va
   ModuleWriter module;
   const Imports imports = imported_functions(module, {&flow, &values});
   const SeriesSums sums = add_sums(module);
-  const SeriesBodies bodies(
-      flow, states, {result.inputs, result.unit, result.states, result.stride}, imports, sums);
+  const SeriesBodies bodies(flow, states,
+                            {result.inputs, result.unit, result.states, result.stride}, imports,
+                            sums, limits);
   const Signature of_order{{Type::i32}, {}};
   const int begin = module.function({}, {}, bodies.begin());
   const int extend = module.function(of_order, {}, bodies.extend());
@@ -72,8 +75,9 @@ WasmSeries emit_wasm(const Program& whole, std::size_t states, const Program& va
   module.exported("prepare", module.function({}, {}, bodies.prepare()));
   module.exported("expand",
                   module.function(of_order, {{1, Type::i32}}, expand_body(begin, extend, advance)));
-  add_evaluation(module, "rates", rates_of(flow, states), imports, result.inputs, result.rates);
-  add_evaluation(module, "evaluate", values, imports, result.inputs, result.values);
+  add_evaluation(module, "rates", rates_of(flow, states), imports, result.inputs, result.rates,
+                 limits);
+  add_evaluation(module, "evaluate", values, imports, result.inputs, result.values, limits);
   for (std::size_t i = states; i < flow.outputs.size(); ++i)
     result.followed.push_back(bodies.place(flow.outputs[i]));
   result.singular = bodies.singular();

@@ -39,7 +39,7 @@ SeriesSums add_sums(ModuleWriter& module) {
 }
 
 SeriesBodies::SeriesBodies(const Program& flow, std::size_t states, const SeriesPlaces& places,
-                           const Imports& imports, const SeriesSums& sums)
+                           const Imports& imports, const SeriesSums& sums, const Limits& limits)
     : flow_(flow), states_(states), at_(places), imports_(imports), sums_(sums) {
   const std::vector<bool> constant = constant_instructions(flow);
   const int time = index(flow.inputs.size()) - 1;
@@ -52,7 +52,7 @@ SeriesBodies::SeriesBodies(const Program& flow, std::size_t states, const Series
                            : constant[i] ? false
                                          : varies(line.a) || varies(line.b);
     kinds_.push_back(constant[i] ? kConstant : is_moving ? kVaries : kPrepared);
-    constants_.push_back(constant[i] ? nearest<double>(constant_value(flow, index(i))) : 0);
+    constants_.push_back(constant[i] ? nearest<double>(constant_value(flow, index(i), limits)) : 0);
     const bool has_series = is_input && is_moving;
     places_.push_back(has_series ? state(line.a == time ? states : static_cast<std::size_t>(line.a))
                                  : next_place);

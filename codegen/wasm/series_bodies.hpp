@@ -5,6 +5,7 @@
 #include "codegen/wasm/module_writer.hpp"
 #include "codegen/wasm/values_body.hpp"
 #include "runtime/program.hpp"
+#include "symbolic/case/limits.hpp"
 
 namespace casimir::codegen::wasm {
 
@@ -28,8 +29,9 @@ SeriesSums add_sums(ModuleWriter& module);
 class SeriesBodies {
  public:
   /// \param flow  without dead code; its first outputs are the rates of the states
+  /// \param limits  of the constants, see `codegen::constant_value`
   SeriesBodies(const Program& flow, std::size_t states, const SeriesPlaces& places,
-               const Imports& imports, const SeriesSums& sums);
+               const Imports& imports, const SeriesSums& sums, const Limits& limits);
 
   Body prepare() const;  ///< () -> (): lines that depend on the parameters alone
   Body begin() const;    ///< () -> (): coefficient 0 of all others

@@ -35,13 +35,14 @@ Imports imported_functions(ModuleWriter& module, const std::vector<const Program
   return imports;
 }
 
-int add_values(Body& body, const Program& whole, const Imports& imports, int inputs, int outputs) {
+int add_values(Body& body, const Program& whole, const Imports& imports, int inputs, int outputs,
+               const Limits& limits) {
   const Program program = without_dead_code(whole);
   const std::vector<bool> constant = constant_instructions(program);
   const auto value = [&](int line) {
-    return [&body, &program, &constant, line] {
+    return [&body, &program, &constant, &limits, line] {
       if (constant[static_cast<std::size_t>(line)])
-        body.number(nearest<double>(constant_value(program, line)));
+        body.number(nearest<double>(constant_value(program, line, limits)));
       else
         body.get(line);
     };

@@ -5,6 +5,7 @@
 
 #include "codegen/wasm/module_writer.hpp"
 #include "runtime/program.hpp"
+#include "symbolic/case/limits.hpp"
 
 namespace casimir::codegen::wasm {
 
@@ -62,6 +63,8 @@ void add_operation(Body& body, Op op, const Imports& imports, const First& first
 
 /// Evaluates a program at inputs in memory and writes its outputs there, one after the other.
 /// \returns how many doubles it needs as locals: from number 0 on
-int add_values(Body& body, const Program& program, const Imports& imports, int inputs, int outputs);
+/// \param limits  of the constants, see `codegen::constant_value`
+int add_values(Body& body, const Program& program, const Imports& imports, int inputs, int outputs,
+               const Limits& limits);
 
 }  // namespace casimir::codegen::wasm

@@ -320,7 +320,7 @@ std::optional<ExactConstant> exact_constant(const ex& value) {
   }
 }
 
-std::optional<int> sign_of_constant(const ex& value) {
+std::optional<int> sign_of_constant(const ex& value, double bits) {
   if (GiNaC::is_a<GiNaC::numeric>(value)) {
     const GiNaC::numeric number = GiNaC::ex_to<GiNaC::numeric>(value);
     return number.is_real() ? std::optional(number.csgn()) : std::nullopt;
@@ -331,7 +331,7 @@ std::optional<int> sign_of_constant(const ex& value) {
   constexpr long kDigits = 60;
   const long before = GiNaC::Digits;
   GiNaC::Digits = kDigits;
-  const std::optional<GiNaC::numeric> number = real_decimal(value);
+  const std::optional<GiNaC::numeric> number = real_decimal(value, bits);
   GiNaC::Digits = before;
   const GiNaC::numeric doubt = GiNaC::numeric(10).power(-20);
   if (!number || GiNaC::abs(*number) < doubt) return std::nullopt;

@@ -23,6 +23,7 @@ struct ExactConstant {
 std::optional<ExactConstant> exact_constant(const GiNaC::ex& value);
 
 /// The sign of a real number; empty for what is not real or not decided.
-std::optional<int> sign_of_constant(const GiNaC::ex& value);
+/// \param bits  of the numbers on the way, as of `decimal`
+std::optional<int> sign_of_constant(const GiNaC::ex& value, double bits);
 
 }  // namespace casimir

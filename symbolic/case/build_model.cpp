@@ -31,7 +31,7 @@ using GiNaC::ex;
 class Builder {
  public:
   Builder(const CaseFile& file, const ParameterValues& fixed, const FindCase& find_case)
-      : file_(file), fixed_(fixed), find_case_(find_case), dynamics_(model_) {}
+      : file_(file), fixed_(fixed), find_case_(find_case), names_(file.limits), dynamics_(model_) {}
 
   Model build() {
     read_names();
@@ -99,10 +99,11 @@ class Builder {
         step.next[variable_position(name)] = quantity.value;
       }
       for (std::size_t i = 0; i < result.next.size(); ++i)
-        result.next[i] = substituted(step.next[i], before);
+        result.next[i] = substituted(step.next[i], before, file_.limits);
       // What cancels in the composition was needed all the same.
       for (const auto* parts : {&step.next, &step.next_domain}) {
-        for (const ex& part : *parts) result.next_domain.push_back(substituted(part, before));
+        for (const ex& part : *parts)
+          result.next_domain.push_back(substituted(part, before, file_.limits));
       }
       result.steps.push_back(std::move(step));
     }
@@ -146,11 +147,11 @@ class Builder {
 
   void check_counts() const {
     const auto check = [&](std::size_t count, double Limits::*limit, const char* what) {
-      if (static_cast<double>(count) > limits().*limit)
-        throw CaseError(
-            {file_.file},
-            fmt::format("{} {} given; the limit is {:.0f}", count, what, limits().*limit), {},
-            limit_hint(limit));
+      const Limits& limits = file_.limits;
+      if (static_cast<double>(count) > limits.*limit)
+        throw CaseError({file_.file},
+                        fmt::format("{} {} given; the limit is {:.0f}", count, what, limits.*limit),
+                        {}, limits.hint(limit), limit);
     };
     check(file_.parameters.size(), &Limits::parameters, "parameters");
     check(file_.scenes.size(), &Limits::scenes, "scenes");
@@ -161,6 +162,7 @@ class Builder {
   }
 
   void copy_texts() {
+    model_.limits = file_.limits;
     model_.name = file_.name;
     model_.file = file_.file;
     model_.title = file_.title;
@@ -181,7 +183,7 @@ class Builder {
   void declare_names() {
     names_.allow_complex_numbers(file_.complex_numbers);
     model_.complex_numbers = file_.complex_numbers;
-    model_.variables = make_variables(file_.phase_space);
+    model_.variables = make_variables(file_.phase_space, file_.limits);
     for (std::size_t i = 0; i < model_.variables.size(); ++i) {
       check_symbol_name(file_.phase_space.variables[i]);
       names_.declare(file_.phase_space.variables[i], "a variable",
@@ -201,7 +203,7 @@ class Builder {
       known.push_back(parameter.name.value);
       check_symbol_name(parameter.name);
       if (const Text* text = fixed_value(parameter.name.value)) {
-        const ex value = parse_real_constant(*text);
+        const ex value = parse_real_constant(*text, file_.limits);
         names_.declare(parameter.name, "a parameter", measured(value));
         model_.fixed.emplace_back(parameter.name, value);
         continue;
@@ -248,7 +250,8 @@ class Builder {
   }
 
   void add_assumption(const Assumption& assumption, const Text& text) {
-    if (GiNaC::is_a<GiNaC::numeric>(assumption.difference) && !assumption.holds_at({})) {
+    if (GiNaC::is_a<GiNaC::numeric>(assumption.difference) &&
+        !assumption.holds_at({}, file_.limits)) {
       throw text.error(fmt::format("the assumption '{}' does not hold", printable(text.value)));
     }
     model_.assumptions.push_back(assumption);

@@ -29,7 +29,7 @@ class SceneReader {
       if (what == "parameter" && is_fixed(name.value)) continue;
       if (what == "parameter" && function_name(name.value)) continue;
       result[symbol_position(name, name.value, 0, symbols, "a " + what + " of this case")] =
-          parse_real_constant(text);
+          parse_real_constant(text, model_.limits);
     }
     return result;
   }
@@ -62,8 +62,8 @@ class SceneReader {
     give_functions(text.parameters, scene);
     scene.initial = complete(text.initial, model_.variables, "variable");
     if (text.duration) {
-      scene.duration = parse_real_constant(*text.duration);
-      if (real_decimal(*scene.duration)->is_negative())
+      scene.duration = parse_real_constant(*text.duration, model_.limits);
+      if (real_decimal(*scene.duration, model_.limits.bits)->is_negative())
         throw text.duration->error("the duration must not be negative");
     } else if (!text.reference.empty()) {
       throw text.name.error(
@@ -105,7 +105,7 @@ class SceneReader {
 
   /// An expression over the arguments of a function, which hide parameters of the same name.
   ex read_function(const FunctionName& function, const Text& text, const Scene& scene) const {
-    NameTable names;
+    NameTable names(model_.limits);
     for (std::size_t i = 0; i < model_.parameters.size(); ++i) {
       const std::string parameter = model_.parameters[i].get_name();
       if (!function_name(parameter)) names.add(parameter, measured(scene.parameters[i]));
@@ -136,10 +136,10 @@ class SceneReader {
       const auto own =
           std::find_if(text.parameters.begin(), text.parameters.end(),
                        [&](const Entry& entry) { return entry.first.value == pair.first.value; });
-      return own != text.parameters.end() &&
-             (parse_real_constant(own->second) - parse_real_constant(pair.second))
-                 .expand()
-                 .is_zero();
+      return own != text.parameters.end() && (parse_real_constant(own->second, model_.limits) -
+                                              parse_real_constant(pair.second, model_.limits))
+                                                 .expand()
+                                                 .is_zero();
     });
   }
 
@@ -154,7 +154,7 @@ class SceneReader {
                              NamedExpression{relation.value, model_.parse(relation), {}});
     const GiNaC::exmap point = point_of(scene);
     for (const auto& [where, relation] : relations) {
-      const ex value = normal_form(substituted(relation.value, point));
+      const ex value = normal_form(substituted(relation.value, point, model_.limits));
       const auto constant = exact_constant(value);
       if (constant && constant->zero) continue;
       if (text.rounded && zero_but_for_rounding(relation.value, point)) continue;
@@ -169,9 +169,9 @@ class SceneReader {
   }
 
   /// Whether a sum is as small beside its terms as rounding the point to doubles can leave a zero.
-  static bool zero_but_for_rounding(const ex& sum, const GiNaC::exmap& point) {
+  bool zero_but_for_rounding(const ex& sum, const GiNaC::exmap& point) const {
     const auto size = [&](const ex& e) {
-      const ex value = substituted(e, point).evalf();
+      const ex value = substituted(e, point, model_.limits).evalf();
       return GiNaC::is_a<GiNaC::numeric>(value)
                  ? GiNaC::abs(GiNaC::ex_to<GiNaC::numeric>(value)).to_double()
                  : std::numeric_limits<double>::infinity();
@@ -195,8 +195,9 @@ class SceneReader {
   void check_assumptions(const Text& name, const Scene& scene) const {
     const GiNaC::exmap point = point_of(scene);
     for (const Assumption& assumption : model_.assumptions) {
-      const ex value = substituted(assumption.difference, point);
-      if (!decimal(value) || assumption.holds_at(point)) continue;
+      const ex value = substituted(assumption.difference, point, model_.limits);
+      if (!decimal(value, model_.limits.bits) || assumption.holds_at(point, model_.limits))
+        continue;
       throw name.error(fmt::format("the scene '{}' is outside the assumption '{}'",
                                    printable(scene.name), printable(assumption.text)));
     }

@@ -39,11 +39,12 @@ const Quantity* CaseNames::find(const std::string& name) {
   const auto waiting = pending_.find(name);
   if (waiting == pending_.end()) return nullptr;
   const Entry& entry = *waiting->second;
-  if (open_.contains(name) || static_cast<double>(open_.size()) > limits().nesting / 2) {
+  if (open_.contains(name) || static_cast<double>(open_.size()) > limits_.nesting / 2) {
     const bool itself = open_.contains(name);
     throw entry.second.error(fmt::format("the definition of '{}' {}", name,
                                          itself ? "uses itself" : "is nested too deep"),
-                             0, itself ? "" : limit_hint(&Limits::nesting));
+                             0, itself ? "" : limits_.hint(&Limits::nesting),
+                             itself ? nullptr : &Limits::nesting);
   }
   open_.insert(name);
   Quantity value = parse_expression(entry.second, *this);
@@ -58,7 +59,8 @@ std::vector<std::string> CaseNames::known() const {
   return names;
 }
 
-ExtendedNames::ExtendedNames(Scope& base, const std::vector<GiNaC::symbol>& extra) : base_(base) {
+ExtendedNames::ExtendedNames(Scope& base, const std::vector<GiNaC::symbol>& extra)
+    : base_(base), extra_(base.limits()) {
   for (const GiNaC::symbol& s : extra) extra_.add(s.get_name(), Quantity::symbol(s));
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/expression/expression.hpp"
 
 namespace casimir {
@@ -13,6 +14,9 @@ namespace casimir {
 /// not matter; one that uses itself is an error.
 class CaseNames : public Scope {
  public:
+  /// No names yet. \param limits  of the case; outlive it
+  explicit CaseNames(const Limits& limits) : limits_(limits) {}
+
   /// \throws CaseError  for a name that cannot be used, or is taken.
   void declare(const Text& name, const std::string& what, Quantity quantity);
   void define(const Entry& entry);
@@ -37,8 +41,10 @@ class CaseNames : public Scope {
 
   void allow_complex_numbers(bool allowed) { complex_ = allowed; }
   bool complex_numbers() const override { return complex_; }
+  const Limits& limits() const override { return limits_; }
 
  private:
+  const Limits& limits_;
   bool complex_ = false;
   std::map<std::string, Quantity> table_;
   std::map<std::string, const Entry*> pending_;
@@ -54,6 +60,7 @@ class ExtendedNames : public Scope {
   std::vector<std::string> known() const override;
   const Dynamics* dynamics() override { return base_.dynamics(); }
   bool complex_numbers() const override { return base_.complex_numbers(); }
+  const Limits& limits() const override { return base_.limits(); }
 
  private:
   Scope& base_;

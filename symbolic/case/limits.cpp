@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "symbolic/error.hpp"
 
 namespace casimir {
 namespace {
 
-Limits g_limits;
 thread_local WorkMeter* g_meter = nullptr;
 
 }  // namespace
@@ -33,32 +34,34 @@ const std::vector<LimitName>& limit_names() {
   return names;
 }
 
-const Limits& limits() { return g_limits; }
-
-void set_limits(const Limits& limits) { g_limits = limits; }
-
-std::string limit_hint(double Limits::*limit) {
+std::string name_of(double Limits::*limit) {
   for (const LimitName& name : limit_names()) {
-    if (name.value == limit) return fmt::format(fmt::runtime(g_limits.how_to_raise), name.name);
+    if (name.value == limit) return name.name;
   }
   return {};
 }
 
-std::string out_of_memory() {
-  return g_limits.how_to_get_memory.empty() ? "out of memory"
-                                            : "out of memory: " + g_limits.how_to_get_memory;
+std::string Limits::hint(double Limits::*limit) const {
+  return fmt::format(fmt::runtime(how_to_raise), name_of(limit));
 }
 
-WorkMeter::WorkMeter() : outer_(g_meter) { g_meter = this; }
+std::string Limits::out_of_memory() const {
+  return how_to_get_memory.empty() ? "out of memory" : "out of memory: " + how_to_get_memory;
+}
+
+WorkMeter::WorkMeter(Limits limits) : limits_(std::move(limits)), outer_(g_meter) {
+  g_meter = this;
+}
 
 WorkMeter::~WorkMeter() { g_meter = outer_; }
 
 void WorkMeter::spend(double products) {
   if (g_meter == nullptr) return;
   g_meter->done_ += products;
-  if (g_meter->done_ > g_limits.work)
-    throw TooLarge(fmt::format("the products of terms are more work than {:g}; {}", g_limits.work,
-                               limit_hint(&Limits::work)));
+  const Limits& limits = g_meter->limits_;
+  if (g_meter->done_ > limits.work)
+    throw TooLarge(fmt::format("the products of terms are more work than {:g}", limits.work),
+                   limits, &Limits::work);
 }
 
 }  // namespace casimir

@@ -20,7 +20,8 @@ constexpr const char* kOfBounds =
 
 class Expansion {
  public:
-  Expansion(const Text& text, const Indices& known) : text_(text), known_(known) {}
+  Expansion(const Text& text, const Indices& known, const Limits& limits)
+      : text_(text), known_(known), limits_(limits) {}
 
   std::vector<FamilyMember> members() {
     const std::string& text = text_.value;
@@ -112,7 +113,7 @@ class Expansion {
     const std::size_t other = text_.value.find_first_not_of(kOfBounds, begin);
     if (other < end) throw text_.error("a bound has integers, letters, +, - and * only", other);
     check_known(begin, end, indices);
-    NameTable names;
+    NameTable names(limits_);
     for (const Indices& table : {known_, indices})
       for (const auto& [name, value] : table) names.add(name, {GiNaC::numeric(value)});
     const GiNaC::ex value = parse_range(text_, names, begin, end).value;
@@ -131,9 +132,10 @@ class Expansion {
   }
 
   void count() {
-    if (++counted_ > limits().repetitions)
-      throw text_.error(fmt::format("this stands for more than {:.0f} names", limits().repetitions),
-                        0, limit_hint(&Limits::repetitions));
+    if (++counted_ > limits_.repetitions)
+      throw text_.beyond(
+          limits_, &Limits::repetitions,
+          fmt::format("this stands for more than {:.0f} names", limits_.repetitions));
   }
 
   void add(std::string name, const Indices& indices) {
@@ -144,15 +146,16 @@ class Expansion {
 
   const Text& text_;
   const Indices& known_;
+  const Limits& limits_;
   std::vector<FamilyMember> members_;
   double counted_ = 0;
 };
 
 }  // namespace
 
-std::vector<FamilyMember> members_of(const Text& text, const Indices& known) {
+std::vector<FamilyMember> members_of(const Text& text, const Indices& known, const Limits& limits) {
   if (text.value.find('[') == std::string::npos) return {{text, {}}};
-  return Expansion(text, known).members();
+  return Expansion(text, known, limits).members();
 }
 
 }  // namespace casimir

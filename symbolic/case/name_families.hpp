@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/case_file.hpp"
 #include "symbolic/expression/indices.hpp"
 
@@ -17,9 +18,10 @@ struct FamilyMember {
 /// integers, and expressions in those that are known and in the letters before. A text without '['
 /// stands for itself. The order is that of counting, with the last range the fastest.
 /// \param known  integers by name
+/// \param limits  of the repetitions, and of the expressions of bounds
 /// \throws CaseError  with its place: a bound or an index that is no integer, a bracket that is not
 ///                    closed, a letter that is used twice, or more members than repetitions are
-///                    allowed (`Limits`).
-std::vector<FamilyMember> members_of(const Text& text, const Indices& known);
+///                    allowed.
+std::vector<FamilyMember> members_of(const Text& text, const Indices& known, const Limits& limits);
 
 }  // namespace casimir

@@ -153,13 +153,14 @@ class ClaimReader {
     const auto path = std::filesystem::path(file_.file).parent_path() / (name + ".toml");
     std::error_code problem;
     if (!std::filesystem::is_regular_file(path, problem)) return std::nullopt;
-    return read_case(path);
+    return read_case(path, file_.limits);
   }
 
   void read_map(const MapText& text) {
     const PhaseSpaceText target = target_of(text);
-    const std::vector<GiNaC::symbol> coordinates = make_variables(target);
-    NameTable names;  // the bracket of the target may have the parameters of this case
+    const std::vector<GiNaC::symbol> coordinates = make_variables(target, file_.limits);
+    NameTable names(
+        file_.limits);  // the bracket of the target may have the parameters of this case
     for (const GiNaC::symbol& s : model_.parameters) names.add(s.get_name(), Quantity::symbol(s));
     for (const auto& [parameter, value] : model_.fixed) names.add(parameter.value, measured(value));
     for (std::size_t i = 0; i < coordinates.size(); ++i) {
@@ -188,14 +189,14 @@ class ClaimReader {
                    {}};
     GiNaC::exmap image;
     for (std::size_t i = 0; i < coordinates.size(); ++i) image[coordinates[i]] = map.expressions[i];
-    for (const ex& part : target_domain) domain.push_back(substituted(part, image));
+    for (const ex& part : target_domain) domain.push_back(substituted(part, image, file_.limits));
     for (const Text& condition : target.domain) {
       std::vector<ex> lost;
       // A map leads into the target's domain, or says nothing.
       Assumption inside = assumption_of(condition, names, lost);
-      inside.difference = substituted(inside.difference, image);
+      inside.difference = substituted(inside.difference, image, file_.limits);
       if (const auto part = real_only_where(inside)) domain.push_back(*part);
-      for (const ex& part : lost) domain.push_back(substituted(part, image));
+      for (const ex& part : lost) domain.push_back(substituted(part, image, file_.limits));
     }
     map.domain = std::move(domain);
     for (const Text& function : text.image.empty() ? target.constraints : text.image)

@@ -16,6 +16,7 @@
 #define TOML_EXCEPTIONS 1
 #include <toml++/toml.h>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/case/name_families.hpp"
 #include "symbolic/case/toml_keys.hpp"
 #include "symbolic/case_file.hpp"
@@ -27,7 +28,9 @@ using Keys = std::vector<std::string>;
 /// Turns the values of a TOML document into text with places, and refuses those of a wrong type.
 class TomlReader {
  public:
-  TomlReader(const std::string& toml, std::string file) : file_(std::move(file)) {
+  /// \param limits  outlive it
+  TomlReader(const std::string& toml, std::string file, const Limits& limits)
+      : file_(std::move(file)), limits_(limits) {
     std::istringstream stream(toml);
     for (std::string line; std::getline(stream, line);) lines_.emplace_back(line);
   }
@@ -154,7 +157,7 @@ class TomlReader {
   std::vector<Text> name_list(const toml::table& table, const char* key) const {
     std::vector<Text> result;
     for (const Text& given : texts(table, key))
-      for (FamilyMember& member : members_of(given, integers_))
+      for (FamilyMember& member : members_of(given, integers_, limits_))
         result.push_back(std::move(member.name));
     return result;
   }
@@ -183,7 +186,7 @@ class TomlReader {
     for (const auto& [key, value] : as_table(node, what)) {
       const Text given = text(value, fmt::format("'{}'", printable(std::string(key.str()))),
                               root_key_hint(key.str()));
-      for (FamilyMember& member : members_of(key_text(key), integers_)) {
+      for (FamilyMember& member : members_of(key_text(key), integers_, limits_)) {
         result.emplace_back(std::move(member.name), given);
         if (!member.indices.empty())
           result.back().second.indices = std::make_shared<const Indices>(std::move(member.indices));
@@ -235,6 +238,7 @@ class TomlReader {
   }
 
   std::string file_;
+  const Limits& limits_;
   std::vector<SourceLine> lines_;
   Indices integers_;
 };

@@ -43,7 +43,7 @@ class Kahan {
       : flow_(flow),
         step_(free_name(flow, {"eps", "epsilon", "step"})),
         step_value_(value.value_or(ex(step_))),
-        ring_(symbols(), flow.assumptions, expressions()) {
+        ring_(symbols(), flow.assumptions, expressions(), flow.limits) {
     for (std::size_t i = 0; i < flow.field.size(); ++i) field_.push_back(component(i, highest));
   }
 

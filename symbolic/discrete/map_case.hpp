@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/case_file.hpp"
 
 namespace casimir {
@@ -40,9 +41,10 @@ const CaseFile& common_part(const AnyCaseFile& any);
 
 /// Reads a case file of either kind, as `read_case`.
 /// \throws CaseError
-AnyCaseFile read_any_case(const std::filesystem::path& path);
+AnyCaseFile read_any_case(const std::filesystem::path& path, const Limits& limits = {});
 
 /// The same for text in memory, as `parse_case`.
-AnyCaseFile parse_any_case(const std::string& toml, const std::string& file);
+AnyCaseFile parse_any_case(const std::string& toml, const std::string& file,
+                           const Limits& limits = {});
 
 }  // namespace casimir

@@ -267,7 +267,7 @@ std::vector<ex> at_image(const MapModel& map, const MapSymmetry& symmetry,
   for (std::size_t i = 0; i < symmetry.parameters.size(); ++i)
     image[map.base.parameters[i]] = symmetry.parameters[i];
   std::vector<ex> result;
-  for (const ex& f : functions) result.push_back(substituted(f, image));
+  for (const ex& f : functions) result.push_back(substituted(f, image, map.base.limits));
   return result;
 }
 

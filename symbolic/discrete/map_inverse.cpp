@@ -80,7 +80,7 @@ std::optional<Inverse> solved_in_turn(const MapModel& map) {
     bool found = false;
     for (std::size_t j = 0; j < n && !found; ++j) {
       if (used[j]) continue;
-      const ex parts = normal_form(substituted(map.next[j], known)).numer_denom();
+      const ex parts = normal_form(substituted(map.next[j], known, map.base.limits)).numer_denom();
       const ex equation = (image[j] * parts.op(1) - parts.op(0)).expand();
       std::vector<std::size_t> open;
       for (std::size_t i = 0; i < n; ++i)
@@ -97,7 +97,8 @@ std::optional<Inverse> solved_in_turn(const MapModel& map) {
   GiNaC::exmap names;
   for (std::size_t i = 0; i < n; ++i) names[image[i]] = x[i];
   Inverse inverse;
-  for (std::size_t i = 0; i < n; ++i) inverse.push_back(substituted(known.at(x[i]), names));
+  for (std::size_t i = 0; i < n; ++i)
+    inverse.push_back(substituted(known.at(x[i]), names, map.base.limits));
   return inverse;
 }
 
@@ -110,9 +111,9 @@ Inverse conjugate(const MapModel& map, const MapSymmetry& s) {
     at[map.base.variables[i]] = s.variables[i];
   }
   for (std::size_t i = 0; i < s.variables.size(); ++i)
-    back[map.base.variables[i]] = substituted(map.next[i], at);
+    back[map.base.variables[i]] = substituted(map.next[i], at, map.base.limits);
   Inverse inverse;
-  for (const ex& value : s.variables) inverse.push_back(substituted(value, back));
+  for (const ex& value : s.variables) inverse.push_back(substituted(value, back, map.base.limits));
   return inverse;
 }
 
@@ -173,7 +174,7 @@ std::optional<std::vector<ex>> proved_inverse(const MapModel& map, double larges
     GiNaC::exmap after;
     for (std::size_t i = 0; i < result.size(); ++i) after[map.base.variables[i]] = (*of_step)[i];
     // The inverse of the first step is done last.
-    for (ex& value : result) value = substituted(value, after);
+    for (ex& value : result) value = substituted(value, after, map.base.limits);
   }
   return result;
 }

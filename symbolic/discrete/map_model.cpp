@@ -7,7 +7,7 @@ namespace casimir {
 GiNaC::ex MapModel::composed(const GiNaC::ex& f) const {
   GiNaC::exmap image;
   for (std::size_t i = 0; i < next.size(); ++i) image[base.variables[i]] = next[i];
-  return substituted(f, image);
+  return substituted(f, image, base.limits);
 }
 
 Model MapModel::as_field() const {

@@ -52,7 +52,7 @@ class Search {
         program_(symbols_in_order(map.base), next_and_slopes(map)),
         next_(symbols_in_order(map.base), map.next),
         monomials_(search::all_monomials(std::vector<int>(map.base.variables.size(), 1), degree)),
-        ring_(symbols_in_order(map.base), {}, {}) {
+        ring_(symbols_in_order(map.base), {}, {}, map.base.limits) {
     for (const GiNaC::symbol& p : map.base.parameters) {
       result_.generic.push_back(p.get_name());
       parameters_.push_back(field_.random(random_));

@@ -10,7 +10,6 @@
 #include <string>
 
 #include "symbolic/algebra/where_defined.hpp"
-#include "symbolic/case/limits.hpp"
 
 namespace casimir {
 namespace {
@@ -32,31 +31,6 @@ double size_of(const numeric& number) {
   return size;
 }
 
-numeric checked(const numeric& number) {
-  if (std::abs(size_of(number)) > limits().bits) throw NoValue{};
-  return number;
-}
-
-numeric number_of(const ex& value) {
-  if (!GiNaC::is_a<numeric>(value)) throw NoValue{};
-  return checked(GiNaC::ex_to<numeric>(value));
-}
-
-numeric numeric_value(const ex& e);
-
-numeric power(const ex& e) {
-  const numeric base = numeric_value(e.op(0));
-  // A whole exponent stays exact: the power of a negative number is real.
-  const numeric exponent =
-      GiNaC::is_a<numeric>(e.op(1)) && GiNaC::ex_to<numeric>(e.op(1)).is_integer()
-          ? GiNaC::ex_to<numeric>(e.op(1))
-          : numeric_value(e.op(1));
-  const double growth =
-      std::abs(exponent.is_real() ? exponent.to_double() : GiNaC::abs(exponent).to_double());
-  if (!(growth * std::max(1.0, std::abs(size_of(base))) <= limits().bits)) throw NoValue{};
-  return checked(base.power(exponent));
-}
-
 /// CLN loses the digits of asin(10^50 + 10^50*I), and never returns from that of 10^25 + 10^25*I.
 void check_inverse(const std::string& function, const GiNaC::exvector& arguments) {
   static const std::set<std::string> inverse = {"asin",  "acos",  "atan", "atan2",
@@ -67,11 +41,44 @@ void check_inverse(const std::string& function, const GiNaC::exvector& arguments
   }
 }
 
-numeric numeric_value(const ex& e) {
+/// Evaluates step by step, so that no number on the way has more bits than are allowed.
+class Evaluation {
+ public:
+  explicit Evaluation(double bits) : bits_(bits) {}
+  numeric operator()(const ex& e) const;
+
+ private:
+  numeric checked(const numeric& number) const {
+    if (std::abs(size_of(number)) > bits_) throw NoValue{};
+    return number;
+  }
+  numeric number_of(const ex& value) const {
+    if (!GiNaC::is_a<numeric>(value)) throw NoValue{};
+    return checked(GiNaC::ex_to<numeric>(value));
+  }
+  numeric power(const ex& e) const;
+
+  double bits_;
+};
+
+numeric Evaluation::power(const ex& e) const {
+  const numeric base = (*this)(e.op(0));
+  // A whole exponent stays exact: the power of a negative number is real.
+  const numeric exponent =
+      GiNaC::is_a<numeric>(e.op(1)) && GiNaC::ex_to<numeric>(e.op(1)).is_integer()
+          ? GiNaC::ex_to<numeric>(e.op(1))
+          : (*this)(e.op(1));
+  const double growth =
+      std::abs(exponent.is_real() ? exponent.to_double() : GiNaC::abs(exponent).to_double());
+  if (!(growth * std::max(1.0, std::abs(size_of(base))) <= bits_)) throw NoValue{};
+  return checked(base.power(exponent));
+}
+
+numeric Evaluation::operator()(const ex& e) const {
   if (GiNaC::is_a<GiNaC::add>(e) || GiNaC::is_a<GiNaC::mul>(e)) {
-    numeric result = numeric_value(e.op(0));
+    numeric result = (*this)(e.op(0));
     for (std::size_t i = 1; i < e.nops(); ++i) {
-      const numeric next = numeric_value(e.op(i));
+      const numeric next = (*this)(e.op(i));
       result = checked(GiNaC::is_a<GiNaC::add>(e) ? result.add(next) : result.mul(next));
     }
     return result;
@@ -79,12 +86,12 @@ numeric numeric_value(const ex& e) {
   if (GiNaC::is_a<GiNaC::power>(e)) return power(e);
   if (GiNaC::is_a<GiNaC::function>(e)) {
     GiNaC::exvector arguments;
-    for (std::size_t i = 0; i < e.nops(); ++i) arguments.push_back(numeric_value(e.op(i)));
+    for (std::size_t i = 0; i < e.nops(); ++i) arguments.push_back((*this)(e.op(i)));
     const GiNaC::function& f = GiNaC::ex_to<GiNaC::function>(e);
     check_inverse(f.get_name(), arguments);
     static const std::set<std::string> exponential = {"exp", "sinh", "cosh", "tanh"};
     if (exponential.contains(f.get_name()) &&
-        size_of(GiNaC::ex_to<numeric>(arguments[0])) > 2 + std::log2(limits().bits))
+        size_of(GiNaC::ex_to<numeric>(arguments[0])) > 2 + std::log2(bits_))
       throw NoValue{};
     return number_of(ex(GiNaC::function(f.get_serial(), arguments)).evalf());
   }
@@ -93,16 +100,16 @@ numeric numeric_value(const ex& e) {
 
 }  // namespace
 
-std::optional<numeric> decimal(const ex& value) {
+std::optional<numeric> decimal(const ex& value, double bits) {
   try {
-    return where_defined([&] { return numeric_value(value); });
+    return where_defined([&] { return Evaluation(bits)(value); });
   } catch (const NoValue&) {
     return std::nullopt;
   }
 }
 
-std::optional<numeric> real_decimal(const ex& value) {
-  const std::optional<numeric> number = decimal(value);
+std::optional<numeric> real_decimal(const ex& value, double bits) {
+  const std::optional<numeric> number = decimal(value, bits);
   return number && number->is_real() ? number : std::nullopt;
 }
 

@@ -9,10 +9,11 @@
 namespace casimir {
 
 Quantity parse_range(const Text& text, Scope& names, std::size_t begin, std::size_t end) {
-  if (static_cast<double>(text.value.size()) > limits().file_bytes) {
-    throw text.error(fmt::format("the expression has {} bytes; the limit is {:.0f}",
-                                 text.value.size(), limits().file_bytes),
-                     0, limit_hint(&Limits::file_bytes));
+  const Limits& limits = names.limits();
+  if (static_cast<double>(text.value.size()) > limits.file_bytes) {
+    throw text.beyond(limits, &Limits::file_bytes,
+                      fmt::format("the expression has {} bytes; the limit is {:.0f}",
+                                  text.value.size(), limits.file_bytes));
   }
   return Parser(text, names, begin, end).parse();
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/case_file.hpp"
 #include "symbolic/comparison.hpp"
 
@@ -50,7 +51,7 @@ class Dynamics {
   virtual std::size_t dimension() const = 0;
 };
 
-/// The names that an expression may use.
+/// The names that an expression may use, and how large it may become.
 class Scope {
  public:
   virtual ~Scope() = default;
@@ -62,16 +63,24 @@ class Scope {
   virtual const Dynamics* dynamics() { return nullptr; }
   /// Whether values may be complex, so that (1/x)^(1/2) and 1/x^(1/2) have to be told apart.
   virtual bool complex_numbers() const { return false; }
+  /// What expressions over these names are held to.
+  virtual const Limits& limits() const = 0;
 };
 
 /// A fixed table of names.
 class NameTable : public Scope {
  public:
+  /// No names yet. \param limits  of the expressions over them
+  explicit NameTable(Limits limits) : limits_(std::move(limits)) {}
+
+  /// Has a name stand for this.
   void add(const std::string& name, Quantity quantity) { table_[name] = std::move(quantity); }
   const Quantity* find(const std::string& name) override;
   std::vector<std::string> known() const override;
+  const Limits& limits() const override { return limits_; }
 
  private:
+  Limits limits_;
   std::map<std::string, Quantity> table_;
 };
 
@@ -84,9 +93,9 @@ class NameTable : public Scope {
 Quantity parse_expression(const Text& text, Scope& names);
 
 /// Reads an expression without any variable.
-GiNaC::ex parse_constant(const Text& text);
+GiNaC::ex parse_constant(const Text& text, const Limits& limits);
 /// The same, for an exact real number.
-GiNaC::ex parse_real_constant(const Text& text);
+GiNaC::ex parse_real_constant(const Text& text, const Limits& limits);
 
 /// A condition: two sides, and how they compare, as in "r != 0".
 struct Condition {

@@ -73,49 +73,52 @@ class SizeOfExpression {
 
 /// Bits of the number that GiNaC raises to the power when it raises `base` to one; 0 where it
 /// raises none.
-double bits_of_base(const ex& base) {
+double bits_of_base(const ex& base, const Limits& limits) {
   if (base.info(GiNaC::info_flags::rational)) return bit_length(GiNaC::ex_to<GiNaC::numeric>(base));
-  if (GiNaC::is_a<GiNaC::mul>(base)) return bits_of_base(base.op(base.nops() - 1));  // its number
-  const auto value = decimal(base);
+  if (GiNaC::is_a<GiNaC::mul>(base))
+    return bits_of_base(base.op(base.nops() - 1), limits);  // its number
+  const auto value = decimal(base, limits.bits);
   return value && !value->is_zero() ? std::abs(std::log2(GiNaC::abs(*value).to_double())) : 0;
 }
 
 /// Parts that are shared are put in once.
 class Substitution : public GiNaC::map_function {
  public:
-  explicit Substitution(const GiNaC::exmap& values) : values_(values) {}
+  Substitution(const GiNaC::exmap& values, const Limits& limits)
+      : values_(values), limits_(limits) {}
 
   ex operator()(const ex& e) override {
     if (const auto it = values_.find(e); it != values_.end()) return it->second;
     if (e.nops() == 0) return e;
     if (const auto it = known_.find(e); it != known_.end()) return it->second;
     const ex result = GiNaC::is_a<GiNaC::power>(e)
-                          ? checked_power((*this)(e.op(0)), (*this)(e.op(1)))
+                          ? checked_power((*this)(e.op(0)), (*this)(e.op(1)), limits_)
                           : e.map(*this);
     return known_.emplace(e, result).first->second;
   }
 
  private:
   const GiNaC::exmap& values_;
+  const Limits& limits_;
   std::unordered_map<ex, ex> known_;
 };
 
 }  // namespace
 
-ex checked_power(const ex& base, const ex& exponent) {
+ex checked_power(const ex& base, const ex& exponent, const Limits& limits) {
   // GiNaC leaves other exponents than numbers as they are.
   const bool unit = base.is_zero() || base.is_equal(ex(1)) || base.is_equal(ex(-1));
   if (GiNaC::is_a<GiNaC::numeric>(exponent) && !unit) {
     const GiNaC::numeric size = GiNaC::abs(GiNaC::ex_to<GiNaC::numeric>(exponent));
-    if (size > 1 && size.to_double() * bits_of_base(base) > limits().bits)
-      throw TooLarge(fmt::format("a power would have more than {:g} bits; {}", limits().bits,
-                                 limit_hint(&Limits::bits)));
+    if (size > 1 && size.to_double() * bits_of_base(base, limits) > limits.bits)
+      throw TooLarge(fmt::format("a power would have more than {:g} bits", limits.bits), limits,
+                     &Limits::bits);
   }
   return GiNaC::pow(base, exponent);
 }
 
-ex substituted(const ex& expression, const GiNaC::exmap& values) {
-  return Substitution(values)(expression);
+ex substituted(const ex& expression, const GiNaC::exmap& values, const Limits& limits) {
+  return Substitution(values, limits)(expression);
 }
 
 bool is_fit_for_normal(const ex& expression) {

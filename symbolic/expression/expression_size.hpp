@@ -1,5 +1,6 @@
 #pragma once
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/expression/expression.hpp"
 
 namespace casimir {
@@ -33,10 +34,11 @@ inline GiNaC::ex normal_form(const GiNaC::ex& expression) {
 
 /// A power, of which GiNaC computes those of numbers at once, as 2^(10^12).
 /// \throws TooLarge  where such a number would exceed the limit `bits`.
-GiNaC::ex checked_power(const GiNaC::ex& base, const GiNaC::ex& exponent);
+GiNaC::ex checked_power(const GiNaC::ex& base, const GiNaC::ex& exponent, const Limits& limits);
 
 /// `expression` with values put in, its powers checked.
 /// \throws TooLarge
-GiNaC::ex substituted(const GiNaC::ex& expression, const GiNaC::exmap& values);
+GiNaC::ex substituted(const GiNaC::ex& expression, const GiNaC::exmap& values,
+                      const Limits& limits);
 
 }  // namespace casimir

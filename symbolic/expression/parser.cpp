@@ -29,9 +29,10 @@ void Parser::fail(const std::string& what, const std::string& hint) const {
   fail_at(at_, what, hint);
 }
 
-void Parser::fail_at(std::size_t offset, const std::string& what, const std::string& hint) const {
+void Parser::fail_at(std::size_t offset, const std::string& what, const std::string& hint,
+                     double Limits::*limit) const {
   const std::string escape = spelling_of_escape(text_.value, text_.excerpt.text());
-  throw text_.error(what, offset, escape.empty() ? hint : escape);
+  throw text_.error(what, offset, escape.empty() ? hint : escape, limit);
 }
 
 void Parser::unexpected(const std::string& expected) {
@@ -70,8 +71,8 @@ std::string Parser::character() const { return utf8_character(text_.value, at_, 
 
 void Parser::check(double value, double Limits::*limit, std::size_t offset,
                    const char* what) const {
-  if (value <= limits().*limit) return;  // false also for what is not a number
-  fail_at(offset, fmt::format(fmt::runtime(what), limits().*limit), limit_hint(limit));
+  if (value <= limits_.*limit) return;  // false also for what is not a number
+  fail_at(offset, fmt::format(fmt::runtime(what), limits_.*limit), limits_.hint(limit), limit);
 }
 
 Quantity Parser::checked(Quantity q, std::size_t offset) const {

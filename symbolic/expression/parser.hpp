@@ -27,9 +27,10 @@ namespace casimir {
 /// them, since adding term by term costs quadratic time.
 class Parser {
  public:
-  /// Reads `text` from `begin` up to `end`. \param text, names  outlive it.
+  /// Reads `text` from `begin` up to `end`, within the limits of `names`.
+  /// \param text, names  outlive it.
   Parser(const Text& text, Scope& names, std::size_t begin, std::size_t end)
-      : text_(text), names_(names), at_(begin), end_(end) {}
+      : text_(text), names_(names), limits_(names.limits()), at_(begin), end_(end) {}
 
   /// All of it as one expression; see `parse_expression`.
   Quantity parse();
@@ -43,10 +44,8 @@ class Parser {
   class Depth {
    public:
     explicit Depth(Parser& parser) : parser_(parser) {
-      if (++parser_.depth_ > limits().nesting)
-        parser_.fail(
-            fmt::format("the expression is nested more than {:.0f} deep", limits().nesting),
-            limit_hint(&Limits::nesting));
+      parser_.check(++parser_.depth_, &Limits::nesting, parser_.at_,
+                    "the expression is nested more than {:.0f} deep");
     }
     ~Depth() { --parser_.depth_; }
     Depth(const Depth&) = delete;
@@ -60,7 +59,7 @@ class Parser {
 
   [[noreturn]] void fail(const std::string& what, const std::string& hint = {}) const;
   [[noreturn]] void fail_at(std::size_t offset, const std::string& what,
-                            const std::string& hint = {}) const;
+                            const std::string& hint = {}, double Limits::*limit = nullptr) const;
   /// What stands here cannot: `expected` could.
   [[noreturn]] void unexpected(const std::string& expected);
   /// What people mean who write this character where no expression has it.
@@ -200,6 +199,7 @@ class Parser {
 
   const Text& text_;
   Scope& names_;
+  const Limits& limits_;
   std::size_t at_;
   std::size_t end_;
   int depth_ = 0;

@@ -54,8 +54,8 @@ unsigned derivatives_needed(const std::vector<GiNaC::symbol>& symbols,
 
 FunctionRing::FunctionRing(std::vector<GiNaC::symbol> symbols,
                            const std::vector<Assumption>& assumptions,
-                           const std::vector<ex>& expressions)
-    : table_(std::move(symbols)),
+                           const std::vector<ex>& expressions, const Limits& limits)
+    : table_(std::move(symbols), limits),
       signs_(table_, assumptions),
       converter_(std::make_unique<functions::Converter>(
           table_, signs_, derivatives_needed(table_.symbols(), assumptions, expressions))),

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/functions/function_pieces.hpp"
 #include "symbolic/functions/function_probe.hpp"
 #include "symbolic/functions/function_text.hpp"
@@ -46,9 +47,10 @@ class FunctionRing {
   /// \param symbols  independent symbols: variables, parameters, time, a spectral parameter.
   /// \param assumptions  decide the signs of square factors of roots.
   /// \param expressions  everything that will be converted later.
+  /// \param limits  of polynomials and of expressions: those of the model.
   /// \throws ModelError  for a denominator that is identically zero; TooLarge.
   FunctionRing(std::vector<GiNaC::symbol> symbols, const std::vector<Assumption>& assumptions,
-               const std::vector<GiNaC::ex>& expressions);
+               const std::vector<GiNaC::ex>& expressions, const Limits& limits);
   ~FunctionRing();
   FunctionRing(const FunctionRing&) = delete;
   FunctionRing& operator=(const FunctionRing&) = delete;
@@ -106,6 +108,8 @@ class FunctionRing {
 
   const std::vector<GiNaC::symbol>& symbols() const { return table_.symbols(); }
   const PolynomialRing& ring() const { return table_.ring(); }
+  /// What is computed in it is held to these.
+  const Limits& limits() const { return table_.limits(); }
   /// The data of the ring: what points, values and spectral coefficients are computed from.
   const functions::GeneratorTable& table() const { return table_; }
   using Origin = functions::Origin;

@@ -14,19 +14,6 @@ using GiNaC::ex;
 
 namespace {
 
-TooLarge too_many_terms(const char* what) {
-  return TooLarge(fmt::format("an expanded {} would have more than {:g} terms; {}", what,
-                              limits().terms, limit_hint(&Limits::terms)));
-}
-
-/// Numbers would grow until memory is full: roots of a high order in numbers with powers as high.
-void check_bits(double bits) {
-  if (bits > limits().bits)
-    throw TooLarge(
-        fmt::format("a number in an expanded polynomial would have more than {:.0f} bits; {}",
-                    limits().bits, limit_hint(&Limits::bits)));
-}
-
 /// log of binomial(n + k, k): the number of terms of a general polynomial.
 double log_binomial(double n, double k) {
   return std::lgamma(n + k + 1) - std::lgamma(n + 1) - std::lgamma(k + 1);
@@ -44,7 +31,23 @@ bool Generator::has_power_relation() const {
          kind == Kind::imaginary || !relation.empty();
 }
 
-GeneratorTable::GeneratorTable(std::vector<GiNaC::symbol> symbols) : symbols_(std::move(symbols)) {}
+GeneratorTable::GeneratorTable(std::vector<GiNaC::symbol> symbols, Limits limits)
+    : limits_(std::move(limits)), symbols_(std::move(symbols)) {}
+
+TooLarge GeneratorTable::too_many_terms(const char* what) const {
+  return TooLarge(
+      fmt::format("an expanded {} would have more than {:g} terms", what, limits_.terms), limits_,
+      &Limits::terms);
+}
+
+/// Numbers would grow until memory is full: roots of a high order in numbers with powers as high.
+void GeneratorTable::check_bits(double bits) const {
+  if (bits > limits_.bits)
+    throw TooLarge(
+        fmt::format("a number in an expanded polynomial would have more than {:.0f} bits",
+                    limits_.bits),
+        limits_, &Limits::bits);
+}
 
 void GeneratorTable::restart() {
   generators_.clear();
@@ -114,22 +117,22 @@ Polynomial GeneratorTable::derivative(const Polynomial& p, std::size_t symbol) c
 Polynomial GeneratorTable::checked_product(const Polynomial& a, const Polynomial& b) const {
   // Products that cancel or coincide are fewer than the pairs of terms.
   constexpr double kPairs = 100;
-  if (static_cast<double>(a.terms()) * static_cast<double>(b.terms()) > limits().terms * kPairs)
+  if (static_cast<double>(a.terms()) * static_cast<double>(b.terms()) > limits_.terms * kPairs)
     throw too_many_terms("product");
   check_bits(a.bits() + b.bits());
   Polynomial product = a * b;
-  if (static_cast<double>(product.terms()) > limits().terms) throw too_many_terms("product");
+  if (static_cast<double>(product.terms()) > limits_.terms) throw too_many_terms("product");
   return product;
 }
 
 Polynomial GeneratorTable::power(const Polynomial& p, unsigned long exponent) const {
   if (p.terms() > 1 && log_binomial(static_cast<double>(p.terms()) - 1,
-                                    static_cast<double>(exponent)) > std::log(limits().terms)) {
+                                    static_cast<double>(exponent)) > std::log(limits_.terms)) {
     // The bound by the number of monomials of that degree may be smaller.
     double used = 0;
     for (std::size_t i = 0; i < ring_->size(); ++i) used += p.uses(i) ? 1 : 0;
     const double degree = static_cast<double>(p.total_degree()) * static_cast<double>(exponent);
-    if (log_binomial(used, degree) > std::log(limits().terms)) throw too_many_terms("power");
+    if (log_binomial(used, degree) > std::log(limits_.terms)) throw too_many_terms("power");
   }
   // The bits of a unit, 1 for its numerator, denominator and content, are not its own.
   check_bits((p.bits() - 3) * static_cast<double>(exponent));
@@ -218,9 +221,9 @@ double GeneratorTable::expression_size(const Polynomial& p) const {
 
 ex GeneratorTable::expression(const Polynomial& p) const {
   // GiNaC shares what is repeated, but goes through all of it to compare and to sort.
-  if (expression_size(p) > limits().size)
-    throw TooLarge(fmt::format("an expression would have more than {:g} factors; {}", limits().size,
-                               limit_hint(&Limits::size)));
+  if (expression_size(p) > limits_.size)
+    throw TooLarge(fmt::format("an expression would have more than {:g} factors", limits_.size),
+                   limits_, &Limits::size);
   GiNaC::exvector terms;
   for (const auto& [coefficient, exponents] : p.term_list()) {
     GiNaC::exvector factors{GiNaC::numeric(coefficient)};

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "symbolic/algebra/polynomial.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/error.hpp"
 
 /// The parts of which a FunctionRing is made.
@@ -70,7 +71,8 @@ struct Full : TooLarge {
 class GeneratorTable {
  public:
   /// The table of these symbols has no generators yet, and no room for any.
-  explicit GeneratorTable(std::vector<GiNaC::symbol> symbols);
+  /// \param limits  of what is computed in it
+  GeneratorTable(std::vector<GiNaC::symbol> symbols, Limits limits);
 
   /// Forgets all generators and makes a polynomial ring of the present capacity.
   void restart();
@@ -83,6 +85,7 @@ class GeneratorTable {
 
   const std::vector<GiNaC::symbol>& symbols() const { return symbols_; }
   const PolynomialRing& ring() const { return *ring_; }
+  const Limits& limits() const { return limits_; }
   const std::vector<Generator>& generators() const { return generators_; }
   /// The place of the generator `g` among the variables of the ring.
   std::size_t place(std::size_t g) const { return symbols_.size() + g; }
@@ -164,6 +167,10 @@ class GeneratorTable {
   Polynomial without_inverse(const Polynomial& p, std::size_t g, unsigned long power) const;
   Polynomial reduced_sparse_power(const Polynomial& p, std::size_t g) const;
 
+  void check_bits(double bits) const;
+  TooLarge too_many_terms(const char* what) const;
+
+  Limits limits_;
   std::vector<GiNaC::symbol> symbols_;
   std::size_t capacity_ = 0;
   std::unique_ptr<PolynomialRing> ring_;

@@ -4,6 +4,7 @@ namespace casimir {
 
 Model bare_motion(const Model& model) {
   Model result;
+  result.limits = model.limits;
   result.name = model.name;
   result.file = model.file;
   result.phase_space = "equations";

@@ -13,17 +13,17 @@ namespace {
 using GiNaC::ex;
 
 /// Whether it is zero by all relations between functions, as sin(x)^2 + cos(x)^2 - 1 is.
-bool is_identically_zero(const ex& e) {
+bool is_identically_zero(const ex& e, const Limits& limits) {
   std::set<GiNaC::symbol, GiNaC::ex_is_less> seen;
   for (auto part = e.preorder_begin(); part != e.preorder_end(); ++part)
     if (GiNaC::is_a<GiNaC::symbol>(*part)) seen.insert(GiNaC::ex_to<GiNaC::symbol>(*part));
-  FunctionRing ring({seen.begin(), seen.end()}, {}, {e});
+  FunctionRing ring({seen.begin(), seen.end()}, {}, {e}, limits);
   return ring.numerator(ring.convert(e)).is_zero();
 }
 
 /// Whether a power of it is shown to be in the ideal of the constraints: then it is zero wherever
 /// they are. Beside another common zero set the bracket has poles on the whole phase space.
-bool vanishes_on(const std::vector<ex>& constraints, const ex& e) {
+bool vanishes_on(const std::vector<ex>& constraints, const ex& e, const Limits& limits) {
   std::set<GiNaC::symbol, GiNaC::ex_is_less> seen;
   std::vector<ex> all = constraints;
   all.push_back(e);
@@ -31,7 +31,7 @@ bool vanishes_on(const std::vector<ex>& constraints, const ex& e) {
     for (auto part = own.preorder_begin(); part != own.preorder_end(); ++part)
       if (GiNaC::is_a<GiNaC::symbol>(*part)) seen.insert(GiNaC::ex_to<GiNaC::symbol>(*part));
   }
-  FunctionRing ring({seen.begin(), seen.end()}, {}, all);
+  FunctionRing ring({seen.begin(), seen.end()}, {}, all, limits);
   std::vector<Polynomial> generators;
   for (const ex& phi : constraints) generators.push_back(ring.numerator(ring.convert(phi)));
   try {
@@ -57,7 +57,8 @@ ex cofactor(const GiNaC::matrix& m, unsigned row, unsigned column) {
 }  // namespace
 
 std::optional<DiracBracket> dirac_bracket(const PoissonStructure& written,
-                                          const std::vector<ex>& constraints) {
+                                          const std::vector<ex>& constraints,
+                                          const Limits& limits) {
   const std::size_t n = written.dimension(), m = constraints.size();
   if (m % 2 != 0) return std::nullopt;  // C is skew
   std::vector<std::vector<ex>> flows;   // {x_i, phi_a}
@@ -70,7 +71,7 @@ std::optional<DiracBracket> dirac_bracket(const PoissonStructure& written,
     }
   }
   const ex determinant = determinant_of(c);
-  if (is_identically_zero(determinant) || vanishes_on(constraints, determinant))
+  if (is_identically_zero(determinant, limits) || vanishes_on(constraints, determinant, limits))
     return std::nullopt;
   GiNaC::matrix inverse(c.rows(), c.cols());  // times the determinant
   for (unsigned a = 0; a < m; ++a)

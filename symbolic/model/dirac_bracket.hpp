@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/poisson.hpp"
 
 namespace casimir {
@@ -20,10 +21,12 @@ struct DiracBracket {
 
 /// \param written      {,}
 /// \param constraints  at most kMostConstraints functions of the coordinates and of parameters
+/// \param limits  of the case
 /// \return  nothing where det C = 0, as it is for an odd number of constraints: identically, or where
 ///          the constraints vanish by an ideal membership
 std::optional<DiracBracket> dirac_bracket(const PoissonStructure& written,
-                                          const std::vector<GiNaC::ex>& constraints);
+                                          const std::vector<GiNaC::ex>& constraints,
+                                          const Limits& limits);
 
 /// Determinants are expanded by minors.
 inline constexpr std::size_t kMostConstraints = 8;

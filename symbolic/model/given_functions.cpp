@@ -108,12 +108,14 @@ bool has_arbitrary_functions(const Model& model) {
   });
 }
 
-ex GivenFunctions::put(const ex& expression) const { return substituted(expression, values); }
+ex GivenFunctions::put(const ex& expression) const {
+  return substituted(expression, values, limits);
+}
 
 std::vector<GivenFunctions> function_choices(const Model& model) {
   std::vector<GivenFunctions> result;
   for (const int degree : {1, 2, 3, -2}) {
-    result.emplace_back();
+    result.push_back({model.limits, {}, {}});
     int which = 0;
     for (const GiNaC::symbol& parameter : model.parameters) {
       const auto function = function_name(parameter.get_name());
@@ -146,7 +148,7 @@ Model with_functions(const Model& model, const GivenFunctions& given) {
 }
 
 std::pair<Model, Scene> in_scene(const Model& model, const Scene& scene) {
-  GivenFunctions given;
+  GivenFunctions given{model.limits, {}, {}};
   Scene own = scene;
   own.parameters.clear();
   for (std::size_t i = 0; i < model.parameters.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/model.hpp"
 
 namespace casimir {
@@ -14,10 +15,12 @@ bool has_arbitrary_functions(const Model& model);
 
 /// Polynomials for the arbitrary functions of a case.
 struct GivenFunctions {
+  Limits limits;                                           ///< of the case
   GiNaC::exmap values;                                     ///< by the symbol of the function
   std::vector<std::pair<std::string, std::string>> texts;  ///< "U(r)" and "r^2 + r"
 
   /// An expression with these functions in place of the arbitrary ones.
+  /// \throws TooLarge  beyond the limit `bits`
   GiNaC::ex put(const GiNaC::ex& expression) const;
 };
 

@@ -167,7 +167,7 @@ PoissonStructure restricted_bracket(const PhaseSpaceText& text, const PoissonStr
   }
   std::optional<DiracBracket> result;
   try {
-    result = dirac_bracket(written, constraints);
+    result = dirac_bracket(written, constraints, names.limits());
   } catch (const ModelError& problem) {
     throw dirac.error(fmt::format("the Dirac bracket cannot be computed: {}", problem.what()));
   }
@@ -195,14 +195,14 @@ std::string describe_written(const PhaseSpaceText& text) {
 
 }  // namespace
 
-std::vector<GiNaC::symbol> make_variables(const PhaseSpaceText& text) {
+std::vector<GiNaC::symbol> make_variables(const PhaseSpaceText& text, const Limits& limits) {
   if (text.variables.empty())
     throw CaseError(text.where, "'variables' must name at least one variable");
-  if (static_cast<double>(text.variables.size()) > limits().variables) {
+  if (static_cast<double>(text.variables.size()) > limits.variables) {
     throw CaseError(text.where,
                     fmt::format("{} variables given; the limit is {:.0f}", text.variables.size(),
-                                limits().variables),
-                    {}, limit_hint(&Limits::variables));
+                                limits.variables),
+                    {}, limits.hint(&Limits::variables), &Limits::variables);
   }
   Symbols result;
   for (const Text& name : text.variables) {

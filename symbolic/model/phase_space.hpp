@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/case_file.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/frame.hpp"
@@ -12,7 +13,8 @@
 namespace casimir {
 
 /// The symbols for the variables of a phase space, names checked.
-std::vector<GiNaC::symbol> make_variables(const PhaseSpaceText& text);
+/// \throws CaseError  for a name that cannot be used, and for more of them than the limit
+std::vector<GiNaC::symbol> make_variables(const PhaseSpaceText& text, const Limits& limits);
 
 /// The frame that the phase space names; none if it is given in another way.
 std::optional<Frame> make_frame(const PhaseSpaceText& text,

@@ -111,6 +111,7 @@ HamiltonianSystem hamiltonian_system(const Model& model, const std::string& scen
     throw NotDecided("the theorem is about Hamiltonian systems, and the case has no Hamiltonian");
   if (model.time) throw NotDecided("the theorem is about systems that do not depend on time");
   HamiltonianSystem result;
+  result.limits = model.limits;
   const GiNaC::exmap values = numbers(model, scene, free, result.parameters);
   result.numbers = values;
   for (const std::string& name : names_in(free))

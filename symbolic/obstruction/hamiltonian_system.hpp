@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/model.hpp"
 
 namespace casimir::obstruction {
@@ -27,6 +28,7 @@ struct HamiltonianSystem {
   std::optional<GiNaC::symbol> free;   ///< the parameter that has no number
   std::vector<GiNaC::symbol> further;  ///< more of these
   GiNaC::exmap start;                  ///< the scene's initial values, where they are rational
+  Limits limits{};                     ///< of the case
 
   /// The place of a variable in the list. \throws std::logic_error  if it is none
   std::size_t index(const GiNaC::ex& variable) const;

@@ -54,7 +54,7 @@ std::string Statement::title() const {
 CertificateWriter::CertificateWriter(const Model& model, const std::vector<ex>& about)
     : model_(model),
       // Without the assumptions of the case: what they would simplify is not what the file says.
-      ring_(symbols_of(model), {}, polynomials_of(model, about)),
+      ring_(symbols_of(model), {}, polynomials_of(model, about), model.limits),
       file_(symbols_of(model), model.variables.size()) {
   file_.begin_part("The bracket and the Hamiltonian");
   std::vector<Polynomial> upper;

@@ -50,7 +50,8 @@ std::vector<ex> Prover::with_dynamics(const Model& model, std::vector<ex> expres
 
 Prover::Prover(const Model& model, const std::vector<ex>& expressions, Subject subject)
     : model_(model),
-      ring_(symbols_of(model), model.assumptions, with_dynamics(model, expressions, subject)),
+      ring_(symbols_of(model), model.assumptions, with_dynamics(model, expressions, subject),
+            model.limits),
       points_(model, ring_),
       real_points_(model, ring_),
       domain_(with_dynamics(model, expressions, subject)),

@@ -224,7 +224,8 @@ bool Prover::vanishes_by_substitution(const Residual& residual, const Level& lev
       const Polynomial rest = solved.relation.coefficients(solved.variable)[0];
       const cln::cl_RA factor = -1 / solved.leading.term_list()[0].first;
       value = substituted(
-          value, {{ring_.symbols()[solved.variable], ring_.expression(rest.scaled(factor))}});
+          value, {{ring_.symbols()[solved.variable], ring_.expression(rest.scaled(factor))}},
+          ring_.limits());
     }
     return value;
   };
@@ -232,7 +233,7 @@ bool Prover::vanishes_by_substitution(const Residual& residual, const Level& lev
     const ex value = on_level(ring_.expression(ring_.lowest_terms(residual.value).first));
     std::vector<Assumption> assumptions = model_.assumptions;
     for (Assumption& a : assumptions) a.difference = on_level(a.difference);
-    FunctionRing fresh(ring_.symbols(), assumptions, {value});
+    FunctionRing fresh(ring_.symbols(), assumptions, {value}, ring_.limits());
     return fresh.numerator(fresh.convert(value)).is_zero();
   };
   try {

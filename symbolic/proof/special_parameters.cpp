@@ -284,8 +284,8 @@ bool SpecialParameters::put_zero(const Polynomial& f, std::vector<GiNaC::ex>& co
 bool SpecialParameters::is_excluded_at_zero(const Polynomial& parameter) const {
   const GiNaC::exmap zero{{prover_.ring().expression(parameter), 0}};
   return std::any_of(excluded_.begin(), excluded_.end(), [&](const Polynomial& f) {
-    const auto value =
-        where_defined([&] { return substituted(prover_.ring().expression(f), zero); });
+    const auto value = where_defined(
+        [&] { return substituted(prover_.ring().expression(f), zero, prover_.ring().limits()); });
     return value && value->is_zero();
   });
 }

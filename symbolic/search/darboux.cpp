@@ -292,7 +292,7 @@ void DarbouxSearch::search_from(std::size_t leading) {
 DarbouxReport DarbouxSearch::run() {
   report_.complete = true;
   watch_.begin("Darboux polynomials");
-  const WorkMeter meter;  // of all systems of equations together
+  const WorkMeter meter(system_.model().limits);  // of all systems of equations together
   for (std::size_t leading = 1; leading < monomials_.size(); ++leading) {
     watch_.tick(static_cast<double>(leading) / static_cast<double>(monomials_.size()));
     try {

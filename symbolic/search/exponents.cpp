@@ -442,7 +442,7 @@ void Analysis::describe_leading() {
 /// No balance is known where the equations are too large.
 ExponentReport Analysis::run() {
   try {
-    const WorkMeter meter;
+    const WorkMeter meter(system_.model().limits);
     find_balances();
   } catch (const TooLarge& limit) {
     report_.complete = false;

@@ -65,7 +65,7 @@ std::unique_ptr<Model> with_symbols_for(const Model& model,
 
 System::System(const Model& model, const std::vector<NamedExpression>& functions,
                const std::vector<GiNaC::ex>& others) try
-    : meter_(std::in_place),
+    : meter_(std::in_place, model.limits),
       extended_(with_symbols_for(model, functions, others)),
       prover_(extended_ ? *extended_ : model, values_of(functions, others)) {
   const std::size_t dimension = model.variables.size();
@@ -218,7 +218,7 @@ GiNaC::ex System::expression(const Polynomial& p) const {
 
 std::string System::text_of(const GiNaC::ex& expression) const {
   const FunctionRing& own = prover_.ring();
-  FunctionRing fresh(own.symbols(), model().assumptions, {expression});
+  FunctionRing fresh(own.symbols(), model().assumptions, {expression}, own.limits());
   return fresh.text(fresh.convert(expression));
 }
 

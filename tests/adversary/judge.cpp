@@ -162,7 +162,7 @@ Outcome confirm(Case& claim, Random& random, std::string& what) {
 
 Outcome ask(Case& claim, Random& random, std::string& what) {
   if (const Outcome truth = confirm(claim, random, what); truth != Outcome::proved) return truth;
-  const Model model = build_model(parse_case(claim.text(), "claim.toml"));
+  const Model model = build_model(parse_case(claim.text(), "claim.toml", limits_of_a_claim()));
   Candidates candidates;
   candidates.only = claim_kind_of(to_string(claim.kind));
   const std::vector<Proof> proofs = prove(model, candidates);
@@ -232,6 +232,12 @@ std::string to_string(Outcome outcome) {
 }
 
 bool is_failure(Outcome outcome) { return outcome >= Outcome::false_proof; }
+
+Limits limits_of_a_claim() {
+  Limits limits;
+  limits.work = 1e7;
+  return limits;
+}
 
 Judgement unjudged(std::uint64_t seed, std::uint64_t index) {
   Random generator(seed, index);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "symbolic/case/limits.hpp"
 #include "tests/adversary/case.hpp"
 #include "tests/adversary/templates.hpp"
 
@@ -26,6 +27,10 @@ inline constexpr std::size_t kOutcomes = 10;
 std::string to_string(Outcome outcome);
 /// Whether it fails the run.
 bool is_failure(Outcome outcome);
+
+/// Under which a claim is read and decided: one that takes longer is undecided, which is no
+/// failure.
+Limits limits_of_a_claim();
 
 /// One claim, judged.
 struct Judgement {

@@ -4,6 +4,7 @@
 
 #include "symbolic/search/darboux.hpp"
 #include "symbolic/search/exponents.hpp"
+#include "tests/adversary/judge.hpp"
 #include "tests/adversary/judge_certificate.hpp"
 #include "tests/adversary/parser.hpp"
 #include "tests/adversary/ranks.hpp"
@@ -167,7 +168,7 @@ Outcome judge_darboux(const PlantedCase& claim, const Model& model, Random& rand
 }  // namespace
 
 Outcome judge_planted(const PlantedCase& claim, Random& random, std::string& what) {
-  const Model model = build_model(parse_case(claim.base.text(), "claim.toml"));
+  const Model model = build_model(parse_case(claim.base.text(), "claim.toml", limits_of_a_claim()));
   switch (claim.base.kind) {
     case Kind::exponents:
       return judge_exponents(claim, model, random, what);

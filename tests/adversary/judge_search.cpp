@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "symbolic/search/search.hpp"
+#include "tests/adversary/judge.hpp"
 #include "tests/adversary/oracle.hpp"
 #include "tests/adversary/parser.hpp"
 #include "tests/adversary/ranks.hpp"
@@ -184,7 +185,7 @@ Outcome judge_search(const SearchCase& claim, Random& random, std::string& what)
   if (!is_confirmed(claim, random)) return Outcome::unconfirmed;
   Case plain = claim.base;
   plain.conditionals.clear();
-  const Model model = build_model(parse_case(plain.text(), "claim.toml"));
+  const Model model = build_model(parse_case(plain.text(), "claim.toml", limits_of_a_claim()));
   return claim.is_free() ? judge_free(claim, model, random, what)
                          : judge_plain(claim, model, random, what);
 }

@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "symbolic/case/limits.hpp"
 #include "tests/adversary/run.hpp"
 
 int main(int argc, char** argv) {
@@ -20,8 +19,5 @@ int main(int argc, char** argv) {
   app.add_option("--undecided", request.undecided,
                  "a file for the true claims that stay undecided");
   CLI11_PARSE(app, argc, argv);
-  casimir::Limits limits = casimir::limits();
-  limits.work = 1e7;  // a claim that takes longer is undecided, which is no failure
-  casimir::set_limits(limits);
   return run(request) ? 0 : 1;
 }

@@ -62,7 +62,8 @@ struct Problem {
     spec = specialise(model, model.scene("default"));
     std::vector<double> start;
     for (const int line : spec.start.outputs)
-      start.push_back(codegen::nearest<double>(codegen::constant_value(spec.start, line)));
+      start.push_back(
+          codegen::nearest<double>(codegen::constant_value(spec.start, line, spec.limits)));
     duration = start.back();
     start.pop_back();
     ensemble.states = start.size();
@@ -70,7 +71,7 @@ struct Problem {
     std::uniform_real_distribution<double> near(1 - 1e-3, 1 + 1e-3);
     for (std::size_t i = 0; i < members; ++i)
       for (const double x : start) ensemble.initial.push_back(x * near(random));
-    kernel.emplace(*quadratic_form(spec.rhs));
+    kernel.emplace(*quadratic_form(spec.rhs, spec.limits));
   }
 
   casimir_run single(double tolerance) const {
@@ -244,7 +245,7 @@ int run(const Options& options) {
   bool good = true;
   for (const std::string& name : options.cases) {
     const Problem problem(options.folder + "/" + name + ".toml", options.quick ? 20 : 1024);
-    const LaneForm form = *lane_form(problem.spec.rhs);
+    const LaneForm form = *lane_form(problem.spec.rhs, problem.spec.limits);
     const LaneKernel compiled = compiled_kernel(form), tables = table_driven_lanes(form);
     std::vector<Curve> curves = curves_of(problem, compiled, tables, options);
     const std::vector<double> truth = problem.in_lanes(tables, 1e-15, 0, 24);

@@ -125,7 +125,7 @@ Model fresh_model(const std::string& toml, bool flat) {
   Model model = build_model(parse_case(toml, "problem.toml"));
   if (flat) {
     ex& value = model.integrals[0].value;
-    FunctionRing ring(symbols_of(model), {}, {value});
+    FunctionRing ring(symbols_of(model), {}, {value}, model.limits);
     value = ring.expression(ring.convert(value));
   }
   return model;
@@ -136,7 +136,7 @@ std::size_t terms_of(const Problem& problem) {
   const Model model = fresh_model(problem.toml, false);
   if (problem.kind == ClaimKind::integral) {
     const ex value = model.integrals[0].value;
-    FunctionRing ring(symbols_of(model), {}, {value});
+    FunctionRing ring(symbols_of(model), {}, {value}, model.limits);
     return ring.convert(value).terms();
   }
   std::size_t brackets = 0;

@@ -118,7 +118,8 @@ bool measure(const Problem& problem, const std::filesystem::path& folder) {
                                : read_case((folder / problem.file).string() + ".toml"));
   const Scene& scene = model.scene(problem.scene);
   ValidatedOptions options;
-  options.duration = parse_real_constant({problem.duration, {"duration", 1, 1}, problem.duration});
+  options.duration =
+      parse_real_constant({problem.duration, {"duration", 1, 1}, problem.duration}, model.limits);
   if (problem.initial_radius > 0)
     options.initial_radius = cln::rational(cln::cl_DF(problem.initial_radius));
   const PreparedEnclosure plain = prepare_enclosure(model, scene, options);

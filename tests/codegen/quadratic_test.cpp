@@ -50,7 +50,7 @@ std::vector<double> jacobian_times_state(const casimir_quadratic& tables,
 }
 
 void expect_tables_of(const Program& rhs, int registers, int moves) {
-  const auto form = quadratic_form(rhs);
+  const auto form = quadratic_form(rhs, {});
   ASSERT_TRUE(form);
   const auto tables = narrow_tables(*form);
   ASSERT_TRUE(tables);
@@ -85,7 +85,7 @@ TEST(QuadraticForm, KeepsWhatRoundingAFactorLoses) {
               {Op::constant, 2}, {Op::mul, 0, 2},   {Op::sub, 1, 4},
               {Op::mul, 0, 0},   {Op::mul, 6, 3},   {Op::add, 5, 7}};
   rhs.outputs = {8};
-  const auto form = quadratic_form(rhs);
+  const auto form = quadratic_form(rhs, {});
   ASSERT_TRUE(form);
   const auto expect = [](double factor, double rest, const char* exact) {
     const auto rational = [](double value) { return cln::rational(cln::cl_DF(value)); };
@@ -112,18 +112,18 @@ TEST(QuadraticTables, ConstantsLinearTermsAndSquares) {
 
 TEST(QuadraticTables, OtherSystemsHaveNone) {
   for (const char* rate : {"x^3", "1/x", "sin(x)", "sqrt(x)", "x*y^2"})
-    EXPECT_FALSE(quadratic_form(specialised(equations({{"x", rate}, {"y", "x"}})).rhs)) << rate;
+    EXPECT_FALSE(quadratic_form(specialised(equations({{"x", rate}, {"y", "x"}})).rhs, {})) << rate;
   // The twin: what only looks like a cube.
   EXPECT_TRUE(quadratic_form(
-      specialised(equations({{"x", "(x + y)^3 - x^3 - 3*x^2*y - 3*x*y^2 - y^3"}, {"y", "x"}}))
-          .rhs));
+      specialised(equations({{"x", "(x + y)^3 - x^3 - 3*x^2*y - 3*x*y^2 - y^3"}, {"y", "x"}})).rhs,
+      {}));
 }
 
 TEST(QuadraticTables, ParametersAtRunTimeAreNumbers) {
   SpecialiseOptions general;
   general.fold_parameters = false;
   const Specialisation s = specialised(kKovalevskaya, general);
-  const auto form = quadratic_form(s.rhs, {3});
+  const auto form = quadratic_form(s.rhs, s.limits, {3});
   ASSERT_TRUE(form);
   EXPECT_EQ(form->linear[1][5], -3);
   EXPECT_EQ(form->linear[2][4], 3);

@@ -4,17 +4,16 @@
 #include <stdexcept>
 #include <string>
 
-#include "symbolic/case/limits.hpp"
 #include "symbolic/model.hpp"
 #include "tests/fuzz/target.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace casimir;
-  test::use_small_limits();
   const test::OneSecond limit;
   try {
-    build_model(parse_case({reinterpret_cast<const char*>(data), size}, "fuzz.toml"), {},
-                [](const std::string&) { return std::nullopt; });
+    build_model(
+        parse_case({reinterpret_cast<const char*>(data), size}, "fuzz.toml", test::small_limits()),
+        {}, [](const std::string&) { return std::nullopt; });
   } catch (const CaseError&) {
   } catch (const ModelError&) {
   } catch (const SingularPoint&) {

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <string>
 
-#include "symbolic/case/limits.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/model.hpp"
 #include "symbolic/model/model_dynamics.hpp"
@@ -16,7 +15,7 @@ using namespace casimir;
 /// What an expression of a case may use: symbols, a definition, the bracket of e(3) and its flow.
 class Names : public NameTable {
  public:
-  Names() : dynamics_(model()) {
+  Names() : NameTable(test::small_limits()), dynamics_(model()) {
     for (const GiNaC::symbol& s : model().variables) add(s.get_name(), Quantity::symbol(s));
     for (const GiNaC::symbol& s : model().parameters) add(s.get_name(), Quantity::symbol(s));
     add("u", {model().definitions[0].value, 8, 4, 8});
@@ -35,7 +34,7 @@ r = {}
 [definitions]
 u = "sqrt(x^2 + y^2)"
 )toml",
-                                                       "fuzz.toml"));
+                                                       "fuzz.toml", test::small_limits()));
     return result;
   }
 
@@ -57,7 +56,6 @@ bool attempt(Read read) {
 }  // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  test::use_small_limits();
   const test::OneSecond limit;
   static Names names;
   const std::string value(reinterpret_cast<const char*>(data), size);
@@ -65,6 +63,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const bool read = attempt([&] { parse_equation(text, names); });
   if (!read && value.find_first_of("!<>") != std::string::npos)
     attempt([&] { parse_condition(text, names); });
-  if (read) attempt([&] { parse_real_constant(text); });
+  if (read) attempt([&] { parse_real_constant(text, names.limits()); });
   return 0;
 }

@@ -40,7 +40,7 @@ class OneSecond {
 };
 
 /// The program's own limits allow work of seconds; many small inputs find more than few large ones.
-inline void use_small_limits() {
+inline Limits small_limits() {
   Limits small;
   small.variables = 12;
   small.parameters = 12;
@@ -50,7 +50,7 @@ inline void use_small_limits() {
   small.bits = 2000;
   small.size = 2000;
   small.terms = 2000;
-  set_limits(small);
+  return small;
 }
 
 }  // namespace casimir::test

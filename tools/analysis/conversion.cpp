@@ -59,7 +59,7 @@ const Assumption* failing(const Program& program, const std::vector<Assumption>&
 }  // namespace
 
 Conversion::Conversion(const Model& model, Atlas atlas, const std::string& set)
-    : atlas_(std::move(atlas)) {
+    : limits_(model.limits), atlas_(std::move(atlas)) {
   const std::size_t to = atlas_.named(set);
   const std::size_t from = atlas_.of(model);
   const auto path = atlas_.path(from, to, false);
@@ -132,7 +132,7 @@ std::vector<double> Conversion::apply(const Step& step, const std::vector<double
 
 std::vector<GiNaC::ex> Conversion::exact(const Scene& scene) const {
   std::vector<GiNaC::ex> state = scene.initial;
-  for (const Step& step : steps_) state = image_of(atlas_, *step.change, state);
+  for (const Step& step : steps_) state = image_of(atlas_, *step.change, state, limits_);
   return state;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/program.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/coordinates.hpp"
 
 namespace casimir {
@@ -45,6 +46,7 @@ class Conversion {
   };
   std::vector<double> apply(const Step& step, const std::vector<double>& state) const;
 
+  Limits limits_;
   Atlas atlas_;
   std::vector<Step> steps_;
   std::vector<std::string> names_;

@@ -4,13 +4,14 @@
 
 #include <algorithm>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/expression/expression.hpp"
 
 namespace casimir {
 namespace {
 
-bool differ(const Text& a, const Text& b) {
-  return !(parse_real_constant(a) - parse_real_constant(b)).expand().is_zero();
+bool differ(const Text& a, const Text& b, const Limits& limits) {
+  return !(parse_real_constant(a, limits) - parse_real_constant(b, limits)).expand().is_zero();
 }
 
 }  // namespace
@@ -21,7 +22,7 @@ void set_in_scenes(CaseFile& file, std::vector<Entry> SceneText::*table, const T
     std::vector<Entry>& entries = scene.*table;
     const auto own = std::ranges::find_if(
         entries, [&](const Entry& entry) { return entry.first.value == name.value; });
-    if (own == entries.end() || differ(own->second, value)) {
+    if (own == entries.end() || differ(own->second, value, file.limits)) {
       scene.reference.clear();
       scene.altered = true;
     }

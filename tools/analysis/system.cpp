@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/expression/decimal.hpp"
 #include "symbolic/expression/elementary.hpp"
 #include "symbolic/expression/elliptic.hpp"
@@ -58,9 +59,9 @@ void check(const GiNaC::ex& expression, const std::vector<GiNaC::symbol>& known)
   }
 }
 
-void check_constant(const GiNaC::ex& value) {
+void check_constant(const GiNaC::ex& value, const Limits& limits) {
   check(value, {});
-  if (!real_decimal(value))
+  if (!real_decimal(value, limits.bits))
     throw ModelError(
         fmt::format("'{}' is no real number", printable(fmt::format("{}", fmt::streamed(value)))));
 }
@@ -104,8 +105,8 @@ Scene scene_from(const Model& model, const std::vector<GiNaC::ex>& initial,
         "{} initial values for {} variables, and {} values for {} parameters", initial.size(),
         model.variables.size(), parameters.size(), model.parameters.size()));
   for (const auto* values : {&initial, &parameters})
-    for (const GiNaC::ex& value : *values) check_constant(value);
-  check_constant(duration);
+    for (const GiNaC::ex& value : *values) check_constant(value, model.limits);
+  check_constant(duration, model.limits);
   Scene scene;
   scene.name = "default";
   scene.initial = initial;

@@ -58,12 +58,12 @@ std::vector<fs::path> bundled_cases() {
   return result;
 }
 
-std::vector<fs::path> bundled_cases(const std::string& tag) {
+std::vector<fs::path> bundled_cases(const std::string& tag, const Limits& limits) {
   if (tag.empty()) return bundled_cases();
   std::vector<fs::path> result;
   std::set<std::string> known;
   for (const fs::path& path : bundled_cases()) {
-    const std::vector<std::string> tags = common_part(read_any_case(path)).tags;
+    const std::vector<std::string> tags = common_part(read_any_case(path, limits)).tags;
     known.insert(tags.begin(), tags.end());
     if (std::ranges::find(tags, tag) != tags.end()) result.push_back(path);
   }
@@ -72,8 +72,8 @@ std::vector<fs::path> bundled_cases(const std::string& tag) {
                   suggest_or_list(tag, {known.begin(), known.end()}));
 }
 
-static bool is_map(const fs::path& path) {
-  return std::holds_alternative<MapCaseFile>(read_any_case(path));
+static bool is_map(const fs::path& path, const Limits& limits) {
+  return std::holds_alternative<MapCaseFile>(read_any_case(path, limits));
 }
 
 [[noreturn]] static void refuse_maps(const std::string& tag) {
@@ -82,27 +82,27 @@ static bool is_map(const fs::path& path) {
                                          printable(tag)));
 }
 
-std::vector<fs::path> bundled_flows(const std::string& tag) {
-  std::vector<fs::path> result = bundled_cases(tag);
-  std::erase_if(result, is_map);
+std::vector<fs::path> bundled_flows(const std::string& tag, const Limits& limits) {
+  std::vector<fs::path> result = bundled_cases(tag, limits);
+  std::erase_if(result, [&](const fs::path& path) { return is_map(path, limits); });
   if (result.empty() && !tag.empty()) refuse_maps(tag);
   return result;
 }
 
-std::vector<fs::path> bundled_maps() {
+std::vector<fs::path> bundled_maps(const Limits& limits) {
   std::vector<fs::path> result = bundled_cases();
-  std::erase_if(result, [](const fs::path& path) { return !is_map(path); });
+  std::erase_if(result, [&](const fs::path& path) { return !is_map(path, limits); });
   return result;
 }
 
-std::vector<fs::path> listed_cases(const std::string& tag) {
-  return tag.empty() ? bundled_flows({}) : bundled_cases(tag);
+std::vector<fs::path> listed_cases(const std::string& tag, const Limits& limits) {
+  return tag.empty() ? bundled_flows({}, limits) : bundled_cases(tag, limits);
 }
 
-std::vector<CaseFile> tagged_cases(const std::string& tag) {
+std::vector<CaseFile> tagged_cases(const std::string& tag, const Limits& limits) {
   std::vector<CaseFile> result;
-  for (const fs::path& path : bundled_cases(tag)) {
-    AnyCaseFile file = read_any_case(path);
+  for (const fs::path& path : bundled_cases(tag, limits)) {
+    AnyCaseFile file = read_any_case(path, limits);
     if (auto* flow = std::get_if<CaseFile>(&file)) result.push_back(std::move(*flow));
   }
   if (result.empty() && !tag.empty()) refuse_maps(tag);
@@ -128,25 +128,25 @@ std::vector<CaseFile> tagged_cases(const std::string& tag) {
   throw CaseError({path.string()}, "the case file does not exist or cannot be read", {}, hint);
 }
 
-CaseFile load_case(const std::string& argument) {
-  AnyCaseFile any = load_any_case(argument);
+CaseFile load_case(const std::string& argument, const Limits& limits) {
+  AnyCaseFile any = load_any_case(argument, limits);
   if (const auto* map = std::get_if<MapCaseFile>(&any)) throw map->not_a_flow();
   return std::get<CaseFile>(std::move(any));
 }
 
-AnyCaseFile load_any_case(const std::string& argument) {
+AnyCaseFile load_any_case(const std::string& argument, const Limits& limits) {
   if (argument == "-") {
     const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
-    return parse_any_case(text, "<standard input>");
+    return parse_any_case(text, "<standard input>", limits);
   }
   std::vector<std::string> names;
   if (argument.find('/') != std::string::npos || argument.ends_with(".toml")) {
     std::error_code ignored;
     if (!fs::exists(argument, ignored)) no_such_file(argument);
-    return read_any_case(argument);
+    return read_any_case(argument, limits);
   }
   for (const fs::path& path : bundled_cases()) {
-    if (path.stem() == argument) return read_any_case(path);
+    if (path.stem() == argument) return read_any_case(path, limits);
     names.push_back(path.stem().string());
   }
   std::string hint = suggest(argument, names);
@@ -155,19 +155,22 @@ AnyCaseFile load_any_case(const std::string& argument) {
   throw CaseError({argument}, "there is no bundled case of this name", {}, hint);
 }
 
-static std::optional<CaseFile> bundled_flow(const std::string& name) {
-  for (const fs::path& path : bundled_cases()) {
-    if (path.stem() == name) return read_case(path);
-  }
-  return std::nullopt;
+/// Finds the bundled cases that the maps of a case lead to.
+static FindCase bundled_flow(const Limits& limits) {
+  return [limits](const std::string& name) -> std::optional<CaseFile> {
+    for (const fs::path& path : bundled_cases()) {
+      if (path.stem() == name) return read_case(path, limits);
+    }
+    return std::nullopt;
+  };
 }
 
 Model model_of(const CaseFile& file, const ParameterValues& fixed) {
-  return build_model(file, fixed, bundled_flow);
+  return build_model(file, fixed, bundled_flow(file.limits));
 }
 
 MapModel map_model_of(const MapCaseFile& file, const ParameterValues& fixed) {
-  return build_map_model(file, fixed, bundled_flow);
+  return build_map_model(file, fixed, bundled_flow(file.file.limits));
 }
 
 }  // namespace casimir::tools

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/model.hpp"
 #include "tools/cli/cli_names.hpp"
 
@@ -17,6 +19,7 @@ struct Common {
   std::string scene = "default";
   bool scene_given = false;
   double time_limit = 0;  ///< seconds; 0: none
+  Limits limits{};        ///< under which cases are read: from `--limit`, see `Resources`
 
   /// `--param NAME=VALUE`, split.
   /// \throws UsageError
@@ -37,8 +40,17 @@ void add_all(CLI::App& command, bool& all, std::string& tag, const std::string& 
 /// Adds `--output FILE.csv`, or .npz or .h5; other endings are refused: see `write_table`.
 void add_csv_output(CLI::App& command, std::string& path, const std::string& text);
 
-/// Runs after the command line has been read; its result is the exit status.
-using Action = std::function<int()>;
+/// Runs after the command line has been read, under its limits; its result is the exit status.
+using Action = std::function<int(const Limits&)>;
+
+/// Runs a command with its options, which the limits of the command line are added to.
+template <class Options>
+Action action_of(const std::shared_ptr<Options>& options, int (*command)(const Options&)) {
+  return [options, command](const Limits& limits) {
+    options->common.limits = limits;
+    return command(*options);
+  };
+}
 
 /// A command adds itself to the program and, if it was chosen, sets `action`.
 using Register = void (*)(CLI::App& program, Action& action);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "symbolic/case/limits.hpp"
+
 namespace casimir::tools {
 
 CommandLine::CommandLine()
@@ -20,11 +22,12 @@ CommandLine::CommandLine()
   for (CLI::App* command : app_.get_subcommands(nullptr)) add_resources(*command, resources_);
 }
 
-Action CommandLine::read(int argc, const char* const* argv) {
+std::function<int()> CommandLine::read(int argc, const char* const* argv) {
   app_.parse(argc, argv);
   return [resources = resources_, action = action_] {
-    apply(resources);
-    return action();
+    const Limits limits = limits_of(resources);
+    limit_memory(resources);
+    return action(limits);
   };
 }
 

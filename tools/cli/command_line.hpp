@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <string>
 
 #include "tools/cli/cli.hpp"
@@ -17,7 +18,7 @@ class CommandLine {
 
   /// Reads a command line, and runs nothing.
   /// \throws CLI::ParseError, also for --help
-  Action read(int argc, const char* const* argv);
+  std::function<int()> read(int argc, const char* const* argv);
 
   /// What to say of a command line that could not be read.
   std::string usage_message(const CLI::ParseError& problem, int argc, const char* const* argv);

@@ -83,8 +83,7 @@ Limits limits_of(const Resources& resources) {
   return result;
 }
 
-void apply(const Resources& resources) {
-  set_limits(limits_of(resources));
+void limit_memory(const Resources& resources) {
   throw_when_out_of_memory();
   if (resources.memory) g_memory = *resources.memory * kGigabyte;
   if (kSanitized) return;

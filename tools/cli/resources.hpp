@@ -22,9 +22,8 @@ void add_resources(CLI::App& command, Resources& resources);
 /// \throws UsageError
 Limits limits_of(const Resources& resources);
 
-/// Sets the limits of this process, and of those that it starts.
-/// \throws UsageError
-void apply(const Resources& resources);
+/// Sets the memory that this process may take, and those that it starts.
+void limit_memory(const Resources& resources);
 
 /// The memory in bytes that the command line allows; empty where it says nothing.
 std::optional<double> memory_allowed();

@@ -71,7 +71,7 @@ MethodComparison hold(const CaseFile& file, const BenchArguments& options, Progr
       options.kept.model_of(options.start.in(file), options.common.parameter_values()), options.in);
   const Scene& scene = model.scene(options.common.scene);
   ComparisonOptions what = options.contest;
-  what.run = options.run.request();
+  what.run = options.run.request(options.common.limits);
   what.code = options.kept.in<SceneOptions>();
   std::string doing;
   what.progress = [&](const std::string& now, double share) {
@@ -84,7 +84,7 @@ MethodComparison hold(const CaseFile& file, const BenchArguments& options, Progr
 
 /// Every bundled case. One that has no such scene, or a file that is no case, is told and skipped.
 void hold_all(const BenchArguments& options, Progress& progress, BenchReport& report) {
-  const auto paths = bundled_flows(options.tag);
+  const auto paths = bundled_flows(options.tag, options.common.limits);
   if (paths.empty())
     throw SystemError("no bundled cases were found; CASIMIR_CASES can name their folder");
   for (const auto& path : paths) {
@@ -93,7 +93,7 @@ void hold_all(const BenchArguments& options, Progress& progress, BenchReport& re
           not_held(path.stem().string(), options.common.scene, problem.what()));
     };
     try {
-      report.contests.push_back(hold(read_case(path), options, progress));
+      report.contests.push_back(hold(read_case(path, options.common.limits), options, progress));
     } catch (const CaseError& problem) {
       skip(problem);
     } catch (const ModelError& problem) {
@@ -110,7 +110,7 @@ BenchReport compare_methods_on_scenes(const BenchArguments& options) {
   Progress progress(!options.common.quiet);
   if (options.all) hold_all(options, progress, report);
   for (const std::string& name : options.case_names) {
-    const AnyCaseFile any = load_any_case(name);
+    const AnyCaseFile any = load_any_case(name, options.common.limits);
     if (std::holds_alternative<MapCaseFile>(any))
       throw UsageError(
           "a map has no error to be measured: it is what it is; bench CASE --method kahan,midpoint "
@@ -172,8 +172,9 @@ void check_usage(const BenchArguments& options) {
     throw UsageError("--plot draws one CASE; --output FILE.html draws them all");
 }
 
-int bench(BenchArguments options) {
-  check_usage(options);
+int bench(const BenchArguments& asked) {
+  check_usage(asked);
+  BenchArguments options = asked;
   if (options.run.asked.tolerance) options.contest.tolerances = {*options.run.asked.tolerance};
   options.contest.give_up = time_limit(options.common.time_limit);
   const BenchReport report = compare_methods_on_scenes(options);
@@ -259,7 +260,7 @@ void register_bench(CLI::App& program, Action& action) {
   command->add_option("--format", options->format, "text (default), markdown or json")
       ->check(one_of({"text", "markdown", "json"}))
       ->type_name("FORMAT");
-  command->callback([options, &action] { action = [options] { return bench(*options); }; });
+  command->callback([options, &action] { action = action_of(options, bench); });
 }
 
 }  // namespace casimir::tools

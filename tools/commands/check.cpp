@@ -85,7 +85,8 @@ int check_certificate_file(const CheckOptions& options) {
   if (!options.common.params.empty() || options.common.scene_given)
     throw UsageError(
         "--param and --scene have no meaning here: the certificate says what it is of");
-  const CertificateFile file = read_certificate(text_of_file(options.file), options.file);
+  const CertificateFile file =
+      read_certificate(text_of_file(options.file), options.file, options.common.limits);
   if (file.run) return check_run(options, *file.run);
   if (file.horseshoe) return check_chaos(options, *file.horseshoe);
   return check_cycles(options, file.cycles);
@@ -106,8 +107,7 @@ void register_check(CLI::App& program, Action& action) {
   command
       ->add_option("FILE", options->file, "What --certificate has written, of integrate or section")
       ->required();
-  command->callback(
-      [options, &action] { action = [options] { return check_certificate_file(*options); }; });
+  command->callback([options, &action] { action = action_of(options, check_certificate_file); });
 }
 
 }  // namespace casimir::tools

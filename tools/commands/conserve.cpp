@@ -65,7 +65,7 @@ void conserve_case(const CaseFile& file, const ConserveArguments& options,
   if (scenes.empty() && !options.all) model.scene("default");  // throws: there is none
   const Scene* drawn = picture ? &model.scene(options.common.scene) : nullptr;
   if (picture) picture->title = fmt::format("{}, scene {}", model.name, drawn->name);
-  ConservationOptions what{.run = options.run.request(),
+  ConservationOptions what{.run = options.run.request(options.common.limits),
                            .code = options.kept.in<SceneOptions>(),
                            .bound = options.bound,
                            .give_up = give_up};
@@ -90,7 +90,7 @@ void conserve_case(const CaseFile& file, const ConserveArguments& options,
 void conserve_map_case(MapCaseFile file, const ConserveArguments& options,
                        const std::function<bool()>& give_up, const ShareOfRuns& share,
                        std::vector<Row>& rows) {
-  const RunRequest asked = options.run.request();
+  const RunRequest asked = options.run.request(options.common.limits);
   const bool of_methods = options.methods_given || asked.rtol || asked.atol || asked.tolerance ||
                           asked.step || asked.projects() || !options.in.empty();
   if (of_methods || !options.plot.empty())
@@ -126,15 +126,16 @@ std::vector<Row> conserve_cases(const ConserveArguments& options, Picture& pictu
   Progress bar(!options.common.quiet);
   bar.begin("conserve");
   if (!options.all) {
-    conserve_any_case(load_any_case(options.case_name), options, give_up, {bar}, rows,
-                      options.plot.empty() ? nullptr : &picture);
+    conserve_any_case(load_any_case(options.case_name, options.common.limits), options, give_up,
+                      {bar}, rows, options.plot.empty() ? nullptr : &picture);
     return rows;
   }
-  const auto paths = listed_cases(options.tag);
+  const auto paths = listed_cases(options.tag, options.common.limits);
   const double part = 1 / static_cast<double>(paths.size());
   double before = 0;
   for (const auto& path : paths) {
-    conserve_any_case(read_any_case(path), options, give_up, {bar, before, part}, rows, nullptr);
+    conserve_any_case(read_any_case(path, options.common.limits), options, give_up,
+                      {bar, before, part}, rows, nullptr);
     before += part;
   }
   return rows;
@@ -205,7 +206,7 @@ void register_conserve(CLI::App& program, Action& action) {
   options->print.add_to(*command);
   command->callback([options, methods, &action] {
     options->methods_given = methods->count() > 0;
-    action = [options] { return conserve(*options); };
+    action = action_of(options, conserve);
   });
 }
 

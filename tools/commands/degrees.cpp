@@ -150,7 +150,7 @@ int all_degrees(const DegreesArguments& options) {
   std::size_t left_out = 0;
   if (!options.common.json && !options.common.quiet)
     fmt::print("{:<28} {:<12} {}\n", "case", "growth", "degrees of the iterates of Kahan's map");
-  for (const CaseFile& file : tagged_cases(options.tag)) {
+  for (const CaseFile& file : tagged_cases(options.tag, options.common.limits)) {
     const auto row = kahan_row(file, options, watch.watch());
     if (!row) {
       ++left_out;
@@ -185,7 +185,7 @@ int degrees(const DegreesArguments& options) {
   if (!options.all && !options.output.empty()) throw UsageError("--output needs --all");
   if (options.all)
     return with_search_errors(options.common, "all", [&] { return all_degrees(options); });
-  const AnyCaseFile file = load_any_case(options.case_name);
+  const AnyCaseFile file = load_any_case(options.case_name, options.common.limits);
   const ParameterValues fixed = options.common.parameter_values();
   return with_search_errors(options.common, options.case_name, [&] {
     SearchWatch watch(options.common, common_part(file).name);
@@ -234,7 +234,7 @@ void register_degrees(CLI::App& program, Action& action) {
           "--> and <!-- /kahan -->")
       ->type_name("FILE.md");
   command->add_flag("--kahan", options->kahan, "Of Kahan's map of a flow, with a general step");
-  command->callback([options, &action] { action = [options] { return degrees(*options); }; });
+  command->callback([options, &action] { action = action_of(options, degrees); });
 }
 
 }  // namespace casimir::tools

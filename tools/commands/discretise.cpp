@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/discrete/kahan.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "tools/cli/case_library.hpp"
@@ -31,9 +32,9 @@ std::optional<Text> step_of(const std::string& value, const char* name) {
   return Text{value, {name, 1, 1}, value};
 }
 
-std::optional<GiNaC::ex> value_of(const std::optional<Text>& step) {
+std::optional<GiNaC::ex> value_of(const std::optional<Text>& step, const Limits& limits) {
   if (!step) return std::nullopt;
-  const GiNaC::ex value = parse_real_constant(*step);
+  const GiNaC::ex value = parse_real_constant(*step, limits);
   if (value.is_zero()) throw step->error("a step of 0 leaves every point where it is");
   return value;
 }
@@ -43,7 +44,8 @@ int discretise(const DiscretiseArguments& options) {
       options.kahan->count() + options.midpoint->count() + (options.moser_veselov ? 1 : 0);
   if (chosen != 1)
     throw UsageError("discretise needs one method: --kahan, --midpoint or --moser-veselov");
-  const Model flow = model_of(load_case(options.case_name), options.common.parameter_values());
+  const Model flow = model_of(load_case(options.case_name, options.common.limits),
+                              options.common.parameter_values());
   if (options.moser_veselov)
     throw UsageError(
         "Moser's and Veselov's map solves a quadratic matrix equation in every step: it is no "
@@ -54,7 +56,7 @@ int discretise(const DiscretiseArguments& options) {
   const bool is_kahan = options.kahan->count() > 0;
   const std::optional<Text> step = is_kahan ? step_of(options.kahan_step, "--kahan")
                                             : step_of(options.midpoint_step, "--midpoint");
-  const std::optional<GiNaC::ex> value = value_of(step);
+  const std::optional<GiNaC::ex> value = value_of(step, flow.limits);
   const RationalMapText map = is_kahan ? kahan_map(flow, value) : midpoint_map(flow, value);
   const std::string text =
       discretised_case(flow, map, is_kahan ? "Kahan's map" : "Implicit midpoint rule",
@@ -104,7 +106,7 @@ void register_discretise(CLI::App& program, Action& action) {
                     "Moser's and Veselov's map of a free body");
   command->add_option("-o,--output", options->output, "Write the case here instead of printing it")
       ->type_name("FILE.toml");
-  command->callback([options, &action] { action = [options] { return discretise(*options); }; });
+  command->callback([options, &action] { action = action_of(options, discretise); });
 }
 
 }  // namespace casimir::tools

@@ -168,7 +168,7 @@ void print_equilibria(const Model& model, const Scene& scene, const EquilibriaAn
 }
 
 int equilibria(const EquilibriaArguments& options) {
-  CaseFile file = load_case(options.case_name);
+  CaseFile file = load_case(options.case_name, options.common.limits);
   ParameterRanges ranges;
   const ParameterValues given = options.common.parameter_values();
   const ParameterValues values = options.validated ? without_ranges(given, file, ranges) : given;
@@ -203,7 +203,7 @@ void register_equilibria(CLI::App& program, Action& action) {
   add_case(*command, options->case_name);
   command->add_flag("--validated", options->validated,
                     "Prove that each exists, that it is the only one nearby, and its stability");
-  command->callback([options, &action] { action = [options] { return equilibria(*options); }; });
+  command->callback([options, &action] { action = action_of(options, equilibria); });
 }
 
 }  // namespace casimir::tools

@@ -146,8 +146,9 @@ std::size_t complete_numerically(search::ExponentReport& report, const search::W
 }
 
 int exponents(const ExponentsArguments& options) {
-  const Model model = in_variables(
-      model_of(load_case(options.case_name), options.common.parameter_values()), options.in);
+  const Model model = in_variables(model_of(load_case(options.case_name, options.common.limits),
+                                            options.common.parameter_values()),
+                                   options.in);
   if (options.common.scene_given) model.scene(options.common.scene);
   return with_search_errors(options.common, options.case_name, [&] {
     SearchWatch watch(options.common, model.name);
@@ -181,7 +182,7 @@ void register_exponents(CLI::App& program, Action& action) {
   add_weights(*command, options->weights);
   command->add_flag("--numeric", options->numeric,
                     "Numeric balances only, in place of the exact analysis");
-  command->callback([options, &action] { action = [options] { return exponents(*options); }; });
+  command->callback([options, &action] { action = action_of(options, exponents); });
 }
 
 }  // namespace casimir::tools

@@ -114,7 +114,7 @@ Specialisation of_map(MapCaseFile file, const GenerateArguments& options) {
 int generate(const GenerateArguments& options) {
   if (options.output.empty() && options.common.json)
     throw UsageError("generate --json needs --output FILE for the header");
-  const AnyCaseFile any = load_any_case(options.case_name);
+  const AnyCaseFile any = load_any_case(options.case_name, options.common.limits);
   const auto* map = std::get_if<MapCaseFile>(&any);
   const Specialisation specialisation =
       map ? of_map(*map, options) : of_flow(std::get<CaseFile>(any), options);
@@ -197,7 +197,7 @@ void register_generate(CLI::App& program, Action& action) {
   options->kept.add_to(*command);
   command->callback([options, with, &action] {
     options->with_given = with->count() > 0;
-    action = [options] { return generate(*options); };
+    action = action_of(options, generate);
   });
 }
 

@@ -63,7 +63,7 @@ class ComputedAnswer {
     if (as.empty()) return;
     if (names_.size() != model.variables.size())
       throw UsageError("--as needs every variable, and some are left out; see --observe");
-    conversion_.emplace(model, bundled_atlas(), as);
+    conversion_.emplace(model, bundled_atlas(model.limits), as);
     names_ = conversion_->names();
   }
 
@@ -266,7 +266,7 @@ int enclose_case(const IntegrateArguments& options) {
 
 /// Of a map: its steps are iterated, and what is about methods and errors of steps has no meaning.
 int iterate_case(const MapCaseFile& file, const IntegrateArguments& options) {
-  const RunRequest asked = options.run.request();
+  const RunRequest asked = options.run.request(options.common.limits);
   const bool of_methods = options.method != "auto" || asked.rtol || asked.atol || asked.tolerance ||
                           asked.step || asked.projects();
   if (of_methods || options.frequencies > 0 || options.picture.wanted() || options.general ||
@@ -315,7 +315,7 @@ int integrate_case(const IntegrateArguments& options) {
                                   scene_options(options)});
   }
   if (!options.ensemble.empty()) return integrate_members_of(options);
-  const AnyCaseFile file = load_any_case(options.case_name);
+  const AnyCaseFile file = load_any_case(options.case_name, options.common.limits);
   if (const auto* map = std::get_if<MapCaseFile>(&file)) return iterate_case(*map, options);
   if (options.jobs > 0) throw UsageError("--jobs needs --ensemble FILE.csv");
   const Model model = in_variables(options.kept.model_of(options.start.in(std::get<CaseFile>(file)),
@@ -331,7 +331,7 @@ int integrate_case(const IntegrateArguments& options) {
   if (options.every > 0 && options.output.empty() && !options.picture.wanted())
     throw UsageError("--every needs --output FILE.csv or --plot FILE.svg");
   check_picture(model, scene, run, options);
-  AssessmentOptions how{.method = options.method, .run = options.run.request()};
+  AssessmentOptions how{.method = options.method, .run = options.run.request(model.limits)};
   how.time_limit = options.common.time_limit;
   bool interrupted = false;
   how.around = [&](Settings& settings, const std::function<void()>& run_it) {
@@ -422,8 +422,7 @@ void register_integrate(CLI::App& program, Action& action) {
   options->print.add_to(*command);
   command->add_flag("--general", options->general,
                     "Parameters at run time and nothing left out, for comparison");
-  command->callback(
-      [options, &action] { action = [options] { return integrate_case(*options); }; });
+  command->callback([options, &action] { action = action_of(options, integrate_case); });
 }
 
 }  // namespace casimir::tools

@@ -40,8 +40,8 @@ std::vector<std::string> scene_names(const Model& model) {
 
 int list(const ListArguments& options) {
   nlohmann::ordered_json cases = nlohmann::ordered_json::array();
-  for (const std::filesystem::path& path : listed_cases(options.tag)) {
-    const AnyCaseFile file = read_any_case(path);
+  for (const std::filesystem::path& path : listed_cases(options.tag, options.common.limits)) {
+    const AnyCaseFile file = read_any_case(path, options.common.limits);
     const auto* map = std::get_if<MapCaseFile>(&file);
     const Model model = map ? map_model_of(*map).base : model_of(std::get<CaseFile>(file));
     if (options.common.json) {
@@ -63,7 +63,8 @@ int list(const ListArguments& options) {
   }
   std::vector<std::string> maps;
   if (options.tag.empty())
-    for (const std::filesystem::path& path : bundled_maps()) maps.push_back(path.stem().string());
+    for (const std::filesystem::path& path : bundled_maps(options.common.limits))
+      maps.push_back(path.stem().string());
   if (options.common.json) {
     nlohmann::ordered_json json{{"cases", cases}};
     if (options.tag.empty()) json["maps"] = maps;
@@ -82,7 +83,7 @@ void register_list(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("list", "The bundled cases");
   add_common(*command, options->common);
   command->add_option("--tag", options->tag, "Only cases with this tag")->type_name("TAG");
-  command->callback([options, &action] { action = [options] { return list(*options); }; });
+  command->callback([options, &action] { action = action_of(options, list); });
 }
 
 }  // namespace casimir::tools

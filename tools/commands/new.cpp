@@ -83,7 +83,7 @@ void register_new(CLI::App& program, Action& action) {
   command->add_option("--output", options->output, "Write this file (default: NAME.toml)")
       ->type_name("FILE.toml");
   command->add_flag("--force", options->force, "Write over a file that exists");
-  command->callback([options, &action] { action = [options] { return create(*options); }; });
+  command->callback([options, &action] { action = action_of(options, create); });
 }
 
 }  // namespace casimir::tools

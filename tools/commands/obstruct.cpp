@@ -69,8 +69,9 @@ nlohmann::ordered_json write_certificate(const obstruction::Obstruction& answer,
 
 int obstruct(const ObstructArguments& options) {
   if (!options.certificate.empty()) check_certificate_name(options.certificate);
-  const Model model = in_variables(
-      model_of(load_case(options.case_name), options.common.parameter_values()), options.in);
+  const Model model = in_variables(model_of(load_case(options.case_name, options.common.limits),
+                                            options.common.parameter_values()),
+                                   options.in);
   if (options.common.scene_given) model.scene(options.common.scene);
   check_free(model, options.free);
   return with_search_errors(options.common, options.case_name, [&] {
@@ -120,7 +121,7 @@ void register_obstruct(CLI::App& program, Action& action) {
                    "Write the linear algebra of the proof for coqc, if there is one")
       ->type_name("FILE.v");
   command->add_flag("--evidence", options->evidence, "The evidence of what did not decide, too");
-  command->callback([options, &action] { action = [options] { return obstruct(*options); }; });
+  command->callback([options, &action] { action = action_of(options, obstruct); });
 }
 
 }  // namespace casimir::tools

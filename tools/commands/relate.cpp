@@ -107,7 +107,8 @@ int relate_two(const RelateArguments& options) {
   const ParameterValues values = options.common.parameter_values();
   Common second = options.common;
   second.params = options.second_params;
-  const CaseFile file_a = load_case(options.first), file_b = load_case(options.second);
+  const CaseFile file_a = load_case(options.first, options.common.limits),
+                 file_b = load_case(options.second, options.common.limits);
   std::vector<Text> not_in_a, not_in_b;
   ParameterValues of_a = own_values(values, file_a, not_in_a),
                   of_b = own_values(values, file_b, not_in_b);
@@ -144,7 +145,8 @@ std::string field_text(const LinearSymmetry& symmetry) {
 int symmetries(const RelateArguments& options) {
   if (options.bracket || !options.second_params.empty())
     throw UsageError("--bracket and --param-b compare two cases, and one is given");
-  const Model model = model_of(load_case(options.first), options.common.parameter_values());
+  const Model model =
+      model_of(load_case(options.first, options.common.limits), options.common.parameter_values());
   SearchWatch watch(options.common, model.name);
   const SymmetryReport report = structure::linear_symmetries(model, watch.watch());
   const double seconds = watch.end();
@@ -211,7 +213,7 @@ void register_relate(CLI::App& program, Action& action) {
                    "A number for a parameter of the second case alone (repeatable)")
       ->allow_extra_args(false)
       ->type_name("NAME=VALUE");
-  command->callback([options, &action] { action = [options] { return relate(*options); }; });
+  command->callback([options, &action] { action = action_of(options, relate); });
 }
 
 }  // namespace casimir::tools

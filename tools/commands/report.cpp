@@ -144,7 +144,7 @@ void say_problems(const std::vector<std::string>& problems) {
 }
 
 int report_one(const ReportArguments& options) {
-  const CaseFile file = load_case(options.case_name);
+  const CaseFile file = load_case(options.case_name, options.common.limits);
   const std::string path = options.output.empty() ? file.name + ".html" : options.output;
   if (!is_page_name(path))
     throw UsageError(fmt::format("'{}': a report's name must end in .html", printable(path, 200)));
@@ -188,7 +188,7 @@ Place place_of(const ReportArguments& options) {
 }
 
 std::vector<CaseFile> ordered_cases(const ReportArguments& options) {
-  std::vector<CaseFile> files = tagged_cases(options.tag);
+  std::vector<CaseFile> files = tagged_cases(options.tag, options.common.limits);
   if (files.empty())
     throw SystemError("no bundled cases were found; CASIMIR_CASES can name their folder");
   std::ranges::stable_sort(
@@ -377,7 +377,7 @@ void register_report(CLI::App& program, Action& action) {
                    "The page (default: CASE.html); with --all a folder (default: report), or the "
                    "index page, beside which the others stand")
       ->type_name("FILE.html");
-  command->callback([options, &action] { action = [options] { return report(*options); }; });
+  command->callback([options, &action] { action = action_of(options, report); });
 }
 
 }  // namespace casimir::tools

@@ -90,7 +90,7 @@ int search_structure(const SearchArguments& options, const Model& model, SearchW
 }
 
 int search_case(const SearchArguments& options) {
-  const AnyCaseFile file = load_any_case(options.case_name);
+  const AnyCaseFile file = load_any_case(options.case_name, options.common.limits);
   if (const auto* map = std::get_if<MapCaseFile>(&file)) return search_map_case(*map, options);
   const Model model = in_variables(
       model_of(std::get<CaseFile>(file), options.common.parameter_values()), options.in);
@@ -191,7 +191,7 @@ void register_search(CLI::App& program, Action& action) {
   command->add_flag("--rational", options->rational,
                     "Integrals that are quotients of polynomials, by their factors");
   add_structure_options(*command, *options);
-  command->callback([options, &action] { action = [options] { return search(*options); }; });
+  command->callback([options, &action] { action = action_of(options, search); });
 }
 
 }  // namespace casimir::tools

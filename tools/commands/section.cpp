@@ -350,7 +350,7 @@ int cycle_with_symmetry(const SectionArguments& options, const CaseFile& given) 
 
 int section(const SectionArguments& options) {
   check_usage(options);
-  const AnyCaseFile any = load_any_case(options.case_name);
+  const AnyCaseFile any = load_any_case(options.case_name, options.common.limits);
   if (const auto* map = std::get_if<MapCaseFile>(&any)) return section_of(*map, options);
   const CaseFile& file = std::get<CaseFile>(any);
   if (!options.symmetry.empty()) return cycle_with_symmetry(options, file);
@@ -380,7 +380,7 @@ void register_section(CLI::App& program, Action& action) {
       options->of_many_orbits = options->of_many_orbits || command->count(name) > 0;
     for (const char* name : {"--orbits", "--points", "--seeds", "--tolerance", "--jobs"})
       options->about_points = options->about_points || command->count(name) > 0;
-    action = [options] { return section(*options); };
+    action = action_of(options, section);
   });
 }
 

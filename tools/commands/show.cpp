@@ -31,7 +31,7 @@ struct ShowArguments {
 
 /// The initial states of the scenes in other variables, exactly and as numbers.
 int show_scenes_as(const Model& model, const ShowArguments& options) {
-  const Conversion conversion(model, bundled_atlas(), options.as);
+  const Conversion conversion(model, bundled_atlas(model.limits), options.as);
   nlohmann::ordered_json scenes = nlohmann::ordered_json::array();
   for (const Scene& scene : model.scenes) {
     if (options.common.scene_given && &scene != &model.scene(options.common.scene)) continue;
@@ -93,7 +93,7 @@ int show_nve(const Model& model, const ShowArguments& options) {
 int show(const ShowArguments& options) {
   if (options.standalone && options.format != "latex")
     throw UsageError("--standalone is a whole document of LaTeX: it needs --format latex");
-  const AnyCaseFile file = load_any_case(options.case_name);
+  const AnyCaseFile file = load_any_case(options.case_name, options.common.limits);
   const ParameterValues fixed = options.common.parameter_values();
   if (const auto* map = std::get_if<MapCaseFile>(&file)) {
     if (!options.in.empty() || !options.as.empty())
@@ -123,7 +123,7 @@ void register_show(CLI::App& program, Action& action) {
                     "Curves of motion and the normal variational equations along them, instead");
   command->add_flag("--standalone", options->standalone,
                     "With --format latex: a document that compiles as it is");
-  command->callback([options, &action] { action = [options] { return show(*options); }; });
+  command->callback([options, &action] { action = action_of(options, show); });
 }
 
 }  // namespace casimir::tools

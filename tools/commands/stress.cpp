@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "runtime/methods.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/error.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
 #include "tools/cli/case_library.hpp"
@@ -66,15 +67,15 @@ struct Source {
   std::unique_ptr<OutputFile> copy = {};  ///< of standard input; never committed
 };
 
-Source source_of(const std::string& name) {
+Source source_of(const std::string& name, const Limits& limits) {
   if (name != "-") {
-    CaseFile file = load_case(name);
+    CaseFile file = load_case(name, limits);
     const bool is_path = name.find('/') != std::string::npos;
     std::string path = is_path || !name.ends_with(".toml") ? name : "./" + name;
     return {std::move(path), std::move(file)};
   }
   const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
-  CaseFile file = parse_case(text, "<standard input>");
+  CaseFile file = parse_case(text, "<standard input>", limits);
   auto copy = std::make_unique<OutputFile>(std::filesystem::temp_directory_path() /
                                            "casimir-standard-input.toml");
   copy->stream() << text << std::flush;
@@ -145,10 +146,11 @@ class Stress {
       matrix_.columns.push_back({name, !method.outside.empty()});
     }
     if (options_.all) {
-      for (const auto& path : bundled_flows(options_.tag))
-        sources_.push_back({path.string(), read_case(path)});
+      for (const auto& path : bundled_flows(options_.tag, options_.common.limits))
+        sources_.push_back({path.string(), read_case(path, options_.common.limits)});
     } else {
-      for (const std::string& name : options_.cases) sources_.push_back(source_of(name));
+      for (const std::string& name : options_.cases)
+        sources_.push_back(source_of(name, options_.common.limits));
     }
     for (const Source& source : sources_)
       models_.push_back(
@@ -380,7 +382,7 @@ void register_stress(CLI::App& program, Action& action) {
   add_csv_output(*command, options->output, "Write a row for each cell to this file");
   command->add_option("--plot", options->plot, "Draw the matrix")->type_name("FILE.svg|png|pdf");
   options->print.add_to(*command);
-  command->callback([options, &action] { action = [options] { return stress(*options); }; });
+  command->callback([options, &action] { action = action_of(options, stress); });
 }
 
 }  // namespace casimir::tools

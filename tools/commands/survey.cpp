@@ -59,10 +59,11 @@ SurveyRow survey_one(const CaseFile& file, const SurveyArguments& options, doubl
 }
 
 std::vector<CaseFile> chosen_cases(const SurveyArguments& options) {
-  if (options.cases.empty()) return tagged_cases(options.tag);
+  if (options.cases.empty()) return tagged_cases(options.tag, options.common.limits);
   if (!options.tag.empty()) throw UsageError("--tag takes no CASE");
   std::vector<CaseFile> files;
-  for (const std::string& name : options.cases) files.push_back(load_case(name));
+  for (const std::string& name : options.cases)
+    files.push_back(load_case(name, options.common.limits));
   return files;
 }
 
@@ -155,7 +156,7 @@ void register_survey(CLI::App& program, Action& action) {
                    "Write the table to this file; in a .md file only what stands between the lines "
                    "<!-- survey --> and <!-- /survey --> is replaced")
       ->type_name("FILE");
-  command->callback([options, &action] { action = [options] { return survey(*options); }; });
+  command->callback([options, &action] { action = action_of(options, survey); });
 }
 
 }  // namespace casimir::tools

@@ -63,7 +63,7 @@ struct PreparedSweep {
                             const Model& model) {
     StudyRequest request{options.task, options.method, options.over, options.lets};
     if (!options.observe.empty()) request.observe = options.observe;
-    request.run = options.run.request();
+    request.run = options.run.request(options.common.limits);
     if (follows_crossings(options.task)) request.section = section_request(file, model);
     request.orbits = options.orbits;
     request.points = options.points;
@@ -196,7 +196,7 @@ int sweep_in(const Ranks& ranks, const SweepArguments& options) {
     throw UsageError("sweep needs a grid: --over NAME=FROM:TO:N, such as --over r=1:2:11");
   if (ranks.size() > 1 && options.case_name == "-")
     throw UsageError("under mpirun only one process has standard input: give a case file");
-  const CaseFile file = options.start.in(load_case(options.case_name));
+  const CaseFile file = options.start.in(load_case(options.case_name, options.common.limits));
   const std::string output = options.output.empty() ? file.name + "-sweep.csv" : options.output;
   check_sweep_output(output);
   const PreparedSweep p(options, file);
@@ -332,7 +332,7 @@ void register_sweep(CLI::App& program, Action& action) {
   add_output(*command, *options);
   options->picture.add_to(*command);
   command->add_flag("--restart", options->restart, "Throw away the points that are done");
-  command->callback([options, &action] { action = [options] { return sweep(*options); }; });
+  command->callback([options, &action] { action = action_of(options, sweep); });
 }
 
 }  // namespace casimir::tools

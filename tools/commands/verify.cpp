@@ -144,7 +144,7 @@ int exit_status(Verdict verdict) {
 
 int verify_all(const VerifyArguments& options) {
   const Stopwatch watch;
-  const std::vector<std::filesystem::path> paths = listed_cases(options.tag);
+  const std::vector<std::filesystem::path> paths = listed_cases(options.tag, options.common.limits);
   if (paths.empty())
     throw SystemError("no bundled cases were found; CASIMIR_CASES can name their folder");
   std::optional<AllReport> report;
@@ -155,7 +155,8 @@ int verify_all(const VerifyArguments& options) {
     double left = 0;
     if (options.common.time_limit > 0)
       left = std::max(options.common.time_limit - watch.seconds(), 1e-3);
-    const Verified result = verify_one(read_any_case(path), options, left, false);
+    const Verified result =
+        verify_one(read_any_case(path, options.common.limits), options, left, false);
     if (result.outcome.verdict == Verdict::refuted) worst = Verdict::refuted;
     if (result.outcome.verdict == Verdict::undecided && worst == Verdict::proved)
       worst = Verdict::undecided;
@@ -186,8 +187,8 @@ int verify(const VerifyArguments& options) {
   if (!options.certificate.empty()) check_certificate_name(options.certificate);
   if (options.all) return verify_all(options);
   const bool lines = !options.common.json && !options.common.quiet;
-  const Verified result =
-      verify_one(load_any_case(options.case_name), options, options.common.time_limit, lines);
+  const Verified result = verify_one(load_any_case(options.case_name, options.common.limits),
+                                     options, options.common.time_limit, lines);
   if (options.common.json) print_json(result.json);
   return exit_status(result.outcome.verdict);
 }
@@ -221,7 +222,7 @@ void register_verify(CLI::App& program, Action& action) {
       ->add_option("--certificate", options->certificate,
                    "Write a proof that coqc accepts, if every claim is proved")
       ->type_name("FILE.v");
-  command->callback([options, &action] { action = [options] { return verify(*options); }; });
+  command->callback([options, &action] { action = action_of(options, verify); });
 }
 
 }  // namespace casimir::tools

@@ -129,7 +129,7 @@ LiveSystem live_system(const Model& model, const Scene& scene,
     flow = side_by_side(flow, functions.alone(plane));
   }
   live.functions = functions.names();
-  live.series = emit_wasm(flow, code.states.size(), functions.all(), kOrder);
+  live.series = emit_wasm(flow, code.states.size(), functions.all(), kOrder, code.limits);
   return live;
 }
 

@@ -3,14 +3,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "symbolic/case/limits.hpp"
 #include "tools/cli/case_library.hpp"
 
 namespace casimir::tools {
 
-Atlas bundled_atlas() {
+Atlas bundled_atlas(const Limits& limits) {
   Atlas atlas;
   for (const std::filesystem::path& path : bundled_cases()) {
-    const AnyCaseFile any = read_any_case(path);
+    const AnyCaseFile any = read_any_case(path, limits);
     if (!std::holds_alternative<CaseFile>(any)) continue;
     const CaseFile& file = std::get<CaseFile>(any);
     const bool changes = std::any_of(file.maps.begin(), file.maps.end(),
@@ -35,7 +36,7 @@ void add_as(CLI::App& command, std::string& set) {
 
 Model in_variables(Model model, const std::string& set) {
   if (set.empty()) return model;
-  return in_coordinates(model, bundled_atlas(), set);
+  return in_coordinates(model, bundled_atlas(model.limits), set);
 }
 
 }  // namespace casimir::tools

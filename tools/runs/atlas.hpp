@@ -2,13 +2,14 @@
 
 #include <string>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/coordinates.hpp"
 #include "tools/cli/cli_names.hpp"
 
 namespace casimir::tools {
 
 /// The sets of variables that the bundled cases know, and the maps between them.
-Atlas bundled_atlas();
+Atlas bundled_atlas(const Limits& limits);
 
 /// `--in SET`: the case in the variables of SET, in all that a command does.
 void add_in(CLI::App& command, std::string& set);

@@ -34,7 +34,7 @@ std::vector<CycleCertificate> certified_cycles(const Model& model, const Scene& 
     middle.duration = middle_double(proof.period);
     auto certificate =
         certify_cycle(model.name, plain_case(model, middle, {}, states, problem.level_names), plane,
-                      problem.levels);
+                      problem.levels, model.limits);
     if (certificate) certificates.push_back(std::move(*certificate));
   }
   return certificates;

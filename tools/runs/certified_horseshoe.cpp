@@ -14,9 +14,9 @@ HorseshoeCertificate certified_horseshoe(const Horseshoe& proof, const Model& mo
   for (const GiNaC::symbol& x : model.variables) states.push_back(x.get_name());
   const GiNaC::ex plane =
       model.at_parameters(request.plane ? request.plane->function : model.section->function, scene);
-  return certificate_of(proof, model.name,
-                        plain_case(model, scene, {}, states, proof.system.level_names),
-                        Notation(model).case_text(proof.system.upwards ? plane : -plane));
+  return certificate_of(
+      proof, model.name, plain_case(model, scene, {}, states, proof.system.level_names),
+      Notation(model).case_text(proof.system.upwards ? plane : -plane), model.limits);
 }
 
 }  // namespace casimir::tools

@@ -16,6 +16,7 @@ ValidatedMotion certified_motion(const Model& model, const Scene& given,
   for (const auto& [name, radius] : asked.ranges) moving.push_back(name);
   for (const KnownIntegral& known : prepared.problem.integrals) integrals.push_back(known.name);
   certificate.of_case = model.name;
+  certificate.limits = model.limits;
   certificate.scene = scene.name;
   certificate.radii = prepared.problem.radii;
   ValidatedOptions options;

@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "runtime/digits/agreed_run.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/expression/decimal.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "tools/analysis/estimate/cancelled_parts.hpp"
@@ -53,11 +54,11 @@ void check(const DigitsRequest& request) {
 }
 
 /// The value of `--duration` to some digits; a rational number is exact.
-cln::cl_R duration_value(const std::string& text, int digits) {
+cln::cl_R duration_value(const std::string& text, int digits, const Limits& limits) {
   const auto before = static_cast<long>(GiNaC::Digits);
   GiNaC::Digits = digits;
-  const GiNaC::ex exact = parse_constant({text, {"--duration", 1, 1}, text});
-  std::optional<GiNaC::numeric> value = real_decimal(exact);
+  const GiNaC::ex exact = parse_constant({text, {"--duration", 1, 1}, text}, limits);
+  std::optional<GiNaC::numeric> value = real_decimal(exact, limits.bits);
   GiNaC::Digits = before;
   if (!value)
     throw UsageError(fmt::format("--duration '{}': expected a real number", printable(text)));
@@ -66,11 +67,11 @@ cln::cl_R duration_value(const std::string& text, int digits) {
 }
 
 /// The decimal that was written for a double: the shortest that reads back as it.
-cln::cl_RA as_written(double value) {
+cln::cl_RA as_written(double value, const Limits& limits) {
   std::string text = fmt::format("{}", value);
   if (const std::size_t e = text.find('e'); e != std::string::npos)
     text = fmt::format("{}*10^({})", text.substr(0, e), std::stoi(text.substr(e + 1)));
-  return cln::rational(duration_value(text, kLeastDigits));
+  return cln::rational(duration_value(text, kLeastDigits, limits));
 }
 
 PreciseProblem problem_of(const DigitsRequest& request, const Specialisation& s) {
@@ -81,14 +82,16 @@ PreciseProblem problem_of(const DigitsRequest& request, const Specialisation& s)
   problem.start = [&](int digits) {
     const std::vector<cln::cl_F> values = start_values(s, digits);
     std::vector<cln::cl_R> start(values.begin(), values.end());
-    if (request.run.duration) start.back() = duration_value(*request.run.duration, digits);
+    if (request.run.duration)
+      start.back() = duration_value(*request.run.duration, digits, s.limits);
     return start;
   };
   if (!request.output.empty()) {
     // A thousandth of the duration, unless it is given.
     constexpr int kSamples = 1000, kMostSamples = 10000000;
     const cln::cl_RA duration = cln::rational(cln::abs(problem.start(request.digits).back()));
-    problem.sample_every = request.every > 0 ? as_written(request.every) : duration / kSamples;
+    problem.sample_every =
+        request.every > 0 ? as_written(request.every, s.limits) : duration / kSamples;
     if (duration > problem.sample_every * kMostSamples)
       throw UsageError(
           fmt::format("--every {}: more than {} samples", request.every, kMostSamples));
@@ -121,10 +124,10 @@ int say_if_it_stopped(const DigitsReport& report) {
 int integrate_with_digits(const DigitsRequest& request) {
   check(request);
   const auto start = Clock::now();
-  const Model model =
-      in_variables(request.kept.model_of(request.start.in(load_case(request.case_name)),
-                                         request.common.parameter_values()),
-                   request.in);
+  const Model model = in_variables(
+      request.kept.model_of(request.start.in(load_case(request.case_name, request.common.limits)),
+                            request.common.parameter_values()),
+      request.in);
   SpecialiseOptions what;
   what.fold_parameters = request.how.fold_parameters;
   what.keep_parameters = request.how.keep_parameters;

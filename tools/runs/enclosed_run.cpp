@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "symbolic/algebra/number_text.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "tools/analysis/certificate/certificate_file.hpp"
 #include "tools/analysis/run/validated.hpp"
@@ -53,8 +54,8 @@ void check_enclosed(const EnclosedRequest& request) {
 }
 
 /// A rational number from the command line.
-cln::cl_RA rational_value(const Text& text) {
-  const GiNaC::ex value = parse_real_constant(text);
+cln::cl_RA rational_value(const Text& text, const Limits& limits) {
+  const GiNaC::ex value = parse_real_constant(text, limits);
   if (!GiNaC::is_a<GiNaC::numeric>(value) || !GiNaC::ex_to<GiNaC::numeric>(value).is_rational())
     throw text.error("expected a rational number");
   return cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(value).to_cl_N());
@@ -68,23 +69,23 @@ Text part_of(const Text& whole, std::size_t from, std::size_t length) {
 }
 
 /// The decimal that was written for a double: the shortest that reads back as it.
-cln::cl_RA exact_interval(double value) {
+cln::cl_RA exact_interval(double value, const Limits& limits) {
   std::string text = fmt::format("{}", value);
   if (const std::size_t e = text.find('e'); e != std::string::npos)
     text = fmt::format("{}*10^({})", text.substr(0, e), std::stoi(text.substr(e + 1)));
-  return rational_value({text, {"--every", 1, 1}, text});
+  return rational_value({text, {"--every", 1, 1}, text}, limits);
 }
 
 /// Time between the boxes of a file: a thousandth of the duration, unless it is given.
 cln::cl_RA sampling(const EnclosedRequest& request, const ValidatedOptions& options,
-                    const Scene& scene) {
+                    const Scene& scene, const Limits& limits) {
   if (request.output.empty()) return 0;
-  if (request.every > 0) return exact_interval(request.every);
+  if (request.every > 0) return exact_interval(request.every, limits);
   const GiNaC::ex duration = options.duration ? *options.duration : scene.duration.value_or(0);
   const GiNaC::ex value = duration.evalf();
   if (!GiNaC::is_a<GiNaC::numeric>(value) || value.is_zero()) return 0;
   const double size = std::abs(GiNaC::ex_to<GiNaC::numeric>(value).to_double());
-  return exact_interval(size / 1000);
+  return exact_interval(size / 1000, limits);
 }
 
 int say_if_it_stopped(const EnclosureReport& report) {
@@ -138,8 +139,9 @@ ParameterValues without_ranges(const ParameterValues& given, CaseFile& file,
     if (std::ranges::count(known, name.value) == 0)
       throw name.error(fmt::format("'{}' is not a parameter of this case", printable(name.value)),
                        0, suggest_or_list(name.value, known, "parameters"));
-    const cln::cl_RA low = rational_value(part_of(value, 0, mark));
-    const cln::cl_RA high = rational_value(part_of(value, mark + 2, std::string::npos));
+    const cln::cl_RA low = rational_value(part_of(value, 0, mark), file.limits);
+    const cln::cl_RA high =
+        rational_value(part_of(value, mark + 2, std::string::npos), file.limits);
     if (low > high) throw value.error("a range goes from the lower end to the higher one");
     Text middle = value;
     middle.value = rational_text((low + high) / 2);
@@ -167,24 +169,25 @@ int integrate_validated(const EnclosedRequest& request) {
   check_enclosed(request);
   const auto start = Clock::now();
   ValidatedOptions options;
-  CaseFile file = request.start.in(load_case(request.case_name));
+  CaseFile file = request.start.in(load_case(request.case_name, request.common.limits));
   const ParameterValues values =
       without_ranges(request.common.parameter_values(), file, options.ranges);
   const Model model = in_variables(request.kept.model_of(file, values), request.in);
   const Scene& scene = model.scene(request.common.scene);
   if (request.initial_radius) {
     options.initial_radius = rational_value(
-        {*request.initial_radius, {"--initial-radius", 1, 1}, *request.initial_radius});
+        {*request.initial_radius, {"--initial-radius", 1, 1}, *request.initial_radius},
+        model.limits);
     if (cln::minusp(options.initial_radius))
       throw UsageError("--initial-radius: expected a number that is not negative");
   }
   if (request.run.duration)
-    options.duration =
-        parse_real_constant({*request.run.duration, {"--duration", 1, 1}, *request.run.duration});
+    options.duration = parse_real_constant(
+        {*request.run.duration, {"--duration", 1, 1}, *request.run.duration}, model.limits);
   if (!request.observe.empty()) options.observe = request.observe;
   options.run.digits = request.digits.value_or(0);
   options.run.max_steps = request.run.asked.max_steps;
-  options.run.sample_every = sampling(request, options, scene);
+  options.run.sample_every = sampling(request, options, scene, model.limits);
   Progress progress(!request.common.quiet);
   progress.begin(fmt::format("{}: enclosing", model.name));
   const std::function<bool()> late = time_limit(request.common.time_limit);

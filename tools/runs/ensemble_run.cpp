@@ -245,23 +245,24 @@ EnsembleFile file_of(const Model& model, const std::string& path) {
   for (const std::string& parameter : names_of_symbols(model.parameters))
     known.push_back(parameter);
   for (const auto& [name, value] : model.fixed) fixed.push_back(name.value);
-  return read_ensemble(path, known, fixed);
+  return read_ensemble(path, known, model.limits, fixed);
 }
 
 }  // namespace
 
 int integrate_ensemble(const EnsembleRequest& request) {
-  const Model model = request.kept.model_of(request.start.in(load_case(request.case_name)),
-                                            request.common.parameter_values());
+  const Model model =
+      request.kept.model_of(request.start.in(load_case(request.case_name, request.common.limits)),
+                            request.common.parameter_values());
   const Scene& scene = model.scene(request.common.scene);
   const Method& method = method_named(request.method);
   const EnsembleFile file = file_of(model, request.file);
   const PreparedScene run = prepared(model, scene, request.how, file);
-  Settings settings = settings_for(request.run.request(), run);
+  Settings settings = settings_for(request.run.request(request.common.limits), run);
   settings.give_up = time_limit(request.common.time_limit);
   settings.invariant_terms = nullptr;
   Ensemble ensemble = members(run, file);
-  scale_tolerances(request.run.request(), run, settings, ensemble);
+  scale_tolerances(request.run.request(request.common.limits), run, settings, ensemble);
   const EnsembleKernel kernel =
       ensemble_kernel(run, method, ensemble.size(), !(settings.fixed_step > 0));
   EnsembleResult result;

@@ -25,7 +25,8 @@ class FrequencyRun {
   explicit FrequencyRun(const FrequencyRequest& request) : request_(request) {}
 
   int run() {
-    AssessmentOptions how{.method = request_.method, .run = request_.run.request()};
+    AssessmentOptions how{.method = request_.method,
+                          .run = request_.run.request(request_.common.limits)};
     how.time_limit = request_.common.time_limit;
     how.around = [&](Settings& settings, const std::function<void()>& run_it) {
       const WatchedRun watched(settings, !request_.common.quiet, false);

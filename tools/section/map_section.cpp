@@ -6,6 +6,7 @@
 #include <chrono>
 #include <iostream>
 
+#include "symbolic/case/limits.hpp"
 #include "tools/analysis/section/map_orbits.hpp"
 #include "tools/analysis/section/orbit_rotation.hpp"
 #include "tools/cli/case_library.hpp"
@@ -43,11 +44,12 @@ std::vector<FunctionText> plotted_pair(const MapModel& map, const MapSectionRequ
 
 /// Starts that a file gives, a column for each variable.
 std::vector<std::vector<double>> map_seeds(const std::string& path,
-                                           const std::vector<std::string>& states) {
+                                           const std::vector<std::string>& states,
+                                           const Limits& limits) {
   std::vector<std::string> known = states;
   for (const char* name : {"orbit", "n", "t", "u", "v"})
     if (!std::ranges::count(known, name)) known.emplace_back(name);
-  const EnsembleFile file = read_ensemble(path, known);
+  const EnsembleFile file = read_ensemble(path, known, limits);
   std::vector<std::vector<double>> seeds(file.rows());
   for (const std::string& state : states) {
     const auto column = std::ranges::find(file.columns, state);
@@ -79,9 +81,10 @@ class MapSection {
     const auto begin = std::chrono::steady_clock::now();
     Progress progress(!request_.common.quiet);
     progress.begin(map_.base.name + ": orbits");
-    const auto seeds = request_.seeds.empty()
-                           ? orbits_.spread(request_.orbits, request_.points)
-                           : map_seeds(request_.seeds, orbits_.specialisation().states);
+    const auto seeds =
+        request_.seeds.empty()
+            ? orbits_.spread(request_.orbits, request_.points)
+            : map_seeds(request_.seeds, orbits_.specialisation().states, map_.base.limits);
     if (request_.seeds.empty() && seeds.size() < request_.orbits)
       warning_ =
           fmt::format("only {} of {} starts about the scene's orbit have orbits that stay near it",

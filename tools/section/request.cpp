@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/expression/decimal.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "tools/cli/errors.hpp"
@@ -15,8 +16,9 @@ Text option_text(const std::string& option, const std::string& value) {
   return {value, {option, 1, 1}, value};
 }
 
-double real_constant(const Text& text) {
-  const std::optional<GiNaC::numeric> value = real_decimal(parse_constant(text));
+double real_constant(const Text& text, const Limits& limits) {
+  const std::optional<GiNaC::numeric> value =
+      real_decimal(parse_constant(text, limits), limits.bits);
   if (!value) throw text.error("expected a real number");
   return value->to_double();
 }
@@ -90,18 +92,20 @@ class Reader {
 
   void read_level() {
     if (options_.energy)
-      request_.energy = real_constant(option_text("--energy", *options_.energy));
+      request_.energy = real_constant(option_text("--energy", *options_.energy), model_.limits);
     else if (file_ && file_->energy)
-      request_.energy = real_constant(*file_->energy);
+      request_.energy = real_constant(*file_->energy, model_.limits);
     if (file_)
-      for (const auto& [name, value] : file_->casimirs) add_casimir(name, real_constant(value));
+      for (const auto& [name, value] : file_->casimirs)
+        add_casimir(name, real_constant(value, model_.limits));
     for (const std::string& text : options_.casimirs) {
       const std::size_t equals = text.find('=');
       if (equals == std::string::npos)
         throw UsageError(fmt::format("--casimir '{}': expected NAME=VALUE", printable(text)));
       const Text value{
           text.substr(equals + 1), {"--casimir", 1, static_cast<int>(equals) + 2}, text};
-      add_casimir({text.substr(0, equals), {"--casimir", 1, 1}, text}, real_constant(value));
+      add_casimir({text.substr(0, equals), {"--casimir", 1, 1}, text},
+                  real_constant(value, model_.limits));
     }
   }
 

@@ -63,7 +63,7 @@ std::vector<Vector> seeds_of(const std::string& path, const LevelSet& level,
   std::vector<std::string> known = states;
   for (const char* name : {"orbit", "n", "t", "u", "v"})
     if (!std::ranges::count(known, name)) known.emplace_back(name);
-  const EnsembleFile file = read_ensemble(path, known);
+  const EnsembleFile file = read_ensemble(path, known, level.problem().run.specialisation.limits);
   const auto u = column_of(file, "u"), v = column_of(file, "v");
   const bool whole = std::ranges::all_of(
       states, [&](const auto& name) { return column_of(file, name).has_value(); });

@@ -45,7 +45,8 @@ std::vector<std::pair<std::string, GiNaC::ex>> read_symmetry(
 double guess_of(const SymmetricSectionRequest& request, const PreparedScene& run) {
   if (request.period.empty()) return duration_of(run);
   const Text text{request.period, {"--period", 1, 1}, request.period};
-  const auto value = real_decimal(parse_constant(text));
+  const auto value =
+      real_decimal(parse_constant(text, request.model.limits), request.model.limits.bits);
   if (!value || !value->is_positive()) throw text.error("expected a period, a positive number");
   return value->to_double();
 }

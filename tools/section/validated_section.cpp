@@ -131,7 +131,8 @@ ValidatedOptions crossing_options(const SectionProblem& problem,
     throw UsageError("--validated needs a surface that is no angle: give it as --plane, by a sine");
   ValidatedOptions options;
   if (duration)
-    options.duration = parse_real_constant({*duration, {"--duration", 1, 1}, *duration});
+    options.duration = parse_real_constant({*duration, {"--duration", 1, 1}, *duration},
+                                           problem.run.specialisation.limits);
   return options;
 }
 

@@ -9,6 +9,7 @@
 #include "codegen/optimise/optimise.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/program/number.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
 #include "tools/cli/errors.hpp"
@@ -39,10 +40,10 @@ std::vector<Text> split(const Text& whole, std::size_t begin, char separator) {
   return parts;
 }
 
-cln::cl_F grid_value(const Text& text) {
+cln::cl_F grid_value(const Text& text, const Limits& limits) {
   if (text.value.empty()) throw text.error("expected a number");
   codegen::Dag dag({}, 0);
-  const codegen::Scaled value = dag.convert(parse_real_constant(text));
+  const codegen::Scaled value = dag.convert(parse_real_constant(text, limits));
   const Program program = codegen::optimised(dag, {value}, {}, {"value"});
   return evaluate(program, {}, Arithmetic<cln::cl_F>(kConstantDigits)).front();
 }
@@ -66,8 +67,8 @@ std::size_t count(const Text& text) {
 }
 
 /// FROM:TO:N, both ends included.
-std::vector<double> range(const std::vector<Text>& parts) {
-  const cln::cl_F from = grid_value(parts[0]), to = grid_value(parts[1]);
+std::vector<double> range(const std::vector<Text>& parts, const Limits& limits) {
+  const cln::cl_F from = grid_value(parts[0], limits), to = grid_value(parts[1], limits);
   const std::size_t n = count(parts[2]);
   if (n == 1 && from != to)
     throw parts[2].error("one point cannot reach from one value to another: at least 2");
@@ -82,15 +83,15 @@ std::vector<double> range(const std::vector<Text>& parts) {
   return values;
 }
 
-std::vector<double> values_of(const Text& option, std::size_t begin) {
+std::vector<double> values_of(const Text& option, std::size_t begin, const Limits& limits) {
   const std::vector<Text> ends = split(option, begin, ':');
-  if (ends.size() == 3) return range(ends);
+  if (ends.size() == 3) return range(ends, limits);
   if (ends.size() != 1)
     throw piece_of(option, begin, option.value.size())
         .error("expected FROM:TO:N, such as 0:1:11, or values such as 1,2,4");
   std::vector<double> values;
   for (const Text& text : split(option, begin, ','))
-    values.push_back(nearest(grid_value(text), text));
+    values.push_back(nearest(grid_value(text, limits), text));
   return values;
 }
 
@@ -151,7 +152,7 @@ Grid read_grid(const std::vector<std::string>& over, const std::vector<std::stri
     for (const Axis& axis : grid.axes)
       if (axis.name == name.value) throw name.error(fmt::format("there are two '{}'", name.value));
     const Axis::Kind kind = kind_of(name, lets, model);
-    grid.axes.push_back({name.value, kind, values_of(option, equals + 1)});
+    grid.axes.push_back({name.value, kind, values_of(option, equals + 1, model.limits)});
     if (points > kMostPoints / grid.axes.back().values.size())
       throw UsageError(fmt::format("the grid has more than {} points", kMostPoints));
     points *= grid.axes.back().values.size();
@@ -168,7 +169,7 @@ std::vector<std::string> names_set(const Grid& grid, const std::vector<std::stri
 }
 
 Lets read_lets(const std::vector<std::string>& lets, const Grid& grid, const Model& model) {
-  NameTable table;
+  NameTable table(model.limits);
   Lets result;
   for (const Axis& axis : grid.axes) {
     result.axes.emplace_back(axis.name);

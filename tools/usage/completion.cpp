@@ -56,7 +56,7 @@ Typed read_words(const CLI::App& command, const std::vector<std::string>& words)
 /// The case that the command line is about; standard input is not touched.
 std::optional<CaseFile> case_of(const Typed& typed) {
   if (typed.case_argument.empty() || typed.case_argument == "-") return std::nullopt;
-  return common_part(load_any_case(typed.case_argument));
+  return common_part(load_any_case(typed.case_argument, {}));
 }
 
 Lines names_of(const std::vector<Entry>& entries) {
@@ -97,13 +97,14 @@ Lines joined(Lines a, const Lines& b) {
 
 Lines tags() {
   std::set<std::string> result;
-  for (const CaseFile& file : tagged_cases("")) result.insert(file.tags.begin(), file.tags.end());
+  for (const CaseFile& file : tagged_cases("", {}))
+    result.insert(file.tags.begin(), file.tags.end());
   return {result.begin(), result.end()};
 }
 
 Lines variable_sets() {
   Lines names;
-  for (const Coordinates& set : bundled_atlas().sets) names.push_back(set.name);
+  for (const Coordinates& set : bundled_atlas({}).sets) names.push_back(set.name);
   return names;
 }
 

@@ -141,7 +141,7 @@ bool is_ruled_out(const HamiltonianSystem& system, const cln::cl_RA& value) {
   return std::ranges::any_of(system.of_free, [&](const Assumption& assumption) {
     try {
       return GiNaC::is_a<GiNaC::numeric>(assumption.difference.subs(at)) &&
-             !assumption.holds_at(at);
+             !assumption.holds_at(at, system.limits);
     } catch (const GiNaC::pole_error&) {
       return false;
     }

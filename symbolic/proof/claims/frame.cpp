@@ -61,7 +61,7 @@ class Lagrangian {
     }
   }
 
-  ex on_phase_space(const ex& f) const { return substituted(f, values_); }
+  ex on_phase_space(const ex& f) const { return substituted(f, values_, model_.limits); }
   ex momentum(std::size_t s) const {
     return on_phase_space(frame_.lagrangian->diff(frame_.velocities[s]));
   }

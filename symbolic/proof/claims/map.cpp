@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/proof/claims/claim.hpp"
 
@@ -31,18 +32,21 @@ GiNaC::exmap image_point(const PoissonMap& map) {
   return point;
 }
 
-std::vector<GiNaC::ex> composed(const std::vector<GiNaC::ex>& functions, const GiNaC::exmap& at) {
+std::vector<GiNaC::ex> composed(const std::vector<GiNaC::ex>& functions, const GiNaC::exmap& at,
+                                const Limits& limits) {
   std::vector<GiNaC::ex> result;
-  for (const GiNaC::ex& f : functions) result.push_back(substituted(f, at));
+  for (const GiNaC::ex& f : functions) result.push_back(substituted(f, at, limits));
   return result;
 }
 
 /// What is said of the image, at phi(x): it has to vanish on this case's constraints.
-std::vector<std::pair<std::string, GiNaC::ex>> image_defects(const PoissonMap& map) {
+std::vector<std::pair<std::string, GiNaC::ex>> image_defects(const PoissonMap& map,
+                                                             const Limits& limits) {
   const GiNaC::exmap image = image_point(map);
   std::vector<std::pair<std::string, GiNaC::ex>> defects;
   for (const NamedExpression& f : map.image)
-    defects.emplace_back(fmt::format("{} on the image", f.name), substituted(f.value, image));
+    defects.emplace_back(fmt::format("{} on the image", f.name),
+                         substituted(f.value, image, limits));
   return defects;
 }
 
@@ -60,7 +64,8 @@ bool leads_to_its_image(Prover& prover, Proof& proof, const PoissonMap& map) {
   std::vector<NamedExpression> level = map.on;
   for (const NamedExpression& f : prover.model().constraints) level.push_back(f);
   Proof own = proof;
-  prover.decide(own, residuals_of(prover, image_defects(map)), prover.level(level));
+  prover.decide(own, residuals_of(prover, image_defects(map, prover.model().limits)),
+                prover.level(level));
   if (own.verdict == Verdict::proved) {
     proof.where = own.where;
     return true;
@@ -105,11 +110,11 @@ std::vector<std::pair<std::string, GiNaC::ex>> inverse_defects(const Model& mode
                                                                const PoissonMap& map,
                                                                const MapInverse& inverse) {
   const GiNaC::exmap image = image_point(map);
-  const std::vector<GiNaC::ex> lifted = composed(inverse.expressions, image);
+  const std::vector<GiNaC::ex> lifted = composed(inverse.expressions, image, model.limits);
   GiNaC::exmap lift;
   for (std::size_t i = 0; i < lifted.size(); ++i) lift[model.variables[i]] = lifted[i];
   std::vector<std::pair<std::string, GiNaC::ex>> defects;
-  const std::vector<GiNaC::ex> again = composed(map.expressions, lift);
+  const std::vector<GiNaC::ex> again = composed(map.expressions, lift, model.limits);
   for (std::size_t i = 0; i < again.size(); ++i) {
     defects.emplace_back(
         fmt::format("{} of the inverse less itself", map.target.coordinates()[i].get_name()),
@@ -117,8 +122,8 @@ std::vector<std::pair<std::string, GiNaC::ex>> inverse_defects(const Model& mode
   }
   for (const NamedExpression& constraint : model.constraints)
     defects.emplace_back(fmt::format("{} at the inverse", constraint.name),
-                         substituted(constraint.value, lift));
-  for (auto& defect : image_defects(map)) defects.push_back(std::move(defect));
+                         substituted(constraint.value, lift, model.limits));
+  for (auto& defect : image_defects(map, model.limits)) defects.push_back(std::move(defect));
   return defects;
 }
 
@@ -129,7 +134,8 @@ Claim inverse_claim(const Model& model, std::size_t index, std::size_t branch) {
   if (map.inverses.size() > 1) claim.name += fmt::format(" {}", branch + 1);
   for (const auto& [label, defect] : inverse_defects(model, map, map.inverses[branch]))
     claim.expressions.push_back(defect);
-  for (const GiNaC::ex& part : composed(map.inverses[branch].defined_by, image_point(map)))
+  for (const GiNaC::ex& part :
+       composed(map.inverses[branch].defined_by, image_point(map), model.limits))
     claim.expressions.push_back(part);
   claim.expressions.insert(claim.expressions.end(), map.domain.begin(), map.domain.end());
   claim.on = names_of(model.constraints);
@@ -142,13 +148,13 @@ Claim inverse_claim(const Model& model, std::size_t index, std::size_t branch) {
   return claim;
 }
 
-std::vector<GiNaC::ex> expressions_of(const PoissonMap& map) {
+std::vector<GiNaC::ex> expressions_of(const PoissonMap& map, const Limits& limits) {
   std::vector<GiNaC::ex> expressions = values_of(map.on);
   expressions.insert(expressions.end(), map.expressions.begin(), map.expressions.end());
   for (const GiNaC::ex& bracket : map.composed_brackets()) expressions.push_back(bracket);
   // What GiNaC simplified away: sqrt(q)^2 is q only where q >= 0.
   expressions.insert(expressions.end(), map.domain.begin(), map.domain.end());
-  for (const auto& [label, defect] : image_defects(map)) expressions.push_back(defect);
+  for (const auto& [label, defect] : image_defects(map, limits)) expressions.push_back(defect);
   return expressions;
 }
 
@@ -160,7 +166,8 @@ std::vector<Claim> map_claims(const Model& model) {
     claims.push_back(
         {ClaimKind::map, model.maps[i].name, false,
          [i](Prover& prover, Proof& proof) { decide_map(prover, proof, prover.model().maps[i]); },
-         names_of(model.maps[i].on), expressions_of(model.maps[i]), false, Subject::bracket});
+         names_of(model.maps[i].on), expressions_of(model.maps[i], model.limits), false,
+         Subject::bracket});
     for (std::size_t branch = 0; branch < model.maps[i].inverses.size(); ++branch)
       claims.push_back(inverse_claim(model, i, branch));
   }

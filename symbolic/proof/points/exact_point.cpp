@@ -37,7 +37,8 @@ struct ExactPoint::Functions : public GiNaC::map_function {
 
  private:
   ex fresh(const ex& e) {
-    if (GiNaC::is_a<GiNaC::power>(e)) return checked_power((*this)(e.op(0)), (*this)(e.op(1)));
+    if (GiNaC::is_a<GiNaC::power>(e))
+      return checked_power((*this)(e.op(0)), (*this)(e.op(1)), point_.limits_);
     const ex inner = e.map(*this);
     if (!GiNaC::is_a<GiNaC::function>(inner)) return inner;
     const std::string name = GiNaC::ex_to<GiNaC::function>(inner).get_name();
@@ -79,7 +80,8 @@ struct ExactPoint::Functions : public GiNaC::map_function {
 };
 
 ExactPoint::ExactPoint(const FunctionRing& ring, const std::vector<cln::cl_RA>& point,
-                       const std::vector<bool>& bare) {
+                       const std::vector<bool>& bare)
+    : limits_(ring.limits()) {
   const auto& symbols = ring.symbols();
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < symbols.size(); ++i) {
@@ -114,7 +116,7 @@ ExactPoint::ExactPoint(const FunctionRing& ring, const std::vector<cln::cl_RA>& 
 
 ex ExactPoint::evaluate(const ex& expression) const {
   Functions functions(*this);
-  return substituted(functions(expression), values_);
+  return substituted(functions(expression), values_, limits_);
 }
 
 }  // namespace casimir

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/functions/function_ring.hpp"
 
 namespace casimir {
@@ -33,6 +34,7 @@ class ExactPoint {
 
  private:
   struct Functions;
+  Limits limits_;
   GiNaC::exmap values_;
   /// For each angle u = factor * symbol: symbol, factor, and exp(I u) as a Gaussian rational.
   struct Angle {

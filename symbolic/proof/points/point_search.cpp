@@ -64,7 +64,7 @@ bool PointSearch::inside_assumptions(const Point& point) const {
   for (std::size_t i = 0; i < ring_.symbols().size(); ++i)
     values[ring_.symbols()[i]] = GiNaC::numeric(point[i]);
   return std::all_of(model_.assumptions.begin(), model_.assumptions.end(),
-                     [&](const Assumption& a) { return a.holds_at(values); });
+                     [&](const Assumption& a) { return a.holds_at(values, model_.limits); });
 }
 
 /// Rows of a random rotation, or reflection, scaled to the lengths.

@@ -193,7 +193,7 @@ bool RealLevelPoints::is_on(std::vector<ex> coordinates, const Level& level,
         std::all_of(level.functions.begin(), level.functions.end(), [&](const ex& f) {
           if (const auto exact = point.evaluator().exact(f)) return cln::zerop(*exact);
           if (!point.evaluator()(f).contains_zero()) return false;
-          const auto value = exact_constant(substituted(f, values_of(point)));
+          const auto value = exact_constant(substituted(f, values_of(point), real_.limits()));
           return value && value->zero;
         });
     return on_level && real_.admits(point, expressions);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "symbolic/algebra/ball_evaluator.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/functions/function_ring.hpp"
 #include "symbolic/model.hpp"
 
@@ -109,6 +110,8 @@ class RealPoints {
 
   /// How the ring's functions are to be evaluated.
   BallEvaluator::Numbers numbers() const;
+  /// What is computed of the points is held to these.
+  const Limits& limits() const { return ring_.limits(); }
 
  private:
   std::vector<GiNaC::ex> draw_generic();

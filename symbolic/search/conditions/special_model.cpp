@@ -23,7 +23,8 @@ Domain put_assumptions(Model& model, const std::function<ex(const ex&)>& put) {
     a.difference = put(a.difference);
     if (!GiNaC::is_a<GiNaC::numeric>(a.difference.expand())) {
       kept.push_back(a);
-    } else if (a.difference.expand().info(GiNaC::info_flags::rational) && !a.holds_at({})) {
+    } else if (a.difference.expand().info(GiNaC::info_flags::rational) &&
+               !a.holds_at({}, model.limits)) {
       return Domain::outside;
     }
   }
@@ -76,7 +77,7 @@ std::vector<Found> additional(const Model& model, const std::vector<Found>& foun
   for (const NamedExpression& f : known) values.push_back(f.value);
   const std::size_t first = values.size();
   for (const Found& f : found) values.push_back(f.value);
-  FunctionRing ring(symbols_in(model), model.assumptions, values);
+  FunctionRing ring(symbols_in(model), model.assumptions, values, model.limits);
   std::vector<Polynomial> row;
   for (const ex& value : values) row.push_back(ring.convert(value));
   row = ring.common_numerators(std::move(row));
@@ -110,7 +111,7 @@ bool contradict(const Model& model) {
     const ex d = all[i].difference;
     const ex difference = !sided ? d : upwards ? c - d : c + d;
     try {
-      FunctionRing ring(symbols, others, {difference});
+      FunctionRing ring(symbols, others, {difference}, model.limits);
       const Polynomial p = ring.convert(difference);
       const bool never =
           own == Comparison::unequal ? ring.numerator(p).is_zero() : ring.is_nowhere_zero(p);

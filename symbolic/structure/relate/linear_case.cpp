@@ -36,7 +36,7 @@ Terms of_degree(const Terms& terms, unsigned long degree) {
 std::vector<Terms> terms_of(const Model& model, const std::vector<GiNaC::ex>& functions) {
   std::vector<GiNaC::symbol> symbols = model.variables;
   symbols.insert(symbols.end(), model.parameters.begin(), model.parameters.end());
-  FunctionRing ring(symbols, {}, functions);
+  FunctionRing ring(symbols, {}, functions, model.limits);
   if (!ring.is_polynomial())
     throw ModelError(fmt::format(
         "{}: the bracket and the Hamiltonian have to be polynomials in the variables", model.name));

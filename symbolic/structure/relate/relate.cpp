@@ -189,14 +189,14 @@ class Relating {
         image[b_.variables[i]] = relation_.expressions[i];
       identity.emplace();
       identity->name = "Hamiltonian";
-      identity->left = substituted(*b_.hamiltonian, image);
+      identity->left = substituted(*b_.hamiltonian, image, a_.limits);
       identity->right = map.factor * *a_.hamiltonian + casimir_part;
     }
     std::vector<ex> all = relation_.expressions;
     all.insert(all.end(), {map.factor, casimir_part});
     std::vector<GiNaC::symbol> symbols = a_.variables;
     symbols.insert(symbols.end(), a_.parameters.begin(), a_.parameters.end());
-    FunctionRing ring(symbols, {}, all);
+    FunctionRing ring(symbols, {}, all, a_.limits);
     for (std::size_t i = 0; i < relation_.expressions.size(); ++i)
       relation_.map.emplace_back(b_.variables[i].get_name(),
                                  ring.text(ring.convert(relation_.expressions[i])));

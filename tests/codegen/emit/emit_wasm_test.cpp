@@ -22,7 +22,7 @@ Program growth(bool constant_first) {
 
 TEST(EmitWasm, AConstantMayBeTheFirstLine) {
   for (const bool first : {false, true}) {
-    const WasmSeries series = emit_wasm(growth(first), 1, growth(first), 8);
+    const WasmSeries series = emit_wasm(growth(first), 1, growth(first), 8, {});
     ASSERT_GT(series.bytes.size(), 8U);
     EXPECT_EQ(std::string(series.bytes.begin() + 1, series.bytes.begin() + 4), "asm");
     EXPECT_EQ(series.order, 8);

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "codegen/emit/identifiers.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/error.hpp"
 #include "tests/codegen/support.hpp"
 
@@ -83,8 +84,9 @@ TEST(Literal, WideNumbersAreSumsOfWhatDoublesAreAndNotOfTheirDecimals) {
   Program p;
   p.code = {{Op::pi}};
   for (const cln::cl_RA& value :
-       {constant_value(p, 0), 3 * two_to(100) + 1, ten_to(40) + 12345, cln::cl_RA(1) / ten_to(40),
-        (ten_to(45) + 1) / (3 * ten_to(14) + 7), (ten_to(20) + 1) / ten_to(320)}) {
+       {constant_value(p, 0, {}), 3 * two_to(100) + 1, ten_to(40) + 12345,
+        cln::cl_RA(1) / ten_to(40), (ten_to(45) + 1) / (3 * ten_to(14) + 7),
+        (ten_to(20) + 1) / ten_to(320)}) {
     for (const Scalar scalar : {Scalar::float128, Scalar::templated}) {
       const std::string text = number_text(value, scalar, "wide").text;
       cln::cl_RA sum = 0;
@@ -101,14 +103,33 @@ TEST(Literal, IrrationalConstantsAreRoundedFromManyDigits) {
   p.constants = {2, 10, ten_to(60) + 1, ten_to(30)};
   p.code = {{Op::constant, 0}, {Op::sqrt, 0}, {Op::pi},          {Op::mul, 1, 2},
             {Op::constant, 2}, {Op::sqrt, 4}, {Op::constant, 3}, {Op::sub, 5, 6}};
-  EXPECT_EQ(nearest<double>(constant_value(p, 1)), std::sqrt(2.0));
-  EXPECT_EQ(nearest<double>(constant_value(p, 2)), std::acos(-1.0));
-  EXPECT_EQ(nearest<double>(constant_value(p, 3)), 4.442882938158366);
+  EXPECT_EQ(nearest<double>(constant_value(p, 1, {})), std::sqrt(2.0));
+  EXPECT_EQ(nearest<double>(constant_value(p, 2, {})), std::acos(-1.0));
+  EXPECT_EQ(nearest<double>(constant_value(p, 3, {})), 4.442882938158366);
   // sqrt(10^60 + 1) - 10^30 = 5e-31 - ..: sixty digits are not enough for it.
-  EXPECT_EQ(nearest<double>(constant_value(p, 7)), 5e-31);
+  EXPECT_EQ(nearest<double>(constant_value(p, 7, {})), 5e-31);
   EXPECT_EQ(constant_text(p, 3), "sqrt(2)*Pi");
   p.code = {{Op::constant, 0}, {Op::neg, 0}, {Op::log, 1}};
-  EXPECT_THROW(constant_value(p, 2), ModelError);
+  EXPECT_THROW(constant_value(p, 2, {}), ModelError);
+}
+
+TEST(Literal, ConstantsAreHeldToTheLimitsOfTheirCase) {
+  Program p;
+  p.constants = {50};
+  p.code = {{Op::constant, 0}, {Op::exp, 0}};  // of 73 bits
+  Limits limits;
+  limits.bits = 72;
+  limits.how_to_raise = "see '{}'";
+  for (int turn = 0; turn < 2; ++turn) {
+    EXPECT_DOUBLE_EQ(nearest<double>(constant_value(p, 1, {})), std::exp(50.));
+    try {
+      constant_value(p, 1, limits);
+      FAIL();
+    } catch (const TooLarge& error) {
+      EXPECT_EQ(error.limit(), &Limits::bits);
+      EXPECT_STREQ(error.what(), "the constant exp(50) has more than 72 bits; see 'bits'");
+    }
+  }
 }
 
 TEST(Names, ClashesAreResolvedInOrder) {

@@ -27,7 +27,7 @@ inline LaneKernel lanes_of_constants(const LaneForm& form) {
 /// Every kernel that the system has, and its name.
 inline Kernels lane_kernels(const Specialisation& s) {
   Kernels result;
-  if (const auto form = lane_form(s.rhs)) {
+  if (const auto form = lane_form(s.rhs, s.limits)) {
     result.emplace_back("constants", lanes_of_constants(*form));
     for (const std::string& target : lane_targets())
       result.emplace_back(target, table_driven_lanes(*form, target));

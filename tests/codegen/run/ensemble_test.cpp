@@ -133,7 +133,7 @@ TEST(Ensemble, ConstantAndRunTimeTablesGiveTheSameBits) {
                                                          {"d", "-a*c - c*f + 1/7"},
                                                          {"e", "-c*f + b*a - b*f"},
                                                          {"f", "-e*c + e*b + b - f/5"}}))}) {
-    const LaneForm form = *lane_form(s.rhs);
+    const LaneForm form = *lane_form(s.rhs, s.limits);
     const States from = s.states.size() == 3 ? Mixed().from : near(std::vector<double>(6, 0.5), 29);
     const EnsembleResult constants =
         run_lanes(testing::lanes_of_constants(form), ensemble_of(from), settings_for(3, 1e-11));
@@ -243,7 +243,7 @@ TEST(Ensemble, ParametersMayDifferFromMemberToMember) {
   }
   // A quadratic system whose factors are functions of the parameters: x = 1/(c - sqrt(a) t) - b.
   const Specialisation square = specialised(equations({{"x", "sqrt(a)*(x + b)^2"}}, rest), general);
-  EXPECT_TRUE(lane_form(square.rhs));
+  EXPECT_TRUE(lane_form(square.rhs, square.limits));
   for (const auto& [name, kernel] : lane_kernels(square)) {
     const EnsembleResult result =
         run_lanes(kernel, ensemble_of(states, values), settings_for(0.3, 1e-14), 2);
@@ -293,7 +293,7 @@ TEST(Ensemble, ErrorFallsWithTheTolerance) {
 
 TEST(Ensemble, SystemsOfAnotherKindHaveNoTables) {
   const auto has_form = [](const std::string& toml) {
-    return lane_form(specialised(toml).rhs).has_value();
+    return lane_form(specialised(toml).rhs, {}).has_value();
   };
   EXPECT_TRUE(has_form(equations({{"x", "(x + 2*y)^2/3 - x/sqrt(2)"}, {"y", "1"}})));
   EXPECT_FALSE(has_form(equations({{"x", "x^3"}})));
@@ -306,7 +306,7 @@ TEST(Ensemble, SystemsOfAnotherKindHaveNoTables) {
       field.emplace_back("x" + std::to_string(i), next + "*x" + std::to_string((i + 5) % states));
     }
     const Specialisation s = specialised(equations(field));
-    EXPECT_EQ(lane_form(s.rhs).has_value(), states == 24);
+    EXPECT_EQ(lane_form(s.rhs, s.limits).has_value(), states == 24);
     const std::vector<double> from(static_cast<std::size_t>(states), 0.25);
     for (const auto& [name, kernel] : lane_kernels(s)) {
       const EnsembleResult result = run_lanes(kernel, ensemble_of({from}), settings_for(1, 1e-14));

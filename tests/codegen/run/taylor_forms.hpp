@@ -31,7 +31,7 @@ inline Module compiled(const Specialisation& s, const char* method = "taylor") {
 /// Every form of the method that the system has, and its name.
 inline std::vector<std::pair<std::string, Module>> forms(const Specialisation& s) {
   std::vector<std::pair<std::string, Module>> result;
-  if (const auto form = quadratic_form(s.rhs))
+  if (const auto form = quadratic_form(s.rhs, s.limits))
     result.emplace_back("tables", uncompiled_module(s.rhs, s.invariants, form, {}));
   result.emplace_back("compiled", compiled(s));
   result.emplace_back("interpreted", uncompiled_module(s.rhs, s.invariants, std::nullopt, {}));
@@ -61,7 +61,7 @@ inline std::vector<double> start_of(const Specialisation& s) {
   std::vector<double> x;
   Program start = s.start;
   for (std::size_t i = 0; i < s.states.size(); ++i)
-    x.push_back(cln::double_approx(codegen::constant_value(start, start.outputs[i])));
+    x.push_back(cln::double_approx(codegen::constant_value(start, start.outputs[i], {})));
   return x;
 }
 

@@ -187,7 +187,8 @@ TEST(Taylor, FloorOfTheErrorOfEveryTop) {
   for (const char* name : kTops) {
     const Specialisation s = top(name);
     const std::vector<double> from = start_of(s), end = truth(s, from, 100);
-    const Module module = uncompiled_module(s.rhs, s.invariants, quadratic_form(s.rhs), {});
+    const Module module =
+        uncompiled_module(s.rhs, s.invariants, quadratic_form(s.rhs, s.limits), {});
     EXPECT_LT(distance(run_taylor(module, settings_for(100), from).state, end), 5e-14) << name;
   }
 }
@@ -196,7 +197,8 @@ TEST(Taylor, FloorOfTheErrorOfEveryTop) {
 TEST(Taylor, InvariantsOfLongRuns) {
   for (const char* name : kTops) {
     const Specialisation s = top(name);
-    const Module module = uncompiled_module(s.rhs, s.invariants, quadratic_form(s.rhs), {});
+    const Module module =
+        uncompiled_module(s.rhs, s.invariants, quadratic_form(s.rhs, s.limits), {});
     Settings settings = settings_for(5e5);
     settings.invariant_terms = [&](double t, const double* x, long double* values,
                                    long double* sizes) {
@@ -278,7 +280,7 @@ TEST(Taylor, InstructionSetsAgreeToRounding) {
                    {"e", "-c*f + b*a - b*f"},
                    {"f", "-e*c + e*b + b - f"}})}) {
     const Specialisation s = specialised(toml);
-    const auto form = quadratic_form(s.rhs);
+    const auto form = quadratic_form(s.rhs, s.limits);
     ASSERT_TRUE(form);
     std::vector<std::vector<double>> ends;
     for (const std::string& target : quadratic_targets()) {
@@ -331,7 +333,7 @@ TEST(Taylor, InterpreterTakesManyStates) {
     rates.emplace_back("y" + n, "-" + n + "/50*x" + n);
   }
   const Specialisation s = specialised(equations(rates));
-  ASSERT_FALSE(has_quadratic_kernel(*quadratic_form(s.rhs)));
+  ASSERT_FALSE(has_quadratic_kernel(*quadratic_form(s.rhs, s.limits)));
   std::vector<double> from;
   for (int i = 0; i < 50; ++i) from.insert(from.end(), {1, 0});
   const Module module = uncompiled_module(s.rhs, s.invariants, std::nullopt, {});

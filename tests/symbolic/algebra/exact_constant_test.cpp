@@ -8,7 +8,9 @@
 namespace casimir::test {
 namespace {
 
-GiNaC::ex number(const std::string& text) { return parse_constant({text, {"test", 1, 1}, text}); }
+GiNaC::ex number(const std::string& text) {
+  return parse_constant({text, {"test", 1, 1}, text}, {});
+}
 
 struct Known {
   const char* text;

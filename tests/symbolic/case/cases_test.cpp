@@ -63,7 +63,8 @@ TEST_P(EveryCase, WitnessOfAFalseCasimirReEvaluatesToItsValue) {
   for (const auto& [symbol, value] : proofs[0].witness->point) {
     for (const auto* list : {&model.variables, &model.parameters}) {
       for (const GiNaC::symbol& s : *list) {
-        if (s.get_name() == symbol) point[s] = parse_constant({value, {"witness", 1, 1}, value});
+        if (s.get_name() == symbol)
+          point[s] = parse_constant({value, {"witness", 1, 1}, value}, {});
       }
     }
   }

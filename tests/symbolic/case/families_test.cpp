@@ -24,7 +24,7 @@ class Families : public ReadsExpressions {
 
 std::string names_in(const std::string& text) {
   std::string names;
-  for (const FamilyMember& member : members_of({text, {"test", 1, 1}, text}, {{"n", 3}})) {
+  for (const FamilyMember& member : members_of({text, {"test", 1, 1}, text}, {{"n", 3}}, {})) {
     names += member.name.value;
     for (const auto& [letter, value] : member.indices)
       names += " " + letter + std::to_string(value);

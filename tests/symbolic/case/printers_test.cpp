@@ -102,7 +102,7 @@ TEST_P(Printed, ReadsBackAsItself) {
   Expressions expressions(GetParam());
   const std::string source = expressions.sum(2);
   const GiNaC::ex e = model.parse(text(source));
-  FunctionRing ring(symbols, model.assumptions, {e});
+  FunctionRing ring(symbols, model.assumptions, {e}, model.limits);
   const Polynomial p = ring.reduced(ring.convert(e));
   const std::vector<bool> constant = [&] {
     std::vector<bool> result(ring.ring().size(), true);
@@ -127,9 +127,9 @@ TEST(Printed, APowerOfARootIsNotTheRootOfAPower) {
     const GiNaC::ex e = model.parse(text(source));
     std::vector<GiNaC::symbol> symbols = model.variables;
     symbols.insert(symbols.end(), model.parameters.begin(), model.parameters.end());
-    FunctionRing ring(symbols, model.assumptions, {e});
+    FunctionRing ring(symbols, model.assumptions, {e}, model.limits);
     const GiNaC::ex back = model.parse(text(ring.text(ring.convert(e))));
-    FunctionRing both(symbols, model.assumptions, {e, back});
+    FunctionRing both(symbols, model.assumptions, {e, back}, model.limits);
     EXPECT_EQ(both.convert(e), both.convert(back))
         << source << " is written " << ring.text(ring.convert(e));
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "symbolic/case/limits.hpp"
 #include "symbolic/expression/expression.hpp"
 
 namespace casimir::test {
@@ -47,7 +48,7 @@ class ReadsExpressions : public testing::Test {
   }
 
   std::map<std::string, GiNaC::symbol> symbols_;
-  NameTable names_;
+  NameTable names_{Limits{}};
 };
 
 }  // namespace casimir::test

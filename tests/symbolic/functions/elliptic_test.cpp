@@ -51,7 +51,7 @@ double value_of(const std::string& text, double x, double y, double z) {
   const GiNaC::exmap point{{model.variables[0], GiNaC::numeric(x)},
                            {model.variables[1], GiNaC::numeric(y)},
                            {model.variables[2], GiNaC::numeric(z)}};
-  const auto exact = real_decimal(read(model, text).subs(point));
+  const auto exact = real_decimal(read(model, text).subs(point), model.limits.bits);
   return exact ? exact->to_double() : NAN;
 }
 

@@ -22,7 +22,7 @@ class CompletedPoints : public testing::Test {
 
   GiNaC::symbol x_{"x"}, y_{"y"}, z_{"z"};
   ex angle_ = GiNaC::sin(x_), root_ = GiNaC::sqrt(y_), inverse_ = 1 / z_, log_ = GiNaC::log(y_);
-  FunctionRing ring_{{x_, y_, z_}, {}, {angle_, GiNaC::cos(x_), root_, inverse_, log_}};
+  FunctionRing ring_{{x_, y_, z_}, {}, {angle_, GiNaC::cos(x_), root_, inverse_, log_}, {}};
 };
 
 TEST_F(CompletedPoints, ValuesObeyAllRelations) {

@@ -13,7 +13,7 @@ class SignTables : public testing::Test {
  protected:
   /// The sign that is known of y where these hold.
   int sign_of_y(const std::vector<Assumption>& assumptions) {
-    functions::GeneratorTable table({x_, y_});
+    functions::GeneratorTable table({x_, y_}, {});
     table.restart();
     functions::SignTable signs(table, assumptions);
     functions::Converter converter(table, signs, 0);

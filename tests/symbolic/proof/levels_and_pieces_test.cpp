@@ -368,7 +368,7 @@ TEST(Pieces, OfRingsOfFunctions) {
       model_of("[phase_space]\nvariables = [\"x\",\"y\"]\n[equations]\nx = \"0\"\ny = \"0\"\n");
   const auto pieces = [&](const std::string& text) {
     const GiNaC::ex value = model.parse({text, {"test", 1, 1}, text});
-    FunctionRing ring(model.variables, {}, {value});
+    FunctionRing ring(model.variables, {}, {value}, {});
     return ring.pieces({ring.convert(value)});
   };
   EXPECT_TRUE(pieces("x/y + sin(x*y) + exp(x)").rigid);
@@ -385,7 +385,7 @@ TEST(LowestTerms, CancelWhatNumeratorsKeep) {
   const Model model =
       model_of("[phase_space]\nvariables = [\"x\",\"y\"]\n[equations]\nx = \"0\"\ny = \"0\"\n");
   const GiNaC::ex value = model.parse({"y*x^(3/2)", {"test", 1, 1}, {}});
-  FunctionRing ring(model.variables, {}, {value});
+  FunctionRing ring(model.variables, {}, {value}, {});
   const Polynomial slope = ring.derivative(ring.convert(value), 0);  // 3/2*y*sqrt(x)
   EXPECT_TRUE(ring.lowest_terms(slope).second.is_constant());
   const Polynomial second = ring.derivative(slope, 0);  // 3/4*y/sqrt(x)

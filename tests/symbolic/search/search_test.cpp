@@ -375,16 +375,14 @@ TEST(Darboux, EndsWhereTheNumbersGrow) {
 }
 
 TEST(Darboux, EndsAtTheLimitOfWork) {
-  const Limits before = limits();
-  Limits small = before;
+  Limits small;
   small.work = 100;
-  set_limits(small);
   const Model model = model_of(
       "[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n[equations]\n"
-      "x = \"(y + z)^2\"\ny = \"(z - x)^2\"\nz = \"(x + 2*y)^2\"\n");
+      "x = \"(y + z)^2\"\ny = \"(z - x)^2\"\nz = \"(x + 2*y)^2\"\n",
+      small);
   const auto darboux = search::find_darboux(model, 2);
   const auto exponents = search::kovalevskaya_exponents(model, {});
-  set_limits(before);
   for (const auto& [complete, reason] : {std::pair(darboux.complete, darboux.reason),
                                          std::pair(exponents.complete, exponents.reason)}) {
     EXPECT_FALSE(complete);

@@ -53,7 +53,11 @@ std::string step_text(const TracedStep& step) {
 /// Takes a document apart, and says where it is not as expected.
 class CertificateReader {
  public:
-  explicit CertificateReader(std::string file) : file_(std::move(file)) {}
+  /// \param limits  outlive it
+  CertificateReader(std::string file, const Limits& limits)
+      : file_(std::move(file)), limits_(limits) {}
+
+  const Limits& limits() const { return limits_; }
 
   /// Of the text, from its beginning.
   [[noreturn]] void malformed_at(const std::string& text, std::size_t byte,
@@ -115,6 +119,7 @@ class CertificateReader {
 
  private:
   std::string file_;
+  const Limits& limits_;
 };
 
 Json document_of(const std::string& text, const CertificateReader& reader) {
@@ -186,7 +191,7 @@ cln::cl_RA rational_of(const Json& json, const std::string& path, const Certific
   if (json.is_string()) {
     const std::string& text = json.get_ref<const std::string&>();
     if (!text.empty() && text.size() <= kLongest && std::ranges::all_of(text, is_part)) {
-      const GiNaC::ex value = parse_real_constant({text, {path, 1, 1}, text});
+      const GiNaC::ex value = parse_real_constant({text, {path, 1, 1}, text}, reader.limits());
       if (GiNaC::is_a<GiNaC::numeric>(value) && GiNaC::ex_to<GiNaC::numeric>(value).is_rational())
         return cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(value).to_cl_N());
     }
@@ -211,6 +216,7 @@ RunCertificate run_of(const Json& json, const CertificateReader& reader) {
   certificate.of_case = reader.text(json, "", "case");
   certificate.scene = reader.text(json, "", "scene");
   certificate.equations = reader.text(json, "", "equations");
+  certificate.limits = reader.limits();
   const Json& radii = reader.entry(json, "", "radii");
   if (!radii.is_array()) reader.malformed("/radii", "a list");
   for (std::size_t i = 0; i < radii.size(); ++i)
@@ -227,6 +233,7 @@ CycleCertificate cycle_of(const Json& json, const std::string& path,
   CycleCertificate cycle;
   cycle.of_case = reader.text(json, path, "case");
   cycle.equations = reader.text(json, path, "equations");
+  cycle.limits = reader.limits();
   cycle.plane = reader.text(json, path, "plane");
   cycle.levels = reader.numbers(reader.entry(json, path, "levels"), path + "/levels", 0);
   const Json& closing = reader.entry(json, path, "closing");
@@ -265,6 +272,7 @@ HorseshoeCertificate horseshoe_of(const Json& json, const CertificateReader& rea
   HorseshoeCertificate certificate;
   certificate.of_case = reader.text(json, "", "case");
   certificate.equations = reader.text(json, "", "equations");
+  certificate.limits = reader.limits();
   certificate.plane = reader.text(json, "", "plane");
   const Json& levels = reader.entry(json, "", "levels");
   if (!levels.is_array()) reader.malformed("/levels", "a list of intervals");
@@ -336,8 +344,9 @@ std::string certificate_text(const HorseshoeCertificate& certificate) {
   return with_digest(text + fmt::format("\"coverings\": {}", Json(certificate.coverings).dump()));
 }
 
-CertificateFile read_certificate(const std::string& text, const std::string& file) {
-  const CertificateReader reader(file);
+CertificateFile read_certificate(const std::string& text, const std::string& file,
+                                 const Limits& limits) {
+  const CertificateReader reader(file, limits);
   if (text.size() > kMostBytes) reader.malformed("/", "a file of at most 512 MiB");
   const std::size_t length =
       std::string(kDigestKey).size() + 2 * kDigestBytes + std::string(kFileEnd).size();

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "symbolic/case/limits.hpp"
 #include "tools/analysis/certificate/cycle_certificate.hpp"
 #include "tools/analysis/certificate/horseshoe_certificate.hpp"
 #include "tools/analysis/certificate/run_certificate.hpp"
@@ -32,7 +33,9 @@ std::string with_digest(const std::string& text);
 /// Reads such a file. It comes from a stranger: the size, the depth, every key and every number are
 /// checked. That it is well formed says nothing of its truth.
 /// \param file  names it in messages.
+/// \param limits  of its numbers and equations
 /// \throws CaseError  for what is malformed, with the place and what was expected.
-CertificateFile read_certificate(const std::string& text, const std::string& file);
+CertificateFile read_certificate(const std::string& text, const std::string& file,
+                                 const Limits& limits = {});
 
 }  // namespace casimir

@@ -13,6 +13,7 @@
 #include "codegen/specialise.hpp"
 #include "runtime/trace_check.hpp"
 #include "symbolic/algebra/ball_evaluator.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/prove.hpp"
 #include "tools/analysis/certificate/run_certificate.hpp"
 #include "tools/analysis/proof/ball_matrix.hpp"
@@ -49,6 +50,7 @@ class CycleEquations {
   /// x' = T f(x), T' = 0 from the middle over a unit of time.
   ValidatedProblem problem(const cln::cl_RA& radius) const {
     Model scaled;
+    scaled.limits = model_.limits;
     scaled.name = model_.name;
     scaled.phase_space = "equations";
     scaled.variables = model_.variables;
@@ -152,6 +154,7 @@ class CycleEquations {
     RunCertificate run;
     run.of_case = certificate.of_case;
     run.equations = certificate.equations;
+    run.limits = certificate.limits;
     Model model = model_of_certificate(run);
     if (!model.scenes.front().duration) throw CycleRefuted{"there is no period"};
     if (model.time) throw CycleRefuted{"the equations have the time in them"};
@@ -288,10 +291,12 @@ CheckedCycle check_cycle(const CycleCertificate& certificate,
 std::optional<CycleCertificate> certify_cycle(const std::string& of_case,
                                               const std::string& equations,
                                               const std::string& plane,
-                                              const std::vector<double>& levels) {
+                                              const std::vector<double>& levels,
+                                              const Limits& limits) {
   CycleCertificate certificate;
   certificate.of_case = of_case;
   certificate.equations = equations;
+  certificate.limits = limits;
   certificate.plane = plane;
   for (const double level : levels) certificate.levels.push_back(traced_text(level));
   try {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/run_trace.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/model.hpp"
 #include "tools/analysis/section/validated_cycles.hpp"
 
@@ -25,6 +26,7 @@ struct CycleCertificate {
   std::vector<std::string> inverse;  ///< an approximate inverse of the derivatives, row after row
   /// Of x' = T f(x), T' = 0 over a unit of time: from the middle, and from the box.
   RunTrace point, box;
+  Limits limits{};  ///< under which the equations are read: no part of a file
 };
 
 /// What came of the certificate of a cycle.
@@ -50,9 +52,11 @@ CheckedCycle check_cycle(const CycleCertificate& certificate,
 /// Makes a certificate of a cycle that was found, and checks it. Nothing where it does not hold.
 /// \param equations  as of the certificate, with the start near the orbit and about its period.
 /// \param levels     one for each integral of the equations.
+/// \param limits     of the case that it is of.
 std::optional<CycleCertificate> certify_cycle(const std::string& of_case,
                                               const std::string& equations,
                                               const std::string& plane,
-                                              const std::vector<double>& levels);
+                                              const std::vector<double>& levels,
+                                              const Limits& limits = {});
 
 }  // namespace casimir

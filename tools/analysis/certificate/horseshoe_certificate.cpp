@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "runtime/certificate/hex_float.hpp"
+#include "symbolic/case/limits.hpp"
 #include "tools/analysis/certificate/run_certificate.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/horseshoe/horseshoe.hpp"
@@ -69,6 +70,7 @@ Model plain_model_of(const HorseshoeCertificate& certificate) {
   RunCertificate run;
   run.of_case = certificate.of_case;
   run.equations = certificate.equations;
+  run.limits = certificate.limits;
   return model_of_certificate(run);
 }
 
@@ -177,10 +179,12 @@ class HorseshoeCheck {
 }  // namespace
 
 HorseshoeCertificate certificate_of(const Horseshoe& proof, const std::string& of_case,
-                                    const std::string& equations, const std::string& plane) {
+                                    const std::string& equations, const std::string& plane,
+                                    const Limits& limits) {
   HorseshoeCertificate certificate;
   certificate.of_case = of_case;
   certificate.equations = equations;
+  certificate.limits = limits;
   certificate.plane = plane;
   for (const RationalInterval& level : proof.system.levels)
     certificate.levels.push_back({end_text(level.low), end_text(level.high)});

@@ -8,6 +8,7 @@
 
 #include "runtime/run_trace.hpp"
 #include "runtime/validated_run.hpp"
+#include "symbolic/case/limits.hpp"
 
 namespace casimir {
 
@@ -32,6 +33,7 @@ struct HorseshoeCertificate {
   std::vector<std::array<std::string, 2>> levels;
   std::vector<CertifiedSet> sets;
   std::vector<std::pair<int, int>> coverings;  ///< from which set to which
+  Limits limits{};  ///< under which the equations are read: no part of a file
 };
 
 /// What came of the certificate of a horseshoe.
@@ -49,8 +51,10 @@ struct CheckedHorseshoe {
 /// The certificate of what was proved.
 /// \param equations  a text as of the certificate, whose integrals are those of the level.
 /// \param plane      s, such that it increases where it counts.
+/// \param limits     of the case that it is of.
 HorseshoeCertificate certificate_of(const Horseshoe& proof, const std::string& of_case,
-                                    const std::string& equations, const std::string& plane);
+                                    const std::string& equations, const std::string& plane,
+                                    const Limits& limits = {});
 
 /// Verifies a certificate: each hypothesis of the theorem of horseshoe.hpp is proved again. Nothing
 /// but the equations, the surface, the numbers of the h-sets and the arrows is taken from it, and

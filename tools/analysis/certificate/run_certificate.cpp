@@ -24,7 +24,7 @@ bool is_plain(const CaseFile& file) {
 }  // namespace
 
 Model model_of_certificate(const RunCertificate& certificate) {
-  CaseFile file = parse_case(certificate.equations, kEquationsFile);
+  CaseFile file = parse_case(certificate.equations, kEquationsFile, certificate.limits);
   if (!is_plain(file))
     throw CaseError({kEquationsFile},
                     "expected variables, equations, integrals and one scene, and nothing else");

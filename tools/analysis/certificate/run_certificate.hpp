@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/trace_check.hpp"
+#include "symbolic/case/limits.hpp"
 #include "tools/analysis/run/validated.hpp"
 
 namespace casimir {
@@ -20,6 +21,7 @@ struct RunCertificate {
   std::string equations;
   std::vector<cln::cl_RA> radii;  ///< by how much each initial value may be off; empty: by nothing
   RunTrace trace;                 ///< every step of the run
+  Limits limits{};                ///< under which the equations are read: no part of a file
 };
 
 /// The equations of a certificate as a model. \throws CaseError  for a text with anything else in it.

@@ -162,7 +162,8 @@ struct CrossCheck {
 CrossCheck cross_check(const PreparedScene& run, const Method& method, const Settings& settings,
                        const Trajectory& trajectory, const std::vector<double>& sizes,
                        double growth) {
-  const Module module = taylor_module_without_compiler(run.specialisation.rhs, {}, run.parameters);
+  const Specialisation& s = run.specialisation;
+  const Module module = taylor_module_without_compiler(s.rhs, s.limits, {}, run.parameters);
   Settings own;
   own.duration = trajectory.time;
   own.rtol = kCrossCheckTolerance;

@@ -88,7 +88,8 @@ class Follower {
         sizes_(sizes),
         stiff_(stiff),
         rhs_(codegen::variational(run.specialisation.rhs, sizes.size())) {
-    const TaylorChoice choice = choose_taylor_path(rhs_, run.parameters, false);
+    const TaylorChoice choice =
+        choose_taylor_path(rhs_, run.specialisation.limits, run.parameters, false);
     module_.emplace(uncompiled_module(rhs_, {}, choice.form, run.parameters));
     settings_.duration = duration;
     settings_.rtol = choice.form ? std::clamp(settings.rtol, kTightest, kLoosest) : kLoosest;

@@ -125,6 +125,7 @@ class Maker {
   /// Without parameters, and with the functions as its integrals.
   Model extended() const {
     Model model;
+    model.limits = model_.limits;
     model.name = model_.name;
     model.phase_space = "equations";
     model.variables = model_.variables;

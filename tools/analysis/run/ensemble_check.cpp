@@ -24,7 +24,8 @@ PreparedScene scene_of(const PreparedScene& run, const Ensemble& ensemble, std::
 /// Nothing is compiled for it that the ensemble has not compiled.
 CompiledModule module_of(const PreparedScene& own, const Method& method) {
   if (!method.series) return compile_for(own, method);
-  return {.module = taylor_module_without_compiler(own.specialisation.rhs, {}, own.parameters),
+  const Specialisation& s = own.specialisation;
+  return {.module = taylor_module_without_compiler(s.rhs, s.limits, {}, own.parameters),
           .compiled = false};
 }
 

@@ -93,7 +93,7 @@ EnsembleKernel ensemble_kernel(const PreparedScene& run, const Method& method, s
   const Specialisation& s = run.specialisation;
   const bool compiled = method.name == "taylor-compiled";
   if (lanes && method.series) {
-    if (const auto form = lane_form(s.rhs)) {
+    if (const auto form = lane_form(s.rhs, s.limits)) {
       quadratic(*form, compiled || members >= kFew, result);
     } else {
       try {

@@ -197,7 +197,8 @@ BegunModule interpreted_first(
   const auto start = std::chrono::steady_clock::now();
   const Specialisation& s = run.specialisation;
   std::optional<QuadraticForm> form;
-  if (method.name == "taylor") form = choose_taylor_path(s.rhs, run.parameters, true).form;
+  if (method.name == "taylor")
+    form = choose_taylor_path(s.rhs, s.limits, run.parameters, true).form;
   const std::optional<Interpreted> how = form ? std::nullopt : interpreted_by(run, method);
   if (!how) return {compile_for(run, method), nullptr};
   CompiledModule result{.module = uncompiled_module(s.rhs, s.invariants, {}, run.parameters),

@@ -25,7 +25,7 @@ Model with_integrals_of_level(const MapModel& map, const Scene& scene) {
   for (std::size_t i = 0; i < model.variables.size(); ++i)
     start[model.variables[i]] = scene.initial.at(i);
   const auto vanishes = [&](const NamedExpression& f) {
-    return substituted(model.at_parameters(f.value, scene), start).expand().is_zero();
+    return substituted(model.at_parameters(f.value, scene), start, model.limits).expand().is_zero();
   };
   for (const LevelClaim& claim : map.base.conditionals)
     if (std::ranges::all_of(claim.on, vanishes)) model.integrals.push_back(claim.expression);

@@ -130,7 +130,8 @@ Splitting splitting_of(const PreparedScene& run) {
 
 /// For any values of the parameters at run time: those of the scene are as good as others.
 bool is_quadratic(const PreparedScene& run) {
-  return quadratic_form(run.specialisation.rhs, run.parameters).has_value();
+  return quadratic_form(run.specialisation.rhs, run.specialisation.limits, run.parameters)
+      .has_value();
 }
 
 /// A module from the compiler.
@@ -175,7 +176,7 @@ constexpr std::size_t kMostCompiledLines = 1500;
 /// and without one, or where it would take too long, the program itself.
 CompiledModule taylor_module(const PreparedScene& run, const Method& method) {
   const Specialisation& s = run.specialisation;
-  TaylorChoice choice = choose_taylor_path(s.rhs, run.parameters, true);
+  TaylorChoice choice = choose_taylor_path(s.rhs, s.limits, run.parameters, true);
   const bool large = s.rhs.code.size() > kMostCompiledLines &&
                      ProgramLayout::of(s.rhs, run.parameters.size(), series_width());
   if (choice.path == TaylorPath::compiled && !large) {

@@ -68,7 +68,7 @@ const Method& smooth_method(const PreparedScene& run, double tolerance) {
   const Method& series = *find_method("taylor");
   const Specialisation& s = run.specialisation;
   if (!(tolerance > 0) || s.states.size() < kFewStates || has_branches(s.rhs) ||
-      choose_taylor_path(s.rhs, run.parameters, true).path != TaylorPath::compiled)
+      choose_taylor_path(s.rhs, s.limits, run.parameters, true).path != TaylorPath::compiled)
     return series;
   // A function has a sum or two of its own, and takes the time of many products where it is called.
   constexpr double kSumsOfFunction = 2, kOfFunction = 8;

@@ -6,6 +6,7 @@
 #include "runtime/module.hpp"
 #include "runtime/program.hpp"
 #include "runtime/taylor/quadratic_form.hpp"
+#include "symbolic/case/limits.hpp"
 
 namespace casimir {
 
@@ -25,12 +26,15 @@ struct TaylorChoice {
 
 /// Tables where the right-hand side is quadratic and a precompiled kernel has room for it, else
 /// what the compiler makes if there may be one, else the interpreter.
-TaylorChoice choose_taylor_path(const Program& rhs, const std::vector<double>& parameters,
-                                bool may_compile);
+/// \param limits  of the numbers in it: those of the specialisation
+TaylorChoice choose_taylor_path(const Program& rhs, const Limits& limits,
+                                const std::vector<double>& parameters, bool may_compile);
 
 /// A module that needs no compiler: by tables, or interpreted. It serves one thread at a time, and
 /// by tables these parameters only.
-Module taylor_module_without_compiler(const Program& rhs, const Program& invariants,
+/// \param limits  as above
+Module taylor_module_without_compiler(const Program& rhs, const Limits& limits,
+                                      const Program& invariants,
                                       const std::vector<double>& parameters);
 
 }  // namespace casimir

@@ -11,6 +11,7 @@
 #include "codegen/emit_cpp.hpp"
 #include "codegen/specialise_map.hpp"
 #include "runtime/evaluate.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/expression/decimal.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "tools/analysis/error.hpp"
@@ -136,11 +137,12 @@ OrbitReport MapOrbits::orbit(const std::vector<double>& seed, std::size_t points
 }
 
 bool MapOrbits::allowed(const std::vector<double>& x) const {
+  const Limits& limits = map_.base.limits;
   GiNaC::exmap point;
   for (std::size_t i = 0; i < x.size(); ++i) point[map_.base.variables[i]] = GiNaC::numeric(x[i]);
   for (const Assumption& a : map_.base.assumptions) {
-    const auto value =
-        real_decimal(substituted(map_.base.at_parameters(a.difference, scene_), point));
+    const auto value = real_decimal(
+        substituted(map_.base.at_parameters(a.difference, scene_), point, limits), limits.bits);
     if (!value) return false;
     const int sign = value->is_zero() ? 0 : value->is_negative() ? -1 : 1;
     if (!holds(a.comparison, sign)) return false;

@@ -12,6 +12,7 @@
 #include "runtime/evaluate.hpp"
 #include "runtime/program/term_size.hpp"
 #include "runtime/step/dense.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/expression/decimal.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/expression_size.hpp"
@@ -179,7 +180,9 @@ class Maker {
       point[model_.variables[i]] = GiNaC::numeric(problem_.run.initial[i] +
                                                   0.1 * std::sin(1 + 1.7 * static_cast<double>(i)));
     const auto value = [&](const GiNaC::ex& e) {
-      const auto number = real_decimal(substituted(model_.at_parameters(e, scene_), point));
+      const Limits& limits = model_.limits;
+      const auto number =
+          real_decimal(substituted(model_.at_parameters(e, scene_), point, limits), limits.bits);
       return number ? number->to_double() : 0.;
     };
     Eigen::MatrixXd bracket = Eigen::MatrixXd::Zero(n, n);

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "runtime/step/dense.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/expression/decimal.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "tools/analysis/error.hpp"
@@ -38,8 +39,9 @@ GiNaC::exmap some_point(const Model& model, int which) {
   return point;
 }
 
-std::optional<double> value_at(const GiNaC::ex& f, const GiNaC::exmap& point) {
-  const auto number = real_decimal(substituted(f, point));
+std::optional<double> value_at(const GiNaC::ex& f, const GiNaC::exmap& point,
+                               const Limits& limits) {
+  const auto number = real_decimal(substituted(f, point, limits), limits.bits);
   if (!number) return std::nullopt;
   return number->to_double();
 }
@@ -62,10 +64,10 @@ int order_of(const Model& model, const std::vector<GiNaC::ex>& image) {
     GiNaC::exmap next;
     bool back = true;
     for (std::size_t i = 0; i < image.size(); ++i) {
-      const auto value = value_at(image[i], here);
+      const auto value = value_at(image[i], here, model.limits);
       if (!value) throw RequestError("the symmetry has no value at a point in general position");
       next[model.variables[i]] = GiNaC::numeric(*value);
-      back = back && near(value, value_at(model.variables[i], start));
+      back = back && near(value, value_at(model.variables[i], start, model.limits));
     }
     here = std::move(next);
     if (back) return order;
@@ -86,7 +88,9 @@ void check_motions(const Model& model, const Scene& scene, const std::vector<GiN
       GiNaC::ex moved = 0;
       for (std::size_t j = 0; j < image.size(); ++j)
         moved += image[i].diff(model.variables[j]) * field[j];
-      const auto left = value_at(moved, point), right = value_at(substituted(field[i], map), point);
+      const Limits& limits = model.limits;
+      const auto left = value_at(moved, point, limits),
+                 right = value_at(substituted(field[i], map, limits), point, limits);
       if (left && right && !near(left, right))
         throw RequestError(fmt::format(
             "the map is no symmetry of the equations: the image of {} does not change as {} does "
@@ -171,8 +175,8 @@ class SymmetricNewton {
     return point;
   }
 
-  static double number(const GiNaC::ex& f, const GiNaC::exmap& point) {
-    return value_at(f, point).value_or(std::numeric_limits<double>::quiet_NaN());
+  double number(const GiNaC::ex& f, const GiNaC::exmap& point) const {
+    return value_at(f, point, model_.limits).value_or(std::numeric_limits<double>::quiet_NaN());
   }
 
   State image_at(const State& x) const {

@@ -54,6 +54,7 @@ class FlowToTime {
              const Intervals& ranges)
       : n_(model.variables.size()), ranges_(ranges) {
     Model extended;
+    extended.limits = model.limits;
     extended.name = model.name;
     extended.phase_space = "equations";
     extended.variables = model.variables;

@@ -40,11 +40,11 @@ void add_projection(CLI::App& command, RunOptions& options) {
       ->type_name("A,B");
 }
 
-RunRequest RunOptions::request() const {
+RunRequest RunOptions::request(const Limits& limits) const {
   RunRequest request = asked;
   if (!duration) return request;
-  const std::optional<GiNaC::numeric> value =
-      real_decimal(parse_constant({*duration, {"--duration", 1, 1}, *duration}));
+  const std::optional<GiNaC::numeric> value = real_decimal(
+      parse_constant({*duration, {"--duration", 1, 1}, *duration}, limits), limits.bits);
   if (!value)
     throw UsageError(fmt::format("--duration '{}': expected a real number", printable(*duration)));
   request.duration = value->to_double();

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "symbolic/case/limits.hpp"
 #include "tools/analysis/run_request.hpp"
 #include "tools/cli/cli_names.hpp"
 
@@ -13,9 +14,9 @@ struct RunOptions {
   RunRequest asked = {};  ///< all but the duration
   std::optional<std::string> duration;
 
-  /// What is asked of a run.
+  /// What is asked of a run. \param limits  of the duration that was typed
   /// \throws UsageError  for a duration that is no number.
-  RunRequest request() const;
+  RunRequest request(const Limits& limits) const;
 };
 
 void add_run_options(CLI::App& command, RunOptions& options);

@@ -52,7 +52,7 @@ Values with_others(Values values, const Values& others) {
 std::shared_ptr<Case> Case::load(const std::string& name) {
   const ExactAlgebra guard;
   const std::shared_ptr<Case> result(new Case);
-  result->source_ = tools::load_case(name);
+  result->source_ = tools::load_case(name, {});
   result->text_ = text_of_file(result->source_.file);
   result->build();
   return result;

@@ -4,6 +4,7 @@
 
 #include "runtime/digits/agreed_run.hpp"
 #include "symbolic/algebra/number_text.hpp"
+#include "symbolic/case/limits.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "tools/analysis/certificate/certificate_file.hpp"
 #include "tools/analysis/estimate/cancelled_parts.hpp"
@@ -27,8 +28,8 @@ namespace {
 /// Double precision has the lower number of digits.
 constexpr int kFewestDigits = 17, kMostOfDigits = 5000;
 
-cln::cl_RA rational_of(const std::string& text, const char* what) {
-  const GiNaC::ex value = parse_constant(typed(text, what));
+cln::cl_RA rational_of(const std::string& text, const char* what, const Limits& limits) {
+  const GiNaC::ex value = parse_constant(typed(text, what), limits);
   if (!GiNaC::is_a<GiNaC::numeric>(value) || !GiNaC::ex_to<GiNaC::numeric>(value).is_rational())
     throw RequestError(std::string(what) + ": expected a rational number");
   return cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(value).to_cl_N());
@@ -63,7 +64,7 @@ py::object precise(const Case& self, const std::string& scene, int digits,
     const ExactAlgebra guard;
     const Model& model = self.model();
     Scene of = model.scene(scene);
-    if (duration) of.duration = parse_real_constant(typed(*duration, "duration"));
+    if (duration) of.duration = parse_real_constant(typed(*duration, "duration"), model.limits);
     require_exact_values(model, of, "a run with more digits");
     require_duration(of);
     SpecialiseOptions what;
@@ -151,8 +152,8 @@ py::object enclosed(
     ValidatedOptions options;
     Values middles;
     for (const auto& [name, ends] : ranges) {
-      const cln::cl_RA low = rational_of(ends.first, "ranges"),
-                       high = rational_of(ends.second, "ranges");
+      const cln::cl_RA low = rational_of(ends.first, "ranges", self.model().limits),
+                       high = rational_of(ends.second, "ranges", self.model().limits);
       if (low > high) throw RequestError("a range goes from the lower end to the higher one");
       middles.emplace_back(name, rational_text((low + high) / 2));
       options.ranges.emplace_back(name, (high - low) / 2);
@@ -160,11 +161,13 @@ py::object enclosed(
     const std::shared_ptr<const Case> centred =
         middles.empty() ? nullptr : self.with_scene_parameters(middles);
     const Model& model = centred ? centred->model() : self.model();
-    options.initial_radius = rational_of(initial_radius, "initial_radius");
+    options.initial_radius = rational_of(initial_radius, "initial_radius", model.limits);
     if (cln::minusp(options.initial_radius))
       throw RequestError("initial_radius: expected a number that is not negative");
-    if (duration) options.duration = parse_real_constant(typed(*duration, "duration"));
-    if (sample_every) options.run.sample_every = rational_of(*sample_every, "sample_every");
+    if (duration)
+      options.duration = parse_real_constant(typed(*duration, "duration"), model.limits);
+    if (sample_every)
+      options.run.sample_every = rational_of(*sample_every, "sample_every", model.limits);
     options.run.digits = digits;
     options.run.give_up = [&](double share) {
       interrupt.show(share);

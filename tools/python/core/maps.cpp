@@ -46,7 +46,7 @@ std::vector<Entry> entries_of(const Values& values, const std::string& where) {
 std::shared_ptr<MapCase> MapCase::load(const std::string& name) {
   const ExactAlgebra guard;
   const std::shared_ptr<MapCase> result(new MapCase);
-  result->source_ = map_of(tools::load_any_case(name));
+  result->source_ = map_of(tools::load_any_case(name, {}));
   result->text_ = text_of_file(result->source_.file.file);
   result->build();
   return result;
@@ -154,7 +154,7 @@ std::string discretised(const Case& self, const std::string& method,
   std::optional<GiNaC::ex> value;
   if (step) {
     const Text text = typed(*step, "step");
-    value = parse_real_constant(text);
+    value = parse_real_constant(text, self.model().limits);
     if (value->is_zero()) throw text.error("a step of 0 leaves every point where it is");
   }
   const bool is_kahan = method == "kahan";
@@ -204,7 +204,7 @@ Names symbol_names(const std::vector<GiNaC::symbol>& symbols) {
 void bind_maps(py::module_& module) {
   module.def("bundled_maps", [] {
     Names names;
-    for (const std::filesystem::path& path : tools::bundled_maps())
+    for (const std::filesystem::path& path : tools::bundled_maps({}))
       names.push_back(path.stem().string());
     return names;
   });

@@ -324,7 +324,7 @@ void bind_case(py::module_& module) {
   module.def("add_case_folder", [](const std::string& folder) { tools::add_case_folder(folder); });
   module.def("bundled", [] {
     Names names;
-    for (const std::filesystem::path& path : tools::bundled_flows())
+    for (const std::filesystem::path& path : tools::bundled_flows({}, {}))
       names.push_back(path.stem().string());
     return names;
   });

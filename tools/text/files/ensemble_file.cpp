@@ -150,18 +150,19 @@ std::optional<double> quotient(const std::string& text) {
 }
 
 /// Any other constant, by exact algebra.
-double exact_constant(const Text& text) {
+double exact_constant(const Text& text, const Limits& limits) {
   codegen::Dag dag({}, 0);
-  const codegen::Scaled value = dag.convert(parse_real_constant(text));
+  const codegen::Scaled value = dag.convert(parse_real_constant(text, limits));
   const Program program = codegen::optimised(dag, {value}, {}, {"value"});
   try {
-    return codegen::nearest<double>(codegen::constant_value(program, program.outputs.front()));
+    return codegen::nearest<double>(
+        codegen::constant_value(program, program.outputs.front(), limits));
   } catch (const ModelError&) {
     throw text.error("this number is outside the range of double precision");
   }
 }
 
-double member_value(const Text& text) {
+double member_value(const Text& text, const Limits& limits) {
   if (text.value.empty()) throw text.error("expected a number, not an empty field");
   bool out_of_range = false;
   if (const auto value = decimal(text.value, 0, text.value.size(), out_of_range)) {
@@ -169,7 +170,7 @@ double member_value(const Text& text) {
     return *value;
   }
   if (const auto value = quotient(text.value)) return *value;
-  return exact_constant(text);
+  return exact_constant(text, limits);
 }
 
 std::vector<std::string> header(Fields& fields, const std::vector<std::string>& known,
@@ -192,14 +193,14 @@ std::vector<std::string> header(Fields& fields, const std::vector<std::string>& 
   return columns;
 }
 
-void row(Fields& fields, EnsembleFile& file) {
+void row(Fields& fields, EnsembleFile& file, const Limits& limits) {
   std::size_t count = 0;
   while (fields.more()) {
     const Text field = fields.next();
     if (++count > file.columns.size())
       throw field.error(
           fmt::format("more fields than the {} columns of the first line", file.columns.size()));
-    file.values.push_back(member_value(field));
+    file.values.push_back(member_value(field, limits));
   }
   if (count < file.columns.size())
     throw fields.here().error(
@@ -209,7 +210,7 @@ void row(Fields& fields, EnsembleFile& file) {
 }  // namespace
 
 EnsembleFile read_ensemble(const std::string& path, const std::vector<std::string>& known,
-                           const std::vector<std::string>& fixed) {
+                           const Limits& limits, const std::vector<std::string>& fixed) {
   const std::string content = content_of(path);
   Fields fields(path, content);
   EnsembleFile file;
@@ -218,7 +219,7 @@ EnsembleFile read_ensemble(const std::string& path, const std::vector<std::strin
                     "the file is empty: expected a line of names, then one for each "
                     "member");
   file.columns = header(fields, known, fixed);
-  while (fields.next_line()) row(fields, file);
+  while (fields.next_line()) row(fields, file, limits);
   if (file.rows() == 0)
     throw fields.here().error("there are no members: expected a line for each after the names");
   return file;

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "symbolic/case/limits.hpp"
+
 namespace casimir::tools {
 
 /// The members of an ensemble as a CSV file gives them: columns named in its first line, and one
@@ -18,11 +20,12 @@ struct EnsembleFile {
 /// exact real constant such as `0.25`, `1/3`, `1e-3`, `75*10^(-152)` or `sqrt(2)/2`, and becomes
 /// the nearest double.
 /// \param known  what columns may be called.
+/// \param limits  of the constants: those of the case
 /// \param fixed  names that would be known were they not given on the command line.
 /// \throws CaseError  with the place: an unknown or repeated name, a row of another length, an
 ///     entry that is no such constant, nothing but a header.
 /// \throws UsageError   if the file cannot be read.
 EnsembleFile read_ensemble(const std::string& path, const std::vector<std::string>& known,
-                           const std::vector<std::string>& fixed = {});
+                           const Limits& limits, const std::vector<std::string>& fixed = {});
 
 }  // namespace casimir::tools
