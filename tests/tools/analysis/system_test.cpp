@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "symbolic/case/limits.hpp"
 #include "tests/tools/analysis/systems.hpp"
 #include "tools/analysis/verify.hpp"
 
@@ -32,6 +33,24 @@ TEST(System, AnIntegralIsProvedAndItsBentTwinRefutedWithAWitness) {
     ASSERT_NE(proof, refuted.proofs.end());
     ASSERT_TRUE(proof->witness);
     EXPECT_EQ(proof->witness->point.size(), 5U);
+  }
+}
+
+// With a time limit the proofs run in another process.
+TEST(System, ProofsAreHeldToTheLimitsOfTheirModel) {
+  const GiNaC::symbol x("x"), y("y"), u("u"), v("v");
+  Model wide = hamiltonian_system("plane", {x, y}, {u, v}, u * u + v * v + x * x + y * y);
+  wide.integrals = {{"F", GiNaC::pow(*wide.hamiltonian, 6), {}}};
+  Model narrow = wide;
+  narrow.limits.terms = 20;
+  for (const double seconds : {0., 60.}) {
+    for (const Model* model : {&narrow, &wide}) {
+      const Verification result = verify(*model, seconds);
+      const auto proof = std::ranges::find(result.proofs, "F", &Proof::name);
+      ASSERT_NE(proof, result.proofs.end());
+      EXPECT_EQ(proof->verdict, model == &wide ? Verdict::proved : Verdict::undecided);
+      EXPECT_EQ(proof->limit, model == &wide ? nullptr : &Limits::terms) << proof->reason;
+    }
   }
 }
 

@@ -13,6 +13,7 @@
 #include <exception>
 
 #include "codegen/compile.hpp"
+#include "symbolic/case/limits.hpp"
 #include "tools/analysis/proof/proof_json.hpp"
 
 namespace casimir {
@@ -38,6 +39,23 @@ struct Work {
   std::function<std::vector<Proof>()> pending;
 };
 
+/// The key under which a line names the limit that was reached: the interface says it in the
+/// reason.
+constexpr const char* kLimitKey = "limit";
+
+std::string line_of(const Proof& proof) {
+  nlohmann::ordered_json json = to_json(proof);
+  if (proof.limit != nullptr) json[kLimitKey] = name_of(proof.limit);
+  return json.dump() + '\n';
+}
+
+Proof proof_of(const nlohmann::ordered_json& line) {
+  Proof proof = proof_from_json(line);
+  for (const LimitName& limit : limit_names())
+    if (line.value(kLimitKey, "") == limit.name) proof.limit = limit.value;
+  return proof;
+}
+
 /// The worker: one line of JSON for each proof. It dies with its parent and on Ctrl-C.
 [[noreturn]] void work(int descriptor, const Work& proofs, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -46,7 +64,7 @@ struct Work {
   std::signal(SIGTERM, SIG_DFL);
   try {
     proofs.run([&](const Proof& proof) {
-      send(descriptor, to_json(proof).dump() + '\n');
+      send(descriptor, line_of(proof));
       return true;
     });
   } catch (const std::exception& problem) {
@@ -113,7 +131,7 @@ std::vector<Proof> within(double seconds, const Work& wanted,
     if (done == proofs.size()) return;
     const bool fact = proofs[done].fact;
     const bool note = proofs[done].note;
-    proofs[done] = proof_from_json(json);
+    proofs[done] = proof_of(json);
     proofs[done].fact = fact;
     proofs[done].note = note;
     if (report) report(proofs[done]);
