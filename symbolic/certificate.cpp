@@ -126,7 +126,7 @@ Certificate coq_certificate(const Model& model, const Candidates& candidates,
     throw ModelError("no certificate: it covers functions that are given, and some are arbitrary");
   if (model.time)
     throw ModelError("no certificate: it covers polynomials that do not depend on time");
-  const WorkMeter meter;
+  const WorkMeter meter(model.limits);
   const Statements statements = statements_of(model, candidates);
   std::optional<CertificateWriter> writer;
   try {
