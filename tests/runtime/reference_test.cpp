@@ -15,7 +15,7 @@
 namespace casimir::test {
 namespace {
 
-cln::cl_F decimal(const std::string& text) {
+cln::cl_F decimal_number(const std::string& text) {
   const cln::float_format_t format = cln::float_format(60);
   const cln::cl_read_flags flags = {
       cln::syntax_float, cln::lsyntax_standard, 10, {format, format, false}};
@@ -38,12 +38,12 @@ TEST(Reference, KovalevskayaTopToThirtyDigits) {
   ASSERT_TRUE(reference.reached) << reference.reason;
   EXPECT_LT(reference.error_bound, 1e-28);
   for (std::size_t i = 0; i < 6; ++i)
-    EXPECT_LT(difference(reference.state[i], decimal(Kovalevskaya::kReference[i])), 1e-30) << i;
+    EXPECT_LT(difference(reference.state[i], decimal_number(Kovalevskaya::kReference[i])), 1e-30) << i;
   // The twin: a start that differs in the 29th digit is seen.
   std::vector<cln::cl_R> bent = kStart;
   bent[0] = 1 + cln::cl_RA("1/10000000000000000000000000000");
   const Reference other = reference_solution(kovalevskaya_program(), bent, 100, 30);
-  EXPECT_GT(difference(other.state[0], decimal(Kovalevskaya::kReference[0])), 1e-29);
+  EXPECT_GT(difference(other.state[0], decimal_number(Kovalevskaya::kReference[0])), 1e-29);
 }
 
 TEST(Reference, GoesBackwardInTime) {
@@ -68,7 +68,7 @@ TEST(Reference, PoleIsRefused) {
   EXPECT_NEAR(cln::double_approx(beyond.time), 1, 1e-9);
   const Reference before = reference_solution(b.program(), {1}, cln::cl_RA("1/2"), 25);
   ASSERT_TRUE(before.reached);
-  EXPECT_LT(difference(before.state[0], decimal("2.0")), 1e-24);
+  EXPECT_LT(difference(before.state[0], decimal_number("2.0")), 1e-24);
 }
 
 // Every unit of time along x' = 5x - z, z' = -z costs 2.6 digits of x: they are asked for again.
@@ -85,7 +85,7 @@ TEST(Reference, LostDigitsAreMadeUpFor) {
   EXPECT_LT(reference.error_bound, 1e-25);
   EXPECT_GT(reference.digits, 60);
   const cln::cl_F truth = cln::exp(cln::cl_float(-30, cln::float_format(60))) / 18;
-  EXPECT_LT(difference(reference.state[0] / truth, decimal("1.0")), 1e-20);
+  EXPECT_LT(difference(reference.state[0] / truth, decimal_number("1.0")), 1e-20);
 }
 
 TEST(Reference, StopsWhenAsked) {
