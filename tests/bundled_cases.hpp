@@ -31,6 +31,15 @@ inline std::vector<std::filesystem::path> cases_of_each_kind() {
 /// Whether tests that go through the cases go through every one, as they do in tools/check.
 inline bool wants_every_case() { return std::getenv("CASIMIR_EVERY_CASE") != nullptr; }
 
+/// Those of each kind, and where not `wants_every_case()` a part of them.
+inline std::vector<std::filesystem::path> kinds_to_go_through() {
+  std::vector<std::filesystem::path> files = cases_of_each_kind();
+  if (wants_every_case()) return files;
+  std::size_t place = 0;
+  std::erase_if(files, [&](const std::filesystem::path&) { return place++ % 2 == 1; });
+  return files;
+}
+
 /// What a test that is dear goes through, where it is about every case: those of each kind, and of
 /// the others every sixth; all where `wants_every_case()`. The suite of such a test is called
 /// EveryCase, by which tools/check finds it.

@@ -38,7 +38,8 @@ TEST(Reference, KovalevskayaTopToThirtyDigits) {
   ASSERT_TRUE(reference.reached) << reference.reason;
   EXPECT_LT(reference.error_bound, 1e-28);
   for (std::size_t i = 0; i < 6; ++i)
-    EXPECT_LT(difference(reference.state[i], decimal_number(Kovalevskaya::kReference[i])), 1e-30) << i;
+    EXPECT_LT(difference(reference.state[i], decimal_number(Kovalevskaya::kReference[i])), 1e-30)
+        << i;
   // The twin: a start that differs in the 29th digit is seen.
   std::vector<cln::cl_R> bent = kStart;
   bent[0] = 1 + cln::cl_RA("1/10000000000000000000000000000");

@@ -35,9 +35,9 @@ using States = std::vector<std::vector<double>>;
          << to_string(b.status) << " at " << b.time << " after " << b.steps;
 }
 
-TEST(Ensemble, CasesOfEachKindAgreeWithTheReference) {
+TEST(EveryCase, OfItsKindAgreesWithTheReferenceInLanes) {
   constexpr double kDuration = 3;
-  for (const auto& path : test::cases_of_each_kind()) {
+  for (const auto& path : test::kinds_to_go_through()) {
     const Model model = build_model(read_case(path));
     const Specialisation s = specialise(model, model.scene("default"));
     States from = near(start_of(s), 11);

@@ -40,9 +40,9 @@ using testing::start_of;
 using testing::taylor;
 using testing::truth;
 
-TEST(Taylor, CasesOfEachKindAgreeWithTheReferenceAndDop853) {
+TEST(EveryCase, OfItsKindAgreesWithTheReferenceAndDop853) {
   constexpr double kDuration = 4;  // short of what magnifies rounding errors
-  for (const auto& path : test::cases_of_each_kind()) {
+  for (const auto& path : test::kinds_to_go_through()) {
     const Model model = build_model(read_case(path));
     const Specialisation s = specialise(model, model.scene("default"));
     const std::vector<double> from = start_of(s), end = truth(s, from, kDuration);

@@ -168,20 +168,24 @@ TEST(HostileStrings, AreTextInModulesPicturesAndPages) {
       {"integrate", "./case.toml", "--method", "dop853", "--output", "out.csv", "--every", "0.5"},
       {"integrate", "./case.toml", "--plot", "out.svg"},
       {"section", "./case.toml", "--orbits", "2", "--points", "4", "--output", "section.svg"},
-      {"report", "./case.toml", "--output", "out.html", "--budget", "0.05"}};
+      {"bench", "./case.toml", "--method", "taylor,dop853", "--tolerances", "1e-6,1e-9", "--repeat",
+       "1", "--output", "bench.md", "--plot", "bench.svg"},
+      {"report", "./case.toml", "--output", "out.html", "--budget", "0"}};
   for (const std::vector<std::string>& arguments : runs) {
     const Outcome outcome =
         run_in(folder, arguments, {}, {{"CASIMIR_CACHE", (folder.path() / "cache").string()}});
     EXPECT_LE(outcome.status, 1) << arguments[0] << outcome.out << outcome.err;
     expect_plain(outcome, arguments[0]);
   }
-  for (const char* name : {"out.csv", "out.svg", "section.svg", "out.html"})
+  for (const char* name :
+       {"out.csv", "out.svg", "section.svg", "bench.md", "bench.svg", "out.html"})
     EXPECT_EQ(deceptive_character(file_text(folder / name)), "") << name;
   const std::string page = file_text(folder / "out.html");
   for (const char* raw : {"<script>PWNED", "<img src=x", "onclick='PWNED"})
     EXPECT_EQ(page.find(raw), std::string::npos) << raw;
-  EXPECT_EQ(names_in(folder), (std::vector<std::string>{"cache", "case.toml", "out.csv", "out.html",
-                                                        "out.svg", "section.svg"}));
+  EXPECT_EQ(names_in(folder),
+            (std::vector<std::string>{"bench.md", "bench.svg", "cache", "case.toml", "out.csv",
+                                      "out.html", "out.svg", "section.svg"}));
 }
 
 // What has to be a name or an expression is refused, and the message is plain.
