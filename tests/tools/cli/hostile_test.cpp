@@ -169,7 +169,7 @@ TEST(HostileStrings, AreTextInModulesPicturesAndPages) {
       {"integrate", "./case.toml", "--plot", "out.svg"},
       {"section", "./case.toml", "--orbits", "2", "--points", "4", "--output", "section.svg"},
       {"bench", "./case.toml", "--method", "taylor,dop853", "--tolerances", "1e-6,1e-9", "--repeat",
-       "1", "--output", "bench.md", "--plot", "bench.svg"},
+       "1", "--output", "bench.html", "--plot", "bench.svg"},
       {"report", "./case.toml", "--output", "out.html", "--budget", "0"}};
   for (const std::vector<std::string>& arguments : runs) {
     const Outcome outcome =
@@ -178,13 +178,14 @@ TEST(HostileStrings, AreTextInModulesPicturesAndPages) {
     expect_plain(outcome, arguments[0]);
   }
   for (const char* name :
-       {"out.csv", "out.svg", "section.svg", "bench.md", "bench.svg", "out.html"})
+       {"out.csv", "out.svg", "section.svg", "bench.html", "bench.svg", "out.html"})
     EXPECT_EQ(deceptive_character(file_text(folder / name)), "") << name;
-  const std::string page = file_text(folder / "out.html");
-  for (const char* raw : {"<script>PWNED", "<img src=x", "onclick='PWNED"})
-    EXPECT_EQ(page.find(raw), std::string::npos) << raw;
+  for (const char* page : {"out.html", "bench.html"}) {
+    for (const char* raw : {"<script>PWNED", "<img src=x", "onclick='PWNED"})
+      EXPECT_EQ(file_text(folder / page).find(raw), std::string::npos) << page << raw;
+  }
   EXPECT_EQ(names_in(folder),
-            (std::vector<std::string>{"bench.md", "bench.svg", "cache", "case.toml", "out.csv",
+            (std::vector<std::string>{"bench.html", "bench.svg", "cache", "case.toml", "out.csv",
                                       "out.html", "out.svg", "section.svg"}));
 }
 

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 
+#include "runtime/step/dense.hpp"
 #include "symbolic/algebra/ball_evaluator.hpp"
 #include "symbolic/prove.hpp"
 #include "tools/analysis/proof/ball_matrix.hpp"
@@ -263,7 +263,7 @@ class Prover {
       arb_one(other.at(states() + k));
       by.col(static_cast<Eigen::Index>(k)) = column(gradient(other)) - base;
     }
-    const Eigen::VectorXd fitted = by.colPivHouseholderQr().solve(-base);
+    const Eigen::VectorXd fitted = shortest_solution(by, -base, 1e-14);
     for (std::size_t k = 0; k < m; ++k)
       arb_set_d(z.at(states() + k), fitted(static_cast<Eigen::Index>(k)));
     return z;
