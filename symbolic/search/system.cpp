@@ -105,19 +105,19 @@ System::System(const Model& model, const std::vector<NamedExpression>& functions
 }
 
 System::Bond System::bond_of(std::size_t place) const {
-  using Kind = FunctionRing::Origin::Kind;
+  using OriginKind = FunctionRing::Origin::Kind;
   if (place >= functions().end_of_generators()) return {Bond::Kind::none, Polynomial(ring()), 1};
   if (has_elliptic_function(functions().variable_value(place)))
     throw TooLarge("elliptic functions are known to proofs of claims, and not to a search");
   FunctionRing::Origin origin = functions().origin(place);
   switch (origin.kind) {
-    case Kind::inverse:
+    case OriginKind::inverse:
       return {Bond::Kind::inverse, std::move(origin.argument), 1};
-    case Kind::root:
-    case Kind::absolute:
-    case Kind::imaginary:
+    case OriginKind::root:
+    case OriginKind::absolute:
+    case OriginKind::imaginary:
       return {Bond::Kind::root, std::move(origin.argument), origin.order};
-    case Kind::cosine: {
+    case OriginKind::cosine: {
       const Polynomial sine = ring().variable(place - 1);
       return {Bond::Kind::root, ring().constant(1) - sine * sine, 2};
     }
