@@ -23,6 +23,7 @@
 #include <set>
 
 #include "symbolic/prove.hpp"
+#include "tests/bundled_cases.hpp"
 #include "tests/symbolic/cases.hpp"
 
 namespace casimir::test {
@@ -33,15 +34,6 @@ const std::filesystem::path kFolder = CASIMIR_SOURCE_DIR "/tests/symbolic/book";
 /// True claims that the prover leaves undecided, or false ones without a witness. Each is a
 /// weakness of the prover: whoever removes it removes the entry, as the test then demands.
 const std::vector<std::pair<std::string, std::string>> kKnownUndecided = {};
-
-std::vector<std::filesystem::path> book_files() {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 /// What follows `mark` on the lines that begin with it.
 std::vector<std::string> marked_lines(const std::filesystem::path& path, const std::string& mark) {
@@ -110,17 +102,19 @@ TEST_P(BookFile, IsProvedAndItsErrorsAreRefuted) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, BookFile, testing::ValuesIn(book_files()), [](const auto& file) {
-  std::string name = file.param.stem().string();
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); },
-      '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Files, BookFile, testing::ValuesIn(case_files(kFolder)),
+                         [](const auto& file) {
+                           std::string name = file.param.stem().string();
+                           std::replace_if(
+                               name.begin(), name.end(),
+                               [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); },
+                               '_');
+                           return name;
+                         });
 
 TEST(Book, EveryFormulaOfChapterOneIsTheSourceOfAFile) {
   std::set<int> covered;
-  for (const std::filesystem::path& path : book_files()) {
+  for (const std::filesystem::path& path : case_files(kFolder)) {
     // "after (1.10)" is about what follows that formula.
     const std::string source =
         std::regex_replace(read_case(path).source, std::regex(R"((after|before) \(1\.\d+\))"), "");

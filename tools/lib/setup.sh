@@ -13,6 +13,10 @@ packages=(g++ cmake ninja-build pkg-config gnuplot-nox
   libginac-dev libcln-dev libeigen3-dev libflint-dev libflint-arb-dev
   libtomlplusplus-dev libcli11-dev
   nlohmann-json3-dev libfmt-dev libsodium-dev libsundials-dev libboost-dev libzip-dev)
+# Those that the tests need besides.
+test_packages=(libgtest-dev clang coq doxygen zsh fish man-db mandoc bsdextrautils lintian dpkg-dev fakeroot file
+  chromium-headless-shell libopenmpi-dev openmpi-bin libhdf5-dev hdf5-tools
+  python3-dev pybind11-dev python3-numpy python3-scipy python3-sympy python3-matplotlib python3-jsonschema python3-pip)
 
 say() { printf '%s\n' "$*"; }
 heading() { printf '\n== %s\n\n' "$*"; }

@@ -142,7 +142,7 @@ double drift_of(const std::string& header, const std::string& user,
   const Folder folder;
   testing::write(folder.path() / "top.hpp", header);
   testing::write(folder.path() / "user.cpp", user);
-  std::vector<std::string> arguments{standard, "-O1",
+  std::vector<std::string> arguments{standard, "-O0",
                                      "-w",     (folder.path() / "user.cpp").string(),
                                      "-o",     (folder.path() / "user").string()};
   if (const std::string boost = CASIMIR_BOOST_INCLUDE; !boost.empty() && boost != "/usr/include") {

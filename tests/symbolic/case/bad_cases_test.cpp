@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/bundled_cases.hpp"
 #include "tests/symbolic/cases.hpp"
 
 namespace casimir::test {
@@ -27,16 +28,6 @@ Expected expectation(const std::filesystem::path& path) {
           head.substr(second + 2)};
 }
 
-std::vector<std::filesystem::path> bad_cases() {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(CASIMIR_SOURCE_DIR "/tests/bad_cases")) {
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 class BadCase : public testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(BadCase, IsRefusedWithThePlaceOfTheError) {
@@ -57,13 +48,16 @@ TEST_P(BadCase, IsRefusedWithThePlaceOfTheError) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, BadCase, testing::ValuesIn(bad_cases()), [](const auto& file) {
-  std::string name = file.param.stem().string();
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); },
-      '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Files, BadCase,
+                         testing::ValuesIn(case_files(CASIMIR_SOURCE_DIR "/tests/bad_cases")),
+                         [](const auto& file) {
+                           std::string name = file.param.stem().string();
+                           std::replace_if(
+                               name.begin(), name.end(),
+                               [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); },
+                               '_');
+                           return name;
+                         });
 
 TEST(ReadCase, NamesTheFileThatDoesNotExist) {
   try {

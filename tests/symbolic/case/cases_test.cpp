@@ -34,8 +34,9 @@ TEST_P(EveryCase, BentIntegralIsRefutedByAWitness) {
     const GiNaC::ex x = model.variables[i];
     Model copy = model;
     for (NamedExpression& f : copy.integrals) f.value += x * x;
-    for (const Proof& proof : prove(copy)) {
-      if (proof.kind != ClaimKind::integral || model.field[i].expand().is_zero()) continue;
+    if (model.field[i].expand().is_zero()) continue;
+    for (const Proof& proof : prove(copy, {.only = ClaimKind::integral})) {
+      if (proof.kind != ClaimKind::integral) continue;
       EXPECT_NE(proof.verdict, Verdict::proved) << proof.name << " + " << x << "^2";
       if (proof.verdict != Verdict::refuted) continue;
       ++bent;
