@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Checks who includes whom, that no code names a case, and that a constant of a source has a name which no
-# other source of its layer uses: sources are compiled many at a time, in groups that change with each new
-# file. Prints FILE:LINE: offence for each.
+# Checks who includes whom, that no code names a case and no library an option of the program, and that a
+# constant of a source has a name which no other source of its layer uses: sources are compiled many at a time,
+# in groups that change with each new file. Prints FILE:LINE: offence for each.
 #
 #   tools/check_layers.sh [ROOT]       checks the tree at ROOT (by default this one)
 #   tools/check_layers.sh --self-test  bends a small tree in each way and expects to be told
@@ -114,6 +114,13 @@ named_cases() {
     sed -E 's/^([^:]+:[0-9]+):[[:space:]]*(.*)$/\1: names a case: \2/'
 }
 
+# The libraries' users have no command line.
+named_options() {
+  sources symbolic codegen runtime tools/analysis |
+    xargs -r -d '\n' grep -HnE '^([^/]|/[^/])*"([^"]*[[:space:](])?--[a-z][^"]*"' |
+    sed -E 's/^([^:]+:[0-9]+):[[:space:]]*(.*)$/\1: names an option: \2/'
+}
+
 shared_constants() {
   sources symbolic codegen runtime tools tests/runtime |
     grep '[.]cpp$' |
@@ -124,7 +131,7 @@ shared_constants() {
 check() {
   local offences
   cd "$1"
-  offences=$(forbidden_includes; named_cases; shared_constants) || true
+  offences=$(forbidden_includes; named_cases; named_options; shared_constants) || true
   [[ -n $offences ]] || return 0
   printf '%s\n' "$offences"
   return 1
@@ -178,7 +185,14 @@ self_test() {
   bent tools/a.cpp 'if (name == "top") {' 'names a case: if (name == "top") {'
   bent codegen/a.cpp 'read("cases/top.toml");' 'names a case: read("cases/top.toml");'
 
+  bent symbolic/a.cpp 'throw ModelError("give one with --param");' \
+    'names an option: throw ModelError("give one with --param");'
+  bent tools/analysis/a.cpp '{"--integral", 1, 1}' 'names an option: {"--integral", 1, 1}'
+
   bent symbolic/a.cpp '#include "symbolic/b.hpp"' ''
+  bent codegen/a.cpp 'run("-Wl,--build-id=none");' ''
+  bent tools/a.cpp 'say("give one with --param");' ''
+  bent symbolic/a.cpp '// as with --param' ''
   bent codegen/a.cpp '#include "runtime/program.hpp"' ''
   bent runtime/kernels/a.hpp '#include "runtime/module_abi.h"' ''
   bent runtime/a.cpp '#include <vector>' ''

@@ -67,7 +67,7 @@ class Search {
         (result_.polynomials > 0 || result_.relations > 0))
       result_.reason =
           "functions with symbolic parameters are not reconstructed: with numbers for all of them "
-          "(--param) they are shown";
+          "they are shown";
     return std::move(result_);
   }
 

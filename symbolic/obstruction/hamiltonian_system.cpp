@@ -38,14 +38,13 @@ GiNaC::exmap numbers(const Model& model, const std::string& scene_name, const st
                       model.parameters[i].get_name()));
   }
   if (model.scenes.empty())
-    throw NotDecided(fmt::format("the parameter {} has no value: give one with --param",
+    throw NotDecided(fmt::format("the parameter {} has no value, and needs one",
                                  model.parameters[needed.front()].get_name()));
   const Scene& scene = model.scene(scene_name);
   for (const std::size_t i : needed) {
     const std::string& name = model.parameters[i].get_name();
     if (!is_rational(scene.parameters[i]))
-      throw NotDecided(
-          fmt::format("the parameter {} has no rational value: give one with --param", name));
+      throw NotDecided(fmt::format("the parameter {} has no rational value, and needs one", name));
     texts.emplace_back(name, expression_text(scene.parameters[i]));
     result[model.parameters[i]] = scene.parameters[i];
   }

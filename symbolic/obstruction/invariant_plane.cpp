@@ -146,7 +146,7 @@ std::vector<InvariantPlane> invariant_planes(const HamiltonianSystem& system,
   std::vector<InvariantPlane> result;
   const std::size_t n = system.variables.size();
   if (n > kMostVariablesOfPlanes)
-    throw NotDecided("more than ten variables: give a plane with --along");
+    throw NotDecided("more than ten variables: planes are not looked for, one has to be given");
   // With one degree of freedom left there are two more variables than Casimir functions at most.
   const std::size_t along = system.casimirs.size() + 2;
   for (std::size_t size = n > along ? n - along : 1; size + 2 <= n; ++size) {

@@ -46,8 +46,8 @@ std::vector<Terms> terms_of(const Model& model, const std::vector<GiNaC::ex>& fu
     for (auto [number, exponents] : ring.convert(f).term_list()) {
       for (std::size_t i = model.variables.size(); i < symbols.size(); ++i) {
         if (exponents[i] > 0)
-          throw ModelError(fmt::format("{}: the parameter {} needs a number here (--param {}=1)",
-                                       model.name, symbols[i].get_name(), symbols[i].get_name()));
+          throw ModelError(fmt::format("{}: the parameter {} needs a number here", model.name,
+                                       symbols[i].get_name()));
       }
       exponents.resize(model.variables.size());
       result.back().emplace_back(number, std::move(exponents));

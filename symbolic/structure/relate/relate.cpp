@@ -222,7 +222,7 @@ class Relating {
 
 Relation relate(const Model& a, const Model& b, bool with_hamiltonian, const search::Watch& watch) {
   if (with_hamiltonian && (!a.hamiltonian || !b.hamiltonian))
-    throw ModelError("one of the cases has no Hamiltonian: --bracket compares the brackets alone");
+    throw ModelError("one of the cases has no Hamiltonian: only their brackets can be compared");
   return Relating(a, b, with_hamiltonian, watch).run();
 }
 

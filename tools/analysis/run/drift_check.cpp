@@ -11,7 +11,7 @@ constexpr double kSecondsOfCheck = 10;
 
 bool declares(const Model& model, const std::string& name) {
   try {
-    model.parse({name, {"--integral", 1, 1}, name});
+    model.parse({name, {"invariant", 1, 1}, name});
     return true;
   } catch (const CaseError&) {
     return false;
@@ -30,7 +30,7 @@ Proof proof_of(const Model& model, const std::string& invariant) {
     named.definitions.push_back({name, *model.hamiltonian, {}});
   }
   Candidates candidates;
-  candidates.integrals.push_back({name, {"--integral", 1, 1}, name});
+  candidates.integrals.push_back({name, {"invariant", 1, 1}, name});
   const std::vector<Proof> proofs = prove_within(kSecondsOfCheck, named, candidates, {});
   return proofs.empty() ? Proof{} : proofs.front();
 }
