@@ -1,6 +1,6 @@
 #pragma once
 
-#include "runtime/kernels/lanes/lane_sums.hpp"
+#include "runtime/kernels/carried_sum.hpp"
 #include "runtime/kernels/lanes/lane_trial.hpp"
 #include "runtime/kernels/one_step/control.hpp"
 
@@ -48,7 +48,7 @@ class Clock {
       h = trial.there ? left : h;
       s = trial.there ? h / unit_ : s;
     }
-    add(trial.t1, trial.t1_carry, h);
+    add_carried(trial.t1, trial.t1_carry, h);
     trial.t1 = trial.there ? all_lanes<V>(end_) : trial.t1;
     trial.s = s;
     trial.h = h;

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "runtime/kernels/carried_sum.hpp"
 #include "runtime/kernels/lanes/lane_estimates.hpp"
-#include "runtime/kernels/lanes/lane_sums.hpp"
 
 namespace casimir_kernel::lanes {
 
@@ -70,7 +70,7 @@ class States {
         p3 = p3 * s4 + c[3];
       }
       V x = c[-1], carry = carry_[i];
-      add(x, carry, ((p0 + p1 * s) + (p2 + p3 * s) * s2) * s);
+      add_carried(x, carry, ((p0 + p1 * s) + (p2 + p3 * s) * s2) * s);
       next_[i] = x;
       next_carry_[i] = carry;
       zero += x * 0;

@@ -11,6 +11,7 @@
 //     static void jacobian(double t, const double* x, const double* p, double* J);  // optional,
 //   };                                                                          // n*n by columns
 
+#include "runtime/kernels/carried_sum.hpp"
 #include "runtime/kernels/inline.hpp"
 #include "runtime/kernels/unroll.hpp"
 #include "runtime/module_abi.h"
@@ -36,16 +37,6 @@ inline double largest(const double* x) {
   double size = 0;
   for (int i = 0; i < n; ++i) size = larger(size, magnitude(x[i]));
   return size;
-}
-
-/// total + carry becomes total + carry + increment; carry keeps what rounding would lose (Knuth's
-/// exact sum), so that the error of many small steps does not grow with their number.
-inline void add_carried(double& total, double& carry, double increment) {
-  const double y = increment + carry;
-  const double sum = total + y;
-  const double part = sum - total;
-  carry = (total - (sum - part)) + (y - part);
-  total = sum;
 }
 
 /// a^(1/k) to within 1 %, for step sizes: positive a, one multiplication-long latency chain.

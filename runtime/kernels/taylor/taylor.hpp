@@ -215,14 +215,13 @@ class March {
     V next[most_blocks], next_carry[most_blocks];
     if (!(__builtin_expect(leading_ != nullptr, 0) &&
           step_with_leading_terms(s, next, next_carry))) {
-      increment(series_, s, next);
+      V sum[most_blocks];
+      increment(series_, s, sum);
       CASIMIR_UNROLL
       for (int b = 0; b < series_.blocks; ++b) {
-        const V y = next[b] + carry_[b];
-        const V sum = state_[b] + y;
-        const V part = sum - state_[b];
-        next_carry[b] = (state_[b] - (sum - part)) + (y - part);
-        next[b] = sum;
+        next[b] = state_[b];
+        next_carry[b] = carry_[b];
+        add_carried(next[b], next_carry[b], sum[b]);
       }
     }
     if (__builtin_expect(!finite(next), 0)) {
