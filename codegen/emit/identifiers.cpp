@@ -9,6 +9,7 @@
 
 #include "runtime/program/function_table.hpp"
 #include "symbolic/error.hpp"
+#include "symbolic/expression/cpp_keywords.hpp"
 
 namespace casimir::codegen {
 
@@ -17,39 +18,8 @@ namespace {
 constexpr std::size_t kMaxNameLength = 100;
 
 /// Of C++, and of C where it has more.
-constexpr auto kKeywords =
-    std::to_array<std::string_view>({"alignas",       "alignof",     "and",
-                                     "and_eq",        "asm",         "auto",
-                                     "bitand",        "bitor",       "bool",
-                                     "break",         "case",        "catch",
-                                     "char",          "char16_t",    "char32_t",
-                                     "char8_t",       "class",       "co_await",
-                                     "co_return",     "co_yield",    "compl",
-                                     "concept",       "const",       "const_cast",
-                                     "consteval",     "constexpr",   "constinit",
-                                     "continue",      "decltype",    "default",
-                                     "delete",        "do",          "double",
-                                     "dynamic_cast",  "else",        "enum",
-                                     "explicit",      "export",      "extern",
-                                     "false",         "float",       "for",
-                                     "friend",        "goto",        "if",
-                                     "inline",        "int",         "long",
-                                     "mutable",       "namespace",   "new",
-                                     "noexcept",      "not",         "not_eq",
-                                     "nullptr",       "operator",    "or",
-                                     "or_eq",         "private",     "protected",
-                                     "public",        "register",    "reinterpret_cast",
-                                     "requires",      "return",      "short",
-                                     "signed",        "sizeof",      "static",
-                                     "static_assert", "static_cast", "struct",
-                                     "switch",        "template",    "this",
-                                     "thread_local",  "throw",       "true",
-                                     "try",           "typedef",     "typeid",
-                                     "typename",      "union",       "unsigned",
-                                     "using",         "virtual",     "void",
-                                     "volatile",      "wchar_t",     "while",
-                                     "xor",           "xor_eq",      "typeof",
-                                     "restrict"});
+// Of C alone.
+constexpr auto kMoreKeywords = std::to_array<std::string_view>({"typeof", "restrict"});
 
 constexpr auto kReserved = std::to_array<std::string_view>(
     {// macros of common headers and compilers
@@ -95,7 +65,8 @@ bool is_numbered(const std::string& name) {
 }  // namespace
 
 Names::Names(std::vector<std::string> taken) : taken_(taken.begin(), taken.end()) {
-  taken_.insert(kKeywords.begin(), kKeywords.end());
+  taken_.insert(kCppKeywords.begin(), kCppKeywords.end());
+  taken_.insert(kMoreKeywords.begin(), kMoreKeywords.end());
   taken_.insert(kReserved.begin(), kReserved.end());
   for (const FunctionRow& function : function_table()) taken_.emplace(function.c_name);
 }
@@ -121,7 +92,8 @@ void check_header_name(const std::string& name) {
   if (name.ends_with('_')) refuse("what is made of it has another '_' behind it");
   if (name.size() > kMaxNameLength)
     refuse(fmt::format("it is longer than {} characters", kMaxNameLength));
-  if (std::ranges::count(kKeywords, name) != 0) refuse("it is a keyword");
+  if (std::ranges::count(kCppKeywords, name) + std::ranges::count(kMoreKeywords, name) != 0)
+    refuse("it is a keyword");
   const auto named_so = [&](const FunctionRow& function) { return function.c_name == name; };
   if (std::ranges::count(kReserved, name) != 0 || std::ranges::any_of(function_table(), named_so))
     refuse("it is a macro of common headers, or a name that the code itself uses");

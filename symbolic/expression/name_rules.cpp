@@ -3,53 +3,14 @@
 
 #include <algorithm>
 #include <cctype>
-#include <set>
 #include <string_view>
 
+#include "symbolic/expression/cpp_keywords.hpp"
 #include "symbolic/expression/elementary.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "symbolic/expression/name_characters.hpp"
 
 namespace casimir {
-namespace {
-
-const std::set<std::string_view>& cpp_keywords() {
-  static const std::set<std::string_view> words = {
-      "alignas",       "alignof",     "and",
-      "and_eq",        "asm",         "auto",
-      "bitand",        "bitor",       "bool",
-      "break",         "case",        "catch",
-      "char",          "char8_t",     "char16_t",
-      "char32_t",      "class",       "compl",
-      "concept",       "const",       "consteval",
-      "constexpr",     "constinit",   "const_cast",
-      "continue",      "co_await",    "co_return",
-      "co_yield",      "decltype",    "default",
-      "delete",        "do",          "double",
-      "dynamic_cast",  "else",        "enum",
-      "explicit",      "export",      "extern",
-      "false",         "float",       "for",
-      "friend",        "goto",        "if",
-      "inline",        "int",         "long",
-      "mutable",       "namespace",   "new",
-      "noexcept",      "not",         "not_eq",
-      "nullptr",       "operator",    "or",
-      "or_eq",         "private",     "protected",
-      "public",        "register",    "reinterpret_cast",
-      "requires",      "return",      "short",
-      "signed",        "sizeof",      "static",
-      "static_assert", "static_cast", "struct",
-      "switch",        "template",    "this",
-      "thread_local",  "throw",       "true",
-      "try",           "typedef",     "typeid",
-      "typename",      "union",       "unsigned",
-      "using",         "virtual",     "void",
-      "volatile",      "wchar_t",     "while",
-      "xor",           "xor_eq"};
-  return words;
-}
-
-}  // namespace
 
 const Quantity* NameTable::find(const std::string& name) {
   const auto it = table_.find(name);
@@ -87,7 +48,7 @@ void check_name(const Text& name, const std::string& what) {
   if (find_elementary_function(s) != nullptr || s == "Pi" || s == "I") {
     throw name.error(fmt::format("'{}' is a function or constant and cannot name {}", s, what));
   }
-  if (cpp_keywords().contains(s)) {
+  if (std::ranges::count(kCppKeywords, s) != 0) {
     throw name.error(fmt::format("'{}' is a C++ keyword and cannot name {}", s, what));
   }
 }

@@ -1,6 +1,5 @@
 // casimir check: verifies a certificate of an enclosure, step by step.
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -11,6 +10,7 @@
 #include "tools/cli/cli.hpp"
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
+#include "tools/cli/stopwatch.hpp"
 #include "tools/text/runs/certificate_report.hpp"
 
 namespace casimir::tools {
@@ -37,48 +37,40 @@ std::string text_of_file(const std::string& path) {
   return text;
 }
 
+/// Prints the report. \return  the exit status
+template <class Report>
+int answered(const CheckOptions& options, const Report& report, bool holds, bool stopped) {
+  if (options.common.json)
+    print_json(to_json(report));
+  else if (!options.common.quiet)
+    print_text(report);
+  if (holds) return kDone;
+  return stopped ? kEnvironment : kFailed;
+}
+
 int check_cycles(const CheckOptions& options, const std::vector<CycleCertificate>& cycles) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const auto late = time_limit(options.common.time_limit);
   CyclesReport report{cycles, {}, 0};
   for (const CycleCertificate& cycle : cycles) report.checked.push_back(check_cycle(cycle, late));
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (options.common.json)
-    print_json(to_json(report));
-  else if (!options.common.quiet)
-    print_text(report);
-  if (report.holds()) return kDone;
-  return late && late() ? kEnvironment : kFailed;
+  report.seconds = watch.seconds();
+  return answered(options, report, report.holds(), late && late());
 }
 
 int check_run(const CheckOptions& options, const RunCertificate& certificate) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const CheckedCertificate checked =
       check_certificate(certificate, time_limit(options.common.time_limit));
-  const CertificateReport report{
-      certificate, checked,
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
-  if (options.common.json)
-    print_json(to_json(report));
-  else if (!options.common.quiet)
-    print_text(report);
-  if (checked.holds()) return kDone;
-  return checked.check.fault == TraceFault::stopped ? kEnvironment : kFailed;
+  const CertificateReport report{certificate, checked, watch.seconds()};
+  return answered(options, report, checked.holds(), checked.check.fault == TraceFault::stopped);
 }
 
 int check_chaos(const CheckOptions& options, const HorseshoeCertificate& certificate) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const CheckedHorseshoe checked =
       check_horseshoe(certificate, time_limit(options.common.time_limit));
-  const CheckedHorseshoeReport report{
-      certificate, checked,
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
-  if (options.common.json)
-    print_json(to_json(report));
-  else if (!options.common.quiet)
-    print_text(report);
-  if (checked.holds()) return kDone;
-  return checked.stopped ? kEnvironment : kFailed;
+  const CheckedHorseshoeReport report{certificate, checked, watch.seconds()};
+  return answered(options, report, checked.holds(), checked.stopped);
 }
 
 int check_certificate_file(const CheckOptions& options) {

@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -23,6 +22,7 @@
 #include "tools/cli/options/run_options.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/stopwatch.hpp"
 #include "tools/runs/scene_values.hpp"
 #include "tools/section/request.hpp"
 #include "tools/sweep/map_picture.hpp"
@@ -211,7 +211,7 @@ int sweep_in(const Ranks& ranks, const SweepArguments& options) {
     return interrupt_held() || (limit && limit());
   };
   how.progress = [&](double share) { progress.show(share); };
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const SweepOutcome outcome =
       sweep_over(task, grid, ranks, how, [&](const std::vector<PointResult>& rows) {
         const SweepTable table{p.model.name,
@@ -227,15 +227,10 @@ int sweep_in(const Ranks& ranks, const SweepArguments& options) {
   const bool interrupted = interrupt_held();
   hold_interrupts(false);
   if (!ranks.speaks()) return kDone;
-  SweepReport report{
-      options,
-      p,
-      ranks,
-      outcome,
-      output,
-      options.jobs > 0 ? options.jobs : ranks.processors(),
-      p.study.lanes(),
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+  SweepReport report{options,         p,
+                     ranks,           outcome,
+                     output,          options.jobs > 0 ? options.jobs : ranks.processors(),
+                     p.study.lanes(), watch.seconds()};
   report.warnings = p.study.warnings(outcome.rows, outcome.complete);
   if (options.common.json)
     print_json(sweep_json(report));

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "codegen/compile.hpp"
 #include "symbolic/error.hpp"
 #include "tools/analysis/proof/prove_in_process.hpp"
 #include "tools/analysis/section/orbits.hpp"
 #include "tools/cli/errors.hpp"
+#include "tools/cli/stopwatch.hpp"
 #include "tools/runs/conserve_run.hpp"
 #include "tools/runs/further_integral.hpp"
 #include "tools/text/runs/trust_report.hpp"
@@ -17,14 +17,8 @@
 namespace casimir::tools {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Between two looks at the clock a proof about more would take too long for a page.
 constexpr std::size_t kMostVariablesOfObstruction = 8;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Does one part after the other; what fails is noted and the next part is done.
 class Investigation {
@@ -53,7 +47,7 @@ class Investigation {
 
  private:
   double left() const {
-    return options_.time_limit > 0 ? options_.time_limit - seconds_since(start_) : 1;
+    return options_.time_limit > 0 ? options_.time_limit - watch_.seconds() : 1;
   }
 
   void part(const std::string& name, double share, const std::function<void()>& work) {
@@ -88,11 +82,11 @@ class Investigation {
   }
 
   void prove_claims() {
-    const auto start = Clock::now();
+    const Stopwatch watch;
     result_.proofs =
         prove_within(options_.time_limit > 0 ? left() : 0, model_, {}, [](const Proof&) {});
     result_.verdict = overall(model_, result_.proofs);
-    result_.proof_seconds = seconds_since(start);
+    result_.proof_seconds = watch.seconds();
   }
 
   void exclude_integrals() {
@@ -218,7 +212,7 @@ class Investigation {
 
   const Model& model_;
   const ReportOptions& options_;
-  Clock::time_point start_ = Clock::now();
+  const Stopwatch watch_;
   Findings result_;
 };
 

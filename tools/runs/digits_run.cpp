@@ -5,7 +5,6 @@
 #include <cln/real.h>
 #include <fmt/format.h>
 
-#include <chrono>
 #include <iostream>
 
 #include "runtime/digits/agreed_run.hpp"
@@ -18,17 +17,12 @@
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/stopwatch.hpp"
 #include "tools/runs/atlas.hpp"
 #include "tools/text/runs/digits_report.hpp"
 
 namespace casimir::tools {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double run_time_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 [[noreturn]] void does_not_go(const std::string& option, const std::string& why) {
   throw UsageError(fmt::format("{} does not go with --digits: {}", option, why));
@@ -123,7 +117,7 @@ int say_if_it_stopped(const DigitsReport& report) {
 
 int integrate_with_digits(const DigitsRequest& request) {
   check(request);
-  const auto start = Clock::now();
+  const Stopwatch generating;
   const Model model = in_variables(
       request.kept.model_of(request.start.in(load_case(request.case_name, request.common.limits)),
                             request.common.parameter_values()),
@@ -137,14 +131,14 @@ int integrate_with_digits(const DigitsRequest& request) {
   require_exact_values(model, scene, "a run with more digits");
   const Specialisation s = specialise(model, scene, what);
   if (!request.run.duration) require_duration(scene);
-  const double generated = run_time_since(start);
-  const auto begin = Clock::now();
+  const double generated = generating.seconds();
+  const Stopwatch watch;
   const AgreedRun agreed = run(request, s);
   const DigitsReport report{.spec = s,
                             .agreed = agreed,
                             .digits = request.digits,
                             .generate_seconds = generated,
-                            .seconds = run_time_since(begin),
+                            .seconds = watch.seconds(),
                             .doubt = unwatched_parts(model, scene)};
   if (!request.output.empty()) write_samples(request.output, report);
   if (request.common.json) {

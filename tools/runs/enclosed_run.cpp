@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 
 #include "symbolic/algebra/number_text.hpp"
@@ -18,6 +17,7 @@
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/stopwatch.hpp"
 #include "tools/runs/atlas.hpp"
 #include "tools/runs/certified_motion.hpp"
 #include "tools/runs/digits_run.hpp"
@@ -26,8 +26,6 @@
 
 namespace casimir::tools {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr const char* kRangeMark = "..";
 
@@ -167,7 +165,7 @@ bool is_range(const std::string& word) { return word.find(kRangeMark) != std::st
 
 int integrate_validated(const EnclosedRequest& request) {
   check_enclosed(request);
-  const auto start = Clock::now();
+  const Stopwatch watch;
   ValidatedOptions options;
   CaseFile file = request.start.in(load_case(request.case_name, request.common.limits));
   const ParameterValues values =
@@ -200,9 +198,7 @@ int integrate_validated(const EnclosedRequest& request) {
                                      ? enclose(model, scene, options)
                                      : certified_motion(model, scene, options, certificate);
   const EnclosureReport report{
-      .motion = motion,
-      .digits = request.digits,
-      .seconds = std::chrono::duration<double>(Clock::now() - start).count()};
+      .motion = motion, .digits = request.digits, .seconds = watch.seconds()};
   if (!request.output.empty()) write_boxes(request.output, report);
   const bool wanted = !request.certificate.empty() && motion.run.status == ValidatedStatus::ok;
   const int written = wanted ? write_certificate(request.certificate, certificate, late) : kDone;

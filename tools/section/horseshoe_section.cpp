@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <iostream>
 
 #include "tools/analysis/certificate/certificate_file.hpp"
@@ -13,6 +12,7 @@
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/stopwatch.hpp"
 #include "tools/runs/certified_horseshoe.hpp"
 #include "tools/text/runs/horseshoe_report.hpp"
 
@@ -48,7 +48,7 @@ int prove_horseshoe(const Common& common, const Model& model, const SectionReque
   options.request = request;
   if (longest > 0) options.longest_cycle = longest;
   options.give_up = time_limit(common.time_limit > 0 ? common.time_limit : kSeconds);
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const Horseshoe answer = [&] {
     Progress progress(!common.quiet);
     progress.begin(model.name + ": horseshoe");
@@ -58,9 +58,7 @@ int prove_horseshoe(const Common& common, const Model& model, const SectionReque
     };
     return find_horseshoe(model, model.scene(common.scene), options);
   }();
-  const HorseshoeReport report{
-      model.name, model.scene(common.scene).name, answer,
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+  const HorseshoeReport report{model.name, model.scene(common.scene).name, answer, watch.seconds()};
   if (common.json)
     print_json(to_json(report));
   else if (!common.quiet)

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 
 #include "symbolic/case/limits.hpp"
@@ -14,6 +13,7 @@
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/stopwatch.hpp"
 #include "tools/plot/gnuplot.hpp"
 #include "tools/section/picture.hpp"
 #include "tools/section/report.hpp"
@@ -78,7 +78,7 @@ class MapSection {
   }
 
   int run() {
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     Progress progress(!request_.common.quiet);
     progress.begin(map_.base.name + ": orbits");
     const auto seeds =
@@ -95,7 +95,7 @@ class MapSection {
     }
     if (request_.rotation || request_.colour == "rotation")
       for (const OrbitReport& orbit : reports_) rotations_.push_back(rotation_of_map_orbit(orbit));
-    seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    seconds_ = watch.seconds();
     deliver();
     return verdict(seeds.size());
   }

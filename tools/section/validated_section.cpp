@@ -7,7 +7,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 
 #include "symbolic/expression/expression.hpp"
@@ -17,6 +16,7 @@
 #include "tools/cli/errors.hpp"
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/stopwatch.hpp"
 #include "tools/text/runs/enclosure_report.hpp"
 #include "tools/text/runs/run_report.hpp"
 
@@ -145,10 +145,6 @@ int status_of(const CrossingReport& report) {
   return run.status == ValidatedStatus::stopped ? kEnvironment : kNotContinued;
 }
 
-double time_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 /// Points of the plane on the level, all over the domain of possible motion.
 std::vector<std::vector<double>> starts_of_orbits(const SectionProblem& problem,
                                                   const OrbitRequest& request,
@@ -185,9 +181,9 @@ int enclose_section(const Common& common, const Model& model, const SectionProbl
     progress.show(share);
     return late && late();
   };
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const ProvedCrossings proved = enclose_crossings(model, scene, problem.plane_function, options);
-  const CrossingReport report{model, problem, scene.name, proved, time_since(start)};
+  const CrossingReport report{model, problem, scene.name, proved, watch.seconds()};
   if (common.json)
     print_json(to_json(report));
   else if (!common.quiet)
@@ -203,13 +199,13 @@ int enclose_orbits(const Common& common, const Model& model, const SectionProble
   Scene scene = model.scene(common.scene);
   Json all = {{"case", model.name}, {"scene", scene.name}, {"orbits", Json::array()}};
   int worst = kDone;
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch all_of_them;
   for (const std::vector<double>& start : starts) {
     for (std::size_t i = 0; i < start.size(); ++i)
       scene.initial[i] = GiNaC::numeric(cln::rational(cln::cl_DF(start[i])));
-    const auto own = std::chrono::steady_clock::now();
+    const Stopwatch own;
     const ProvedCrossings proved = enclose_crossings(model, scene, problem.plane_function, options);
-    const CrossingReport report{model, problem, scene.name, proved, time_since(own)};
+    const CrossingReport report{model, problem, scene.name, proved, own.seconds()};
     if (common.json) {
       Json one = to_json(report);
       one["start"] = start_json(model, start);
@@ -223,7 +219,7 @@ int enclose_orbits(const Common& common, const Model& model, const SectionProble
     }
     worst = std::max(worst, status_of(report));
   }
-  all["seconds"] = time_since(begin);
+  all["seconds"] = all_of_them.seconds();
   if (common.json) print_json(all);
   return worst;
 }
