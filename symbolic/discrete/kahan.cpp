@@ -3,34 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "symbolic/discrete/minors.hpp"
+#include "symbolic/discrete/new_names.hpp"
 #include "symbolic/functions/function_ring.hpp"
 
 namespace casimir {
 namespace {
 
 using GiNaC::ex;
-
-/// A name that no symbol, definition or function of the case has.
-std::string free_name(const Model& model, const std::vector<std::string>& wanted) {
-  std::set<std::string> taken{"H"};
-  for (const auto* list : {&model.variables, &model.parameters}) {
-    for (const GiNaC::symbol& s : *list) taken.insert(s.get_name());
-  }
-  for (const auto* list : {&model.definitions, &model.casimirs, &model.integrals}) {
-    for (const NamedExpression& f : *list) taken.insert(f.name);
-  }
-  for (const auto& [parameter, value] : model.fixed) taken.insert(parameter.value);
-  for (const std::string& name : wanted) {
-    if (!taken.contains(name)) return name;
-  }
-  for (int i = 1;; ++i) {
-    const std::string name = fmt::format("{}{}", wanted.front(), i);
-    if (!taken.contains(name)) return name;
-  }
-}
 
 struct Fraction {
   Polynomial top, bottom;
@@ -41,7 +22,8 @@ class Kahan {
  public:
   Kahan(const Model& flow, const std::optional<ex>& value, long highest)
       : flow_(flow),
-        step_(free_name(flow, {"eps", "epsilon", "step"})),
+        names_(flow),
+        step_(names_.take({"eps", "epsilon", "step"})),
         step_value_(value.value_or(ex(step_))),
         ring_(symbols(), flow.assumptions, expressions(), flow.limits) {
     for (std::size_t i = 0; i < flow.field.size(); ++i) field_.push_back(component(i, highest));
@@ -162,7 +144,7 @@ class Kahan {
           std::count_if(next.begin(), next.end(), same) < 2)
         continue;
       const std::string name =
-          free_name(flow_, {named_.empty() ? "D" : fmt::format("D{}", named_.size() + 1)});
+          names_.take({named_.empty() ? "D" : fmt::format("D{}", named_.size() + 1)});
       text.definitions.emplace_back(name, ring_.text(next[i].bottom));
       named_.push_back({next[i].bottom, name});
     }
@@ -208,6 +190,7 @@ class Kahan {
   }
 
   const Model& flow_;
+  discrete::NewNames names_;
   GiNaC::symbol step_;
   ex step_value_;
   FunctionRing ring_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cln/float.h>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,12 +10,27 @@
 
 namespace casimir {
 
+/// What of a map starts at a scene of the flow.
+struct MapStart {
+  std::string scene;
+  std::string step;              ///< where the step is a parameter; empty: 1/10
+  std::vector<cln::cl_F> added;  ///< one for each of RationalMapText::added
+};
+
 /// x' of a rational map, as texts in the notation of case files.
 struct RationalMapText {
   std::string step;  ///< the name of the step, or empty where it has a value
   /// Denominators that several next values have, with names that the case does not use.
   std::vector<std::pair<std::string, std::string>> definitions;
-  std::vector<std::string> next;                 ///< one for each variable
+  std::vector<std::string> added;  ///< variables beside those of the flow
+  std::vector<std::string> next;   ///< one for each variable, and then for each added one
+  /// Definitions that vanish at every state: the map is the discretisation on this level alone.
+  std::vector<std::string> relations;
+  std::vector<std::string> conditions;                            ///< on the parameters
+  std::vector<std::pair<std::string, std::string>> conditionals;  ///< what the map keeps there
+  /// Which next values are taken together, one list after the other; empty: all of them at once.
+  std::vector<std::vector<std::size_t>> steps;
+  std::vector<MapStart> starts;  ///< where variables are added: of the scenes that have one
   std::optional<std::string> modified_integral;  ///< see `kahan_map`
   std::optional<std::string> density;            ///< the same
 };

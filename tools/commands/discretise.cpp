@@ -2,10 +2,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <iostream>
 
 #include "symbolic/case/limits.hpp"
-#include "symbolic/discrete/kahan.hpp"
 #include "symbolic/expression/expression.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/cli.hpp"
@@ -20,14 +21,12 @@ namespace {
 struct DiscretiseArguments {
   Common common;
   std::string case_name, output;
-  CLI::Option* kahan = nullptr;
-  CLI::Option* midpoint = nullptr;
-  bool moser_veselov = false;
-  std::string kahan_step, midpoint_step;
+  std::array<CLI::Option*, kDiscretisations.size()> methods{};
+  std::array<std::string, kDiscretisations.size()> steps;
 };
 
 /// The step that was typed after a method; none where it is to stay a symbol.
-std::optional<Text> step_of(const std::string& value, const char* name) {
+std::optional<Text> step_of(const std::string& value, const std::string& name) {
   if (value.empty()) return std::nullopt;
   return Text{value, {name, 1, 1}, value};
 }
@@ -39,28 +38,25 @@ std::optional<GiNaC::ex> value_of(const std::optional<Text>& step, const Limits&
   return value;
 }
 
-int discretise(const DiscretiseArguments& options) {
-  const std::size_t chosen =
-      options.kahan->count() + options.midpoint->count() + (options.moser_veselov ? 1 : 0);
-  if (chosen != 1)
+/// The place of the one that was asked for.
+std::size_t method_of(const DiscretiseArguments& options) {
+  const auto is_given = [](const CLI::Option* option) { return option->count() > 0; };
+  if (std::ranges::count_if(options.methods, is_given) != 1)
     throw UsageError("discretise needs one method: --kahan, --midpoint or --moser-veselov");
+  return static_cast<std::size_t>(std::ranges::find_if(options.methods, is_given) -
+                                  options.methods.begin());
+}
+
+int discretise(const DiscretiseArguments& options) {
+  const std::size_t chosen = method_of(options);
+  const Discretisation& method = kDiscretisations[chosen];
+  const std::string option = fmt::format("--{}", method.key);
   const Model flow = model_of(load_case(options.case_name, options.common.limits),
                               options.common.parameter_values());
-  if (options.moser_veselov)
-    throw UsageError(
-        "Moser's and Veselov's map solves a quadratic matrix equation in every step: it is no "
-        "rational function, and this version has no other form of it; --kahan makes a rational map "
-        "of quadratic equations, and the cases discrete-lagrange and discrete-neumann are tops of "
-        "this "
-        "kind that have formulas");
-  const bool is_kahan = options.kahan->count() > 0;
-  const std::optional<Text> step = is_kahan ? step_of(options.kahan_step, "--kahan")
-                                            : step_of(options.midpoint_step, "--midpoint");
-  const std::optional<GiNaC::ex> value = value_of(step, flow.limits);
-  const RationalMapText map = is_kahan ? kahan_map(flow, value) : midpoint_map(flow, value);
-  const std::string text =
-      discretised_case(flow, map, is_kahan ? "Kahan's map" : "Implicit midpoint rule",
-                       step ? std::optional(step->value) : std::nullopt);
+  const std::optional<Text> step = step_of(options.steps[chosen], option);
+  const RationalMapText map = method.map(flow, value_of(step, flow.limits));
+  const std::string text = discretised_case(flow, map, std::string(method.name),
+                                            step ? std::optional(step->value) : std::nullopt);
   const bool to_file = !options.output.empty() && options.output != "-";
   if (to_file) {
     OutputFile file(options.output);
@@ -68,19 +64,23 @@ int discretise(const DiscretiseArguments& options) {
     file.commit();
   }
   if (options.common.json) {
-    nlohmann::ordered_json json{{"case", flow.name}, {"method", is_kahan ? "kahan" : "midpoint"}};
+    nlohmann::ordered_json json{{"case", flow.name}, {"method", method.key}};
     if (to_file) json["file"] = printable(options.output, 1000);
     json["step"] = step ? step->value : map.step;
-    for (std::size_t i = 0; i < map.next.size(); ++i)
-      json["map"][flow.variables[i].get_name()] = map.next[i];
+    const auto variable = [&, n = flow.variables.size()](std::size_t i) {
+      return i < n ? flow.variables[i].get_name() : map.added[i - n];
+    };
+    for (std::size_t i = 0; i < map.next.size(); ++i) json["map"][variable(i)] = map.next[i];
+    for (std::size_t k = 0; k < map.steps.size(); ++k) {
+      for (const std::size_t i : map.steps[k]) json["steps"][k].push_back(variable(i));
+    }
     for (const auto& [name, definition] : map.definitions) json["definitions"][name] = definition;
     if (!to_file) json["toml"] = text;
     print_json(json);
   } else if (!to_file) {
     std::cout << text;
   } else if (!options.common.quiet) {
-    fmt::print("{}: {} written to {}\n", flow.name, is_kahan ? "Kahan's map" : "midpoint rule",
-               printable(options.output, 200));
+    fmt::print("{}: {} written to {}\n", flow.name, method.name, printable(options.output, 200));
   }
   return kDone;
 }
@@ -90,20 +90,21 @@ int discretise(const DiscretiseArguments& options) {
 void register_discretise(CLI::App& program, Action& action) {
   auto options = std::make_shared<DiscretiseArguments>();
   CLI::App* command = program.add_subcommand(
-      "discretise", "A flow's map as a case file: Kahan's, or the midpoint rule");
+      "discretise",
+      "A flow's map as a case file: Kahan's, the midpoint rule, or Moser's and Veselov's");
   add_common(*command, options->common);
   add_case(*command, options->case_name);
-  const auto add_method = [&](const char* name, std::string& step, const char* text) {
-    return command->add_option(name, step, text)->expected(0, 1)->type_name("EPS");
-  };
-  options->kahan =
-      add_method("--kahan", options->kahan_step,
-                 "Kahan's map of quadratic equations; without EPS the step is a parameter");
-  options->midpoint =
-      add_method("--midpoint", options->midpoint_step,
-                 "The implicit midpoint rule, which is a map in this sense for linear equations");
-  command->add_flag("--moser-veselov", options->moser_veselov,
-                    "Moser's and Veselov's map of a free body");
+  constexpr std::array kTexts{
+      "Kahan's map of quadratic equations; without EPS the step is a parameter",
+      "The implicit midpoint rule, which is a map in this sense for linear equations",
+      "Moser's and Veselov's map of a free rigid body, with variables for the solution of its "
+      "equation"};
+  for (std::size_t i = 0; i < kDiscretisations.size(); ++i)
+    options->methods[i] =
+        command
+            ->add_option(fmt::format("--{}", kDiscretisations[i].key), options->steps[i], kTexts[i])
+            ->expected(0, 1)
+            ->type_name("EPS");
   command->add_option("-o,--output", options->output, "Write the case here instead of printing it")
       ->type_name("FILE.toml");
   command->callback([options, &action] { action = action_of(options, discretise); });

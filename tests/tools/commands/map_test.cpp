@@ -33,10 +33,40 @@ TEST(MapCommands, DiscretiseRefusesWhatIsNoMap) {
   EXPECT_EQ(run({"discretise", "euler"}).status, 2);
   EXPECT_EQ(run({"discretise", "euler", "--kahan", "--midpoint"}).status, 2);
   EXPECT_EQ(run({"discretise", "euler", "--kahan", "0"}).status, 2);
-  EXPECT_EQ(run({"discretise", "euler", "--moser-veselov"}).status, 2);
+  EXPECT_EQ(run({"discretise", "euler", "--kahan", "--moser-veselov"}).status, 2);
+  EXPECT_EQ(run({"discretise", "euler", "--moser-veselov", "0"}).status, 2);
+  EXPECT_TRUE(has(run({"discretise", "lagrange", "--moser-veselov"}).err, "free rigid body"));
   EXPECT_TRUE(has(run({"discretise", "euler", "--midpoint"}).err, "linear equations only"));
   EXPECT_TRUE(
       has(run({"discretise", "neumann", "--kahan"}).err, "no polynomial of degree at most 2"));
+}
+
+/// The error of Moser's and Veselov's map of Euler's top at the time 100.
+double veselov_error(const Folder& folder, int steps_a_time) {
+  const std::string step = "1/" + std::to_string(steps_a_time);
+  const Outcome written =
+      run_in(folder, {"discretise", "euler", "--moser-veselov", step, "-o", "top.toml"});
+  EXPECT_EQ(written.status, 0) << written.err;
+  const Json state = run_in(folder, {"integrate", "./top.toml", "--duration",
+                                     std::to_string(100 * steps_a_time), "--json"})
+                         .json()
+                         .at("state");
+  const auto value = [&](const char* name) { return std::stod(state.at(name).get<std::string>()); };
+  const double m1 = value("M1"), m2 = value("M2"), m3 = value("M3");
+  EXPECT_NEAR(m1 * m1 + m2 * m2 + m3 * m3, 49. / 36, 1e-11);
+  EXPECT_NEAR(m1 * m1 + m2 * m2 / 2 + m3 * m3 / 3, 1 + 1. / 8 + 1. / 27, 1e-11);
+  return std::hypot(m1 - 1.00934181025282139, m2 - 0.41823012840089604, m3 + 0.40917451152831920);
+}
+
+TEST(MapCommands, MoserAndVeselovsMapIsOfSecondOrderAndKeepsWhatTheTopKeeps) {
+  const Folder folder;
+  const double coarse = veselov_error(folder, 20), fine = veselov_error(folder, 40);
+  EXPECT_NEAR(coarse / fine, 4, 0.1);
+  EXPECT_LT(fine, 1e-2);
+  EXPECT_EQ(run_in(folder, {"verify", "./top.toml", "--param", "a1=1", "--param", "a2=1/2",
+                            "--param", "a3=1/5", "--json"})
+                .status,
+            0);
 }
 
 TEST(MapCommands, DegreesAreEvidence) {

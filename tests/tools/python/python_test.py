@@ -117,7 +117,11 @@ class Maps(unittest.TestCase):
         degrees = casimir.load("euler").kahan_degrees(6)
         self.assertEqual((degrees.growth, degrees.entropy), ("polynomial", 0.0))
         with self.assertRaises(casimir.RequestError):
-            casimir.load("euler").discretise("moser-veselov")
+            casimir.load("euler").discretise("leapfrog")
+        with self.assertRaises(casimir.ModelError):
+            casimir.load("lagrange").discretise("moser-veselov")
+        self.assertTrue(casimir.load("euler").discretise("moser-veselov", "1/10").with_values(
+            {"a1": 1, "a2": "1/2", "a3": "1/4"}).verify())
         with self.assertRaises(casimir.ModelError):
             casimir.load("kepler-sphere").discretise()
 

@@ -366,15 +366,16 @@ class Case:
     # Maps.
 
     def discretise(self, method: str = "kahan", step: Expression | None = None) -> Map:
-        """Kahan's map of quadratic equations, or the implicit midpoint rule ('midpoint') of linear ones.
+        """Kahan's map of quadratic equations, the implicit midpoint rule ('midpoint') of linear ones, or Moser's and
+        Veselov's map ('moser-veselov') of a free rigid body.
 
         :param step: without it the step is a parameter.
 
         >>> load("euler").discretise().parameters[-1]
         'eps'
         """
-        if method not in ("kahan", "midpoint"):
-            raise RequestError(f"{method!r} makes no map: 'kahan' and 'midpoint' do")
+        if method not in ("kahan", "midpoint", "moser-veselov"):
+            raise RequestError(f"{method!r} makes no map: 'kahan', 'midpoint' and 'moser-veselov' do")
         from ._map import Map
 
         text = _core.discretised(self._core, method, None if step is None else text_of(step))

@@ -157,11 +157,11 @@ std::string discretised(const Case& self, const std::string& method,
     value = parse_real_constant(text, self.model().limits);
     if (value->is_zero()) throw text.error("a step of 0 leaves every point where it is");
   }
-  const bool is_kahan = method == "kahan";
+  const auto* const chosen =
+      std::ranges::find(tools::kDiscretisations, method, &tools::Discretisation::key);
+  if (chosen == tools::kDiscretisations.end()) throw py::value_error("no map of this name");
   const Model& flow = self.model();
-  const RationalMapText map = is_kahan ? kahan_map(flow, value) : midpoint_map(flow, value);
-  return tools::discretised_case(flow, map, is_kahan ? "Kahan's map" : "Implicit midpoint rule",
-                                 step);
+  return tools::discretised_case(flow, chosen->map(flow, value), std::string(chosen->name), step);
 }
 
 /// Orbits: the states at every so many steps, and how far the invariants drifted.

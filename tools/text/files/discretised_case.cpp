@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "tools/show/notation.hpp"
+#include "tools/text/runs/sure_decimals.hpp"
 
 namespace casimir::tools {
 namespace {
@@ -50,22 +51,65 @@ class DiscretisedWriter {
         "\n";
     if (!flow_.source.empty()) text += "source = " + quoted(flow_.source) + "\n";
     text += "tags = [\"map\"]\n\n[phase_space]\nvariables = [";
-    for (std::size_t i = 0; i < flow_.variables.size(); ++i)
-      text += (i > 0 ? ", " : "") + quoted(flow_.variables[i].get_name());
-    text += "]\n" + parameters() + definitions() + "\n[map]\n";
-    for (std::size_t i = 0; i < map_.next.size(); ++i)
-      text += flow_.variables[i].get_name() + " = " + quoted(map_.next[i]) + "\n";
-    if (map_.modified_integral)
-      text +=
-          "\n[integrals]  # H + dH.(x' - x)/3\nH_modified = " + quoted(*map_.modified_integral) +
-          "\n";
-    if (map_.density) text += "\n[[measure]]\ndensity = " + quoted(*map_.density) + "\n";
+    const std::vector<std::string> all = variables();
+    for (std::size_t i = 0; i < all.size(); ++i) text += (i > 0 ? ", " : "") + quoted(all[i]);
+    text += "]\n" + parameters() + definitions() + map_text(all);
+    text += claims();
     for (const Scene& scene : flow_.scenes) text += scene_text(scene);
     return text;
   }
 
  private:
   std::string text_of(const GiNaC::ex& e) { return notation_.case_text(e); }
+
+  std::vector<std::string> variables() const {
+    std::vector<std::string> all = names(flow_.variables);
+    all.insert(all.end(), map_.added.begin(), map_.added.end());
+    return all;
+  }
+
+  /// The next values, at once or in steps.
+  std::string map_text(const std::vector<std::string>& all) const {
+    std::string text;
+    if (map_.steps.empty()) text += "\n[map]\n";
+    for (std::size_t i = 0; map_.steps.empty() && i < map_.next.size(); ++i)
+      text += all[i] + " = " + quoted(map_.next[i]) + "\n";
+    for (const std::vector<std::size_t>& step : map_.steps) {
+      std::vector<std::string> keys, values;
+      for (const std::size_t i : step) {
+        keys.push_back(all[i]);
+        values.push_back(map_.next[i]);
+      }
+      text += "\n[[map_step]]\nexpressions = " + entries(keys, values) + "\n";
+    }
+    return text;
+  }
+
+  std::string claims() const {
+    std::string text;
+    if (map_.modified_integral)
+      text +=
+          "\n[integrals]  # H + dH.(x' - x)/3\nH_modified = " + quoted(*map_.modified_integral) +
+          "\n";
+    text += claims_on_the_level();
+    if (map_.density) text += "\n[[measure]]\ndensity = " + quoted(*map_.density) + "\n";
+    return text;
+  }
+
+  /// That the map keeps to it, and what is constant on it.
+  std::string claims_on_the_level() const {
+    if (map_.relations.empty()) return "";
+    std::vector<std::string> level;
+    for (const std::string& f : map_.relations) level.push_back(quoted(f));
+    std::string text =
+        fmt::format("\n[[invariant_relation]]\nname = \"level\"\nexpression = {}\n", level.front());
+    const std::vector<std::string> others(level.begin() + 1, level.end());
+    if (!others.empty()) text += fmt::format("on = [{}]\n", fmt::join(others, ", "));
+    for (const auto& [name, value] : map_.conditionals)
+      text += fmt::format("\n[[conditional]]\nname = {}\nexpression = {}\non = [{}]\n",
+                          quoted(name), quoted(value), fmt::join(level, ", "));
+    return text;
+  }
 
   /// Those about the variables are left out: the map need not keep to the domain.
   std::vector<std::string> assumptions() {
@@ -85,6 +129,7 @@ class DiscretisedWriter {
     if (all.empty()) return "";
     std::string text = "\n[parameters]\n";
     std::vector<std::string> conditions;
+    for (const std::string& condition : map_.conditions) conditions.push_back(quoted(condition));
     for (const std::string& condition : assumptions()) conditions.push_back(quoted(condition));
     for (std::size_t i = 0; i < all.size(); ++i) {
       text += all[i] + (i > 0 || conditions.empty()
@@ -101,20 +146,33 @@ class DiscretisedWriter {
     return text;
   }
 
+  /// Where the map starts in a scene; null where it does not.
+  const MapStart* start_of(const Scene& scene) const {
+    const auto found = std::ranges::find(map_.starts, scene.name, &MapStart::scene);
+    return found == map_.starts.end() ? nullptr : &*found;
+  }
+
   std::string scene_text(const Scene& scene) {
     if (!scene.unusable.empty()) return "";
+    const MapStart* start = start_of(scene);
+    if (!map_.added.empty() && !start)
+      return "\n# The scene " + quoted(scene.name) + " is left out: its steps are too long.\n";
     std::vector<std::string> keys = names(flow_.parameters), values, initial;
     for (const GiNaC::ex& value : scene.parameters) values.push_back(text_of(value));
     for (const GiNaC::ex& value : scene.initial) initial.push_back(text_of(value));
+    if (start) {
+      for (const cln::cl_F& value : start->added) initial.push_back(decimal_text(value, kDigits));
+    }
     if (!map_.step.empty()) {
       keys.push_back(map_.step);
-      values.emplace_back("1/10");
+      values.push_back(start ? start->step : "1/10");
     }
     std::string text = "\n[[scene]]\nname = " + quoted(scene.name) + "\n";
     if (!keys.empty()) text += "parameters = " + entries(keys, values) + "\n";
-    return text + "initial = " + entries(names(flow_.variables), initial) +
-           "\nduration = \"1000\"  # steps\n";
+    return text + "initial = " + entries(variables(), initial) + "\nduration = \"1000\"  # steps\n";
   }
+
+  static constexpr int kDigits = 40;  ///< of what solves equations
 
   const Model& flow_;
   const RationalMapText& map_;

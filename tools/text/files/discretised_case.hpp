@@ -1,12 +1,28 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "symbolic/discrete/kahan.hpp"
+#include "symbolic/discrete/moser_veselov.hpp"
 #include "symbolic/model.hpp"
 
 namespace casimir::tools {
+
+/// A way to make a map of a flow.
+struct Discretisation {
+  std::string_view key;   ///< of JSON and Python; behind "--" the option of the command line
+  std::string_view name;  ///< as a sentence begins with it
+  RationalMapText (*map)(const Model& flow, const std::optional<GiNaC::ex>& step);
+};
+
+/// All of them.
+inline constexpr std::array kDiscretisations{
+    Discretisation{"kahan", "Kahan's map", kahan_map},
+    Discretisation{"midpoint", "Implicit midpoint rule", midpoint_map},
+    Discretisation{"moser-veselov", "Moser's and Veselov's map", moser_veselov_map}};
 
 /// The case file of a map that was made of a flow.
 /// \param method  "Kahan's map"
