@@ -8,7 +8,7 @@ namespace {
 using cln::cl_F;
 using cln::cl_RA;
 
-constexpr int kDigits = 60;
+constexpr int kRootDigits = 60;
 constexpr int kWaypoints = 64;
 
 /// The quartic in e1 for t m, t^2 = `square`.
@@ -24,7 +24,7 @@ class Quartic {
     }
     determinant_ = j[0] * j[1] * j[2];
     const cl_RA size = cln::abs(j[0]) + cln::abs(j[1]) + cln::abs(j[2]);
-    small_ = exact(size / cln::expt_pos(cln::cl_I(10), kDigits - 6));
+    small_ = exact(size / cln::expt_pos(cln::cl_I(10), kRootDigits - 6));
   }
 
   cl_F e2(const cl_F& e1, const cl_RA& square) const {
@@ -42,7 +42,7 @@ class Quartic {
   /// A change of the root by less than this does not count.
   const cl_F& small() const { return small_; }
   static cl_F exact(const cl_RA& number) {
-    return cln::cl_float(number, cln::float_format(kDigits));
+    return cln::cl_float(number, cln::float_format(kRootDigits));
   }
 
  private:

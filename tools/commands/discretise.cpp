@@ -50,10 +50,10 @@ std::size_t method_of(const DiscretiseArguments& options) {
 int discretise(const DiscretiseArguments& options) {
   const std::size_t chosen = method_of(options);
   const Discretisation& method = kDiscretisations[chosen];
-  const std::string option = fmt::format("--{}", method.key);
+
   const Model flow = model_of(load_case(options.case_name, options.common.limits),
                               options.common.parameter_values());
-  const std::optional<Text> step = step_of(options.steps[chosen], option);
+  const std::optional<Text> step = step_of(options.steps[chosen], std::string(method.option));
   const RationalMapText map = method.map(flow, value_of(step, flow.limits));
   const std::string text = discretised_case(flow, map, std::string(method.name),
                                             step ? std::optional(step->value) : std::nullopt);
@@ -64,7 +64,7 @@ int discretise(const DiscretiseArguments& options) {
     file.commit();
   }
   if (options.common.json) {
-    nlohmann::ordered_json json{{"case", flow.name}, {"method", method.key}};
+    nlohmann::ordered_json json{{"case", flow.name}, {"method", method.key()}};
     if (to_file) json["file"] = printable(options.output, 1000);
     json["step"] = step ? step->value : map.step;
     const auto variable = [&, n = flow.variables.size()](std::size_t i) {
@@ -94,17 +94,17 @@ void register_discretise(CLI::App& program, Action& action) {
       "A flow's map as a case file: Kahan's, the midpoint rule, or Moser's and Veselov's");
   add_common(*command, options->common);
   add_case(*command, options->case_name);
-  constexpr std::array kTexts{
+  constexpr std::array kMethodTexts{
       "Kahan's map of quadratic equations; without EPS the step is a parameter",
       "The implicit midpoint rule, which is a map in this sense for linear equations",
       "Moser's and Veselov's map of a free rigid body, with variables for the solution of its "
       "equation"};
   for (std::size_t i = 0; i < kDiscretisations.size(); ++i)
-    options->methods[i] =
-        command
-            ->add_option(fmt::format("--{}", kDiscretisations[i].key), options->steps[i], kTexts[i])
-            ->expected(0, 1)
-            ->type_name("EPS");
+    options->methods[i] = command
+                              ->add_option(std::string(kDiscretisations[i].option),
+                                           options->steps[i], kMethodTexts[i])
+                              ->expected(0, 1)
+                              ->type_name("EPS");
   command->add_option("-o,--output", options->output, "Write the case here instead of printing it")
       ->type_name("FILE.toml");
   command->callback([options, &action] { action = action_of(options, discretise); });

@@ -13,16 +13,19 @@ namespace casimir::tools {
 
 /// A way to make a map of a flow.
 struct Discretisation {
-  std::string_view key;   ///< of JSON and Python; behind "--" the option of the command line
-  std::string_view name;  ///< as a sentence begins with it
+  std::string_view option;  ///< of the command line
+  std::string_view name;    ///< as a sentence begins with it
   RationalMapText (*map)(const Model& flow, const std::optional<GiNaC::ex>& step);
+
+  /// The option without dashes, for JSON and Python.
+  constexpr std::string_view key() const { return option.substr(2); }
 };
 
 /// All of them.
 inline constexpr std::array kDiscretisations{
-    Discretisation{"kahan", "Kahan's map", kahan_map},
-    Discretisation{"midpoint", "Implicit midpoint rule", midpoint_map},
-    Discretisation{"moser-veselov", "Moser's and Veselov's map", moser_veselov_map}};
+    Discretisation{"--kahan", "Kahan's map", kahan_map},
+    Discretisation{"--midpoint", "Implicit midpoint rule", midpoint_map},
+    Discretisation{"--moser-veselov", "Moser's and Veselov's map", moser_veselov_map}};
 
 /// The case file of a map that was made of a flow.
 /// \param method  "Kahan's map"
