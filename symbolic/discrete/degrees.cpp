@@ -1,60 +1,20 @@
 #include "symbolic/discrete/degrees.hpp"
 
-#include <flint/nmod_poly.h>
-
 #include <algorithm>
 
 #include "symbolic/discrete/kahan.hpp"
 #include "symbolic/discrete/modular_map.hpp"
+#include "symbolic/discrete/univariate.hpp"
 
 namespace casimir::discrete {
 namespace {
 
-/// FLINT's polynomial over the prime field.
-class Univariate {
- public:
-  Univariate() { nmod_poly_init(value_, kPrime); }
-  ~Univariate() { nmod_poly_clear(value_); }
-  Univariate(const Univariate&) = delete;
-  Univariate& operator=(const Univariate&) = delete;
-  nmod_poly_struct* raw() { return value_; }
-  long degree() const { return nmod_poly_degree(value_); }
-  bool is_zero() const { return nmod_poly_is_zero(value_); }
-
- private:
-  nmod_poly_t value_;
-};
-
-/// The degree of the rational function a/b of least degree with these values: Euclid's algorithm on
-/// the interpolating polynomial g and M = product of (t - t_i) runs through all pairs with
-/// a = b g modulo M, and the quotient after the true one is large (by more than `kSure` degrees).
-/// Empty where none stands out: then there are too few points.
+/// The degree of the rational function with these values; empty where there are too few points.
 std::optional<int> degree_from_values(const std::vector<Element>& t,
                                       const std::vector<Element>& y) {
-  constexpr long kSure = 6;
-  const auto count = static_cast<long>(t.size());
-  Univariate r0, r1, s0, s1, quotient, rest, product;
-  nmod_poly_product_roots_nmod_vec(r0.raw(), t.data(), count);
-  nmod_poly_interpolate_nmod_vec(r1.raw(), t.data(), y.data(), count);
-  nmod_poly_one(s1.raw());
-  long largest = 0;
-  long degree = -1;
-  while (!r1.is_zero()) {
-    nmod_poly_divrem(quotient.raw(), rest.raw(), r0.raw(), r1.raw());
-    if (quotient.degree() > largest) {
-      largest = quotient.degree();
-      degree = std::max(r1.degree(), s1.degree());
-    }
-    nmod_poly_mul(product.raw(), quotient.raw(), s1.raw());
-    nmod_poly_sub(product.raw(), s0.raw(), product.raw());
-    nmod_poly_swap(s0.raw(), s1.raw());
-    nmod_poly_swap(s1.raw(), product.raw());
-    nmod_poly_swap(r0.raw(), r1.raw());
-    nmod_poly_swap(r1.raw(), rest.raw());
-  }
-  if (degree < 0) return 0;  // all values are 0
-  if (largest < kSure) return std::nullopt;
-  return static_cast<int>(degree);
+  const std::optional<Quotient> found = quotient_from_values(t, y);
+  if (!found) return std::nullopt;
+  return static_cast<int>(std::max({found->top.degree(), found->bottom.degree(), 0L}));
 }
 
 /// Orbits of points on a line, one step of all at a time.

@@ -9,7 +9,7 @@
 namespace casimir::discrete {
 
 std::optional<Element> PrimeField::reduce(const cln::cl_RA& number) const {
-  const cln::cl_I prime = cln::cl_I(static_cast<unsigned long>(kPrime));
+  const cln::cl_I prime = cln::cl_I(static_cast<unsigned long>(this->prime()));
   const auto residue = [&](const cln::cl_I& n) {
     return static_cast<Element>(cln::cl_I_to_ulong(cln::mod(n, prime)));
   };
@@ -19,7 +19,8 @@ std::optional<Element> PrimeField::reduce(const cln::cl_RA& number) const {
 }
 
 ModularProgram::ModularProgram(const std::vector<GiNaC::symbol>& symbols,
-                               const std::vector<GiNaC::ex>& functions) {
+                               const std::vector<GiNaC::ex>& functions, Element prime)
+    : field_(prime) {
   for (const GiNaC::symbol& s : symbols)
     known_.emplace(s, add({Kind::symbol, known_.size(), 0, 0}));
   for (const GiNaC::ex& f : functions) results_.push_back(place_of(f));
@@ -41,11 +42,11 @@ std::size_t ModularProgram::place_of(const GiNaC::ex& e) {
 std::size_t ModularProgram::compile(const GiNaC::ex& e) {
   if (GiNaC::is_a<GiNaC::numeric>(e) && e.info(GiNaC::info_flags::rational)) {
     const auto number = cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(e).to_cl_N());
-    const std::optional<Element> value = PrimeField().reduce(number);
-    if (!value) throw ModelError("a number of the map has a multiple of 2^61 - 1 as denominator");
+    const std::optional<Element> value = field_.reduce(number);
+    if (!value) throw ModelError("a number of the map has a multiple of the prime as denominator");
     // It would be no term at all, and the degree another one.
     if (*value == Element{} && !cln::zerop(number))
-      throw ModelError("a number of the map is a multiple of 2^61 - 1");
+      throw ModelError("a number of the map is a multiple of the prime");
     return add({Kind::constant, 0, 0, *value});
   }
   if (GiNaC::is_a<GiNaC::add>(e) || GiNaC::is_a<GiNaC::mul>(e)) {
@@ -65,36 +66,25 @@ std::size_t ModularProgram::compile(const GiNaC::ex& e) {
                   printable(fmt::format("{}", fmt::streamed(e)), 200)));
 }
 
-std::optional<std::vector<Element>> ModularProgram::run(const std::vector<Element>& values) const {
-  const PrimeField field;
-  std::vector<Element> done;
-  done.reserve(operations_.size());
-  for (const Operation& o : operations_) {
-    switch (o.kind) {
-      case Kind::constant:
-        done.push_back(o.value);
-        break;
-      case Kind::symbol:
-        done.push_back(values[o.a]);
-        break;
-      case Kind::sum:
-        done.push_back(field.add(done[o.a], done[o.b]));
-        break;
-      case Kind::product:
-        done.push_back(field.multiply(done[o.a], done[o.b]));
-        break;
-      case Kind::power:
-        done.push_back(field.power(done[o.a], o.b));
-        break;
-      case Kind::inverse:
-        if (done[o.a] == 0) return std::nullopt;
-        done.push_back(field.inverse(done[o.a]));
-        break;
-    }
+namespace {
+
+/// The field as a ring of `run_over`.
+struct Residues {
+  PrimeField field;
+  Element constant(Element a) const { return a; }
+  Element add(Element a, Element b) const { return field.add(a, b); }
+  Element multiply(Element a, Element b) const { return field.multiply(a, b); }
+  Element power(Element a, std::uint64_t n) const { return field.power(a, n); }
+  std::optional<Element> inverse(Element a) const {
+    if (a == 0) return std::nullopt;
+    return field.inverse(a);
   }
-  std::vector<Element> results;
-  for (const std::size_t place : results_) results.push_back(done[place]);
-  return results;
+};
+
+}  // namespace
+
+std::optional<std::vector<Element>> ModularProgram::run(const std::vector<Element>& values) const {
+  return run_over(values, Residues{field_});
 }
 
 }  // namespace casimir::discrete

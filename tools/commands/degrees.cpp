@@ -3,12 +3,15 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "symbolic/discrete/confinement.hpp"
 #include "symbolic/discrete/degrees.hpp"
 #include "symbolic/discrete/growth.hpp"
 #include "tools/cli/case_library.hpp"
@@ -49,15 +52,11 @@ std::string growth_words(const Growth& growth) {
 }
 
 void print_degrees(const std::string& name, const std::vector<int>& degrees, const Growth& growth,
-                   bool kahan, double seconds) {
+                   bool kahan) {
   fmt::print("{}{}: degrees of the iterates on a general line\n", name,
              kahan ? ", Kahan's map" : "");
   fmt::print("  {}\n", fmt::join(degrees, " "));
   fmt::print("growth: {}\n", growth_words(growth));
-  fmt::print(
-      "evidence and no proof: computed modulo 2^61 - 1 for random parameters, and the next degree "
-      "is not known; {:.3f} s\n",
-      seconds);
 }
 
 nlohmann::ordered_json degrees_json(const std::string& name, const std::vector<int>& degrees,
@@ -80,6 +79,60 @@ nlohmann::ordered_json degrees_json(const std::string& name, const std::vector<i
   json["verdict"] = "evidence";
   json["seconds"] = seconds;
   return json;
+}
+
+std::string confinement_words(const discrete::Confinement& found) {
+  using Kind = discrete::Confinement::Kind;
+  int longest = 0;
+  for (const discrete::SingularOrbit& orbit : found.orbits)
+    longest = std::max(longest, orbit.recovered.value_or(found.steps) - orbit.lost + 1);
+  switch (found.kind) {
+    case Kind::none:
+      return "none was met: no hypersurface of the affine space is contracted";
+    case Kind::confined:
+      return fmt::format("confined, after at most {} steps", longest);
+    case Kind::not_confined:
+      return fmt::format("not confined within {} steps", found.steps);
+    case Kind::unclear:
+      break;
+  }
+  return "not clear: no points on them were found, or the map is too large";
+}
+
+/// Beside the growth of the degrees: maps that are confined and have entropy are known.
+void print_confinement(const discrete::Confinement& found, const Growth& growth) {
+  fmt::print("singularities: {}\n", confinement_words(found));
+  for (const discrete::SingularOrbit& orbit : found.orbits)
+    fmt::print("  {} {} lost in iterate {}, {}\n", orbit.points,
+               orbit.points == 1 ? "point:" : "points:", orbit.lost,
+               orbit.recovered ? fmt::format("recovered in iterate {}", *orbit.recovered)
+                               : fmt::format("not recovered up to iterate {}", found.steps));
+  if (found.kind == discrete::Confinement::Kind::confined &&
+      growth.kind == Growth::Kind::exponential)
+    fmt::print(
+        "  confinement alone is no sign of integrability: maps with entropy can be confined, as "
+        "that of Hietarinta and Viallet\n");
+}
+
+void add_confinement(nlohmann::ordered_json& json, const discrete::Confinement& found) {
+  json["confinement"] = to_string(found.kind);
+  json["confinement_steps"] = found.steps;
+  json["singularities"] = nlohmann::ordered_json::array();
+  for (const discrete::SingularOrbit& orbit : found.orbits) {
+    nlohmann::ordered_json row{{"lost", orbit.lost}};
+    if (orbit.recovered) row["recovered"] = *orbit.recovered;
+    row["points"] = orbit.points;
+    json["singularities"].push_back(row);
+  }
+}
+
+/// Where the time is up, what is known of the degrees is still said.
+discrete::Confinement confinement(const std::function<discrete::Confinement()>& find) {
+  try {
+    return find();
+  } catch (const search::NoAnswer&) {
+    return {};
+  }
 }
 
 /// A row of the table of all bundled flows; none for one that Kahan's map is not defined for.
@@ -202,13 +255,26 @@ int degrees(const DegreesArguments& options) {
         map ? discrete::degrees_of_iterates(map_model_of(*map, fixed), request, watch.watch())
             : discrete::degrees_of_kahan_iterates(model_of(std::get<CaseFile>(file), fixed),
                                                   request, watch.watch());
+    const discrete::Confinement singular = confinement([&] {
+      return map ? discrete::confinement_of(map_model_of(*map, fixed), watch.watch())
+                 : discrete::confinement_of_kahan(model_of(std::get<CaseFile>(file), fixed),
+                                                  watch.watch());
+    });
     const double seconds = watch.end();
     const Growth growth = discrete::growth_of(found);
     const std::string name = common_part(file).name;
-    if (options.common.json)
-      print_json(degrees_json(name, found, growth, options.kahan, seconds));
-    else if (!options.common.quiet)
-      print_degrees(name, found, growth, options.kahan, seconds);
+    if (options.common.json) {
+      nlohmann::ordered_json json = degrees_json(name, found, growth, options.kahan, seconds);
+      add_confinement(json, singular);
+      print_json(json);
+    } else if (!options.common.quiet) {
+      print_degrees(name, found, growth, options.kahan);
+      print_confinement(singular, growth);
+      fmt::print(
+          "evidence and no proof: computed modulo primes of 61 bits for random parameters, and the "
+          "next degree is not known; {:.3f} s\n",
+          seconds);
+    }
     return kDone;
   });
 }
@@ -217,8 +283,10 @@ int degrees(const DegreesArguments& options) {
 
 void register_degrees(CLI::App& program, Action& action) {
   auto options = std::make_shared<DegreesArguments>();
-  CLI::App* command = program.add_subcommand(
-      "degrees", "Degree growth of the iterates of a map, as evidence of integrability");
+  CLI::App* command =
+      program.add_subcommand("degrees",
+                             "Degree growth of the iterates of a map, and singularity confinement, "
+                             "as evidence of integrability");
   add_common(*command, options->common);
   command->add_option("CASE", options->case_name, kCaseText);
   add_all(*command, options->all, options->tag, "A table of every bundled flow, with --kahan");

@@ -76,6 +76,14 @@ TEST(MapCommands, DegreesAreEvidence) {
   EXPECT_EQ(euler.at("growth_degree"), 2);
   EXPECT_EQ(euler.at("formula"), "2*n^2 + 1");
   EXPECT_EQ(euler.at("verdict"), "evidence");
+  EXPECT_EQ(euler.at("confinement"), "confined");
+  EXPECT_EQ(euler.at("singularities")[0].at("recovered"), 2);
+  const Outcome viallet = run({"degrees", "-"},
+                              "[phase_space]\nvariables = [\"x\", \"y\"]\n[parameters]\na = {}\n"
+                              "[map]\nx = \"x - y + a/x^2\"\ny = \"x\"\n");
+  EXPECT_TRUE(has(viallet.out, "confined, after at most 4 steps"));
+  EXPECT_TRUE(has(viallet.out, "confinement alone is no sign of integrability"));
+  EXPECT_EQ(run({"degrees", "henon-area-preserving", "--json"}).json().at("confinement"), "none");
   const Json henon = run({"degrees", "henon-area-preserving", "--json"}).json();
   EXPECT_EQ(henon.at("growth"), "exponential");
   EXPECT_EQ(run({"degrees", "euler"}).status, 2);

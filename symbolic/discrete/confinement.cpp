@@ -1,0 +1,241 @@
+#include "symbolic/discrete/confinement.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "symbolic/discrete/series_map.hpp"
+#include "symbolic/discrete/univariate.hpp"
+
+namespace casimir::discrete {
+namespace {
+
+constexpr int kMostSteps = 12;
+
+/// Whether a series has no pole in eps.
+bool is_finite(const Series& s, long shift = 0) {
+  if (s.is_zero() || s.valuation + shift >= 0) return true;
+  if (s.terms.empty()) throw TooFewTerms();
+  return false;
+}
+
+/// The order of a series that is not zero.
+long order(const Series& s) {
+  if (s.terms.empty()) throw TooFewTerms();
+  return s.valuation;
+}
+
+/// An orbit beside a singular point, and the Jacobian matrix of the iterate.
+class Follower {
+ public:
+  Follower(const SeriesMap& map, const SeriesField& field, std::vector<Series> start)
+      : map_(map), field_(field), point_(std::move(start)) {
+    const std::size_t n = point_.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      jacobian_.emplace_back(n);
+      jacobian_[i][i] = field_.constant(1);
+    }
+  }
+
+  /// One more iterate. False where it has no value at all, or where it is too far away to go on.
+  bool step() {
+    constexpr long kFar = 1'000'000'000'000;
+    const auto image = map_(point_, field_);
+    if (!image) return false;
+    SeriesField::Rows own = image->jacobian;
+    const Series determinant = field_.eliminate(own);
+    if (determinant.is_zero()) return false;
+    order_ += order(determinant);
+    jacobian_ = product(image->jacobian, jacobian_);
+    point_ = image->point;
+    return std::ranges::all_of(
+        point_, [](const Series& x) { return x.is_zero() || std::abs(x.valuation) < kFar; });
+  }
+
+  /// See `confinement_of`: d(1/x) = -dx/x^2.
+  bool is_regular() const {
+    long order = order_;
+    bool finite = true;
+    for (std::size_t i = 0; i < point_.size(); ++i) {
+      const long shift = is_finite(point_[i]) ? 0 : -2 * point_[i].valuation;
+      order += shift;
+      for (const Series& entry : jacobian_[i]) finite = is_finite(entry, shift) && finite;
+    }
+    return finite && order == 0;
+  }
+
+ private:
+  SeriesField::Rows product(const SeriesField::Rows& a, const SeriesField::Rows& b) const {
+    SeriesField::Rows result(a.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      for (std::size_t j = 0; j < a.size(); ++j) {
+        Series sum;
+        for (std::size_t k = 0; k < a.size(); ++k)
+          sum = field_.add(sum, field_.multiply(a[i][k], b[k][j]));
+        result[i].push_back(std::move(sum));
+      }
+    }
+    return result;
+  }
+
+  const SeriesMap& map_;
+  const SeriesField& field_;
+  std::vector<Series> point_;
+  SeriesField::Rows jacobian_;
+  long order_ = 0;  ///< of its determinant
+};
+
+/// A line x0 + t v of the space.
+struct RandomLine {
+  std::vector<Element> origin, direction;
+
+  std::vector<Series> near(Element t, const SeriesField& field) const {
+    const PrimeField residues(kSplittingPrime);
+    std::vector<Series> point;
+    for (std::size_t i = 0; i < origin.size(); ++i)
+      point.push_back(
+          field.line(residues.add(origin[i], residues.multiply(t, direction[i])), direction[i]));
+    return point;
+  }
+};
+
+/// What an orbit beside a point loses and recovers.
+SingularOrbit followed(const SeriesMap& map, const SeriesField& field, const RandomLine& line,
+                       Element t) {
+  Follower orbit(map, field, line.near(t, field));
+  SingularOrbit found;
+  for (int k = 1; k <= kMostSteps && orbit.step(); ++k) {
+    const bool regular = orbit.is_regular();
+    if (!regular && found.lost == 0) found.lost = k;
+    if (regular && found.lost > 0) {
+      found.recovered = k;
+      break;
+    }
+  }
+  return found;
+}
+
+/// The same with as many terms as it needs; empty where those are too many.
+std::optional<SingularOrbit> followed(const SeriesMap& map, const RandomLine& line, Element t) {
+  constexpr std::size_t kFirstTerms = 12, kMostTerms = 100;
+  for (std::size_t terms = kFirstTerms; terms < kMostTerms; terms *= 2) {
+    try {
+      return followed(map, SeriesField(terms), line, t);
+    } catch (const TooFewTerms&) {
+      continue;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Where on a line the Jacobian determinant has zeros or poles, or the map poles.
+struct SingularPlaces {
+  std::set<Element> places;
+  bool outside = false;  ///< there are some that are not in the field
+};
+
+void add_zeros(SingularPlaces& found, const Univariate& polynomial) {
+  if (polynomial.degree() <= 0) return;
+  const std::vector<Element> zeros = polynomial.zeros();
+  found.places.insert(zeros.begin(), zeros.end());
+  found.outside = found.outside || zeros.empty();
+}
+
+/// Empty where the degrees are too large; with no places for a map that is not invertible.
+std::optional<SingularPlaces> places_on(const SeriesMap& map, const RandomLine& line,
+                                        const search::Watch& watch) {
+  constexpr std::size_t kFirstPoints = 32, kMostPoints = 4096;
+  const SeriesField constants(1);
+  const PrimeField residues(kSplittingPrime);
+  const std::vector<Element> weights = map.random_point();
+  std::vector<Element> t, determinants, sums;
+  Element next = 1;
+  for (std::size_t points = kFirstPoints; points <= kMostPoints; points *= 2) {
+    for (; t.size() < points && next < 2 * kMostPoints; ++next) {
+      if (next % 16 == 0) watch.tick(static_cast<double>(t.size()) / static_cast<double>(points));
+      std::vector<Series> point;
+      for (std::size_t i = 0; i < line.origin.size(); ++i)
+        point.push_back(constants.constant(
+            residues.add(line.origin[i], residues.multiply(next, line.direction[i]))));
+      auto image = map(point, constants);
+      if (!image) continue;
+      const auto value = [](const Series& s) { return s.terms.empty() ? Element{0} : s.terms[0]; };
+      Element sum = 0;
+      for (std::size_t i = 0; i < weights.size(); ++i)
+        sum = residues.add(sum, residues.multiply(weights[i], value(image->point[i])));
+      t.push_back(next);
+      sums.push_back(sum);
+      determinants.push_back(value(constants.eliminate(image->jacobian)));
+    }
+    const auto determinant = quotient_from_values(t, determinants, kSplittingPrime);
+    const auto coordinate = quotient_from_values(t, sums, kSplittingPrime);
+    if (!determinant || !coordinate) continue;
+    SingularPlaces found;
+    add_zeros(found, determinant->top);
+    add_zeros(found, determinant->bottom);
+    add_zeros(found, coordinate->bottom);
+    return found;
+  }
+  return std::nullopt;
+}
+
+Confinement judged(SeriesMap map, const search::Watch& watch) {
+  constexpr int kLines = 6;
+  constexpr std::size_t kMostOrbits = 40;
+  Confinement result;
+  result.steps = kMostSteps;
+  std::map<std::pair<int, int>, int> seen;  // by `lost` and `recovered` or 0
+  std::size_t orbits = 0;
+  bool outside = false, inside = false;
+  watch.begin("singularities");
+  for (int k = 0; k < kLines && orbits < kMostOrbits; ++k) {
+    map.choose_parameters();
+    const RandomLine line{map.random_point(), map.random_point()};
+    const std::optional<SingularPlaces> found = places_on(map, line, watch);
+    if (!found) return result;
+    outside = outside || found->outside;
+    for (const Element t : found->places) {
+      if (++orbits > kMostOrbits) break;
+      watch.tick(static_cast<double>(k) / kLines);
+      const std::optional<SingularOrbit> orbit = followed(map, line, t);
+      if (!orbit) return result;
+      inside = true;
+      if (orbit->lost > 0) ++seen[{orbit->lost, orbit->recovered.value_or(0)}];
+    }
+  }
+  if (outside && !inside) return result;
+  result.kind = seen.empty() ? Confinement::Kind::none : Confinement::Kind::confined;
+  for (const auto& [key, points] : seen) {
+    if (key.second == 0) result.kind = Confinement::Kind::not_confined;
+    result.orbits.push_back(
+        {key.first, key.second == 0 ? std::nullopt : std::optional(key.second), points});
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string to_string(Confinement::Kind kind) {
+  switch (kind) {
+    case Confinement::Kind::none:
+      return "none";
+    case Confinement::Kind::confined:
+      return "confined";
+    case Confinement::Kind::not_confined:
+      return "not_confined";
+    case Confinement::Kind::unclear:
+      break;
+  }
+  return "unclear";
+}
+
+Confinement confinement_of(const MapModel& map, const search::Watch& watch) {
+  return judged(SeriesMap(map), watch);
+}
+
+Confinement confinement_of_kahan(const Model& flow, const search::Watch& watch) {
+  return judged(SeriesMap::kahan(flow), watch);
+}
+
+}  // namespace casimir::discrete
