@@ -281,6 +281,12 @@ MapCaseFile Reader::map_case(const toml::table& root, CaseFile file) const {
                                  entries(required(symmetry, "expressions", what), "'expressions'"),
                                  boolean(symmetry, "reverses")});
   });
+  each(root, "conjugacy", [&](const toml::table& conjugacy, const std::string& what) {
+    allow(conjugacy, what, {"name", "expressions", "map", "reverses"});
+    result.conjugacies.push_back(
+        {name(conjugacy, what), entries(required(conjugacy, "expressions", what), "'expressions'"),
+         entries(required(conjugacy, "map", what), "'map'"), boolean(conjugacy, "reverses")});
+  });
   result.file = std::move(file);
   return result;
 }
@@ -289,7 +295,7 @@ AnyCaseFile Reader::read(const toml::table& root) {
   read_integers(root);
   CaseFile file = read_common(root);
   if (gives_next_values(root)) return map_case(root, std::move(file));
-  for (const char* key : {"map_sign", "symmetry"}) {
+  for (const char* key : {"map_sign", "symmetry", "conjugacy"}) {
     if (const toml::node* node = root.get(key))
       fail(node->source(), fmt::format("'{}' needs a table [map] with the next values", key));
   }

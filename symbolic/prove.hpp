@@ -34,6 +34,7 @@ enum class ClaimKind {
   independence,
   rank,
   liouville,
+  conjugacy,  ///< of the case's map to another one
   judgement,  ///< what else is known of a candidate; its findings say
 };
 

@@ -56,6 +56,8 @@ class Builder {
     for (const SymmetryText& text : map.symmetries) {
       if (!changes_fixed(text)) result.symmetries.push_back(read_symmetry(text));
     }
+    for (const ConjugacyText& text : map.conjugacies)
+      result.conjugacies.push_back(read_conjugacy(text));
     for (const MeasureText& text : file_.measures) {
       if (text.every_hamiltonian)
         throw text.density.error("'every_hamiltonian' is about flows, and this is a map");
@@ -141,6 +143,47 @@ class Builder {
               name.value, x.get_name()));
       }
       (i < n ? result.variables[i] : result.parameters[i - n]) = quantity.value;
+    }
+    return result;
+  }
+
+  /// The names of the other map's variables, which mean nothing else in this case.
+  std::vector<GiNaC::symbol> other_variables(const ConjugacyText& text) {
+    PhaseSpaceText space;
+    space.where = text.name.where;
+    for (const Entry& entry : text.map) space.variables.push_back(entry.first);
+    for (const Text& name : space.variables) {
+      if (names_.find(name.value))
+        throw name.error(fmt::format(
+            "'{}' is a name of this case: the variables of the other map need names of their own",
+            name.value));
+    }
+    std::vector<GiNaC::symbol> result = make_variables(space, file_.limits);
+    if (result.size() != model_.variables.size())
+      throw text.name.error(
+          fmt::format("the other map has {} variables and this one {}: a conjugacy is invertible",
+                      result.size(), model_.variables.size()));
+    return result;
+  }
+
+  MapConjugacy read_conjugacy(const ConjugacyText& text) {
+    MapConjugacy result;
+    result.name = text.name.value;
+    result.reverses = text.reverses;
+    result.coordinates = other_variables(text);
+    const std::string what = "a variable of the other map";
+    result.expressions = all_components(text.name, text.expressions, result.coordinates, names_,
+                                        what, result.domain);
+    ExtendedNames others(names_, result.coordinates);
+    result.map =
+        all_components(text.name, text.map, result.coordinates, others, what, result.map_domain);
+    std::vector<ex> written = result.map;
+    written.insert(written.end(), result.map_domain.begin(), result.map_domain.end());
+    for (const GiNaC::symbol& x : model_.variables) {
+      if (std::ranges::any_of(written, [&](const ex& part) { return part.has(x); }))
+        throw text.name.error(fmt::format(
+            "the other map uses '{}', a variable of this case, and not its own variables alone",
+            x.get_name()));
     }
     return result;
   }

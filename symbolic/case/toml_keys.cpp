@@ -52,7 +52,7 @@ const std::vector<std::string>& root_keys() {
       "casimirs",    "integrals",  "equations",   "conditional", "invariant_relation",
       "lax",         "map",        "measure",     "identity",    "section",
       "scene",       "map_sign",   "map_step",    "symmetry",    "superintegrable",
-      "functions"};
+      "functions",   "conjugacy"};
   return keys;
 }
 

@@ -19,6 +19,15 @@ struct SymmetryText {
   bool reverses = false;
 };
 
+/// A change of variables y = phi(x) that takes the case's map F into a map G of y, which is written
+/// out: phi F = G phi, or (`reverses`) G phi F = phi, so that F becomes the inverse of G.
+struct ConjugacyText {
+  Text name;
+  std::vector<Entry> expressions;  ///< y by x
+  std::vector<Entry> map;          ///< next y by y: its keys are the names of y
+  bool reverses = false;
+};
+
 /// A case file with a table [map], the next values, in place of equations of motion; or with tables
 /// [[map_step]] that are done one after the other.
 struct MapCaseFile {
@@ -28,6 +37,7 @@ struct MapCaseFile {
   std::vector<std::vector<Entry>> steps;  ///< variables that a step does not give stay as they are
   std::optional<Text> sign;  ///< `map_sign`: "-" where the map is claimed to be anti-Poisson
   std::vector<SymmetryText> symmetries;
+  std::vector<ConjugacyText> conjugacies{};
 
   /// That a flow is needed where this case was given.
   CaseError not_a_flow() const;

@@ -275,35 +275,31 @@ std::vector<ex> at_image(const MapModel& map, const MapSymmetry& symmetry,
 
 namespace {
 
-/// The derivatives of S by variables and parameters.
-PolynomialRows jacobian_of(Prover& prover, const MapModel& map, const MapSymmetry& symmetry) {
+/// The derivatives of functions by symbols.
+PolynomialRows derivatives_of(Prover& prover, const std::vector<ex>& functions,
+                              const std::vector<GiNaC::symbol>& by) {
   const FunctionRing& ring = prover.ring();
-  std::vector<std::size_t> places;
-  for (const auto* list : {&map.base.variables, &map.base.parameters}) {
-    for (const GiNaC::symbol& s : *list) {
+  PolynomialRows rows;
+  for (const ex& value : functions) {
+    auto& row = rows.emplace_back();
+    for (const GiNaC::symbol& s : by) {
       const auto place = std::ranges::find_if(
           ring.symbols(), [&](const GiNaC::symbol& other) { return other.is_equal(s); });
-      places.push_back(static_cast<std::size_t>(place - ring.symbols().begin()));
-    }
-  }
-  PolynomialRows rows;
-  for (const auto* list : {&symmetry.variables, &symmetry.parameters}) {
-    for (const ex& value : *list) {
-      auto& row = rows.emplace_back();
-      for (const std::size_t place : places)
-        row.push_back(ring.derivative(prover.convert(value), place));
+      row.push_back(ring.derivative(prover.convert(value),
+                                    static_cast<std::size_t>(place - ring.symbols().begin())));
     }
   }
   return rows;
 }
 
-/// Hypothesis of a symmetry: S is a local diffeomorphism near almost all points, by the theorem on
-/// inverse functions where its Jacobian determinant is zero on no piece of its domain. Without it a
-/// constant S, to a fixed point, would be a symmetry of every map, and a reversal too.
-void judge_invertible(Prover& prover, Proof& proof, const MapModel& map,
-                      const MapSymmetry& symmetry) {
+/// Hypothesis of a symmetry and of a conjugacy S: it is a local diffeomorphism near almost all
+/// points, by the theorem on inverse functions where its Jacobian determinant is zero on no piece
+/// of its domain. Without it a constant S, to a fixed point, would be a symmetry of every map, a
+/// reversal too, and a conjugacy to every map.
+void judge_invertible(Prover& prover, Proof& proof, const std::string& name,
+                      const std::vector<ex>& functions, const std::vector<GiNaC::symbol>& by) {
   if (proof.verdict != Verdict::proved) return;
-  const PolynomialRows rows = jacobian_of(prover, map, symmetry);
+  const PolynomialRows rows = derivatives_of(prover, functions, by);
   const auto found = rank_with_conditions(prover, rows);
   if (found && found->uneven.empty() && found->exact && found->rank == rows.size()) {
     proof.where.insert(proof.where.end(), found->nonzero.begin(), found->nonzero.end());
@@ -315,8 +311,8 @@ void judge_invertible(Prover& prover, Proof& proof, const MapModel& map,
   proof.reason = singular ? fmt::format(
                                 "'{}' is not invertible: the rank of its Jacobian matrix is {}, "
                                 "not {}",
-                                symmetry.name, found->rank, rows.size())
-                          : fmt::format("'{}' is not shown to be invertible", symmetry.name);
+                                name, found->rank, rows.size())
+                          : fmt::format("'{}' is not shown to be invertible", name);
 }
 
 std::string symmetry_name(const MapSymmetry& symmetry) {
@@ -340,7 +336,11 @@ Claim whole_symmetry_claim(const MapModel& map, const MapSymmetry& symmetry) {
                   residuals.push_back(
                       difference(prover, map.base.variables[i].get_name(), left[i] - right[i]));
                 prover.decide(proof, residuals, {});
-                judge_invertible(prover, proof, map, symmetry);
+                std::vector<ex> images = symmetry.variables;
+                images.insert(images.end(), symmetry.parameters.begin(), symmetry.parameters.end());
+                std::vector<GiNaC::symbol> by = map.base.variables;
+                by.insert(by.end(), map.base.parameters.begin(), map.base.parameters.end());
+                judge_invertible(prover, proof, symmetry.name, images, by);
               }};
   claim.expressions = domain_of(map, {});
   std::vector<ex> parts = at_image(map, symmetry, map.next_domain);
@@ -362,6 +362,60 @@ Claim whole_symmetry_claim(const MapModel& map, const MapSymmetry& symmetry) {
 Claim symmetry_claim(const MapModel& map, const MapSymmetry& symmetry) {
   return or_without_value(ClaimKind::map, symmetry_name(symmetry),
                           [&] { return whole_symmetry_claim(map, symmetry); });
+}
+
+namespace {
+
+/// phi at the points that the map leads to, and the other map and what it is defined by at phi.
+struct Conjugated {
+  std::vector<ex> after, other, other_domain;
+};
+
+Conjugated conjugated(const MapModel& map, const MapConjugacy& conjugacy) {
+  Conjugated result;
+  for (const ex& y : conjugacy.expressions) result.after.push_back(map.composed(y));
+  GiNaC::exmap at;
+  for (std::size_t i = 0; i < conjugacy.coordinates.size(); ++i)
+    at[conjugacy.coordinates[i]] = conjugacy.reverses ? result.after[i] : conjugacy.expressions[i];
+  for (const ex& y : conjugacy.map) result.other.push_back(substituted(y, at, map.base.limits));
+  for (const ex& part : conjugacy.map_domain)
+    result.other_domain.push_back(substituted(part, at, map.base.limits));
+  return result;
+}
+
+/// phi(F(x)) = G(phi(x)), or G(phi(F(x))) = phi(x), where both sides have values, and phi is
+/// invertible.
+Claim whole_conjugacy_claim(const MapModel& map, const MapConjugacy& conjugacy) {
+  const Conjugated at = conjugated(map, conjugacy);
+  const std::vector<ex>& expected = conjugacy.reverses ? conjugacy.expressions : at.after;
+  Claim claim{
+      ClaimKind::conjugacy, conjugacy.name, false,
+      [&map, conjugacy, expected, other = at.other](Prover& prover, Proof& proof) {
+        std::vector<Residual> residuals;
+        for (std::size_t i = 0; i < other.size(); ++i)
+          residuals.push_back(
+              difference(prover, conjugacy.coordinates[i].get_name(), expected[i] - other[i]));
+        prover.decide(proof, residuals, {});
+        judge_invertible(prover, proof, conjugacy.name, conjugacy.expressions, map.base.variables);
+      }};
+  claim.expressions = domain_of(map, {});
+  for (const auto* list : {&conjugacy.expressions, &conjugacy.domain}) {
+    for (const ex& part : *list) {
+      claim.expressions.push_back(part);
+      claim.expressions.push_back(map.composed(part));
+    }
+  }
+  for (const auto* list : {&at.other, &at.other_domain})
+    claim.expressions.insert(claim.expressions.end(), list->begin(), list->end());
+  claim.subject = Subject::functions;
+  return claim;
+}
+
+}  // namespace
+
+Claim conjugacy_claim(const MapModel& map, const MapConjugacy& conjugacy) {
+  return or_without_value(ClaimKind::conjugacy, conjugacy.name,
+                          [&] { return whole_conjugacy_claim(map, conjugacy); });
 }
 
 std::vector<Claim> liouville_claims(const MapModel& map) {

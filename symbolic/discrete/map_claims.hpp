@@ -18,6 +18,7 @@ Claim casimir_claim(const MapModel& map, const NamedExpression& f,
                     const std::vector<NamedExpression>& on);
 Claim poisson_claim(const MapModel& map);
 Claim symmetry_claim(const MapModel& map, const MapSymmetry& symmetry);
+Claim conjugacy_claim(const MapModel& map, const MapConjugacy& conjugacy);
 /// }
 
 /// Those that the case file has, for their rows in `claim_kinds.cpp`.
@@ -28,6 +29,7 @@ std::vector<Claim> conditional_claims(const MapModel& map);
 std::vector<Claim> invariant_relation_claims(const MapModel& map);
 std::vector<Claim> measure_claims(const MapModel& map);
 std::vector<Claim> symmetry_claims(const MapModel& map);
+std::vector<Claim> conjugacy_claims(const MapModel& map);
 /// }
 
 /// Enough integrals in involution, of a Poisson map that is shown to keep them: then it is a shift

@@ -19,6 +19,17 @@ struct MapSymmetry {
   std::vector<GiNaC::ex> domain{};  ///< as of NamedExpression
 };
 
+/// See ConjugacyText.
+struct MapConjugacy {
+  std::string name;
+  std::vector<GiNaC::symbol> coordinates;  ///< y, as many as there are variables
+  std::vector<GiNaC::ex> expressions;      ///< phi, one for each
+  std::vector<GiNaC::ex> map;              ///< G, one for each, over the coordinates
+  bool reverses = false;
+  std::vector<GiNaC::ex> domain{};      ///< of phi, as of NamedExpression
+  std::vector<GiNaC::ex> map_domain{};  ///< of G, over the coordinates
+};
+
 /// A case whose motion is a map x -> x', made mathematical.
 struct MapModel {
   /// All but the motion: it has no Hamiltonian, and `field` is empty. Its casimirs are functions
@@ -29,6 +40,7 @@ struct MapModel {
   std::vector<GiNaC::ex> next_domain;  ///< of these, as of NamedExpression
   int sign = 1;                        ///< -1: claimed to be anti-Poisson
   std::vector<MapSymmetry> symmetries;
+  std::vector<MapConjugacy> conjugacies{};
   /// Maps of which this one is the composition, the first one first; empty for a single one. It has
   /// a value where all of them have.
   std::vector<MapModel> steps{};

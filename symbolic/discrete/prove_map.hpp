@@ -19,6 +19,7 @@ namespace casimir {
 ///   conditional         the level is invariant in this sense, and F(x') = F(x) on it
 ///   measure             rho(x') det(dx'/dx) = rho(x) or -rho(x)
 ///   map                 {x'_i, x'_j} = +-{x_i, x_j} at x'; symmetries and reversals
+///   conjugacy           phi(x') = G(phi(x)), or G(phi(x')) = phi(x), and phi is invertible
 ///
 /// \throws CaseError   for a candidate that cannot be read
 /// \throws ModelError  for a case that has no meaning, as a division by zero

@@ -53,4 +53,11 @@ std::vector<Claim> symmetry_claims(const MapModel& map) {
   return claims;
 }
 
+std::vector<Claim> conjugacy_claims(const MapModel& map) {
+  std::vector<Claim> claims;
+  for (const MapConjugacy& conjugacy : map.conjugacies)
+    claims.push_back(conjugacy_claim(map, conjugacy));
+  return claims;
+}
+
 }  // namespace casimir::discrete

@@ -310,6 +310,14 @@ SystemView view_of(const MapModel& map, Notation& notation) {
     add(map.base.variables, symmetry.variables);
     add(map.base.parameters, symmetry.parameters);
   }
+  for (const MapConjugacy& conjugacy : map.conjugacies) {
+    FormulaGroup& group = view.claims.emplace_back();
+    group.title =
+        (conjugacy.reverses ? "conjugacy to an inverse, " : "conjugacy ") + conjugacy.name;
+    for (std::size_t i = 0; i < conjugacy.coordinates.size(); ++i)
+      group.formulas.push_back(
+          {notation.name(conjugacy.coordinates[i]), notation.components(conjugacy.expressions[i])});
+  }
   return view;
 }
 

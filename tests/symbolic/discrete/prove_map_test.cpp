@@ -24,11 +24,59 @@ Verdict verdict_of(const MapModel& map, ClaimKind kind, const std::string& name 
 const std::string kPlane = "[phase_space]\nvariables = [\"x\", \"y\"]\n";
 
 TEST(ProveMap, EveryBundledMapIsProved) {
-  for (const char* name : {"discrete-lagrange", "discrete-neumann", "henon-area-preserving",
-                           "kahan-clebsch", "kahan-euler", "lyness", "mcmillan", "qrt"}) {
+  for (const char* name :
+       {"discrete-lagrange", "discrete-neumann", "henon-area-preserving", "kahan-clebsch",
+        "kahan-euler", "lyness", "mcmillan", "moser-veselov", "qrt"}) {
     const MapModel map = bundled_map(name);
     EXPECT_EQ(overall(map.base, prove_map(map)), Verdict::proved) << name;
   }
+}
+
+/// A shear of the plane beside a conjugacy of it.
+MapModel sheared(const std::string& expressions, const std::string& other,
+                 const std::string& more = "") {
+  return map_of(kPlane + "[parameters]\na = {}\n[map]\nx = \"x + y\"\ny = \"y + a*(x + y)\"\n" +
+                "[[conjugacy]]\nname = \"c\"\nexpressions = { " + expressions + " }\nmap = { " +
+                other + " }\n" + more);
+}
+
+TEST(ProveMap, AConjugacyTakesOneMapIntoAnother) {
+  // x+ + x- = (2 + a) x, with X = x and Y the x before, (1 + a) x - y.
+  const std::string change = "X = \"x\", Y = \"(1 + a)*x - y\"";
+  const std::string recurrence = "X = \"(2 + a)*X - Y\", Y = \"X\"";
+  EXPECT_EQ(verdict_of(sheared(change, recurrence), ClaimKind::conjugacy), Verdict::proved);
+  const Proof wrong =
+      proof_of(sheared(change, "X = \"(1 + a)*X - Y\", Y = \"X\""), ClaimKind::conjugacy);
+  EXPECT_EQ(wrong.verdict, Verdict::refuted);
+  EXPECT_TRUE(wrong.witness);
+  // Into the inverse: backwards the next X is the Y of now.
+  const std::string backwards = "X = \"Y\", Y = \"(2 + a)*Y - X\"";
+  EXPECT_EQ(verdict_of(sheared(change, backwards, "reverses = true\n"), ClaimKind::conjugacy),
+            Verdict::proved);
+  EXPECT_EQ(verdict_of(sheared(change, backwards), ClaimKind::conjugacy), Verdict::refuted);
+}
+
+/// A constant is carried into any map that has it as a fixed point.
+TEST(ProveMap, AConjugacyIsInvertible) {
+  const Proof constant =
+      proof_of(sheared("X = \"0\", Y = \"0\"", "X = \"X*Y\", Y = \"X^2\""), ClaimKind::conjugacy);
+  EXPECT_EQ(constant.verdict, Verdict::refuted);
+  EXPECT_NE(constant.reason.find("not invertible"), std::string::npos);
+  // x and 2 x obey the same recurrence: a line in the plane of X, Y.
+  EXPECT_EQ(
+      verdict_of(map_of(kPlane + "[map]\nx = \"2*x\"\ny = \"y/3\"\n[[conjugacy]]\nname = "
+                                 "\"c\"\nexpressions = { X = \"x\", Y = \"2*x\" }\nmap = { X = "
+                                 "\"2*X\", Y = \"2*Y\" }\n"),
+                 ClaimKind::conjugacy),
+      Verdict::refuted);
+}
+
+TEST(ProveMap, AConjugacyThatCannotBeReadIsRefused) {
+  const std::string change = "X = \"x\", Y = \"(1 + a)*x - y\"";
+  EXPECT_THROW(sheared("X = \"x\"", "X = \"X\""), CaseError);
+  EXPECT_THROW(sheared(change, "X = \"x\", Y = \"Y\""), CaseError);
+  EXPECT_THROW(sheared("a = \"x\", Y = \"y\"", "a = \"a\", Y = \"Y\""), CaseError);
+  EXPECT_THROW(sheared("x = \"x\", Y = \"y\"", "x = \"x\", Y = \"Y\""), CaseError);
 }
 
 TEST(ProveMap, InversesOfTheBundledMapsAreFoundAndProved) {

@@ -64,6 +64,7 @@ constexpr std::array kClaimWords{
     ClaimWords{ClaimKind::independence, "independence", "independences", plain_finding},
     ClaimWords{ClaimKind::rank, "rank", "ranks", plain_finding},
     ClaimWords{ClaimKind::liouville, "count of integrals", "counts of integrals", plain_finding},
+    ClaimWords{ClaimKind::conjugacy, "conjugacy", "conjugacies", plain_finding},
     ClaimWords{ClaimKind::judgement, "judgement", "judgements", plain_finding},
 };
 
