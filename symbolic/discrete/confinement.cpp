@@ -1,6 +1,7 @@
 #include "symbolic/discrete/confinement.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <utility>
@@ -38,9 +39,8 @@ class Follower {
     }
   }
 
-  /// One more iterate. False where it has no value at all, or where it is too far away to go on.
+  /// One more iterate. False where it has no value.
   bool step() {
-    constexpr long kFar = 1'000'000'000'000;
     const auto image = map_(point_, field_);
     if (!image) return false;
     SeriesField::Rows own = image->jacobian;
@@ -49,8 +49,15 @@ class Follower {
     order_ += order(determinant);
     jacobian_ = product(image->jacobian, jacobian_);
     point_ = image->point;
-    return std::ranges::all_of(
-        point_, [](const Series& x) { return x.is_zero() || std::abs(x.valuation) < kFar; });
+    return true;
+  }
+
+  /// Whether the orders in eps are so large that the next ones would not fit a word.
+  bool is_far() const {
+    constexpr long kFar = 1'000'000'000'000;
+    return std::ranges::any_of(point_, [](const Series& x) {
+      return !x.is_zero() && (x.valuation > kFar || x.valuation < -kFar);
+    });
   }
 
   /// See `confinement_of`: d(1/x) = -dx/x^2.
@@ -100,16 +107,18 @@ struct RandomLine {
   }
 };
 
-/// What an orbit beside a point loses and recovers.
-SingularOrbit followed(const SeriesMap& map, const SeriesField& field, const RandomLine& line,
-                       Element t) {
+/// What an orbit beside a point loses and recovers; empty where it ends.
+std::optional<SingularOrbit> followed(const SeriesMap& map, const SeriesField& field,
+                                      const RandomLine& line, Element t) {
   Follower orbit(map, field, line.near(t, field));
   SingularOrbit found;
-  for (int k = 1; k <= kMostSteps && orbit.step(); ++k) {
+  while (found.until < kMostSteps && !orbit.is_far()) {
+    if (!orbit.step()) return std::nullopt;
+    ++found.until;
     const bool regular = orbit.is_regular();
-    if (!regular && found.lost == 0) found.lost = k;
+    if (!regular && found.lost == 0) found.lost = found.until;
     if (regular && found.lost > 0) {
-      found.recovered = k;
+      found.recovered = found.until;
       break;
     }
   }
@@ -142,7 +151,30 @@ void add_zeros(SingularPlaces& found, const Univariate& polynomial) {
   found.outside = found.outside || zeros.empty();
 }
 
-/// Empty where the degrees are too large; with no places for a map that is not invertible.
+/// The image of a point of the field and the determinant there; empty where there is none. A number
+/// whose one term cancels is zero.
+std::optional<std::pair<std::vector<Element>, Element>> image_of(const SeriesMap& map,
+                                                                 const std::vector<Series>& point) {
+  const SeriesField constants(1);
+  const auto value = [](const Series& s) { return s.terms.empty() ? Element{0} : s.terms[0]; };
+  std::optional<SeriesMap::Image> image;
+  try {
+    image = map(point, constants);
+  } catch (const TooFewTerms&) {
+    return std::nullopt;
+  }
+  if (!image) return std::nullopt;
+  std::pair<std::vector<Element>, Element> result;
+  for (const Series& x : image->point) result.first.push_back(value(x));
+  try {
+    result.second = value(constants.eliminate(image->jacobian));
+  } catch (const TooFewTerms&) {
+    result.second = 0;
+  }
+  return result;
+}
+
+/// Empty where the degrees are too large, and for a map that is invertible nowhere.
 std::optional<SingularPlaces> places_on(const SeriesMap& map, const RandomLine& line,
                                         const search::Watch& watch) {
   constexpr std::size_t kFirstPoints = 32, kMostPoints = 4096;
@@ -158,19 +190,19 @@ std::optional<SingularPlaces> places_on(const SeriesMap& map, const RandomLine& 
       for (std::size_t i = 0; i < line.origin.size(); ++i)
         point.push_back(constants.constant(
             residues.add(line.origin[i], residues.multiply(next, line.direction[i]))));
-      auto image = map(point, constants);
+      const auto image = image_of(map, point);
       if (!image) continue;
-      const auto value = [](const Series& s) { return s.terms.empty() ? Element{0} : s.terms[0]; };
       Element sum = 0;
       for (std::size_t i = 0; i < weights.size(); ++i)
-        sum = residues.add(sum, residues.multiply(weights[i], value(image->point[i])));
+        sum = residues.add(sum, residues.multiply(weights[i], image->first[i]));
       t.push_back(next);
       sums.push_back(sum);
-      determinants.push_back(value(constants.eliminate(image->jacobian)));
+      determinants.push_back(image->second);
     }
     const auto determinant = quotient_from_values(t, determinants, kSplittingPrime);
     const auto coordinate = quotient_from_values(t, sums, kSplittingPrime);
     if (!determinant || !coordinate) continue;
+    if (determinant->top.is_zero()) return std::nullopt;
     SingularPlaces found;
     add_zeros(found, determinant->top);
     add_zeros(found, determinant->bottom);
@@ -185,7 +217,7 @@ Confinement judged(SeriesMap map, const search::Watch& watch) {
   constexpr std::size_t kMostOrbits = 40;
   Confinement result;
   result.steps = kMostSteps;
-  std::map<std::pair<int, int>, int> seen;  // by `lost` and `recovered` or 0
+  std::map<std::array<int, 3>, int> seen;  // by `lost`, `recovered` or 0, and `until`
   std::size_t orbits = 0;
   bool outside = false, inside = false;
   watch.begin("singularities");
@@ -201,15 +233,17 @@ Confinement judged(SeriesMap map, const search::Watch& watch) {
       const std::optional<SingularOrbit> orbit = followed(map, line, t);
       if (!orbit) return result;
       inside = true;
-      if (orbit->lost > 0) ++seen[{orbit->lost, orbit->recovered.value_or(0)}];
+      if (orbit->lost > 0) ++seen[{orbit->lost, orbit->recovered.value_or(0), orbit->until}];
     }
   }
   if (outside && !inside) return result;
   result.kind = seen.empty() ? Confinement::Kind::none : Confinement::Kind::confined;
   for (const auto& [key, points] : seen) {
-    if (key.second == 0) result.kind = Confinement::Kind::not_confined;
+    const auto [lost, recovered, until] = key;
+    if (recovered == 0) result.kind = Confinement::Kind::not_confined;
     result.orbits.push_back(
-        {key.first, key.second == 0 ? std::nullopt : std::optional(key.second), points});
+        {lost, recovered == 0 ? std::nullopt : std::optional(recovered), until, points});
+    if (recovered == 0) result.steps = std::min(result.steps, until);
   }
   return result;
 }

@@ -14,6 +14,7 @@ namespace casimir::discrete {
 struct SingularOrbit {
   int lost = 0;                  ///< the first iterate that is not locally invertible there
   std::optional<int> recovered;  ///< the first one after it that is; empty: none was seen
+  int until = 0;                 ///< the last iterate that was looked at
   int points = 0;                ///< that did so
 };
 
@@ -23,11 +24,12 @@ struct Confinement {
     none,          ///< no iterate lost anything
     confined,      ///< what was lost came back in every orbit
     not_confined,  ///< in some orbit it did not within the steps
-    unclear        ///< too few terms of the series, too large degrees, or no points over the field
+    unclear  ///< too few terms of the series, too large degrees, no points over the field, or a
+             ///< map that is invertible nowhere
   };
   Kind kind = Kind::unclear;
   std::vector<SingularOrbit> orbits;  ///< those that lost something, by `lost` and `recovered`
-  int steps = 0;                      ///< that orbits are followed
+  int steps = 0;                      ///< that every orbit was followed, if it recovered nothing
 };
 
 /// "none", "confined", "not_confined" or "unclear".

@@ -96,7 +96,8 @@ std::string confinement_words(const discrete::Confinement& found) {
     case Kind::unclear:
       break;
   }
-  return "not clear: no points on them were found, or the map is too large";
+  return "not clear: no points on them were found, the map is too large, or it is invertible "
+         "nowhere";
 }
 
 /// Beside the growth of the degrees: maps that are confined and have entropy are known.
@@ -106,7 +107,7 @@ void print_confinement(const discrete::Confinement& found, const Growth& growth)
     fmt::print("  {} {} lost in iterate {}, {}\n", orbit.points,
                orbit.points == 1 ? "point:" : "points:", orbit.lost,
                orbit.recovered ? fmt::format("recovered in iterate {}", *orbit.recovered)
-                               : fmt::format("not recovered up to iterate {}", found.steps));
+                               : fmt::format("not recovered up to iterate {}", orbit.until));
   if (found.kind == discrete::Confinement::Kind::confined &&
       growth.kind == Growth::Kind::exponential)
     fmt::print(
@@ -121,6 +122,7 @@ void add_confinement(nlohmann::ordered_json& json, const discrete::Confinement& 
   for (const discrete::SingularOrbit& orbit : found.orbits) {
     nlohmann::ordered_json row{{"lost", orbit.lost}};
     if (orbit.recovered) row["recovered"] = *orbit.recovered;
+    row["until"] = orbit.until;
     row["points"] = orbit.points;
     json["singularities"].push_back(row);
   }

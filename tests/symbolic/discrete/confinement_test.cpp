@@ -67,6 +67,19 @@ TEST(Confinement, OfAnInvertiblePolynomialMapThereIsNothingToConfine) {
   EXPECT_EQ(confinement_of(plane("2*x + y", "x")).kind, Kind::none);
 }
 
+/// Its determinant has no zeros, since it is zero everywhere.
+TEST(Confinement, OfAMapThatIsInvertibleNowhereNothingIsSaid) {
+  EXPECT_EQ(confinement_of(plane("x*y", "x*y")).kind, Kind::unclear);
+}
+
+/// Poles whose orders grow by a factor of about thirty in a step.
+TEST(Confinement, SaysHowFarItLooked) {
+  const Confinement found = confinement_of(plane("-y + x^31 + a/x", "x"));
+  ASSERT_EQ(found.kind, Kind::not_confined);
+  EXPECT_LT(found.steps, 12);
+  for (const auto& orbit : found.orbits) EXPECT_GE(orbit.until, found.steps);
+}
+
 /// Both ways to Kahan's map.
 TEST(Confinement, OfKahansMap) {
   const Confinement flow = discrete::confinement_of_kahan(bundled("euler"));
