@@ -3,22 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
-#include <numeric>
 
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/case/limits.hpp"
 #include "symbolic/functions/short_text.hpp"
+#include "symbolic/search/darboux_equations.hpp"
 #include "symbolic/search/darboux_integrals.hpp"
-#include "symbolic/search/modular/monomials.hpp"
 #include "symbolic/search/polynomial_system.hpp"
-#include "symbolic/search/quasi_homogeneous.hpp"
-#include "symbolic/search/system.hpp"
 
 namespace casimir::search {
 namespace {
-
-using Exponents = std::vector<unsigned long>;
 
 class DarbouxSearch {
  public:
@@ -26,8 +20,6 @@ class DarbouxSearch {
   DarbouxReport run();
 
  private:
-  void find_grading();
-  int weight(const Monomials& list, std::size_t i) const;
   void search_from(std::size_t leading);
   void look_for_pencils();
   void leave_open(const std::string& reason) {
@@ -35,127 +27,21 @@ class DarbouxSearch {
     report_.reason = reason;
   }
   bool set_cofactor(DarbouxPolynomial& result, const Polynomial& function);
-  int degree_in_coordinates(const Polynomial& p) const;
-  std::optional<Polynomial> irreducible(const Polynomial& p) const;
+  bool follows_from_others(const Branch& branch, const Polynomial& function) const;
   void add(const Branch& branch, const Polynomial& f, const Polynomial& k);
-  Polynomial in_own_ring(const Polynomial& p) const;
-  Polynomial monomial(const Monomials& list, std::size_t i) const;
-  std::vector<Polynomial> coefficients(const Polynomial& p) const;
-  std::optional<Polynomial> in_system_ring(const Polynomial& p) const;
 
   const Model& model_;
   const Watch& watch_;
-  System system_;
-  std::size_t dimension_;
-  Monomials monomials_, cofactor_monomials_;
-  std::size_t first_f_, first_k_;
-  /// Where the whole field is quasi-homogeneous: then the cofactor has the weight of 1/t, and the
-  /// parts of one weight of a Darboux polynomial are some themselves, all with its cofactor.
-  std::optional<Weights> weights_;
-  PolynomialRing ring_;  ///< that of the system, the coefficients of F and those of the cofactor
-  std::vector<Polynomial> field_;
+  DarbouxEquations equations_;
+  System& system_;
   std::vector<std::pair<Polynomial, Polynomial>> found_;  ///< with the cofactors
   DarbouxReport report_;
 };
 
-int field_growth(const System& system) {
-  long degree = 1;
-  for (const Polynomial& rate : system.flow()) {
-    for (const auto& [number, exponents] : rate.term_list()) {
-      long own = 0;
-      for (const std::size_t atom : system.atoms()) own += static_cast<long>(exponents[atom]);
-      degree = std::max(degree, own);
-    }
-  }
-  return static_cast<int>(degree - 1);
-}
-
-std::size_t room_for(const System& system, const Monomials& a, const Monomials& b) {
-  return system.ring().size() + a.size() + b.size();
-}
-
 DarbouxSearch::DarbouxSearch(const Model& model, int degree, const Watch& watch)
-    : model_(model),
-      watch_(watch),
-      system_(model, {}, {}),
-      dimension_(model.variables.size()),
-      monomials_(all_monomials(std::vector<int>(dimension_, 1), degree)),
-      cofactor_monomials_(all_monomials(std::vector<int>(dimension_, 1), field_growth(system_))),
-      first_f_(system_.ring().size()),
-      first_k_(first_f_ + monomials_.size()),
-      ring_(room_for(system_, monomials_, cofactor_monomials_)) {
-  if (model.time || system_.atoms().size() > dimension_)
-    throw ModelError(
-        "Darboux polynomials need equations of motion that are rational in the variables");
-  for (const Polynomial& rate : system_.flow()) field_.push_back(in_own_ring(rate));
+    : model_(model), watch_(watch), equations_(model, degree), system_(equations_.system()) {
   for (const std::size_t place : system_.parameters())
     report_.generic.push_back(system_.name(place));
-  find_grading();
-}
-
-void DarbouxSearch::find_grading() {
-  std::vector<std::string> names;
-  for (const GiNaC::symbol& s : model_.variables) names.push_back(s.get_name());
-  weights_ = find_weights(field_, names);
-  for (std::size_t i = 0; weights_ && i < dimension_; ++i) {
-    for (const auto& [number, exponents] : field_[i].term_list()) {
-      if (excess(*weights_, i, exponents) == 0) continue;
-      weights_.reset();
-      break;
-    }
-  }
-}
-
-int DarbouxSearch::weight(const Monomials& list, std::size_t i) const {
-  int sum = 0;
-  for (std::size_t v = 0; v < dimension_; ++v) sum += weights_->numerators[v] * list[i][v];
-  return sum;
-}
-
-Polynomial DarbouxSearch::in_own_ring(const Polynomial& p) const {
-  TermCollector collector(ring_);
-  for (auto [number, exponents] : p.term_list()) {
-    exponents.resize(ring_.size(), 0);
-    collector.add(number, exponents);
-  }
-  return collector.finish();
-}
-
-/// Empty where coefficients are left.
-std::optional<Polynomial> DarbouxSearch::in_system_ring(const Polynomial& p) const {
-  TermCollector collector(system_.ring());
-  for (auto [number, exponents] : p.term_list()) {
-    if (std::any_of(exponents.begin() + static_cast<std::ptrdiff_t>(first_f_), exponents.end(),
-                    [](unsigned long e) { return e != 0; }))
-      return std::nullopt;
-    exponents.resize(first_f_);
-    collector.add(number, exponents);
-  }
-  return collector.finish();
-}
-
-Polynomial DarbouxSearch::monomial(const Monomials& list, std::size_t i) const {
-  Polynomial result = ring_.constant(1);
-  for (std::size_t v = 0; v < dimension_; ++v) result = result * ring_.variable(v).pow(list[i][v]);
-  return result;
-}
-
-/// Those of the monomials in the coordinates.
-std::vector<Polynomial> DarbouxSearch::coefficients(const Polynomial& p) const {
-  std::map<Exponents, std::vector<std::pair<cln::cl_RA, Exponents>>> parts;
-  for (auto [number, exponents] : p.term_list()) {
-    const Exponents own(exponents.begin(),
-                        exponents.begin() + static_cast<std::ptrdiff_t>(dimension_));
-    std::fill(exponents.begin(), exponents.begin() + static_cast<std::ptrdiff_t>(dimension_), 0);
-    parts[own].emplace_back(number, exponents);
-  }
-  std::vector<Polynomial> result;
-  for (const auto& [own, terms] : parts) {
-    TermCollector collector(ring_);
-    for (const auto& [number, exponents] : terms) collector.add(number, exponents);
-    result.push_back(collector.finish());
-  }
-  return result;
 }
 
 /// Read off the rate by the equations of motion. The fields of the search are a multiple of them
@@ -175,27 +61,32 @@ bool DarbouxSearch::set_cofactor(DarbouxPolynomial& result, const Polynomial& fu
   return true;
 }
 
-/// The degree in the coordinates: parameters are elements of the field.
-int DarbouxSearch::degree_in_coordinates(const Polynomial& p) const {
-  unsigned long degree = 0;
-  for (const auto& [number, exponents] : p.term_list()) {
-    const auto end = exponents.begin() + static_cast<std::ptrdiff_t>(dimension_);
-    degree = std::max(degree, std::accumulate(exponents.begin(), end, 0UL));
+/// Whether all factors of functions with coefficients that are free, or roots of an irreducible
+/// polynomial, are integrals or factors of polynomials without such coefficients, which are found
+/// on their own. With a root: of the product of all conjugates, as x*(y + i*z), of which it is one.
+/// With free ones: for a Darboux polynomial of the family that is irreducible is one of the
+/// factors.
+bool DarbouxSearch::follows_from_others(const Branch& branch, const Polynomial& function) const {
+  if (branch.rest.size() > 1) return false;
+  Polynomial product = function;
+  if (branch.rest.size() == 1) {
+    const Polynomial& relation = branch.rest[0];
+    std::vector<std::size_t> roots;
+    for (std::size_t place = system_.ring().size(); place < equations_.ring().size(); ++place)
+      if (relation.uses(place)) roots.push_back(place);
+    if (roots.size() != 1) return false;
+    if (function.uses(roots[0])) product = resultant(relation, function, roots[0]);
   }
-  return static_cast<int>(degree);
-}
-
-/// The irreducible polynomial over the field of the parameters that p is up to a factor from that
-/// field; empty where p is a product of others, which are found on their own. Gauss's lemma: what
-/// is irreducible over Q, and has a coordinate, is irreducible over Q(parameters).
-std::optional<Polynomial> DarbouxSearch::irreducible(const Polynomial& p) const {
-  std::optional<Polynomial> result;
-  for (const auto& [factor, exponent] : p.factors()) {
-    if (degree_in_coordinates(factor) == 0) continue;
-    if (result || exponent > 1) return std::nullopt;
-    result = factor.scaled(1 / factor.content());
+  const Monomials& monomials = equations_.monomials();
+  for (const auto& [factor, exponent] : product.factors()) {
+    const int degree = equations_.degree_in_coordinates(factor);
+    if (degree == 0) continue;
+    if (degree > monomials.degree(monomials.size() - 1)) return false;
+    if (equations_.in_system_ring(factor)) continue;
+    // With a root as well, factors of an integral over the rational numbers need not be integrals.
+    if (!branch.rest.empty() || !equations_.rate(factor).is_zero()) return false;
   }
-  return result;
+  return true;
 }
 
 void DarbouxSearch::add(const Branch& branch, const Polynomial& f, const Polynomial& k) {
@@ -205,24 +96,33 @@ void DarbouxSearch::add(const Branch& branch, const Polynomial& f, const Polynom
     leave_open("some equations for the coefficients could not be solved exactly");
     return;
   }
-  const std::optional<Polynomial> own = in_system_ring(function);
+  const std::optional<Polynomial> own = equations_.in_system_ring(function);
   if (!own) {
     // Coefficients that are algebraic numbers, or free: complex conjugates, or a pencil.
+    if (follows_from_others(branch, function)) {
+      for (const Polynomial& relation : branch.rest) {
+        report_.has_conjugates = true;
+        for (std::size_t place = model_.variables.size(); place < system_.ring().size(); ++place)
+          if (relation.uses(place)) report_.has_moving_conjugates = true;
+      }
+      return;
+    }
     leave_open(
         "there are Darboux polynomials with coefficients that are algebraic numbers, or families "
         "of them; these are not shown");
     return;
   }
-  const std::optional<Polynomial> primitive = irreducible(*own);
+  const std::optional<Polynomial> primitive = equations_.irreducible(*own);
   if (!primitive) return;
   DarbouxPolynomial result;
-  result.degree = degree_in_coordinates(*primitive);
+  result.degree = equations_.degree_in_coordinates(*primitive);
   result.value = system_.expression(*primitive);
   result.text = short_text(system_.prover().ring(), *primitive, system_.is_constant());
   const auto same = [&](const auto& other) { return other.first == *primitive; };
   if (std::ranges::any_of(found_, same)) return;
   Polynomial rate(system_.ring()), quotient(system_.ring());  // of the search's own fields
-  for (std::size_t i = 0; i < dimension_; ++i) rate += primitive->derivative(i) * system_.flow()[i];
+  for (std::size_t i = 0; i < model_.variables.size(); ++i)
+    rate += primitive->derivative(i) * system_.flow()[i];
   if (!set_cofactor(result, *primitive) || !rate.divide(*primitive, &quotient)) {
     leave_open(fmt::format("'{}' was found and its cofactor was not", result.text));
     return;
@@ -239,8 +139,8 @@ void DarbouxSearch::add(const Branch& branch, const Polynomial& f, const Polynom
 void DarbouxSearch::look_for_pencils() {
   std::vector<int> degrees;
   for (const auto& [function, cofactor] : found_)
-    degrees.push_back(degree_in_coordinates(function));
-  const int degree = monomials_.degree(monomials_.size() - 1);
+    degrees.push_back(equations_.degree_in_coordinates(function));
+  const int degree = equations_.monomials().degree(equations_.monomials().size() - 1);
   const std::vector<std::vector<int>> products = products_up_to(degrees, degree, 0);
   std::vector<Polynomial> cofactors;
   for (const std::vector<int>& exponents : products) {
@@ -268,40 +168,25 @@ void DarbouxSearch::look_for_pencils() {
   }
 }
 
-/// All with this leading monomial: its coefficient is 1, and those of later monomials are 0.
 void DarbouxSearch::search_from(std::size_t leading) {
-  Polynomial f = monomial(monomials_, leading);
-  std::vector<std::size_t> unknowns;
-  for (std::size_t i = 0; i < leading; ++i) {
-    if (weights_ && weight(monomials_, i) != weight(monomials_, leading)) continue;
-    f += ring_.variable(first_f_ + i) * monomial(monomials_, i);
-    unknowns.push_back(first_f_ + i);
-  }
-  Polynomial k(ring_);
-  for (std::size_t i = 0; i < cofactor_monomials_.size(); ++i) {
-    if (weights_ && weight(cofactor_monomials_, i) != weights_->denominator) continue;
-    k += ring_.variable(first_k_ + i) * monomial(cofactor_monomials_, i);
-    unknowns.push_back(first_k_ + i);
-  }
-  Polynomial residual = -(k * f);
-  for (std::size_t i = 0; i < dimension_; ++i) residual += f.derivative(i) * field_[i];
-  for (const Branch& branch : solve_system(coefficients(residual), unknowns, watch_))
-    add(branch, f, k);
+  const auto [f, k, unknowns, equations] = equations_.of(leading, equations_.has_weights());
+  for (const Branch& branch : solve_system(equations, unknowns, watch_)) add(branch, f, k);
 }
 
 DarbouxReport DarbouxSearch::run() {
   report_.complete = true;
+  const Monomials& monomials = equations_.monomials();
   watch_.begin("Darboux polynomials");
   const WorkMeter meter(system_.model().limits);  // of all systems of equations together
-  for (std::size_t leading = 1; leading < monomials_.size(); ++leading) {
-    watch_.tick(static_cast<double>(leading) / static_cast<double>(monomials_.size()));
+  for (std::size_t leading = 1; leading < monomials.size(); ++leading) {
+    watch_.tick(static_cast<double>(leading) / static_cast<double>(monomials.size()));
     try {
       search_from(leading);
     } catch (const TooLarge& limit) {
       leave_open(limit.what());
     }
   }
-  if (weights_) look_for_pencils();
+  if (equations_.has_weights()) look_for_pencils();
   // Roots and functions of parameters are taken as free of relations.
   for (const std::size_t place : system_.parameters()) {
     if (place >= system_.functions().symbols().size())
@@ -328,12 +213,18 @@ std::string to_string(DarbouxCombination::Kind kind) {
   return "time_dependent";
 }
 
-DarbouxReport find_darboux(const Model& model, int degree, const Watch& watch) {
+DarbouxReport find_darboux_polynomials(const Model& model, int degree, const Watch& watch) {
   constexpr int kHighest = 6;
   if (degree > kHighest)
     throw ModelError(fmt::format("Darboux polynomials are searched up to degree {}", kHighest));
-  DarbouxReport report = DarbouxSearch(model, degree, watch).run();
+  return DarbouxSearch(model, degree, watch).run();
+}
+
+DarbouxReport find_darboux(const Model& model, int degree, const Watch& watch) {
+  DarbouxReport report = find_darboux_polynomials(model, degree, watch);
   report.combinations = combine(model, report.found, degree, watch, &report.all_integrals_combined);
+  // (y + i*z)/(y - i*z) is a product of factors, none of which is among those found.
+  if (report.has_conjugates) report.all_integrals_combined = false;
   return report;
 }
 

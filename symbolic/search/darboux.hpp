@@ -44,14 +44,22 @@ struct DarbouxReport {
   /// polynomial up to the degree, follows from the combinations and the polynomial integrals.
   bool all_integrals_combined = false;
   bool complete = false;  ///< there are no others, for generic parameters
+  /// Some of them, or integrals, are products of others whose coefficients are algebraic numbers ..
+  bool has_conjugates = false;
+  bool has_moving_conjugates = false;  ///< .. that depend on parameters, as the root of one
   std::string reason;
   std::vector<std::string> generic;  ///< parameters
 };
 
-/// All irreducible Darboux polynomials up to a degree that are no integrals: the equations
-/// dF/dt = K F for the coefficients of F and K, solved by cases. Proved one by one.
+/// All Darboux polynomials up to a degree that are no integrals and are irreducible over the
+/// rational numbers and the parameters: the equations dF/dt = K F for the coefficients of F and K,
+/// solved by cases. Proved one by one. With coefficients that are algebraic numbers there may be
+/// factors of these.
 /// \throws ModelError  where the equations of motion are not polynomials
 DarbouxReport find_darboux(const Model& model, int degree, const Watch& watch = {});
+
+/// The same without the combinations.
+DarbouxReport find_darboux_polynomials(const Model& model, int degree, const Watch& watch = {});
 
 /// Integrals that are quotients of polynomials.
 struct RationalReport {

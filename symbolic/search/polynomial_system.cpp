@@ -15,8 +15,9 @@ constexpr GroebnerLimits kBasisLimits{.reductions = 600, .elements = 100, .terms
 
 class Solver {
  public:
-  Solver(const std::vector<std::size_t>& unknowns, const Watch& watch)
-      : unknowns_(unknowns), watch_(watch) {}
+  Solver(const std::vector<std::size_t>& unknowns, const std::vector<std::size_t>& last,
+         const Watch& watch)
+      : unknowns_(unknowns), last_(last), watch_(watch) {}
 
   std::vector<Branch> branches;
 
@@ -44,7 +45,7 @@ class Solver {
     branches.push_back(std::move(branch));
   }
 
-  const std::vector<std::size_t>& unknowns_;
+  const std::vector<std::size_t>&unknowns_, &last_;
   const Watch& watch_;
   std::size_t cases_ = 0;
 };
@@ -77,7 +78,9 @@ std::optional<Solver::Linear> Solver::find_linear(const std::vector<Polynomial>&
       if (equations[e].degree(u) != 1) continue;
       const Polynomial leading = equations[e].coefficients(u)[1];
       if (has_unknowns(leading) != with_unknowns) continue;
+      const bool late = std::find(last_.begin(), last_.end(), u) != last_.end();
       const std::size_t cost = equations[e].terms() + (leading.is_constant() ? 0 : 20) +
+                               (late ? kMostTermsOfEquation : 0) +
                                (with_unknowns ? leading.terms() * leading.terms() : 0);
       if (best && cost >= best_cost) continue;
       best = Linear{e, u};
@@ -231,8 +234,9 @@ bool contains(const Branch& family, const Branch& part, const std::vector<std::s
 }
 
 std::vector<Branch> solve_system(std::vector<Polynomial> equations,
-                                 const std::vector<std::size_t>& unknowns, const Watch& watch) {
-  Solver solver(unknowns, watch);
+                                 const std::vector<std::size_t>& unknowns, const Watch& watch,
+                                 const std::vector<std::size_t>& last) {
+  Solver solver(unknowns, last, watch);
   solver.solve(std::move(equations), {}, 0, false);
   return std::move(solver.branches);
 }

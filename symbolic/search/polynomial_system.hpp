@@ -41,8 +41,10 @@ bool contains(const Branch& family, const Branch& part, const std::vector<std::s
 /// is zero or not are split. Variables that are no unknowns are parameters with generic values:
 /// what has parameters only is taken not to vanish.
 /// \param unknowns  places in the ring
+/// \param last  those of the unknowns that are eliminated where no other can be
 std::vector<Branch> solve_system(std::vector<Polynomial> equations,
-                                 const std::vector<std::size_t>& unknowns, const Watch& watch);
+                                 const std::vector<std::size_t>& unknowns, const Watch& watch,
+                                 const std::vector<std::size_t>& last = {});
 
 /// p where variable `place` is numerator/denominator, times the denominator's power.
 Polynomial substituted(const Polynomial& p, std::size_t place, const Polynomial& numerator,

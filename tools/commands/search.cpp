@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "symbolic/discrete/search_map.hpp"
+#include "symbolic/search/conditions/darboux_conditions.hpp"
 #include "symbolic/search/darboux.hpp"
 #include "symbolic/search/search.hpp"
 #include "symbolic/structure/brackets.hpp"
@@ -100,6 +101,12 @@ int search_case(const SearchArguments& options) {
   if (options.rational)
     return answer(options, model, search::find_rational(model, options.degree, watch.watch()),
                   watch);
+  if (options.darboux && !options.free.empty()) {
+    return answer(options, model,
+                  search::find_darboux_conditions(
+                      model, options.degree, texts_of(options.free, "--free", true), watch.watch()),
+                  watch);
+  }
   if (options.darboux) {
     return answer(options, model, search::find_darboux(model, options.degree, watch.watch()),
                   watch);
@@ -129,11 +136,11 @@ int search(const SearchArguments& options) {
     throw UsageError("--casimirs and --on do not go together");
   if (options.casimirs && !options.free.empty())
     throw UsageError("--casimirs and --free do not go together");
-  if ((options.darboux || options.rational) &&
-      (options.casimirs || !options.free.empty() || !options.on.empty() ||
-       !options.functions.empty() || !options.weights.empty()))
-    throw UsageError(options.rational ? "--rational takes --degree and --param only"
-                                      : "--darboux takes --degree and --param only");
+  const bool narrow = !options.on.empty() || !options.functions.empty() || !options.weights.empty();
+  if (options.darboux && narrow)
+    throw UsageError("--darboux takes --degree, --free and --param only");
+  if (options.rational && (narrow || !options.free.empty()))
+    throw UsageError("--rational takes --degree and --param only");
   return with_search_errors(options.common, options.case_name,
                             [&] { return search_case(options); });
 }
@@ -182,8 +189,10 @@ void register_search(CLI::App& program, Action& action) {
       ->type_name("EXPR");
   add_weights(*command, options->weights);
   command
-      ->add_option("--free", options->free,
-                   "Find the values of these parameters at which there is an additional integral")
+      ->add_option(
+          "--free", options->free,
+          "Find the values of these parameters at which there is an additional integral, or "
+          "with --darboux a polynomial of that kind")
       ->allow_extra_args(false)
       ->type_name("NAME,..");
   command->add_flag("--darboux", options->darboux,

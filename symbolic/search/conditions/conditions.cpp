@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <functional>
-#include <set>
 
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/error.hpp"
-#include "symbolic/expression/expression.hpp"
 #include "symbolic/search/conditions/rank_conditions.hpp"
 #include "symbolic/search/conditions/special_model.hpp"
 #include "symbolic/search/conditions/special_sets.hpp"
@@ -98,19 +96,6 @@ std::string ConditionFinder::quotient_text(const Polynomial& top, const Polynomi
   return casimir::quotient_text(text(top), top.terms() > 1, text(bottom));
 }
 
-/// Whether the equations of motion cannot be read there, as a denominator vanishes.
-bool meaningless(const Model& special) {
-  try {
-    Prover prover(special, {});
-    prover.field();
-    return false;
-  } catch (const TooLarge&) {
-    return false;
-  } catch (const ModelError&) {
-    return true;
-  }
-}
-
 /// Whether the values are those of a known place, or lie in it.
 bool ConditionFinder::is_known(const Place& place) const {
   GiNaC::exmap map;
@@ -136,7 +121,7 @@ ConditionFinder::Confirmed ConditionFinder::confirm(const Place& place, Conditio
       if (!next) return Confirmed::none;
       special = std::move(*next);
     }
-    if (contradict(special) || meaningless(special)) return Confirmed::none;
+    if (contradict(special) || is_meaningless(special)) return Confirmed::none;
     Request request = request_;
     request.casimirs_are_integrals = true;
     GiNaC::exmap here;
@@ -349,15 +334,7 @@ ConditionReport ConditionFinder::run(const std::vector<std::size_t>& free) {
 
 ConditionReport find_conditions(const Model& model, const Request& request,
                                 const std::vector<Text>& free, const Watch& watch) {
-  std::vector<std::size_t> places;
-  for (const Text& name : free) {
-    const std::size_t position =
-        symbol_position(name, name.value, 0, model.parameters, "a parameter of this case");
-    places.push_back(model.variables.size() + position);
-  }
-  if (std::set<std::size_t>(places.begin(), places.end()).size() < places.size())
-    throw free.back().error("a parameter is named twice");
-  return ConditionFinder(model, request, watch).run(places);
+  return ConditionFinder(model, request, watch).run(free_places(model, free));
 }
 
 }  // namespace casimir::search

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <set>
 
 #include "symbolic/algebra/rational_matrix.hpp"
 #include "symbolic/error.hpp"
+#include "symbolic/expression/expression.hpp"
 #include "symbolic/functions/function_ring.hpp"
 #include "symbolic/proof/claims/claim_kinds.hpp"
+#include "symbolic/proof/prover.hpp"
 
 namespace casimir::search {
 namespace {
@@ -93,6 +96,30 @@ std::vector<Found> additional(const Model& model, const std::vector<Found>& foun
   for (const std::size_t k : independent_columns(matrix))
     if (k >= first) result.push_back(found[k - first]);
   return result;
+}
+
+std::vector<std::size_t> free_places(const Model& model, const std::vector<Text>& free) {
+  std::vector<std::size_t> places;
+  for (const Text& name : free) {
+    const std::size_t position =
+        symbol_position(name, name.value, 0, model.parameters, "a parameter of this case");
+    places.push_back(model.variables.size() + position);
+  }
+  if (std::set<std::size_t>(places.begin(), places.end()).size() < places.size())
+    throw free.back().error("a parameter is named twice");
+  return places;
+}
+
+bool is_meaningless(const Model& special) {
+  try {
+    Prover prover(special, {});
+    prover.field();
+    return false;
+  } catch (const TooLarge&) {
+    return false;
+  } catch (const ModelError&) {
+    return true;
+  }
 }
 
 bool contradict(const Model& model) {

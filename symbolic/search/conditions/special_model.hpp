@@ -14,6 +14,13 @@ namespace casimir::search {
 std::optional<Model> with_value(const Model& model, const GiNaC::symbol& parameter,
                                 const GiNaC::ex& value);
 
+/// Where the named parameters stand in the ring of a search.
+/// \throws CaseError  for what is no parameter, and for one that is named twice
+std::vector<std::size_t> free_places(const Model& model, const std::vector<Text>& free);
+
+/// Whether the equations of motion cannot be read there, as a denominator vanishes.
+bool is_meaningless(const Model& special);
+
 /// Whether some assumption cannot hold where all others do, by the signs that these give: for no
 /// c > 0 is d = c where c - d vanishes nowhere, so that d > 0 holds nowhere. False says nothing.
 bool contradict(const Model& model);

@@ -274,6 +274,29 @@ TEST(SearchStructure, DarbouxPolynomialsAreCombined) {
   EXPECT_EQ(answered(folder, {"verify", file, "--integral", "x^3/y^2"}).at("verdict"), "proved");
 }
 
+TEST(SearchStructure, DarbouxPolynomialsOfFreeParameters) {
+  const Folder folder;
+  const std::string file =
+      folder.write("lorenz.toml",
+                   "[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n[parameters]\ns = {}\nr = "
+                   "{}\nb = {}\n[equations]\nx = \"s*(y - x)\"\ny = \"r*x - y - x*z\"\nz = "
+                   "\"x*y - b*z\"\n");
+  const std::vector<std::string> search{"search", file,     "--darboux", "--degree",
+                                        "2",      "--free", "b"};
+  const Json found = answered(folder, search);
+  ASSERT_EQ(found.at("conditions").size(), 1U);
+  const Json& condition = found.at("conditions")[0];
+  EXPECT_EQ(condition.at("parameters"), Json({{"b", "2*s"}}));
+  EXPECT_EQ(condition.at("invariant_relations")[0].at("cofactor"), "-2*s");
+  EXPECT_EQ(condition.at("verdict"), "proved");
+  EXPECT_EQ(found.at("verdict"), "proved");
+  const Outcome outcome = run_in(folder, search);
+  EXPECT_NE(outcome.out.find("b = 2*s   proved\n  F = x^2 - 2*z*s   K = -2*s"), std::string::npos)
+      << outcome.out;
+  EXPECT_EQ(run_in(folder, {"search", file, "--darboux", "--degree", "1", "--free", "q"}).status,
+            2);
+}
+
 TEST(SearchStructure, OptionsThatDoNotGoTogetherAreNamed) {
   const Folder folder;
   for (const std::vector<std::string>& more :

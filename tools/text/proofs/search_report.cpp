@@ -50,6 +50,42 @@ void print_list(const std::vector<Found>& list, bool colour) {
   }
 }
 
+nlohmann::ordered_json relations_of(const std::vector<search::DarbouxPolynomial>& list) {
+  nlohmann::ordered_json result = nlohmann::ordered_json::array();
+  for (const search::DarbouxPolynomial& found : list) {
+    result.push_back({{"expression", found.text},
+                      {"cofactor", found.cofactor},
+                      {"degree", found.degree},
+                      {"verdict", to_string(found.verdict)}});
+  }
+  return result;
+}
+
+void print_list(const std::vector<search::DarbouxPolynomial>& list, bool colour) {
+  for (const search::DarbouxPolynomial& found : list) {
+    fmt::print("  F = {}   K = {}   {}\n", found.text, found.cofactor,
+               verdict_text(found.verdict, colour));
+  }
+}
+
+/// NAME = VALUE, NAME = VALUE.
+std::string values_line(const std::vector<std::pair<std::string, std::string>>& parameters) {
+  std::string line;
+  for (const auto& [name, value] : parameters)
+    line += (line.empty() ? "" : ", ") + name + " = " + value;
+  return line;
+}
+
+void print_end(bool complete, const std::string& reason, std::size_t conditions, double seconds) {
+  const bool colour = may_colour(1);
+  if (complete)
+    fmt::print("No other value, curve or set: {}\n", verdict_text(Verdict::proved, colour));
+  else
+    fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
+               reason);
+  fmt::print("{} conditions, {:.3f} s\n", conditions, seconds);
+}
+
 /// The options that ask for integrals on the constraints of the case.
 std::string on_constraints(const Model& model) {
   std::vector<std::string> options;
@@ -150,9 +186,7 @@ void print(const Model& model, int degree, const search::ConditionReport& report
     print_list(report.generic.found, colour);
   }
   for (const search::Condition& condition : report.conditions) {
-    std::string line;
-    for (const auto& [name, value] : condition.parameters)
-      line += (line.empty() ? "" : ", ") + name + " = " + value;
+    std::string line = values_line(condition.parameters);
     if (!condition.relation.empty())
       line += fmt::format("{}{} = 0", line.empty() ? "" : "   that is ", condition.relation);
     fmt::print("{}   {}\n", line, verdict_text(condition.verdict, colour));
@@ -162,12 +196,54 @@ void print(const Model& model, int degree, const search::ConditionReport& report
   if (report.sets_open)
     fmt::print("No other curve or surface of one condition: {}\n",
                verdict_text(Verdict::proved, colour));
-  if (report.complete)
-    fmt::print("No other value, curve or set: {}\n", verdict_text(Verdict::proved, colour));
-  else
-    fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
-               report.reason);
-  fmt::print("{} conditions, {:.3f} s\n", report.conditions.size(), seconds);
+  print_end(report.complete, report.reason, report.conditions.size(), seconds);
+}
+
+nlohmann::ordered_json to_json(const Model& model, int degree,
+                               const search::DarbouxConditionReport& report, double seconds) {
+  nlohmann::ordered_json json{{"case", model.name},
+                              {"degree", degree},
+                              {"integrals", nlohmann::ordered_json::array()},
+                              {"trivial", 0},
+                              {"invariant_relations", relations_of(report.generic.found)},
+                              {"conditions", nlohmann::ordered_json::array()},
+                              {"verdict", report.complete ? "proved" : "undecided"},
+                              {"generic", report.generic.generic}};
+  for (const search::DarbouxCondition& condition : report.conditions) {
+    nlohmann::ordered_json own{{"parameters", nlohmann::ordered_json::object()}};
+    for (const auto& [name, value] : condition.parameters) own["parameters"][name] = value;
+    own["integrals"] = nlohmann::ordered_json::array();
+    own["invariant_relations"] = relations_of(condition.found);
+    if (!condition.relations.empty())
+      own["relation"] = fmt::format("{} = 0", fmt::join(condition.relations, " = "));
+    own["verdict"] = to_string(condition.verdict);
+    json["conditions"].push_back(own);
+  }
+  if (!report.reason.empty()) json["reason"] = report.reason;
+  json["seconds"] = seconds;
+  return json;
+}
+
+void print(const Model& model, int degree, const search::DarbouxConditionReport& report,
+           double seconds) {
+  const bool colour = may_colour(1);
+  fmt::print(
+      "{}: where there is an additional polynomial F up to degree {} with dF/dt = K*F, which is no "
+      "integral\n",
+      model.name, degree);
+  if (!report.generic.found.empty()) {
+    fmt::print("for generic values:\n");
+    print_list(report.generic.found, colour);
+  }
+  for (const search::DarbouxCondition& condition : report.conditions) {
+    std::string line = values_line(condition.parameters);
+    if (!condition.relations.empty())
+      line = fmt::format("{} = 0", fmt::join(condition.relations, " = "));
+    fmt::print("{}   {}\n", line, verdict_text(condition.verdict, colour));
+    print_list(condition.found, colour);
+  }
+  if (report.conditions.empty()) fmt::print("none found\n");
+  print_end(report.complete, report.reason, report.conditions.size(), seconds);
 }
 
 nlohmann::ordered_json to_json(const Model& model, int degree, const search::DarbouxReport& report,
@@ -175,15 +251,9 @@ nlohmann::ordered_json to_json(const Model& model, int degree, const search::Dar
   nlohmann::ordered_json json{{"case", model.name},
                               {"degree", degree},
                               {"integrals", nlohmann::ordered_json::array()},
-                              {"invariant_relations", nlohmann::ordered_json::array()},
+                              {"invariant_relations", relations_of(report.found)},
                               {"verdict", report.complete ? "proved" : "undecided"},
                               {"generic", report.generic}};
-  for (const search::DarbouxPolynomial& found : report.found) {
-    json["invariant_relations"].push_back({{"expression", found.text},
-                                           {"cofactor", found.cofactor},
-                                           {"degree", found.degree},
-                                           {"verdict", to_string(found.verdict)}});
-  }
   json["combinations"] = nlohmann::ordered_json::array();
   for (const search::DarbouxCombination& own : report.combinations) {
     if (own.kind == search::DarbouxCombination::Kind::integral)
@@ -201,10 +271,7 @@ void print(const Model& model, int degree, const search::DarbouxReport& report, 
   const bool colour = may_colour(1);
   fmt::print("{}: polynomials F up to degree {} with dF/dt = K*F, which are no integrals\n",
              model.name, degree);
-  for (const search::DarbouxPolynomial& found : report.found) {
-    fmt::print("  F = {}   K = {}   {}\n", found.text, found.cofactor,
-               verdict_text(found.verdict, colour));
-  }
+  print_list(report.found, colour);
   if (report.complete)
     fmt::print("{}: {}\n",
                report.found.empty() ? "There are none" : "No others that are irreducible",

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "symbolic/model.hpp"
+#include "symbolic/search/conditions/darboux_conditions.hpp"
 #include "symbolic/search/darboux.hpp"
 #include "symbolic/search/search.hpp"
 
@@ -16,6 +17,8 @@ nlohmann::ordered_json to_json(const Model& model, int degree,
                                const search::ConditionReport& report, double seconds);
 nlohmann::ordered_json to_json(const Model& model, int degree, const search::DarbouxReport& report,
                                double seconds);
+nlohmann::ordered_json to_json(const Model& model, int degree,
+                               const search::DarbouxConditionReport& report, double seconds);
 nlohmann::ordered_json to_json(const Model& model, int degree, const search::RationalReport& report,
                                double seconds);
 
@@ -23,6 +26,8 @@ nlohmann::ordered_json to_json(const Model& model, int degree, const search::Rat
 void print(const Model& model, int degree, const search::Report& report, double seconds);
 void print(const Model& model, int degree, const search::ConditionReport& report, double seconds);
 void print(const Model& model, int degree, const search::DarbouxReport& report, double seconds);
+void print(const Model& model, int degree, const search::DarbouxConditionReport& report,
+           double seconds);
 void print(const Model& model, int degree, const search::RationalReport& report, double seconds);
 
 }  // namespace casimir::tools
