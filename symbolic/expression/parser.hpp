@@ -173,6 +173,8 @@ class Parser {
   struct Matrix;
   /// trace(A*B + C)
   Quantity trace(std::size_t start);
+  /// det(A*B + C)
+  Quantity determinant(std::size_t start);
   /// matrix(A*B + C)[i, j]
   Quantity entry(std::size_t start);
   /// The one argument of a function of matrices.

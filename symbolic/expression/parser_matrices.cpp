@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "symbolic/expression/indices.hpp"
 #include "symbolic/expression/name_characters.hpp"
@@ -45,6 +46,33 @@ Quantity Parser::trace(std::size_t start) {
   }
   total.value = evaluated(start, [&] { return ex(GiNaC::add(terms)); });
   return checked(total, start);
+}
+
+/// Row by row from the last one, by the minors of the rows below (Laplace): without divisions, and
+/// of n rows with n*2^(n-1) products at most, fewer where entries are zero.
+Quantity Parser::determinant(std::size_t start) {
+  const Matrix matrix = matrix_argument("det", start);
+  std::map<std::vector<long>, Quantity> minors{{{}, Quantity{1}}};
+  for (long row = matrix.size; row >= 1; --row) {
+    std::map<std::vector<long>, std::vector<std::pair<Quantity, Quantity>>> next;
+    for (const auto& [columns, minor] : minors) {
+      for (long column = 1; column <= matrix.size; ++column) {
+        const auto place = std::lower_bound(columns.begin(), columns.end(), column);
+        Quantity factor = matrix.at(row, column);
+        if (factor.value.is_zero() || (place != columns.end() && *place == column)) continue;
+        check(++repetitions_, &Limits::repetitions, start,
+              "sums here write out more than {:.0f} terms");
+        if ((place - columns.begin()) % 2 != 0) factor.value = -factor.value;
+        std::vector<long> own = columns;
+        own.insert(own.begin() + (place - columns.begin()), column);
+        next[std::move(own)].emplace_back(std::move(factor), minor);
+      }
+    }
+    minors.clear();
+    for (const auto& [columns, pairs] : next)
+      minors.emplace(columns, combined(pairs, false, start));
+  }
+  return minors.empty() ? Quantity{0} : minors.begin()->second;
 }
 
 Quantity Parser::entry(std::size_t start) {

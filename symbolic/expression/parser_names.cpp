@@ -30,6 +30,7 @@ Quantity Parser::name() {
     if (word == "dot") return scalar_product(start);
     if (word == "cross") return vector_product(start);
     if (word == "trace") return trace(start);
+    if (word == "det") return determinant(start);
     if (word == "matrix") return entry(start);
     if (const EllipticFunction* function = find_elliptic_function(word))
       return call(*function, start);

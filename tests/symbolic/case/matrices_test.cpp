@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "symbolic/expression/indices.hpp"
 #include "symbolic/prove.hpp"
 #include "tests/symbolic/cases.hpp"
 #include "tests/symbolic/expression/reads_expressions.hpp"
@@ -70,6 +71,14 @@ TEST_F(Matrices, AreThoseOfGiNaC) {
       {"trace(P)^2 - trace(P^2) - 2*(P11*P22 - P12*P21)", 0},
       {"trace(sqrt(s)*A)", GiNaC::sqrt(s) * A.trace()},
       {"trace(A[1, 2]*B)", symbol("A12") * B.trace()},
+      {"det(A)", A.determinant()},
+      {"det(A*B) - det(A)*det(B)", 0},
+      {"det(transpose(A) + s*B)", A.transpose().add(B.mul_scalar(s)).determinant()},
+      {"det(t*A^0 - A)", -A.charpoly(t)},
+      {"det(P)", symbol("P11") * symbol("P22") - symbol("P12") * symbol("P21")},
+      {"det(skew(M))", 0},
+      {"det(A - A)", 0},
+      {"det(2*A^0)", 8},
   };
   for (const auto& [text, wanted] : same)
     EXPECT_TRUE((parse(text) - wanted).expand().is_zero()) << text << " is " << parse(text);
@@ -95,6 +104,9 @@ TEST_F(Matrices, WhatIsNoMatrixAlgebraIsRefusedWithItsPlace) {
       {"trace([A, s])", "7: a commutator [A, B] is of two matrices"},
       {"trace(skew(A + B))", "14: unexpected '+'"},
       {"trace(skew(x))", "12: 'x' is a vector, and no matrix"},
+      {"det(s)", "1: det is of a matrix, and this is a number"},
+      {"det(R)", "5: the matrix 'R' has no entry R31"},
+      {"det(A", "6: unexpected end"},
       {"matrix(A)", "10: unexpected end"},
       {"matrix(A)[1]", "12: unexpected ']'"},
       {"matrix(A)[4, 1]", "11: the matrix has the rows and columns 1 to 3"},
@@ -115,6 +127,26 @@ TEST_F(Matrices, ANameOfTheCaseComesFirst) {
   EXPECT_TRUE(error_of("trace(A)").find("write products with '*'") != std::string::npos ||
               error_of("trace(A)").starts_with("6: unexpected"))
       << error_of("trace(A)");
+}
+
+/// Of fifteen rows: the limits hold, and zeros cost nothing.
+TEST_F(Matrices, DeterminantsAreHeldToTheLimits) {
+  constexpr long kRows = 15;
+  GiNaC::ex product = 1;
+  for (long i = 1; i <= kRows; ++i) {
+    for (long j = 1; j <= kRows; ++j) {
+      declare(indexed_name("Q", {i, j}));
+      const std::string name = indexed_name("D", {i, j});
+      if (i == j) {
+        declare(name);
+        product *= symbol(name);
+      } else {
+        names_.add(name, Quantity{0});
+      }
+    }
+  }
+  EXPECT_NE(error_of("det(Q)").find("more than"), std::string::npos) << error_of("det(Q)");
+  EXPECT_TRUE((parse("det(D)") - product).expand().is_zero());
 }
 
 TEST_F(Matrices, PartsOfEntriesThatCancelAreKept) {
