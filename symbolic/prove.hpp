@@ -50,6 +50,17 @@ struct Witness {
   std::string value;                                       ///< of the residual there; not zero
 };
 
+/// What the integrals are enough for that a Lax pair gives.
+struct SpectrumCount {
+  Verdict involution = Verdict::undecided;  ///< of all of them
+  std::size_t leaf = 0;                     ///< dimension of the generic leaves; 0 where not known
+  std::optional<std::size_t> on_leaves;     ///< so many are independent there, or more
+  /// Whether they are enough for Liouville's theorem: as many as half the dimension, in involution.
+  Verdict verdict = Verdict::undecided;
+  std::vector<std::string> where;  ///< what that depends on, beyond the claim
+  std::string reason;              ///< where it is undecided
+};
+
 /// What came of a claim.
 struct Proof {
   ClaimKind kind = ClaimKind::integral;
@@ -67,11 +78,12 @@ struct Proof {
   std::optional<Witness> witness;
   /// What the verdict depends on beyond the assumptions, as "a != 0"; only of what is proved.
   std::vector<std::string> where;
-  std::vector<std::string> nonzero;    ///< what was divided by
-  std::vector<std::string> positive;   ///< or zero: so that its roots and logarithms are real
-  std::vector<std::string> not_zero;   ///< which of `positive` have to be more than zero
-  std::vector<std::string> integrals;  ///< that a Lax pair gives
-  std::vector<Proof> findings;         ///< of a judgement: what else is known of the candidate
+  std::vector<std::string> nonzero;       ///< what was divided by
+  std::vector<std::string> positive;      ///< or zero: so that its roots and logarithms are real
+  std::vector<std::string> not_zero;      ///< which of `positive` have to be more than zero
+  std::vector<std::string> integrals;     ///< that a Lax pair gives
+  std::optional<SpectrumCount> spectrum;  ///< of a proved Lax pair: what these are enough for
+  std::vector<Proof> findings;            ///< of a judgement: what else is known of the candidate
 };
 
 /// What a user wants to know beyond, or instead of, the claims of the file.

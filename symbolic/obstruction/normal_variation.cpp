@@ -13,9 +13,9 @@ namespace {
 
 using GiNaC::ex;
 template <class F>
-using Row = std::vector<CurveElement<F>>;
+using CurveRow = std::vector<CurveElement<F>>;
 template <class F>
-using Matrix = std::vector<Row<F>>;
+using Matrix = std::vector<CurveRow<F>>;
 
 /// Derivatives on the surface in the coordinates xi = x - value (normal) and x (along).
 template <class F>
@@ -29,15 +29,15 @@ class Linearisation {
     return curve_.field.value(plane_.on(f), curve_.places, curve_.values);
   }
 
-  Row<F> by_normal(const ex& f) const {
-    Row<F> result;
+  CurveRow<F> by_normal(const ex& f) const {
+    CurveRow<F> result;
     for (const auto& [i, own] : plane_.normal)
       result.push_back(value(f.diff(system_.variables[i])));
     return result;
   }
 
-  Row<F> by_along(const ex& f) const {
-    Row<F> result;
+  CurveRow<F> by_along(const ex& f) const {
+    CurveRow<F> result;
     for (const std::size_t t : plane_.along) {
       ex slope = f.diff(system_.variables[t]);
       for (const auto& [i, own] : plane_.normal)
@@ -63,7 +63,7 @@ class Linearisation {
 };
 
 template <class F>
-bool all_zero(const Row<F>& row) {
+bool all_zero(const CurveRow<F>& row) {
   return std::all_of(row.begin(), row.end(),
                      [](const auto& e) { return CurveField<F>::is_zero(e); });
 }
@@ -96,7 +96,7 @@ std::size_t bracket_rank(const HamiltonianSystem& system, const Linearisation<F>
     }
   Matrix<F> rows;
   for (const auto& brackets : system.poisson) {
-    Row<F> row;
+    CurveRow<F> row;
     for (const ex& bracket : brackets) row.push_back(lines.value(bracket));
     rows.push_back(std::move(row));
   }
@@ -110,8 +110,8 @@ Matrix<F> tangency(const HamiltonianSystem& system, const InvariantPlane& plane,
                    const Linearisation<F>& lines, const CurveField<F>& field) {
   Matrix<F> rows;
   for (const auto& [name, casimir] : system.casimirs) {
-    Row<F> row = lines.by_along(casimir);
-    const Row<F> normal = lines.by_normal(casimir);
+    CurveRow<F> row = lines.by_along(casimir);
+    const CurveRow<F> normal = lines.by_normal(casimir);
     row.insert(row.end(), normal.begin(), normal.end());
     rows.push_back(std::move(row));
   }
@@ -121,8 +121,8 @@ Matrix<F> tangency(const HamiltonianSystem& system, const InvariantPlane& plane,
     throw NotDecided("the Casimir functions of the case do not give the leaves along the curve");
   const auto width = static_cast<std::ptrdiff_t>(plane.along.size());
   Matrix<F> result;
-  for (const Row<F>& row : rows)
-    if (all_zero(Row<F>(row.begin(), row.begin() + width)))
+  for (const CurveRow<F>& row : rows)
+    if (all_zero(CurveRow<F>(row.begin(), row.begin() + width)))
       result.emplace_back(row.begin() + width, row.end());
   return result;
 }
@@ -138,15 +138,15 @@ template <class F>
 Reduced<F> reduce(const CurveField<F>& field, const Matrix<F>& matrix, Matrix<F> relations) {
   // From the last unknown on: those of a list that come first are the momenta of bodies.
   std::vector<std::size_t> pivots;
-  for (Row<F>& row : relations) std::reverse(row.begin(), row.end());
+  for (CurveRow<F>& row : relations) std::reverse(row.begin(), row.end());
   reduce_rows(field, relations, &pivots);
-  for (Row<F>& row : relations) std::reverse(row.begin(), row.end());
+  for (CurveRow<F>& row : relations) std::reverse(row.begin(), row.end());
   for (std::size_t& pivot : pivots) pivot = matrix.size() - 1 - pivot;
   Reduced<F> result;
   for (std::size_t i = 0; i < matrix.size(); ++i)
     if (std::find(pivots.begin(), pivots.end(), i) == pivots.end()) result.free.push_back(i);
   for (const std::size_t i : result.free) {
-    Row<F> row;
+    CurveRow<F> row;
     for (const std::size_t j : result.free) {
       CurveElement<F> entry = matrix[i][j];
       for (std::size_t k = 0; k < pivots.size(); ++k)
@@ -237,7 +237,7 @@ NormalVariation<F> normal_variation(const HamiltonianSystem& system, const Invar
   Reduced<F> reduced = reduce(field, normal_matrix(lines, plane.normal.size()),
                               tangency(system, plane, lines, field));
   const CurveElement<F> slowness = field.inverse(curve.speed);
-  for (Row<F>& row : reduced.matrix)
+  for (CurveRow<F>& row : reduced.matrix)
     for (CurveElement<F>& entry : row) entry = field.product(entry, slowness);
   const auto name = [&, &free = reduced.free](std::size_t i) {
     return system.variables[plane.normal[free[i]].first].get_name();

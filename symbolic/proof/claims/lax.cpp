@@ -6,6 +6,7 @@
 
 #include "symbolic/functions/spectral_coefficients.hpp"
 #include "symbolic/proof/claims/claim.hpp"
+#include "symbolic/proof/claims/spectrum_count.hpp"
 #include "symbolic/proof/generic_rank.hpp"
 
 namespace casimir {
@@ -147,6 +148,13 @@ void describe_integrals(Prover& prover, Proof& proof, const LaxPair& pair) {
   proof.evidence = fmt::format("the characteristic polynomial gives {} integral{}{}", found.size(),
                                found.size() == 1 ? "" : "s",
                                pair.on.empty() ? "" : " of the motion on the level");
+  if (pair.on.empty()) {
+    try {
+      proof.spectrum = count_of_spectrum(prover, found);
+    } catch (const TooLarge& limit) {
+      proof.spectrum.emplace().reason = limit.what();
+    }
+  }
   // The gradients of functions on a level are independent of those of the level itself or not: that
   // takes another count.
   if (!pair.on.empty()) return;

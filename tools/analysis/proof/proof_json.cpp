@@ -4,6 +4,37 @@ namespace casimir {
 
 using Json = nlohmann::ordered_json;
 
+namespace {
+
+Json to_json(const SpectrumCount& count) {
+  Json json = {{"involution", to_string(count.involution)},
+               {"leaf", count.leaf},
+               {"verdict", to_string(count.verdict)}};
+  if (count.on_leaves) json["independent_on_leaves"] = *count.on_leaves;
+  if (!count.where.empty()) json["where"] = count.where;
+  if (!count.reason.empty()) json["reason"] = count.reason;
+  return json;
+}
+
+Verdict verdict_from(const std::string& word) {
+  return word == "proved"    ? Verdict::proved
+         : word == "refuted" ? Verdict::refuted
+                             : Verdict::undecided;
+}
+
+SpectrumCount spectrum_from(const Json& json) {
+  SpectrumCount count;
+  count.involution = verdict_from(json.at("involution"));
+  count.leaf = json.at("leaf");
+  count.verdict = verdict_from(json.at("verdict"));
+  if (json.contains("independent_on_leaves")) count.on_leaves = json.at("independent_on_leaves");
+  count.where = json.value("where", std::vector<std::string>{});
+  count.reason = json.value("reason", "");
+  return count;
+}
+
+}  // namespace
+
 Json to_json(const Proof& proof) {
   Json json = {{"kind", to_string(proof.kind)},
                {"name", proof.name},
@@ -24,6 +55,7 @@ Json to_json(const Proof& proof) {
     json["witness"] = witness;
   }
   if (!proof.integrals.empty()) json["integrals"] = proof.integrals;
+  if (proof.spectrum) json["spectrum"] = to_json(*proof.spectrum);
   for (const Proof& finding : proof.findings) json["findings"].push_back(to_json(finding));
   return json;
 }
@@ -32,10 +64,7 @@ Proof proof_from_json(const Json& json) {
   Proof proof;
   proof.kind = claim_kind_of(json.at("kind").get<std::string>()).value();
   proof.name = json.at("name");
-  const std::string verdict = json.at("verdict");
-  proof.verdict = verdict == "proved"    ? Verdict::proved
-                  : verdict == "refuted" ? Verdict::refuted
-                                         : Verdict::undecided;
+  proof.verdict = verdict_from(json.at("verdict"));
   proof.seconds = json.at("seconds");
   proof.on = json.value("on", std::vector<std::string>{});
   proof.evidence = json.value("evidence", "");
@@ -54,6 +83,7 @@ Proof proof_from_json(const Json& json) {
     proof.witness = std::move(witness);
   }
   proof.integrals = json.value("integrals", std::vector<std::string>{});
+  if (json.contains("spectrum")) proof.spectrum = spectrum_from(json.at("spectrum"));
   if (json.contains("findings")) {
     for (const Json& finding : json.at("findings"))
       proof.findings.push_back(proof_from_json(finding));

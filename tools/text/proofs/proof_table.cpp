@@ -37,6 +37,30 @@ std::string trimmed(std::string line) {
   return line;
 }
 
+/// What the integrals of a Lax pair are enough for.
+std::string spectrum_text(const SpectrumCount& count) {
+  std::string text;
+  if (count.involution == Verdict::proved) text += "all in involution; ";
+  if (count.involution == Verdict::refuted) text += "not all in involution; ";
+  if (count.on_leaves && count.leaf > 0)
+    text += fmt::format("{} independent on leaves of dimension {}{}", *count.on_leaves, count.leaf,
+                        count.verdict == Verdict::undecided ? "; " : ": ");
+  switch (count.verdict) {
+    case Verdict::proved:
+      text += "enough for Liouville integrability";
+      break;
+    case Verdict::refuted:
+      text += "not enough for Liouville integrability, which takes further ones";
+      break;
+    case Verdict::undecided:
+      return text +
+             fmt::format("whether they are enough for Liouville integrability is undecided: {}",
+                         count.reason);
+  }
+  if (!count.where.empty()) text += fmt::format(" where {}", fmt::join(count.where, ", "));
+  return text;
+}
+
 }  // namespace
 
 void Tally::add(Verdict verdict) {
@@ -128,6 +152,7 @@ std::string ProofTable::details(const Proof& proof, bool with_evidence) const {
   };
   if (with_evidence && !proof.evidence.empty()) detail("", proof.evidence);
   for (const std::string& integral : proof.integrals) detail("gives", integral);
+  if (proof.spectrum) detail("count", spectrum_text(*proof.spectrum));
   if (!proof.reason.empty()) detail("reason", proof.reason);
   if (!proof.residual.empty()) detail("residual", proof.residual);
   if (proof.witness) {

@@ -1,0 +1,99 @@
+#include "symbolic/proof/claims/spectrum_count.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "symbolic/model/given_functions.hpp"
+#include "symbolic/proof/claims/ranks.hpp"
+#include "symbolic/proof/generic_rank.hpp"
+
+namespace casimir {
+namespace {
+
+/// Of a case with I anything beside polynomials may be complex: a root too, of a negative number.
+bool may_be_complex(const Prover& prover, const Polynomial& f) {
+  if (!prover.model().complex_numbers) return false;
+  const FunctionRing& ring = prover.ring();
+  for (std::size_t place = ring.symbols().size(); place < ring.ring().size(); ++place)
+    if (f.uses(place)) return true;
+  return false;
+}
+
+/// Whether all brackets between them vanish.
+Verdict involution_of(Prover& prover, const std::vector<Polynomial>& functions) {
+  std::vector<Residual> left;
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      Polynomial bracket = prover.bracket(functions[i], functions[j]);
+      if (prover.is_zero(bracket)) continue;
+      left.push_back({"a bracket of two coefficients", std::move(bracket),
+                      [&prover, f = functions[i], g = functions[j]] {
+                        const FunctionRing& ring = prover.ring();
+                        return prover.model().poisson->bracket(ring.expression(f),
+                                                               ring.expression(g));
+                      }});
+    }
+  }
+  if (left.empty()) return Verdict::proved;
+  Proof proof;
+  prover.decide(proof, left, {});
+  return proof.verdict;
+}
+
+/// Why no count can be made; empty where it can.
+std::string why_not_counted(const Prover& prover, const std::vector<Polynomial>& found) {
+  const Model& model = prover.model();
+  if (!model.poisson || !model.hamiltonian) return "there is no bracket, or no Hamiltonian";
+  if (model.time) return "the motion depends on time";
+  if (has_arbitrary_functions(model)) return "the case has arbitrary functions";
+  if (found.empty()) return "there is none";
+  if (std::ranges::any_of(found, [&](const auto& f) { return may_be_complex(prover, f); }))
+    return "some may have complex values";
+  return {};
+}
+
+}  // namespace
+
+SpectrumCount count_of_spectrum(Prover& prover, const std::vector<Polynomial>& found) {
+  SpectrumCount count;
+  count.reason = why_not_counted(prover, found);
+  if (!count.reason.empty()) return count;
+  count.involution = involution_of(prover, found);
+  const auto leaf = bracket_rank(prover);
+  if (!leaf || !leaf->exact || !leaf->uneven.empty()) {
+    count.reason = "the dimension of the generic leaves is not known";
+    return count;
+  }
+  count.leaf = leaf->rank;
+  PolynomialRows flows;
+  for (const Polynomial& f : found) flows.push_back(prover.flow_of(prover.gradient(f)));
+  const auto rank = rank_with_conditions(prover, flows);
+  if (!rank || !rank->uneven.empty()) {
+    count.reason = !rank ? "no point of the domain was found" : rank->uneven;
+    return count;
+  }
+  count.on_leaves = rank->rank;
+  const std::size_t needed = leaf->rank / 2;
+  if (rank->exact && rank->rank < needed) {
+    count.verdict = Verdict::refuted;
+    return count;
+  }
+  if (count.involution != Verdict::proved) {
+    count.reason = count.involution == Verdict::refuted ? "not all of them are in involution"
+                                                        : "whether they commute is undecided";
+    return count;
+  }
+  if (rank->rank < needed) {
+    count.reason = fmt::format("they are only known to have {} or more on leaves", rank->rank);
+    return count;
+  }
+  count.verdict = Verdict::proved;
+  Proof where;
+  say_where(where, leaf->where, leaf->nonzero);
+  say_where(where, rank->where != leaf->where ? rank->where : "", rank->nonzero);
+  count.where = std::move(where.where);
+  return count;
+}
+
+}  // namespace casimir

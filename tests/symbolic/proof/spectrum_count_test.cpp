@@ -1,0 +1,117 @@
+// What the integrals of a Lax pair are enough for: Liouville's count of a spectrum.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "symbolic/prove.hpp"
+#include "tests/symbolic/cases.hpp"
+
+namespace casimir::test {
+namespace {
+
+/// Of the only Lax pair, which is proved.
+Proof lax_of(const Model& model) {
+  Candidates candidates;
+  candidates.only = casimir::ClaimKind::lax;
+  const std::vector<Proof> proofs = prove(model, candidates);
+  const auto own = std::ranges::find(proofs, casimir::ClaimKind::lax, &Proof::kind);
+  EXPECT_NE(own, proofs.end());
+  EXPECT_EQ(own->verdict, Verdict::proved) << own->reason << own->residual;
+  return *own;
+}
+
+SpectrumCount count_of(const Model& model) {
+  const Proof proof = lax_of(model);
+  EXPECT_TRUE(proof.spectrum.has_value());
+  return proof.spectrum.value_or(SpectrumCount{});
+}
+
+/// A diagonal L of integrals, and A = 0.
+std::string diagonal(const std::vector<std::string>& integrals) {
+  std::string l, a;
+  for (std::size_t i = 0; i < integrals.size(); ++i) {
+    l += i == 0 ? "[" : ", [";
+    a += i == 0 ? "[" : ", [";
+    for (std::size_t j = 0; j < integrals.size(); ++j) {
+      l += std::string(j == 0 ? "" : ", ") + "\"" + (i == j ? integrals[i] : "0") + "\"";
+      a += j == 0 ? "\"0\"" : ", \"0\"";
+    }
+    l += "]";
+    a += "]";
+  }
+  return "[[lax]]\nL = [" + l + "]\nA = [" + a + "]\n";
+}
+
+/// Two free particles on a line.
+Model free_particles(const std::string& lax) {
+  return model_of(
+      "hamiltonian = \"(p1^2 + p2^2)/2\"\n[phase_space]\nvariables = [\"q1\", \"q2\", "
+      "\"p1\", \"p2\"]\ncanonical = true\n" +
+      lax);
+}
+
+TEST(SpectrumCount, OfLagrangesTopIsEnough) {
+  const SpectrumCount count = count_of(bundled("lagrange-lax"));
+  EXPECT_EQ(count.involution, Verdict::proved);
+  EXPECT_EQ(count.leaf, 4U);
+  EXPECT_EQ(count.on_leaves, 2U);
+  EXPECT_EQ(count.verdict, Verdict::proved) << count.reason;
+}
+
+TEST(SpectrumCount, OfTheEnergyAloneIsNotEnough) {
+  const SpectrumCount count = count_of(free_particles(diagonal({"p1^2 + p2^2"})));
+  EXPECT_EQ(count.involution, Verdict::proved);
+  EXPECT_EQ(count.on_leaves, 1U);
+  EXPECT_EQ(count.verdict, Verdict::refuted);
+}
+
+/// Dependent ones are not counted twice, and Casimir functions not at all.
+TEST(SpectrumCount, IsOfIndependentFlows) {
+  const SpectrumCount count =
+      count_of(free_particles(diagonal({"p1^2 + p2^2", "(p1^2 + p2^2)^2"})));
+  EXPECT_EQ(count.on_leaves, 1U);
+  EXPECT_EQ(count.verdict, Verdict::refuted);
+  const SpectrumCount casimir = count_of(model_of(
+      "hamiltonian = \"a1*M1^2 + M2^2\"\n[phase_space]\nvariables = [\"M1\", \"M2\", \"M3\"]\n"
+      "algebra = \"so(3)\"\n[parameters]\na1 = {}\n" +
+      diagonal({"M1^2 + M2^2 + M3^2"})));
+  EXPECT_EQ(casimir.on_leaves, 0U);
+  EXPECT_EQ(casimir.verdict, Verdict::refuted);
+}
+
+/// The momentum and the angular momentum of a plane are two, and do not commute.
+TEST(SpectrumCount, OfWhatDoesNotCommuteIsOpen) {
+  const SpectrumCount count = count_of(free_particles(diagonal({"p1", "q1*p2 - q2*p1"})));
+  EXPECT_EQ(count.involution, Verdict::refuted);
+  EXPECT_EQ(count.on_leaves, 2U);
+  EXPECT_EQ(count.verdict, Verdict::undecided);
+  EXPECT_FALSE(count.reason.empty());
+}
+
+/// A complex function commutes with itself, and its parts need not commute.
+TEST(SpectrumCount, OfComplexFunctionsIsOpen) {
+  const SpectrumCount count =
+      count_of(free_particles(diagonal({"p1 + I*(q1*p2 - q2*p1)", "p1^2 + p2^2"})));
+  EXPECT_EQ(count.verdict, Verdict::undecided);
+  EXPECT_NE(count.reason.find("complex"), std::string::npos);
+}
+
+/// p1 + |p1| is 2*p1 on one half of the plane, and zero on the other, where nothing is left of it.
+TEST(SpectrumCount, IsAboutEveryPiece) {
+  const SpectrumCount count = count_of(
+      model_of("hamiltonian = \"p1^2/2\"\n[phase_space]\nvariables = [\"q1\", \"p1\"]\ncanonical = "
+               "true\n" +
+               diagonal({"p1 + abs(p1)"})));
+  EXPECT_NE(count.verdict, Verdict::proved);
+}
+
+TEST(SpectrumCount, IsNotMadeOnALevel) {
+  const Proof proof = lax_of(model_of(
+      "hamiltonian = \"(p1^2 + p2^2)/2\"\n[phase_space]\nvariables = [\"q1\", \"q2\", \"p1\", "
+      "\"p2\"]\ncanonical = true\n[[lax]]\non = [\"p2\"]\nL = [[\"p1 + "
+      "q2*p2\"]]\nA = [[\"0\"]]\n"));
+  EXPECT_FALSE(proof.spectrum.has_value());
+}
+
+}  // namespace
+}  // namespace casimir::test
