@@ -10,6 +10,7 @@
 #include "symbolic/search/darboux.hpp"
 #include "symbolic/search/search.hpp"
 #include "symbolic/structure/brackets.hpp"
+#include "symbolic/structure/orbital.hpp"
 #include "symbolic/structure/tensors.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
@@ -33,6 +34,7 @@ struct SearchArguments {
   int degree = 0;
   bool casimirs = false, darboux = false, rational = false;
   int tensors = 0;  ///< their rank, where it is given
+  bool orbits = false;
   bool fields = false, bivectors = false, forms = false, hamiltonian = false, bihamiltonian = false;
   std::vector<std::string> on, functions, weights, free;
 };
@@ -83,6 +85,9 @@ int search_structure(const SearchArguments& options, const Model& model, SearchW
   if (options.bihamiltonian)
     return answer(options, model,
                   structure::find_second_brackets(model, options.degree, watch.watch()), watch);
+  if (options.orbits)
+    return answer(options, model,
+                  structure::find_orbital_symmetries(model, options.degree, watch.watch()), watch);
   structure::TensorType type{options.tensors, options.forms};
   if (options.fields || (options.forms && options.tensors == 0)) type.rank = 1;
   if (options.bivectors) type.rank = 2;
@@ -130,6 +135,7 @@ int search(const SearchArguments& options) {
   if (is_structure(options) && (!options.free.empty() || !options.on.empty() ||
                                 !options.functions.empty() || !options.weights.empty()))
     throw UsageError("a search for tensors or brackets takes --degree and --param only");
+  if (options.orbits && !options.fields) throw UsageError("--orbits goes with --fields");
   if (!is_structure(options) && options.degree < 1)
     throw UsageError("--degree has to be 1 at least");
   if (options.casimirs && !options.on.empty())
@@ -147,6 +153,8 @@ int search(const SearchArguments& options) {
 
 void add_structure_options(CLI::App& command, SearchArguments& options) {
   command.add_flag("--fields", options.fields, "Vector fields that commute with the motion");
+  command.add_flag("--orbits", options.orbits,
+                   "With --fields: fields that take orbits to orbits, [X, Y] = g*X");
   command.add_flag("--bivectors", options.bivectors, "Bivectors that the motion keeps");
   command
       .add_option("--tensors", options.tensors,

@@ -297,12 +297,40 @@ TEST(SearchStructure, DarbouxPolynomialsOfFreeParameters) {
             2);
 }
 
+TEST(SearchStructure, FieldsThatTakeOrbitsToOrbits) {
+  const Folder folder;
+  const std::vector<std::string> search{"search",   "kovalevskaya", "--fields",
+                                        "--orbits", "--degree",     "2"};
+  const Json found = answered(folder, search);
+  ASSERT_EQ(found.at("fields").size(), 1U);
+  EXPECT_EQ(found.at("fields")[0].at("factor"), "-1");
+  EXPECT_EQ(found.at("fields")[0].at("components").at("g1"), "2*g1");
+  EXPECT_EQ(found.at("verdict"), "proved");
+  EXPECT_NE(run_in(folder, search).out.find("(2*g1) d/dg1"), std::string::npos);
+}
+
+TEST(SearchStructure, LaxPairsAreCounted) {
+  const Folder folder;
+  const Json proved = answered(folder, {"verify", "lagrange-lax"});
+  for (const Json& claim : proved.at("claims")) {
+    if (claim.at("kind") != "lax") continue;
+    EXPECT_EQ(claim.at("spectrum").at("verdict"), "proved");
+    EXPECT_EQ(claim.at("spectrum").at("involution"), "proved");
+    EXPECT_EQ(claim.at("spectrum").at("leaf"), 4);
+    EXPECT_EQ(claim.at("spectrum").at("independent_on_leaves"), 2);
+  }
+  EXPECT_NE(run_in(folder, {"verify", "lagrange-lax"}).out.find("all in involution; 2 "),
+            std::string::npos);
+}
+
 TEST(SearchStructure, OptionsThatDoNotGoTogetherAreNamed) {
   const Folder folder;
   for (const std::vector<std::string>& more :
        {std::vector<std::string>{"--fields", "--hamiltonian"},
         {"--bivectors", "--on", "M1"},
         {"--bivectors", "--tensors", "3"},
+        {"--orbits"},
+        {"--orbits", "--forms"},
         {"--darboux", "--fields"}}) {
     std::vector<std::string> arguments{"search", "euler", "--degree", "1"};
     arguments.insert(arguments.end(), more.begin(), more.end());

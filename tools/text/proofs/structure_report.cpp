@@ -127,6 +127,45 @@ void print(const Model& model, int degree, const TensorReport& report, double se
   fmt::print("{} found, {:.3f} s\n", report.found.size(), seconds);
 }
 
+nlohmann::ordered_json to_json(const Model& model, int degree,
+                               const structure::OrbitalReport& report, double seconds) {
+  nlohmann::ordered_json json{{"case", model.name},
+                              {"degree", degree},
+                              {"kind", "orbital symmetries"},
+                              {"trivial", report.trivial},
+                              {"fields", nlohmann::ordered_json::array()},
+                              {"verdict", report.complete ? "proved" : "undecided"},
+                              {"generic", report.generic}};
+  for (const structure::OrbitalSymmetry& own : report.found) {
+    json["fields"].push_back({{"components", object_of(own.texts)},
+                              {"factor", own.factor_text},
+                              {"degree", own.degree},
+                              {"verdict", to_string(own.verdict)}});
+  }
+  if (!report.reason.empty()) json["reason"] = report.reason;
+  json["seconds"] = seconds;
+  return json;
+}
+
+void print(const Model& model, int degree, const structure::OrbitalReport& report, double seconds) {
+  const bool colour = may_colour(1);
+  fmt::print("{}: fields Y with [X, Y] = g*X, polynomial g and components of degree {} at most\n",
+             model.name, degree);
+  fmt::print("a basis, modulo the fields h*X with polynomials h{}\n",
+             report.found.empty() ? ": none" : ":");
+  for (const structure::OrbitalSymmetry& own : report.found) {
+    fmt::print("  degree {:<3} {}   g = {}   {}\n", own.degree, tensor_text({1, false}, own.texts),
+               own.factor_text, verdict_text(own.verdict, colour));
+  }
+  if (report.complete)
+    fmt::print("No others than combinations of these{}: {}\n", generic_text(report.generic),
+               verdict_text(Verdict::proved, colour));
+  else
+    fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
+               report.reason);
+  fmt::print("{} found, {:.3f} s\n", report.found.size(), seconds);
+}
+
 nlohmann::ordered_json to_json(const Model& model, int degree, const BracketReport& report,
                                double seconds) {
   nlohmann::ordered_json json{{"case", model.name},
