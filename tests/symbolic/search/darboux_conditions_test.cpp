@@ -86,6 +86,15 @@ TEST(DarbouxConditions, HessIsWhereATopHasACircularSection) {
   EXPECT_TRUE(report.complete) << report.reason;
 }
 
+/// In principal axes: both of Hess's conditions together, as a set.
+TEST(DarbouxConditions, HessInPrincipalAxesIsASetOfTwoConditions) {
+  const auto report = found(bundled("euler-poisson"), 1, {"a2", "r2"});
+  ASSERT_EQ(report.conditions.size(), 1U);
+  EXPECT_EQ(report.conditions[0].parameters.size(), 2U);
+  EXPECT_EQ(report.conditions[0].found[0].text, "M1*r1 + M3*r3");
+  EXPECT_TRUE(report.complete) << report.reason;
+}
+
 /// A factor of the value of what there is in general: at a = 0, x is no limit of x*y - a.
 TEST(DarbouxConditions, FactorsOfAValueAreAdditional) {
   const Model model =
