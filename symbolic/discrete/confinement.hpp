@@ -20,6 +20,7 @@ struct SingularOrbit {
 
 /// Singularity confinement (Grammaticos, Ramani and Papageorgiou 1991), as evidence and no proof.
 struct Confinement {
+  /// What became of the orbits.
   enum class Kind {
     none,          ///< no iterate lost anything
     confined,      ///< what was lost came back in every orbit

@@ -285,10 +285,8 @@ int degrees(const DegreesArguments& options) {
 
 void register_degrees(CLI::App& program, Action& action) {
   auto options = std::make_shared<DegreesArguments>();
-  CLI::App* command =
-      program.add_subcommand("degrees",
-                             "Degree growth of the iterates of a map, and singularity confinement, "
-                             "as evidence of integrability");
+  CLI::App* command = program.add_subcommand(
+      "degrees", "Growth of degrees and singularities of a map, as evidence of integrability");
   add_common(*command, options->common);
   command->add_option("CASE", options->case_name, kCaseText);
   add_all(*command, options->all, options->tag, "A table of every bundled flow, with --kahan");
