@@ -1,5 +1,6 @@
 #include "symbolic/discrete/moser_veselov.hpp"
 
+#include <cln/real.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
