@@ -88,7 +88,7 @@ std::string confinement_words(const discrete::Confinement& found) {
     longest = std::max(longest, orbit.recovered.value_or(found.steps) - orbit.lost + 1);
   switch (found.kind) {
     case Kind::none:
-      return "none was met: no hypersurface of the affine space is contracted";
+      return "none was met on random lines";
     case Kind::confined:
       return fmt::format("confined, after at most {} steps", longest);
     case Kind::not_confined:
