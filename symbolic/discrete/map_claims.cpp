@@ -383,20 +383,51 @@ Conjugated conjugated(const MapModel& map, const MapConjugacy& conjugacy) {
   return result;
 }
 
+/// Why nothing is said of conjugacies; empty where something is. On constraints phi may be singular
+/// though it is not beside them, and a map may leave the domain that its signs are taken from.
+std::string why_not_conjugated(const Model& model) {
+  if (!model.constraints.empty()) return "whether it is invertible on the constraints is not known";
+  for (const Assumption& assumption : model.assumptions)
+    for (const GiNaC::symbol& x : model.variables)
+      if (assumption.difference.has(x)) return "whether the map stays in the domain is not known";
+  return {};
+}
+
+/// Hypothesis of a conjugacy phi: it is invertible where the map leads, too. Else a map into points
+/// where phi is singular would be conjugate to every map of the one value that phi has there. Shown
+/// where D(phi F) = Dphi(F) DF has the full rank on each piece.
+void judge_invertible_at_image(Prover& prover, Proof& proof, const MapModel& map,
+                               const MapConjugacy& conjugacy, const std::vector<ex>& after) {
+  if (proof.verdict != Verdict::proved) return;
+  Proof there;
+  there.verdict = Verdict::proved;
+  judge_invertible(prover, there, conjugacy.name, after, map.base.variables);
+  if (there.verdict == Verdict::proved) {
+    proof.evidence = "locally: near almost all points it is invertible";
+    return;
+  }
+  proof.verdict = Verdict::undecided;
+  proof.reason =
+      fmt::format("'{}' is not shown to be invertible where the map leads", conjugacy.name);
+}
+
 /// phi(F(x)) = G(phi(x)), or G(phi(F(x))) = phi(x), where both sides have values, and phi is
-/// invertible.
+/// invertible near almost all points, and near those to which these are taken.
 Claim whole_conjugacy_claim(const MapModel& map, const MapConjugacy& conjugacy) {
   const Conjugated at = conjugated(map, conjugacy);
   const std::vector<ex>& expected = conjugacy.reverses ? conjugacy.expressions : at.after;
   Claim claim{
       ClaimKind::conjugacy, conjugacy.name, false,
-      [&map, conjugacy, expected, other = at.other](Prover& prover, Proof& proof) {
+      [&map, conjugacy, expected, at](Prover& prover, Proof& proof) {
+        proof.reason = why_not_conjugated(map.base);
+        if (!proof.reason.empty()) return;
         std::vector<Residual> residuals;
-        for (std::size_t i = 0; i < other.size(); ++i)
+        for (std::size_t i = 0; i < at.other.size(); ++i)
           residuals.push_back(
-              difference(prover, conjugacy.coordinates[i].get_name(), expected[i] - other[i]));
+              difference(prover, conjugacy.coordinates[i].get_name(), expected[i] - at.other[i]));
         prover.decide(proof, residuals, {});
         judge_invertible(prover, proof, conjugacy.name, conjugacy.expressions, map.base.variables);
+        judge_invertible_at_image(prover, proof, map, conjugacy, at.after);
       }};
   claim.expressions = domain_of(map, {});
   for (const auto* list : {&conjugacy.expressions, &conjugacy.domain}) {
@@ -405,7 +436,7 @@ Claim whole_conjugacy_claim(const MapModel& map, const MapConjugacy& conjugacy) 
       claim.expressions.push_back(map.composed(part));
     }
   }
-  for (const auto* list : {&at.other, &at.other_domain})
+  for (const auto* list : {&at.after, &at.other, &at.other_domain})
     claim.expressions.insert(claim.expressions.end(), list->begin(), list->end());
   claim.subject = Subject::functions;
   return claim;

@@ -9,6 +9,7 @@
 #include "symbolic/functions/short_text.hpp"
 #include "symbolic/search/darboux_equations.hpp"
 #include "symbolic/search/darboux_integrals.hpp"
+#include "symbolic/search/finder.hpp"
 #include "symbolic/search/polynomial_system.hpp"
 
 namespace casimir::search {
@@ -195,6 +196,10 @@ DarbouxReport DarbouxSearch::run() {
   for (const DarbouxPolynomial& found : report_.found) {
     if (found.verdict != Verdict::proved)
       leave_open(fmt::format("'{}' was found but not proved", found.text));
+  }
+  // Last, since it takes time.
+  if (report_.complete) {
+    if (const auto doubt = thin_assumptions(system_)) leave_open(*doubt);
   }
   return report_;
 }

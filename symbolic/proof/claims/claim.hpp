@@ -73,4 +73,8 @@ Claim identity_claim(const Identity& identity);
 /// f = 0 is preserved, on the level of `on` if one is given.
 Claim invariant_relation_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
 
+/// Whether it is proved that the bracket fulfils the Jacobi identity. Else it has no symplectic
+/// leaves, and Liouville's theorem says nothing.
+bool is_poisson(Prover& prover);
+
 }  // namespace casimir

@@ -150,7 +150,7 @@ void describe_integrals(Prover& prover, Proof& proof, const LaxPair& pair) {
                                pair.on.empty() ? "" : " of the motion on the level");
   if (pair.on.empty()) {
     try {
-      proof.spectrum = count_of_spectrum(prover, found);
+      proof.spectrum = count_of_spectrum(prover, found, pair.spectral);
     } catch (const TooLarge& limit) {
       proof.spectrum.emplace().reason = limit.what();
     }

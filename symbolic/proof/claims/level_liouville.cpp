@@ -46,6 +46,10 @@ void decide(Prover& prover, Proof& proof, const Functions& on) {
     proof.reason = "the level is no level of Casimir functions";
     return;
   }
+  if (!is_poisson(prover)) {
+    proof.reason = "the Jacobi identity is not proved";
+    return;
+  }
   const Level level = prover.level(on);
   const Functions functions = integrals_on(prover.model(), on);
   PolynomialRows flows;

@@ -137,6 +137,8 @@ void decide_liouville(Prover& prover, Proof& proof) {
   const std::vector<NamedExpression> functions = with_hamiltonian(prover.model(), {});
   const auto leaf = bracket_rank(prover);
   proof.reason = why_not_counted(leaf, functions.size());
+  if (proof.reason.empty() && !is_poisson(prover))
+    proof.reason = "the Jacobi identity is not proved";
   if (!proof.reason.empty()) return;
   const std::size_t needed = leaf->rank / 2;
   PolynomialRows flows;

@@ -12,12 +12,21 @@ namespace casimir {
 /// involution and have independent differentials there is integrable by quadratures. The
 /// Hamiltonian need not be among them: it commutes with all, as they are integrals, so that its
 /// differential is a combination of theirs where these span a Lagrangian subspace. Hypotheses:
-/// - the motion is that of the bracket, without time: a case with a bracket and a Hamiltonian;
-/// - the functions are real: with I in them, real and imaginary parts would have to commute too;
+/// - the motion is that of the bracket, without time: a case with a bracket and a Hamiltonian, and
+///   no constraints but Casimir functions: on others the functions may depend on each other and the
+///   leaves be smaller;
+/// - the bracket fulfils the Jacobi identity, which is proved again: else there are no leaves;
+/// - all is real: with I in the functions, real and imaginary parts would have to commute too;
+/// - the functions are free of the spectral parameter: a function of it is one for each value, and
+///   more than one of them may be independent and not commute;
 /// - they are smooth, and no more than almost everywhere is said;
 /// - all brackets vanish identically, and the rank of their flows is n on each piece.
 /// On a level, or with arbitrary functions, nothing is said.
+/// That they are too few is only said where the leaves have the same dimension almost everywhere
+/// and for almost all parameters of every kind that the case allows.
 /// \param found  polynomials in the prover's ring
-SpectrumCount count_of_spectrum(Prover& prover, const std::vector<Polynomial>& found);
+/// \param spectral  the parameter of the pair, if it has one
+SpectrumCount count_of_spectrum(Prover& prover, const std::vector<Polynomial>& found,
+                                const std::optional<GiNaC::symbol>& spectral);
 
 }  // namespace casimir

@@ -180,6 +180,12 @@ std::vector<Claim> jacobi_claims(const Model& model) {
            Subject::bracket}};
 }
 
+bool is_poisson(Prover& prover) {
+  Proof proof;
+  decide_jacobi(prover, proof);
+  return proof.verdict == Verdict::proved;
+}
+
 void certify_skew(CertificateWriter& writer, const Statement& /*statement*/) {
   writer.file().begin_part("skew: the bracket is skew symmetric");
   writer.file().state_skew_symmetry();

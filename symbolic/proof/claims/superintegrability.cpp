@@ -93,6 +93,10 @@ void decide_superintegrability(Prover& prover, Proof& proof) {
             : fmt::format("the leaves are only known to have dimension {} or more", leaf->rank);
     return;
   }
+  if (!is_poisson(prover)) {
+    proof.reason = "the Jacobi identity is not proved";
+    return;
+  }
   auto chosen = independent_integrals(prover, proof);
   if (!chosen) return;
   const std::size_t half = leaf->rank / 2, count = chosen->functions.size();

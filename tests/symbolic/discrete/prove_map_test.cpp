@@ -71,6 +71,43 @@ TEST(ProveMap, AConjugacyIsInvertible) {
       Verdict::refuted);
 }
 
+/// Everything is mapped to x = 0, where (x, x*y) has one value: it would take the doubling of y
+/// into a constant map.
+TEST(ProveMap, AConjugacyIsInvertibleWhereTheMapLeads) {
+  const Proof proof = proof_of(
+      map_of(kPlane + "[map]\nx = \"0\"\ny = \"2*y\"\n[[conjugacy]]\nname = \"c\"\nexpressions = { "
+                      "X = \"x\", Y = \"x*y\" }\nmap = { X = \"0\", Y = \"0\" }\n"),
+      ClaimKind::conjugacy);
+  EXPECT_EQ(proof.verdict, Verdict::undecided);
+  EXPECT_NE(proof.reason.find("where the map leads"), std::string::npos) << proof.reason;
+}
+
+/// x + y and x*y are the same for (x, y) and (y, x): what is proved is local.
+TEST(ProveMap, AConjugacyIsLocal) {
+  const Proof proof = proof_of(
+      map_of(kPlane + "[map]\nx = \"y\"\ny = \"x\"\n[[conjugacy]]\nname = \"c\"\nexpressions = { X "
+                      "= \"x + y\", Y = \"x*y\" }\nmap = { X = \"X\", Y = \"Y\" }\n"),
+      ClaimKind::conjugacy);
+  EXPECT_EQ(proof.verdict, Verdict::proved) << proof.reason;
+  EXPECT_EQ(proof.evidence.find("locally"), 0U) << proof.evidence;
+}
+
+/// abs(x) takes -x into itself, but no point of x > 0 stays there; and on x = 0 (x, x*y) is
+/// constant.
+TEST(ProveMap, OfConjugaciesNothingIsSaidOnDomainsAndConstraints) {
+  EXPECT_EQ(verdict_of(map_of("[phase_space]\nvariables = [\"x\"]\ndomain = [\"x > 0\"]\n[map]\nx "
+                              "= \"-x\"\n[[conjugacy]]\nname = \"c\"\nexpressions = { X = "
+                              "\"abs(x)\" }\nmap = { X = \"X\" }\n"),
+                       ClaimKind::conjugacy),
+            Verdict::undecided);
+  EXPECT_EQ(verdict_of(map_of("[phase_space]\nvariables = [\"x\", \"y\"]\nconstraints = [\"x\"]\n"
+                              "[map]\nx = \"x\"\ny = \"2*y\"\n[[conjugacy]]\nname = "
+                              "\"c\"\nexpressions = { X = \"x\", Y = \"x*y\" }\nmap = { X = \"X\", "
+                              "Y = \"2*Y\" }\n"),
+                       ClaimKind::conjugacy),
+            Verdict::undecided);
+}
+
 TEST(ProveMap, AConjugacyThatCannotBeReadIsRefused) {
   const std::string change = "X = \"x\", Y = \"(1 + a)*x - y\"";
   EXPECT_THROW(sheared("X = \"x\"", "X = \"X\""), CaseError);

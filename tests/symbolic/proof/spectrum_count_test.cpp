@@ -113,5 +113,56 @@ TEST(SpectrumCount, IsNotMadeOnALevel) {
   EXPECT_FALSE(proof.spectrum.has_value());
 }
 
+/// The spectral parameter stands in a function of the state: each of its values gives another
+/// integral, here p1 + p2, p1^2 + p2^2, .. in powers of 1/s.
+TEST(SpectrumCount, IsNotMadeOfFunctionsOfTheSpectralParameter) {
+  for (const char* entry : {"1/(s - p1) + 1/(s - p2)", "p1/(1 + s*p2)", "exp(s*p1) + exp(s*p2)",
+                            "1/(s - p1) + 1/(s - q1*p2 + q2*p1)"}) {
+    const SpectrumCount count = count_of(free_particles("[[lax]]\nL = [[\"" + std::string(entry) +
+                                                        "\"]]\nA = [[\"0\"]]\nspectral = \"s\"\n"));
+    EXPECT_EQ(count.verdict, Verdict::undecided) << entry;
+    EXPECT_EQ(count.involution, Verdict::undecided) << entry;
+  }
+}
+
+/// Van der Pol's equation, with a limit cycle, by a bracket that has no leaves.
+TEST(SpectrumCount, NeedsTheJacobiIdentity) {
+  const Model model = model_of(
+      "hamiltonian = \"z\"\nintegrable = true\n[phase_space]\nvariables = [\"x\", \"y\", \"z\", "
+      "\"w\"]\n[phase_space.brackets]\n\"x,z\" = \"y\"\n\"y,z\" = \"-x + (1 - x^2)*y\"\n\"x,w\" = "
+      "\"1\"\n" +
+      diagonal({"z", "w"}));
+  EXPECT_EQ(count_of(model).verdict, Verdict::undecided);
+  for (const Proof& proof : prove(model))
+    if (proof.kind == casimir::ClaimKind::liouville) EXPECT_NE(proof.verdict, Verdict::proved);
+}
+
+/// For a < -1000 the leaves are planes, and one integral is enough.
+TEST(SpectrumCount, IsNotRefutedWhereLeavesMayBeSmaller) {
+  const SpectrumCount count = count_of(model_of(
+      "hamiltonian = \"p1^2/2\"\n[phase_space]\nvariables = [\"q1\", \"q2\", \"p1\", \"p2\"]\n"
+      "[phase_space.brackets]\n\"q1,p1\" = \"1\"\n\"q2,p2\" = \"a + 1000 + abs(a + 1000)\"\n"
+      "[parameters]\na = {}\n" +
+      diagonal({"p1"})));
+  EXPECT_EQ(count.verdict, Verdict::undecided);
+}
+
+/// On p2 = 0 the second function is a constant.
+TEST(SpectrumCount, IsNotMadeOnConstraints) {
+  const Model model = model_of(
+      "hamiltonian = \"(p1^2 + p2^2)/2\"\n[phase_space]\nvariables = [\"q1\", \"q2\", \"p1\", "
+      "\"p2\"]\ncanonical = true\nconstraints = [\"p2\"]\n" +
+      diagonal({"p1", "p2"}));
+  EXPECT_EQ(count_of(model).verdict, Verdict::undecided);
+}
+
+TEST(SpectrumCount, IsOfARealMotion) {
+  const Model model = model_of(
+      "hamiltonian = \"I*(p1^2 + p2^2)/2\"\n[phase_space]\nvariables = [\"q1\", \"q2\", \"p1\", "
+      "\"p2\"]\ncanonical = true\n" +
+      diagonal({"p1", "p2"}));
+  EXPECT_EQ(count_of(model).verdict, Verdict::undecided);
+}
+
 }  // namespace
 }  // namespace casimir::test

@@ -198,5 +198,18 @@ TEST(Darboux, ProductsWithIntegralsAreNoOthers) {
   EXPECT_FALSE(pencil.complete);
 }
 
+/// c is zero at every value that is allowed: then F = x for every a.
+TEST(DarbouxConditions, OfAssumptionsThatLeaveSingleValuesNothingIsSaid) {
+  for (const char* assumed :
+       {"assume = \"c = 0\"", "assume = \"-c^2 >= 0\"", "assume = [\"c >= 0\", \"c <= 0\"]"}) {
+    const Model model =
+        with_equations(R"(["x", "y"])", "a = {}\nc = { " + std::string(assumed) + " }\n",
+                       "x = \"x*y + c + c*a\"\ny = \"x + y^3 + a\"\n");
+    EXPECT_FALSE(search::find_darboux_polynomials(model, 1, {}).complete) << assumed;
+    EXPECT_FALSE(search::find_rational(model, 1, {}).complete) << assumed;
+    EXPECT_FALSE(search::find_darboux_conditions(model, 1, names({"a"}), {}).complete) << assumed;
+  }
+}
+
 }  // namespace
 }  // namespace casimir::test

@@ -76,6 +76,12 @@ std::string values_line(const std::vector<std::pair<std::string, std::string>>& 
   return line;
 }
 
+/// Of which parameters the answer says nothing about single values.
+std::string for_generic(const std::vector<std::string>& parameters) {
+  if (parameters.empty()) return {};
+  return fmt::format(", for generic values of {}", fmt::join(parameters, ", "));
+}
+
 void print_end(bool complete, const std::string& reason, std::size_t conditions, double seconds) {
   const bool colour = may_colour(1);
   if (complete)
@@ -132,12 +138,10 @@ void print(const Model& model, int degree, const Report& report, double seconds)
     fmt::print("found:\n");
     print_list(report.found, colour);
   }
-  const std::string generic = report.generic.empty() ? ""
-                                                     : fmt::format(", for generic values of {}",
-                                                                   fmt::join(report.generic, ", "));
   if (report.complete) {
     fmt::print("No other {} up to degree {} that the known ones do not generate{}: {}\n",
-               noun(report, false), degree, generic, verdict_text(Verdict::proved, colour));
+               noun(report, false), degree, for_generic(report.generic),
+               verdict_text(Verdict::proved, colour));
   } else {
     fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
                report.reason);
@@ -273,9 +277,9 @@ void print(const Model& model, int degree, const search::DarbouxReport& report, 
              model.name, degree);
   print_list(report.found, colour);
   if (report.complete)
-    fmt::print("{}: {}\n",
+    fmt::print("{}{}: {}\n",
                report.found.empty() ? "There are none" : "No others that are irreducible",
-               verdict_text(Verdict::proved, colour));
+               for_generic(report.generic), verdict_text(Verdict::proved, colour));
   else
     fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
                report.reason);
@@ -309,8 +313,8 @@ void print(const Model& model, int degree, const search::RationalReport& report,
   for (const search::DarbouxCombination& own : report.integrals)
     fmt::print("  {}   {}\n", own.text, verdict_text(own.verdict, colour));
   if (report.complete)
-    fmt::print("No others that do not follow from these and the polynomial integrals: {}\n",
-               verdict_text(Verdict::proved, colour));
+    fmt::print("No others that do not follow from these and the polynomial integrals{}: {}\n",
+               for_generic(report.generic), verdict_text(Verdict::proved, colour));
   else
     fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
                report.reason);
