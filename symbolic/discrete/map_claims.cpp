@@ -209,7 +209,7 @@ Claim whole_poisson_claim(const MapModel& map) {
         auto image = images.begin();
         for (std::size_t i = 0; i < x.size(); ++i) {
           for (std::size_t j = i + 1; j < x.size(); ++j, ++image) {
-            const ex expected = *image;
+            const ex& expected = *image;
             residuals.push_back(
                 {fmt::format("{{{}', {}'}} less its image", x[i].get_name(), x[j].get_name()),
                  prover.bracket(prover.convert(map.next[i]), prover.convert(map.next[j])) -
