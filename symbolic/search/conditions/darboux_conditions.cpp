@@ -251,7 +251,8 @@ void DarbouxConditions::confirm(const DarbouxPlace& place) {
     leave_open_if_split(found);
     condition.found = additional_of(special, found, here);
   } catch (const GiNaC::pole_error&) {
-    return;
+    // Of the equations, or of what is compared with it: only the former would be no case.
+    return leave_open("at some values there is a division by zero");
   } catch (const ModelError& problem) {
     return leave_open(fmt::format("the search at {} has no answer: {}", where, problem.what()));
   }
