@@ -1,12 +1,21 @@
 #pragma once
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace casimir::test {
+
+/// A file as the name of a test.
+inline std::string test_name_of(const std::filesystem::path& file) {
+  std::string name = file.stem().string();
+  std::ranges::replace_if(
+      name, [](unsigned char c) { return !std::isalnum(c); }, '_');
+  return name;
+}
 
 /// Every case file of that folder, sorted by name.
 inline std::vector<std::filesystem::path> case_files(const std::filesystem::path& folder) {

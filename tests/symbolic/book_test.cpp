@@ -103,14 +103,7 @@ TEST_P(BookFile, IsProvedAndItsErrorsAreRefuted) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, BookFile, testing::ValuesIn(case_files(kFolder)),
-                         [](const auto& file) {
-                           std::string name = file.param.stem().string();
-                           std::replace_if(
-                               name.begin(), name.end(),
-                               [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); },
-                               '_');
-                           return name;
-                         });
+                         [](const auto& file) { return test_name_of(file.param); });
 
 TEST(Book, EveryFormulaOfChapterOneIsTheSourceOfAFile) {
   std::set<int> covered;

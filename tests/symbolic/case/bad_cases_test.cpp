@@ -50,14 +50,7 @@ TEST_P(BadCase, IsRefusedWithThePlaceOfTheError) {
 
 INSTANTIATE_TEST_SUITE_P(Files, BadCase,
                          testing::ValuesIn(case_files(CASIMIR_SOURCE_DIR "/tests/bad_cases")),
-                         [](const auto& file) {
-                           std::string name = file.param.stem().string();
-                           std::replace_if(
-                               name.begin(), name.end(),
-                               [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); },
-                               '_');
-                           return name;
-                         });
+                         [](const auto& file) { return test_name_of(file.param); });
 
 TEST(ReadCase, NamesTheFileThatDoesNotExist) {
   try {

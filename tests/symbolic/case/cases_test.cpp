@@ -78,14 +78,7 @@ TEST_P(EveryCase, WitnessOfAFalseCasimirReEvaluatesToItsValue) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, EveryCase, testing::ValuesIn(bundled_cases()),
-                         [](const auto& file) {
-                           std::string name = file.param.stem().string();
-                           std::replace_if(
-                               name.begin(), name.end(),
-                               [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); },
-                               '_');
-                           return name;
-                         });
+                         [](const auto& file) { return test_name_of(file.param); });
 
 }  // namespace
 }  // namespace casimir::test
