@@ -267,6 +267,25 @@ void choose_independent(const System& system, const Problem& problem, Ansatz& an
 
 }  // namespace
 
+Monomials visible_monomials(const System& system, const Problem& problem, const Watch& watch) {
+  constexpr std::size_t kBytesOfAFunction = 100;
+  const double functions = count_monomials(problem.weights, problem.degree);
+  const double bytes = functions * static_cast<double>(problem.weights.size() + kBytesOfAFunction);
+  if (bytes > watch.memory_limit)
+    throw TooMuchMemory(fmt::format("degree {} has {:.3g} unknowns, more than fit into {:.3g} GB",
+                                    problem.degree, functions, watch.memory_limit / 1e9));
+  const auto& places = problem.fields.places;
+  const Monomials all = monomials_of(problem, problem.weights, problem.degree);
+  Monomials result(places.size());
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    bool silent = false;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      silent = silent || (all[c][i] != 0 && system.is_silent()[places[i]]);
+    if (!silent) result.add({all[c], all[c] + places.size()}, all.degree(c));
+  }
+  return result;
+}
+
 Ansatz make_ansatz(const System& system, const Problem& problem, const Watch& watch) {
   check_memory(problem, watch);
   const auto& places = problem.fields.places;

@@ -61,7 +61,7 @@ Model Combiner::extended(Kind kind) const {
 /// as heavy as that degree.
 Problem Combiner::problem(System& system) const {
   Problem result;
-  result.fields = {system.atoms(), {system.flow()}};
+  result.fields = {system.atoms(), {system.flow()}, {system.plain_flow()}};
   result.weights.assign(system.atoms().size(), degree_);
   std::fill_n(result.weights.begin(), model_.variables.size(), 1);
   result.degree = degree_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "symbolic/search/independent_monomials.hpp"
 #include "symbolic/search/modular/level_points.hpp"
 #include "symbolic/search/modular/reconstruct.hpp"
 #include "symbolic/search/modular/shorten.hpp"
@@ -38,7 +39,9 @@ class Run {
         random_(11),
         ansatz_(problem.weights.size()),
         span_(modulus_),
-        generators_(problem.known) {}
+        generators_(problem.known),
+        by_values_(problem.on.empty() && !system.relations().empty()),
+        samples_(system, problem.fields, modulus_, 41) {}
 
   Solution run();
 
@@ -51,7 +54,10 @@ class Run {
   };
 
   void take_ansatz();
+  void take_ansatz_by_values();
   void eliminate();
+  void eliminate_by_values();
+  void add_block(Block block, std::size_t done, std::size_t columns);
   bool only_trivial();
   void check_memory() const;
   void draw_points(std::size_t count);
@@ -80,10 +86,27 @@ class Run {
   Span span_;
   std::vector<Generator> generators_;
   std::vector<std::vector<Residue>> generator_values_;
+  /// Functions that obey relations are compared by their values, and not with cofactors.
+  bool by_values_;
+  Samples samples_;
+  std::vector<std::vector<std::uint32_t>> parts_;
   Solution solution_;
 };
 
+void Run::take_ansatz_by_values() {
+  const Monomials list = visible_monomials(system_, problem_, watch_);
+  IndependentMonomials chosen =
+      independent_monomials(system_, problem_.fields, list, modulus_, constants_, samples_, watch_);
+  ansatz_ = std::move(chosen.monomials);
+  parts_ = std::move(chosen.parts);
+  independent_ = chosen.complete;
+}
+
 void Run::take_ansatz() {
+  if (by_values_) {
+    take_ansatz_by_values();
+    return;
+  }
   Ansatz ansatz = make_ansatz(system_, problem_, watch_);
   ansatz_ = std::move(ansatz.monomials);
   relations_ = std::move(ansatz.relations);
@@ -92,34 +115,66 @@ void Run::take_ansatz() {
   for (const Relation& relation : relations_) multipliers_ += relation.multipliers.size();
 }
 
+/// \param done  columns of the blocks before it, of so many in all
+void Run::add_block(Block block, std::size_t done, std::size_t columns) {
+  Watch part = watch_;
+  solution_.largest_block = std::max(solution_.largest_block, block.columns.size());
+  const double before = static_cast<double>(done) / static_cast<double>(columns);
+  const double width = static_cast<double>(block.columns.size()) / static_cast<double>(columns);
+  part.tick = [&](double share) { watch_.tick(before + width * share); };
+  echelons_.emplace_back(modulus_, std::move(block.rows), block.columns.size(), part);
+  nullity_ += echelons_.back().nullity();
+  block.rows.clear();
+  blocks_.push_back(std::move(block));
+}
+
 void Run::eliminate() {
+  if (by_values_) {
+    eliminate_by_values();
+    return;
+  }
   const Equations equations =
       make_equations(problem_.fields, ansatz_, relations_, constants_, modulus_);
-  blocks_ = split(equations);
+  std::vector<Block> blocks = split(equations);
   // Cofactors alone say only what holds between the relations.
-  std::erase_if(blocks_, [&](const Block& block) { return block.columns.back() < multipliers_; });
+  std::erase_if(blocks, [&](const Block& block) { return block.columns.back() < multipliers_; });
   solution_.unknowns = equations.columns;
   solution_.equations = equations.rows();
-  solution_.blocks = blocks_.size();
+  solution_.blocks = blocks.size();
   std::size_t done = 0;
-  Watch part = watch_;
-  echelons_.reserve(blocks_.size());
-  for (Block& block : blocks_) {
-    solution_.largest_block = std::max(solution_.largest_block, block.columns.size());
-    const double before = static_cast<double>(done) / static_cast<double>(equations.columns);
-    const double width =
-        static_cast<double>(block.columns.size()) / static_cast<double>(equations.columns);
-    part.tick = [&](double share) { watch_.tick(before + width * share); };
-    echelons_.emplace_back(modulus_, std::move(block.rows), block.columns.size(), part);
-    nullity_ += echelons_.back().nullity();
-    done += block.columns.size();
+  echelons_.reserve(blocks.size());
+  for (Block& block : blocks) {
+    const std::size_t own = block.columns.size();
+    add_block(std::move(block), done, equations.columns);
+    done += own;
+  }
+}
+
+void Run::eliminate_by_values() {
+  constexpr std::size_t kMore = 16;
+  solution_.unknowns = ansatz_.size();
+  solution_.blocks = parts_.size();
+  std::size_t done = 0;
+  echelons_.reserve(parts_.size());
+  for (std::vector<std::uint32_t>& columns : parts_) {
+    const std::size_t rows = columns.size() + kMore;
+    check_memory_of_values(rows, watch_);
+    if (!samples_.draw(rows, &constants_, {}, watch_))
+      throw ModelError("no points of the functions were found modulo a prime");
+    solution_.equations += rows;
+    Block block{std::move(columns), {}};
+    block.rows = samples_.rows(Samples::Goal::annihilated, ansatz_, block.columns,
+                               problem_.fields.places, rows);
+    const std::size_t own = block.columns.size();
+    add_block(std::move(block), done, ansatz_.size());
+    done += own;
   }
 }
 
 /// Whether the known functions, if they are independent, account for the whole null space: the
 /// products of independent functions are linearly independent, and need not be looked at.
 bool Run::only_trivial() {
-  if (!relations_.empty()) return false;
+  if (!relations_.empty() || by_values_) return false;
   std::vector<Polynomial> functions;
   for (const Generator& g : generators_) functions.push_back(g.function);
   if (rank_of_gradients(system_, functions) < functions.size()) return false;
@@ -278,7 +333,10 @@ std::optional<Polynomial> Run::realise(const Vector& vector) {
         support.add({ansatz_[c], ansatz_[c] + ansatz_.variables()}, ansatz_.degree(c));
     }
     std::optional<Polynomial> f =
-        reconstruct(system_, problem_.fields, support, relations_, system_.parameters(), watch_);
+        by_values_ ? reconstruct_from_values(system_, problem_.fields, Samples::Goal::annihilated,
+                                             support, system_.parameters(), watch_)
+                   : reconstruct(system_, problem_.fields, support, relations_,
+                                 system_.parameters(), watch_);
     if (f && !span_.contains(values_of(*f))) return f;
   }
   return std::nullopt;
@@ -315,7 +373,7 @@ Solution Run::run() {
     add_products(generators_.size() - 1);
   }
   solution_.found_dimension = span_.dimension() - solution_.trivial;
-  // Cofactors of the relations are unknowns for one field only.
+  // Cofactors, of the functions of a level, are unknowns for one field only.
   const bool cofactors = relations_.empty() || problem_.fields.rates.size() == 1;
   solution_.complete =
       all_found && coprime_ && independent_ && cofactors && span_.dimension() == nullity_;

@@ -47,6 +47,10 @@ struct Ansatz {
 /// \throws TooMuchMemory
 Ansatz make_ansatz(const System& system, const Problem& problem, const Watch& watch);
 
+/// All monomials of a problem but those with silent atoms. These may obey relations.
+/// \throws TooMuchMemory
+Monomials visible_monomials(const System& system, const Problem& problem, const Watch& watch);
+
 /// What came of it.
 struct Solution {
   std::vector<Generator> found;

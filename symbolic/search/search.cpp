@@ -78,7 +78,7 @@ std::vector<int> Finder::weights() const {
 std::vector<Generator> Finder::casimirs_as_needed() {
   if (!model_.poisson || request_.casimirs_are_integrals) return {};
   Problem problem;
-  problem.fields = {system_.atoms(), system_.coordinate_flows()};
+  problem.fields = {system_.atoms(), system_.coordinate_flows(), system_.plain_coordinate_flows()};
   problem.weights = weights_;
   // At rest, the time and functions of it alone would be some of them.
   for (std::size_t k = problem.fields.places.size(); k-- > model_.variables.size();) {
@@ -88,6 +88,7 @@ std::vector<Generator> Finder::casimirs_as_needed() {
     const auto place = static_cast<std::ptrdiff_t>(k);
     problem.fields.places.erase(problem.fields.places.begin() + place);
     for (auto& row : problem.fields.rates) row.erase(row.begin() + place);
+    for (auto& row : problem.fields.plain) row.erase(row.begin() + place);
     problem.weights.erase(problem.weights.begin() + place);
   }
   // The rank of the bracket at a random point is a lower bound of the generic one.
@@ -136,7 +137,7 @@ std::vector<Generator> Finder::casimirs_as_needed() {
 
 Problem Finder::integral_problem(std::vector<Generator> known) {
   Problem problem;
-  problem.fields = {system_.atoms(), {system_.flow()}};
+  problem.fields = {system_.atoms(), {system_.flow()}, {system_.plain_flow()}};
   problem.weights = weights_;
   problem.degree = request_.degree;
   problem.known = std::move(known);

@@ -92,11 +92,13 @@ System::System(const Model& model, const std::vector<NamedExpression>& functions
   std::vector<Polynomial> rates = prover_.field();
   if (model.time) rates.push_back(ring().constant(1));
   flow_ = of_atoms(rates);
+  plain_flow_ = plain_rates(rates);
   for (std::size_t j = 0; model.poisson && j < dimension; ++j) {
     std::vector<Polynomial> row;
     for (std::size_t i = 0; i < dimension; ++i) row.push_back(prover_.bracket_entry(i, j));
     if (model.time) row.push_back(Polynomial(ring()));
     coordinate_flows_.push_back(of_atoms(row));
+    plain_coordinate_flows_.push_back(plain_rates(row));
   }
   collect_parameters();
   meter_.reset();
@@ -146,7 +148,6 @@ void System::need_all(const std::vector<Polynomial>& rates) {
 /// The coordinates and all functions that their rates, or the declared functions, are polynomials
 /// in once denominators are multiplied out; and the relations between them.
 void System::collect_atoms(const std::vector<NamedExpression>& declared) {
-  const std::size_t symbols = prover_.ring().symbols().size();
   atoms_ = moving_;
   std::size_t place = model().variables.size() + model().parameters.size();
   for (const NamedExpression& f : declared) {
@@ -171,18 +172,22 @@ void System::collect_atoms(const std::vector<NamedExpression>& declared) {
     need_all(rates);
     for (const std::size_t atom : atoms_) silent_[atom] = !contains(own, atom);
   }
-  for (const std::size_t atom : atoms_) {
-    if (atom < symbols) continue;
-    const Bond& bond = bonds_[atom - symbols];
-    const Polynomial variable = ring().variable(atom);
-    if (bond.kind == Bond::Kind::inverse)
-      relations_.push_back(variable * bond.base - ring().constant(1));
-    if (bond.kind == Bond::Kind::root) relations_.push_back(variable.pow(bond.order) - bond.base);
-  }
-  for (const Defined& d : defined_) {
-    atoms_.push_back(d.place);
-    relations_.push_back(ring().variable(d.place) - d.value);
-  }
+  for (const Defined& d : defined_) atoms_.push_back(d.place);
+  for (const std::size_t atom : atoms_)
+    if (std::optional<Polynomial> relation = relation_of(atom))
+      relations_.push_back(std::move(*relation));
+}
+
+std::optional<Polynomial> System::relation_of(std::size_t place) const {
+  const Polynomial variable = ring().variable(place);
+  for (const Defined& d : defined_)
+    if (d.place == place) return variable - d.value;
+  const std::size_t symbols = prover_.ring().symbols().size();
+  if (place < symbols) return std::nullopt;
+  const Bond& bond = bonds_[place - symbols];
+  if (bond.kind == Bond::Kind::inverse) return variable * bond.base - ring().constant(1);
+  if (bond.kind == Bond::Kind::root) return variable.pow(bond.order) - bond.base;
+  return std::nullopt;
 }
 
 Polynomial System::slope(const Polynomial& p, std::size_t i) const {
@@ -194,7 +199,7 @@ Polynomial System::slope(const Polynomial& p, std::size_t i) const {
   return result;
 }
 
-std::vector<Polynomial> System::of_atoms(const std::vector<Polynomial>& rates) const {
+std::vector<Polynomial> System::plain_rates(const std::vector<Polynomial>& rates) const {
   if (prover_.ring().is_polynomial() && defined_.empty()) return rates;
   std::vector<Polynomial> result;
   for (const std::size_t atom : atoms_) {
@@ -206,7 +211,12 @@ std::vector<Polynomial> System::of_atoms(const std::vector<Polynomial>& rates) c
     }
     result.push_back(sum.finish());
   }
-  return prover_.ring().common_numerators(std::move(result));
+  return result;
+}
+
+std::vector<Polynomial> System::of_atoms(const std::vector<Polynomial>& rates) const {
+  if (prover_.ring().is_polynomial() && defined_.empty()) return rates;
+  return prover_.ring().common_numerators(plain_rates(rates));
 }
 
 GiNaC::ex System::expression(const Polynomial& p) const {
@@ -252,6 +262,18 @@ bool System::in_atoms(const Polynomial& p) const {
   for (std::size_t i = 0; i < ring().size(); ++i)
     if (p.uses(i) && !constant_[i] && !contains(atoms_, i)) return false;
   return true;
+}
+
+bool System::is_zero_function(const Polynomial& p) const {
+  Polynomial value = p;
+  for (const Defined& d : defined_) {
+    SumOfProducts sum(ring());
+    const std::vector<Polynomial> coefficients = value.coefficients(d.place);
+    for (std::size_t k = 0; k < coefficients.size(); ++k)
+      sum.add(coefficients[k], functions().reduced(d.value.pow(k)));
+    value = sum.finish();
+  }
+  return functions().numerator(value).is_zero();
 }
 
 std::optional<Polynomial> System::hamiltonian() {

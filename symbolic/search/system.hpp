@@ -66,6 +66,14 @@ class System {
   const std::vector<Polynomial>& flow() const { return flow_; }
   /// The Hamiltonian fields of the coordinates: {atom, x_j} in row j, the time at rest.
   const std::vector<std::vector<Polynomial>>& coordinate_flows() const { return coordinate_flows_; }
+  /// The same fields as they are: denominators are variables of the ring, atoms or none.
+  const std::vector<Polynomial>& plain_flow() const { return plain_flow_; }
+  const std::vector<std::vector<Polynomial>>& plain_coordinate_flows() const {
+    return plain_coordinate_flows_;
+  }
+  /// What binds a variable of the ring to earlier ones, as u^2 - b or y*d - 1; empty where nothing
+  /// does.
+  std::optional<Polynomial> relation_of(std::size_t place) const;
 
   /// The Hamiltonian, where it is an integral and a polynomial in the atoms.
   std::optional<Polynomial> hamiltonian();
@@ -75,6 +83,9 @@ class System {
 
   /// Whether a polynomial uses only atoms and constants.
   bool in_atoms(const Polynomial& p) const;
+
+  /// Whether a polynomial of the ring is zero as a function, by the relations that the ring knows.
+  bool is_zero_function(const Polynomial& p) const;
 
   /// Values of all variables of the ring that obey its relations; empty where none were found, as
   /// roots do not always have values modulo a prime.
@@ -95,7 +106,9 @@ class System {
   void need_all(const std::vector<Polynomial>& rates);
   /// The derivative along the i-th of the coordinates and the time.
   Polynomial slope(const Polynomial& p, std::size_t i) const;
-  /// The rates of the atoms where the coordinates and the time have these rates.
+  /// The rates of the atoms where the coordinates and the time have these rates ..
+  std::vector<Polynomial> plain_rates(const std::vector<Polynomial>& rates) const;
+  /// .. and without denominators.
   std::vector<Polynomial> of_atoms(const std::vector<Polynomial>& rates) const;
   void collect_parameters();
   std::optional<Residue> bound_value(std::size_t place, const Point& point, const Modulus& modulus,
@@ -114,6 +127,8 @@ class System {
   std::vector<std::size_t> parameters_;
   std::vector<Polynomial> flow_;
   std::vector<std::vector<Polynomial>> coordinate_flows_;
+  std::vector<Polynomial> plain_flow_;
+  std::vector<std::vector<Polynomial>> plain_coordinate_flows_;
 };
 
 /// The first prime modulo which all variables of the system's ring have values: a root of 2 is not

@@ -20,7 +20,7 @@ TensorSpace::TensorSpace(const Model& model, TensorType type)
 
 Problem TensorSpace::problem(int degree) const {
   Problem result;
-  result.fields = {system_.atoms(), {system_.flow()}};
+  result.fields = {system_.atoms(), {system_.flow()}, {system_.plain_flow()}};
   result.weights.assign(system_.atoms().size(), 1);
   result.degree = degree + 1;  // with the component's variable
   result.known = known_;

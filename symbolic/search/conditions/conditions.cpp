@@ -295,6 +295,8 @@ ConditionReport ConditionFinder::run(const std::vector<std::size_t>& free) {
   const Ansatz ansatz = make_ansatz(finder_.system(), problem, watch_);
   const std::vector<ParametricBlock> blocks =
       parametric_blocks(finder_.system(), problem.fields, ansatz.monomials, ansatz.relations);
+  if (!ansatz.coprime || !ansatz.independent)
+    leave_open("only cofactors of low degree were tried, and the functions may need others");
   const std::vector<std::size_t> inside = inside_functions(finder_.system(), free);
   for (const std::size_t place : inside) {
     leave_open(fmt::format("'{}' is inside a function, of which only simple values were tried",

@@ -12,6 +12,9 @@ namespace casimir::search {
 struct Fields {
   std::vector<std::size_t> places;
   std::vector<std::vector<Polynomial>> rates;  ///< [field][variable]
+  /// The same fields up to a common function of each, as short as they are: see `System`. Needed
+  /// where the variables obey relations.
+  std::vector<std::vector<Polynomial>> plain{};
 };
 
 /// A function on whose zero level the fields need to annihilate only, with the monomials of its

@@ -1,6 +1,8 @@
 #include "symbolic/search/modular/reconstruct.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 
 #include "symbolic/search/modular/echelon.hpp"
 
@@ -131,20 +133,48 @@ class Lift {
   std::vector<cln::cl_RA> numbers_;
 };
 
-std::optional<Polynomial> lift(const System& system, const Fields& fields,
-                               const Monomials& monomials, const std::vector<Relation>& relations,
-                               const Point& constants, const Watch& watch) {
+/// A solution modulo a prime for the coefficients of monomials with parameters of a degree; empty
+/// where there is none; no value where the prime cannot be used.
+using Solver = std::function<std::optional<std::vector<Residue>>(
+    const Monomials& monomials, int degree, const Modulus& modulus)>;
+
+std::optional<Polynomial> lift(Lift result, const Solver& solve, const Monomials& monomials,
+                               int degree, const Watch& watch) {
   constexpr std::size_t kPrimes = 60;
-  std::size_t multipliers = 0;
-  for (const Relation& relation : relations) multipliers += relation.multipliers.size();
-  Lift result(system, fields, monomials, relations.empty());
   for (std::size_t i = 0; i < kPrimes; ++i) {
     const Modulus modulus = Modulus::nth(i);
-    const Equations equations = make_equations(fields, monomials, relations, constants, modulus);
-    const std::vector<Residue> solution = first_solution(equations, multipliers, modulus, watch);
-    if (solution.empty()) return std::nullopt;
-    if (std::optional<Polynomial> f = result.add(solution, modulus)) return f;
+    const std::optional<std::vector<Residue>> solution = solve(monomials, degree, modulus);
+    if (!solution) continue;
+    if (solution->empty()) return std::nullopt;
+    if (std::optional<Polynomial> f = result.add(*solution, modulus)) return f;
     watch.tick(static_cast<double>(i) / kPrimes);
+  }
+  return std::nullopt;
+}
+
+/// The least degree in the parameters at which there is a solution, and that one exactly.
+/// \param most  of the unknowns
+std::optional<Polynomial> reconstruct_by(const System& system, const Fields& extended,
+                                         const Solver& solve, const Modulus& modulus,
+                                         const Monomials& support, std::size_t parameters,
+                                         bool exact_check, double most, const Watch& watch) {
+  constexpr int kHighestDegree = 12;
+  for (int degree = 0; degree <= kHighestDegree; ++degree) {
+    const std::vector<int> weights(parameters, 1);
+    if (static_cast<double>(support.size()) * count_monomials(weights, degree) > most) break;
+    const Monomials monomials = times_parameters(support, parameters, degree);
+    const std::optional<std::vector<Residue>> solution = solve(monomials, degree, modulus);
+    if (!solution) return std::nullopt;
+    if (!solution->empty()) {
+      // Only what occurs, from now on.
+      Monomials used(monomials.variables());
+      for (std::size_t c = 0; c < monomials.size(); ++c) {
+        if ((*solution)[c] == 0) continue;
+        used.add({monomials[c], monomials[c] + monomials.variables()}, monomials.degree(c));
+      }
+      return lift(Lift(system, extended, used, exact_check), solve, used, degree, watch);
+    }
+    if (parameters == 0) break;
   }
   return std::nullopt;
 }
@@ -156,36 +186,47 @@ std::optional<Polynomial> reconstruct(const System& system, const Fields& fields
                                       const std::vector<Relation>& relations,
                                       const std::vector<std::size_t>& parameters,
                                       const Watch& watch) {
-  constexpr int kHighestDegree = 12;
   constexpr double kUnknowns = 60000;
   const Fields extended = with_parameters(system, fields, parameters);
   const Point constants(system.ring().size(), 0);
-  const Modulus modulus = Modulus::nth(0);
-  for (int degree = 0; degree <= kHighestDegree; ++degree) {
-    const std::vector<int> weights(parameters.size(), 1);
-    if (static_cast<double>(support.size()) * count_monomials(weights, degree) > kUnknowns) break;
+  const auto solve = [&](const Monomials& monomials, int degree, const Modulus& modulus) {
     std::vector<Relation> scaled;
+    std::size_t multipliers = 0;
     for (const Relation& relation : relations) {
       scaled.push_back({relation.function,
                         times_parameters(relation.multipliers, parameters.size(), degree + 2)});
+      multipliers += scaled.back().multipliers.size();
     }
-    const Monomials monomials = times_parameters(support, parameters.size(), degree);
-    std::size_t multipliers = 0;
-    for (const Relation& relation : scaled) multipliers += relation.multipliers.size();
     const Equations equations = make_equations(extended, monomials, scaled, constants, modulus);
-    const std::vector<Residue> solution = first_solution(equations, multipliers, modulus, watch);
-    if (!solution.empty()) {
-      // Only what occurs, from now on.
-      Monomials used(monomials.variables());
-      for (std::size_t c = 0; c < monomials.size(); ++c) {
-        if (solution[c] == 0) continue;
-        used.add({monomials[c], monomials[c] + monomials.variables()}, monomials.degree(c));
-      }
-      return lift(system, extended, used, scaled, constants, watch);
-    }
-    if (parameters.empty()) break;
-  }
-  return std::nullopt;
+    return std::optional(first_solution(equations, multipliers, modulus, watch));
+  };
+  return reconstruct_by(system, extended, solve, Modulus::nth(0), support, parameters.size(),
+                        relations.empty(), kUnknowns, watch);
+}
+
+std::optional<Polynomial> reconstruct_from_values(const System& system, const Fields& fields,
+                                                  Samples::Goal goal, const Monomials& support,
+                                                  const std::vector<std::size_t>& parameters,
+                                                  const Watch& watch) {
+  constexpr double kUnknowns = 3000;
+  constexpr std::size_t kMore = 8;
+  const Fields extended = with_parameters(system, fields, parameters);
+  const auto solve = [&](const Monomials& monomials, int,
+                         const Modulus& modulus) -> std::optional<std::vector<Residue>> {
+    std::mt19937_64 random(5);
+    if (!system.random_point(modulus, random)) return std::nullopt;
+    Samples samples(system, fields, modulus, 17);
+    const std::size_t rows = monomials.size() + kMore;
+    if (!samples.draw(rows, nullptr, parameters, watch)) return std::nullopt;
+    std::vector<std::uint32_t> columns(monomials.size());
+    std::iota(columns.begin(), columns.end(), 0U);
+    const Echelon echelon(modulus, samples.rows(goal, monomials, columns, extended.places, rows),
+                          columns.size(), watch);
+    if (echelon.nullity() == 0) return std::vector<Residue>{};
+    return echelon.null_basis().front();
+  };
+  return reconstruct_by(system, extended, solve, usable_modulus(system), support, parameters.size(),
+                        false, kUnknowns, watch);
 }
 
 }  // namespace casimir::search

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "symbolic/search/modular/linear_map.hpp"
+#include "symbolic/search/modular/samples.hpp"
 #include "symbolic/search/watch.hpp"
 
 namespace casimir::search {
@@ -20,5 +21,12 @@ std::optional<Polynomial> reconstruct(const System& system, const Fields& fields
                                       const std::vector<Relation>& relations,
                                       const std::vector<std::size_t>& parameters,
                                       const Watch& watch);
+
+/// The same from values at random points, for fields whose functions obey relations: what the
+/// fields annihilate, or what is zero.
+std::optional<Polynomial> reconstruct_from_values(const System& system, const Fields& fields,
+                                                  Samples::Goal goal, const Monomials& support,
+                                                  const std::vector<std::size_t>& parameters,
+                                                  const Watch& watch);
 
 }  // namespace casimir::search
