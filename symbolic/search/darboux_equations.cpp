@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "symbolic/error.hpp"
+#include "symbolic/search/newton_faces.hpp"
 
 namespace casimir::search {
 namespace {
@@ -21,6 +22,17 @@ int field_growth(const System& system) {
     }
   }
   return static_cast<int>(degree - 1);
+}
+
+/// Those that a cofactor may have: see `NewtonFaces`.
+Monomials monomials_of_cofactors(const System& system, std::size_t dimension) {
+  const NewtonFaces faces(system.flow(), dimension);
+  const Monomials all = all_monomials(std::vector<int>(dimension, 1), field_growth(system));
+  Monomials result(dimension);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (faces.allows({all[i], all[i] + dimension}))
+      result.add({all[i], all[i] + dimension}, all.degree(i));
+  return result;
 }
 
 std::size_t room_for(const System& system, const Monomials& a, const Monomials& b) {
@@ -42,7 +54,7 @@ DarbouxEquations::DarbouxEquations(const Model& model, int degree)
     : system_(model, {}, {}),
       dimension_(model.variables.size()),
       monomials_(all_monomials(std::vector<int>(dimension_, 1), degree)),
-      cofactor_monomials_(all_monomials(std::vector<int>(dimension_, 1), field_growth(system_))),
+      cofactor_monomials_(monomials_of_cofactors(system_, dimension_)),
       first_f_(system_.ring().size()),
       first_k_(first_f_ + monomials_.size()),
       ring_(room_for(system_, monomials_, cofactor_monomials_)) {

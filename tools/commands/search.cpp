@@ -10,6 +10,7 @@
 #include "symbolic/search/darboux.hpp"
 #include "symbolic/search/search.hpp"
 #include "symbolic/structure/brackets.hpp"
+#include "symbolic/structure/conformal.hpp"
 #include "symbolic/structure/orbital.hpp"
 #include "symbolic/structure/tensors.hpp"
 #include "tools/cli/case_library.hpp"
@@ -34,7 +35,7 @@ struct SearchArguments {
   int degree = 0;
   bool casimirs = false, darboux = false, rational = false;
   int tensors = 0;  ///< their rank, where it is given
-  bool orbits = false;
+  bool orbits = false, conformal = false;
   bool fields = false, bivectors = false, forms = false, hamiltonian = false, bihamiltonian = false;
   std::vector<std::string> on, functions, weights, free;
 };
@@ -91,6 +92,10 @@ int search_structure(const SearchArguments& options, const Model& model, SearchW
   structure::TensorType type{options.tensors, options.forms};
   if (options.fields || (options.forms && options.tensors == 0)) type.rank = 1;
   if (options.bivectors) type.rank = 2;
+  if (options.conformal)
+    return answer(options, model,
+                  structure::find_conformal_tensors(model, type, options.degree, watch.watch()),
+                  watch);
   return answer(options, model, structure::find_tensors(model, type, options.degree, watch.watch()),
                 watch);
 }
@@ -136,6 +141,9 @@ int search(const SearchArguments& options) {
                                 !options.functions.empty() || !options.weights.empty()))
     throw UsageError("a search for tensors or brackets takes --degree and --param only");
   if (options.orbits && !options.fields) throw UsageError("--orbits goes with --fields");
+  const bool tensors = options.fields || options.bivectors || options.forms || options.tensors > 0;
+  if (options.conformal && (!tensors || options.orbits))
+    throw UsageError("--conformal goes with --fields, --bivectors, --forms or --tensors");
   if (!is_structure(options) && options.degree < 1)
     throw UsageError("--degree has to be 1 at least");
   if (options.casimirs && !options.on.empty())
@@ -155,6 +163,9 @@ void add_structure_options(CLI::App& command, SearchArguments& options) {
   command.add_flag("--fields", options.fields, "Vector fields that commute with the motion");
   command.add_flag("--orbits", options.orbits,
                    "With --fields: fields that take orbits to orbits, [X, Y] = g*X");
+  command.add_flag("--conformal", options.conformal,
+                   "With --fields, --bivectors, --forms or --tensors: those that the motion "
+                   "multiplies, L_X T = f*T");
   command.add_flag("--bivectors", options.bivectors, "Bivectors that the motion keeps");
   command
       .add_option("--tensors", options.tensors,

@@ -166,6 +166,60 @@ void print(const Model& model, int degree, const structure::OrbitalReport& repor
   fmt::print("{} found, {:.3f} s\n", report.found.size(), seconds);
 }
 
+nlohmann::ordered_json to_json(const Model& model, int degree,
+                               const structure::ConformalReport& report, double seconds) {
+  nlohmann::ordered_json json{
+      {"case", model.name},
+      {"degree", degree},
+      {"kind", "conformal " + structure::name_of(report.type)},
+      {"rank", report.type.rank},
+      {"trivial", report.trivial},
+      {"tensors", nlohmann::ordered_json::array()},
+      {"verdict", report.complete ? "proved" : "undecided"},
+      {"rational", report.complete_rational ? "proved" : "undecided"},
+      {"constant_factors", report.complete_constants ? "proved" : "undecided"},
+      {"generic", report.generic}};
+  for (const structure::ConformalTensor& own : report.found) {
+    json["tensors"].push_back({{"components", object_of(own.texts)},
+                               {"factor", own.factor_text},
+                               {"degree", own.degree},
+                               {"verdict", to_string(own.verdict)}});
+  }
+  if (!report.reason.empty()) json["reason"] = report.reason;
+  json["seconds"] = seconds;
+  return json;
+}
+
+void print(const Model& model, int degree, const structure::ConformalReport& report,
+           double seconds) {
+  const bool colour = may_colour(1);
+  fmt::print(
+      "{}: conformal {} T, L_X T = f*T with a polynomial f that is not 0, with components of "
+      "degree "
+      "{} at most\n",
+      model.name, structure::name_of(report.type), degree);
+  fmt::print(
+      "beside invariant ones and products of others with integrals and Darboux polynomials{}\n",
+      report.found.empty() ? ": none" : ":");
+  for (const structure::ConformalTensor& own : report.found) {
+    fmt::print("  degree {:<3} {}   f = {}   {}\n", own.degree, tensor_text(report.type, own.texts),
+               own.factor_text, verdict_text(own.verdict, colour));
+  }
+  const std::string generic = generic_text(report.generic);
+  if (report.complete)
+    fmt::print("No others up to degree {}{}: {}\n", degree, generic,
+               verdict_text(Verdict::proved, colour));
+  else
+    fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
+               report.reason);
+  if (!report.complete && report.complete_constants)
+    fmt::print("No others with coefficients that are rational in the parameters{}{}: {}\n",
+               report.complete_rational ? "" : " and with a constant f", generic,
+               verdict_text(Verdict::proved, colour));
+  fmt::print("{} found, {} dimensions of products, {:.3f} s\n", report.found.size(), report.trivial,
+             seconds);
+}
+
 nlohmann::ordered_json to_json(const Model& model, int degree, const BracketReport& report,
                                double seconds) {
   nlohmann::ordered_json json{{"case", model.name},

@@ -1,0 +1,306 @@
+#include "symbolic/structure/conformal_factors.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "symbolic/search/modular/span.hpp"
+#include "symbolic/structure/pencil_solver.hpp"
+
+namespace casimir::structure {
+
+void Cofactors::add(const Cofactor& cofactor) {
+  if (std::ranges::find(found, cofactor) == found.end()) found.push_back(cofactor);
+}
+
+void Cofactors::leave_open(const std::string& why) {
+  complete = false;
+  reason = why;
+}
+
+void Cofactors::add_doubts(const Cofactors& others) {
+  if (!others.complete) leave_open(others.reason);
+  irrational = irrational || others.irrational;
+}
+
+namespace {
+
+using search::Monomials;
+using search::Watch;
+using Ansatz = ConformalEquations::Ansatz;
+using Motion = ConformalEquations::Motion;
+using Powers = std::vector<unsigned long>;
+
+std::vector<long> signed_powers(const Powers& powers) { return {powers.begin(), powers.end()}; }
+
+/// The factors of one ansatz: coefficients at vertices first, by cases that faces rule out early.
+class FactorSearch {
+ public:
+  FactorSearch(const ConformalEquations& equations, const Ansatz& ansatz, const Watch& watch);
+  Cofactors run();
+
+ private:
+  struct Vertex {
+    Powers monomial;
+    std::vector<Cofactor> values;  ///< of its coefficient
+  };
+  /// A face whose part of f is known as soon as some vertices have values.
+  struct Test {
+    search::NewtonFaces::Face face;
+    Motion motion;
+  };
+  const PolynomialRing& ring() const { return equations_.system().ring(); }
+  std::vector<Cofactor> values_at(const Powers& monomial, const std::vector<Polynomial>& d) const;
+  std::optional<std::vector<Cofactor>> values_on_a_face(const Powers& monomial);
+  Cofactors unknowns_of(const Motion& motion, const Cofactor& f,
+                        const std::vector<Powers>& unknown) const;
+  void collect_tests();
+  Cofactor part_on(const search::NewtonFaces::Face& face, const Cofactor& f) const;
+  bool is_excluded(const Cofactor& f) const;
+  void assign(std::size_t next, const Cofactor& f);
+  void solve(const Cofactor& f);
+
+  const ConformalEquations& equations_;
+  const Ansatz& ansatz_;
+  const Watch& watch_;
+  search::NewtonFaces faces_;
+  std::vector<Powers> allowed_;   ///< monomials of f
+  std::vector<Vertex> vertices_;  ///< and what is alone on a face
+  std::vector<Powers> others_;
+  std::vector<std::vector<Test>> tests_;  ///< by the last vertex on the face
+  bool irrational_ = false;
+  Cofactors result_;
+};
+
+FactorSearch::FactorSearch(const ConformalEquations& equations, const Ansatz& ansatz,
+                           const Watch& watch)
+    : equations_(equations),
+      ansatz_(ansatz),
+      watch_(watch),
+      faces_(ansatz.motion.field, equations.dimension()) {
+  for (const Powers& monomial : ansatz.unknown)
+    if (faces_.allows(signed_powers(monomial))) allowed_.push_back(monomial);
+  for (const Powers& monomial : allowed_) {
+    if (const std::vector<Polynomial>* d = faces_.vertex(signed_powers(monomial)))
+      vertices_.push_back({monomial, values_at(monomial, *d)});
+    else if (std::optional<std::vector<Cofactor>> values = values_on_a_face(monomial))
+      vertices_.push_back({monomial, std::move(*values)});
+    else
+      others_.push_back(monomial);
+  }
+  collect_tests();
+}
+
+/// D.b, and less or more a.D: see `NewtonFaces`.
+std::vector<Cofactor> FactorSearch::values_at(const Powers& monomial,
+                                              const std::vector<Polynomial>& d) const {
+  const bool form = equations_.lift().type().form;
+  Polynomial step(ring());
+  for (std::size_t i = 0; i < d.size(); ++i)
+    step += d[i].scaled(static_cast<long>(monomial[i]) * (form ? 1 : -1));
+  std::set<std::vector<long>> frames;
+  for (const std::vector<std::size_t>& list : equations_.lift().indices()) {
+    for (std::size_t m = 0; m < ansatz_.monomials.size(); ++m) {
+      std::vector<long> b(ansatz_.monomials[m], ansatz_.monomials[m] + d.size());
+      for (const std::size_t i : list) b[i] += form ? 1 : -1;
+      frames.insert(std::move(b));
+    }
+  }
+  Cofactors values;
+  for (const std::vector<long>& b : frames) {
+    Polynomial sum(ring());
+    for (std::size_t i = 0; i < d.size(); ++i) sum += d[i].scaled(b[i]);
+    values.add({sum, ring().constant(1)});
+    values.add({sum + step, ring().constant(1)});
+  }
+  return values.found;
+}
+
+void FactorSearch::collect_tests() {
+  tests_.resize(vertices_.size());
+  for (const search::NewtonFaces::Face& face : faces_.faces()) {
+    const auto on_face = [&](const Powers& m) { return face.contains(signed_powers(m)); };
+    if (std::ranges::any_of(others_, on_face)) continue;
+    std::size_t last = vertices_.size(), count = 0;
+    for (std::size_t v = 0; v < vertices_.size(); ++v) {
+      if (!on_face(vertices_[v].monomial)) continue;
+      last = v;
+      ++count;
+    }
+    if (count > 0) tests_[last].push_back({face, equations_.motion_of(face)});
+  }
+}
+
+Cofactor FactorSearch::part_on(const search::NewtonFaces::Face& face, const Cofactor& f) const {
+  TermCollector collector(ring());
+  for (const auto& [number, exponents] : f.top.term_list()) {
+    const std::vector<long> own(
+        exponents.begin(), exponents.begin() + static_cast<std::ptrdiff_t>(equations_.dimension()));
+    if (face.contains(own)) collector.add(number, exponents);
+  }
+  return {collector.finish(), f.bottom};
+}
+
+bool FactorSearch::is_excluded(const Cofactor& f) const {
+  const Ansatz own{ansatz_.motion, ansatz_.monomials, f, {}};
+  return equations_.has_no_solution(equations_.rows(own, ring()),
+                                    equations_.components() * own.monomials.size());
+}
+
+void FactorSearch::assign(std::size_t next, const Cofactor& f) {
+  watch_.tick(0.5);
+  if (next > 0) {
+    for (const Test& test : tests_[next - 1]) {
+      const Ansatz own{test.motion, ansatz_.monomials, part_on(test.face, f), {}};
+      if (equations_.has_no_solution(equations_.rows(own, ring()),
+                                     equations_.components() * own.monomials.size()))
+        return;
+    }
+  }
+  if (next == vertices_.size()) {
+    solve(f);
+    return;
+  }
+  const Polynomial monomial = equations_.monomial(vertices_[next].monomial);
+  for (const Cofactor& value : vertices_[next].values)
+    assign(next + 1, sum_of(f, {value.top * monomial, value.bottom}));
+}
+
+/// Where it is the only unknown of a face, the equations of the face have finitely many values.
+std::optional<std::vector<Cofactor>> FactorSearch::values_on_a_face(const Powers& monomial) {
+  for (const search::NewtonFaces::Face& face : faces_.faces()) {
+    if (!face.contains(signed_powers(monomial))) continue;
+    const auto is_other = [&](const Powers& own) {
+      return own != monomial && face.contains(signed_powers(own));
+    };
+    if (std::ranges::any_of(allowed_, is_other)) continue;
+    const Cofactor known = part_on(face, ansatz_.known);
+    if (!known.is_zero()) continue;
+    const Cofactors values = unknowns_of(equations_.motion_of(face), known, {monomial});
+    if (!values.complete) continue;
+    irrational_ = irrational_ || values.irrational;
+    std::vector<Cofactor> result;
+    for (Cofactor own : values.found) {
+      own.top.divide(equations_.monomial(monomial), &own.top);
+      result.push_back(std::move(own));
+    }
+    return result;
+  }
+  return std::nullopt;
+}
+
+/// All f = known + sum of unknown coefficients times monomials.
+Cofactors FactorSearch::unknowns_of(const Motion& motion, const Cofactor& f,
+                                    const std::vector<Powers>& unknown) const {
+  Cofactors result;
+  const std::size_t first = ring().size();
+  const PolynomialRing larger(first + unknown.size());
+  const Ansatz own{motion, ansatz_.monomials, f, unknown};
+  const std::size_t columns = equations_.components() * own.monomials.size();
+  const PencilSolutions values =
+      solve_pencil(equations_.rows(own, larger), columns, larger, first, watch_);
+  if (!values.complete) result.leave_open(values.reason);
+  result.irrational = values.irrational;
+  for (const std::vector<PencilValue>& found : values.found) {
+    Cofactor sum = f;
+    for (std::size_t k = 0; k < unknown.size(); ++k) {
+      const Polynomial top = in_smaller_ring(found[k].top, ring());
+      sum = sum_of(sum, lowest(top * equations_.monomial(unknown[k]),
+                               in_smaller_ring(found[k].bottom, ring())));
+    }
+    const Ansatz there{motion, ansatz_.monomials, sum, {}};
+    if (!equations_.has_no_solution(equations_.rows(there, ring()), columns)) result.add(sum);
+  }
+  return result;
+}
+
+/// What is no vertex.
+void FactorSearch::solve(const Cofactor& f) {
+  if (others_.empty()) {
+    if (!is_excluded(f)) result_.add(f);
+    return;
+  }
+  const Cofactors own = unknowns_of(ansatz_.motion, f, others_);
+  for (const Cofactor& cofactor : own.found) result_.add(cofactor);
+  result_.add_doubts(own);
+}
+
+Cofactors FactorSearch::run() {
+  for (const auto& [number, exponents] : ansatz_.known.top.term_list()) {
+    const std::vector<long> own(
+        exponents.begin(), exponents.begin() + static_cast<std::ptrdiff_t>(equations_.dimension()));
+    if (!faces_.allows(own)) return {};
+  }
+  result_.irrational = irrational_;
+  assign(0, ansatz_.known);
+  return std::move(result_);
+}
+
+std::vector<Powers> monomials_of(const ConformalEquations& equations, int degree) {
+  std::vector<Powers> result;
+  if (degree < 0) return result;
+  const Monomials all = search::all_monomials(std::vector<int>(equations.dimension(), 1), degree);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all.degree(i) == degree) result.emplace_back(all[i], all[i] + all.variables());
+  return result;
+}
+
+Cofactor zero_of(const ConformalEquations& equations) {
+  const PolynomialRing& ring = equations.system().ring();
+  return {Polynomial(ring), ring.constant(1)};
+}
+
+/// The parts of the highest or the lowest degree that f can have, by those of the motion.
+Cofactors end_factors(const ConformalEquations& equations, int field_degree, int degree,
+                      const Watch& watch) {
+  Cofactors result;
+  const Motion motion = equations.motion_of(field_degree);
+  for (int e = 0; e <= degree; ++e) {
+    Monomials own(equations.dimension());
+    for (const Powers& powers : monomials_of(equations, e))
+      own.add({powers.begin(), powers.end()}, e);
+    const Ansatz ansatz{motion, own, zero_of(equations), monomials_of(equations, field_degree - 1)};
+    const Cofactors part = FactorSearch(equations, ansatz, watch).run();
+    for (const Cofactor& cofactor : part.found) result.add(cofactor);
+    result.add_doubts(part);
+  }
+  return result;
+}
+
+}  // namespace
+
+Cofactors constant_factors(const ConformalEquations& equations, int degree, const Watch& watch) {
+  const Ansatz ansatz{equations.motion(), equations.basis(degree).monomials, zero_of(equations),
+                      monomials_of(equations, 0)};
+  return FactorSearch(equations, ansatz, watch).run();
+}
+
+Cofactors conformal_factors(const ConformalEquations& equations, int degree, const Watch& watch) {
+  const int highest = equations.field_degree(), lowest = equations.lowest_degree();
+  if (highest == 0) return {};  // L_X lowers the degree: f = 0
+  const Cofactors tops = end_factors(equations, highest, degree, watch);
+  if (lowest == highest) return tops;
+  Cofactors bottoms;
+  if (lowest > 0)
+    bottoms = end_factors(equations, lowest, degree, watch);
+  else
+    bottoms.add(zero_of(equations));
+  std::vector<Powers> between;
+  for (int k = lowest; k < highest - 1; ++k)
+    for (Powers& own : monomials_of(equations, k)) between.push_back(std::move(own));
+  Cofactors result;
+  result.add_doubts(tops);
+  result.add_doubts(bottoms);
+  const Monomials monomials = equations.basis(degree).monomials;
+  for (const Cofactor& top : tops.found) {
+    for (const Cofactor& bottom : bottoms.found) {
+      const Ansatz ansatz{equations.motion(), monomials, sum_of(top, bottom), between};
+      const Cofactors whole = FactorSearch(equations, ansatz, watch).run();
+      for (const Cofactor& cofactor : whole.found) result.add(cofactor);
+      result.add_doubts(whole);
+    }
+  }
+  return result;
+}
+
+}  // namespace casimir::structure
