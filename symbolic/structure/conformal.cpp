@@ -132,10 +132,11 @@ Cofactors ConformalSearch::all_cofactors() {
     result.leave_open(limit.what());
   }
   report_.complete_rational = report_.complete_constants = result.complete;
-  report_.complete = result.complete && !result.irrational;
+  const bool irrational = result.irrational || !result.algebraic.empty();
+  report_.complete = result.complete && !irrational;
   report_.reason = result.reason;
-  if (result.complete && result.irrational)
-    report_.reason = "those with coefficients that are algebraic numbers were not looked for";
+  if (result.complete && irrational)
+    report_.reason = "there may be some with coefficients that are algebraic numbers, as sqrt(2)";
   if (result.complete) return result;
   add_sums_of_known(result);
   try {

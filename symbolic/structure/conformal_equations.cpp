@@ -7,6 +7,7 @@
 #include <random>
 
 #include "symbolic/error.hpp"
+#include "symbolic/search/modular/modular_roots.hpp"
 #include "symbolic/search/modular/span.hpp"
 #include "symbolic/structure/pencil_solver.hpp"
 
@@ -19,6 +20,49 @@ namespace {
 
 std::vector<unsigned long> exponents_of(const Monomials& list, std::size_t i) {
   return {list[i], list[i] + list.variables()};
+}
+
+/// The rank modulo the prime is not above the true one.
+bool has_full_rank(const std::vector<ParametricRow>& rows, std::size_t columns,
+                   const search::Point& point, const search::Modulus& modulus) {
+  search::Span span(modulus);
+  for (const ParametricRow& row : rows) {
+    std::vector<search::Residue> values(columns, 0);
+    for (const auto& [column, entry] : row) {
+      const auto value = search::value_at(entry, point, modulus);
+      if (!value) return false;
+      values[column] = *value;
+    }
+    if (span.insert(std::move(values)) && span.dimension() == columns) return true;
+  }
+  return false;
+}
+
+/// The point with the roots of each polynomial behind it, for all combinations; none where one of
+/// the polynomials does not have as many different roots as its degree.
+std::vector<search::Point> with_all_roots(const search::Point& point,
+                                          const std::vector<std::vector<Polynomial>>& polynomials,
+                                          const search::Modulus& modulus) {
+  std::vector<search::Point> result{point};
+  for (const std::vector<Polynomial>& coefficients : polynomials) {
+    std::vector<search::Residue> values;
+    for (const Polynomial& coefficient : coefficients) {
+      const auto value = search::value_at(coefficient, point, modulus);
+      if (!value) return {};
+      values.push_back(*value);
+    }
+    const std::vector<search::Residue> roots = search::different_roots(values, modulus);
+    if (roots.size() + 1 != coefficients.size()) return {};
+    std::vector<search::Point> longer;
+    for (const search::Point& own : result) {
+      for (const search::Residue root : roots) {
+        longer.push_back(own);
+        longer.back().push_back(root);
+      }
+    }
+    result = std::move(longer);
+  }
+  return result;
 }
 
 }  // namespace
@@ -236,22 +280,32 @@ std::vector<ParametricRow> ConformalEquations::rows(const Ansatz& ansatz,
   return result;
 }
 
-/// Whether the rank modulo a prime, which is not above the true one, is the number of columns.
 bool ConformalEquations::has_no_solution(const std::vector<ParametricRow>& rows,
                                          std::size_t columns) const {
   const search::Modulus modulus = search::Modulus::nth(0);
   std::mt19937_64 random(31);
   search::Point point(system_.ring().size(), 0);
   for (search::Residue& value : point) value = modulus.random(random);
-  search::Span span(modulus);
-  for (const ParametricRow& row : rows) {
-    std::vector<search::Residue> values(columns, 0);
-    for (const auto& [column, entry] : row) {
-      const auto value = search::value_at(entry, point, modulus);
-      if (!value) return false;
-      values[column] = *value;
-    }
-    if (span.insert(std::move(values)) && span.dimension() == columns) return true;
+  return has_full_rank(rows, columns, point, modulus);
+}
+
+bool ConformalEquations::has_no_solution_at_roots(
+    const std::vector<ParametricRow>& rows, std::size_t columns,
+    const std::vector<std::vector<Polynomial>>& roots) const {
+  constexpr std::size_t kTries = 100;
+  constexpr std::size_t kMostCombinations = 100;
+  std::mt19937_64 random(43);
+  for (std::size_t attempt = 0; attempt < kTries; ++attempt) {
+    // x^2 + 2 has no root modulo half of the primes.
+    const search::Modulus modulus = search::Modulus::nth(attempt);
+    search::Point point(system_.ring().size(), 0);
+    for (search::Residue& value : point) value = modulus.random(random);
+    const std::vector<search::Point> points = with_all_roots(point, roots, modulus);
+    if (points.empty()) continue;
+    return points.size() <= kMostCombinations &&
+           std::ranges::all_of(points, [&](const search::Point& own) {
+             return has_full_rank(rows, columns, own, modulus);
+           });
   }
   return false;
 }

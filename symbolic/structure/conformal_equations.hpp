@@ -93,6 +93,11 @@ class ConformalEquations {
   /// Whether they have none but zero: where the rank modulo a prime, which is not above the true
   /// one, is the number of columns.
   bool has_no_solution(const std::vector<ParametricRow>& rows, std::size_t columns) const;
+  /// The same where each of the u_k is a root of a polynomial, whose coefficients are given: at a
+  /// point of the parameters where each has all its roots modulo the prime, and they are different,
+  /// and for all combinations of roots. A solution with algebraic coefficients would be one there.
+  bool has_no_solution_at_roots(const std::vector<ParametricRow>& rows, std::size_t columns,
+                                const std::vector<std::vector<Polynomial>>& roots) const;
   Polynomial monomial(const std::vector<unsigned long>& exponents) const;
   /// The lowest degree of the motion's field.
   int lowest_degree() const { return lowest_; }

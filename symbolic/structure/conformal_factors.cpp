@@ -21,6 +21,7 @@ void Cofactors::leave_open(const std::string& why) {
 void Cofactors::add_doubts(const Cofactors& others) {
   if (!others.complete) leave_open(others.reason);
   irrational = irrational || others.irrational;
+  algebraic.insert(algebraic.end(), others.algebraic.begin(), others.algebraic.end());
 }
 
 namespace {
@@ -33,16 +34,34 @@ using Powers = std::vector<unsigned long>;
 
 std::vector<long> signed_powers(const Powers& powers) { return {powers.begin(), powers.end()}; }
 
+/// Whether there is no T for it that is not zero.
+bool excludes_roots(const ConformalEquations& equations, const Motion& motion,
+                    const Monomials& monomials, const AlgebraicCofactor& f) {
+  std::vector<Powers> unknown;
+  std::vector<std::vector<Polynomial>> roots;
+  for (const AlgebraicCofactor::Root& root : f.roots) {
+    unknown.push_back(root.monomial);
+    roots.push_back(root.coefficients);
+  }
+  const PolynomialRing larger(equations.system().ring().size() + unknown.size());
+  return equations.has_no_solution_at_roots(
+      equations.rows({motion, monomials, f.rational, unknown}, larger),
+      equations.components() * monomials.size(), roots);
+}
+
 /// The factors of one ansatz: coefficients at vertices first, by cases that faces rule out early.
 class FactorSearch {
  public:
-  FactorSearch(const ConformalEquations& equations, const Ansatz& ansatz, const Watch& watch);
+  /// \param roots  coefficients of f beside those that are known
+  FactorSearch(const ConformalEquations& equations, const Ansatz& ansatz, const Watch& watch,
+               std::vector<AlgebraicCofactor::Root> roots = {});
   Cofactors run();
 
  private:
   struct Vertex {
     Powers monomial;
-    std::vector<Cofactor> values;  ///< of its coefficient
+    std::vector<Cofactor> values;  ///< of its coefficient, or it is a root of one of these
+    std::vector<AlgebraicCofactor::Root> roots;
   };
   /// A face whose part of f is known as soon as some vertices have values.
   struct Test {
@@ -51,7 +70,8 @@ class FactorSearch {
   };
   const PolynomialRing& ring() const { return equations_.system().ring(); }
   std::vector<Cofactor> values_at(const Powers& monomial, const std::vector<Polynomial>& d) const;
-  std::optional<std::vector<Cofactor>> values_on_a_face(const Powers& monomial);
+  std::optional<Vertex> values_on_a_face(const Powers& monomial) const;
+  void assign_roots(std::size_t next, const AlgebraicCofactor& f);
   Cofactors unknowns_of(const Motion& motion, const Cofactor& f,
                         const std::vector<Powers>& unknown) const;
   void collect_tests();
@@ -63,28 +83,29 @@ class FactorSearch {
   const ConformalEquations& equations_;
   const Ansatz& ansatz_;
   const Watch& watch_;
+  std::vector<AlgebraicCofactor::Root> known_roots_;
   search::NewtonFaces faces_;
   std::vector<Powers> allowed_;   ///< monomials of f
   std::vector<Vertex> vertices_;  ///< and what is alone on a face
   std::vector<Powers> others_;
   std::vector<std::vector<Test>> tests_;  ///< by the last vertex on the face
-  bool irrational_ = false;
   Cofactors result_;
 };
 
 FactorSearch::FactorSearch(const ConformalEquations& equations, const Ansatz& ansatz,
-                           const Watch& watch)
+                           const Watch& watch, std::vector<AlgebraicCofactor::Root> roots)
     : equations_(equations),
       ansatz_(ansatz),
       watch_(watch),
+      known_roots_(std::move(roots)),
       faces_(ansatz.motion.field, equations.dimension()) {
   for (const Powers& monomial : ansatz.unknown)
     if (faces_.allows(signed_powers(monomial))) allowed_.push_back(monomial);
   for (const Powers& monomial : allowed_) {
     if (const std::vector<Polynomial>* d = faces_.vertex(signed_powers(monomial)))
-      vertices_.push_back({monomial, values_at(monomial, *d)});
-    else if (std::optional<std::vector<Cofactor>> values = values_on_a_face(monomial))
-      vertices_.push_back({monomial, std::move(*values)});
+      vertices_.push_back({monomial, values_at(monomial, *d), {}});
+    else if (std::optional<Vertex> own = values_on_a_face(monomial))
+      vertices_.push_back(std::move(*own));
     else
       others_.push_back(monomial);
   }
@@ -167,23 +188,25 @@ void FactorSearch::assign(std::size_t next, const Cofactor& f) {
 }
 
 /// Where it is the only unknown of a face, the equations of the face have finitely many values.
-std::optional<std::vector<Cofactor>> FactorSearch::values_on_a_face(const Powers& monomial) {
+std::optional<FactorSearch::Vertex> FactorSearch::values_on_a_face(const Powers& monomial) const {
   for (const search::NewtonFaces::Face& face : faces_.faces()) {
     if (!face.contains(signed_powers(monomial))) continue;
     const auto is_other = [&](const Powers& own) {
       return own != monomial && face.contains(signed_powers(own));
     };
-    if (std::ranges::any_of(allowed_, is_other)) continue;
+    const auto is_root = [&](const auto& own) { return is_other(own.monomial); };
+    if (std::ranges::any_of(allowed_, is_other) || std::ranges::any_of(known_roots_, is_root))
+      continue;
     const Cofactor known = part_on(face, ansatz_.known);
     if (!known.is_zero()) continue;
     const Cofactors values = unknowns_of(equations_.motion_of(face), known, {monomial});
-    if (!values.complete) continue;
-    irrational_ = irrational_ || values.irrational;
-    std::vector<Cofactor> result;
+    if (!values.complete || values.irrational) continue;
+    Vertex result{monomial, {}, {}};
     for (Cofactor own : values.found) {
       own.top.divide(equations_.monomial(monomial), &own.top);
-      result.push_back(std::move(own));
+      result.values.push_back(std::move(own));
     }
+    for (const AlgebraicCofactor& own : values.algebraic) result.roots.push_back(own.roots.front());
     return result;
   }
   return std::nullopt;
@@ -201,6 +224,13 @@ Cofactors FactorSearch::unknowns_of(const Motion& motion, const Cofactor& f,
       solve_pencil(equations_.rows(own, larger), columns, larger, first, watch_);
   if (!values.complete) result.leave_open(values.reason);
   result.irrational = values.irrational;
+  for (const Polynomial& condition : values.roots) {
+    AlgebraicCofactor algebraic{f, {{unknown.front(), {}}}};
+    for (const Polynomial& coefficient : condition.coefficients(first))
+      algebraic.roots[0].coefficients.push_back(in_smaller_ring(coefficient, ring()));
+    if (!excludes_roots(equations_, motion, ansatz_.monomials, algebraic))
+      result.algebraic.push_back(std::move(algebraic));
+  }
   for (const std::vector<PencilValue>& found : values.found) {
     Cofactor sum = f;
     for (std::size_t k = 0; k < unknown.size(); ++k) {
@@ -212,6 +242,33 @@ Cofactors FactorSearch::unknowns_of(const Motion& motion, const Cofactor& f,
     if (!equations_.has_no_solution(equations_.rows(there, ring()), columns)) result.add(sum);
   }
   return result;
+}
+
+/// The same with at least one coefficient that is a root; these were not seen to be impossible.
+void FactorSearch::assign_roots(std::size_t next, const AlgebraicCofactor& f) {
+  if (next < vertices_.size()) {
+    const Vertex& own = vertices_[next];
+    const bool more =
+        std::any_of(vertices_.begin() + static_cast<std::ptrdiff_t>(next) + 1, vertices_.end(),
+                    [](const Vertex& v) { return !v.roots.empty(); });
+    const Polynomial monomial = equations_.monomial(own.monomial);
+    if (more || !f.roots.empty()) {
+      for (const Cofactor& value : own.values)
+        assign_roots(next + 1, {sum_of(f.rational, {value.top * monomial, value.bottom}), f.roots});
+    }
+    for (const AlgebraicCofactor::Root& root : own.roots) {
+      AlgebraicCofactor there = f;
+      there.roots.push_back(root);
+      assign_roots(next + 1, there);
+    }
+    return;
+  }
+  if (f.roots.empty()) return;
+  watch_.tick(0.5);
+  if (!others_.empty())
+    result_.irrational = true;
+  else if (!excludes_roots(equations_, ansatz_.motion, ansatz_.monomials, f))
+    result_.algebraic.push_back(f);
 }
 
 /// What is no vertex.
@@ -231,8 +288,10 @@ Cofactors FactorSearch::run() {
         exponents.begin(), exponents.begin() + static_cast<std::ptrdiff_t>(equations_.dimension()));
     if (!faces_.allows(own)) return {};
   }
-  result_.irrational = irrational_;
-  assign(0, ansatz_.known);
+  for (const AlgebraicCofactor::Root& root : known_roots_)
+    if (!faces_.allows(signed_powers(root.monomial))) return {};
+  if (known_roots_.empty()) assign(0, ansatz_.known);
+  assign_roots(0, {ansatz_.known, known_roots_});
   return std::move(result_);
 }
 
@@ -267,6 +326,25 @@ Cofactors end_factors(const ConformalEquations& equations, int field_degree, int
   return result;
 }
 
+/// Sums of a part of the highest degree and one of the lowest, of which one has roots at least.
+std::vector<AlgebraicCofactor> algebraic_sums(const Cofactors& tops, const Cofactors& bottoms) {
+  const auto all = [](const Cofactors& own) {
+    std::vector<AlgebraicCofactor> result = own.algebraic;
+    for (const Cofactor& cofactor : own.found) result.push_back({cofactor, {}});
+    return result;
+  };
+  std::vector<AlgebraicCofactor> result;
+  for (const AlgebraicCofactor& top : all(tops)) {
+    for (const AlgebraicCofactor& bottom : all(bottoms)) {
+      if (top.roots.empty() && bottom.roots.empty()) continue;
+      AlgebraicCofactor sum{sum_of(top.rational, bottom.rational), top.roots};
+      sum.roots.insert(sum.roots.end(), bottom.roots.begin(), bottom.roots.end());
+      result.push_back(std::move(sum));
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 Cofactors constant_factors(const ConformalEquations& equations, int degree, const Watch& watch) {
@@ -291,6 +369,7 @@ Cofactors conformal_factors(const ConformalEquations& equations, int degree, con
   Cofactors result;
   result.add_doubts(tops);
   result.add_doubts(bottoms);
+  result.algebraic.clear();  // of parts of f
   const Monomials monomials = equations.basis(degree).monomials;
   for (const Cofactor& top : tops.found) {
     for (const Cofactor& bottom : bottoms.found) {
@@ -299,6 +378,10 @@ Cofactors conformal_factors(const ConformalEquations& equations, int degree, con
       for (const Cofactor& cofactor : whole.found) result.add(cofactor);
       result.add_doubts(whole);
     }
+  }
+  for (const AlgebraicCofactor& sum : algebraic_sums(tops, bottoms)) {
+    const Ansatz ansatz{equations.motion(), monomials, sum.rational, between};
+    result.add_doubts(FactorSearch(equations, ansatz, watch, sum.roots).run());
   }
   return result;
 }

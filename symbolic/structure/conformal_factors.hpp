@@ -7,13 +7,24 @@
 
 namespace casimir::structure {
 
+/// A cofactor of which some coefficients are roots of irreducible polynomials over Q(parameters).
+struct AlgebraicCofactor {
+  struct Root {
+    std::vector<unsigned long> monomial;
+    std::vector<Polynomial> coefficients;  ///< of the powers of the coefficient of the monomial
+  };
+  Cofactor rational;  ///< the other terms
+  std::vector<Root> roots;
+};
+
 /// Cofactors of a search, and whether there are no others.
 struct Cofactors {
   std::vector<Cofactor> found;
   bool complete = true;
   std::string reason;  ///< where not
-  /// There may be others with coefficients that are algebraic over Q(parameters).
+  /// There may be others with coefficients that are algebraic over Q(parameters), beside ..
   bool irrational = false;
+  std::vector<AlgebraicCofactor> algebraic;  ///< .. these, which were not excluded
 
   void add(const Cofactor& cofactor);
   void leave_open(const std::string& why);

@@ -295,7 +295,10 @@ void PencilSolver::split_at(const Polynomial& condition, const std::vector<Param
     return;
   }
   if (own.size() == 1) {  // irreducible, of a higher degree
-    result_.irrational = true;
+    if (ring_.size() == first_ + 1)
+      result_.roots.push_back(condition);
+    else
+      result_.irrational = true;
     return;
   }
   solve_by_cases(rows, solved, condition);

@@ -24,7 +24,9 @@ struct PencilSolutions {
   std::vector<std::vector<PencilValue>> found;  ///< a value for each unknown
   bool complete = true;                         ///< there are no others in Q(parameters)
   std::string reason;                           ///< where not
-  bool irrational = false;  ///< there may be others that are algebraic over Q(parameters)
+  bool irrational = false;  ///< there may be others that are algebraic over Q(parameters) ..
+  /// .. and of a single unknown these are roots of these irreducible polynomials.
+  std::vector<Polynomial> roots;
 };
 
 /// Finitely many values u in Q(parameters), among which are all for which a matrix M(u) has a

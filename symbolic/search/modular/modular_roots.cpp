@@ -6,10 +6,14 @@
 
 namespace casimir::search {
 
+std::vector<Residue> different_roots(const std::vector<Residue>& coefficients,
+                                     const Modulus& modulus) {
+  return ModularPolynomial::with_coefficients(coefficients, modulus).roots(modulus);
+}
+
 std::optional<Residue> random_root(const std::vector<Residue>& coefficients, const Modulus& modulus,
                                    std::mt19937_64& random) {
-  const std::vector<Residue> roots =
-      ModularPolynomial::with_coefficients(coefficients, modulus).roots(modulus);
+  const std::vector<Residue> roots = different_roots(coefficients, modulus);
   if (roots.empty()) return std::nullopt;
   return roots[random() % roots.size()];
 }

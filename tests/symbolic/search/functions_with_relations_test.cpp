@@ -95,9 +95,15 @@ TEST(FunctionsWithRelations, AbsoluteValuesLeaveTheAnswerOpen) {
 
 /// Values of parameters are looked for with cofactors, of which some are missing.
 TEST(FunctionsWithRelations, OfWhichCofactorsAreMissingLeaveConditionsOpen) {
-  const auto report =
-      search::find_conditions(on_a_line(3), with_inverse_distances(3, 1), {text("g")});
+  search::Request request = up_to(1);
+  request.functions = {text("1/(x - y)"), text("1/(x + y)")};
+  const Model model = model_of(
+      "hamiltonian = \"(px^2 + py^2)/2 + g/(x - y) + 1/(x + y)\"\n[phase_space]\nvariables = "
+      "[\"x\", \"y\", \"px\", \"py\"]\ncanonical = true\n[parameters]\ng = {}\n");
+  EXPECT_TRUE(search::find_integrals(model, request).complete);
+  const auto report = search::find_conditions(model, request, {text("g")});
   EXPECT_FALSE(report.complete);
+  EXPECT_NE(report.reason.find("cofactors"), std::string::npos) << report.reason;
 }
 
 search::Fields fields_of(const search::System& system) {

@@ -10,7 +10,7 @@
 namespace casimir::test {
 namespace {
 
-Model lorenz() {
+Model convection() {
   return model_of(
       "[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n[parameters]\ns = {}\nr = {}\nb = {}\n"
       "[equations]\nx = \"s*(y - x)\"\ny = \"r*x - y - x*z\"\nz = \"x*y - b*z\"\n");
@@ -18,7 +18,7 @@ Model lorenz() {
 
 /// -x*z d/dy and x*y d/dz are x^a D with a = (1, -1, 1) and (1, 1, -1), between which is x alone.
 TEST(NewtonFaces, LeaveACofactorTheMonomialsOfThePolytope) {
-  const Model model = lorenz();
+  const Model model = convection();
   const search::System system(model, {}, {});
   const search::NewtonFaces faces(system.flow(), 3);
   EXPECT_TRUE(faces.allows({0, 0, 0}));
@@ -42,7 +42,7 @@ TEST(NewtonFaces, CountAVariableLessForItsOwnRate) {
 }
 
 TEST(NewtonFaces, MakeTheSearchForDarbouxPolynomialsDecide) {
-  const auto report = search::find_darboux_polynomials(lorenz(), 3);
+  const auto report = search::find_darboux_polynomials(convection(), 3);
   EXPECT_TRUE(report.complete) << report.reason;
   EXPECT_TRUE(report.found.empty());
 }

@@ -79,6 +79,7 @@ constexpr TensorType kField{1, false}, kBivector{2, false}, kTwoForm{2, true};
 TEST(ConformalTensors, OfAMotionWithFrictionAreTheSymplecticFormAndItsBracket) {
   const Model model = of_rates({"y", "-x - a*x^3 - c*y"}, "a = {}\nc = {}\n");
   const auto forms = conformal(model, kTwoForm, 2);
+  EXPECT_TRUE(forms.complete) << forms.reason;
   ASSERT_EQ(forms.found.size(), 1U);
   EXPECT_EQ(forms.found[0].texts, (Texts{{"x,y", "1"}}));
   EXPECT_EQ(forms.found[0].factor_text, "-c");

@@ -309,6 +309,23 @@ TEST(SearchStructure, FieldsThatTakeOrbitsToOrbits) {
   EXPECT_NE(run_in(folder, search).out.find("(2*g1) d/dg1"), std::string::npos);
 }
 
+TEST(SearchStructure, TensorsThatTheMotionMultiplies) {
+  const Folder folder;
+  const std::string file = folder.write(
+      "damped.toml",
+      "title = \"x\"\n[phase_space]\nvariables = [\"q\", \"p\"]\n[parameters]\nc = {}\n"
+      "[equations]\nq = \"p\"\np = \"-q - q^3 - c*p\"\n");
+  const std::vector<std::string> search{"search",  file,          "--tensors", "2",
+                                        "--forms", "--conformal", "--degree",  "2"};
+  const Json found = answered(folder, search);
+  EXPECT_EQ(found.at("kind"), "conformal 2-forms");
+  ASSERT_EQ(found.at("tensors").size(), 1U);
+  EXPECT_EQ(found.at("tensors")[0].at("factor"), "-c");
+  EXPECT_EQ(found.at("tensors")[0].at("components").at("q,p"), "1");
+  EXPECT_EQ(found.at("verdict"), "proved");
+  EXPECT_NE(run_in(folder, search).out.find("(1) dq^dp   f = -c   proved"), std::string::npos);
+}
+
 TEST(SearchStructure, LaxPairsAreCounted) {
   const Folder folder;
   const Json proved = answered(folder, {"verify", "lagrange-lax"});
@@ -331,6 +348,9 @@ TEST(SearchStructure, OptionsThatDoNotGoTogetherAreNamed) {
         {"--bivectors", "--tensors", "3"},
         {"--orbits"},
         {"--orbits", "--forms"},
+        {"--conformal"},
+        {"--conformal", "--hamiltonian"},
+        {"--conformal", "--fields", "--orbits"},
         {"--darboux", "--fields"}}) {
     std::vector<std::string> arguments{"search", "euler", "--degree", "1"};
     arguments.insert(arguments.end(), more.begin(), more.end());

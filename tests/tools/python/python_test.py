@@ -154,6 +154,9 @@ class Structure(unittest.TestCase):
     def test_tensors_symmetries_and_relations(self):
         euler = casimir.load("euler")
         self.assertTrue(euler.tensors(2, 1))
+        found = casimir.Case(equations={"x": "x*y + y^2", "y": "y^2"}, variables=["x", "y"]).tensors(1, 0, conformal=True)
+        self.assertEqual((found[0]["components"], found[0]["factor"]), ({"x": "1"}, "-y"))
+        self.assertEqual(found.rational, "proved")
         with self.assertRaises(casimir.ModelError):  # it needs numbers
             euler.relate(euler)
         one, other = (euler.with_values({"a1": 1, "a2": 2, "a3": last}) for last in (3, 4))
@@ -209,6 +212,9 @@ class Proofs(unittest.TestCase):
         self.assertIn("meromorphic", henon.obstruct().excluded)
         volterra = casimir.Case(equations={"x": "x*(1 - y)", "y": "y*(x - 1)"}, variables=["x", "y"])
         self.assertEqual(sorted(one.text for one in volterra.darboux(1)), ["x", "y"])
+        family = casimir.Case(equations={"x": "x*(1 + y)", "y": "a + y*(x - 1)"}, variables=["x", "y"],
+                              parameters=["a"])
+        self.assertIn({"a": "0"}, [one["parameters"] for one in family.darboux(1, free="a")])
 
     def test_latex_for_notebooks(self):
         self.assertIn("\\dot", casimir.load("kovalevskaya")._repr_latex_().replace("\\frac{d", "\\dot"))

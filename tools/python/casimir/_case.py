@@ -286,8 +286,20 @@ class Case:
         return _results.search_of(self._core.search(degree, casimirs, texts_of(on), texts_of(functions),
                                                     pairs_of(weights), time_limit, memory))
 
-    def darboux(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> list[DarbouxPolynomial]:
-        """Irreducible polynomials whose zero level is invariant, up to a degree."""
+    def darboux(self, degree: int, *, free: Expressions = None, time_limit: float = 0,
+                memory: float = 0) -> list[DarbouxPolynomial] | Findings:
+        """Irreducible polynomials whose zero level is invariant, up to a degree.
+
+        :param free: parameters: their values at which there are further ones, as dictionaries.
+
+        >>> decay = Case(equations={"x": "x*(1 + a*y)", "y": "1 + x"}, variables=["x", "y"], parameters=["a"])
+        >>> [str(one.text) for one in decay.darboux(1)]
+        ['x']
+        """
+        if free is not None:
+            return _results.Findings(
+                _core.darboux_conditions(self._core, degree, texts_of(free), time_limit, memory),
+                "values of parameters")
         return [_results.DarbouxPolynomial(**one) for one in self._core.darboux(degree, time_limit, memory)["found"]]
 
     def rational(self, degree: int, *, time_limit: float = 0, memory: float = 0) -> Findings:
@@ -298,16 +310,24 @@ class Case:
         """
         return _results.Findings(_core.rational(self._core, degree, time_limit, memory), "rational integrals")
 
-    def tensors(self, rank: int, degree: int, *, forms: bool = False, time_limit: float = 0,
-                memory: float = 0) -> Findings:
+    def tensors(self, rank: int, degree: int, *, forms: bool = False, conformal: bool = False,
+                time_limit: float = 0, memory: float = 0) -> Findings:
         """Skew tensors with polynomial components that the motion keeps: rank 1 are fields, 2 bivectors.
 
         :param forms: differential forms instead.
+        :param conformal: those that it multiplies by a polynomial that is not 0, their `factor`.
         :returns: dictionaries with `components` by the names of the variables; `dimensions` of the space.
 
         >>> load("euler").tensors(2, 1).verdict
         'proved'
+        >>> damped = Case(equations={"q": "p", "p": "-q - q^3 - p"}, variables=["q", "p"])
+        >>> damped.tensors(2, 0, forms=True, conformal=True)[0]["factor"]
+        '-1'
         """
+        if conformal:
+            return _results.Findings(
+                _core.conformal_tensors(self._core, rank, forms, degree, time_limit, memory),
+                "conformal forms" if forms else "conformal tensors")
         return _results.Findings(_core.tensors(self._core, rank, forms, degree, time_limit, memory),
                                  "forms" if forms else "tensors")
 

@@ -2,8 +2,10 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "symbolic/search/conditions/darboux_conditions.hpp"
 #include "symbolic/search/darboux.hpp"
 #include "symbolic/structure/brackets.hpp"
+#include "symbolic/structure/conformal.hpp"
 #include "symbolic/structure/relate/relate.hpp"
 #include "symbolic/structure/relate/symmetries.hpp"
 #include "symbolic/structure/tensors.hpp"
@@ -52,6 +54,49 @@ py::object tensors(const Case& self, int rank, bool forms, int degree, double se
     return py::dict("found"_a = found, "dimensions"_a = report.dimensions,
                     "verdict"_a = verdict_of(report.complete), "reason"_a = report.reason,
                     "generic"_a = report.generic);
+  });
+}
+
+py::object conformal_tensors(const Case& self, int rank, bool forms, int degree, double seconds,
+                             double memory) {
+  Interrupt interrupt;
+  const auto find = [&] {
+    return structure::find_conformal_tensors(self.model(), {rank, forms}, degree,
+                                             watched(interrupt, seconds, memory));
+  };
+  return exactly(interrupt, find, [](const structure::ConformalReport& report) {
+    py::list found;
+    for (const structure::ConformalTensor& own : report.found)
+      found.append(py::dict("components"_a = table_of(own.texts), "factor"_a = own.factor_text,
+                            "degree"_a = own.degree, "verdict"_a = to_string(own.verdict)));
+    return py::dict("found"_a = found, "trivial"_a = report.trivial,
+                    "verdict"_a = verdict_of(report.complete),
+                    "rational"_a = verdict_of(report.complete_rational),
+                    "constant_factors"_a = verdict_of(report.complete_constants),
+                    "reason"_a = report.reason, "generic"_a = report.generic);
+  });
+}
+
+/// Values of parameters with additional Darboux polynomials.
+py::object darboux_conditions(const Case& self, int degree, const Names& free, double seconds,
+                              double memory) {
+  Interrupt interrupt;
+  const auto find = [&] {
+    return search::find_darboux_conditions(self.model(), degree, typed(free, "free"),
+                                           watched(interrupt, seconds, memory));
+  };
+  return exactly(interrupt, find, [](const search::DarbouxConditionReport& report) {
+    py::list found;
+    for (const search::DarbouxCondition& own : report.conditions) {
+      py::list additional;
+      for (const search::DarbouxPolynomial& polynomial : own.found)
+        additional.append(py::dict("text"_a = polynomial.text, "cofactor"_a = polynomial.cofactor));
+      found.append(py::dict("parameters"_a = table_of(own.parameters),
+                            "relations"_a = own.relations, "found"_a = additional,
+                            "verdict"_a = to_string(own.verdict)));
+    }
+    return py::dict("found"_a = found, "verdict"_a = verdict_of(report.complete),
+                    "reason"_a = report.reason);
   });
 }
 
@@ -117,6 +162,8 @@ py::object symmetries(const Case& self, double seconds, double memory) {
 void bind_structure(py::module_& module) {
   module.def("rational", &rational);
   module.def("tensors", &tensors);
+  module.def("conformal_tensors", &conformal_tensors);
+  module.def("darboux_conditions", &darboux_conditions);
   module.def("brackets", &brackets);
   module.def("relate", &relate);
   module.def("symmetries", &symmetries);
