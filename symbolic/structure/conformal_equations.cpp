@@ -170,7 +170,7 @@ ConformalEquations::Motion ConformalEquations::motion_of(int degree) const {
 /// Of a term of the coupling the weight counts with those of the basis vectors that it leads from
 /// and to.
 ConformalEquations::Motion ConformalEquations::motion_of(
-    const search::NewtonFaces::Face& face) const {
+    const Motion& motion, const search::NewtonFaces::Face& face) const {
   const auto taken = [&](const Polynomial& p, long more) {
     TermCollector collector(system_.ring());
     for (const auto& [number, exponents] : p.term_list()) {
@@ -189,12 +189,12 @@ ConformalEquations::Motion ConformalEquations::motion_of(
   }
   Motion result;
   for (std::size_t i = 0; i < dimension(); ++i)
-    result.field.push_back(taken(motion_.field[i], -face.direction[i]));
+    result.field.push_back(taken(motion.field[i], -face.direction[i]));
   for (std::size_t from = 0; from < components(); ++from) {
     result.coupling.emplace_back();
     for (std::size_t to = 0; to < components(); ++to)
       result.coupling.back().push_back(
-          taken(motion_.coupling[from][to], weights[from] - weights[to]));
+          taken(motion.coupling[from][to], weights[from] - weights[to]));
   }
   return result;
 }

@@ -77,8 +77,8 @@ class ConformalEquations {
   const Motion& motion() const { return motion_; }
   /// The part of one degree.
   Motion motion_of(int degree) const;
-  /// The part of a face.
-  Motion motion_of(const search::NewtonFaces::Face& face) const;
+  /// The part of a face of Newton's polytope of such a part.
+  Motion motion_of(const Motion& motion, const search::NewtonFaces::Face& face) const;
 
   /// Some coefficients of T and of f, the others of T being zero; f = known + sum of u_k
   /// unknown[k].

@@ -148,7 +148,7 @@ void FactorSearch::collect_tests() {
       last = v;
       ++count;
     }
-    if (count > 0) tests_[last].push_back({face, equations_.motion_of(face)});
+    if (count > 0) tests_[last].push_back({face, equations_.motion_of(ansatz_.motion, face)});
   }
 }
 
@@ -199,7 +199,8 @@ std::optional<FactorSearch::Vertex> FactorSearch::values_on_a_face(const Powers&
       continue;
     const Cofactor known = part_on(face, ansatz_.known);
     if (!known.is_zero()) continue;
-    const Cofactors values = unknowns_of(equations_.motion_of(face), known, {monomial});
+    const Cofactors values =
+        unknowns_of(equations_.motion_of(ansatz_.motion, face), known, {monomial});
     if (!values.complete || values.irrational) continue;
     Vertex result{monomial, {}, {}};
     for (Cofactor own : values.found) {
