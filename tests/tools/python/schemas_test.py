@@ -69,7 +69,7 @@ COMMANDS = {
     "search-tensors": [("search", "euler", "--degree", "1", "--fields"), ("search", "euler", "--degree", "1", "--forms")],
     "search-orbits": [("search", "./blowup.toml", "--degree", "2", "--fields", "--orbits")],
     "search-conformal": [("search", "damped-body", "--degree", "1", "--fields", "--conformal"),
-                         ("search", "./blowup.toml", "--degree", "1", "--tensors", "2", "--forms", "--conformal")],
+                         ("search", "./blowup.toml", "--degree", "1", "--forms", "--conformal")],
     "exponents": [("exponents", "kovalevskaya"), ("exponents", "henon-heiles")],
     "obstruct": [("obstruct", "henon-heiles"), ("obstruct", "euler-poisson"),
                  ("obstruct", "./family.toml", "--param", "c=3", "--certificate", "c.v"),
