@@ -58,7 +58,9 @@ struct SpectrumCount {
   /// Whether they are enough for Liouville's theorem: as many as half the dimension, in involution.
   Verdict verdict = Verdict::undecided;
   std::vector<std::string> where;  ///< what that depends on, beyond the claim
-  std::string reason;              ///< where it is undecided
+  /// Of a pair on a level: the point of it around which that is said.
+  std::string at;
+  std::string reason;  ///< where it is undecided
 };
 
 /// What came of a claim.

@@ -148,12 +148,10 @@ void describe_integrals(Prover& prover, Proof& proof, const LaxPair& pair) {
   proof.evidence = fmt::format("the characteristic polynomial gives {} integral{}{}", found.size(),
                                found.size() == 1 ? "" : "s",
                                pair.on.empty() ? "" : " of the motion on the level");
-  if (pair.on.empty()) {
-    try {
-      proof.spectrum = count_of_spectrum(prover, found, pair.spectral);
-    } catch (const TooLarge& limit) {
-      proof.spectrum.emplace().reason = limit.what();
-    }
+  try {
+    proof.spectrum = count_of_spectrum(prover, found, pair.spectral, pair.on);
+  } catch (const TooLarge& limit) {
+    proof.spectrum.emplace().reason = limit.what();
   }
   // The gradients of functions on a level are independent of those of the level itself or not: that
   // takes another count.

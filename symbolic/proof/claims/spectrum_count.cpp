@@ -20,8 +20,9 @@ bool may_be_complex(const Prover& prover, const Polynomial& f) {
   return false;
 }
 
-/// Whether all brackets between them vanish.
-Verdict involution_of(Prover& prover, const std::vector<Polynomial>& functions) {
+/// Whether all brackets between them vanish, on the level if there is one.
+Verdict involution_of(Prover& prover, const std::vector<Polynomial>& functions,
+                      const Level& level) {
   std::vector<Residual> left;
   for (std::size_t i = 0; i < functions.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -37,7 +38,7 @@ Verdict involution_of(Prover& prover, const std::vector<Polynomial>& functions) 
   }
   if (left.empty()) return Verdict::proved;
   Proof proof;
-  prover.decide(proof, left, {});
+  prover.decide(proof, left, level);
   return proof.verdict;
 }
 
@@ -78,14 +79,59 @@ std::string why_not_counted(Prover& prover, const std::vector<Polynomial>& found
   return {};
 }
 
+/// On a level of Casimir functions, around a point of it.
+void count_on_level(Prover& prover, const std::vector<Polynomial>& found,
+                    const std::vector<NamedExpression>& on, SpectrumCount& count) {
+  if (!std::ranges::all_of(on, [&](const auto& f) { return is_casimir(prover, f); })) {
+    count.reason = "the level is no level of Casimir functions";
+    return;
+  }
+  std::vector<NamedExpression> all = on;
+  all.insert(all.end(), prover.model().constraints.begin(), prover.model().constraints.end());
+  const Level level = prover.level(all);
+  count.involution = involution_of(prover, found, level);
+  std::optional<RealPoint> point = prover.exact_point(level);
+  if (!point) {
+    count.reason = "no exact point of the level was found";
+    return;
+  }
+  PolynomialRows bracket, flows;
+  for (std::size_t i = 0; i < prover.dimension(); ++i) {
+    bracket.emplace_back();
+    for (std::size_t j = 0; j < prover.dimension(); ++j)
+      bracket.back().push_back(prover.bracket_entry(i, j));
+  }
+  for (const Polynomial& f : found) flows.push_back(prover.flow_of(prover.gradient(f)));
+  const auto generic = bracket_rank(prover);
+  const std::size_t leaf = point->rank(bracket);
+  if (!generic || !generic->exact || generic->rank != leaf) {
+    count.reason = "the dimension of the leaves on the level is not known";
+    return;
+  }
+  count.at = point->text();
+  count.leaf = leaf;
+  count.on_leaves = point->rank(flows);
+  if (count.involution != Verdict::proved)
+    count.reason = "whether all of them commute on the level is undecided, or they do not";
+  else if (*count.on_leaves < leaf / 2)
+    count.reason = "at this point there are fewer than half the dimension of its leaf";
+  else
+    count.verdict = Verdict::proved;
+}
+
 }  // namespace
 
 SpectrumCount count_of_spectrum(Prover& prover, const std::vector<Polynomial>& found,
-                                const std::optional<GiNaC::symbol>& spectral) {
+                                const std::optional<GiNaC::symbol>& spectral,
+                                const std::vector<NamedExpression>& on) {
   SpectrumCount count;
   count.reason = why_not_counted(prover, found, spectral);
   if (!count.reason.empty()) return count;
-  count.involution = involution_of(prover, found);
+  if (!on.empty()) {
+    count_on_level(prover, found, on, count);
+    return count;
+  }
+  count.involution = involution_of(prover, found, {});
   const auto leaf = bracket_rank(prover);
   if (!leaf || !leaf->exact || !leaf->uneven.empty()) {
     count.reason = "the dimension of the generic leaves is not known";

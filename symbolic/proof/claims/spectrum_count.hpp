@@ -21,12 +21,18 @@ namespace casimir {
 ///   more than one of them may be independent and not commute;
 /// - they are smooth, and no more than almost everywhere is said;
 /// - all brackets vanish identically, and the rank of their flows is n on each piece.
-/// On a level, or with arbitrary functions, nothing is said.
-/// That they are too few is only said where the leaves have the same dimension almost everywhere
-/// and for almost all parameters of every kind that the case allows.
+/// With arbitrary functions nothing is said. On a level of Casimir functions, a union of leaves,
+/// the functions need to commute there only, and the motion to keep them there. It is said around
+/// one exact point, where the leaf has the dimension of the generic ones and the flows are
+/// independent: that they are, holds nearby, and of other parts of the level nothing is known. That
+/// they are too few is not said of a level. That they are too few is only said where the leaves
+/// have the same dimension almost everywhere and for almost all parameters of every kind that the
+/// case allows.
 /// \param found  polynomials in the prover's ring
 /// \param spectral  the parameter of the pair, if it has one
+/// \param on  functions of the level, if there is one
 SpectrumCount count_of_spectrum(Prover& prover, const std::vector<Polynomial>& found,
-                                const std::optional<GiNaC::symbol>& spectral);
+                                const std::optional<GiNaC::symbol>& spectral,
+                                const std::vector<NamedExpression>& on = {});
 
 }  // namespace casimir

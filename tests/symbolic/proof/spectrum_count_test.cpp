@@ -105,12 +105,13 @@ TEST(SpectrumCount, IsAboutEveryPiece) {
   EXPECT_NE(count.verdict, Verdict::proved);
 }
 
-TEST(SpectrumCount, IsNotMadeOnALevel) {
-  const Proof proof = lax_of(model_of(
+TEST(SpectrumCount, IsNotMadeOnALevelThatIsNoUnionOfLeaves) {
+  const SpectrumCount count = count_of(model_of(
       "hamiltonian = \"(p1^2 + p2^2)/2\"\n[phase_space]\nvariables = [\"q1\", \"q2\", \"p1\", "
       "\"p2\"]\ncanonical = true\n[[lax]]\non = [\"p2\"]\nL = [[\"p1 + "
       "q2*p2\"]]\nA = [[\"0\"]]\n"));
-  EXPECT_FALSE(proof.spectrum.has_value());
+  EXPECT_EQ(count.verdict, Verdict::undecided);
+  EXPECT_EQ(count.leaf, 0U);
 }
 
 /// The spectral parameter stands in a function of the state: each of its values gives another
@@ -162,6 +163,43 @@ TEST(SpectrumCount, IsOfARealMotion) {
       "\"p2\"]\ncanonical = true\n" +
       diagonal({"p1", "p2"}));
   EXPECT_EQ(count_of(model).verdict, Verdict::undecided);
+}
+
+/// Two bodies that a third, which rests at c, turns: p1 and p2 are integrals where c = 0 alone.
+std::string on_level(const std::string& brackets, const std::string& hamiltonian,
+                     const std::string& level, const std::vector<std::string>& integrals) {
+  return "hamiltonian = \"" + hamiltonian +
+         "\"\n[phase_space]\nvariables = [\"q1\", \"q2\", \"p1\", \"p2\", \"c\"]\n"
+         "[phase_space.brackets]\n" +
+         brackets + diagonal(integrals) + "on = [\"" + level + "\"]\n";
+}
+const std::string canonical_with_c = "\"q1,p1\" = \"1\"\n\"q2,p2\" = \"1\"\n";
+
+TEST(SpectrumCount, OnALevelIsAroundAPoint) {
+  const SpectrumCount count = count_of(
+      model_of(on_level(canonical_with_c, "(p1^2 + p2^2)/2 + c*q1*q2^3", "c", {"p1", "p2"})));
+  EXPECT_EQ(count.verdict, Verdict::proved) << count.reason;
+  EXPECT_EQ(count.leaf, 4U);
+  EXPECT_EQ(count.on_leaves, 2U);
+  EXPECT_NE(count.at.find("c = 0"), std::string::npos) << count.at;
+}
+
+/// Integrals that do not commute on the level, and one that is no Casimir function's.
+TEST(SpectrumCount, OnALevelAsksForAllHypotheses) {
+  const SpectrumCount turning = count_of(model_of(
+      on_level(canonical_with_c, "(p1^2 + p2^2)/2 + c*q1*q2^3", "c", {"p1", "q1*p2 - q2*p1"})));
+  EXPECT_EQ(turning.verdict, Verdict::undecided);
+  const SpectrumCount other = count_of(
+      model_of(on_level(canonical_with_c, "(p1^2 + p2^2)/2 + p1*q2^3", "p1", {"p1 + p2", "c"})));
+  EXPECT_EQ(other.verdict, Verdict::undecided);
+}
+
+/// {q1, p1} = c: the leaves in c = 0 are smaller than all others.
+TEST(SpectrumCount, OnALevelOfSmallerLeavesIsNotKnown) {
+  const SpectrumCount count = count_of(model_of(on_level(
+      "\"q1,p1\" = \"c\"\n\"q2,p2\" = \"1\"\n", "(p1^2 + p2^2)/2 + c*q1*q2^3", "c", {"p1", "p2"})));
+  EXPECT_EQ(count.verdict, Verdict::undecided);
+  EXPECT_NE(count.reason.find("leaves"), std::string::npos) << count.reason;
 }
 
 }  // namespace

@@ -157,6 +157,14 @@ class Structure(unittest.TestCase):
         found = casimir.Case(equations={"x": "x*y + y^2", "y": "y^2"}, variables=["x", "y"]).tensors(1, 0, conformal=True)
         self.assertEqual((found[0]["components"], found[0]["factor"]), ({"x": "1"}, "-y"))
         self.assertEqual(found.rational, "proved")
+
+    def test_the_spectrum_of_a_lax_pair_is_counted(self):
+        pair = next(one for one in casimir.load("lagrange-lax").verify() if one.kind == "lax")
+        self.assertEqual((pair.spectrum["verdict"], pair.spectrum["leaf"]), ("proved", 4))
+        self.assertIsNone(casimir.load("euler").verify()[0].spectrum)
+
+    def test_relations_and_symmetries(self):
+        euler = casimir.load("euler")
         with self.assertRaises(casimir.ModelError):  # it needs numbers
             euler.relate(euler)
         one, other = (euler.with_values({"a1": 1, "a2": 2, "a3": last}) for last in (3, 4))

@@ -12,6 +12,7 @@ Json to_json(const SpectrumCount& count) {
                {"verdict", to_string(count.verdict)}};
   if (count.on_leaves) json["independent_on_leaves"] = *count.on_leaves;
   if (!count.where.empty()) json["where"] = count.where;
+  if (!count.at.empty()) json["at"] = count.at;
   if (!count.reason.empty()) json["reason"] = count.reason;
   return json;
 }
@@ -29,6 +30,7 @@ SpectrumCount spectrum_from(const Json& json) {
   count.verdict = verdict_from(json.at("verdict"));
   if (json.contains("independent_on_leaves")) count.on_leaves = json.at("independent_on_leaves");
   count.where = json.value("where", std::vector<std::string>{});
+  count.at = json.value("at", "");
   count.reason = json.value("reason", "");
   return count;
 }

@@ -48,6 +48,7 @@ class Proof:
     reason: str  #: of what is not proved
     fact: bool  #: about the system; counts only where the case claims to be integrable
     integrals: list[str]  #: that a Lax pair gives
+    spectrum: dict[str, Any] | None  #: of a Lax pair: what these are enough for, with a `verdict` of its own
     findings: list[Proof]  #: what else is known of a candidate
     seconds: float
 

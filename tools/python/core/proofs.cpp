@@ -36,6 +36,14 @@ search::Watch watched(Interrupt& interrupt, double seconds, double memory) {
   return watch;
 }
 
+py::object to_python(const std::optional<SpectrumCount>& count) {
+  if (!count) return py::none();
+  return py::dict("involution"_a = to_string(count->involution), "leaf"_a = count->leaf,
+                  "independent_on_leaves"_a = count->on_leaves,
+                  "verdict"_a = to_string(count->verdict), "where"_a = count->where,
+                  "at"_a = count->at, "reason"_a = count->reason);
+}
+
 py::dict to_python(const Proof& proof) {
   py::object witness = py::none();
   if (proof.witness) {
@@ -50,7 +58,8 @@ py::dict to_python(const Proof& proof) {
                   "note"_a = proof.note, "seconds"_a = proof.seconds, "on"_a = proof.on,
                   "evidence"_a = proof.evidence, "residual"_a = proof.residual,
                   "reason"_a = proof.reason, "witness"_a = witness, "where"_a = proof.where,
-                  "integrals"_a = proof.integrals, "findings"_a = findings);
+                  "integrals"_a = proof.integrals, "spectrum"_a = to_python(proof.spectrum),
+                  "findings"_a = findings);
 }
 
 Candidates candidates_of(const Names& integrals, const Names& casimirs, const Names& relations,

@@ -43,10 +43,11 @@ std::string spectrum_text(const SpectrumCount& count) {
   if (count.involution == Verdict::proved) text += "all in involution; ";
   if (count.involution == Verdict::refuted) text += "not all in involution; ";
   if (count.on_leaves && count.leaf > 0)
-    text += fmt::format(
-        "{} independent on leaves of dimension {}, for almost all values of "
-        "variables and parameters{}",
-        *count.on_leaves, count.leaf, count.verdict == Verdict::undecided ? "; " : ": ");
+    text +=
+        fmt::format("{} independent on leaves of dimension {}, {}{}", *count.on_leaves, count.leaf,
+                    count.at.empty() ? "for almost all values of variables and parameters"
+                                     : fmt::format("on the level around {}", count.at),
+                    count.verdict == Verdict::undecided ? "; " : ": ");
   switch (count.verdict) {
     case Verdict::proved:
       text += "enough for Liouville integrability";
