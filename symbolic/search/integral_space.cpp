@@ -40,7 +40,8 @@ class Run {
         ansatz_(problem.weights.size()),
         span_(modulus_),
         generators_(problem.known),
-        by_values_(problem.on.empty() && !system.relations().empty()),
+        by_values_(problem.on.empty() && !system.relations().empty() &&
+                   !problem.fields.plain.empty()),
         samples_(system, problem.fields, modulus_, 41) {}
 
   Solution run();
