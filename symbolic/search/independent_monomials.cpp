@@ -133,6 +133,7 @@ IndependentMonomials MonomialChoice::run() {
     result_.parts.emplace_back();
     for (const std::uint32_t c : part.kept) result_.parts.back().push_back(column.at(c));
   }
+  std::ranges::sort(result_.parts);  // by their first columns
   return std::move(result_);
 }
 

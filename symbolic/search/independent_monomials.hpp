@@ -9,7 +9,7 @@ namespace casimir::search {
 /// Monomials of which none is a combination of others as a function, and the parts of a grading.
 struct IndependentMonomials {
   Monomials monomials;
-  /// The columns of each part, ascending.
+  /// The columns of each part, ascending, as the parts are by their first one.
   std::vector<std::vector<std::uint32_t>> parts;
   /// Whether those left out are proved to be combinations of those that are left: then these span
   /// the same functions.
