@@ -71,6 +71,7 @@ class FactorSearch {
   const PolynomialRing& ring() const { return equations_.system().ring(); }
   std::vector<Cofactor> values_at(const Powers& monomial, const std::vector<Polynomial>& d) const;
   std::optional<Vertex> values_on_a_face(const Powers& monomial) const;
+  bool is_excluded_on_faces(std::size_t last, const AlgebraicCofactor& f) const;
   void assign_roots(std::size_t next, const AlgebraicCofactor& f);
   Cofactors unknowns_of(const Motion& motion, const Cofactor& f,
                         const std::vector<Powers>& unknown) const;
@@ -89,6 +90,7 @@ class FactorSearch {
   std::vector<Vertex> vertices_;  ///< and what is alone on a face
   std::vector<Powers> others_;
   std::vector<std::vector<Test>> tests_;  ///< by the last vertex on the face
+  std::size_t cases_ = 0;                 ///< of roots that were tried
   Cofactors result_;
 };
 
@@ -245,8 +247,25 @@ Cofactors FactorSearch::unknowns_of(const Motion& motion, const Cofactor& f,
   return result;
 }
 
+/// By the faces whose part of f is known once this vertex has a value.
+bool FactorSearch::is_excluded_on_faces(std::size_t last, const AlgebraicCofactor& f) const {
+  return std::ranges::any_of(tests_[last], [&](const Test& test) {
+    AlgebraicCofactor own{part_on(test.face, f.rational), {}};
+    for (const AlgebraicCofactor::Root& root : f.roots)
+      if (test.face.contains(signed_powers(root.monomial))) own.roots.push_back(root);
+    return excludes_roots(equations_, test.motion, ansatz_.monomials, own);
+  });
+}
+
 /// The same with at least one coefficient that is a root; these were not seen to be impossible.
 void FactorSearch::assign_roots(std::size_t next, const AlgebraicCofactor& f) {
+  constexpr std::size_t kMostCases = 3000;
+  if (result_.irrational || ++cases_ > kMostCases) {
+    result_.irrational = true;
+    return;
+  }
+  watch_.tick(0.5);
+  if (next > 0 && is_excluded_on_faces(next - 1, f)) return;
   if (next < vertices_.size()) {
     const Vertex& own = vertices_[next];
     const bool more =
