@@ -259,8 +259,8 @@ bool FactorSearch::is_excluded_on_faces(std::size_t last, const AlgebraicCofacto
 
 /// The same with at least one coefficient that is a root; these were not seen to be impossible.
 void FactorSearch::assign_roots(std::size_t next, const AlgebraicCofactor& f) {
-  constexpr std::size_t kMostCases = 3000;
-  if (result_.irrational || ++cases_ > kMostCases) {
+  constexpr std::size_t kMostCasesOfRoots = 3000;
+  if (result_.irrational || ++cases_ > kMostCasesOfRoots) {
     result_.irrational = true;
     return;
   }
