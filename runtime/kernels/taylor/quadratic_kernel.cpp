@@ -41,28 +41,15 @@ void with_order(const casimir_quadratic& tables, const casimir_run* run, double*
 constexpr int kManyRegisters = 10;
 constexpr int kMostBlocks = CASIMIR_WIDE_STATES / kWidth;
 
-template <int blocks, int fixed>
-void march_wide(const casimir_wide& tables, const casimir_run* run, double* x,
-                casimir_outcome* out) {
-  using Series = casimir_kernel::taylor::Wide<kWidth, blocks, fixed>;
-  Series series(tables, casimir_kernel::taylor::order_for(run, tables.registers >= kManyRegisters));
-  casimir_kernel::taylor::March<Series>(run, series, x, out).go();
-}
-
 template <int blocks>
 void integrate_wide(const casimir_wide& tables, const casimir_run* run, double* x,
                     casimir_outcome* out) {
   if constexpr (blocks < kMostBlocks) {
     if (tables.blocks > blocks) return integrate_wide<blocks + 1>(tables, run, x, out);
   }
-  if constexpr (blocks <= CASIMIR_WIDE_BLOCKS) {
-    static_assert(CASIMIR_WIDE_FEW == 4);
-    if (tables.registers == 1) return march_wide<blocks, 1>(tables, run, x, out);
-    if (tables.registers == 2) return march_wide<blocks, 2>(tables, run, x, out);
-    if (tables.registers == 3) return march_wide<blocks, 3>(tables, run, x, out);
-    if (tables.registers == 4) return march_wide<blocks, 4>(tables, run, x, out);
-  }
-  march_wide<blocks, 0>(tables, run, x, out);
+  using Series = casimir_kernel::taylor::Wide<kWidth, blocks>;
+  Series series(tables, casimir_kernel::taylor::order_for(run, tables.registers >= kManyRegisters));
+  casimir_kernel::taylor::March<Series>(run, series, x, out).go();
 }
 
 }  // namespace

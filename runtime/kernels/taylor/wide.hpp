@@ -14,10 +14,11 @@ namespace casimir_kernel::taylor {
 /// time as far as the coefficients are known, so that a number that is loaded serves four sums;
 /// what the four coefficients themselves add follows order by order.
 ///
-/// \tparam fixed  the number of registers of products where it is small: loops over them are then
-///                written out, and sums of products stay in registers. 0: any number.
-template <int width, int the_blocks, int fixed>
-struct Wide {
+/// What depends on the number of registers of products is chosen once, so that the march over the
+/// steps is compiled for each number of blocks only.
+template <int width, int the_blocks>
+class Wide {
+ public:
   using V = Lanes<width>;
   static constexpr int blocks = the_blocks, room = blocks, most = 24;
   static constexpr bool smooth = true, prepared = false;
@@ -28,36 +29,11 @@ struct Wide {
 
   Wide(const casimir_wide& tables, int the_order)
       : states(tables.states), order(the_order), tables_(tables) {
-    for (int m = 0; m < fixed; ++m)
-      for (int b = 0; b < blocks; ++b)
-        own_[m][b] = load<V>(tables.dense + (m * blocks + b) * width);
+    choose_fixed();
   }
 
-  __attribute__((noinline)) void begin(double, const V* x) {
-    V state[blocks];
-    for (int b = 0; b < blocks; ++b) state[b] = c[0][b] = x[b];
-    rates_at(state, 1);
-    for (int b = 0; b < blocks; ++b) rate[b] = state[b];
-  }
-
-  __attribute__((noinline)) void expand(double unit) {
-    V x[blocks];  // the newest coefficient, which the next one waits for
-    CASIMIR_UNROLL
-    for (int b = 0; b < blocks; ++b) x[b] = c[0][b];
-    rates_at(x, unit);
-    store(1, x);
-    next<true, 0>(1, unit, x);
-    next<true, 1>(1, unit, x);
-    next<true, 2>(1, unit, x);
-    next<true, 3>(1, unit, x);
-    for (int first = 5; first < order; first += 4) {
-      look_ahead(first);
-      next<false, 0>(first, unit, x);
-      next<false, 1>(first, unit, x);
-      next<false, 2>(first, unit, x);
-      if (first + 3 < order) next<false, 3>(first, unit, x);
-    }
-  }
+  void begin(double, const V* x) { (this->*begin_)(x); }
+  void expand(double unit) { (this->*expand_)(unit); }
 
  private:
   static constexpr int most_registers = CASIMIR_WIDE_PRODUCTS / width;
@@ -66,6 +42,57 @@ struct Wide {
   struct Product {
     V left[most], right[most];
   };
+
+  void choose_fixed() {
+    if constexpr (blocks <= CASIMIR_WIDE_BLOCKS) {
+      static_assert(CASIMIR_WIDE_FEW == 4);
+      if (tables_.registers == 1) return choose<1>();
+      if (tables_.registers == 2) return choose<2>();
+      if (tables_.registers == 3) return choose<3>();
+      if (tables_.registers == 4) return choose<4>();
+    }
+    choose<0>();
+  }
+
+  /// \tparam fixed  here and below, the number of registers of products where it is small: loops over
+  ///                them are then written out, and sums of products stay in registers. 0: any
+  ///                number.
+  template <int fixed>
+  void choose() {
+    begin_ = &Wide::begin_with<fixed>;
+    expand_ = &Wide::expand_with<fixed>;
+    for (int m = 0; m < fixed; ++m)
+      for (int b = 0; b < blocks; ++b)
+        own_[m][b] = load<V>(tables_.dense + (m * blocks + b) * width);
+  }
+
+  template <int fixed>
+  void begin_with(const V* x) {
+    V state[blocks];
+    for (int b = 0; b < blocks; ++b) state[b] = c[0][b] = x[b];
+    rates_at<fixed>(state, 1);
+    for (int b = 0; b < blocks; ++b) rate[b] = state[b];
+  }
+
+  template <int fixed>
+  void expand_with(double unit) {
+    V x[blocks];  // the newest coefficient, which the next one waits for
+    CASIMIR_UNROLL
+    for (int b = 0; b < blocks; ++b) x[b] = c[0][b];
+    rates_at<fixed>(x, unit);
+    store(1, x);
+    next<fixed, true, 0>(1, unit, x);
+    next<fixed, true, 1>(1, unit, x);
+    next<fixed, true, 2>(1, unit, x);
+    next<fixed, true, 3>(1, unit, x);
+    for (int first = 5; first < order; first += 4) {
+      look_ahead<fixed>(first);
+      next<fixed, false, 0>(first, unit, x);
+      next<fixed, false, 1>(first, unit, x);
+      next<fixed, false, 2>(first, unit, x);
+      if (first + 3 < order) next<fixed, false, 3>(first, unit, x);
+    }
+  }
 
   CASIMIR_INLINE void store(int k, const V* x) {
     CASIMIR_UNROLL
@@ -78,22 +105,23 @@ struct Wide {
   }
 
   /// The state c[0], which is x, becomes its rates times a factor.
+  template <int fixed>
   CASIMIR_INLINE void rates_at(V* x, double factor) {
     V own[fixed > 0 ? fixed : 1];
-    each_register([&](int m) CASIMIR_INLINE_LAMBDA {
+    each_register<fixed>([&](int m) CASIMIR_INLINE_LAMBDA {
       const V l = operand(0, x, tables_.left + m * width);
       const V r = operand(0, x, tables_.right + m * width);
       product_[m].left[0] = l;
       product_[m].right[0] = r;
-      keep(own, m, l * r);
+      keep<fixed>(own, m, l * r);
     });
-    combine(own, 0, x);
+    combine<fixed>(own, 0, x);
     CASIMIR_UNROLL
     for (int b = 0; b < blocks; ++b) x[b] = (x[b] + load<V>(tables_.constant + b * width)) * factor;
   }
 
   /// For m = 0 .. registers - 1.
-  template <class Action>
+  template <int fixed, class Action>
   CASIMIR_INLINE void each_register(Action action) const {
     if constexpr (fixed > 0) {
       CASIMIR_UNROLL
@@ -104,6 +132,7 @@ struct Wide {
   }
 
   /// The products of register m: in a register for their own lanes, in memory to be moved.
+  template <int fixed>
   CASIMIR_INLINE void keep(V* own, int m, V value) {
     if constexpr (fixed > 0) own[m] = value;
     product_now_[m] = value;
@@ -112,8 +141,9 @@ struct Wide {
   /// What the coefficients before `first` give to the products of order first .. first + 3, except
   /// for coefficient 0. The latest of them on the right come last: so the sums of the others need
   /// not wait for them.
+  template <int fixed>
   CASIMIR_INLINE void look_ahead(int first) {
-    each_register([&](int m) CASIMIR_INLINE_LAMBDA {
+    each_register<fixed>([&](int m) CASIMIR_INLINE_LAMBDA {
       const V* const l = product_[m].left;
       const V* const r = product_[m].right + first;
       V r1 = r[-1], r2 = r[-2], r3 = r[-3];
@@ -158,19 +188,19 @@ struct Wide {
   }
 
   /// Coefficient k + 1 from coefficient k = first + q, which is x and becomes the new one.
-  template <bool at_start, int q>
+  template <int fixed, bool at_start, int q>
   CASIMIR_INLINE void next(int first, double unit, V* x) {
     const int k = first + q;
     V own[fixed > 0 ? fixed : 1];
-    each_register([&](int m) CASIMIR_INLINE_LAMBDA {
+    each_register<fixed>([&](int m) CASIMIR_INLINE_LAMBDA {
       Product& p = product_[m];
       const V l = operand(k, x, tables_.left + m * width);
       const V r = operand(k, x, tables_.right + m * width);
       p.left[k] = l;
       p.right[k] = r;
-      keep(own, m, (inner(m, at_start ? 1 : first, q) + p.left[0] * r) + l * p.right[0]);
+      keep<fixed>(own, m, (inner(m, at_start ? 1 : first, q) + p.left[0] * r) + l * p.right[0]);
     });
-    combine(own, k, x);
+    combine<fixed>(own, k, x);
     const double factor = unit * reciprocal.of[k + 1];
     const double lost = unit * reciprocal.rest[k + 1];
     CASIMIR_UNROLL
@@ -190,6 +220,7 @@ struct Wide {
 
   /// What the products and coefficient k, which is x, make of the rates, which take its place;
   /// without the constants.
+  template <int fixed>
   CASIMIR_INLINE void combine(const V* own, int k, V* x) {
     V rates[blocks];
     CASIMIR_UNROLL
@@ -221,7 +252,9 @@ struct Wide {
   }
 
   const casimir_wide tables_;
-  V own_[fixed > 0 ? fixed : 1][blocks];  // the factors of `dense`
+  void (Wide::*begin_)(const V* x);
+  void (Wide::*expand_)(double unit);
+  V own_[CASIMIR_WIDE_FEW][blocks];  // the factors of `dense`
   V ahead_[most_registers][4];
   V product_now_[most_registers];
   Product product_[most_registers];
