@@ -203,16 +203,16 @@ TEST(Fault, CtrlCEndsACompilerThatHangsAndAllThatItStarted) {
     EXPECT_FALSE(entry.path().filename().string().starts_with("work-")) << entry.path();
 }
 
-TEST(Fault, TwoHundredAtOnceOnAColdCacheAgree) {
+TEST(Fault, ManyAtOnceOnAColdCacheAgree) {
   const Folder folder;
   const Outcome outcome = shell(folder,
-                                "for i in $(seq 200); do \"$C\" integrate euler --method dop853 "
+                                "for i in $(seq 60); do \"$C\" integrate euler --method dop853 "
                                 "--json > $i.json & done; wait",
                                 cache_in(folder));
   EXPECT_EQ(outcome.err, "");
   std::set<std::string> states;
   int compiled = 0;
-  for (int i = 1; i <= 200; ++i) {
+  for (int i = 1; i <= 60; ++i) {
     const auto json =
         nlohmann::ordered_json::parse(file_text(folder.path() / (std::to_string(i) + ".json")));
     states.insert(json.at("state").dump());

@@ -84,7 +84,7 @@ COMMANDS = {
     "equilibria": [("equilibria", "euler"), ("equilibria", "euler", "--validated")],
     "check": [("check", "euler.cert"), ("check", "wide.cert"), ("check", "euler.cert", "--time-limit", "0.0000001"),
               ("check", "chaos.cert"), ("check", "chaos.cert", "--time-limit", "0.0000001")],
-    "report": [("report", "euler", "--budget", "0", "--output", "euler.html")],
+    "report": [("report", "./duffing.toml", "--budget", "0", "--output", "duffing.html")],
     "report-all": [("report", "--all", "--tag", "appendix-F", "--budget", "0", "--output", "pages")],
     "generate": [("generate", "euler", "-o", "euler.hpp")],
     "integrate": [("integrate", "euler", "--duration", "1"), ("integrate", "./blowup.toml"),

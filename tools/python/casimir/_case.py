@@ -719,7 +719,7 @@ class Case:
         :param budget: seconds of measuring error against run time; 0 leaves that out.
 
         >>> import tempfile
-        >>> page = load("euler").report(tempfile.mktemp(suffix=".html"), budget=0)
+        >>> page = load("euler-jacobi").report(tempfile.mktemp(suffix=".html"), budget=0)
         >>> page.verdict
         'proved'
         """
