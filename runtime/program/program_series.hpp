@@ -337,7 +337,7 @@ class TaylorJet {
   std::vector<Series> series_;         ///< of each line
   std::vector<Series> helper_series_;  ///< two for each line that needs them ..
   std::vector<int> helpers_;           ///< .. and where they begin, or -1
-  std::vector<bool> constant_;         ///< free of states and time
+  std::vector<char> constant_;         ///< 1: free of states and time; bits would be slow to read
   bool constants_known_ = false;
 };
 

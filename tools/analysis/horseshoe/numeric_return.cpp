@@ -16,6 +16,7 @@ constexpr double kStepError = 1e-17, kSingularReturn = 1e-13, kPlaneMet = 3e-14;
 /// The series of a solution and of its derivatives by the start, up to a time.
 struct NumericReturn::Piece {
   const std::vector<std::vector<double>>* states = nullptr;
+  /// Transposed, so that what is added to each other lies side by side; by fours, with zeros below.
   std::vector<NumericReturn::Matrix> tangents;
   double step = 0;
 };
@@ -109,16 +110,19 @@ void NumericReturn::expand(const Vector& x, bool with_derivative, Piece& piece) 
   };
   piece.step = std::min({reach(last, kOrderOfReturn), reach(before, kOrderOfReturn - 1), 1e3});
   if (!with_derivative) return;
-  const auto n = static_cast<Eigen::Index>(n_);
-  piece.tangents.assign(kOrderOfReturn + 1, Matrix::Zero(n, n));
-  piece.tangents[0] = Matrix::Identity(n, n);
+  const auto n = static_cast<Eigen::Index>(n_), padded = (n + 3) / 4 * 4;
+  piece.tangents.resize(kOrderOfReturn + 1);
+  for (Matrix& coefficient : piece.tangents) coefficient.setZero(padded, n);
+  piece.tangents[0].setIdentity();
   for (std::size_t k = 0; k < kOrderOfReturn; ++k) {
     for (std::size_t e = 0; e < flow_.entries.size(); ++e) {
       const std::vector<double>& series = jet.series_of(flow_.entry_lines[e]);
-      for (std::size_t j = 0; j <= k; ++j) {
-        if (series[j] == 0) continue;
-        piece.tangents[k + 1].row(flow_.entries[e].first) +=
-            series[j] * piece.tangents[k - j].row(flow_.entries[e].second);
+      const auto [row, column] = flow_.entries[e];
+      for (Eigen::Index i = 0; i < padded; i += 4) {
+        Eigen::Vector4d sum = piece.tangents[k + 1].col(row).segment<4>(i);
+        for (std::size_t j = 0; j <= k; ++j)
+          sum += series[j] * piece.tangents[k - j].col(column).segment<4>(i);
+        piece.tangents[k + 1].col(row).segment<4>(i) = sum;
       }
     }
     piece.tangents[k + 1] /= static_cast<double>(k + 1);
@@ -139,7 +143,7 @@ NumericReturn::Vector NumericReturn::at(const Piece& piece, double t) const {
 NumericReturn::Matrix NumericReturn::tangents_at(const Piece& piece, double t) const {
   Matrix sum = piece.tangents.back();
   for (std::size_t k = piece.tangents.size() - 1; k-- > 0;) sum = sum * t + piece.tangents[k];
-  return sum;
+  return sum.topRows(static_cast<Eigen::Index>(n_)).transpose();
 }
 
 /// By Newton's method, and by halves where that leaves the interval.
