@@ -291,7 +291,7 @@ TEST(Integrate, EveryMethodAgrees) {
   for (const char* method : {"dop853", "taylor", "taylor-compiled", "gauss4", "gauss6", "gauss8",
                              "gauss12", "gauss16", "radau5", "radau9", "odeint-fehlberg78",
                              "odeint-dopri5", "cvode-adams", "cvode-bdf", "arkode-erk", "auto"}) {
-    const Outcome outcome = run_in(folder, {"integrate", "clebsch", "--method", method,
+    const Outcome outcome = run_in(folder, {"integrate", "kovalevskaya", "--method", method,
                                             "--tolerance", "1e-9", "--duration", "5", "--json"});
     ASSERT_EQ(outcome.status, 0) << method << outcome.err;
     static const double expected =

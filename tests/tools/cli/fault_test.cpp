@@ -100,11 +100,12 @@ TEST(Fault, AFileWithoutRoomKeepsTheOldOne) {
            {"f.h5", "sweep euler --over a1=1:2:200 --output f.h5"},
            {"f.hpp", "generate manakov-so5 -o f.hpp"},
            {"f.v", "verify manakov-so5 --certificate f.v"},
-           {"f.html", "report euler --budget 0.01 --output f.html"},
+           {"f.html", "report euler-jacobi --budget 0 --output f.html"},
            {"f.csv", "section henon-heiles --output f.csv"},
            {"f.svg", "section henon-heiles --output f.svg"},
            {"f.csv",
-            "bench euler --tolerances 1e-3,1e-4,1e-5,1e-6,1e-7,1e-8,1e-9,1e-10,1e-11,1e-12 "
+            "bench euler --method taylor,dop853 --tolerances "
+            "1e-3,1e-4,1e-5,1e-6,1e-7,1e-8,1e-9,1e-10,1e-11,1e-12 "
             "--budget 0.01 --output f.csv"},
            {"f.md", "survey --output f.md"},
            {"f.toml", "new f --algebra 'so(5)' --force"}}) {

@@ -120,11 +120,11 @@ TEST(Report, OfAllCasesHasAnIndexWhoseLinksLead) {
 
 TEST(Report, IsWrittenWithoutPicturesWhereGnuplotIsMissing) {
   const Folder folder;
-  const Outcome outcome = run_in(folder, {"report", "euler", "--budget", "0"}, {},
+  const Outcome outcome = run_in(folder, {"report", "euler-jacobi", "--budget", "0"}, {},
                                  {{"PATH", "/nonexistent"}, {"CXX", "/usr/bin/g++"}});
   EXPECT_EQ(outcome.status, 4) << outcome.err;
   EXPECT_NE(outcome.err.find("apt-get install gnuplot-nox"), std::string::npos) << outcome.err;
-  const std::string page = file_text(folder.path() / "euler.html");
+  const std::string page = file_text(folder.path() / "euler-jacobi.html");
   EXPECT_NE(page.find("There is no picture"), std::string::npos);
   EXPECT_NE(page.find("How well the invariants are kept"), std::string::npos);
   EXPECT_EQ(folder.files(), 1U);
