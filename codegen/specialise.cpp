@@ -60,8 +60,7 @@ class Specialiser {
   std::size_t n() const { return model_.variables.size(); }
 
   std::vector<GiNaC::symbol> general_symbols() const {
-    std::vector<GiNaC::symbol> symbols = model_.variables;
-    symbols.insert(symbols.end(), model_.parameters.begin(), model_.parameters.end());
+    std::vector<GiNaC::symbol> symbols = model_.symbols();
     if (model_.time) symbols.push_back(*model_.time);
     return symbols;
   }

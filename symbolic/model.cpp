@@ -66,6 +66,12 @@ const std::vector<Extreme>& extremes() {
   return all;
 }
 
+std::vector<GiNaC::symbol> Model::symbols() const {
+  std::vector<GiNaC::symbol> result = variables;
+  result.insert(result.end(), parameters.begin(), parameters.end());
+  return result;
+}
+
 const Scene& Model::scene(const std::string& scene_name) const {
   const auto usable = [&](const Scene& found) -> const Scene& {
     if (found.singular) throw SingularPoint(found.unusable);

@@ -168,6 +168,9 @@ struct Model {
   std::vector<Scene> scenes;
   Limits limits{};  ///< of its file; whatever is computed with the model is held to them
 
+  /// The variables, then the parameters.
+  std::vector<GiNaC::symbol> symbols() const;
+
   /// The scene of that name; "default" may also mean the first one.
   /// \throws CaseError      if there is none, the message lists the names; or it is unusable
   /// \throws SingularPoint  if its state has no image in the variables chosen

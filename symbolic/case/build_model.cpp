@@ -127,8 +127,7 @@ class Builder {
     result.reverses = text.reverses;
     result.variables.assign(model_.variables.begin(), model_.variables.end());
     result.parameters.assign(model_.parameters.begin(), model_.parameters.end());
-    std::vector<GiNaC::symbol> symbols = model_.variables;
-    symbols.insert(symbols.end(), model_.parameters.begin(), model_.parameters.end());
+    std::vector<GiNaC::symbol> symbols = model_.symbols();
     for (const auto& [name, value] : text.expressions) {
       const std::size_t i =
           symbol_position(name, name.value, 0, symbols, "a variable or parameter of this case");

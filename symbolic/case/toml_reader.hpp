@@ -1,6 +1,6 @@
 #pragma once
 
-// For case_file.cpp alone: no other file needs to know the TOML library.
+// For what reads case files alone: no other file needs to know the TOML library.
 #include <fmt/format.h>
 
 #include <algorithm>

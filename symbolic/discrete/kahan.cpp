@@ -46,8 +46,7 @@ class Kahan {
   std::size_t dimension() const { return flow_.variables.size(); }
 
   std::vector<GiNaC::symbol> symbols() const {
-    std::vector<GiNaC::symbol> result = flow_.variables;
-    result.insert(result.end(), flow_.parameters.begin(), flow_.parameters.end());
+    std::vector<GiNaC::symbol> result = flow_.symbols();
     result.push_back(step_);
     return result;
   }

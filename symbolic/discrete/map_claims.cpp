@@ -338,8 +338,7 @@ Claim whole_symmetry_claim(const MapModel& map, const MapSymmetry& symmetry) {
                 prover.decide(proof, residuals, {});
                 std::vector<ex> images = symmetry.variables;
                 images.insert(images.end(), symmetry.parameters.begin(), symmetry.parameters.end());
-                std::vector<GiNaC::symbol> by = map.base.variables;
-                by.insert(by.end(), map.base.parameters.begin(), map.base.parameters.end());
+                std::vector<GiNaC::symbol> by = map.base.symbols();
                 judge_invertible(prover, proof, symmetry.name, images, by);
               }};
   claim.expressions = domain_of(map, {});

@@ -36,8 +36,7 @@ bool is_proved_inverse(const MapModel& map, const Inverse& inverse) {
 /// Whether it is the inverse at a random point modulo the prime, which is soon seen.
 class Screen {
  public:
-  explicit Screen(const MapModel& map) : symbols_(map.base.variables) {
-    symbols_.insert(symbols_.end(), map.base.parameters.begin(), map.base.parameters.end());
+  explicit Screen(const MapModel& map) : symbols_(map.base.symbols()) {
     const PrimeField field;
     std::mt19937_64 random(24);
     for (std::size_t i = 0; i < symbols_.size(); ++i) point_.push_back(field.random(random));

@@ -7,12 +7,6 @@
 namespace casimir::discrete {
 namespace {
 
-std::vector<GiNaC::symbol> symbols_of(const Model& model) {
-  std::vector<GiNaC::symbol> symbols = model.variables;
-  symbols.insert(symbols.end(), model.parameters.begin(), model.parameters.end());
-  return symbols;
-}
-
 /// A field and its Jacobian matrix, row by row. That the second derivatives are numbers is checked
 /// where they are polynomials of the variables, which a program of rational functions with random
 /// parameters cannot tell.
@@ -27,7 +21,7 @@ std::vector<GiNaC::ex> field_and_slopes(const Model& flow) {
 }  // namespace
 
 ModularMap::ModularMap(const Model& model, const std::vector<GiNaC::ex>& functions)
-    : dimension_(model.variables.size()), program_(symbols_of(model), functions) {
+    : dimension_(model.variables.size()), program_(model.symbols(), functions) {
   for (const Assumption& assumption : model.assumptions) {
     if (assumption.comparison == Comparison::equal)
       throw ModelError(fmt::format(

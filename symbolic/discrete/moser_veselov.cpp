@@ -50,8 +50,7 @@ class MoserVeselov {
   static std::size_t after(std::size_t i) { return (i + 1) % 3; }
 
   std::vector<GiNaC::symbol> symbols() const {
-    std::vector<GiNaC::symbol> result = flow_.variables;
-    result.insert(result.end(), flow_.parameters.begin(), flow_.parameters.end());
+    std::vector<GiNaC::symbol> result = flow_.symbols();
     result.push_back(step_);
     return result;
   }

@@ -30,12 +30,6 @@ struct Scalar {
   }
 };
 
-std::vector<GiNaC::symbol> symbols_in_order(const Model& model) {
-  std::vector<GiNaC::symbol> symbols = model.variables;
-  symbols.insert(symbols.end(), model.parameters.begin(), model.parameters.end());
-  return symbols;
-}
-
 std::vector<ex> next_and_slopes(const MapModel& map) {
   std::vector<ex> functions = map.next;
   for (const ex& next : map.next) {
@@ -49,10 +43,10 @@ class Search {
   Search(const MapModel& map, int degree, const search::Watch& watch)
       : map_(map),
         watch_(watch),
-        program_(symbols_in_order(map.base), next_and_slopes(map)),
-        next_(symbols_in_order(map.base), map.next),
+        program_(map.base.symbols(), next_and_slopes(map)),
+        next_(map.base.symbols(), map.next),
         monomials_(search::all_monomials(std::vector<int>(map.base.variables.size(), 1), degree)),
-        ring_(symbols_in_order(map.base), {}, {}, map.base.limits) {
+        ring_(map.base.symbols(), {}, {}, map.base.limits) {
     for (const GiNaC::symbol& p : map.base.parameters) {
       result_.generic.push_back(p.get_name());
       parameters_.push_back(field_.random(random_));

@@ -14,17 +14,11 @@ std::vector<GiNaC::ex> with_derivatives(const Model& model, std::vector<GiNaC::e
   return functions;
 }
 
-std::vector<GiNaC::symbol> all_symbols(const Model& model) {
-  std::vector<GiNaC::symbol> symbols = model.variables;
-  symbols.insert(symbols.end(), model.parameters.begin(), model.parameters.end());
-  return symbols;
-}
-
 }  // namespace
 
 SeriesMap::SeriesMap(const Model& model, const std::vector<GiNaC::ex>& functions)
     : dimension_(model.variables.size()),
-      program_(all_symbols(model), with_derivatives(model, functions), kSplittingPrime) {
+      program_(model.symbols(), with_derivatives(model, functions), kSplittingPrime) {
   parameters_.resize(model.parameters.size());
   choose_parameters();
 }

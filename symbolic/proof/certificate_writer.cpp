@@ -22,12 +22,6 @@ bool is_plain_polynomial(const ex& e) {
   return std::all_of(e.begin(), e.end(), is_plain_polynomial);
 }
 
-std::vector<GiNaC::symbol> symbols_of(const Model& model) {
-  std::vector<GiNaC::symbol> symbols = model.variables;
-  symbols.insert(symbols.end(), model.parameters.begin(), model.parameters.end());
-  return symbols;
-}
-
 /// The plain polynomials among what the file may be about.
 std::vector<ex> polynomials_of(const Model& model, const std::vector<ex>& about) {
   std::vector<ex> all{*model.hamiltonian};
@@ -54,8 +48,8 @@ std::string Statement::title() const {
 CertificateWriter::CertificateWriter(const Model& model, const std::vector<ex>& about)
     : model_(model),
       // Without the assumptions of the case: what they would simplify is not what the file says.
-      ring_(symbols_of(model), {}, polynomials_of(model, about), model.limits),
-      file_(symbols_of(model), model.variables.size()) {
+      ring_(model.symbols(), {}, polynomials_of(model, about), model.limits),
+      file_(model.symbols(), model.variables.size()) {
   file_.begin_part("The bracket and the Hamiltonian");
   std::vector<Polynomial> upper;
   for (std::size_t i = 0; i < dimension(); ++i) {

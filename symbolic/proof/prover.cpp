@@ -22,8 +22,7 @@ using GiNaC::ex;
 }  // namespace
 
 std::vector<GiNaC::symbol> Prover::symbols_of(const Model& model) {
-  std::vector<GiNaC::symbol> symbols = model.variables;
-  symbols.insert(symbols.end(), model.parameters.begin(), model.parameters.end());
+  std::vector<GiNaC::symbol> symbols = model.symbols();
   if (model.time) symbols.push_back(*model.time);
   for (const LaxPair& pair : model.lax_pairs) {
     if (pair.spectral) symbols.push_back(*pair.spectral);

@@ -18,9 +18,8 @@ namespace {
 /// Collects the functions that a page evaluates, and makes programs of them.
 class LiveFunctions {
  public:
-  explicit LiveFunctions(const Model& model) : symbols_(model.variables) {
-    states_ = symbols_.size();
-    symbols_.insert(symbols_.end(), model.parameters.begin(), model.parameters.end());
+  explicit LiveFunctions(const Model& model) : symbols_(model.symbols()) {
+    states_ = model.variables.size();
     symbols_.push_back(model.time ? *model.time : GiNaC::symbol("t"));
     for (const GiNaC::symbol& symbol : symbols_) inputs_.push_back(symbol.get_name());
   }

@@ -116,8 +116,7 @@ Notation::Notation(const Model& model) : model_(model) {
 
 /// Greek letters for the names of vectors, unless the case has the letter already.
 void Notation::name_letters() {
-  std::vector<GiNaC::symbol> named = model_.variables;
-  named.insert(named.end(), model_.parameters.begin(), model_.parameters.end());
+  std::vector<GiNaC::symbol> named = model_.symbols();
   if (!form_) return;
   for (const Block& block : form_->blocks) {
     const std::string greek = letter(block.name);

@@ -36,8 +36,7 @@ Domain put_assumptions(Model& model, const std::function<ex(const ex&)>& put) {
 }
 
 std::vector<GiNaC::symbol> symbols_in(const Model& model) {
-  std::vector<GiNaC::symbol> symbols = model.variables;
-  symbols.insert(symbols.end(), model.parameters.begin(), model.parameters.end());
+  std::vector<GiNaC::symbol> symbols = model.symbols();
   if (model.time) symbols.push_back(*model.time);
   return symbols;
 }

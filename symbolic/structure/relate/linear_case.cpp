@@ -34,8 +34,7 @@ Terms of_degree(const Terms& terms, unsigned long degree) {
 }
 
 std::vector<Terms> terms_of(const Model& model, const std::vector<GiNaC::ex>& functions) {
-  std::vector<GiNaC::symbol> symbols = model.variables;
-  symbols.insert(symbols.end(), model.parameters.begin(), model.parameters.end());
+  const std::vector<GiNaC::symbol> symbols = model.symbols();
   FunctionRing ring(symbols, {}, functions, model.limits);
   if (!ring.is_polynomial())
     throw ModelError(fmt::format(

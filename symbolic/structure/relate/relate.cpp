@@ -194,9 +194,7 @@ class Relating {
     }
     std::vector<ex> all = relation_.expressions;
     all.insert(all.end(), {map.factor, casimir_part});
-    std::vector<GiNaC::symbol> symbols = a_.variables;
-    symbols.insert(symbols.end(), a_.parameters.begin(), a_.parameters.end());
-    FunctionRing ring(symbols, {}, all, a_.limits);
+    FunctionRing ring(a_.symbols(), {}, all, a_.limits);
     for (std::size_t i = 0; i < relation_.expressions.size(); ++i)
       relation_.map.emplace_back(b_.variables[i].get_name(),
                                  ring.text(ring.convert(relation_.expressions[i])));

@@ -166,9 +166,7 @@ void SymmetrySearch::add(std::vector<ex> matrix, const ex& integral) {
   }
   std::vector<ex> all = field;
   all.push_back(integral);
-  std::vector<GiNaC::symbol> symbols = model_.variables;
-  symbols.insert(symbols.end(), model_.parameters.begin(), model_.parameters.end());
-  FunctionRing ring(symbols, model_.assumptions, all, model_.limits);
+  FunctionRing ring(model_.symbols(), model_.assumptions, all, model_.limits);
   LinearSymmetry symmetry;
   for (std::size_t i = 0; i < n_; ++i)
     if (!field[i].is_zero())

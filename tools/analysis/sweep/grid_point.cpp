@@ -39,8 +39,7 @@ class PointCheck {
     std::vector<GiNaC::ex> functions;
     for (const NamedExpression& c : model.constraints) functions.push_back(c.value);
     for (const Assumption& a : model.assumptions) functions.push_back(a.difference);
-    std::vector<GiNaC::symbol> symbols = model.variables;
-    symbols.insert(symbols.end(), model.parameters.begin(), model.parameters.end());
+    const std::vector<GiNaC::symbol> symbols = model.symbols();
     program_ = program_of(functions, symbols);
     const auto add = [&](const GiNaC::ex& e) {
       inputs_.push_back(
