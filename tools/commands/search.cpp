@@ -12,6 +12,7 @@
 #include "symbolic/structure/brackets.hpp"
 #include "symbolic/structure/conformal.hpp"
 #include "symbolic/structure/orbital.hpp"
+#include "symbolic/structure/separation.hpp"
 #include "symbolic/structure/tensors.hpp"
 #include "tools/cli/case_library.hpp"
 #include "tools/cli/errors.hpp"
@@ -24,6 +25,7 @@
 #include "tools/text/proofs/map_search_report.hpp"
 #include "tools/text/proofs/proof_report.hpp"
 #include "tools/text/proofs/search_report.hpp"
+#include "tools/text/proofs/separation_report.hpp"
 #include "tools/text/proofs/structure_report.hpp"
 
 namespace casimir::tools {
@@ -37,13 +39,15 @@ struct SearchArguments {
   int tensors = 0;  ///< their rank, where it is given
   bool orbits = false, conformal = false;
   bool fields = false, bivectors = false, forms = false, hamiltonian = false, bihamiltonian = false;
+  bool separation = false;
   std::vector<std::string> on, functions, weights, free;
 };
 
 /// How many of the options that ask for something else than integrals were given.
 int kinds_of(const SearchArguments& o) {
   return int{o.darboux} + int{o.rational} + int{o.casimirs} + int{o.fields} + int{o.bivectors} +
-         int{o.hamiltonian} + int{o.bihamiltonian} + int{o.forms || o.tensors > 0};
+         int{o.hamiltonian} + int{o.bihamiltonian} + int{o.separation} +
+         int{o.forms || o.tensors > 0};
 }
 
 bool is_structure(const SearchArguments& o) {
@@ -64,7 +68,7 @@ int answer(const SearchArguments& options, const Model& model, const Report& rep
 /// Of a map: what `search` asks of flows beyond the degree has no meaning there.
 int search_map_case(const MapCaseFile& file, const SearchArguments& options) {
   if (!options.in.empty() || options.casimirs || options.darboux || options.rational ||
-      is_structure(options) || !options.on.empty() || !options.functions.empty() ||
+      is_structure(options) || options.separation || !options.on.empty() || !options.functions.empty() ||
       !options.weights.empty() || !options.free.empty())
     throw UsageError("a search of a map takes --degree and --param only");
   const MapModel map = map_model_of(file, options.common.parameter_values());
@@ -100,6 +104,19 @@ int search_structure(const SearchArguments& options, const Model& model, SearchW
                 watch);
 }
 
+/// Done where variables were found, or where none are needed or it is proved that there is no
+/// bivector of this degree that would give them.
+int search_separation(const SearchArguments& options, const Model& model, SearchWatch& watch) {
+  const structure::SeparationReport report = structure::find_separation(
+      model, {options.degree, texts_of(options.on, "--on")}, watch.watch());
+  const double seconds = watch.end();
+  if (options.common.json)
+    print_json(to_json(model, report, seconds));
+  else if (!options.common.quiet)
+    print(model, report, seconds);
+  return is_answered(report) ? kDone : kUndecided;
+}
+
 int search_case(const SearchArguments& options) {
   const AnyCaseFile file = load_any_case(options.case_name, options.common.limits);
   if (const auto* map = std::get_if<MapCaseFile>(&file)) return search_map_case(*map, options);
@@ -108,6 +125,7 @@ int search_case(const SearchArguments& options) {
   if (options.common.scene_given) model.scene(options.common.scene);
   SearchWatch watch(options.common, model.name, memory_allowed().value_or(2e9));
   if (is_structure(options)) return search_structure(options, model, watch);
+  if (options.separation) return search_separation(options, model, watch);
   if (options.rational)
     return answer(options, model, search::find_rational(model, options.degree, watch.watch()),
                   watch);
@@ -135,11 +153,13 @@ int search(const SearchArguments& options) {
   if (kinds_of(options) > 1)
     throw UsageError(
         "of --casimirs, --darboux, --rational, --fields, --bivectors, --tensors (with --forms), "
-        "--hamiltonian "
-        "and --bihamiltonian only one is possible");
+        "--hamiltonian, --bihamiltonian and --separation only one is possible");
   if (is_structure(options) && (!options.free.empty() || !options.on.empty() ||
                                 !options.functions.empty() || !options.weights.empty()))
     throw UsageError("a search for tensors or brackets takes --degree and --param only");
+  if (options.separation &&
+      (!options.free.empty() || !options.functions.empty() || !options.weights.empty()))
+    throw UsageError("--separation takes --degree, --on and --param only");
   if (options.orbits && !options.fields) throw UsageError("--orbits goes with --fields");
   const bool tensors = options.fields || options.bivectors || options.forms || options.tensors > 0;
   if (options.conformal && (!tensors || options.orbits))
@@ -178,6 +198,9 @@ void add_structure_options(CLI::App& command, SearchArguments& options) {
                    "Poisson brackets and Hamiltonians of the equations of motion alone");
   command.add_flag("--bihamiltonian", options.bihamiltonian,
                    "Second Poisson brackets, compatible with that of the case");
+  command.add_flag("--separation", options.separation,
+                   "Variables in which the integrals separate: the roots of det(P' - u*P) for a "
+                   "second bivector P' of that degree");
 }
 
 }  // namespace

@@ -1,0 +1,267 @@
+#include "symbolic/structure/separate/bivector_ansatz.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "symbolic/search/modular/monomials.hpp"
+#include "symbolic/search/modular/span.hpp"
+#include "symbolic/structure/bracket_search.hpp"
+#include "symbolic/structure/separate/constant_kernel.hpp"
+
+namespace casimir::structure {
+namespace {
+
+/// A bivector with one component, and that a monomial.
+struct Unknown {
+  std::size_t component;
+  std::vector<unsigned long> exponents;  ///< of all variables of the ring
+};
+
+class BivectorAnsatz {
+ public:
+  BivectorAnsatz(const Leaves& leaves, const std::vector<Polynomial>& casimirs,
+                 const std::vector<Polynomial>& integrals, int degree);
+
+  BivectorSpace solve(const search::Watch& watch);
+
+ private:
+  void make_unknowns(int degree);
+  bool is_standard(const std::vector<unsigned long>& exponents) const;
+  Polynomial monomial(const Unknown& unknown) const;
+  std::vector<Polynomial> conditions(const Unknown& unknown) const;
+  std::vector<std::vector<search::Residue>> trivial(const search::Modulus& modulus,
+                                                    const search::Point& point) const;
+  std::optional<std::vector<search::Residue>> coordinates(const Bivector& p,
+                                                          const search::Modulus& modulus,
+                                                          const search::Point& point) const;
+  Bivector bivector_of(const ParametricRow& solution) const;
+
+  const Leaves& leaves_;
+  std::size_t n_;
+  int degree_;
+  std::vector<Polynomial> casimirs_;
+  std::vector<std::vector<Polynomial>> of_casimirs_, of_integrals_;  ///< gradients
+  std::vector<Unknown> unknowns_;
+  std::map<std::pair<std::size_t, std::vector<unsigned long>>, std::size_t> places_;
+};
+
+BivectorAnsatz::BivectorAnsatz(const Leaves& leaves, const std::vector<Polynomial>& casimirs,
+                               const std::vector<Polynomial>& integrals, int degree)
+    : leaves_(leaves), n_(leaves.dimension()), degree_(degree), casimirs_(casimirs) {
+  const FunctionRing& ring = leaves.system().functions();
+  for (const Polynomial& c : casimirs)
+    of_casimirs_.push_back(ring.common_numerators(leaves.gradient(c)));
+  for (const Polynomial& f : leaves.ideal())
+    of_casimirs_.push_back(ring.common_numerators(leaves.gradient(f)));
+  for (const Polynomial& f : integrals)
+    of_integrals_.push_back(ring.common_numerators(leaves.gradient(f)));
+  make_unknowns(degree);
+}
+
+/// Whether no leading monomial of the level divides it: else it is a sum of others there.
+bool BivectorAnsatz::is_standard(const std::vector<unsigned long>& exponents) const {
+  if (!leaves_.has_plain_leads()) return true;
+  return std::ranges::none_of(leaves_.ideal(), [&](const Polynomial& f) {
+    const std::vector<unsigned long> lead = f.term_list().front().second;
+    for (std::size_t i = 0; i < n_; ++i)
+      if (lead[i] > exponents[i]) return false;
+    return true;
+  });
+}
+
+void BivectorAnsatz::make_unknowns(int degree) {
+  const search::Monomials monomials = search::all_monomials(std::vector<int>(n_, 1), degree);
+  for (std::size_t c = 0; c < leaves_.bivector().size(); ++c) {
+    for (std::size_t m = 0; m < monomials.size(); ++m) {
+      std::vector<unsigned long> exponents(leaves_.ring().size(), 0);
+      for (std::size_t i = 0; i < n_; ++i) exponents[i] = monomials[m][i];
+      if (!is_standard(exponents)) continue;
+      places_.emplace(std::pair(c, exponents), unknowns_.size());
+      unknowns_.push_back({c, std::move(exponents)});
+    }
+  }
+}
+
+Polynomial BivectorAnsatz::monomial(const Unknown& unknown) const {
+  TermCollector collector(leaves_.ring());
+  collector.add(1, unknown.exponents);
+  return collector.finish();
+}
+
+/// What has to vanish on the level, of one summand of the ansatz.
+std::vector<Polynomial> BivectorAnsatz::conditions(const Unknown& unknown) const {
+  const std::vector<std::size_t> pair = skew_indices(n_, 2)[unknown.component];
+  const Polynomial own = monomial(unknown);
+  std::vector<Polynomial> result;
+  const auto add = [&](const Polynomial& p) { result.push_back(leaves_.reduced(p)); };
+  for (const std::vector<Polynomial>& slope : of_casimirs_) {
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (i == pair[0])
+        add(own * slope[pair[1]]);
+      else if (i == pair[1])
+        add(-(own * slope[pair[0]]));
+      else
+        result.emplace_back(leaves_.ring());
+    }
+  }
+  for (std::size_t f = 0; f < of_integrals_.size(); ++f) {
+    for (std::size_t g = f + 1; g < of_integrals_.size(); ++g) {
+      const std::vector<Polynomial>&a = of_integrals_[f], &b = of_integrals_[g];
+      add(own * (a[pair[0]] * b[pair[1]] - a[pair[1]] * b[pair[0]]));
+    }
+  }
+  Bivector whole(leaves_.bivector().size(), Polynomial(leaves_.ring()));
+  whole[unknown.component] = own;
+  for (const Polynomial& defect : schouten(leaves_.bivector(), whole, n_)) add(defect);
+  return result;
+}
+
+/// A bivector by its coefficients, where the parameters have values modulo a prime; empty where it
+/// is none of the ansatz.
+std::optional<std::vector<search::Residue>> BivectorAnsatz::coordinates(
+    const Bivector& p, const search::Modulus& modulus, const search::Point& point) const {
+  std::vector<search::Residue> result(unknowns_.size(), 0);
+  for (std::size_t c = 0; c < p.size(); ++c) {
+    for (auto [number, exponents] : leaves_.reduced(p[c]).term_list()) {
+      search::Residue value = modulus.reduce(number).value_or(0);
+      for (std::size_t i = n_; i < exponents.size(); ++i) {
+        value = modulus.multiply(value, modulus.power(point[i], exponents[i]));
+        exponents[i] = 0;
+      }
+      const auto place = places_.find({c, exponents});
+      if (place == places_.end()) return std::nullopt;
+      result[place->second] = modulus.add(result[place->second], value);
+    }
+  }
+  return result;
+}
+
+/// The bivectors c*P with products c of Casimir functions: the roots of det(c P - u P) are all c.
+std::vector<std::vector<search::Residue>> BivectorAnsatz::trivial(
+    const search::Modulus& modulus, const search::Point& point) const {
+  std::vector<int> degrees;
+  std::vector<Polynomial> functions;
+  for (const Polynomial& c : casimirs_) {
+    const Polynomial own = leaves_.reduced(c);
+    int size = 0;
+    for (const auto& [number, exponents] : own.term_list()) {
+      int sum = 0;
+      for (std::size_t i = 0; i < n_; ++i) sum += static_cast<int>(exponents[i]);
+      size = std::max(size, sum);
+    }
+    if (size == 0) continue;
+    degrees.push_back(size);
+    functions.push_back(own);
+  }
+  std::vector<std::vector<search::Residue>> result;
+  for (const std::vector<int>& e : search::products_up_to(degrees, degree_, 0)) {
+    Polynomial factor = leaves_.ring().constant(1);
+    for (std::size_t g = 0; g < e.size(); ++g)
+      factor = factor * functions[g].pow(static_cast<unsigned long>(e[g]));
+    Bivector own = leaves_.bivector();
+    for (Polynomial& component : own) component = component * factor;
+    auto vector = coordinates(own, modulus, point);
+    if (vector) result.push_back(std::move(*vector));
+  }
+  return result;
+}
+
+Bivector BivectorAnsatz::bivector_of(const ParametricRow& solution) const {
+  Bivector result(leaves_.bivector().size(), Polynomial(leaves_.ring()));
+  for (const auto& [k, number] : solution)
+    result[unknowns_[k].component] += number * monomial(unknowns_[k]);
+  return result;
+}
+
+BivectorSpace BivectorAnsatz::solve(const search::Watch& watch) {
+  std::vector<std::vector<Polynomial>> columns;
+  for (const Unknown& unknown : unknowns_) {
+    columns.push_back(conditions(unknown));
+    watch.tick(static_cast<double>(columns.size()) / static_cast<double>(unknowns_.size()));
+  }
+  const ConstantKernel kernel = constant_kernel(leaves_.system(), columns, watch);
+  const search::Modulus modulus = search::usable_modulus(leaves_.system());
+  std::mt19937_64 random(43);
+  const std::optional<search::Point> point = leaves_.system().random_point(modulus, random);
+  BivectorSpace result;
+  if (!point) return result;
+  search::Span span(modulus);
+  for (std::vector<search::Residue>& own : trivial(modulus, *point)) span.insert(std::move(own));
+  result.empty = leaves_.has_plain_leads() && kernel.bound == span.dimension();
+  for (const ParametricRow& solution : kernel.basis) {
+    Bivector own = bivector_of(solution);
+    auto vector = coordinates(own, modulus, *point);
+    if (vector && span.insert(std::move(*vector))) result.basis.push_back(std::move(own));
+  }
+  return result;
+}
+
+std::size_t length_of(const Bivector& p) {
+  std::size_t sum = 0;
+  for (const Polynomial& component : p) {
+    for (const auto& [number, exponents] : component.term_list()) {
+      sum += number == 1 || number == -1 ? 1 : 2;
+      for (const unsigned long e : exponents) sum += e;
+    }
+  }
+  return sum;
+}
+
+/// The sum of constants times bivectors, times what leaves no denominator; all zero where there is
+/// none.
+Bivector combined(const Leaves& leaves, const std::vector<Bivector>& basis,
+                  const std::vector<GiNaC::ex>& constants, Prover& prover) {
+  GiNaC::ex bottom = 1;
+  for (const GiNaC::ex& constant : constants)
+    bottom = GiNaC::lcm(bottom, constant.normal().denom());
+  Bivector sum(basis.front().size(), Polynomial(leaves.ring()));
+  for (std::size_t k = 0; k < basis.size(); ++k) {
+    const Polynomial factor = prover.convert((constants[k] * bottom).normal().expand());
+    if (factor.is_zero()) continue;
+    for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += factor * basis[k][c];
+  }
+  return sum;
+}
+
+}  // namespace
+
+BivectorSpace compatible_bivectors(const Leaves& leaves, const std::vector<Polynomial>& casimirs,
+                                   const std::vector<Polynomial>& integrals, int degree,
+                                   const search::Watch& watch) {
+  return BivectorAnsatz(leaves, casimirs, integrals, degree).solve(watch);
+}
+
+std::vector<Bivector> poisson_members(Leaves& leaves, const std::vector<Bivector>& basis,
+                                      const search::Watch& watch) {
+  const std::size_t n = leaves.dimension(), triples = skew_indices(n, 3).size();
+  ConstantEquations equations(leaves.system(), basis.size());
+  std::vector<std::vector<ConstantEquations::Summand>> quadratic(triples);
+  for (std::size_t s = 0; s < basis.size(); ++s) {
+    for (std::size_t t = s; t < basis.size(); ++t) {
+      const std::vector<Polynomial> defect = schouten(basis[s], basis[t], n);
+      for (std::size_t c = 0; c < triples; ++c) {
+        const Polynomial own = leaves.reduced(defect[c]);
+        if (!own.is_zero()) quadratic[c].push_back({s == t ? own : own.scaled(2), {s, t}});
+      }
+    }
+    watch.tick(static_cast<double>(s) / static_cast<double>(basis.size()));
+  }
+  for (const auto& sum : quadratic) equations.add(sum);
+  std::vector<Bivector> result;
+  for (const search::Branch& family : equations.solve(watch)) {
+    if (!family.decided) continue;
+    for (const auto& choice : simple_constants(equations.free_in(family).size())) {
+      const auto constants = equations.values(family, choice);
+      if (!constants) continue;
+      Bivector own = combined(leaves, basis, *constants, leaves.system().prover());
+      if (std::ranges::all_of(own, [](const Polynomial& c) { return c.is_zero(); })) continue;
+      if (std::ranges::none_of(result,
+                               [&](const Bivector& p) { return are_proportional(p, own); }))
+        result.push_back(std::move(own));
+    }
+  }
+  std::ranges::stable_sort(result, {}, length_of);
+  return result;
+}
+
+}  // namespace casimir::structure

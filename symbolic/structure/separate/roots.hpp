@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+
+#include "symbolic/search/watch.hpp"
+#include "symbolic/structure/separate/leaves.hpp"
+
+namespace casimir::structure {
+
+/// Functions u_1, .., u_n on the leaves as the roots of u^n + a_1 u^(n-1) + .. + a_n: the
+/// coefficients a_1, .., a_n. Whatever is said of the roots is computed by these alone.
+using RootCoefficients = std::vector<Polynomial>;
+
+/// A bivector with the square root of its characteristic polynomial relative to that of the case,
+/// det(P' - u P) = (u^n + a_1 u^(n-1) + ..)^2 det(P) on a leaf.
+struct Characteristic {
+  Bivector bivector;
+  RootCoefficients coefficients;
+  Polynomial pfaffian;  ///< of the minor of P by which it was found: it holds where that is not zero
+};
+
+/// Of the bivector times a function of the parameters, so that the coefficients are polynomials in
+/// them; empty where they are no polynomials in the coordinates.
+///
+/// Theorem: if P' dC = 0 for as many independent Casimir functions C of P as there are, P and P'
+/// are made of the same vectors tangent to the leaf, and all Pfaffians of minors of P + t P' with
+/// 2n rows are one polynomial in t times numbers that do not depend on t. So one of them is enough.
+std::optional<Characteristic> characteristic_of(const Leaves& leaves, const Bivector& p,
+                                                const search::Watch& watch);
+
+/// Whether {a_k, a_l} = 0 on the level for all k, l; then {u_i, u_j} = 0 where the roots are
+/// distinct, as they are functions of the coefficients there.
+bool roots_commute(const Leaves& leaves, const RootCoefficients& a);
+
+/// The leading minors of the matrix of the power sums u_1^(i+j) + .. + u_n^(i+j), from the second
+/// on. The last one is the discriminant; all are positive where, and only where, the roots are real
+/// and distinct (Hermite).
+std::vector<Polynomial> hermite_minors(const Leaves& leaves, const RootCoefficients& a);
+
+/// {a_k, F_j}, all times one function that vanishes nowhere.
+std::vector<std::vector<Polynomial>> rates_of_coefficients(
+    const Leaves& leaves, const RootCoefficients& a, const std::vector<Polynomial>& integrals);
+
+/// Polynomials s_1, .., s_n in one variable with constant coefficients, by these, for which
+/// sum_j s_j(u_i) {u_k, F_j} = 0 for i != k on the level; empty where there are none of a moderate
+/// degree. Each is checked after it was found.
+std::optional<std::vector<std::vector<Polynomial>>> staeckel_multipliers(
+    const Leaves& leaves, const RootCoefficients& a, const std::vector<Polynomial>& integrals,
+    const search::Watch& watch);
+
+}  // namespace casimir::structure

@@ -1,0 +1,375 @@
+#include "symbolic/structure/separation.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "symbolic/structure/brackets.hpp"
+#include "symbolic/structure/separate/bivector_ansatz.hpp"
+#include "symbolic/structure/separate/commuting_integrals.hpp"
+#include "symbolic/structure/separate/roots.hpp"
+
+namespace casimir::structure {
+namespace {
+
+constexpr std::size_t kMostOfSpace = 12;    ///< dimensions, for which [P', P'] = 0 is solved
+constexpr std::size_t kMostExamined = 12;   ///< bivectors of one space
+constexpr std::size_t kPointsOfLevel = 12;  ///< that are drawn
+
+Verdict proved_if(bool shown) { return shown ? Verdict::proved : Verdict::undecided; }
+
+bool all_vanish(const Leaves& leaves, const std::vector<Polynomial>& list) {
+  return std::ranges::all_of(list, [&](const Polynomial& p) { return leaves.vanishes(p); });
+}
+
+/// The case itself or, of bare equations, with the first bracket that is found for them.
+struct WithBracket {
+  Model model;
+  std::optional<std::string> text;  ///< of that bracket and its Hamiltonian
+};
+
+std::optional<WithBracket> with_bracket(const Model& model, const search::Watch& watch) {
+  if (model.poisson && model.hamiltonian) return WithBracket{model, {}};
+  for (int degree = 0; degree <= 2; ++degree) {
+    for (const Bracket& own : find_brackets(model, degree, watch).found) {
+      if (!own.hamiltonian || own.jacobi != Verdict::proved || own.motion != Verdict::proved)
+        continue;
+      WithBracket result{model, {}};
+      result.model.poisson.emplace(model.variables, own.upper);
+      result.model.hamiltonian = own.hamiltonian;
+      result.model.phase_space = "explicit brackets";
+      std::vector<std::string> parts;
+      for (const auto& [label, text] : own.texts)
+        parts.push_back(fmt::format("{{{}}} = {}", label, text));
+      result.text = fmt::format("{}, H = {}", fmt::join(parts, ", "), own.hamiltonian_text);
+      return result;
+    }
+  }
+  return std::nullopt;
+}
+
+bool obeys_jacobi(const Model& model) {
+  Candidates only;
+  only.only = ClaimKind::jacobi;
+  const std::vector<Proof> proofs = prove(model, only);
+  return !proofs.empty() && std::ranges::all_of(proofs, [](const Proof& proof) {
+    return proof.verdict == Verdict::proved && proof.where.empty();
+  });
+}
+
+class SeparationSearch {
+ public:
+  SeparationSearch(const Model& model, const SeparationRequest& request, const search::Watch& watch)
+      : model_(model), request_(request), watch_(watch) {
+    report_.degree = request.degree;
+  }
+
+  SeparationReport run();
+
+ private:
+  bool look(const std::vector<Text>& on, bool search);
+  bool look_with(const std::vector<Polynomial>& integrals);
+  std::optional<Separation> examine(const Bivector& p, const std::vector<Polynomial>& integrals);
+  void judge_bivector(Separation& result, const Bivector& p,
+                      const std::vector<Polynomial>& integrals);
+  void judge_multipliers(Separation& result, const RootCoefficients& a,
+                         const std::vector<Polynomial>& integrals);
+  bool judge_point(Separation& result, const Characteristic& own,
+                   const std::vector<Polynomial>& integrals);
+  void write_roots(Separation& result, const Characteristic& own);
+  std::string text(const Polynomial& p) const { return leaves_->system().functions().text(p); }
+  std::string free_name() const;
+
+  const Model& model_;
+  const SeparationRequest& request_;
+  const search::Watch& watch_;
+  std::optional<Leaves> leaves_;
+  std::vector<Polynomial> casimirs_;
+  std::vector<RealPoint> points_;
+  SeparationReport report_;
+};
+
+/// "u", or the first other name that the case does not use.
+std::string SeparationSearch::free_name() const {
+  const auto used = [&](const std::string& name) {
+    const auto is = [&](const GiNaC::symbol& own) { return own.get_name() == name; };
+    return std::ranges::any_of(model_.variables, is) || std::ranges::any_of(model_.parameters, is);
+  };
+  for (const char* name : {"u", "v", "w", "z", "s", "lambda"})
+    if (!used(name)) return name;
+  return "u_";
+}
+
+void SeparationSearch::judge_bivector(Separation& result, const Bivector& p,
+                                      const std::vector<Polynomial>& integrals) {
+  const std::size_t n = leaves_->dimension();
+  std::vector<Polynomial> kernel = casimirs_;
+  kernel.insert(kernel.end(), leaves_->ideal().begin(), leaves_->ideal().end());
+  PolynomialRows slopes;
+  bool tangent = true;
+  for (const Polynomial& c : kernel) {
+    slopes.push_back(leaves_->gradient(c));
+    for (std::size_t i = 0; i < n && tangent; ++i) {
+      Polynomial sum(leaves_->ring());
+      for (std::size_t j = 0; j < n; ++j) sum += entry(p, n, i, j) * slopes.back()[j];
+      tangent = leaves_->vanishes(sum);
+    }
+  }
+  const bool enough = std::ranges::any_of(points_, [&](RealPoint& point) {
+    try {
+      return slopes.empty() ? n == 2 * report_.freedom
+                            : point.rank(slopes) >= n - 2 * report_.freedom;
+    } catch (const NotCertified&) {
+      return false;
+    }
+  });
+  result.tangent = proved_if(tangent && enough);
+  result.compatible = proved_if(all_vanish(*leaves_, schouten(leaves_->bivector(), p, n)));
+  result.jacobi = proved_if(all_vanish(*leaves_, schouten(p, p, n)));
+  bool commute = true;
+  for (std::size_t f = 0; f < integrals.size(); ++f) {
+    const std::vector<Polynomial> a = leaves_->gradient(integrals[f]);
+    for (std::size_t g = f + 1; g < integrals.size(); ++g) {
+      const std::vector<Polynomial> b = leaves_->gradient(integrals[g]);
+      Polynomial sum(leaves_->ring());
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j) sum += entry(p, n, i, j) * a[i] * b[j];
+      commute = commute && leaves_->vanishes(sum);
+    }
+  }
+  result.involution = proved_if(commute);
+}
+
+/// Whether there is a point at which the roots are distinct and, with the integrals, coordinates.
+/// det {u_i, F_j} is det {a_k, F_j} divided by a power of the discriminant up to its sign.
+bool SeparationSearch::judge_point(Separation& result, const Characteristic& own,
+                                   const std::vector<Polynomial>& integrals) {
+  const std::vector<Polynomial> hermite = hermite_minors(*leaves_, own.coefficients);
+  const Polynomial discriminant = leaves_->reduced(hermite.back());
+  if (discriminant.is_zero()) return false;
+  const Polynomial regular = leaves_->reduced(search::determinant_without_sign(
+      rates_of_coefficients(*leaves_, own.coefficients, integrals), leaves_->ring()));
+  if (regular.is_zero()) return false;
+  std::vector<Polynomial> nonzero{discriminant, regular};
+  if (!own.pfaffian.is_constant()) nonzero.push_back(leaves_->reduced(own.pfaffian));
+  for (const Polynomial& p : nonzero) result.nonzero.push_back(text(p));
+  for (RealPoint& point : points_) {
+    try {
+      if (std::ranges::any_of(nonzero,
+                              [&](const Polynomial& p) { return point.value(p).contains_zero(); }))
+        continue;
+      const bool real = std::ranges::all_of(
+          hermite, [&](const Polynomial& p) { return point.value(p).sign() == 1; });
+      if (result.distinct == Verdict::proved && (result.real || !real)) continue;
+      result.distinct = Verdict::proved;
+      result.real = real;
+      result.point = point.text();
+    } catch (const NotCertified&) {
+      continue;
+    }
+  }
+  return result.distinct == Verdict::proved;
+}
+
+void SeparationSearch::judge_multipliers(Separation& result, const RootCoefficients& a,
+                                         const std::vector<Polynomial>& integrals) {
+  const auto multipliers = staeckel_multipliers(*leaves_, a, integrals, watch_);
+  if (!multipliers) return;
+  result.staeckel = Verdict::proved;
+  const std::string& u = result.variable;
+  for (std::size_t j = 0; j < multipliers->size(); ++j) {
+    std::string sum;
+    for (std::size_t m = (*multipliers)[j].size(); m-- > 0;) {
+      const Polynomial& number = (*multipliers)[j][m];
+      if (number.is_zero()) continue;
+      const std::string power = m == 0 ? "" : m == 1 ? u : fmt::format("{}^{}", u, m);
+      std::string own = text(number);
+      if (number.terms() > 1) own = "(" + own + ")";
+      if (!power.empty()) own = own == "1" ? power : own == "-1" ? "-" + power : own + "*" + power;
+      sum += sum.empty() ? own : own.starts_with('-') ? " - " + own.substr(1) : " + " + own;
+    }
+    result.multipliers.push_back(sum.empty() ? "0" : sum);
+    if (sum.empty()) continue;
+    const std::string name = fmt::format("F{}", j + 1);
+    if (sum.find(' ') != std::string::npos) sum = "(" + sum + ")";
+    const std::string part = sum == "1" ? name : sum + "*" + name;
+    result.relation += (result.relation.empty() ? "" : " + ") + part;
+  }
+}
+
+void SeparationSearch::write_roots(Separation& result, const Characteristic& own) {
+  const std::size_t n = own.coefficients.size();
+  for (std::size_t c = 0; c < own.bivector.size(); ++c) {
+    const Polynomial& p = own.bivector[c];
+    if (p.is_zero()) continue;
+    const std::vector<std::size_t> pair = skew_indices(leaves_->dimension(), 2)[c];
+    result.bivector.emplace_back(
+        leaves_->system().name(pair[0]) + "," + leaves_->system().name(pair[1]), text(p));
+    long size = 0;
+    for (const auto& [number, exponents] : p.term_list()) {
+      long sum = 0;
+      for (std::size_t i = 0; i < leaves_->dimension(); ++i) sum += static_cast<long>(exponents[i]);
+      size = std::max(size, sum);
+    }
+    result.degree = std::max(result.degree, static_cast<int>(size));
+  }
+  result.polynomial = fmt::format("{}^{}", result.variable, n);
+  for (std::size_t k = 1; k <= n; ++k) {
+    const std::string own_text = text(own.coefficients[k - 1]);
+    result.coefficients.push_back(own_text);
+    if (own.coefficients[k - 1].is_zero()) continue;
+    const std::string power = n == k       ? ""
+                              : n - k == 1 ? "*" + result.variable
+                                           : fmt::format("*{}^{}", result.variable, n - k);
+    result.polynomial += fmt::format(" + ({}){}", own_text, power);
+  }
+}
+
+std::optional<Separation> SeparationSearch::examine(const Bivector& p,
+                                                    const std::vector<Polynomial>& integrals) {
+  const auto own = characteristic_of(*leaves_, p, watch_);
+  if (!own) return std::nullopt;
+  Separation result;
+  result.variable = free_name();
+  if (!judge_point(result, *own, integrals)) return std::nullopt;
+  judge_bivector(result, own->bivector, integrals);
+  result.commuting = proved_if(roots_commute(*leaves_, own->coefficients));
+  if (result.commuting == Verdict::proved)
+    judge_multipliers(result, own->coefficients, integrals);
+  const auto is_proved = [](Verdict verdict) { return verdict == Verdict::proved; };
+  const bool by_bivector = is_proved(result.tangent) && is_proved(result.compatible) &&
+                           is_proved(result.jacobi) && is_proved(result.involution);
+  if (!is_proved(result.commuting) || (!is_proved(result.staeckel) && !by_bivector))
+    return std::nullopt;
+  result.separated = Verdict::proved;
+  write_roots(result, *own);
+  for (const Polynomial& f : integrals) result.integrals.push_back(text(f));
+  return result;
+}
+
+bool SeparationSearch::look_with(const std::vector<Polynomial>& integrals) {
+  for (int degree = 0; degree <= request_.degree; ++degree) {
+    watch_.begin(fmt::format("bivectors of degree {}", degree));
+    const BivectorSpace space =
+        compatible_bivectors(*leaves_, casimirs_, integrals, degree, watch_);
+    if (degree == request_.degree) report_.none = report_.none && space.empty;
+    if (space.basis.empty()) continue;
+    if (space.basis.size() > kMostOfSpace) {
+      report_.reason = fmt::format(
+          "the bivectors of degree {} that obey the linear conditions have {} dimensions, and "
+          "[P', P'] = 0 is solved up to {}",
+          degree, space.basis.size(), kMostOfSpace);
+      return false;
+    }
+    std::vector<Bivector> members = poisson_members(*leaves_, space.basis, watch_);
+    if (members.size() > kMostExamined) members.resize(kMostExamined, members.front());
+    for (const Bivector& p : members) {
+      ++report_.examined;
+      auto found = examine(p, integrals);
+      if (!found) continue;
+      report_.found.push_back(std::move(*found));
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Whether the question is answered, by variables or since there are no more integrals to look for.
+bool SeparationSearch::look(const std::vector<Text>& on, bool search) {
+  std::vector<NamedExpression> level;
+  for (const Text& own : on) level.push_back(model_.parse_named(own));
+  watch_.begin("integrals");
+  const std::vector<GiNaC::ex> values = possible_integrals(model_, on, search, watch_),
+                               casimirs = possible_casimirs(model_, watch_);
+  std::vector<GiNaC::ex> others = values;
+  others.insert(others.end(), casimirs.begin(), casimirs.end());
+  points_.clear();  // of the ring that goes
+  casimirs_.clear();
+  leaves_.emplace(model_, level, others);
+  leaves_->system().prover().begin_claim(values, Subject::motion);
+  report_.on = names_of(level);
+  report_.generic.clear();
+  for (const std::size_t place : leaves_->system().parameters())
+    report_.generic.push_back(leaves_->system().name(place));
+  report_.freedom = leaves_->degrees_of_freedom();
+  if (report_.freedom < 2) {
+    report_.reason = report_.freedom == 0 ? "the bracket is zero on the level"
+                                          : "the leaves have one degree of freedom: there is "
+                                            "nothing to separate";
+    return true;
+  }
+  points_ = points_of(*leaves_, kPointsOfLevel);
+  if (points_.empty()) {
+    report_.reason = "no exact point was found inside the assumptions on the level";
+    return true;
+  }
+  for (const GiNaC::ex& c : casimirs) {
+    const Polynomial& own = leaves_->convert(c);
+    bool is_one = true;
+    for (std::size_t i = 0; i < leaves_->dimension(); ++i)
+      is_one = is_one && leaves_->vanishes(leaves_->bracket(leaves_->ring().variable(i), own));
+    if (is_one) casimirs_.push_back(own);
+  }
+  std::vector<Polynomial> functions;
+  for (const GiNaC::ex& f : values) {
+    Polynomial own = leaves_->convert(f);
+    if (functions.empty() || leaves_->vanishes(leaves_->bracket(functions.front(), own)))
+      functions.push_back(std::move(own));
+  }
+  report_.integrals.clear();
+  for (const Polynomial& f : functions) report_.integrals.push_back(text(f));
+  const auto choices = commuting_choices(*leaves_, functions, points_);
+  if (choices.empty()) {
+    report_.reason = fmt::format(
+        "{} integrals in involution are needed whose flows are independent, the Hamiltonian being "
+        "one of them; so many were not found",
+        report_.freedom);
+    return false;
+  }
+  report_.none = true;
+  report_.reason.clear();
+  for (const std::vector<Polynomial>& own : choices)
+    if (look_with(own)) return true;
+  if (report_.reason.empty()) {
+    report_.reason = report_.none
+                         ? "no bivector of this degree obeys the conditions that are linear"
+                         : "no bivector that was examined has roots in which the integrals are "
+                           "shown to separate";
+  }
+  return true;
+}
+
+SeparationReport SeparationSearch::run() {
+  if (!obeys_jacobi(model_)) {
+    report_.reason = "the bracket is not shown to obey the Jacobi identity";
+    return report_;
+  }
+  // First with what the case claims; the search for more integrals takes longer.
+  for (const bool search : {false, true}) {
+    if (look(request_.on, search)) return report_;
+    if (!request_.on.empty() || model_.conditionals.empty()) continue;
+    std::vector<Text> on;
+    for (const NamedExpression& f : model_.conditionals.front().on) on.push_back({f.name, f.where, {}});
+    if (look(on, search)) return report_;
+  }
+  return report_;
+}
+
+}  // namespace
+
+SeparationReport find_separation(const Model& model, const SeparationRequest& request,
+                                 const search::Watch& watch) {
+  const auto own = with_bracket(model, watch);
+  if (!own) {
+    SeparationReport report;
+    report.degree = request.degree;
+    report.reason = "no Poisson bracket of a degree up to 2 was found for the equations of motion";
+    return report;
+  }
+  SeparationReport report = SeparationSearch(own->model, request, watch).run();
+  report.bracket_of_motion = own->text;
+  return report;
+}
+
+}  // namespace casimir::structure

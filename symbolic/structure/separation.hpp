@@ -1,0 +1,96 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "symbolic/model.hpp"
+#include "symbolic/prove.hpp"
+#include "symbolic/search/watch.hpp"
+
+namespace casimir::structure {
+
+/// What a user asks for.
+struct SeparationRequest {
+  int degree = 0;        ///< highest, of the components of the second bivector
+  std::vector<Text> on;  ///< the common zero level of these Casimir functions; or empty
+};
+
+/// Variables u_1, .., u_n on the symplectic leaves in which the integrals F_1, .., F_n separate:
+/// the roots of u^n + a_1 u^(n-1) + .. + a_n = 0.
+///
+/// `separated`: near every point of the level where what `nonzero` lists is not zero, the leaf has
+/// canonical coordinates (u_i, p_i), complex ones where the roots are, with n equations
+/// f_i(u_i, p_i; F_1, .., F_n) = 0, one for each pair. It is shown by one of two theorems.
+///
+/// Theorem 1 (Staeckel). On the leaf of dimension 2n let {F_i, F_j} = 0, {u_i, u_j} = 0,
+/// det {u_i, F_j} != 0, and s_1, .., s_n be polynomials in one variable with constant coefficients,
+/// not all zero at any u_i, such that sum_j s_j(u_i) {u_k, F_j} = 0 for i != k. Then
+/// G_i = sum_j s_j(u_i) F_j is a function of u_i and its momentum alone. Proof: {u_k, G_i} = 0 for
+/// k != i, {G_i, G_k} = 0, as both are sums of products of what vanishes, and w_i = {u_i, G_i} is
+/// not zero, since s(u_i) is orthogonal to all rows of the regular matrix {u_k, F_j} but the i-th.
+/// So by Jacobi's identity w_i commutes with u_k, G_k for k != i, and is a function of u_i, G_i:
+/// there is p_i(u_i, G_i) with {u_i, p_i} = 1. The 2n functions u_i, G_i are independent, as the
+/// matrix of their brackets is regular. Checked: the Jacobi identity; that level and bracket belong
+/// together (`Leaves`); that the rank of the bracket is 2n at most; all brackets as above,
+/// identically on the level; the determinant by that of {a_k, F_j} and the discriminant.
+///
+/// Theorem 2 (Magri; Falqui and Pedroni 2003, Theorem 4.2). Let P' be tangent to the leaves with
+/// [P, P'] = 0 and [P', P'] = 0, the roots of det(P' - u P) be u_1, .., u_n, each twice, distinct
+/// and independent, and {F_i, F_j} = {F_i, F_j}' = 0. Then u_i have canonical momenta p_i with
+/// N* du_i = u_i du_i, N* dp_i = u_i dp_i for N = P' P^(-1), and F_i separate in them: N takes the
+/// tangent space of F = const to itself, as that is its own complement for P, and therefore is
+/// spanned by vectors d/du_i + sum_j dp_j/du_i d/dp_j, each an eigenvector, so that dp_j/du_i = 0
+/// for j != i. Checked as above, and P' dC = 0 for as many independent C as the rank leaves.
+struct Separation {
+  std::vector<std::pair<std::string, std::string>> bivector;  ///< P', as "M1,M2" and "-M3"
+  int degree = 0;                                             ///< of its components
+  std::vector<std::string> integrals;     ///< F_1, .., F_n, the Hamiltonian first
+  std::string variable;                   ///< the name of u: no name of the case
+  std::vector<std::string> coefficients;  ///< a_1, .., a_n
+  std::string polynomial;                 ///< with all of them
+
+  Verdict tangent = Verdict::undecided;     ///< P' to the leaves
+  Verdict compatible = Verdict::undecided;  ///< [P, P'] = 0
+  Verdict jacobi = Verdict::undecided;      ///< [P', P'] = 0
+  Verdict involution = Verdict::undecided;  ///< {F_i, F_j}' = 0
+  Verdict commuting = Verdict::undecided;   ///< {u_i, u_j} = 0
+  Verdict distinct = Verdict::undecided;    ///< the roots, and coordinates on the tori, at `point`
+  Verdict separated = Verdict::undecided;
+  /// Whether `multipliers` s_1, .., s_n were found and checked: sum_j s_j(u) F_j is a function of u
+  /// and its momentum for each root u. Never refuted: others of a higher degree are not looked at.
+  Verdict staeckel = Verdict::undecided;
+  std::vector<std::string> multipliers;
+  std::string relation;              ///< that sum
+  std::vector<std::string> nonzero;  ///< where one of them is zero, nothing is said
+  std::string point;                 ///< at which none is
+  bool real = false;                 ///< all roots are real at `point`, and so near it
+};
+
+/// What a search for such variables found.
+struct SeparationReport {
+  int degree = 0;
+  std::size_t freedom = 0;       ///< n, half the dimension of the leaves on the level
+  std::vector<std::string> on;   ///< the level
+  std::optional<std::string> bracket_of_motion;  ///< said where the case has no bracket of its own
+  std::vector<std::string> integrals;  ///< in involution, that were looked at
+  std::vector<Separation> found;       ///< the first that was proved, or none
+  std::size_t examined = 0;            ///< bivectors that were looked at
+  /// Proved where nothing was found: no bivector of that degree obeys the linear conditions, beside
+  /// multiples of P by Casimir functions, for generic parameters and these integrals.
+  bool none = false;
+  std::string reason;  ///< where nothing was found
+  std::vector<std::string> generic;
+};
+
+/// Looks for bivectors P' up to a degree that are compatible with that of the case and for which n
+/// integrals are in involution, and proves that these separate in the roots of det(P' - u P).
+/// Integrals are those of the case and, where these are not enough, those that a search finds; for
+/// bare equations of motion a bracket is searched for first. Without a level, that of the case's
+/// claims is taken where the integrals need one.
+/// \throws CaseError, ModelError, TooMuchMemory, TimeUp
+SeparationReport find_separation(const Model& model, const SeparationRequest& request,
+                                 const search::Watch& watch = {});
+
+}  // namespace casimir::structure

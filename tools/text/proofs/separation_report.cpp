@@ -1,0 +1,124 @@
+#include "tools/text/proofs/separation_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "tools/cli/output.hpp"
+#include "tools/text/proofs/proof_report.hpp"
+
+namespace casimir::tools {
+namespace {
+
+using structure::Separation;
+using structure::SeparationReport;
+
+nlohmann::ordered_json json_of(const Separation& own) {
+  nlohmann::ordered_json brackets = nlohmann::ordered_json::object();
+  for (const auto& [label, text] : own.bivector) brackets[label] = text;
+  nlohmann::ordered_json result{{"integrals", own.integrals},
+                                {"bivector", brackets},
+                                {"degree", own.degree},
+                                {"tangent", to_string(own.tangent)},
+                                {"compatible", to_string(own.compatible)},
+                                {"jacobi", to_string(own.jacobi)},
+                                {"involution", to_string(own.involution)},
+                                {"variable", own.variable},
+                                {"coefficients", own.coefficients},
+                                {"polynomial", own.polynomial},
+                                {"commuting", to_string(own.commuting)},
+                                {"distinct", to_string(own.distinct)},
+                                {"real", own.real},
+                                {"point", own.point},
+                                {"nonzero", own.nonzero},
+                                {"separated", to_string(own.separated)},
+                                {"staeckel", to_string(own.staeckel)}};
+  if (!own.multipliers.empty()) {
+    result["multipliers"] = own.multipliers;
+    result["relation"] = own.relation;
+  }
+  return result;
+}
+
+void print_separation(const Separation& own) {
+  const bool colour = may_colour(1);
+  const auto line = [&](const std::string& what, Verdict verdict) {
+    fmt::print("  {}   {}\n", what, verdict_text(verdict, colour));
+  };
+  for (std::size_t j = 0; j < own.integrals.size(); ++j)
+    fmt::print("F{} = {}{}\n", j + 1, own.integrals[j], j == 0 ? "  (the Hamiltonian)" : "");
+  std::vector<std::string> parts;
+  for (const auto& [label, text] : own.bivector)
+    parts.push_back(fmt::format("{{{}}}' = {}", label, text));
+  fmt::print("second bivector P', degree {}: {}\n", own.degree, fmt::join(parts, ", "));
+  line("tangent to the leaves", own.tangent);
+  line("compatible, [P, P'] = 0", own.compatible);
+  line("Jacobi identity, [P', P'] = 0", own.jacobi);
+  line("{F_i, F_j}' = 0", own.involution);
+  const std::string& u = own.variable;
+  fmt::print("variables: the roots of {} = 0\n", own.polynomial);
+  line(fmt::format("they commute, {{{0}_i, {0}_j}} = 0", u), own.commuting);
+  line(fmt::format("distinct and coordinates on the tori at {}, {}", own.point,
+                   own.real ? "and real" : "where they are complex"),
+       own.distinct);
+  line("the integrals separate in them and their momenta", own.separated);
+  fmt::print("    near each point of the leaves where these are not zero: {}\n",
+             fmt::join(own.nonzero, "; "));
+  if (own.staeckel == Verdict::proved)
+    line(fmt::format("Staeckel form: {} is a function of {} and its momentum for each root",
+                     own.relation, u),
+         own.staeckel);
+  else
+    line("Staeckel form with polynomials in one root (none was found)", own.staeckel);
+}
+
+}  // namespace
+
+bool is_answered(const SeparationReport& report) {
+  return !report.found.empty() || report.none || report.freedom == 1;
+}
+
+nlohmann::ordered_json to_json(const Model& model, const SeparationReport& report,
+                               double seconds) {
+  nlohmann::ordered_json json{{"case", model.name},
+                              {"degree", report.degree},
+                              {"degrees_of_freedom", report.freedom},
+                              {"on", report.on},
+                              {"integrals", report.integrals},
+                              {"examined", report.examined},
+                              {"separations", nlohmann::ordered_json::array()}};
+  if (report.bracket_of_motion) json["bracket"] = *report.bracket_of_motion;
+  for (const Separation& own : report.found) json["separations"].push_back(json_of(own));
+  json["none"] = report.none;
+  json["verdict"] = is_answered(report) ? "proved" : "undecided";
+  json["generic"] = report.generic;
+  if (!report.reason.empty()) json["reason"] = report.reason;
+  json["seconds"] = seconds;
+  return json;
+}
+
+void print(const Model& model, const SeparationReport& report, double seconds) {
+  const bool colour = may_colour(1);
+  fmt::print("{}: variables that separate, by a second bivector of degree {} at most\n", model.name,
+             report.degree);
+  if (report.bracket_of_motion) fmt::print("bracket found: {}\n", *report.bracket_of_motion);
+  fmt::print("{} degrees of freedom{}\n", report.freedom,
+             report.on.empty() ? ""
+                               : fmt::format(" on the level {} = 0", fmt::join(report.on, " = ")));
+  for (const Separation& own : report.found) print_separation(own);
+  if (report.found.empty()) {
+    if (!report.integrals.empty())
+      fmt::print("integrals that commute with the Hamiltonian: {}\n",
+                 fmt::join(report.integrals, "; "));
+    if (report.none)
+      fmt::print("No such bivector up to degree {}{}: {}\n", report.degree,
+                 report.generic.empty() ? ""
+                                        : fmt::format(", for generic values of {}",
+                                                      fmt::join(report.generic, ", ")),
+                 verdict_text(Verdict::proved, colour));
+    else
+      fmt::print("None found: {}\n", report.reason);
+  }
+  fmt::print("{} found, {:.3f} s\n", report.found.size(), seconds);
+}
+
+}  // namespace casimir::tools
