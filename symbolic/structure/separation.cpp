@@ -70,6 +70,8 @@ class SeparationSearch {
  private:
   bool look(const std::vector<Text>& on, bool search);
   bool look_with(const std::vector<Polynomial>& integrals);
+  bool look_among(const BivectorSpace& space, int degree,
+                  const std::vector<Polynomial>& integrals);
   std::optional<Separation> examine(const Bivector& p, const std::vector<Polynomial>& integrals);
   void judge_bivector(Separation& result, const Bivector& p,
                       const std::vector<Polynomial>& integrals);
@@ -248,29 +250,41 @@ std::optional<Separation> SeparationSearch::examine(const Bivector& p,
   return result;
 }
 
+/// Whether one of the bivectors, the Poisson ones in a space, gives variables.
+bool SeparationSearch::look_among(const BivectorSpace& space, int degree,
+                                  const std::vector<Polynomial>& integrals) {
+  if (space.basis.empty()) return false;
+  if (space.basis.size() > kMostOfSpace) {
+    report_.reason = fmt::format(
+        "the bivectors of degree {} that obey the linear conditions have {} dimensions, and "
+        "[P', P'] = 0 is solved up to {}",
+        degree, space.basis.size(), kMostOfSpace);
+    return false;
+  }
+  std::vector<Bivector> members = poisson_members(*leaves_, space.basis, watch_);
+  if (members.size() > kMostExamined) members.resize(kMostExamined, members.front());
+  for (const Bivector& p : members) {
+    ++report_.examined;
+    auto found = examine(p, integrals);
+    if (!found) continue;
+    report_.found.push_back(std::move(*found));
+    return true;
+  }
+  return false;
+}
+
+/// First those that have the symmetry of the case, as these are fewer.
 bool SeparationSearch::look_with(const std::vector<Polynomial>& integrals) {
+  const std::vector<Reflection> reflections = reflections_of(*leaves_, integrals);
   for (int degree = 0; degree <= request_.degree; ++degree) {
     watch_.begin(fmt::format("bivectors of degree {}", degree));
-    const BivectorSpace space =
-        compatible_bivectors(*leaves_, casimirs_, integrals, degree, watch_);
-    if (degree == request_.degree) report_.none = report_.none && space.empty;
-    if (space.basis.empty()) continue;
-    if (space.basis.size() > kMostOfSpace) {
-      report_.reason = fmt::format(
-          "the bivectors of degree {} that obey the linear conditions have {} dimensions, and "
-          "[P', P'] = 0 is solved up to {}",
-          degree, space.basis.size(), kMostOfSpace);
-      return false;
-    }
-    std::vector<Bivector> members = poisson_members(*leaves_, space.basis, watch_);
-    if (members.size() > kMostExamined) members.resize(kMostExamined, members.front());
-    for (const Bivector& p : members) {
-      ++report_.examined;
-      auto found = examine(p, integrals);
-      if (!found) continue;
-      report_.found.push_back(std::move(*found));
-      return true;
-    }
+    const auto space = [&](const std::vector<Reflection>& symmetric) {
+      return compatible_bivectors(*leaves_, casimirs_, integrals, degree, symmetric, watch_);
+    };
+    if (!reflections.empty() && look_among(space(reflections), degree, integrals)) return true;
+    const BivectorSpace all = space({});
+    if (degree == request_.degree) report_.none = report_.none && all.empty;
+    if (look_among(all, degree, integrals)) return true;
   }
   return false;
 }

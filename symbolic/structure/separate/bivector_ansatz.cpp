@@ -20,12 +20,13 @@ struct Unknown {
 class BivectorAnsatz {
  public:
   BivectorAnsatz(const Leaves& leaves, const std::vector<Polynomial>& casimirs,
-                 const std::vector<Polynomial>& integrals, int degree);
+                 const std::vector<Polynomial>& integrals, int degree,
+                 const std::vector<Reflection>& reflections);
 
   BivectorSpace solve(const search::Watch& watch);
 
  private:
-  void make_unknowns(int degree);
+  void make_unknowns(const std::vector<Reflection>& reflections);
   bool is_standard(const std::vector<unsigned long>& exponents) const;
   Polynomial monomial(const Unknown& unknown) const;
   std::vector<Polynomial> conditions(const Unknown& unknown) const;
@@ -46,7 +47,8 @@ class BivectorAnsatz {
 };
 
 BivectorAnsatz::BivectorAnsatz(const Leaves& leaves, const std::vector<Polynomial>& casimirs,
-                               const std::vector<Polynomial>& integrals, int degree)
+                               const std::vector<Polynomial>& integrals, int degree,
+                               const std::vector<Reflection>& reflections)
     : leaves_(leaves), n_(leaves.dimension()), degree_(degree), casimirs_(casimirs) {
   const FunctionRing& ring = leaves.system().functions();
   for (const Polynomial& c : casimirs)
@@ -55,7 +57,7 @@ BivectorAnsatz::BivectorAnsatz(const Leaves& leaves, const std::vector<Polynomia
     of_casimirs_.push_back(ring.common_numerators(leaves.gradient(f)));
   for (const Polynomial& f : integrals)
     of_integrals_.push_back(ring.common_numerators(leaves.gradient(f)));
-  make_unknowns(degree);
+  make_unknowns(reflections);
 }
 
 /// Whether no leading monomial of the level divides it: else it is a sum of others there.
@@ -69,13 +71,17 @@ bool BivectorAnsatz::is_standard(const std::vector<unsigned long>& exponents) co
   });
 }
 
-void BivectorAnsatz::make_unknowns(int degree) {
-  const search::Monomials monomials = search::all_monomials(std::vector<int>(n_, 1), degree);
+void BivectorAnsatz::make_unknowns(const std::vector<Reflection>& reflections) {
+  const search::Monomials monomials = search::all_monomials(std::vector<int>(n_, 1), degree_);
+  const std::vector<std::vector<std::size_t>> pairs = skew_indices(n_, 2);
   for (std::size_t c = 0; c < leaves_.bivector().size(); ++c) {
     for (std::size_t m = 0; m < monomials.size(); ++m) {
       std::vector<unsigned long> exponents(leaves_.ring().size(), 0);
       for (std::size_t i = 0; i < n_; ++i) exponents[i] = monomials[m][i];
-      if (!is_standard(exponents)) continue;
+      const auto keeps = [&](const Reflection& own) {
+        return own.keeps(exponents, pairs[c][0], pairs[c][1]);
+      };
+      if (!is_standard(exponents) || !std::ranges::all_of(reflections, keeps)) continue;
       places_.emplace(std::pair(c, exponents), unknowns_.size());
       unknowns_.push_back({c, std::move(exponents)});
     }
@@ -227,8 +233,9 @@ Bivector combined(const Leaves& leaves, const std::vector<Bivector>& basis,
 
 BivectorSpace compatible_bivectors(const Leaves& leaves, const std::vector<Polynomial>& casimirs,
                                    const std::vector<Polynomial>& integrals, int degree,
+                                   const std::vector<Reflection>& reflections,
                                    const search::Watch& watch) {
-  return BivectorAnsatz(leaves, casimirs, integrals, degree).solve(watch);
+  return BivectorAnsatz(leaves, casimirs, integrals, degree, reflections).solve(watch);
 }
 
 std::vector<Bivector> poisson_members(Leaves& leaves, const std::vector<Bivector>& basis,

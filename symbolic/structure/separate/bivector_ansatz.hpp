@@ -1,7 +1,7 @@
 #pragma once
 
 #include "symbolic/search/watch.hpp"
-#include "symbolic/structure/separate/leaves.hpp"
+#include "symbolic/structure/separate/reflections.hpp"
 
 namespace casimir::structure {
 
@@ -17,8 +17,11 @@ struct BivectorSpace {
 /// \param casimirs  that are known; those of the level are added
 /// \param integrals  in involution
 /// \param degree  highest, of the components as polynomials in the coordinates
+/// \param reflections  only bivectors that behave as that of the case under these are looked for;
+///     where there are any, `empty` says nothing of others
 BivectorSpace compatible_bivectors(const Leaves& leaves, const std::vector<Polynomial>& casimirs,
                                    const std::vector<Polynomial>& integrals, int degree,
+                                   const std::vector<Reflection>& reflections,
                                    const search::Watch& watch);
 
 /// Of the members of the space those that are Poisson on the level, [P', P'] = 0, the shortest
