@@ -8,13 +8,12 @@
 #include "symbolic/structure/brackets.hpp"
 #include "symbolic/structure/separate/bivector_ansatz.hpp"
 #include "symbolic/structure/separate/commuting_integrals.hpp"
-#include "symbolic/structure/separate/roots.hpp"
+#include "symbolic/structure/separate/multipliers.hpp"
 
 namespace casimir::structure {
 namespace {
 
-constexpr std::size_t kMostOfSpace = 12;    ///< dimensions, for which [P', P'] = 0 is solved
-constexpr std::size_t kMostExamined = 12;   ///< bivectors of one space
+constexpr std::size_t kMostExamined = 60;   ///< bivectors of one space
 constexpr std::size_t kPointsOfLevel = 12;  ///< that are drawn
 
 Verdict proved_if(bool shown) { return shown ? Verdict::proved : Verdict::undecided; }
@@ -68,17 +67,19 @@ class SeparationSearch {
   SeparationReport run();
 
  private:
-  bool look(const std::vector<Text>& on, bool search);
+  bool look(const std::vector<Text>& on, int degree);
   bool look_with(const std::vector<Polynomial>& integrals);
-  bool look_among(const BivectorSpace& space, int degree,
-                  const std::vector<Polynomial>& integrals);
+  bool look_among(const BivectorSpace& space, const std::vector<Polynomial>& integrals);
   std::optional<Separation> examine(const Bivector& p, const std::vector<Polynomial>& integrals);
   void judge_bivector(Separation& result, const Bivector& p,
                       const std::vector<Polynomial>& integrals);
+  std::string text_of(const std::vector<Polynomial>& coefficients, const std::string& u) const;
+  Separation::Relation relation_of(const Multipliers& s, const std::string& u) const;
   void judge_multipliers(Separation& result, const RootCoefficients& a,
                          const std::vector<Polynomial>& integrals);
   bool judge_point(Separation& result, const Characteristic& own,
                    const std::vector<Polynomial>& integrals);
+  void write_factors(Separation& result, const std::vector<Polynomial>& list) const;
   void write_roots(Separation& result, const Characteristic& own);
   std::string text(const Polynomial& p) const { return leaves_->system().functions().text(p); }
   std::string free_name() const;
@@ -155,7 +156,7 @@ bool SeparationSearch::judge_point(Separation& result, const Characteristic& own
   if (regular.is_zero()) return false;
   std::vector<Polynomial> nonzero{discriminant, regular};
   if (!own.pfaffian.is_constant()) nonzero.push_back(leaves_->reduced(own.pfaffian));
-  for (const Polynomial& p : nonzero) result.nonzero.push_back(text(p));
+  write_factors(result, nonzero);
   for (RealPoint& point : points_) {
     try {
       if (std::ranges::any_of(nonzero,
@@ -174,29 +175,63 @@ bool SeparationSearch::judge_point(Separation& result, const Characteristic& own
   return result.distinct == Verdict::proved;
 }
 
+/// A polynomial in one variable with its coefficients in brackets where they are sums.
+std::string SeparationSearch::text_of(const std::vector<Polynomial>& coefficients,
+                                      const std::string& u) const {
+  std::string sum;
+  for (std::size_t m = coefficients.size(); m-- > 0;) {
+    if (coefficients[m].is_zero()) continue;
+    const std::string power = m == 0 ? "" : m == 1 ? u : fmt::format("{}^{}", u, m);
+    std::string own = text(coefficients[m]);
+    if (coefficients[m].terms() > 1) own = "(" + own + ")";
+    if (!power.empty()) own = own == "1" ? power : own == "-1" ? "-" + power : own + "*" + power;
+    sum += sum.empty() ? own : own.starts_with('-') ? " - " + own.substr(1) : " + " + own;
+  }
+  return sum.empty() ? "0" : sum;
+}
+
+Separation::Relation SeparationSearch::relation_of(const Multipliers& s,
+                                                   const std::string& u) const {
+  Separation::Relation result;
+  result.may_vanish = true;
+  for (std::size_t j = 0; j < s.size(); ++j) {
+    std::string own = text_of(s[j], u);
+    result.multipliers.push_back(own);
+    if (own == "0") continue;
+    const bool is_constant =
+        std::ranges::all_of(s[j].begin() + 1, s[j].end(), [](const auto& p) { return p.is_zero(); });
+    if (is_constant && s[j][0].is_constant()) result.may_vanish = false;
+    const bool minus = own.starts_with('-') && own.find(' ') == std::string::npos;
+    if (minus) own.erase(0, 1);
+    if (own.find(' ') != std::string::npos && (own[0] != '(' || own.find(')') + 1 != own.size()))
+      own = "(" + own + ")";
+    const std::string product = (own == "1" ? "" : own + "*") + fmt::format("F{}", j + 1);
+    const std::string sign = result.sum.empty() ? (minus ? "-" : "") : minus ? " - " : " + ";
+    result.sum += sign + product;
+  }
+  return result;
+}
+
 void SeparationSearch::judge_multipliers(Separation& result, const RootCoefficients& a,
                                          const std::vector<Polynomial>& integrals) {
-  const auto multipliers = staeckel_multipliers(*leaves_, a, integrals, watch_);
-  if (!multipliers) return;
+  const auto form = staeckel_form(*leaves_, a, integrals, casimirs_, watch_);
+  if (!form) return;
   result.staeckel = Verdict::proved;
-  const std::string& u = result.variable;
-  for (std::size_t j = 0; j < multipliers->size(); ++j) {
-    std::string sum;
-    for (std::size_t m = (*multipliers)[j].size(); m-- > 0;) {
-      const Polynomial& number = (*multipliers)[j][m];
-      if (number.is_zero()) continue;
-      const std::string power = m == 0 ? "" : m == 1 ? u : fmt::format("{}^{}", u, m);
-      std::string own = text(number);
-      if (number.terms() > 1) own = "(" + own + ")";
-      if (!power.empty()) own = own == "1" ? power : own == "-1" ? "-" + power : own + "*" + power;
-      sum += sum.empty() ? own : own.starts_with('-') ? " - " + own.substr(1) : " + " + own;
+  for (std::size_t i = 0; i < form->multipliers.size(); ++i) {
+    result.relations.push_back(relation_of(form->multipliers[i], result.variable));
+    if (!form->roots.empty()) result.relations.back().root = text(form->roots[i]);
+  }
+}
+
+/// The factors of what may not be zero, each once, without numbers.
+void SeparationSearch::write_factors(Separation& result, const std::vector<Polynomial>& list) const {
+  for (const Polynomial& p : list) {
+    for (const auto& [factor, exponent] : p.factors()) {
+      if (factor.is_constant()) continue;
+      const std::string own = text(factor);
+      if (std::ranges::find(result.nonzero, own) == result.nonzero.end())
+        result.nonzero.push_back(own);
     }
-    result.multipliers.push_back(sum.empty() ? "0" : sum);
-    if (sum.empty()) continue;
-    const std::string name = fmt::format("F{}", j + 1);
-    if (sum.find(' ') != std::string::npos) sum = "(" + sum + ")";
-    const std::string part = sum == "1" ? name : sum + "*" + name;
-    result.relation += (result.relation.empty() ? "" : " + ") + part;
   }
 }
 
@@ -251,16 +286,9 @@ std::optional<Separation> SeparationSearch::examine(const Bivector& p,
 }
 
 /// Whether one of the bivectors, the Poisson ones in a space, gives variables.
-bool SeparationSearch::look_among(const BivectorSpace& space, int degree,
+bool SeparationSearch::look_among(const BivectorSpace& space,
                                   const std::vector<Polynomial>& integrals) {
   if (space.basis.empty()) return false;
-  if (space.basis.size() > kMostOfSpace) {
-    report_.reason = fmt::format(
-        "the bivectors of degree {} that obey the linear conditions have {} dimensions, and "
-        "[P', P'] = 0 is solved up to {}",
-        degree, space.basis.size(), kMostOfSpace);
-    return false;
-  }
   std::vector<Bivector> members = poisson_members(*leaves_, space.basis, watch_);
   if (members.size() > kMostExamined) members.resize(kMostExamined, members.front());
   for (const Bivector& p : members) {
@@ -281,20 +309,21 @@ bool SeparationSearch::look_with(const std::vector<Polynomial>& integrals) {
     const auto space = [&](const std::vector<Reflection>& symmetric) {
       return compatible_bivectors(*leaves_, casimirs_, integrals, degree, symmetric, watch_);
     };
-    if (!reflections.empty() && look_among(space(reflections), degree, integrals)) return true;
+    if (!reflections.empty() && look_among(space(reflections), integrals)) return true;
     const BivectorSpace all = space({});
     if (degree == request_.degree) report_.none = report_.none && all.empty;
-    if (look_among(all, degree, integrals)) return true;
+    if (look_among(all, integrals)) return true;
   }
   return false;
 }
 
+/// With integrals that a search up to a degree finds beside those of the case, or none for 0.
 /// Whether the question is answered, by variables or since there are no more integrals to look for.
-bool SeparationSearch::look(const std::vector<Text>& on, bool search) {
+bool SeparationSearch::look(const std::vector<Text>& on, int degree) {
   std::vector<NamedExpression> level;
   for (const Text& own : on) level.push_back(model_.parse_named(own));
   watch_.begin("integrals");
-  const std::vector<GiNaC::ex> values = possible_integrals(model_, on, search, watch_),
+  const std::vector<GiNaC::ex> values = possible_integrals(model_, on, degree, watch_),
                                casimirs = possible_casimirs(model_, watch_);
   std::vector<GiNaC::ex> others = values;
   others.insert(others.end(), casimirs.begin(), casimirs.end());
@@ -360,12 +389,13 @@ SeparationReport SeparationSearch::run() {
     return report_;
   }
   // First with what the case claims; the search for more integrals takes longer.
-  for (const bool search : {false, true}) {
-    if (look(request_.on, search)) return report_;
+  for (const int degree : {0, 2, 3, 4, 6}) {
+    if (look(request_.on, degree)) return report_;
     if (!request_.on.empty() || model_.conditionals.empty()) continue;
     std::vector<Text> on;
-    for (const NamedExpression& f : model_.conditionals.front().on) on.push_back({f.name, f.where, {}});
-    if (look(on, search)) return report_;
+    for (const NamedExpression& f : model_.conditionals.front().on)
+      on.push_back({f.name, f.where, {}});
+    if (look(on, degree)) return report_;
   }
   return report_;
 }

@@ -25,9 +25,9 @@ struct SeparationRequest {
 /// f_i(u_i, p_i; F_1, .., F_n) = 0, one for each pair. It is shown by one of two theorems.
 ///
 /// Theorem 1 (Staeckel). On the leaf of dimension 2n let {F_i, F_j} = 0, {u_i, u_j} = 0,
-/// det {u_i, F_j} != 0, and s_1, .., s_n be polynomials in one variable with constant coefficients,
-/// not all zero at any u_i, such that sum_j s_j(u_i) {u_k, F_j} = 0 for i != k. Then
-/// G_i = sum_j s_j(u_i) F_j is a function of u_i and its momentum alone. Proof: {u_k, G_i} = 0 for
+/// det {u_i, F_j} != 0, and for each i let s_1, .., s_n be polynomials in one variable whose
+/// coefficients are constant on the leaf, not all zero at u_i, such that
+/// sum_j s_j(u_i) {u_k, F_j} = 0 for k != i. Then G_i = sum_j s_j(u_i) F_j is a function of u_i and its momentum alone. Proof: {u_k, G_i} = 0 for
 /// k != i, {G_i, G_k} = 0, as both are sums of products of what vanishes, and w_i = {u_i, G_i} is
 /// not zero, since s(u_i) is orthogonal to all rows of the regular matrix {u_k, F_j} but the i-th.
 /// So by Jacobi's identity w_i commutes with u_k, G_k for k != i, and is a function of u_i, G_i:
@@ -44,6 +44,14 @@ struct SeparationRequest {
 /// spanned by vectors d/du_i + sum_j dp_j/du_i d/dp_j, each an eigenvector, so that dp_j/du_i = 0
 /// for j != i. Checked as above, and P' dC = 0 for as many independent C as the rank leaves.
 struct Separation {
+  /// sum_j s_j(u) F_j is a function of u and its momentum, for each root u or for one of them.
+  struct Relation {
+    std::string root;                      ///< as a polynomial; empty where it is any of them
+    std::vector<std::string> multipliers;  ///< s_1, .., s_n
+    std::string sum;                       ///< of the products
+    /// No s_j is a number that is not zero, so that where all s_j vanish nothing is said.
+    bool may_vanish = false;
+  };
   std::vector<std::pair<std::string, std::string>> bivector;  ///< P', as "M1,M2" and "-M3"
   int degree = 0;                                             ///< of its components
   std::vector<std::string> integrals;     ///< F_1, .., F_n, the Hamiltonian first
@@ -58,12 +66,11 @@ struct Separation {
   Verdict commuting = Verdict::undecided;   ///< {u_i, u_j} = 0
   Verdict distinct = Verdict::undecided;    ///< the roots, and coordinates on the tori, at `point`
   Verdict separated = Verdict::undecided;
-  /// Whether `multipliers` s_1, .., s_n were found and checked: sum_j s_j(u) F_j is a function of u
-  /// and its momentum for each root u. Never refuted: others of a higher degree are not looked at.
+  /// Whether multipliers s_1, .., s_n were found and checked. Never refuted: others of a higher
+  /// degree are not looked at.
   Verdict staeckel = Verdict::undecided;
-  std::vector<std::string> multipliers;
-  std::string relation;              ///< that sum
-  std::vector<std::string> nonzero;  ///< where one of them is zero, nothing is said
+  std::vector<Relation> relations;   ///< one for all roots, or one for each
+  std::vector<std::string> nonzero;  ///< irreducible; where one of them is zero, nothing is said
   std::string point;                 ///< at which none is
   bool real = false;                 ///< all roots are real at `point`, and so near it
 };

@@ -11,6 +11,9 @@
 namespace casimir::structure {
 namespace {
 
+constexpr std::size_t kMostOfFamilies = 12;    ///< dimensions, for which [P', P'] = 0 is solved
+constexpr std::size_t kMostOfCompatible = 40;  ///< of which pairs are looked at
+
 /// A bivector with one component, and that a monomial.
 struct Unknown {
   std::size_t component;
@@ -229,17 +232,9 @@ Bivector combined(const Leaves& leaves, const std::vector<Bivector>& basis,
   return sum;
 }
 
-}  // namespace
-
-BivectorSpace compatible_bivectors(const Leaves& leaves, const std::vector<Polynomial>& casimirs,
-                                   const std::vector<Polynomial>& integrals, int degree,
-                                   const std::vector<Reflection>& reflections,
-                                   const search::Watch& watch) {
-  return BivectorAnsatz(leaves, casimirs, integrals, degree, reflections).solve(watch);
-}
-
-std::vector<Bivector> poisson_members(Leaves& leaves, const std::vector<Bivector>& basis,
-                                      const search::Watch& watch) {
+/// Some members of each family of solutions of [P', P'] = 0.
+std::vector<Bivector> members_of_families(Leaves& leaves, const std::vector<Bivector>& basis,
+                                          const search::Watch& watch) {
   const std::size_t n = leaves.dimension(), triples = skew_indices(n, 3).size();
   ConstantEquations equations(leaves.system(), basis.size());
   std::vector<std::vector<ConstantEquations::Summand>> quadratic(triples);
@@ -259,15 +254,81 @@ std::vector<Bivector> poisson_members(Leaves& leaves, const std::vector<Bivector
     if (!family.decided) continue;
     for (const auto& choice : simple_constants(equations.free_in(family).size())) {
       const auto constants = equations.values(family, choice);
-      if (!constants) continue;
-      Bivector own = combined(leaves, basis, *constants, leaves.system().prover());
-      if (std::ranges::all_of(own, [](const Polynomial& c) { return c.is_zero(); })) continue;
-      if (std::ranges::none_of(result,
-                               [&](const Bivector& p) { return are_proportional(p, own); }))
-        result.push_back(std::move(own));
+      if (constants)
+        result.push_back(combined(leaves, basis, *constants, leaves.system().prover()));
     }
   }
-  std::ranges::stable_sort(result, {}, length_of);
+  return result;
+}
+
+/// The sum of bivectors times 1, 1 + step, 1 + 2*step, ..
+Bivector sum_of(const std::vector<const Bivector*>& list, long step) {
+  Bivector result(list.front()->size(), Polynomial(list.front()->front().ring()));
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const long factor = 1 + step * static_cast<long>(k);
+    for (std::size_t c = 0; c < result.size(); ++c) result[c] += (*list[k])[c].scaled(factor);
+  }
+  return result;
+}
+
+/// Sums of vectors of the basis that are Poisson and compatible with each other.
+std::vector<Bivector> sums_of_compatible(const Leaves& leaves, std::vector<Bivector> basis,
+                                         const search::Watch& watch) {
+  std::ranges::stable_sort(basis, {}, length_of);
+  if (basis.size() > kMostOfCompatible) basis.resize(kMostOfCompatible, basis.front());
+  const auto compatible = [&](const Bivector& a, const Bivector& b) {
+    return std::ranges::all_of(schouten(a, b, leaves.dimension()),
+                               [&](const Polynomial& p) { return leaves.vanishes(p); });
+  };
+  std::vector<const Bivector*> single;
+  for (const Bivector& own : basis)
+    if (compatible(own, own)) single.push_back(&own);
+  std::vector<Bivector> result;
+  std::vector<std::vector<bool>> pairs;
+  for (const Bivector* a : single) {
+    result.push_back(*a);
+    pairs.emplace_back();
+    for (const Bivector* b : single) {
+      pairs.back().push_back(compatible(*a, *b));
+      if (a != b && pairs.back().back()) result.push_back(sum_of({a, b}, 0));
+    }
+    watch.tick(static_cast<double>(pairs.size()) / static_cast<double>(single.size()));
+  }
+  for (std::size_t first = 0; first < single.size(); ++first) {
+    std::vector<std::size_t> set{first};
+    for (std::size_t k = 0; k < single.size(); ++k) {
+      if (k != first && std::ranges::all_of(set, [&](std::size_t s) { return pairs[s][k]; }))
+        set.push_back(k);
+    }
+    std::vector<const Bivector*> list;
+    for (const std::size_t s : set) list.push_back(single[s]);
+    result.push_back(sum_of(list, 0));
+    result.push_back(sum_of(list, 1));
+  }
+  return result;
+}
+
+}  // namespace
+
+BivectorSpace compatible_bivectors(const Leaves& leaves, const std::vector<Polynomial>& casimirs,
+                                   const std::vector<Polynomial>& integrals, int degree,
+                                   const std::vector<Reflection>& reflections,
+                                   const search::Watch& watch) {
+  return BivectorAnsatz(leaves, casimirs, integrals, degree, reflections).solve(watch);
+}
+
+std::vector<Bivector> poisson_members(Leaves& leaves, const std::vector<Bivector>& basis,
+                                      const search::Watch& watch) {
+  std::vector<Bivector> all = basis.size() <= kMostOfFamilies
+                                  ? members_of_families(leaves, basis, watch)
+                                  : sums_of_compatible(leaves, basis, watch);
+  std::ranges::stable_sort(all, {}, length_of);
+  std::vector<Bivector> result;
+  for (Bivector& own : all) {
+    if (std::ranges::all_of(own, [](const Polynomial& c) { return c.is_zero(); })) continue;
+    if (std::ranges::none_of(result, [&](const Bivector& p) { return are_proportional(p, own); }))
+      result.push_back(std::move(own));
+  }
   return result;
 }
 

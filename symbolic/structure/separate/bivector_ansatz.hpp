@@ -25,7 +25,8 @@ BivectorSpace compatible_bivectors(const Leaves& leaves, const std::vector<Polyn
                                    const search::Watch& watch);
 
 /// Of the members of the space those that are Poisson on the level, [P', P'] = 0, the shortest
-/// first: some of each family of solutions, where these are simple.
+/// first: some of each family of solutions, where these are simple. Of a large space only sums of
+/// vectors of the basis of which each two are compatible.
 std::vector<Bivector> poisson_members(Leaves& leaves, const std::vector<Bivector>& basis,
                                       const search::Watch& watch);
 

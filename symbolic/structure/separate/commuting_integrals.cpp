@@ -7,7 +7,7 @@
 namespace casimir::structure {
 namespace {
 
-constexpr int kHighestOfIntegrals = 4, kHighestOfCasimirs = 2;
+constexpr int kHighestOfCasimirs = 2;
 constexpr std::size_t kMostIntegralChoices = 6;
 
 /// The flows {x_i, f} of some functions, as rows.
@@ -32,13 +32,13 @@ bool is_on_level(Leaves& leaves, RealPoint& point) {
 }  // namespace
 
 std::vector<GiNaC::ex> possible_integrals(const Model& model, const std::vector<Text>& on,
-                                          bool search, const search::Watch& watch) {
+                                          int degree, const search::Watch& watch) {
   std::vector<GiNaC::ex> result{*model.hamiltonian};
   for (const NamedExpression& f : model.integrals) result.push_back(f.value);
   for (const LevelClaim& f : model.conditionals) result.push_back(f.expression.value);
-  if (!search) return result;
+  if (degree == 0) return result;
   search::Request request;
-  request.degree = kHighestOfIntegrals;
+  request.degree = degree;
   request.on = on;
   for (const search::Found& found : search::find_integrals(model, request, watch).found)
     if (found.independent) result.push_back(found.value);

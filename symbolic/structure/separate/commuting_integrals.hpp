@@ -7,10 +7,10 @@
 
 namespace casimir::structure {
 
-/// The Hamiltonian, the integrals and those on the level that the case claims or, where these are
-/// fewer than asked for, that a search finds up to a moderate degree: none of them is proved here.
+/// The Hamiltonian, the integrals and those on the level that the case claims and, where the degree
+/// is not 0, those that a search up to it finds: none of them is proved here.
 std::vector<GiNaC::ex> possible_integrals(const Model& model, const std::vector<Text>& on,
-                                          bool search, const search::Watch& watch);
+                                          int degree, const search::Watch& watch);
 
 /// Casimir functions: those that the case claims and all polynomials of a low degree. None of them
 /// is proved here.

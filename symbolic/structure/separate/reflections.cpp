@@ -31,7 +31,8 @@ bool keeps_functions(const Leaves& leaves, std::size_t mask) {
     const GiNaC::symbol& x = system.model().variables[i];
     if ((mask >> i & 1) != 0) values[x] = -x;
   }
-  for (std::size_t g = system.functions().symbols().size(); g < leaves.ring().size(); ++g) {
+  for (std::size_t g = system.functions().symbols().size(); g < system.functions().end_of_generators();
+       ++g) {
     const GiNaC::ex own = system.expression(leaves.ring().variable(g));
     if (!(own.subs(values) - own).expand().is_zero()) return false;
   }

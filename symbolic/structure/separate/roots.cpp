@@ -56,50 +56,6 @@ std::optional<Quotient> quotient_on_level(const Leaves& leaves, const Polynomial
   return std::nullopt;
 }
 
-/// A polynomial in two of the roots, x and y, by the coefficients of x^i y^j.
-using TwoRoots = std::vector<std::vector<Polynomial>>;
-
-/// Its remainder, of degree less than n in x and n - 1 in y, where x and y are different roots.
-///
-/// Theorem: D(x) = 0 and (D(y) - D(x))/(y - x) = 0, with D = u^n + a_1 u^(n-1) + .., hold for any
-/// two roots in different places and are monic, in x and in y. So what has the remainder zero
-/// vanishes for all such pairs. The converse needs that D has no multiple root, and is not used.
-TwoRoots remainder(const Leaves& leaves, TwoRoots p, const RootCoefficients& a) {
-  const std::size_t n = a.size();
-  const PolynomialRing& ring = leaves.ring();
-  const auto coefficient = [&](std::size_t k) { return k == 0 ? ring.constant(1) : a[k - 1]; };
-  const std::vector<Polynomial> empty(n, Polynomial(ring));
-  // y^(n-1) by sum_k a_(n-k) sum_(e<k) y^e x^(k-1-e) = 0.
-  p.resize(p.size() + n, empty);
-  for (std::size_t i = 0; i + n < p.size(); ++i) {
-    const Polynomial top = p[i][n - 1];
-    if (top.is_zero()) continue;
-    for (std::size_t k = 1; k <= n; ++k) {
-      for (std::size_t e = 0; e < k && e + 1 < n; ++e)
-        p[i + k - 1 - e][e] -= top * coefficient(n - k);
-    }
-    p[i][n - 1] = Polynomial(ring);
-  }
-  for (std::size_t i = p.size(); i-- > n;) {
-    for (std::size_t j = 0; j + 1 < n; ++j) {
-      if (p[i][j].is_zero()) continue;
-      for (std::size_t k = 1; k <= n; ++k) p[i - k][j] -= p[i][j] * a[k - 1];
-    }
-  }
-  p.resize(n, empty);
-  for (auto& row : p) row.resize(n - 1, Polynomial(ring));
-  return p;
-}
-
-/// s(x) * sum_k {a_k, F} y^(n-k) for s = x^power.
-TwoRoots moved_by(const std::vector<std::vector<Polynomial>>& rates, std::size_t integral,
-                  std::size_t power) {
-  const std::size_t n = rates.size();
-  TwoRoots result(power + 1, std::vector<Polynomial>(n, Polynomial(rates[0][0].ring())));
-  for (std::size_t k = 0; k < n; ++k) result[power][n - 1 - k] = rates[k][integral];
-  return result;
-}
-
 }  // namespace
 
 std::optional<Characteristic> characteristic_of(const Leaves& leaves, const Bivector& p,
@@ -130,7 +86,7 @@ std::optional<Characteristic> characteristic_of(const Leaves& leaves, const Bive
     for (std::size_t k = 1; k <= n; ++k) {
       Polynomial ratio(leaves.ring());
       scale.pow(k).divide(quotients[k - 1].denominator, &ratio);
-      const Polynomial a = quotients[k - 1].f * ratio;
+      const Polynomial a = leaves.reduced(quotients[k - 1].f * ratio);
       result.coefficients.push_back(k % 2 == 1 ? -a : a);
     }
     return result;
@@ -195,34 +151,33 @@ std::vector<std::vector<Polynomial>> rates_of_coefficients(
   return result;
 }
 
-std::optional<std::vector<std::vector<Polynomial>>> staeckel_multipliers(
-    const Leaves& leaves, const RootCoefficients& a, const std::vector<Polynomial>& integrals,
-    const search::Watch& watch) {
-  const std::size_t n = a.size(), highest = n + 1;
-  const auto rates = rates_of_coefficients(leaves, a, integrals);
-  std::vector<std::vector<Polynomial>> columns;
-  const auto column = [&](std::size_t j, std::size_t power) {
-    std::vector<Polynomial> result;
-    for (const auto& row : remainder(leaves, moved_by(rates, j, power), a))
-      for (const Polynomial& p : row) result.push_back(leaves.reduced(p));
-    return result;
-  };
-  for (std::size_t power = 0; power <= highest; ++power) {
-    for (std::size_t j = 0; j < n; ++j) columns.push_back(column(j, power));
-    if (power == 0) continue;
-    for (const ParametricRow& solution : constant_kernel(leaves.system(), columns, watch).basis) {
-      std::vector<std::vector<Polynomial>> s(
-          n, std::vector<Polynomial>(power + 1, Polynomial(leaves.ring())));
-      std::vector<Polynomial> sums(n * (n - 1), Polynomial(leaves.ring()));
-      for (const auto& [k, number] : solution) {
-        s[k % n][k / n] = number;
-        for (std::size_t c = 0; c < sums.size(); ++c) sums[c] += number * columns[k][c];
-      }
-      if (std::ranges::all_of(sums, [&](const Polynomial& p) { return leaves.vanishes(p); }))
-        return s;
+std::optional<std::vector<Polynomial>> polynomial_roots(const Leaves& leaves,
+                                                        const RootCoefficients& a) {
+  const PolynomialRing larger(leaves.ring().size() + 1);
+  TermCollector sum(larger);
+  std::vector<unsigned long> power(larger.size(), 0);
+  power.back() = a.size();
+  sum.add(1, power);
+  for (std::size_t k = 1; k <= a.size(); ++k) {
+    for (auto [number, exponents] : a[k - 1].term_list()) {
+      exponents.push_back(a.size() - k);
+      sum.add(number, exponents);
     }
   }
-  return std::nullopt;
+  std::vector<Polynomial> result;
+  for (const auto& [factor, exponent] : sum.finish().factors()) {
+    if (factor.is_constant()) continue;
+    const std::vector<Polynomial> c = factor.coefficients(leaves.ring().size());
+    if (c.size() != 2 || !c[1].is_constant() || exponent != 1) return std::nullopt;
+    const cln::cl_RA leading = c[1].term_list().front().first;
+    TermCollector root(leaves.ring());
+    for (auto [number, exponents] : c[0].term_list()) {
+      exponents.pop_back();
+      root.add(-number / leading, exponents);
+    }
+    result.push_back(root.finish());
+  }
+  return result;
 }
 
 }  // namespace casimir::structure

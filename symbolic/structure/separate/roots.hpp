@@ -41,11 +41,8 @@ std::vector<Polynomial> hermite_minors(const Leaves& leaves, const RootCoefficie
 std::vector<std::vector<Polynomial>> rates_of_coefficients(
     const Leaves& leaves, const RootCoefficients& a, const std::vector<Polynomial>& integrals);
 
-/// Polynomials s_1, .., s_n in one variable with constant coefficients, by these, for which
-/// sum_j s_j(u_i) {u_k, F_j} = 0 for i != k on the level; empty where there are none of a moderate
-/// degree. Each is checked after it was found.
-std::optional<std::vector<std::vector<Polynomial>>> staeckel_multipliers(
-    const Leaves& leaves, const RootCoefficients& a, const std::vector<Polynomial>& integrals,
-    const search::Watch& watch);
+/// The roots, where all of them are polynomials; empty where this is not so.
+std::optional<std::vector<Polynomial>> polynomial_roots(const Leaves& leaves,
+                                                        const RootCoefficients& a);
 
 }  // namespace casimir::structure

@@ -32,10 +32,13 @@ nlohmann::ordered_json json_of(const Separation& own) {
                                 {"nonzero", own.nonzero},
                                 {"separated", to_string(own.separated)},
                                 {"staeckel", to_string(own.staeckel)}};
-  if (!own.multipliers.empty()) {
-    result["multipliers"] = own.multipliers;
-    result["relation"] = own.relation;
+  nlohmann::ordered_json relations = nlohmann::ordered_json::array();
+  for (const Separation::Relation& one : own.relations) {
+    relations.push_back({{"multipliers", one.multipliers}, {"sum", one.sum}});
+    if (!one.root.empty()) relations.back()["root"] = one.root;
+    relations.back()["may_vanish"] = one.may_vanish;
   }
+  result["relations"] = relations;
   return result;
 }
 
@@ -63,12 +66,14 @@ void print_separation(const Separation& own) {
   line("the integrals separate in them and their momenta", own.separated);
   fmt::print("    near each point of the leaves where these are not zero: {}\n",
              fmt::join(own.nonzero, "; "));
-  if (own.staeckel == Verdict::proved)
-    line(fmt::format("Staeckel form: {} is a function of {} and its momentum for each root",
-                     own.relation, u),
-         own.staeckel);
-  else
-    line("Staeckel form with polynomials in one root (none was found)", own.staeckel);
+  line(own.staeckel == Verdict::proved
+           ? "Staeckel form: a sum of the integrals is a function of one root and its momentum"
+           : "Staeckel form with polynomials in one root (none was found)",
+       own.staeckel);
+  for (const Separation::Relation& one : own.relations)
+    fmt::print("    {} for {}{}\n", one.sum,
+               one.root.empty() ? "each root " + u : fmt::format("the root {} = {}", u, one.root),
+               one.may_vanish ? ", where its coefficients are not all zero" : "");
 }
 
 }  // namespace
