@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+#include "symbolic/search/conditions/real_ideal.hpp"
+#include "symbolic/search/finder.hpp"
+#include "symbolic/search/independence.hpp"
 #include "symbolic/structure/brackets.hpp"
 #include "symbolic/structure/separate/bivector_ansatz.hpp"
 #include "symbolic/structure/separate/commuting_integrals.hpp"
@@ -68,10 +71,12 @@ class SeparationSearch {
 
  private:
   bool look(const std::vector<Text>& on, int degree);
+  bool read(const std::vector<Text>& on, int degree);
+  std::optional<std::string> doubt_of_none();
   bool look_with(const std::vector<Polynomial>& integrals);
   bool look_among(const BivectorSpace& space, const std::vector<Polynomial>& integrals);
   std::optional<Separation> examine(const Bivector& p, const std::vector<Polynomial>& integrals);
-  void judge_bivector(Separation& result, const Bivector& p,
+  void judge_bivector(Separation& result, const Characteristic& own,
                       const std::vector<Polynomial>& integrals);
   std::string text_of(const std::vector<Polynomial>& coefficients, const std::string& u) const;
   Separation::Relation relation_of(const Multipliers& s, const std::string& u) const;
@@ -88,7 +93,7 @@ class SeparationSearch {
   const SeparationRequest& request_;
   const search::Watch& watch_;
   std::optional<Leaves> leaves_;
-  std::vector<Polynomial> casimirs_;
+  std::vector<Polynomial> casimirs_, functions_;
   std::vector<RealPoint> points_;
   SeparationReport report_;
 };
@@ -104,30 +109,11 @@ std::string SeparationSearch::free_name() const {
   return "u_";
 }
 
-void SeparationSearch::judge_bivector(Separation& result, const Bivector& p,
+void SeparationSearch::judge_bivector(Separation& result, const Characteristic& own,
                                       const std::vector<Polynomial>& integrals) {
   const std::size_t n = leaves_->dimension();
-  std::vector<Polynomial> kernel = casimirs_;
-  kernel.insert(kernel.end(), leaves_->ideal().begin(), leaves_->ideal().end());
-  PolynomialRows slopes;
-  bool tangent = true;
-  for (const Polynomial& c : kernel) {
-    slopes.push_back(leaves_->gradient(c));
-    for (std::size_t i = 0; i < n && tangent; ++i) {
-      Polynomial sum(leaves_->ring());
-      for (std::size_t j = 0; j < n; ++j) sum += entry(p, n, i, j) * slopes.back()[j];
-      tangent = leaves_->vanishes(sum);
-    }
-  }
-  const bool enough = std::ranges::any_of(points_, [&](RealPoint& point) {
-    try {
-      return slopes.empty() ? n == 2 * report_.freedom
-                            : point.rank(slopes) >= n - 2 * report_.freedom;
-    } catch (const NotCertified&) {
-      return false;
-    }
-  });
-  result.tangent = proved_if(tangent && enough);
+  const Bivector& p = own.bivector;
+  result.tangent = proved_if(leaves_->is_tangent(p, own.rows));
   result.compatible = proved_if(all_vanish(*leaves_, schouten(leaves_->bivector(), p, n)));
   result.jacobi = proved_if(all_vanish(*leaves_, schouten(p, p, n)));
   bool commute = true;
@@ -270,7 +256,7 @@ std::optional<Separation> SeparationSearch::examine(const Bivector& p,
   Separation result;
   result.variable = free_name();
   if (!judge_point(result, *own, integrals)) return std::nullopt;
-  judge_bivector(result, own->bivector, integrals);
+  judge_bivector(result, *own, integrals);
   result.commuting = proved_if(roots_commute(*leaves_, own->coefficients));
   if (result.commuting == Verdict::proved)
     judge_multipliers(result, own->coefficients, integrals);
@@ -317,9 +303,21 @@ bool SeparationSearch::look_with(const std::vector<Polynomial>& integrals) {
   return false;
 }
 
-/// With integrals that a search up to a degree finds beside those of the case, or none for 0.
-/// Whether the question is answered, by variables or since there are no more integrals to look for.
-bool SeparationSearch::look(const std::vector<Text>& on, int degree) {
+/// Why "no such bivector" says nothing of functions on the level: empty where it does.
+std::optional<std::string> SeparationSearch::doubt_of_none() {
+  search::System& system = leaves_->system();
+  if (auto reason = search::unknown_relations(system)) return reason;
+  if (auto reason = search::thin_assumptions(system)) return reason;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < leaves_->dimension(); ++i) places.push_back(i);
+  if (!leaves_->on().empty() && !search::is_shown_real_and_prime(leaves_->ideal(), places))
+    return "it was not shown that what vanishes on the level is a combination of its functions";
+  return std::nullopt;
+}
+
+/// Reads the level, with integrals that a search up to a degree finds beside those of the case, or
+/// none for 0. Whether there is something to look for; if not, the report has the reason.
+bool SeparationSearch::read(const std::vector<Text>& on, int degree) {
   std::vector<NamedExpression> level;
   for (const Text& own : on) level.push_back(model_.parse_named(own));
   watch_.begin("integrals");
@@ -327,26 +325,17 @@ bool SeparationSearch::look(const std::vector<Text>& on, int degree) {
                                casimirs = possible_casimirs(model_, watch_);
   std::vector<GiNaC::ex> others = values;
   others.insert(others.end(), casimirs.begin(), casimirs.end());
-  points_.clear();  // of the ring that goes
+  points_.clear();  // of the ring that goes, as all that follows
   casimirs_.clear();
+  functions_.clear();
   leaves_.emplace(model_, level, others);
-  leaves_->system().prover().begin_claim(values, Subject::motion);
+  search::System& system = leaves_->system();
+  system.prover().begin_claim(values, Subject::motion);
   report_.on = names_of(level);
   report_.generic.clear();
-  for (const std::size_t place : leaves_->system().parameters())
-    report_.generic.push_back(leaves_->system().name(place));
+  for (const std::size_t place : system.parameters())
+    report_.generic.push_back(system.name(place));
   report_.freedom = leaves_->degrees_of_freedom();
-  if (report_.freedom < 2) {
-    report_.reason = report_.freedom == 0 ? "the bracket is zero on the level"
-                                          : "the leaves have one degree of freedom: there is "
-                                            "nothing to separate";
-    return true;
-  }
-  points_ = points_of(*leaves_, kPointsOfLevel);
-  if (points_.empty()) {
-    report_.reason = "no exact point was found inside the assumptions on the level";
-    return true;
-  }
   for (const GiNaC::ex& c : casimirs) {
     const Polynomial& own = leaves_->convert(c);
     bool is_one = true;
@@ -354,15 +343,33 @@ bool SeparationSearch::look(const std::vector<Text>& on, int degree) {
       is_one = is_one && leaves_->vanishes(leaves_->bracket(leaves_->ring().variable(i), own));
     if (is_one) casimirs_.push_back(own);
   }
-  std::vector<Polynomial> functions;
   for (const GiNaC::ex& f : values) {
     Polynomial own = leaves_->convert(f);
-    if (functions.empty() || leaves_->vanishes(leaves_->bracket(functions.front(), own)))
-      functions.push_back(std::move(own));
+    if (functions_.empty() || leaves_->vanishes(leaves_->bracket(functions_.front(), own)))
+      functions_.push_back(std::move(own));
   }
+  PolynomialRows slopes;
+  for (const Polynomial& f : functions_) slopes.push_back(leaves_->gradient(f));
+  if (report_.freedom < 2)
+    report_.reason = report_.freedom == 0 ? "the bracket is zero on the level"
+                                          : "the leaves have one degree of freedom: there is "
+                                            "nothing to separate";
+  else if (model_.complex_numbers || !system.prover().has_no_zero_divisors(slopes))
+    report_.reason = "variables that separate are searched for functions without I and |x|";
+  else
+    points_ = points_of(*leaves_, kPointsOfLevel);
+  if (report_.reason.empty() && points_.empty())
+    report_.reason = "no exact point was found inside the assumptions on the level";
+  return report_.reason.empty();
+}
+
+/// Whether the question is answered, or cannot be; else there may be more integrals to look for.
+bool SeparationSearch::look(const std::vector<Text>& on, int degree) {
+  report_.reason.clear();
+  if (!read(on, degree)) return true;
   report_.integrals.clear();
-  for (const Polynomial& f : functions) report_.integrals.push_back(text(f));
-  const auto choices = commuting_choices(*leaves_, functions, points_);
+  for (const Polynomial& f : functions_) report_.integrals.push_back(text(f));
+  const auto choices = commuting_choices(*leaves_, functions_, points_);
   if (choices.empty()) {
     report_.reason = fmt::format(
         "{} integrals in involution are needed whose flows are independent, the Hamiltonian being "
@@ -371,15 +378,16 @@ bool SeparationSearch::look(const std::vector<Text>& on, int degree) {
     return false;
   }
   report_.none = true;
-  report_.reason.clear();
   for (const std::vector<Polynomial>& own : choices)
     if (look_with(own)) return true;
-  if (report_.reason.empty()) {
-    report_.reason = report_.none
-                         ? "no bivector of this degree obeys the conditions that are linear"
-                         : "no bivector that was examined has roots in which the integrals are "
-                           "shown to separate";
-  }
+  std::optional<std::string> doubt;
+  if (report_.none) doubt = doubt_of_none();
+  report_.none = report_.none && !doubt;
+  report_.reason = doubt ? "no bivector of this degree was found, but " + *doubt
+                   : report_.none
+                       ? "no bivector of this degree obeys the conditions that are linear"
+                       : "no bivector that was examined has roots in which the integrals are shown "
+                         "to separate";
   return true;
 }
 
@@ -395,7 +403,11 @@ SeparationReport SeparationSearch::run() {
     std::vector<Text> on;
     for (const NamedExpression& f : model_.conditionals.front().on)
       on.push_back({f.name, f.where, {}});
-    if (look(on, degree)) return report_;
+    try {
+      if (look(on, degree)) return report_;
+    } catch (const NotLeaves&) {
+      continue;  // the case has its integral on another kind of level
+    }
   }
   return report_;
 }

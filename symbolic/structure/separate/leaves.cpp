@@ -68,7 +68,7 @@ void Leaves::read_level() {
   for (std::size_t k = 0; k < on_.size(); ++k) {
     for (std::size_t i = 0; i < dimension(); ++i) {
       if (vanishes(bracket(ring().variable(i), generators[k]))) continue;
-      throw ModelError(fmt::format(
+      throw NotLeaves(fmt::format(
           "the level is not made of symplectic leaves: on it {{{}, {}}} is not shown to be zero",
           system_.name(i), printable(on_[k].name)));
     }
@@ -113,6 +113,37 @@ std::vector<Polynomial> Leaves::gradient(const Polynomial& f) const {
 
 std::vector<std::vector<std::size_t>> Leaves::choices(std::size_t size) const {
   return skew_indices(dimension(), static_cast<int>(size));
+}
+
+bool Leaves::is_tangent(const Bivector& p, const std::vector<std::size_t>& rows) const {
+  const std::size_t n = dimension();
+  const Polynomial whole = pfaffian(bivector_, n, rows);
+  // The inverse of a skew matrix, times its Pfaffian: those of the minors without two rows.
+  std::vector<std::vector<Polynomial>> inverse(
+      rows.size(), std::vector<Polynomial>(rows.size(), Polynomial(ring())));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t j = i + 1; j < rows.size(); ++j) {
+      std::vector<std::size_t> rest;
+      for (std::size_t k = 0; k < rows.size(); ++k)
+        if (k != i && k != j) rest.push_back(rows[k]);
+      const Polynomial minor = pfaffian(bivector_, n, rest);
+      inverse[i][j] = (i + j) % 2 == 0 ? minor : -minor;
+      inverse[j][i] = -inverse[i][j];
+    }
+  }
+  for (std::size_t a = 0; a < n; ++a) {
+    if (std::ranges::find(rows, a) != rows.end()) continue;
+    for (std::size_t x = 0; x < n; ++x) {
+      SumOfProducts sum(ring());
+      sum.add(whole, entry(p, n, x, a));
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        for (std::size_t j = 0; j < rows.size(); ++j)
+          sum.add(-(entry(p, n, x, rows[i]) * inverse[i][j]), entry(bivector_, n, rows[j], a));
+      }
+      if (!vanishes(sum.finish())) return false;
+    }
+  }
+  return true;
 }
 
 std::vector<Polynomial> pfaffian_of_pencil(const Bivector& p, const Bivector& q, std::size_t n,

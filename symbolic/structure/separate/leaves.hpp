@@ -7,14 +7,20 @@
 
 namespace casimir::structure {
 
+/// A level that is not made of symplectic leaves: its functions are no Casimir functions there.
+class NotLeaves : public ModelError {
+ public:
+  using ModelError::ModelError;
+};
+
 /// The symplectic leaves of a case's bracket on a common level of Casimir functions, with functions
 /// on them as polynomials of one ring.
 class Leaves {
  public:
   /// \param on  the level; empty for all of the phase space
   /// \param others  further expressions that will be converted
-  /// \throws ModelError  without a bracket of polynomials, for a motion that depends on time, and
-  ///     where the level is not made of leaves
+  /// \throws ModelError  without a bracket of polynomials and for a motion that depends on time
+  /// \throws NotLeaves
   Leaves(const Model& model, const std::vector<NamedExpression>& on,
          const std::vector<GiNaC::ex>& others);
   Leaves(const Leaves&) = delete;
@@ -47,6 +53,15 @@ class Leaves {
   /// Half the largest dimension that leaves on the level can have: the Pfaffians of all larger
   /// minors of the bracket vanish there.
   std::size_t degrees_of_freedom() const { return freedom_; }
+
+  /// Whether a bivector is tangent to the leaves wherever the Pfaffian of the minor with these 2n
+  /// rows I is not zero.
+  ///
+  /// Theorem: there the kernel of P, of corank N - 2n, is spanned by the covectors
+  /// e_a - sum P_I^(-1)_ij P_ja e_i for a outside of I, and a bivector is made of vectors tangent to
+  /// the leaf exactly where it vanishes on that kernel. Hypothesis: the rank of P is 2n, as that of
+  /// all larger minors is less on the level and that of this one is not.
+  bool is_tangent(const Bivector& p, const std::vector<std::size_t>& rows) const;
 
  private:
   void read_bivector();

@@ -81,7 +81,7 @@ std::optional<Characteristic> characteristic_of(const Leaves& leaves, const Bive
     }
     if (quotients.size() < n) continue;
     // The roots are those of P' times `scale`, the coefficient a_k has its k-th power.
-    Characteristic result{p, {}, minor};
+    Characteristic result{p, {}, own, minor};
     for (Polynomial& component : result.bivector) component = component * scale;
     for (std::size_t k = 1; k <= n; ++k) {
       Polynomial ratio(leaves.ring());

@@ -16,15 +16,16 @@ using RootCoefficients = std::vector<Polynomial>;
 struct Characteristic {
   Bivector bivector;
   RootCoefficients coefficients;
-  Polynomial pfaffian;  ///< of the minor of P by which it was found: it holds where that is not zero
+  std::vector<std::size_t> rows;  ///< of the minor of P by which it was found
+  Polynomial pfaffian;            ///< of that minor: all this holds where it is not zero
 };
 
 /// Of the bivector times a function of the parameters, so that the coefficients are polynomials in
 /// them; empty where they are no polynomials in the coordinates.
 ///
-/// Theorem: if P' dC = 0 for as many independent Casimir functions C of P as there are, P and P'
-/// are made of the same vectors tangent to the leaf, and all Pfaffians of minors of P + t P' with
-/// 2n rows are one polynomial in t times numbers that do not depend on t. So one of them is enough.
+/// Theorem: if P' is tangent to the leaves (`Leaves::is_tangent`), P + t P' is a skew form on the
+/// dual of a space of dimension 2n, and the Pfaffians of its minors with 2n rows are one polynomial
+/// in t times numbers that do not depend on t. So one that is not zero for t = 0 is enough.
 std::optional<Characteristic> characteristic_of(const Leaves& leaves, const Bivector& p,
                                                 const search::Watch& watch);
 

@@ -120,8 +120,10 @@ void print(const Model& model, const SeparationReport& report, double seconds) {
                                         : fmt::format(", for generic values of {}",
                                                       fmt::join(report.generic, ", ")),
                  verdict_text(Verdict::proved, colour));
+    else if (report.freedom == 1)
+      fmt::print("Nothing to do: {}\n", report.reason);
     else
-      fmt::print("None found: {}\n", report.reason);
+      fmt::print("None found ({}): {}\n", verdict_text(Verdict::undecided, colour), report.reason);
   }
   fmt::print("{} found, {:.3f} s\n", report.found.size(), seconds);
 }
