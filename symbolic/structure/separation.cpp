@@ -11,13 +11,15 @@
 #include "symbolic/structure/brackets.hpp"
 #include "symbolic/structure/separate/bivector_ansatz.hpp"
 #include "symbolic/structure/separate/commuting_integrals.hpp"
-#include "symbolic/structure/separate/multipliers.hpp"
+#include "symbolic/structure/separate/separated_equation.hpp"
 
 namespace casimir::structure {
 namespace {
 
 constexpr std::size_t kMostExamined = 60;   ///< bivectors of one space
 constexpr std::size_t kPointsOfLevel = 12;  ///< that are drawn
+constexpr int kHighestInMany = 4;           ///< degree of integrals where variables are many
+constexpr std::size_t kManyCoordinates = 6;
 
 Verdict proved_if(bool shown) { return shown ? Verdict::proved : Verdict::undecided; }
 
@@ -79,6 +81,7 @@ class SeparationSearch {
   void judge_bivector(Separation& result, const Characteristic& own,
                       const std::vector<Polynomial>& integrals);
   std::string text_of(const std::vector<Polynomial>& coefficients, const std::string& u) const;
+  std::string text_of(const SeparatedEquation& equation, const std::string& u) const;
   Separation::Relation relation_of(const Multipliers& s, const std::string& u) const;
   void judge_multipliers(Separation& result, const RootCoefficients& a,
                          const std::vector<Polynomial>& integrals);
@@ -131,21 +134,16 @@ void SeparationSearch::judge_bivector(Separation& result, const Characteristic& 
 }
 
 /// Whether there is a point at which the roots are distinct and, with the integrals, coordinates.
-/// det {u_i, F_j} is det {a_k, F_j} divided by a power of the discriminant up to its sign.
 bool SeparationSearch::judge_point(Separation& result, const Characteristic& own,
                                    const std::vector<Polynomial>& integrals) {
+  auto nonzero = regular_where(*leaves_, own.coefficients, integrals);
+  if (!nonzero) return false;
+  if (!own.pfaffian.is_constant()) nonzero->push_back(leaves_->reduced(own.pfaffian));
+  write_factors(result, *nonzero);
   const std::vector<Polynomial> hermite = hermite_minors(*leaves_, own.coefficients);
-  const Polynomial discriminant = leaves_->reduced(hermite.back());
-  if (discriminant.is_zero()) return false;
-  const Polynomial regular = leaves_->reduced(search::determinant_without_sign(
-      rates_of_coefficients(*leaves_, own.coefficients, integrals), leaves_->ring()));
-  if (regular.is_zero()) return false;
-  std::vector<Polynomial> nonzero{discriminant, regular};
-  if (!own.pfaffian.is_constant()) nonzero.push_back(leaves_->reduced(own.pfaffian));
-  write_factors(result, nonzero);
   for (RealPoint& point : points_) {
     try {
-      if (std::ranges::any_of(nonzero,
+      if (std::ranges::any_of(*nonzero,
                               [&](const Polynomial& p) { return point.value(p).contains_zero(); }))
         continue;
       const bool real = std::ranges::all_of(
@@ -184,8 +182,8 @@ Separation::Relation SeparationSearch::relation_of(const Multipliers& s,
     std::string own = text_of(s[j], u);
     result.multipliers.push_back(own);
     if (own == "0") continue;
-    const bool is_constant =
-        std::ranges::all_of(s[j].begin() + 1, s[j].end(), [](const auto& p) { return p.is_zero(); });
+    const bool is_constant = std::ranges::all_of(s[j].begin() + 1, s[j].end(),
+                                                 [](const auto& p) { return p.is_zero(); });
     if (is_constant && s[j][0].is_constant()) result.may_vanish = false;
     const bool minus = own.starts_with('-') && own.find(' ') == std::string::npos;
     if (minus) own.erase(0, 1);
@@ -198,6 +196,35 @@ Separation::Relation SeparationSearch::relation_of(const Multipliers& s,
   return result;
 }
 
+/// In descending powers of u, times the sum G.
+std::string SeparationSearch::text_of(const SeparatedEquation& equation,
+                                      const std::string& u) const {
+  std::vector<SeparatedEquation::Term> terms = equation.terms;
+  std::ranges::stable_sort(terms, [](const auto& a, const auto& b) {
+    return std::pair(b.degree, b.power) < std::pair(a.degree, a.power);
+  });
+  const cln::cl_RA number =
+      equation.denominator.is_constant() ? equation.denominator.content() : cln::cl_RA(1);
+  const cln::cl_RA sign = equation.denominator.is_constant() &&
+                                  !(equation.denominator == leaves_->ring().constant(number))
+                              ? -1
+                              : 1;
+  std::string sum;
+  for (const SeparatedEquation::Term& one : terms) {
+    std::string own = text(one.coefficient.scaled(sign / number));
+    if (one.coefficient.terms() > 1) own = "(" + own + ")";
+    for (const auto& [name, power] :
+         {std::pair(u, one.power), std::pair(std::string("G"), one.degree)}) {
+      if (power == 0) continue;
+      own = own == "1" ? "" : own == "-1" ? "-" : own + "*";
+      own += power == 1 ? name : fmt::format("{}^{}", name, power);
+    }
+    sum += sum.empty() ? own : own.starts_with('-') ? " - " + own.substr(1) : " + " + own;
+  }
+  if (equation.denominator.is_constant()) return sum.empty() ? "0" : sum;
+  return fmt::format("({})/({})", sum, text(equation.denominator));
+}
+
 void SeparationSearch::judge_multipliers(Separation& result, const RootCoefficients& a,
                                          const std::vector<Polynomial>& integrals) {
   const auto form = staeckel_form(*leaves_, a, integrals, casimirs_, watch_);
@@ -205,12 +232,18 @@ void SeparationSearch::judge_multipliers(Separation& result, const RootCoefficie
   result.staeckel = Verdict::proved;
   for (std::size_t i = 0; i < form->multipliers.size(); ++i) {
     result.relations.push_back(relation_of(form->multipliers[i], result.variable));
-    if (!form->roots.empty()) result.relations.back().root = text(form->roots[i]);
+    Separation::Relation& own = result.relations.back();
+    if (!form->roots.empty()) own.root = text(form->roots[i]);
+    const auto equation =
+        separated_equation(*leaves_, form->roots.empty() ? a : RootCoefficients{-form->roots[i]},
+                           form->multipliers[i], integrals, casimirs_, watch_);
+    if (equation) own.equation = text_of(*equation, result.variable);
   }
 }
 
 /// The factors of what may not be zero, each once, without numbers.
-void SeparationSearch::write_factors(Separation& result, const std::vector<Polynomial>& list) const {
+void SeparationSearch::write_factors(Separation& result,
+                                     const std::vector<Polynomial>& list) const {
   for (const Polynomial& p : list) {
     for (const auto& [factor, exponent] : p.factors()) {
       if (factor.is_constant()) continue;
@@ -258,8 +291,7 @@ std::optional<Separation> SeparationSearch::examine(const Bivector& p,
   if (!judge_point(result, *own, integrals)) return std::nullopt;
   judge_bivector(result, *own, integrals);
   result.commuting = proved_if(roots_commute(*leaves_, own->coefficients));
-  if (result.commuting == Verdict::proved)
-    judge_multipliers(result, own->coefficients, integrals);
+  if (result.commuting == Verdict::proved) judge_multipliers(result, own->coefficients, integrals);
   const auto is_proved = [](Verdict verdict) { return verdict == Verdict::proved; };
   const bool by_bivector = is_proved(result.tangent) && is_proved(result.compatible) &&
                            is_proved(result.jacobi) && is_proved(result.involution);
@@ -333,8 +365,7 @@ bool SeparationSearch::read(const std::vector<Text>& on, int degree) {
   system.prover().begin_claim(values, Subject::motion);
   report_.on = names_of(level);
   report_.generic.clear();
-  for (const std::size_t place : system.parameters())
-    report_.generic.push_back(system.name(place));
+  for (const std::size_t place : system.parameters()) report_.generic.push_back(system.name(place));
   report_.freedom = leaves_->degrees_of_freedom();
   for (const GiNaC::ex& c : casimirs) {
     const Polynomial& own = leaves_->convert(c);
@@ -398,15 +429,19 @@ SeparationReport SeparationSearch::run() {
   }
   // First with what the case claims; the search for more integrals takes longer.
   for (const int degree : {0, 2, 3, 4, 6}) {
+    if (degree > kHighestInMany && model_.variables.size() > kManyCoordinates) break;
     if (look(request_.on, degree)) return report_;
     if (!request_.on.empty() || model_.conditionals.empty()) continue;
+    const std::string reason = report_.reason;
     std::vector<Text> on;
     for (const NamedExpression& f : model_.conditionals.front().on)
       on.push_back({f.name, f.where, {}});
     try {
       if (look(on, degree)) return report_;
     } catch (const NotLeaves&) {
-      continue;  // the case has its integral on another kind of level
+      // The case has its integral on another kind of level.
+      report_.reason = reason;
+      report_.on.clear();
     }
   }
   return report_;

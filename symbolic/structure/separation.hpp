@@ -27,14 +27,15 @@ struct SeparationRequest {
 /// Theorem 1 (Staeckel). On the leaf of dimension 2n let {F_i, F_j} = 0, {u_i, u_j} = 0,
 /// det {u_i, F_j} != 0, and for each i let s_1, .., s_n be polynomials in one variable whose
 /// coefficients are constant on the leaf, not all zero at u_i, such that
-/// sum_j s_j(u_i) {u_k, F_j} = 0 for k != i. Then G_i = sum_j s_j(u_i) F_j is a function of u_i and its momentum alone. Proof: {u_k, G_i} = 0 for
-/// k != i, {G_i, G_k} = 0, as both are sums of products of what vanishes, and w_i = {u_i, G_i} is
-/// not zero, since s(u_i) is orthogonal to all rows of the regular matrix {u_k, F_j} but the i-th.
-/// So by Jacobi's identity w_i commutes with u_k, G_k for k != i, and is a function of u_i, G_i:
-/// there is p_i(u_i, G_i) with {u_i, p_i} = 1. The 2n functions u_i, G_i are independent, as the
-/// matrix of their brackets is regular. Checked: the Jacobi identity; that level and bracket belong
-/// together (`Leaves`); that the rank of the bracket is 2n at most; all brackets as above,
-/// identically on the level; the determinant by that of {a_k, F_j} and the discriminant.
+/// sum_j s_j(u_i) {u_k, F_j} = 0 for k != i. Then G_i = sum_j s_j(u_i) F_j is a function of u_i and
+/// its momentum alone. Proof: {u_k, G_i} = 0 for k != i, {G_i, G_k} = 0, as both are sums of
+/// products of what vanishes, and w_i = {u_i, G_i} is not zero, since s(u_i) is orthogonal to all
+/// rows of the regular matrix {u_k, F_j} but the i-th. So by Jacobi's identity w_i commutes with
+/// u_k, G_k for k != i, and is a function of u_i, G_i: there is p_i(u_i, G_i) with {u_i, p_i} = 1.
+/// The 2n functions u_i, G_i are independent, as the matrix of their brackets is regular. Checked:
+/// the Jacobi identity; that level and bracket belong together (`Leaves`); that the rank of the
+/// bracket is 2n at most; all brackets as above, identically on the level; the determinant by that
+/// of {a_k, F_j} and the discriminant.
 ///
 /// Theorem 2 (Magri; Falqui and Pedroni 2003, Theorem 4.2). Let P' be tangent to the leaves with
 /// [P, P'] = 0 and [P', P'] = 0, the roots of det(P' - u P) be u_1, .., u_n, each twice, distinct
@@ -49,6 +50,9 @@ struct Separation {
     std::string root;                      ///< as a polynomial; empty where it is any of them
     std::vector<std::string> multipliers;  ///< s_1, .., s_n
     std::string sum;                       ///< of the products
+    /// {u, G}^2 as a polynomial in u and the sum G, in the notation of case files; empty where none
+    /// was found. Checked on the level.
+    std::string equation;
     /// No s_j is a number that is not zero, so that where all s_j vanish nothing is said.
     bool may_vanish = false;
   };
@@ -78,12 +82,12 @@ struct Separation {
 /// What a search for such variables found.
 struct SeparationReport {
   int degree = 0;
-  std::size_t freedom = 0;       ///< n, half the dimension of the leaves on the level
-  std::vector<std::string> on;   ///< the level
+  std::size_t freedom = 0;      ///< n, half the dimension of the leaves on the level
+  std::vector<std::string> on;  ///< the level
   std::optional<std::string> bracket_of_motion;  ///< said where the case has no bracket of its own
-  std::vector<std::string> integrals;  ///< in involution, that were looked at
-  std::vector<Separation> found;       ///< the first that was proved, or none
-  std::size_t examined = 0;            ///< bivectors that were looked at
+  std::vector<std::string> integrals;            ///< in involution, that were looked at
+  std::vector<Separation> found;                 ///< the first that was proved, or none
+  std::size_t examined = 0;                      ///< bivectors that were looked at
   /// Proved where nothing was found: no bivector of that degree obeys the linear conditions, beside
   /// multiples of P by Casimir functions, for generic parameters and these integrals.
   bool none = false;

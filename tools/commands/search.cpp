@@ -68,8 +68,8 @@ int answer(const SearchArguments& options, const Model& model, const Report& rep
 /// Of a map: what `search` asks of flows beyond the degree has no meaning there.
 int search_map_case(const MapCaseFile& file, const SearchArguments& options) {
   if (!options.in.empty() || options.casimirs || options.darboux || options.rational ||
-      is_structure(options) || options.separation || !options.on.empty() || !options.functions.empty() ||
-      !options.weights.empty() || !options.free.empty())
+      is_structure(options) || options.separation || !options.on.empty() ||
+      !options.functions.empty() || !options.weights.empty() || !options.free.empty())
     throw UsageError("a search of a map takes --degree and --param only");
   const MapModel map = map_model_of(file, options.common.parameter_values());
   SearchWatch watch(options.common, map.base.name, memory_allowed().value_or(2e9));

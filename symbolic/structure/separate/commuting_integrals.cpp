@@ -98,7 +98,8 @@ std::vector<std::vector<Polynomial>> commuting_choices(const Leaves& leaves,
           if (result.size() < kMostIntegralChoices) result.push_back(std::move(list));
           return;
         }
-        for (std::size_t k = next; k < functions.size() && result.size() < kMostIntegralChoices; ++k) {
+        for (std::size_t k = next; k < functions.size() && result.size() < kMostIntegralChoices;
+             ++k) {
           std::vector<Polynomial> longer = list;
           longer.push_back(functions[k]);
           const bool commute = std::ranges::all_of(list, [&](const Polynomial& f) {

@@ -56,10 +56,10 @@ std::vector<std::vector<search::Entry>> modular(const std::vector<ParametricRow>
 }
 
 /// Of the rows, in the columns that are left, those that are independent modulo the prime.
-std::vector<ParametricRow> independent_rows(
-    const std::vector<ParametricRow>& rows,
-    const std::vector<std::vector<search::Entry>>& residues, const std::vector<std::size_t>& places,
-    const search::Modulus& modulus, std::size_t columns) {
+std::vector<ParametricRow> independent_rows(const std::vector<ParametricRow>& rows,
+                                            const std::vector<std::vector<search::Entry>>& residues,
+                                            const std::vector<std::size_t>& places,
+                                            const search::Modulus& modulus, std::size_t columns) {
   std::vector<std::size_t> order(rows.size());
   for (std::size_t r = 0; r < rows.size(); ++r) order[r] = r;
   std::ranges::stable_sort(order, {}, [&](std::size_t r) { return rows[r].size(); });
@@ -91,8 +91,8 @@ ConstantKernel constant_kernel(const search::System& system,
   const search::Echelon echelon(modulus, residues, columns.size(), watch);
   ConstantKernel result;
   result.bound = echelon.nullity();
-  // What is zero in all solutions modulo the prime is taken to be zero in all: by bad luck that loses
-  // solutions, and the bound says so.
+  // What is zero in all solutions modulo the prime is taken to be zero in all: by bad luck that
+  // loses solutions, and the bound says so.
   std::vector<std::size_t> places(columns.size(), columns.size()), live;
   for (const std::vector<search::Residue>& vector : echelon.null_basis()) {
     for (std::size_t k = 0; k < columns.size(); ++k) {

@@ -58,9 +58,9 @@ class Leaves {
   /// rows I is not zero.
   ///
   /// Theorem: there the kernel of P, of corank N - 2n, is spanned by the covectors
-  /// e_a - sum P_I^(-1)_ij P_ja e_i for a outside of I, and a bivector is made of vectors tangent to
-  /// the leaf exactly where it vanishes on that kernel. Hypothesis: the rank of P is 2n, as that of
-  /// all larger minors is less on the level and that of this one is not.
+  /// e_a - sum P_I^(-1)_ij P_ja e_i for a outside of I, and a bivector is made of vectors tangent
+  /// to the leaf exactly where it vanishes on that kernel. Hypothesis: the rank of P is 2n, as that
+  /// of all larger minors is less on the level and that of this one is not.
   bool is_tangent(const Bivector& p, const std::vector<std::size_t>& rows) const;
 
  private:

@@ -1,6 +1,7 @@
 #include "symbolic/structure/separate/multipliers.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "symbolic/search/modular/monomials.hpp"
 #include "symbolic/structure/separate/constant_kernel.hpp"
@@ -8,7 +9,8 @@
 namespace casimir::structure {
 namespace {
 
-constexpr int kHighestOfCasimirsInMultipliers = 2;
+/// The degree of products of Casimir functions, by the number of these.
+constexpr std::array<int, 4> kHighestOfProducts{0, 6, 4, 3};
 
 /// A polynomial in two of the roots, x and y, by the coefficients of x^i y^j.
 using TwoRoots = std::vector<std::vector<Polynomial>>;
@@ -54,27 +56,6 @@ TwoRoots moved_by(const std::vector<std::vector<Polynomial>>& rates, std::size_t
   return result;
 }
 
-/// Products of Casimir functions, 1 first: what constants may be made of on a leaf.
-std::vector<Polynomial> leaf_constants(const Leaves& leaves,
-                                       const std::vector<Polynomial>& casimirs) {
-  std::vector<Polynomial> own, result;
-  for (const Polynomial& c : casimirs) {
-    Polynomial p = leaves.reduced(c);
-    bool moves = false;
-    for (std::size_t i = 0; i < leaves.dimension(); ++i) moves = moves || p.uses(i);
-    if (moves && std::ranges::find(own, p) == own.end()) own.push_back(std::move(p));
-  }
-  for (const std::vector<int>& e : search::products_up_to(std::vector<int>(own.size(), 1),
-                                                          kHighestOfCasimirsInMultipliers, 0)) {
-    Polynomial product = leaves.ring().constant(1);
-    for (std::size_t g = 0; g < e.size(); ++g)
-      product = product * own[g].pow(static_cast<unsigned long>(e[g]));
-    result.push_back(std::move(product));
-  }
-  std::ranges::stable_sort(result, {}, [](const Polynomial& p) { return p.total_degree(); });
-  return result;
-}
-
 /// Divided by all that the coefficients have in common, the first one with a positive lead.
 void make_primitive(Multipliers& s) {
   std::optional<Polynomial> common;
@@ -95,8 +76,7 @@ void make_primitive(Multipliers& s) {
         content = own;
       else
         content = cln::cl_RA(cln::gcd(cln::numerator(content), cln::numerator(own))) /
-                  cln::lcm(cln::denominator(content), cln::denominator(own)) *
-                  cln::signum(content);
+                  cln::lcm(cln::denominator(content), cln::denominator(own)) * cln::signum(content);
     }
   }
   for (std::vector<Polynomial>& row : s)
@@ -124,8 +104,8 @@ bool hold(const Leaves& leaves, const Multipliers& s, const VectorOfPower& summa
 
 /// The multipliers of the lowest degree for which the sums of the vectors vanish.
 std::optional<Multipliers> lowest(const Leaves& leaves, std::size_t n,
-                                  const std::vector<Polynomial>& constants, const VectorOfPower& summand,
-                                  const search::Watch& watch) {
+                                  const std::vector<Polynomial>& constants,
+                                  const VectorOfPower& summand, const search::Watch& watch) {
   struct Coefficient {
     std::size_t j, power, constant;
   };
@@ -174,6 +154,36 @@ std::optional<StaeckelForm> form_of_each(const Leaves& leaves, const std::vector
 }
 
 }  // namespace
+
+std::vector<Polynomial> leaf_constants(const Leaves& leaves,
+                                       const std::vector<Polynomial>& casimirs) {
+  std::vector<Polynomial> own, result;
+  for (const Polynomial& c : casimirs) {
+    Polynomial p = leaves.reduced(c);
+    bool moves = false;
+    for (std::size_t i = 0; i < leaves.dimension(); ++i) moves = moves || p.uses(i);
+    if (moves && std::ranges::find(own, p) == own.end()) own.push_back(std::move(p));
+  }
+  const int highest = own.size() < kHighestOfProducts.size() ? kHighestOfProducts[own.size()] : 1;
+  std::vector<int> degrees;
+  for (const Polynomial& p : own) {
+    int degree = 1;
+    for (const auto& [number, exponents] : p.term_list()) {
+      int sum = 0;
+      for (std::size_t i = 0; i < leaves.dimension(); ++i) sum += static_cast<int>(exponents[i]);
+      degree = std::max(degree, sum);
+    }
+    degrees.push_back(degree);
+  }
+  for (const std::vector<int>& e : search::products_up_to(degrees, highest, 0)) {
+    Polynomial product = leaves.ring().constant(1);
+    for (std::size_t g = 0; g < e.size(); ++g)
+      product = product * own[g].pow(static_cast<unsigned long>(e[g]));
+    result.push_back(std::move(product));
+  }
+  std::ranges::stable_sort(result, {}, [](const Polynomial& p) { return p.total_degree(); });
+  return result;
+}
 
 std::optional<StaeckelForm> staeckel_form(const Leaves& leaves, const RootCoefficients& a,
                                           const std::vector<Polynomial>& integrals,

@@ -15,6 +15,10 @@ struct StaeckelForm {
   std::vector<Multipliers> multipliers;
 };
 
+/// Products of Casimir functions, 1 first: what constants may be made of on a leaf.
+std::vector<Polynomial> leaf_constants(const Leaves& leaves,
+                                       const std::vector<Polynomial>& casimirs);
+
 /// Of the lowest degree in the root, up to a moderate one; empty where there are none. Each
 /// equation is checked after they were found.
 std::optional<StaeckelForm> staeckel_form(const Leaves& leaves, const RootCoefficients& a,

@@ -31,16 +31,16 @@ bool keeps_functions(const Leaves& leaves, std::size_t mask) {
     const GiNaC::symbol& x = system.model().variables[i];
     if ((mask >> i & 1) != 0) values[x] = -x;
   }
-  for (std::size_t g = system.functions().symbols().size(); g < system.functions().end_of_generators();
-       ++g) {
+  for (std::size_t g = system.functions().symbols().size();
+       g < system.functions().end_of_generators(); ++g) {
     const GiNaC::ex own = system.expression(leaves.ring().variable(g));
     if (!(own.subs(values) - own).expand().is_zero()) return false;
   }
   return true;
 }
 
-std::optional<Reflection> reflection(const Leaves& leaves,
-                                     const std::vector<Polynomial>& integrals, std::size_t mask) {
+std::optional<Reflection> reflection(const Leaves& leaves, const std::vector<Polynomial>& integrals,
+                                     std::size_t mask) {
   std::optional<bool> odd;
   const std::vector<std::vector<std::size_t>> pairs = skew_indices(leaves.dimension(), 2);
   for (std::size_t c = 0; c < pairs.size(); ++c) {
@@ -52,8 +52,8 @@ std::optional<Reflection> reflection(const Leaves& leaves,
     odd = own;
   }
   const auto has_sign = [&](const Polynomial& p) { return sign_of(p, mask).has_value(); };
-  if (!std::ranges::all_of(leaves.ideal(), has_sign) ||
-      !std::ranges::all_of(integrals, has_sign) || !keeps_functions(leaves, mask))
+  if (!std::ranges::all_of(leaves.ideal(), has_sign) || !std::ranges::all_of(integrals, has_sign) ||
+      !keeps_functions(leaves, mask))
     return std::nullopt;
   return Reflection{mask, odd.value_or(false)};
 }

@@ -151,6 +151,17 @@ std::vector<std::vector<Polynomial>> rates_of_coefficients(
   return result;
 }
 
+std::optional<std::vector<Polynomial>> regular_where(const Leaves& leaves,
+                                                     const RootCoefficients& a,
+                                                     const std::vector<Polynomial>& integrals) {
+  Polynomial discriminant = leaves.reduced(hermite_minors(leaves, a).back());
+  if (discriminant.is_zero()) return std::nullopt;
+  Polynomial rates = leaves.reduced(
+      search::determinant_without_sign(rates_of_coefficients(leaves, a, integrals), leaves.ring()));
+  if (rates.is_zero()) return std::nullopt;
+  return std::vector<Polynomial>{std::move(discriminant), std::move(rates)};
+}
+
 std::optional<std::vector<Polynomial>> polynomial_roots(const Leaves& leaves,
                                                         const RootCoefficients& a) {
   const PolynomialRing larger(leaves.ring().size() + 1);

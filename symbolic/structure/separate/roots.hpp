@@ -42,6 +42,14 @@ std::vector<Polynomial> hermite_minors(const Leaves& leaves, const RootCoefficie
 std::vector<std::vector<Polynomial>> rates_of_coefficients(
     const Leaves& leaves, const RootCoefficients& a, const std::vector<Polynomial>& integrals);
 
+/// The discriminant of the roots and det {a_k, F_j}, both modulo the ideal of the level; empty
+/// where one of them is zero. Where neither is, the roots are distinct and, with the integrals,
+/// coordinates on the leaf: {u_i, F_j} = -sum_k {a_k, F_j} u_i^(n-k) / D'(u_i), so that det {u_i,
+/// F_j} is det {a_k, F_j} times Vandermonde's determinant over the product of all D'(u_i).
+std::optional<std::vector<Polynomial>> regular_where(const Leaves& leaves,
+                                                     const RootCoefficients& a,
+                                                     const std::vector<Polynomial>& integrals);
+
 /// The roots, where all of them are polynomials; empty where this is not so.
 std::optional<std::vector<Polynomial>> polynomial_roots(const Leaves& leaves,
                                                         const RootCoefficients& a);

@@ -263,6 +263,18 @@ TEST(SearchStructure, SecondBracketsHaveChains) {
   EXPECT_EQ(found.at("first").at("jacobi"), "proved");
 }
 
+TEST(SearchStructure, VariablesThatSeparateAreTheRootsOfAPolynomial) {
+  const Folder folder;
+  const Json found =
+      answered(folder, {"search", "goryachev-chaplygin", "--separation", "--degree", "2"});
+  ASSERT_EQ(found.at("separations").size(), 1u);
+  const Json& own = found.at("separations")[0];
+  EXPECT_EQ(own.at("separated"), "proved");
+  EXPECT_EQ(own.at("staeckel"), "proved");
+  EXPECT_EQ(own.at("polynomial"), "u^2 + (2*M3)*u + (-M1^2 - M2^2)");
+  EXPECT_EQ(own.at("relations")[0].at("sum"), "u*F1 - F2");
+}
+
 TEST(SearchStructure, DarbouxPolynomialsAreCombined) {
   const Folder folder;
   const std::string file =

@@ -65,6 +65,7 @@ if _TYPE_CHECKING:
         Rotation,
         Search,
         Section,
+        Separations,
         Solution,
         SymmetricCycle,
         Verification,
@@ -95,7 +96,7 @@ __all__ = [
     "Cycle", "DarbouxPolynomial", "Degrees", "Enclosure", "Ensemble", "EnvironmentProblem", "Equilibrium", "Error",
     "Exponent", "Exponents", "Findings", "Found", "Frequencies", "Horseshoe", "Iterates", "Map", "MapSearch",
     "ModelError", "NoAnswer", "Obstruction", "Orbit", "PreciseEnd", "Proof", "ProvedCycle", "ProvedEquilibrium",
-    "Relation", "Report", "RequestError", "Rotation", "Run", "Search", "Section", "SingularPoint", "Solution",
-    "Stress", "Sweep", "SymmetricCycle", "System", "UndecidedError", "Verification", "Witness", "cases", "check",
+    "Relation", "Report", "RequestError", "Rotation", "Run", "Search", "Section", "Separations", "SingularPoint",
+    "Solution", "Stress", "Sweep", "SymmetricCycle", "System", "UndecidedError", "Verification", "Witness", "cases", "check",
     "load", "load_map", "maps", "methods", "new", "survey",
 ]

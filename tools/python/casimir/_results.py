@@ -170,6 +170,20 @@ class Findings(Sequence[dict[str, Any]]):
         return table([self._what], rows)
 
 
+class Separations(Findings):
+    """Variables that separate: one system of them, or none. True where there is one.
+
+    `verdict` is 'proved' where one is proved, or that there is none of the kind that was looked for (`none`).
+    """
+
+    def __bool__(self) -> bool:
+        return _truth(self.verdict, f"whether there are {self._what}") and bool(self.found)
+
+    def __repr__(self) -> str:
+        end = "proved" if self.found else f"none: {self.verdict}, {self.reason}"
+        return "\n".join([f"<{len(self)} {self._what}; {end}>"] + [f"  {one}" for one in self.found])
+
+
 @dataclass(frozen=True)
 class Relation:
     """Whether one case is another in linear coordinates. True where there is such a map."""

@@ -8,6 +8,7 @@
 #include "symbolic/structure/conformal.hpp"
 #include "symbolic/structure/relate/relate.hpp"
 #include "symbolic/structure/relate/symmetries.hpp"
+#include "symbolic/structure/separation.hpp"
 #include "symbolic/structure/tensors.hpp"
 #include "tools/python/core/bindings.hpp"
 #include "tools/python/core/exact_work.hpp"
@@ -124,6 +125,37 @@ py::object brackets(const Case& self, int degree, bool second, double seconds, d
   });
 }
 
+py::dict to_python(const structure::Separation& own) {
+  py::list relations;
+  for (const structure::Separation::Relation& one : own.relations)
+    relations.append(py::dict("root"_a = one.root, "multipliers"_a = one.multipliers,
+                              "sum"_a = one.sum, "equation"_a = one.equation,
+                              "may_vanish"_a = one.may_vanish));
+  return py::dict("integrals"_a = own.integrals, "bivector"_a = table_of(own.bivector),
+                  "variable"_a = own.variable, "coefficients"_a = own.coefficients,
+                  "polynomial"_a = own.polynomial, "separated"_a = to_string(own.separated),
+                  "staeckel"_a = to_string(own.staeckel), "relations"_a = relations,
+                  "nonzero"_a = own.nonzero, "point"_a = own.point, "real"_a = own.real);
+}
+
+py::object separation(const Case& self, int degree, const Names& on, double seconds,
+                      double memory) {
+  Interrupt interrupt;
+  const auto find = [&] {
+    return structure::find_separation(self.model(), {degree, typed(on, "on")},
+                                      watched(interrupt, seconds, memory));
+  };
+  return exactly(interrupt, find, [](const structure::SeparationReport& report) {
+    py::list found;
+    for (const structure::Separation& own : report.found) found.append(to_python(own));
+    return py::dict(
+        "found"_a = found, "degrees_of_freedom"_a = report.freedom, "on"_a = report.on,
+        "integrals"_a = report.integrals, "none"_a = report.none,
+        "verdict"_a = verdict_of(!report.found.empty() || report.none || report.freedom == 1),
+        "reason"_a = report.reason, "generic"_a = report.generic);
+  });
+}
+
 py::object relate(const Case& a, const Case& b, bool with_hamiltonian, double seconds,
                   double memory) {
   Interrupt interrupt;
@@ -165,6 +197,7 @@ void bind_structure(py::module_& module) {
   module.def("conformal_tensors", &conformal_tensors);
   module.def("darboux_conditions", &darboux_conditions);
   module.def("brackets", &brackets);
+  module.def("separation", &separation);
   module.def("relate", &relate);
   module.def("symmetries", &symmetries);
 }

@@ -36,6 +36,7 @@ nlohmann::ordered_json json_of(const Separation& own) {
   for (const Separation::Relation& one : own.relations) {
     relations.push_back({{"multipliers", one.multipliers}, {"sum", one.sum}});
     if (!one.root.empty()) relations.back()["root"] = one.root;
+    if (!one.equation.empty()) relations.back()["equation"] = one.equation;
     relations.back()["may_vanish"] = one.may_vanish;
   }
   result["relations"] = relations;
@@ -70,10 +71,12 @@ void print_separation(const Separation& own) {
            ? "Staeckel form: a sum of the integrals is a function of one root and its momentum"
            : "Staeckel form with polynomials in one root (none was found)",
        own.staeckel);
-  for (const Separation::Relation& one : own.relations)
-    fmt::print("    {} for {}{}\n", one.sum,
+  for (const Separation::Relation& one : own.relations) {
+    fmt::print("    G = {} for {}{}\n", one.sum,
                one.root.empty() ? "each root " + u : fmt::format("the root {} = {}", u, one.root),
                one.may_vanish ? ", where its coefficients are not all zero" : "");
+    if (!one.equation.empty()) fmt::print("    {{{}, G}}^2 = {}\n", u, one.equation);
+  }
 }
 
 }  // namespace
@@ -82,8 +85,7 @@ bool is_answered(const SeparationReport& report) {
   return !report.found.empty() || report.none || report.freedom == 1;
 }
 
-nlohmann::ordered_json to_json(const Model& model, const SeparationReport& report,
-                               double seconds) {
+nlohmann::ordered_json to_json(const Model& model, const SeparationReport& report, double seconds) {
   nlohmann::ordered_json json{{"case", model.name},
                               {"degree", report.degree},
                               {"degrees_of_freedom", report.freedom},
@@ -106,9 +108,9 @@ void print(const Model& model, const SeparationReport& report, double seconds) {
   fmt::print("{}: variables that separate, by a second bivector of degree {} at most\n", model.name,
              report.degree);
   if (report.bracket_of_motion) fmt::print("bracket found: {}\n", *report.bracket_of_motion);
-  fmt::print("{} degrees of freedom{}\n", report.freedom,
-             report.on.empty() ? ""
-                               : fmt::format(" on the level {} = 0", fmt::join(report.on, " = ")));
+  fmt::print(
+      "{} degrees of freedom{}\n", report.freedom,
+      report.on.empty() ? "" : fmt::format(" on the level {} = 0", fmt::join(report.on, " = ")));
   for (const Separation& own : report.found) print_separation(own);
   if (report.found.empty()) {
     if (!report.integrals.empty())
@@ -116,9 +118,9 @@ void print(const Model& model, const SeparationReport& report, double seconds) {
                  fmt::join(report.integrals, "; "));
     if (report.none)
       fmt::print("No such bivector up to degree {}{}: {}\n", report.degree,
-                 report.generic.empty() ? ""
-                                        : fmt::format(", for generic values of {}",
-                                                      fmt::join(report.generic, ", ")),
+                 report.generic.empty()
+                     ? ""
+                     : fmt::format(", for generic values of {}", fmt::join(report.generic, ", ")),
                  verdict_text(Verdict::proved, colour));
     else if (report.freedom == 1)
       fmt::print("Nothing to do: {}\n", report.reason);

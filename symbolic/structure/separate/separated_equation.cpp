@@ -1,0 +1,191 @@
+#include "symbolic/structure/separate/separated_equation.hpp"
+
+#include <algorithm>
+
+#include "symbolic/structure/separate/constant_kernel.hpp"
+
+namespace casimir::structure {
+namespace {
+
+constexpr std::size_t kHighestPowerOfRoot = 8, kHighestPowerOfSum = 2;
+constexpr std::size_t kMostTermsOfSeparated = 150000;  ///< of all columns together
+
+/// Functions on the leaf with a root u: remainders modulo u^n + a_1 u^(n-1) + .. + a_n by their
+/// coefficients, the constant one first.
+class WithRoot {
+ public:
+  using Element = std::vector<Polynomial>;
+
+  WithRoot(const Leaves& leaves, const RootCoefficients& a) : leaves_(leaves), a_(a) {}
+
+  Element constant(const Polynomial& p) const { return reduced({p}); }
+  Element root() const { return reduced({Polynomial(leaves_.ring()), leaves_.ring().constant(1)}); }
+  /// sum of coefficients times powers of u.
+  Element reduced(Element p) const {
+    const std::size_t n = a_.size();
+    for (std::size_t m = p.size(); m-- > n;) {
+      if (!p[m].is_zero()) {
+        for (std::size_t k = 1; k <= n; ++k) p[m - k] -= p[m] * a_[k - 1];
+      }
+    }
+    p.resize(n, Polynomial(leaves_.ring()));
+    for (Polynomial& c : p) c = on_level(c);
+    return p;
+  }
+  Element product(const Element& a, const Element& b) const {
+    Element result(a.size() + b.size() - 1, Polynomial(leaves_.ring()));
+    for (std::size_t i = 0; i < a.size(); ++i)
+      for (std::size_t j = 0; j < b.size(); ++j)
+        if (!a[i].is_zero() && !b[j].is_zero()) result[i + j] += a[i] * b[j];
+    return reduced(std::move(result));
+  }
+  Element sum(Element a, const Element& b) const {
+    for (std::size_t i = 0; i < a.size(); ++i) a[i] += b[i];
+    return a;
+  }
+  /// D'(u).
+  Element slope() const {
+    const std::size_t n = a_.size();
+    Element result(n, Polynomial(leaves_.ring()));
+    result[n - 1] = leaves_.ring().constant(static_cast<long>(n));
+    for (std::size_t k = 1; k < n; ++k)
+      result[n - 1 - k] = a_[k - 1].scaled(static_cast<long>(n - k));
+    return reduced(std::move(result));
+  }
+  /// -sum_k {a_k, f} u^(n-k), which is D'(u) {u, f}.
+  Element moved(const Polynomial& f) const {
+    Element result;
+    for (std::size_t k = a_.size(); k-- > 0;) result.push_back(-leaves_.bracket(a_[k], f));
+    return reduced(std::move(result));
+  }
+
+ private:
+  /// Modulo the level, where this keeps denominators.
+  Polynomial on_level(const Polynomial& p) const {
+    const Polynomial own = leaves_.system().functions().reduced(p);
+    if (leaves_.ideal().empty()) return own;
+    std::vector<Polynomial> quotients;
+    return own.remainder(leaves_.ideal(), &quotients);
+  }
+
+  const Leaves& leaves_;
+  const RootCoefficients& a_;
+};
+
+struct Column {
+  std::size_t power, degree, constant;
+};
+
+/// The columns of one set of equations, times one function so that no denominator is left.
+std::vector<std::vector<Polynomial>> without_denominators(
+    const Leaves& leaves, const std::vector<WithRoot::Element>& columns) {
+  std::vector<Polynomial> all;
+  for (const WithRoot::Element& own : columns) all.insert(all.end(), own.begin(), own.end());
+  all = leaves.system().functions().common_numerators(std::move(all));
+  std::vector<std::vector<Polynomial>> result;
+  std::size_t next = 0;
+  for (const WithRoot::Element& own : columns) {
+    result.emplace_back();
+    for (std::size_t i = 0; i < own.size(); ++i)
+      result.back().push_back(leaves.reduced(all[next++]));
+  }
+  return result;
+}
+
+std::size_t terms_of(const WithRoot::Element& element) {
+  std::size_t sum = 0;
+  for (const Polynomial& p : element) sum += p.terms();
+  return sum;
+}
+
+class EquationSearch {
+ public:
+  EquationSearch(const Leaves& leaves, const RootCoefficients& a, const Multipliers& s,
+                 const std::vector<Polynomial>& integrals, std::vector<Polynomial> constants)
+      : leaves_(leaves), with_root_(leaves, a), constants_(std::move(constants)) {
+    sum_ = with_root_.constant(Polynomial(leaves.ring()));
+    WithRoot::Element rate = sum_;
+    for (std::size_t j = 0; j < s.size(); ++j) {
+      const WithRoot::Element own = with_root_.reduced(s[j]);
+      sum_ = with_root_.sum(sum_, with_root_.product(own, with_root_.constant(integrals[j])));
+      rate = with_root_.sum(rate, with_root_.product(own, with_root_.moved(integrals[j])));
+    }
+    const WithRoot::Element slope = with_root_.slope();
+    slope_squared_ = with_root_.product(slope, slope);
+    columns_.push_back(with_root_.product(rate, rate));
+  }
+
+  /// The equation of lowest degree in G, and then in u.
+  std::optional<SeparatedEquation> run(const search::Watch& watch) {
+    for (std::size_t highest = 1; highest <= kHighestPowerOfSum; ++highest) {
+      begin(highest);
+      for (std::size_t power = 0; power <= kHighestPowerOfRoot; ++power) {
+        if (!add_power(power)) break;
+        if (auto result = solved(watch)) return result;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  void begin(std::size_t highest) {
+    columns_.resize(1, columns_.front());
+    places_.clear();
+    powers_of_sum_.assign(1, slope_squared_);
+    while (powers_of_sum_.size() <= highest)
+      powers_of_sum_.push_back(with_root_.product(powers_of_sum_.back(), sum_));
+    terms_ = terms_of(columns_.front());
+  }
+  /// False where the polynomials become too long.
+  bool add_power(std::size_t power) {
+    for (std::size_t degree = 0; degree < powers_of_sum_.size(); ++degree) {
+      WithRoot::Element& own = powers_of_sum_[degree];
+      if (power > 0) own = with_root_.product(own, with_root_.root());
+      for (std::size_t c = 0; c < constants_.size(); ++c) {
+        places_.push_back({power, degree, c});
+        columns_.push_back(with_root_.product(own, with_root_.constant(constants_[c])));
+        terms_ += terms_of(columns_.back());
+      }
+    }
+    return terms_ <= kMostTermsOfSeparated;
+  }
+
+  std::optional<SeparatedEquation> solved(const search::Watch& watch) const {
+    const std::vector<std::vector<Polynomial>> columns = without_denominators(leaves_, columns_);
+    for (const ParametricRow& solution : constant_kernel(leaves_.system(), columns, watch).basis) {
+      if (!solution.contains(0)) continue;
+      std::vector<Polynomial> sums(columns.front().size(), Polynomial(leaves_.ring()));
+      SeparatedEquation result{{}, solution.at(0)};
+      for (const auto& [k, number] : solution) {
+        for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += number * columns[k][i];
+        if (k == 0) continue;
+        const Column& own = places_[k - 1];
+        result.terms.push_back({own.power, own.degree, -(number * constants_[own.constant])});
+      }
+      if (std::ranges::all_of(sums, [&](const Polynomial& p) { return leaves_.vanishes(p); }))
+        return result;
+    }
+    return std::nullopt;
+  }
+
+  const Leaves& leaves_;
+  WithRoot with_root_;
+  std::vector<Polynomial> constants_;
+  WithRoot::Element sum_, slope_squared_;
+  std::vector<WithRoot::Element> powers_of_sum_;
+  std::vector<WithRoot::Element> columns_;  ///< the square of D'(u) {u, G} first
+  std::vector<Column> places_;              ///< of the others
+  std::size_t terms_ = 0;
+};
+
+}  // namespace
+
+std::optional<SeparatedEquation> separated_equation(const Leaves& leaves, const RootCoefficients& a,
+                                                    const Multipliers& s,
+                                                    const std::vector<Polynomial>& integrals,
+                                                    const std::vector<Polynomial>& casimirs,
+                                                    const search::Watch& watch) {
+  return EquationSearch(leaves, a, s, integrals, leaf_constants(leaves, casimirs)).run(watch);
+}
+
+}  // namespace casimir::structure
