@@ -11,7 +11,7 @@
 #include "symbolic/structure/brackets.hpp"
 #include "symbolic/structure/separate/bivector_ansatz.hpp"
 #include "symbolic/structure/separate/commuting_integrals.hpp"
-#include "symbolic/structure/separate/separated_equation.hpp"
+#include "symbolic/structure/separate/judge.hpp"
 
 namespace casimir::structure {
 namespace {
@@ -20,12 +20,6 @@ constexpr std::size_t kMostExamined = 60;   ///< bivectors of one space
 constexpr std::size_t kPointsOfLevel = 12;  ///< that are drawn
 constexpr int kHighestInMany = 4;           ///< degree of integrals where variables are many
 constexpr std::size_t kManyCoordinates = 6;
-
-Verdict proved_if(bool shown) { return shown ? Verdict::proved : Verdict::undecided; }
-
-bool all_vanish(const Leaves& leaves, const std::vector<Polynomial>& list) {
-  return std::ranges::all_of(list, [&](const Polynomial& p) { return leaves.vanishes(p); });
-}
 
 /// The case itself or, of bare equations, with the first bracket that is found for them.
 struct WithBracket {
@@ -77,24 +71,18 @@ class SeparationSearch {
   std::optional<std::string> doubt_of_none();
   bool look_with(const std::vector<Polynomial>& integrals);
   bool look_among(const BivectorSpace& space, const std::vector<Polynomial>& integrals);
-  std::optional<Separation> examine(const Bivector& p, const std::vector<Polynomial>& integrals);
-  void judge_bivector(Separation& result, const Characteristic& own,
-                      const std::vector<Polynomial>& integrals);
-  std::string text_of(const std::vector<Polynomial>& coefficients, const std::string& u) const;
-  std::string text_of(const SeparatedEquation& equation, const std::string& u) const;
-  Separation::Relation relation_of(const Multipliers& s, const std::string& u) const;
-  void judge_multipliers(Separation& result, const RootCoefficients& a,
-                         const std::vector<Polynomial>& integrals);
-  bool judge_point(Separation& result, const Characteristic& own,
-                   const std::vector<Polynomial>& integrals);
-  void write_factors(Separation& result, const std::vector<Polynomial>& list) const;
-  void write_roots(Separation& result, const Characteristic& own);
   std::string text(const Polynomial& p) const { return leaves_->system().functions().text(p); }
   std::string free_name() const;
+  SeparationJudge judge() {
+    return SeparationJudge(*leaves_, casimirs_, points_, free_name(), watch_);
+  }
+  void read_roots();
+  void look_at_roots(const std::vector<std::vector<Polynomial>>& choices);
 
   const Model& model_;
   const SeparationRequest& request_;
   const search::Watch& watch_;
+  std::vector<GiNaC::ex> roots_;  ///< the coefficients of the polynomial that was given
   std::optional<Leaves> leaves_;
   std::vector<Polynomial> casimirs_, functions_;
   std::vector<RealPoint> points_;
@@ -105,202 +93,49 @@ class SeparationSearch {
 std::string SeparationSearch::free_name() const {
   const auto used = [&](const std::string& name) {
     const auto is = [&](const GiNaC::symbol& own) { return own.get_name() == name; };
-    return std::ranges::any_of(model_.variables, is) || std::ranges::any_of(model_.parameters, is);
+    const auto is_named = [&](const NamedExpression& own) { return own.name == name; };
+    return std::ranges::any_of(model_.variables, is) ||
+           std::ranges::any_of(model_.parameters, is) ||
+           std::ranges::any_of(model_.definitions, is_named) ||
+           std::ranges::any_of(model_.casimirs, is_named) ||
+           std::ranges::any_of(model_.integrals, is_named);
   };
   for (const char* name : {"u", "v", "w", "z", "s", "lambda"})
     if (!used(name)) return name;
   return "u_";
 }
 
-void SeparationSearch::judge_bivector(Separation& result, const Characteristic& own,
-                                      const std::vector<Polynomial>& integrals) {
-  const std::size_t n = leaves_->dimension();
-  const Bivector& p = own.bivector;
-  result.tangent = proved_if(leaves_->is_tangent(p, own.rows));
-  result.compatible = proved_if(all_vanish(*leaves_, schouten(leaves_->bivector(), p, n)));
-  result.jacobi = proved_if(all_vanish(*leaves_, schouten(p, p, n)));
-  bool commute = true;
-  for (std::size_t f = 0; f < integrals.size(); ++f) {
-    const std::vector<Polynomial> a = leaves_->gradient(integrals[f]);
-    for (std::size_t g = f + 1; g < integrals.size(); ++g) {
-      const std::vector<Polynomial> b = leaves_->gradient(integrals[g]);
-      Polynomial sum(leaves_->ring());
-      for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j) sum += entry(p, n, i, j) * a[i] * b[j];
-      commute = commute && leaves_->vanishes(sum);
-    }
-  }
-  result.involution = proved_if(commute);
+/// The coefficients of the polynomial that was given, where the highest one is 1.
+void SeparationSearch::read_roots() {
+  if (!request_.roots) return;
+  const GiNaC::symbol u(free_name());
+  Model with_root = model_;
+  with_root.parameters.push_back(u);
+  const GiNaC::ex given = with_root.parse(*request_.roots).expand();
+  if (!given.is_polynomial(u) || given.degree(u) < 1)
+    throw request_.roots->error(fmt::format("'{}' is not a polynomial in {}",
+                                            printable(request_.roots->value), free_name()));
+  const int n = given.degree(u);
+  for (int k = 1; k <= n; ++k)
+    roots_.push_back((given.coeff(u, n - k) / given.coeff(u, n)).normal());
 }
 
-/// Whether there is a point at which the roots are distinct and, with the integrals, coordinates.
-bool SeparationSearch::judge_point(Separation& result, const Characteristic& own,
-                                   const std::vector<Polynomial>& integrals) {
-  auto nonzero = regular_where(*leaves_, own.coefficients, integrals);
-  if (!nonzero) return false;
-  if (!own.pfaffian.is_constant()) nonzero->push_back(leaves_->reduced(own.pfaffian));
-  write_factors(result, *nonzero);
-  const std::vector<Polynomial> hermite = hermite_minors(*leaves_, own.coefficients);
-  for (RealPoint& point : points_) {
-    try {
-      if (std::ranges::any_of(*nonzero,
-                              [&](const Polynomial& p) { return point.value(p).contains_zero(); }))
-        continue;
-      const bool real = std::ranges::all_of(
-          hermite, [&](const Polynomial& p) { return point.value(p).sign() == 1; });
-      if (result.distinct == Verdict::proved && (result.real || !real)) continue;
-      result.distinct = Verdict::proved;
-      result.real = real;
-      result.point = point.text();
-    } catch (const NotCertified&) {
-      continue;
-    }
+/// The first choice of integrals that separate in the roots, or else the first one.
+void SeparationSearch::look_at_roots(const std::vector<std::vector<Polynomial>>& choices) {
+  if (roots_.size() != report_.freedom)
+    throw request_.roots->error(
+        fmt::format("a polynomial of degree {} is needed, as the leaves have "
+                    "dimension {}; this one has degree {}",
+                    report_.freedom, 2 * report_.freedom, roots_.size()));
+  RootCoefficients a;
+  for (const GiNaC::ex& own : roots_) a.push_back(leaves_->convert(own));
+  for (const std::vector<Polynomial>& integrals : choices) {
+    Separation own = judge().of_roots(a, integrals);
+    const bool is_proved = own.separated == Verdict::proved;
+    if (is_proved) report_.found.clear();
+    if (report_.found.empty()) report_.found.push_back(std::move(own));
+    if (is_proved) return;
   }
-  return result.distinct == Verdict::proved;
-}
-
-/// A polynomial in one variable with its coefficients in brackets where they are sums.
-std::string SeparationSearch::text_of(const std::vector<Polynomial>& coefficients,
-                                      const std::string& u) const {
-  std::string sum;
-  for (std::size_t m = coefficients.size(); m-- > 0;) {
-    if (coefficients[m].is_zero()) continue;
-    const std::string power = m == 0 ? "" : m == 1 ? u : fmt::format("{}^{}", u, m);
-    std::string own = text(coefficients[m]);
-    if (coefficients[m].terms() > 1) own = "(" + own + ")";
-    if (!power.empty()) own = own == "1" ? power : own == "-1" ? "-" + power : own + "*" + power;
-    sum += sum.empty() ? own : own.starts_with('-') ? " - " + own.substr(1) : " + " + own;
-  }
-  return sum.empty() ? "0" : sum;
-}
-
-Separation::Relation SeparationSearch::relation_of(const Multipliers& s,
-                                                   const std::string& u) const {
-  Separation::Relation result;
-  result.may_vanish = true;
-  for (std::size_t j = 0; j < s.size(); ++j) {
-    std::string own = text_of(s[j], u);
-    result.multipliers.push_back(own);
-    if (own == "0") continue;
-    const bool is_constant = std::ranges::all_of(s[j].begin() + 1, s[j].end(),
-                                                 [](const auto& p) { return p.is_zero(); });
-    if (is_constant && s[j][0].is_constant()) result.may_vanish = false;
-    const bool minus = own.starts_with('-') && own.find(' ') == std::string::npos;
-    if (minus) own.erase(0, 1);
-    if (own.find(' ') != std::string::npos && (own[0] != '(' || own.find(')') + 1 != own.size()))
-      own = "(" + own + ")";
-    const std::string product = (own == "1" ? "" : own + "*") + fmt::format("F{}", j + 1);
-    const std::string sign = result.sum.empty() ? (minus ? "-" : "") : minus ? " - " : " + ";
-    result.sum += sign + product;
-  }
-  return result;
-}
-
-/// In descending powers of u, times the sum G.
-std::string SeparationSearch::text_of(const SeparatedEquation& equation,
-                                      const std::string& u) const {
-  std::vector<SeparatedEquation::Term> terms = equation.terms;
-  std::ranges::stable_sort(terms, [](const auto& a, const auto& b) {
-    return std::pair(b.degree, b.power) < std::pair(a.degree, a.power);
-  });
-  const cln::cl_RA number =
-      equation.denominator.is_constant() ? equation.denominator.content() : cln::cl_RA(1);
-  const cln::cl_RA sign = equation.denominator.is_constant() &&
-                                  !(equation.denominator == leaves_->ring().constant(number))
-                              ? -1
-                              : 1;
-  std::string sum;
-  for (const SeparatedEquation::Term& one : terms) {
-    std::string own = text(one.coefficient.scaled(sign / number));
-    if (one.coefficient.terms() > 1) own = "(" + own + ")";
-    for (const auto& [name, power] :
-         {std::pair(u, one.power), std::pair(std::string("G"), one.degree)}) {
-      if (power == 0) continue;
-      own = own == "1" ? "" : own == "-1" ? "-" : own + "*";
-      own += power == 1 ? name : fmt::format("{}^{}", name, power);
-    }
-    sum += sum.empty() ? own : own.starts_with('-') ? " - " + own.substr(1) : " + " + own;
-  }
-  if (equation.denominator.is_constant()) return sum.empty() ? "0" : sum;
-  return fmt::format("({})/({})", sum, text(equation.denominator));
-}
-
-void SeparationSearch::judge_multipliers(Separation& result, const RootCoefficients& a,
-                                         const std::vector<Polynomial>& integrals) {
-  const auto form = staeckel_form(*leaves_, a, integrals, casimirs_, watch_);
-  if (!form) return;
-  result.staeckel = Verdict::proved;
-  for (std::size_t i = 0; i < form->multipliers.size(); ++i) {
-    result.relations.push_back(relation_of(form->multipliers[i], result.variable));
-    Separation::Relation& own = result.relations.back();
-    if (!form->roots.empty()) own.root = text(form->roots[i]);
-    const auto equation =
-        separated_equation(*leaves_, form->roots.empty() ? a : RootCoefficients{-form->roots[i]},
-                           form->multipliers[i], integrals, casimirs_, watch_);
-    if (equation) own.equation = text_of(*equation, result.variable);
-  }
-}
-
-/// The factors of what may not be zero, each once, without numbers.
-void SeparationSearch::write_factors(Separation& result,
-                                     const std::vector<Polynomial>& list) const {
-  for (const Polynomial& p : list) {
-    for (const auto& [factor, exponent] : p.factors()) {
-      if (factor.is_constant()) continue;
-      const std::string own = text(factor);
-      if (std::ranges::find(result.nonzero, own) == result.nonzero.end())
-        result.nonzero.push_back(own);
-    }
-  }
-}
-
-void SeparationSearch::write_roots(Separation& result, const Characteristic& own) {
-  const std::size_t n = own.coefficients.size();
-  for (std::size_t c = 0; c < own.bivector.size(); ++c) {
-    const Polynomial& p = own.bivector[c];
-    if (p.is_zero()) continue;
-    const std::vector<std::size_t> pair = skew_indices(leaves_->dimension(), 2)[c];
-    result.bivector.emplace_back(
-        leaves_->system().name(pair[0]) + "," + leaves_->system().name(pair[1]), text(p));
-    long size = 0;
-    for (const auto& [number, exponents] : p.term_list()) {
-      long sum = 0;
-      for (std::size_t i = 0; i < leaves_->dimension(); ++i) sum += static_cast<long>(exponents[i]);
-      size = std::max(size, sum);
-    }
-    result.degree = std::max(result.degree, static_cast<int>(size));
-  }
-  result.polynomial = fmt::format("{}^{}", result.variable, n);
-  for (std::size_t k = 1; k <= n; ++k) {
-    const std::string own_text = text(own.coefficients[k - 1]);
-    result.coefficients.push_back(own_text);
-    if (own.coefficients[k - 1].is_zero()) continue;
-    const std::string power = n == k       ? ""
-                              : n - k == 1 ? "*" + result.variable
-                                           : fmt::format("*{}^{}", result.variable, n - k);
-    result.polynomial += fmt::format(" + ({}){}", own_text, power);
-  }
-}
-
-std::optional<Separation> SeparationSearch::examine(const Bivector& p,
-                                                    const std::vector<Polynomial>& integrals) {
-  const auto own = characteristic_of(*leaves_, p, watch_);
-  if (!own) return std::nullopt;
-  Separation result;
-  result.variable = free_name();
-  if (!judge_point(result, *own, integrals)) return std::nullopt;
-  judge_bivector(result, *own, integrals);
-  result.commuting = proved_if(roots_commute(*leaves_, own->coefficients));
-  if (result.commuting == Verdict::proved) judge_multipliers(result, own->coefficients, integrals);
-  const auto is_proved = [](Verdict verdict) { return verdict == Verdict::proved; };
-  const bool by_bivector = is_proved(result.tangent) && is_proved(result.compatible) &&
-                           is_proved(result.jacobi) && is_proved(result.involution);
-  if (!is_proved(result.commuting) || (!is_proved(result.staeckel) && !by_bivector))
-    return std::nullopt;
-  result.separated = Verdict::proved;
-  write_roots(result, *own);
-  for (const Polynomial& f : integrals) result.integrals.push_back(text(f));
-  return result;
 }
 
 /// Whether one of the bivectors, the Poisson ones in a space, gives variables.
@@ -311,7 +146,7 @@ bool SeparationSearch::look_among(const BivectorSpace& space,
   if (members.size() > kMostExamined) members.resize(kMostExamined, members.front());
   for (const Bivector& p : members) {
     ++report_.examined;
-    auto found = examine(p, integrals);
+    auto found = judge().of_bivector(p, integrals);
     if (!found) continue;
     report_.found.push_back(std::move(*found));
     return true;
@@ -357,12 +192,15 @@ bool SeparationSearch::read(const std::vector<Text>& on, int degree) {
                                casimirs = possible_casimirs(model_, watch_);
   std::vector<GiNaC::ex> others = values;
   others.insert(others.end(), casimirs.begin(), casimirs.end());
+  others.insert(others.end(), roots_.begin(), roots_.end());
   points_.clear();  // of the ring that goes, as all that follows
   casimirs_.clear();
   functions_.clear();
   leaves_.emplace(model_, level, others);
   search::System& system = leaves_->system();
-  system.prover().begin_claim(values, Subject::motion);
+  std::vector<GiNaC::ex> domain = values;
+  domain.insert(domain.end(), roots_.begin(), roots_.end());
+  system.prover().begin_claim(domain, Subject::motion);
   report_.on = names_of(level);
   report_.generic.clear();
   for (const std::size_t place : system.parameters()) report_.generic.push_back(system.name(place));
@@ -408,6 +246,10 @@ bool SeparationSearch::look(const std::vector<Text>& on, int degree) {
         report_.freedom);
     return false;
   }
+  if (request_.roots) {
+    look_at_roots(choices);
+    return true;
+  }
   report_.none = true;
   for (const std::vector<Polynomial>& own : choices)
     if (look_with(own)) return true;
@@ -427,6 +269,7 @@ SeparationReport SeparationSearch::run() {
     report_.reason = "the bracket is not shown to obey the Jacobi identity";
     return report_;
   }
+  read_roots();
   // First with what the case claims; the search for more integrals takes longer.
   for (const int degree : {0, 2, 3, 4, 6}) {
     if (degree > kHighestInMany && model_.variables.size() > kManyCoordinates) break;

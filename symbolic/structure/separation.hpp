@@ -15,6 +15,9 @@ namespace casimir::structure {
 struct SeparationRequest {
   int degree = 0;        ///< highest, of the components of the second bivector
   std::vector<Text> on;  ///< the common zero level of these Casimir functions; or empty
+  /// A polynomial in u, or the first of v, w, z, s, lambda that is no name of the case, whose roots
+  /// are looked at instead of those of bivectors; or empty.
+  std::optional<Text> roots;
 };
 
 /// Variables u_1, .., u_n on the symplectic leaves in which the integrals F_1, .., F_n separate:
@@ -22,7 +25,8 @@ struct SeparationRequest {
 ///
 /// `separated`: near every point of the level where what `nonzero` lists is not zero, the leaf has
 /// canonical coordinates (u_i, p_i), complex ones where the roots are, with n equations
-/// f_i(u_i, p_i; F_1, .., F_n) = 0, one for each pair. It is shown by one of two theorems.
+/// f_i(u_i, p_i; F_1, .., F_n) = 0, one for each pair. It is shown by one of three theorems.
+/// Refuted: near `point` there are no such equations; of roots that were given alone.
 ///
 /// Theorem 1 (Staeckel). On the leaf of dimension 2n let {F_i, F_j} = 0, {u_i, u_j} = 0,
 /// det {u_i, F_j} != 0, and for each i let s_1, .., s_n be polynomials in one variable whose
@@ -56,8 +60,9 @@ struct Separation {
     /// No s_j is a number that is not zero, so that where all s_j vanish nothing is said.
     bool may_vanish = false;
   };
-  std::vector<std::pair<std::string, std::string>> bivector;  ///< P', as "M1,M2" and "-M3"
-  int degree = 0;                                             ///< of its components
+  /// P', as "M1,M2" and "-M3"; empty where the roots were given
+  std::vector<std::pair<std::string, std::string>> bivector;
+  int degree = 0;                         ///< of its components
   std::vector<std::string> integrals;     ///< F_1, .., F_n, the Hamiltonian first
   std::string variable;                   ///< the name of u: no name of the case
   std::vector<std::string> coefficients;  ///< a_1, .., a_n
@@ -77,6 +82,7 @@ struct Separation {
   std::vector<std::string> nonzero;  ///< irreducible; where one of them is zero, nothing is said
   std::string point;                 ///< at which none is
   bool real = false;                 ///< all roots are real at `point`, and so near it
+  std::string reason;                ///< where `separated` is not proved
 };
 
 /// What a search for such variables found.

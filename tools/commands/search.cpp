@@ -34,13 +34,14 @@ namespace {
 struct SearchArguments {
   Common common;
   std::string case_name, in;
-  int degree = 0;
+  int degree = -1;  ///< none given
   bool casimirs = false, darboux = false, rational = false;
   int tensors = 0;  ///< their rank, where it is given
   bool orbits = false, conformal = false;
   bool fields = false, bivectors = false, forms = false, hamiltonian = false, bihamiltonian = false;
   bool separation = false;
   std::vector<std::string> on, functions, weights, free;
+  std::string roots;  ///< a polynomial, or empty
 };
 
 /// How many of the options that ask for something else than integrals were given.
@@ -105,16 +106,20 @@ int search_structure(const SearchArguments& options, const Model& model, SearchW
 }
 
 /// Done where variables were found, or where none are needed or it is proved that there is no
-/// bivector of this degree that would give them.
+/// bivector of this degree that would give them; failed where roots that were given are refuted.
 int search_separation(const SearchArguments& options, const Model& model, SearchWatch& watch) {
-  const structure::SeparationReport report = structure::find_separation(
-      model, {options.degree, texts_of(options.on, "--on")}, watch.watch());
+  structure::SeparationRequest request{
+      std::max(options.degree, 0), texts_of(options.on, "--on"), {}};
+  if (!options.roots.empty()) request.roots = texts_of({options.roots}, "--roots").front();
+  const structure::SeparationReport report =
+      structure::find_separation(model, request, watch.watch());
   const double seconds = watch.end();
   if (options.common.json)
     print_json(to_json(model, report, seconds));
   else if (!options.common.quiet)
     print(model, report, seconds);
-  return is_answered(report) ? kDone : kUndecided;
+  const Verdict verdict = verdict_of(report);
+  return verdict == Verdict::proved ? kDone : verdict == Verdict::refuted ? kFailed : kUndecided;
 }
 
 int search_case(const SearchArguments& options) {
@@ -159,12 +164,15 @@ int search(const SearchArguments& options) {
     throw UsageError("a search for tensors or brackets takes --degree and --param only");
   if (options.separation &&
       (!options.free.empty() || !options.functions.empty() || !options.weights.empty()))
-    throw UsageError("--separation takes --degree, --on and --param only");
+    throw UsageError("--separation takes --degree, --on, --roots and --param only");
+  if (!options.roots.empty() && !options.separation)
+    throw UsageError("--roots goes with --separation");
   if (options.orbits && !options.fields) throw UsageError("--orbits goes with --fields");
   const bool tensors = options.fields || options.bivectors || options.forms || options.tensors > 0;
   if (options.conformal && (!tensors || options.orbits))
     throw UsageError("--conformal goes with --fields, --bivectors, --forms or --tensors");
-  if (!is_structure(options) && options.degree < 1)
+  if (options.degree < 0 && options.roots.empty()) throw UsageError("--degree is required");
+  if (!is_structure(options) && !options.separation && options.degree < 1)
     throw UsageError("--degree has to be 1 at least");
   if (options.casimirs && !options.on.empty())
     throw UsageError("--casimirs and --on do not go together");
@@ -198,6 +206,12 @@ void add_structure_options(CLI::App& command, SearchArguments& options) {
                    "Poisson brackets and Hamiltonians of the equations of motion alone");
   command.add_flag("--bihamiltonian", options.bihamiltonian,
                    "Second Poisson brackets, compatible with that of the case");
+  command
+      .add_option(
+          "--roots", options.roots,
+          "With --separation: a polynomial in u whose roots are to be examined, instead of a "
+          "search")
+      ->type_name("EXPR");
   command.add_flag("--separation", options.separation,
                    "Variables in which the integrals separate: the roots of det(P' - u*P) for a "
                    "second bivector P' of that degree");
@@ -213,7 +227,6 @@ void register_search(CLI::App& program, Action& action) {
   add_in(*command, options->in);
   add_case(*command, options->case_name);
   command->add_option("--degree", options->degree, "Highest degree (weighted, with --weights)")
-      ->required()
       ->type_name("N")
       ->check(CLI::Range(0, 1000));
   command->add_flag("--casimirs", options->casimirs, "Casimir functions instead of integrals");

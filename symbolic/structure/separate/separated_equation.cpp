@@ -3,74 +3,13 @@
 #include <algorithm>
 
 #include "symbolic/structure/separate/constant_kernel.hpp"
+#include "symbolic/structure/separate/with_root.hpp"
 
 namespace casimir::structure {
 namespace {
 
 constexpr std::size_t kHighestPowerOfRoot = 8, kHighestPowerOfSum = 2;
 constexpr std::size_t kMostTermsOfSeparated = 150000;  ///< of all columns together
-
-/// Functions on the leaf with a root u: remainders modulo u^n + a_1 u^(n-1) + .. + a_n by their
-/// coefficients, the constant one first.
-class WithRoot {
- public:
-  using Element = std::vector<Polynomial>;
-
-  WithRoot(const Leaves& leaves, const RootCoefficients& a) : leaves_(leaves), a_(a) {}
-
-  Element constant(const Polynomial& p) const { return reduced({p}); }
-  Element root() const { return reduced({Polynomial(leaves_.ring()), leaves_.ring().constant(1)}); }
-  /// sum of coefficients times powers of u.
-  Element reduced(Element p) const {
-    const std::size_t n = a_.size();
-    for (std::size_t m = p.size(); m-- > n;) {
-      if (!p[m].is_zero()) {
-        for (std::size_t k = 1; k <= n; ++k) p[m - k] -= p[m] * a_[k - 1];
-      }
-    }
-    p.resize(n, Polynomial(leaves_.ring()));
-    for (Polynomial& c : p) c = on_level(c);
-    return p;
-  }
-  Element product(const Element& a, const Element& b) const {
-    Element result(a.size() + b.size() - 1, Polynomial(leaves_.ring()));
-    for (std::size_t i = 0; i < a.size(); ++i)
-      for (std::size_t j = 0; j < b.size(); ++j)
-        if (!a[i].is_zero() && !b[j].is_zero()) result[i + j] += a[i] * b[j];
-    return reduced(std::move(result));
-  }
-  Element sum(Element a, const Element& b) const {
-    for (std::size_t i = 0; i < a.size(); ++i) a[i] += b[i];
-    return a;
-  }
-  /// D'(u).
-  Element slope() const {
-    const std::size_t n = a_.size();
-    Element result(n, Polynomial(leaves_.ring()));
-    result[n - 1] = leaves_.ring().constant(static_cast<long>(n));
-    for (std::size_t k = 1; k < n; ++k)
-      result[n - 1 - k] = a_[k - 1].scaled(static_cast<long>(n - k));
-    return reduced(std::move(result));
-  }
-  /// -sum_k {a_k, f} u^(n-k), which is D'(u) {u, f}.
-  Element moved(const Polynomial& f) const {
-    Element result;
-    for (std::size_t k = a_.size(); k-- > 0;) result.push_back(-leaves_.bracket(a_[k], f));
-    return reduced(std::move(result));
-  }
-
- private:
-  /// Modulo the level, where this keeps denominators.
-  Polynomial on_level(const Polynomial& p) const {
-    const Polynomial own = leaves_.system().functions().reduced(p);
-    if (leaves_.ideal().empty()) return own;
-    std::vector<Polynomial> quotients;
-    return own.remainder(leaves_.ideal(), &quotients);
-  }
-
-  const Leaves& leaves_;
-  const RootCoefficients& a_;
-};
 
 struct Column {
   std::size_t power, degree, constant;

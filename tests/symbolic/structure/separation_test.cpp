@@ -8,6 +8,7 @@
 
 #include "symbolic/error.hpp"
 #include "symbolic/structure/separate/leaves.hpp"
+#include "symbolic/structure/separate/levi_civita.hpp"
 #include "symbolic/structure/separate/multipliers.hpp"
 #include "symbolic/structure/separate/roots.hpp"
 #include "symbolic/structure/separation.hpp"
@@ -31,8 +32,7 @@ Model canonical(const std::string& variables, const std::string& hamiltonian,
 const std::string kPlane = R"("x", "y", "px", "py")";
 
 SeparationReport searched(const Model& model, int degree, const std::vector<std::string>& on = {}) {
-  structure::SeparationRequest request;
-  request.degree = degree;
+  structure::SeparationRequest request{degree, {}, {}};
   for (const std::string& own : on) request.on.push_back(text_of(own));
   return structure::find_separation(model, request);
 }
@@ -322,6 +322,77 @@ TEST(Separation, IsAskedForOnLevelsOfCasimirFunctionsOnly) {
   EXPECT_THROW(searched(bundled("goryachev-chaplygin"), 1, {"M1"}), structure::NotLeaves);
 }
 
+SeparationReport examined(const Model& model, const std::string& roots) {
+  structure::SeparationRequest request;
+  request.roots = text_of(roots);
+  return structure::find_separation(model, request);
+}
+
+TEST(RootsThatAreGiven, AreProvedToSeparate) {
+  const Model model = bundled("goryachev-chaplygin");
+  const SeparationReport report = examined(model, "u^2 - 2*M3*u - (M1^2 + M2^2)");
+  expect_separated(model, report, kOnLevel);
+  EXPECT_TRUE(report.found[0].bivector.empty());
+}
+
+/// 3 in place of 2: the roots commute and are coordinates, but Levi-Civita's condition fails.
+TEST(RootsThatAreGiven, AreRefutedWhereNothingSeparates) {
+  const SeparationReport report =
+      examined(bundled("goryachev-chaplygin"), "u^2 - 3*M3*u - (M1^2 + M2^2)");
+  ASSERT_EQ(report.found.size(), 1U);
+  EXPECT_EQ(report.found[0].commuting, Verdict::proved);
+  EXPECT_EQ(report.found[0].separated, Verdict::refuted);
+}
+
+Model central() {
+  return canonical(kPlane, "(px^2 + py^2)/2 - k/sqrt(x^2 + y^2)",
+                   "[parameters]\nk = {}\n[integrals]\nL = \"x*py - y*px\"\n");
+}
+
+/// Polar coordinates: H = pr^2/2 + L^2/(2 r^2) + U(r) is not linear in L, so that Staeckel's form
+/// is not there, and Levi-Civita's condition decides.
+TEST(RootsThatAreGiven, MaySeparateWithoutStaeckelsForm) {
+  const SeparationReport report = examined(central(), "(u - x^2 - y^2)*(u - y/x)");
+  ASSERT_EQ(report.found.size(), 1U);
+  EXPECT_EQ(report.found[0].separated, Verdict::proved);
+  EXPECT_EQ(report.found[0].staeckel, Verdict::undecided);
+  const SeparationReport cartesian = examined(central(), "(u - x)*(u - y)");
+  EXPECT_EQ(cartesian.found.at(0).separated, Verdict::refuted);
+}
+
+TEST(RootsThatAreGiven, AreRefutedWhereTheyDoNotCommute) {
+  const SeparationReport report = examined(central(), "(u - x^2 - y^2)*(u - x*px)");
+  ASSERT_EQ(report.found.size(), 1U);
+  EXPECT_EQ(report.found[0].commuting, Verdict::refuted);
+  EXPECT_EQ(report.found[0].separated, Verdict::refuted);
+}
+
+/// Equal roots, roots that depend on each other, a root that is an integral: nothing is said.
+TEST(RootsThatAreGiven, AreUndecidedWhereTheyAreNoCoordinates) {
+  for (const char* roots :
+       {"(u - x)^2", "(u - x)*(u - x^2)", "(u - x^2 - y^2)*(u - x*py + y*px)"}) {
+    const SeparationReport report = examined(central(), roots);
+    ASSERT_EQ(report.found.size(), 1U);
+    EXPECT_EQ(report.found[0].separated, Verdict::undecided) << roots;
+    EXPECT_FALSE(report.found[0].reason.empty());
+  }
+}
+
+TEST(RootsThatAreGiven, AreOfAPolynomialOfTheRightDegree) {
+  for (const char* roots : {"u - x", "(u - x)*(u - y)*(u - 1)", "sqrt(u)", "x + y", "u^2 +"})
+    EXPECT_THROW(examined(central(), roots), CaseError) << roots;
+}
+
+/// The name u is taken: v is the next.
+TEST(RootsThatAreGiven, HaveAnotherNameWhereTheCaseHasAnU) {
+  const Model model = canonical(R"("u", "y", "pu", "py")", "(pu^2 + py^2)/2 + u^4 + y^4",
+                                "[integrals]\nK = \"pu^2/2 + u^4\"\n");
+  const SeparationReport report = examined(model, "(v - u)*(v - y)");
+  ASSERT_EQ(report.found.size(), 1U);
+  EXPECT_EQ(report.found[0].variable, "v");
+  EXPECT_EQ(report.found[0].separated, Verdict::proved);
+}
+
 /// The parts, with functions in the plane: H = (px^2 + py^2)/2 + x^4 + 2*y^4 separates in x and y.
 class PartsOfSeparation : public testing::Test {
  protected:
@@ -342,6 +413,11 @@ class PartsOfSeparation : public testing::Test {
     return structure::staeckel_form(leaves_, a, integrals(), {}, {}).has_value();
   }
 
+  bool obeys_levi_civita(const structure::RootCoefficients& a) {
+    return std::ranges::all_of(structure::levi_civita_defect(leaves_, a, integrals()),
+                               [](const Polynomial& p) { return p.is_zero(); });
+  }
+
   Model model_ = canonical(kPlane, "(px^2 + py^2)/2 + x^4 + 2*y^4");
   structure::Leaves leaves_{model_, {}, {}};
 };
@@ -351,6 +427,12 @@ TEST_F(PartsOfSeparation, AcceptWhatSeparates) {
   EXPECT_TRUE(is_regular(a));
   EXPECT_TRUE(structure::roots_commute(leaves_, a));
   EXPECT_TRUE(is_staeckel(a));
+  EXPECT_TRUE(obeys_levi_civita(a));
+}
+
+/// A function of one variable and its momentum alone is as good as the variable.
+TEST_F(PartsOfSeparation, AcceptFunctionsOfOneVariableAndItsMomentum) {
+  EXPECT_TRUE(obeys_levi_civita(coefficients("x + px", "y^2*py")));
 }
 
 TEST_F(PartsOfSeparation, RefuseEqualRoots) { EXPECT_FALSE(is_regular(coefficients("x", "x"))); }
@@ -378,6 +460,7 @@ TEST_F(PartsOfSeparation, RefuseRootsInWhichNothingSeparates) {
   EXPECT_TRUE(is_regular(a));
   EXPECT_TRUE(structure::roots_commute(leaves_, a));
   EXPECT_FALSE(is_staeckel(a));
+  EXPECT_FALSE(obeys_levi_civita(a));
 }
 
 /// On the leaves of e(3): M1, g1 are not tangent to them, the bracket and its multiples are.

@@ -275,6 +275,14 @@ TEST(SearchStructure, VariablesThatSeparateAreTheRootsOfAPolynomial) {
   EXPECT_EQ(own.at("relations")[0].at("sum"), "u*F1 - F2");
 }
 
+TEST(SearchStructure, RootsThatAreGivenAreRefuted) {
+  const Folder folder;
+  const Json found =
+      answered(folder, {"search", "henon-heiles", "--separation", "--roots", "(u - x)*(u - y)"}, 1);
+  EXPECT_EQ(found.at("verdict"), "refuted");
+  answered(folder, {"search", "henon-heiles", "--separation", "--roots", "u^2 + 1"}, 3);
+}
+
 TEST(SearchStructure, DarbouxPolynomialsAreCombined) {
   const Folder folder;
   const std::string file =

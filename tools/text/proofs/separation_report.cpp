@@ -40,7 +40,31 @@ nlohmann::ordered_json json_of(const Separation& own) {
     relations.back()["may_vanish"] = one.may_vanish;
   }
   result["relations"] = relations;
+  if (!own.reason.empty()) result["reason"] = own.reason;
   return result;
+}
+
+/// Of the bivector that the roots come from.
+void print_bivector(const Separation& own) {
+  const bool colour = may_colour(1);
+  std::vector<std::string> parts;
+  for (const auto& [label, text] : own.bivector)
+    parts.push_back(fmt::format("{{{}}}' = {}", label, text));
+  fmt::print("second bivector P', degree {}: {}\n", own.degree, fmt::join(parts, ", "));
+  fmt::print("  tangent to the leaves   {}\n", verdict_text(own.tangent, colour));
+  fmt::print("  compatible, [P, P'] = 0   {}\n", verdict_text(own.compatible, colour));
+  fmt::print("  Jacobi identity, [P', P'] = 0   {}\n", verdict_text(own.jacobi, colour));
+  fmt::print("  {{F_i, F_j}}' = 0   {}\n", verdict_text(own.involution, colour));
+}
+
+void print_relations(const Separation& own) {
+  const std::string& u = own.variable;
+  for (const Separation::Relation& one : own.relations) {
+    fmt::print("    G = {} for {}{}\n", one.sum,
+               one.root.empty() ? "each root " + u : fmt::format("the root {} = {}", u, one.root),
+               one.may_vanish ? ", where its coefficients are not all zero" : "");
+    if (!one.equation.empty()) fmt::print("    {{{}, G}}^2 = {}\n", u, one.equation);
+  }
 }
 
 void print_separation(const Separation& own) {
@@ -50,39 +74,31 @@ void print_separation(const Separation& own) {
   };
   for (std::size_t j = 0; j < own.integrals.size(); ++j)
     fmt::print("F{} = {}{}\n", j + 1, own.integrals[j], j == 0 ? "  (the Hamiltonian)" : "");
-  std::vector<std::string> parts;
-  for (const auto& [label, text] : own.bivector)
-    parts.push_back(fmt::format("{{{}}}' = {}", label, text));
-  fmt::print("second bivector P', degree {}: {}\n", own.degree, fmt::join(parts, ", "));
-  line("tangent to the leaves", own.tangent);
-  line("compatible, [P, P'] = 0", own.compatible);
-  line("Jacobi identity, [P', P'] = 0", own.jacobi);
-  line("{F_i, F_j}' = 0", own.involution);
+  if (!own.bivector.empty()) print_bivector(own);
   const std::string& u = own.variable;
   fmt::print("variables: the roots of {} = 0\n", own.polynomial);
+  if (own.distinct == Verdict::proved)
+    line(fmt::format("distinct and coordinates on the tori at {}, {}", own.point,
+                     own.real ? "and real" : "where they are complex"),
+         own.distinct);
   line(fmt::format("they commute, {{{0}_i, {0}_j}} = 0", u), own.commuting);
-  line(fmt::format("distinct and coordinates on the tori at {}, {}", own.point,
-                   own.real ? "and real" : "where they are complex"),
-       own.distinct);
   line("the integrals separate in them and their momenta", own.separated);
+  if (!own.reason.empty()) fmt::print("    {}\n", own.reason);
+  if (own.separated != Verdict::proved) return;
   fmt::print("    near each point of the leaves where these are not zero: {}\n",
              fmt::join(own.nonzero, "; "));
   line(own.staeckel == Verdict::proved
            ? "Staeckel form: a sum of the integrals is a function of one root and its momentum"
            : "Staeckel form with polynomials in one root (none was found)",
        own.staeckel);
-  for (const Separation::Relation& one : own.relations) {
-    fmt::print("    G = {} for {}{}\n", one.sum,
-               one.root.empty() ? "each root " + u : fmt::format("the root {} = {}", u, one.root),
-               one.may_vanish ? ", where its coefficients are not all zero" : "");
-    if (!one.equation.empty()) fmt::print("    {{{}, G}}^2 = {}\n", u, one.equation);
-  }
+  print_relations(own);
 }
 
 }  // namespace
 
-bool is_answered(const SeparationReport& report) {
-  return !report.found.empty() || report.none || report.freedom == 1;
+Verdict verdict_of(const SeparationReport& report) {
+  if (!report.found.empty()) return report.found.front().separated;
+  return report.none || report.freedom == 1 ? Verdict::proved : Verdict::undecided;
 }
 
 nlohmann::ordered_json to_json(const Model& model, const SeparationReport& report, double seconds) {
@@ -96,7 +112,7 @@ nlohmann::ordered_json to_json(const Model& model, const SeparationReport& repor
   if (report.bracket_of_motion) json["bracket"] = *report.bracket_of_motion;
   for (const Separation& own : report.found) json["separations"].push_back(json_of(own));
   json["none"] = report.none;
-  json["verdict"] = is_answered(report) ? "proved" : "undecided";
+  json["verdict"] = to_string(verdict_of(report));
   json["generic"] = report.generic;
   if (!report.reason.empty()) json["reason"] = report.reason;
   json["seconds"] = seconds;
@@ -105,8 +121,11 @@ nlohmann::ordered_json to_json(const Model& model, const SeparationReport& repor
 
 void print(const Model& model, const SeparationReport& report, double seconds) {
   const bool colour = may_colour(1);
-  fmt::print("{}: variables that separate, by a second bivector of degree {} at most\n", model.name,
-             report.degree);
+  if (!report.found.empty() && report.found.front().bivector.empty())
+    fmt::print("{}: whether the integrals separate in the roots of a polynomial\n", model.name);
+  else
+    fmt::print("{}: variables that separate, by a second bivector of degree {} at most\n",
+               model.name, report.degree);
   if (report.bracket_of_motion) fmt::print("bracket found: {}\n", *report.bracket_of_motion);
   fmt::print(
       "{} degrees of freedom{}\n", report.freedom,
@@ -127,7 +146,8 @@ void print(const Model& model, const SeparationReport& report, double seconds) {
     else
       fmt::print("None found ({}): {}\n", verdict_text(Verdict::undecided, colour), report.reason);
   }
-  fmt::print("{} found, {:.3f} s\n", report.found.size(), seconds);
+  fmt::print("{} found, {:.3f} s\n",
+             report.found.empty() || verdict_of(report) != Verdict::proved ? 0 : 1, seconds);
 }
 
 }  // namespace casimir::tools

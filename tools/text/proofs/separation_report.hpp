@@ -6,9 +6,9 @@
 
 namespace casimir::tools {
 
-/// Whether the question is answered: variables were found, none are needed, or it is proved that no
-/// bivector of this degree gives any.
-bool is_answered(const structure::SeparationReport& report);
+/// Proved where variables were found, where none are needed, or where it is proved that no bivector
+/// of this degree gives any; of roots that were given, what is said of them.
+Verdict verdict_of(const structure::SeparationReport& report);
 
 /// The document of `search --separation`.
 nlohmann::ordered_json to_json(const Model& model, const structure::SeparationReport& report,

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "symbolic/search/watch.hpp"
+#include "symbolic/structure/separate/multipliers.hpp"
+#include "symbolic/structure/separation.hpp"
+
+namespace casimir::structure {
+
+/// Decides what is claimed of variables that separate, by the theorems of `Separation`.
+class SeparationJudge {
+ public:
+  /// Borrows all.
+  /// \param casimirs  each of them one on the level
+  /// \param points  of the level, inside all assumptions
+  /// \param variable  the name of the roots
+  SeparationJudge(const Leaves& leaves, const std::vector<Polynomial>& casimirs,
+                  std::vector<RealPoint>& points, std::string variable, const search::Watch& watch)
+      : leaves_(leaves),
+        casimirs_(casimirs),
+        points_(points),
+        variable_(std::move(variable)),
+        watch_(watch) {}
+
+  /// Of the roots of det(P' - u P); empty where they are no variables, or not shown to separate.
+  /// \param integrals  in involution on the level, as many as degrees of freedom
+  std::optional<Separation> of_bivector(const Bivector& p,
+                                        const std::vector<Polynomial>& integrals) const;
+  /// Of the roots of a polynomial; `separated` may have any verdict.
+  Separation of_roots(const RootCoefficients& a, const std::vector<Polynomial>& integrals) const;
+
+ private:
+  Separation begin(const RootCoefficients& a, const std::vector<Polynomial>& integrals) const;
+  void judge_bivector(Separation& result, const Characteristic& own,
+                      const std::vector<Polynomial>& integrals) const;
+  void judge_multipliers(Separation& result, const RootCoefficients& a,
+                         const std::vector<Polynomial>& integrals) const;
+  RealPoint* judge_point(Separation& result, const RootCoefficients& a,
+                         std::vector<Polynomial> nonzero) const;
+  void judge_commuting(Separation& result, const RootCoefficients& a, RealPoint& point) const;
+  void judge_levi_civita(Separation& result, const RootCoefficients& a,
+                         const std::vector<Polynomial>& integrals, RealPoint& point) const;
+
+  const Leaves& leaves_;
+  const std::vector<Polynomial>& casimirs_;
+  std::vector<RealPoint>& points_;
+  std::string variable_;
+  const search::Watch& watch_;
+};
+
+}  // namespace casimir::structure

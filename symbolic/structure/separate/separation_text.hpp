@@ -1,0 +1,21 @@
+#pragma once
+
+#include "symbolic/structure/separate/separated_equation.hpp"
+#include "symbolic/structure/separation.hpp"
+
+namespace casimir::structure {
+
+/// In the notation of case files, as all that follows.
+std::string text_of(const Leaves& leaves, const Polynomial& p);
+/// \param u  the name of the root
+std::string text_of(const Leaves& leaves, const SeparatedEquation& equation, const std::string& u);
+Separation::Relation relation_of(const Leaves& leaves, const Multipliers& s, const std::string& u);
+
+/// The irreducible factors of all, each once, without numbers.
+std::vector<std::string> factors_of(const Leaves& leaves, const std::vector<Polynomial>& list);
+
+void write_bivector(Separation& result, const Leaves& leaves, const Bivector& bivector);
+/// The coefficients and, with them, the polynomial in `result.variable`.
+void write_roots(Separation& result, const Leaves& leaves, const RootCoefficients& a);
+
+}  // namespace casimir::structure
