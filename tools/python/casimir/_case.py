@@ -344,19 +344,20 @@ class Case:
         """Second brackets, compatible with that of the case, with their Lenard chains."""
         return _results.Findings(_core.brackets(self._core, degree, True, time_limit, memory), "second brackets")
 
-    def separation(self, degree: int, *, on: Expressions = None, time_limit: float = 0,
-                   memory: float = 0) -> Separations:
+    def separation(self, degree: int = 2, *, on: Expressions = None, roots: Expression | None = None,
+                   time_limit: float = 0, memory: float = 0) -> Separations:
         """Variables in which the integrals separate: the roots of a polynomial, by a second bivector.
 
         :param degree: of the components of that bivector.
         :param on: Casimir functions, on whose common zero level the integrals commute.
+        :param roots: a polynomial in u whose roots are examined instead.
         :returns: dictionaries with the `polynomial`, what is proved of it, and Staeckel's `relations`.
 
         >>> load("henon-heiles").separation(1)[0]["separated"]
         'proved'
         """
-        return _results.Separations(_core.separation(self._core, degree, texts_of(on), time_limit, memory),
-                                    "systems of variables that separate")
+        return _results.Separations(_core.separation(self._core, degree, texts_of(on), texts_of(roots), time_limit,
+                                                     memory), "systems of variables that separate")
 
     def symmetries(self, *, time_limit: float = 0, memory: float = 0) -> Findings:
         """Linear symmetries of bracket and Hamiltonian, with their integrals by Noether's theorem."""

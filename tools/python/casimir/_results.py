@@ -173,15 +173,16 @@ class Findings(Sequence[dict[str, Any]]):
 class Separations(Findings):
     """Variables that separate: one system of them, or none. True where there is one.
 
-    `verdict` is 'proved' where one is proved, or that there is none of the kind that was looked for (`none`).
+    `verdict` is 'proved' where one is proved, or that there is none of the kind that was looked for (`none`); of
+    roots that were given it is 'refuted' where the integrals do not separate in them.
     """
 
     def __bool__(self) -> bool:
         return _truth(self.verdict, f"whether there are {self._what}") and bool(self.found)
 
     def __repr__(self) -> str:
-        end = "proved" if self.found else f"none: {self.verdict}, {self.reason}"
-        return "\n".join([f"<{len(self)} {self._what}; {end}>"] + [f"  {one}" for one in self.found])
+        state = f"{self.verdict}, {self.reason}" if self.reason else self.verdict
+        return "\n".join([f"<{len(self)} {self._what}; {state}>"] + [f"  {one}" for one in self.found])
 
 
 @dataclass(frozen=True)

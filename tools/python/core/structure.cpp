@@ -135,24 +135,28 @@ py::dict to_python(const structure::Separation& own) {
                   "variable"_a = own.variable, "coefficients"_a = own.coefficients,
                   "polynomial"_a = own.polynomial, "separated"_a = to_string(own.separated),
                   "staeckel"_a = to_string(own.staeckel), "relations"_a = relations,
-                  "nonzero"_a = own.nonzero, "point"_a = own.point, "real"_a = own.real);
+                  "nonzero"_a = own.nonzero, "point"_a = own.point, "real"_a = own.real,
+                  "reason"_a = own.reason);
 }
 
-py::object separation(const Case& self, int degree, const Names& on, double seconds,
-                      double memory) {
+/// \param roots  a polynomial, or none
+py::object separation(const Case& self, int degree, const Names& on, const Names& roots,
+                      double seconds, double memory) {
   Interrupt interrupt;
   const auto find = [&] {
-    return structure::find_separation(self.model(), {degree, typed(on, "on")},
-                                      watched(interrupt, seconds, memory));
+    structure::SeparationRequest request{degree, typed(on, "on"), {}};
+    if (!roots.empty()) request.roots = typed(roots, "roots").front();
+    return structure::find_separation(self.model(), request, watched(interrupt, seconds, memory));
   };
   return exactly(interrupt, find, [](const structure::SeparationReport& report) {
     py::list found;
     for (const structure::Separation& own : report.found) found.append(to_python(own));
-    return py::dict(
-        "found"_a = found, "degrees_of_freedom"_a = report.freedom, "on"_a = report.on,
-        "integrals"_a = report.integrals, "none"_a = report.none,
-        "verdict"_a = verdict_of(!report.found.empty() || report.none || report.freedom == 1),
-        "reason"_a = report.reason, "generic"_a = report.generic);
+    const std::string verdict = report.found.empty()
+                                    ? verdict_of(report.none || report.freedom == 1)
+                                    : to_string(report.found.front().separated);
+    return py::dict("found"_a = found, "degrees_of_freedom"_a = report.freedom, "on"_a = report.on,
+                    "integrals"_a = report.integrals, "none"_a = report.none, "verdict"_a = verdict,
+                    "reason"_a = report.reason, "generic"_a = report.generic);
   });
 }
 
