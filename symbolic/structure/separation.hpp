@@ -78,7 +78,11 @@ struct Separation {
   /// Whether multipliers s_1, .., s_n were found and checked. Never refuted: others of a higher
   /// degree are not looked at.
   Verdict staeckel = Verdict::undecided;
-  std::vector<Relation> relations;   ///< one for all roots, or one for each
+  std::vector<Relation> relations;  ///< one for all roots, or one for each
+  /// A case file with the `[[map]]` from the system to the roots u, the sums G and the brackets
+  /// w = {u, G}, and what the prover of claims says of that map; empty where none is made.
+  std::string map_case;
+  Verdict map = Verdict::undecided;
   std::vector<std::string> nonzero;  ///< irreducible; where one of them is zero, nothing is said
   std::string point;                 ///< at which none is
   bool real = false;                 ///< all roots are real at `point`, and so near it

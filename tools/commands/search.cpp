@@ -41,7 +41,8 @@ struct SearchArguments {
   bool fields = false, bivectors = false, forms = false, hamiltonian = false, bihamiltonian = false;
   bool separation = false;
   std::vector<std::string> on, functions, weights, free;
-  std::string roots;  ///< a polynomial, or empty
+  std::string roots;   ///< a polynomial, or empty
+  std::string output;  ///< of the case with the map to separated variables
 };
 
 /// How many of the options that ask for something else than integrals were given.
@@ -105,6 +106,19 @@ int search_structure(const SearchArguments& options, const Model& model, SearchW
                 watch);
 }
 
+/// The case with the map to separated variables, where one was asked for and made.
+void write_map_case(const SearchArguments& options, const structure::SeparationReport& report) {
+  if (options.output.empty()) return;
+  if (report.found.empty() || report.found.front().map_case.empty()) {
+    fmt::print(stderr, "casimir: no map to separated variables was made, '{}' is not written\n",
+               printable(options.output, 200));
+    return;
+  }
+  OutputFile file(options.output);
+  file.stream() << report.found.front().map_case;
+  file.commit();
+}
+
 /// Done where variables were found, or where none are needed or it is proved that there is no
 /// bivector of this degree that would give them; failed where roots that were given are refuted.
 int search_separation(const SearchArguments& options, const Model& model, SearchWatch& watch) {
@@ -118,6 +132,7 @@ int search_separation(const SearchArguments& options, const Model& model, Search
     print_json(to_json(model, report, seconds));
   else if (!options.common.quiet)
     print(model, report, seconds);
+  write_map_case(options, report);
   const Verdict verdict = verdict_of(report);
   return verdict == Verdict::proved ? kDone : verdict == Verdict::refuted ? kFailed : kUndecided;
 }
@@ -167,6 +182,8 @@ int search(const SearchArguments& options) {
     throw UsageError("--separation takes --degree, --on, --roots and --param only");
   if (!options.roots.empty() && !options.separation)
     throw UsageError("--roots goes with --separation");
+  if (!options.output.empty() && !options.separation)
+    throw UsageError("--output goes with --separation");
   if (options.orbits && !options.fields) throw UsageError("--orbits goes with --fields");
   const bool tensors = options.fields || options.bivectors || options.forms || options.tensors > 0;
   if (options.conformal && (!tensors || options.orbits))
@@ -212,6 +229,10 @@ void add_structure_options(CLI::App& command, SearchArguments& options) {
           "With --separation: a polynomial in u whose roots are to be examined, instead of a "
           "search")
       ->type_name("EXPR");
+  command
+      .add_option("-o,--output", options.output,
+                  "With --separation: write a case with the map to the separated variables here")
+      ->type_name("FILE");
   command.add_flag("--separation", options.separation,
                    "Variables in which the integrals separate: the roots of det(P' - u*P) for a "
                    "second bivector P' of that degree");

@@ -7,12 +7,14 @@
 #include "symbolic/search/modular/span.hpp"
 #include "symbolic/structure/bracket_search.hpp"
 #include "symbolic/structure/separate/constant_kernel.hpp"
+#include "symbolic/structure/separate/roots.hpp"
 
 namespace casimir::structure {
 namespace {
 
-constexpr std::size_t kMostOfFamilies = 12;    ///< dimensions, for which [P', P'] = 0 is solved
-constexpr std::size_t kMostOfCompatible = 40;  ///< of which pairs are looked at
+constexpr std::size_t kMostOfFamilies = 12;        ///< dimensions, for which [P', P'] = 0 is solved
+constexpr std::size_t kMostOfCompatible = 40;      ///< of which pairs are looked at
+constexpr std::size_t kMostCompatibleSets = 3000;  ///< of compatible ones
 
 /// A bivector with one component, and that a monomial.
 struct Unknown {
@@ -272,41 +274,71 @@ Bivector sum_of(const std::vector<const Bivector*>& list, long step) {
 }
 
 /// Sums of vectors of the basis that are Poisson and compatible with each other.
-std::vector<Bivector> sums_of_compatible(const Leaves& leaves, std::vector<Bivector> basis,
-                                         const search::Watch& watch) {
-  std::ranges::stable_sort(basis, {}, length_of);
-  if (basis.size() > kMostOfCompatible) basis.resize(kMostOfCompatible, basis.front());
-  const auto compatible = [&](const Bivector& a, const Bivector& b) {
-    return std::ranges::all_of(schouten(a, b, leaves.dimension()),
-                               [&](const Polynomial& p) { return leaves.vanishes(p); });
-  };
-  std::vector<const Bivector*> single;
-  for (const Bivector& own : basis)
-    if (compatible(own, own)) single.push_back(&own);
-  std::vector<Bivector> result;
-  std::vector<std::vector<bool>> pairs;
-  for (const Bivector* a : single) {
-    result.push_back(*a);
-    pairs.emplace_back();
-    for (const Bivector* b : single) {
-      pairs.back().push_back(compatible(*a, *b));
-      if (a != b && pairs.back().back()) result.push_back(sum_of({a, b}, 0));
+class CompatibleSums {
+ public:
+  CompatibleSums(const Leaves& leaves, std::vector<Bivector> basis, const search::Watch& watch)
+      : leaves_(leaves), basis_(std::move(basis)) {
+    std::ranges::stable_sort(basis_, {}, length_of);
+    if (basis_.size() > kMostOfCompatible) basis_.resize(kMostOfCompatible, basis_.front());
+    for (const Bivector& own : basis_)
+      if (compatible(own, own)) single_.push_back(&own);
+    for (const Bivector* a : single_) {
+      pairs_.emplace_back();
+      for (const Bivector* b : single_) pairs_.back().push_back(compatible(*a, *b));
+      watch.tick(static_cast<double>(pairs_.size()) / static_cast<double>(single_.size()));
     }
-    watch.tick(static_cast<double>(pairs.size()) / static_cast<double>(single.size()));
   }
-  for (std::size_t first = 0; first < single.size(); ++first) {
-    std::vector<std::size_t> set{first};
-    for (std::size_t k = 0; k < single.size(); ++k) {
-      if (k != first && std::ranges::all_of(set, [&](std::size_t s) { return pairs[s][k]; }))
-        set.push_back(k);
+
+  /// Of one vector, of sets of as many as there are degrees of freedom, and of those that cannot be
+  /// made larger.
+  std::vector<Bivector> run() {
+    for (std::size_t first = 0; first < single_.size(); ++first) {
+      take({first}, 0);
+      std::vector<std::size_t> set{first};
+      for (std::size_t k = 0; k < single_.size(); ++k)
+        if (k != first && fits(set, k)) set.push_back(k);
+      take(set, 0);
+      take(set, 1);
     }
+    extend({}, 0);
+    return std::move(result_);
+  }
+
+ private:
+  bool compatible(const Bivector& a, const Bivector& b) const {
+    return std::ranges::all_of(schouten(a, b, leaves_.dimension()),
+                               [&](const Polynomial& p) { return leaves_.vanishes(p); });
+  }
+  bool fits(const std::vector<std::size_t>& set, std::size_t k) const {
+    return std::ranges::all_of(set, [&](std::size_t s) { return pairs_[s][k]; });
+  }
+  void take(const std::vector<std::size_t>& set, long step) {
     std::vector<const Bivector*> list;
-    for (const std::size_t s : set) list.push_back(single[s]);
-    result.push_back(sum_of(list, 0));
-    result.push_back(sum_of(list, 1));
+    for (const std::size_t s : set) list.push_back(single_[s]);
+    Bivector sum = sum_of(list, step);
+    if (may_have_distinct_roots(leaves_, sum)) result_.push_back(std::move(sum));
   }
-  return result;
-}
+  void extend(const std::vector<std::size_t>& set, std::size_t next) {
+    if (set.size() == leaves_.degrees_of_freedom()) {
+      ++sets_;
+      take(set, 0);
+      return;
+    }
+    for (std::size_t k = next; k < single_.size() && sets_ < kMostCompatibleSets; ++k) {
+      if (!fits(set, k)) continue;
+      std::vector<std::size_t> longer = set;
+      longer.push_back(k);
+      extend(longer, k + 1);
+    }
+  }
+
+  const Leaves& leaves_;
+  std::vector<Bivector> basis_;
+  std::vector<const Bivector*> single_;
+  std::vector<std::vector<bool>> pairs_;
+  std::vector<Bivector> result_;
+  std::size_t sets_ = 0;
+};
 
 }  // namespace
 
@@ -321,7 +353,7 @@ std::vector<Bivector> poisson_members(Leaves& leaves, const std::vector<Bivector
                                       const search::Watch& watch) {
   std::vector<Bivector> all = basis.size() <= kMostOfFamilies
                                   ? members_of_families(leaves, basis, watch)
-                                  : sums_of_compatible(leaves, basis, watch);
+                                  : CompatibleSums(leaves, basis, watch).run();
   std::ranges::stable_sort(all, {}, length_of);
   std::vector<Bivector> result;
   for (Bivector& own : all) {

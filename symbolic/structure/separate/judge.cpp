@@ -1,8 +1,11 @@
 #include "symbolic/structure/separate/judge.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "symbolic/structure/separate/levi_civita.hpp"
+#include "symbolic/structure/separate/separated_case.hpp"
 #include "symbolic/structure/separate/separation_text.hpp"
 
 namespace casimir::structure {
@@ -97,6 +100,7 @@ void SeparationJudge::judge_multipliers(Separation& result, const RootCoefficien
   const auto form = staeckel_form(leaves_, a, integrals, casimirs_, watch_);
   if (!form) return;
   result.staeckel = Verdict::proved;
+  std::vector<SeparatedEquation> equations;
   for (std::size_t i = 0; i < form->multipliers.size(); ++i) {
     result.relations.push_back(relation_of(leaves_, form->multipliers[i], result.variable));
     Separation::Relation& own = result.relations.back();
@@ -104,8 +108,34 @@ void SeparationJudge::judge_multipliers(Separation& result, const RootCoefficien
     const auto equation =
         separated_equation(leaves_, form->roots.empty() ? a : RootCoefficients{-form->roots[i]},
                            form->multipliers[i], integrals, casimirs_, watch_);
-    if (equation) own.equation = text_of(leaves_, *equation, result.variable);
+    if (!equation) continue;
+    own.equation = text_of(leaves_, *equation, result.variable);
+    equations.push_back(*equation);
   }
+  if (equations.size() == form->multipliers.size())
+    judge_map(result, a, *form, equations, integrals);
+}
+
+/// The map to the separated variables, where the roots can be written down.
+void SeparationJudge::judge_map(Separation& result, const RootCoefficients& a,
+                                const StaeckelForm& form,
+                                const std::vector<SeparatedEquation>& equations,
+                                const std::vector<Polynomial>& integrals) const {
+  std::vector<SeparatedPair> pairs;
+  for (std::size_t i = 0; i < form.roots.size(); ++i)
+    pairs.push_back(
+        {text_of(leaves_, form.roots[i]), {-form.roots[i]}, form.multipliers[i], equations[i]});
+  if (form.roots.empty() && a.size() == 2) {
+    for (const char* sign : {"+", "-"})
+      pairs.push_back({fmt::format("(-({0}) {2} sqrt(({0})^2 - 4*({1})))/2", text_of(leaves_, a[0]),
+                                   text_of(leaves_, a[1]), sign),
+                       a, form.multipliers[0], equations[0]});
+  }
+  if (pairs.empty()) return;
+  const auto own = separated_case(leaves_, integrals, pairs);
+  if (!own) return;
+  result.map_case = *own;
+  result.map = verdict_of_map(*own, leaves_.system().model().limits);
 }
 
 /// By theorem 3, for two degrees of freedom.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "symbolic/search/watch.hpp"
-#include "symbolic/structure/separate/multipliers.hpp"
+#include "symbolic/structure/separate/separated_equation.hpp"
 #include "symbolic/structure/separation.hpp"
 
 namespace casimir::structure {
@@ -34,6 +34,9 @@ class SeparationJudge {
                       const std::vector<Polynomial>& integrals) const;
   void judge_multipliers(Separation& result, const RootCoefficients& a,
                          const std::vector<Polynomial>& integrals) const;
+  void judge_map(Separation& result, const RootCoefficients& a, const StaeckelForm& form,
+                 const std::vector<SeparatedEquation>& equations,
+                 const std::vector<Polynomial>& integrals) const;
   RealPoint* judge_point(Separation& result, const RootCoefficients& a,
                          std::vector<Polynomial> nonzero) const;
   void judge_commuting(Separation& result, const RootCoefficients& a, RealPoint& point) const;

@@ -94,6 +94,31 @@ std::optional<Characteristic> characteristic_of(const Leaves& leaves, const Bive
   return std::nullopt;
 }
 
+bool may_have_distinct_roots(const Leaves& leaves, const Bivector& p) {
+  if (!leaves.ideal().empty()) return true;
+  std::vector<cln::cl_RA> point;
+  for (std::size_t i = 0; i < leaves.ring().size(); ++i) {
+    const long spread = static_cast<long>(i);
+    point.emplace_back(cln::cl_RA(7 * spread * spread + 11 * spread + 3) / (2 * spread + 5));
+  }
+  Bivector own, other;
+  for (std::size_t c = 0; c < p.size(); ++c) {
+    own.push_back(leaves.ring().constant(leaves.bivector()[c].evaluate(point)));
+    other.push_back(leaves.ring().constant(p[c].evaluate(point)));
+  }
+  const std::size_t n = leaves.degrees_of_freedom();
+  for (const std::vector<std::size_t>& rows : leaves.choices(2 * n)) {
+    std::vector<Polynomial> pencil = pfaffian_of_pencil(own, other, leaves.dimension(), rows);
+    if (pencil.front().is_zero()) continue;
+    const cln::cl_RA unit = pencil.front().term_list().front().first;
+    RootCoefficients a;
+    for (std::size_t k = 1; k <= n; ++k)
+      a.push_back(pencil[k].scaled((k % 2 == 0 ? 1 : -1) / unit));
+    return !hermite_minors(leaves, a).back().is_zero();
+  }
+  return true;
+}
+
 bool roots_commute(const Leaves& leaves, const RootCoefficients& a) {
   for (std::size_t k = 0; k < a.size(); ++k) {
     for (std::size_t l = k + 1; l < a.size(); ++l)

@@ -29,6 +29,10 @@ struct Characteristic {
 std::optional<Characteristic> characteristic_of(const Leaves& leaves, const Bivector& p,
                                                 const search::Watch& watch);
 
+/// False where the roots of det(P' - u P) are not distinct at one point, chosen at random: then
+/// they are hardly ever. On a level, where no point is at hand, true.
+bool may_have_distinct_roots(const Leaves& leaves, const Bivector& p);
+
 /// Whether {a_k, a_l} = 0 on the level for all k, l; then {u_i, u_j} = 0 where the roots are
 /// distinct, as they are functions of the coefficients there.
 bool roots_commute(const Leaves& leaves, const RootCoefficients& a);

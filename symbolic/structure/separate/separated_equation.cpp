@@ -8,7 +8,7 @@
 namespace casimir::structure {
 namespace {
 
-constexpr std::size_t kHighestPowerOfRoot = 8, kHighestPowerOfSum = 2;
+constexpr std::size_t kHighestPowerOfRoot = 8, kHighestPowerOfSum = 2, kHighestShift = 2;
 constexpr std::size_t kMostTermsOfSeparated = 150000;  ///< of all columns together
 
 struct Column {
@@ -51,16 +51,19 @@ class EquationSearch {
     }
     const WithRoot::Element slope = with_root_.slope();
     slope_squared_ = with_root_.product(slope, slope);
-    columns_.push_back(with_root_.product(rate, rate));
+    rate_squared_ = with_root_.product(rate, rate);
   }
 
-  /// The equation of lowest degree in G, and then in u.
+  /// The equation of lowest degree in G, and then in u; with a power of u before it where there is
+  /// none without.
   std::optional<SeparatedEquation> run(const search::Watch& watch) {
     for (std::size_t highest = 1; highest <= kHighestPowerOfSum; ++highest) {
-      begin(highest);
-      for (std::size_t power = 0; power <= kHighestPowerOfRoot; ++power) {
-        if (!add_power(power)) break;
-        if (auto result = solved(watch)) return result;
+      for (shift_ = 0; shift_ <= (highest == 1 ? kHighestShift : 0); shift_ += 2) {
+        begin(highest);
+        for (std::size_t power = 0; power <= kHighestPowerOfRoot; ++power) {
+          if (!add_power(power)) break;
+          if (auto result = solved(watch)) return result;
+        }
       }
     }
     return std::nullopt;
@@ -68,7 +71,9 @@ class EquationSearch {
 
  private:
   void begin(std::size_t highest) {
-    columns_.resize(1, columns_.front());
+    columns_.assign(1, rate_squared_);
+    for (std::size_t k = 0; k < shift_; ++k)
+      columns_[0] = with_root_.product(columns_[0], with_root_.root());
     places_.clear();
     powers_of_sum_.assign(1, slope_squared_);
     while (powers_of_sum_.size() <= highest)
@@ -94,7 +99,7 @@ class EquationSearch {
     for (const ParametricRow& solution : constant_kernel(leaves_.system(), columns, watch).basis) {
       if (!solution.contains(0)) continue;
       std::vector<Polynomial> sums(columns.front().size(), Polynomial(leaves_.ring()));
-      SeparatedEquation result{{}, solution.at(0)};
+      SeparatedEquation result{{}, solution.at(0), shift_};
       for (const auto& [k, number] : solution) {
         for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += number * columns[k][i];
         if (k == 0) continue;
@@ -110,9 +115,10 @@ class EquationSearch {
   const Leaves& leaves_;
   WithRoot with_root_;
   std::vector<Polynomial> constants_;
-  WithRoot::Element sum_, slope_squared_;
+  WithRoot::Element sum_, slope_squared_, rate_squared_;  ///< the last of D'(u) {u, G}
+  std::size_t shift_ = 0;
   std::vector<WithRoot::Element> powers_of_sum_;
-  std::vector<WithRoot::Element> columns_;  ///< the square of D'(u) {u, G} first
+  std::vector<WithRoot::Element> columns_;  ///< what is to be a sum of the others first
   std::vector<Column> places_;              ///< of the others
   std::size_t terms_ = 0;
 };

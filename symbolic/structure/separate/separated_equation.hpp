@@ -4,9 +4,10 @@
 
 namespace casimir::structure {
 
-/// The equation denominator * {u, G}^2 = sum of coefficient * u^power * G^degree for a root u and
-/// the sum G = sum_j s_j(u) F_j of Staeckel's form. That {u, G} is a function of u and G follows
-/// from the form; that its square is a polynomial in them does not, and is found and checked.
+/// The equation denominator * u^shift * {u, G}^2 = sum of coefficient * u^power * G^degree for a
+/// root u and the sum G = sum_j s_j(u) F_j of Staeckel's form. That {u, G} is a function of u and G
+/// follows from the form; that its square is a polynomial in them does not, and is found and
+/// checked.
 struct SeparatedEquation {
   struct Term {
     std::size_t power, degree;
@@ -14,6 +15,7 @@ struct SeparatedEquation {
   };
   std::vector<Term> terms;
   Polynomial denominator;  ///< of parameters
+  std::size_t shift = 0;
 };
 
 /// Empty where there is none of a moderate degree, or the polynomials become too long.

@@ -73,8 +73,14 @@ std::string text_of(const Leaves& leaves, const SeparatedEquation& equation, con
     }
     sum += sum.empty() ? own : own.starts_with('-') ? " - " + own.substr(1) : " + " + own;
   }
-  if (equation.denominator.is_constant()) return sum.empty() ? "0" : sum;
-  return fmt::format("({})/({})", sum, text_of(leaves, equation.denominator));
+  if (sum.empty()) return "0";
+  std::string bottom =
+      equation.denominator.is_constant() ? "" : text_of(leaves, equation.denominator);
+  if (equation.denominator.terms() > 1) bottom = "(" + bottom + ")";
+  if (equation.shift > 0)
+    bottom += (bottom.empty() ? "" : "*") + fmt::format("{}^{}", u, equation.shift);
+  if (bottom.empty()) return sum;
+  return fmt::format("({})/({})", sum, bottom);
 }
 
 /// The factors of what may not be zero, each once, without numbers.

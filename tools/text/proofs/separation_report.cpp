@@ -40,6 +40,10 @@ nlohmann::ordered_json json_of(const Separation& own) {
     relations.back()["may_vanish"] = one.may_vanish;
   }
   result["relations"] = relations;
+  if (!own.map_case.empty()) {
+    result["map"] = to_string(own.map);
+    result["map_case"] = own.map_case;
+  }
   if (!own.reason.empty()) result["reason"] = own.reason;
   return result;
 }
@@ -92,6 +96,8 @@ void print_separation(const Separation& own) {
            : "Staeckel form with polynomials in one root (none was found)",
        own.staeckel);
   print_relations(own);
+  if (!own.map_case.empty())
+    line("the [[map]] to u, G and w = {u, G} of all roots (--output FILE writes it)", own.map);
 }
 
 }  // namespace
