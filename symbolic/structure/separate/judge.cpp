@@ -109,7 +109,7 @@ void SeparationJudge::judge_multipliers(Separation& result, const RootCoefficien
         separated_equation(leaves_, form->roots.empty() ? a : RootCoefficients{-form->roots[i]},
                            form->multipliers[i], integrals, casimirs_, watch_);
     if (!equation) continue;
-    own.equation = text_of(leaves_, *equation, result.variable);
+    own.equation = text_of(leaves_, *equation, result.variable, "G");
     equations.push_back(*equation);
   }
   if (equations.size() == form->multipliers.size())

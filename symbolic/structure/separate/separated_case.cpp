@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 
 #include "symbolic/structure/separate/separation_text.hpp"
 #include "symbolic/structure/separate/with_root.hpp"
@@ -77,77 +76,55 @@ class CaseWriter {
     return result;
   }
 
-  /// coefficients times powers of the i-th root.
-  std::string at_root(const std::vector<Polynomial>& coefficients, std::size_t i) const {
-    std::vector<std::string> parts;
-    for (std::size_t m = 0; m < coefficients.size(); ++m) {
-      if (!coefficients[m].is_zero())
-        parts.push_back(fmt::format("({})*root{}^{}", text(coefficients[m]), i + 1, m));
-    }
-    return parts.empty() ? "0" : fmt::format("{}", fmt::join(parts, " + "));
-  }
-
   std::string definitions() const {
     std::string result = "\n[definitions]\n";
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
       const SeparatedPair& own = pairs_[i];
       const WithRoot with(leaves_, own.a);
+      const std::string root = fmt::format("root{}", i + 1);
       WithRoot::Element rate = with.constant(Polynomial(leaves_.ring()));
       std::vector<std::string> sum;
       for (std::size_t j = 0; j < integrals_.size(); ++j) {
-        sum.push_back(fmt::format("({})*({})", at_root(own.s[j], i), text(integrals_[j])));
+        sum.push_back(
+            fmt::format("({})*({})", in_powers(leaves_, own.s[j], root), text(integrals_[j])));
         rate = with.sum(rate, with.product(with.reduced(own.s[j]), with.moved(integrals_[j])));
       }
       result += fmt::format("root{} = \"{}\"\n", i + 1, own.root);
       result += fmt::format("sum{} = \"{}\"\n", i + 1, fmt::join(sum, " + "));
-      result += fmt::format("rate{} = \"({})/({})\"\n", i + 1, at_root(rate, i),
-                            at_root(with.slope(), i));
+      result += fmt::format("rate{} = \"({})/({})\"\n", i + 1, in_powers(leaves_, rate, root),
+                            in_powers(leaves_, with.slope(), root));
     }
     return result;
   }
 
-  /// A sum of terms that are coefficient * factor * u^power * G^degree over the denominator.
-  struct Term {
-    Polynomial coefficient;
-    long factor, power, degree;
-  };
-  std::string sum_text(const SeparatedPair& own, const std::vector<Term>& terms,
-                       std::size_t i) const {
-    std::vector<std::string> parts;
-    for (const Term& one : terms) {
-      if (one.factor != 0)
-        parts.push_back(fmt::format("({})*u{}^({})*G{}^{}",
-                                    text(one.coefficient.scaled(one.factor)), i + 1, one.power,
-                                    i + 1, one.degree));
+  /// Half the derivative of R along u or G.
+  SeparatedEquation half_slope(const SeparatedEquation& whole, bool along_root) const {
+    SeparatedEquation result{{}, whole.denominator, whole.shift};
+    if (along_root && whole.shift > 0) ++result.shift;
+    for (const SeparatedEquation::Term& one : whole.terms) {
+      const long factor = along_root ? static_cast<long>(one.power) - static_cast<long>(whole.shift)
+                                     : static_cast<long>(one.degree);
+      if (factor == 0) continue;
+      const bool lower = along_root && whole.shift == 0;
+      result.terms.push_back({one.power - (lower ? 1 : 0), one.degree - (along_root ? 0 : 1),
+                              one.coefficient.scaled(cln::cl_RA(factor) / 2)});
     }
-    if (parts.empty()) return "0";
-    return fmt::format("({})/({})", fmt::join(parts, " + "), text(own.equation.denominator));
-  }
-  /// R, (dR/du)/2 and (dR/dG)/2.
-  std::array<std::string, 3> right_sides(std::size_t i) const {
-    const SeparatedPair& own = pairs_[i];
-    std::vector<Term> whole, by_root, by_sum;
-    for (const SeparatedEquation::Term& one : own.equation.terms) {
-      const long power = static_cast<long>(one.power) - static_cast<long>(own.equation.shift),
-                 degree = static_cast<long>(one.degree);
-      const Polynomial half = one.coefficient.scaled(cln::cl_RA(1) / 2);
-      whole.push_back({one.coefficient, 1, power, degree});
-      by_root.push_back({half, power, power - 1, degree});
-      by_sum.push_back({half, degree, power, degree - 1});
-    }
-    return {sum_text(own, whole, i), sum_text(own, by_root, i), sum_text(own, by_sum, i)};
+    return result;
   }
 
   std::string map() const {
     std::vector<std::string> names, brackets, image, expressions;
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
       const std::string n = std::to_string(i + 1);
-      const auto [right, by_root, by_sum] = right_sides(i);
+      const SeparatedEquation& own = pairs_[i].equation;
+      const auto right = [&](const SeparatedEquation& one) {
+        return text_of(leaves_, one, "u" + n, "G" + n);
+      };
       for (const char* start : {"u", "G", "w"}) names.push_back(start + n);
       brackets.push_back(fmt::format("\"u{0},G{0}\" = \"w{0}\"", n));
-      brackets.push_back(fmt::format("\"u{0},w{0}\" = \"{1}\"", n, by_sum));
-      brackets.push_back(fmt::format("\"w{0},G{0}\" = \"{1}\"", n, by_root));
-      image.push_back(fmt::format("w{}^2 - {}", n, right));
+      brackets.push_back(fmt::format("\"u{0},w{0}\" = \"{1}\"", n, right(half_slope(own, false))));
+      brackets.push_back(fmt::format("\"w{0},G{0}\" = \"{1}\"", n, right(half_slope(own, true))));
+      image.push_back(fmt::format("w{}^2 - ({})", n, right(own)));
       expressions.push_back(
           fmt::format("u{0} = \"root{0}\", G{0} = \"sum{0}\", w{0} = \"rate{0}\"", n));
     }

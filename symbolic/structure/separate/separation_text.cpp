@@ -5,9 +5,7 @@
 #include <algorithm>
 
 namespace casimir::structure {
-namespace {
 
-/// A polynomial in one variable with its coefficients in brackets where they are sums.
 std::string in_powers(const Leaves& leaves, const std::vector<Polynomial>& coefficients,
                       const std::string& u) {
   std::string sum;
@@ -21,8 +19,6 @@ std::string in_powers(const Leaves& leaves, const std::vector<Polynomial>& coeff
   }
   return sum.empty() ? "0" : sum;
 }
-
-}  // namespace
 
 std::string text_of(const Leaves& leaves, const Polynomial& p) {
   return leaves.system().functions().text(p);
@@ -50,7 +46,8 @@ Separation::Relation relation_of(const Leaves& leaves, const Multipliers& s, con
 }
 
 /// In descending powers of u, times the sum G.
-std::string text_of(const Leaves& leaves, const SeparatedEquation& equation, const std::string& u) {
+std::string text_of(const Leaves& leaves, const SeparatedEquation& equation, const std::string& u,
+                    const std::string& g) {
   std::vector<SeparatedEquation::Term> terms = equation.terms;
   std::ranges::stable_sort(terms, [](const auto& a, const auto& b) {
     return std::pair(b.degree, b.power) < std::pair(a.degree, a.power);
@@ -65,8 +62,7 @@ std::string text_of(const Leaves& leaves, const SeparatedEquation& equation, con
   for (const SeparatedEquation::Term& one : terms) {
     std::string own = text_of(leaves, one.coefficient.scaled(sign / number));
     if (one.coefficient.terms() > 1) own = "(" + own + ")";
-    for (const auto& [name, power] :
-         {std::pair(u, one.power), std::pair(std::string("G"), one.degree)}) {
+    for (const auto& [name, power] : {std::pair(u, one.power), std::pair(g, one.degree)}) {
       if (power == 0) continue;
       own = own == "1" ? "" : own == "-1" ? "-" : own + "*";
       own += power == 1 ? name : fmt::format("{}^{}", name, power);

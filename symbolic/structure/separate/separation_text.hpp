@@ -7,8 +7,14 @@ namespace casimir::structure {
 
 /// In the notation of case files, as all that follows.
 std::string text_of(const Leaves& leaves, const Polynomial& p);
+/// A polynomial in u by its coefficients, in brackets where these are sums.
+std::string in_powers(const Leaves& leaves, const std::vector<Polynomial>& coefficients,
+                      const std::string& u);
+/// The right side, {u, G}^2.
 /// \param u  the name of the root
-std::string text_of(const Leaves& leaves, const SeparatedEquation& equation, const std::string& u);
+/// \param g  that of the sum
+std::string text_of(const Leaves& leaves, const SeparatedEquation& equation, const std::string& u,
+                    const std::string& g);
 Separation::Relation relation_of(const Leaves& leaves, const Multipliers& s, const std::string& u);
 
 /// The irreducible factors of all, each once, without numbers.

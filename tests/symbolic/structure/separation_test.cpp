@@ -11,6 +11,7 @@
 #include "symbolic/structure/separate/levi_civita.hpp"
 #include "symbolic/structure/separate/multipliers.hpp"
 #include "symbolic/structure/separate/roots.hpp"
+#include "symbolic/structure/separate/separated_case.hpp"
 #include "symbolic/structure/separation.hpp"
 #include "tests/symbolic/cases.hpp"
 
@@ -185,6 +186,21 @@ TEST(Separation, OfGoryachevAndChaplyginIsFoundAgain) {
   for (const Verdict verdict : {own.tangent, own.compatible, own.jacobi, own.involution})
     EXPECT_EQ(verdict, Verdict::proved);
   EXPECT_TRUE(own.real);
+}
+
+/// With all Casimir functions fixed the roots, G and {u, G} are a Poisson map, which is proved as
+/// the maps of case files are. The same with another sign in the curve is refuted.
+TEST(Separation, OfGoryachevAndChaplyginIsAPoissonMap) {
+  const SeparationReport report = searched(bundled("goryachev-chaplygin"), 2,
+                                           {"M1*g1 + M2*g2 + M3*g3", "g1^2 + g2^2 + g3^2 - 1"});
+  ASSERT_EQ(report.found.size(), 1U) << report.reason;
+  const Separation& own = report.found[0];
+  EXPECT_EQ(own.map, Verdict::proved);
+  std::string wrong = own.map_case;
+  const std::size_t place = wrong.find("\"u1,w1\" = \"");
+  ASSERT_NE(place, std::string::npos);
+  wrong.insert(place + 11, "-1*");
+  EXPECT_EQ(structure::verdict_of_map(wrong, {}), Verdict::refuted) << wrong;
 }
 
 /// Neither bracket nor Hamiltonian nor integral is given, only the level.

@@ -275,6 +275,14 @@ TEST(SearchStructure, VariablesThatSeparateAreTheRootsOfAPolynomial) {
   EXPECT_EQ(own.at("relations")[0].at("sum"), "u*F1 - F2");
 }
 
+TEST(SearchStructure, TheMapToSeparatedVariablesIsWrittenAndProved) {
+  const Folder folder;
+  const Json found = answered(
+      folder, {"search", "henon-heiles", "--separation", "--degree", "1", "-o", "separated.toml"});
+  EXPECT_EQ(found.at("separations")[0].at("map"), "proved");
+  answered(folder, {"verify", "./separated.toml"});
+}
+
 TEST(SearchStructure, RootsThatAreGivenAreRefuted) {
   const Folder folder;
   const Json found =

@@ -136,7 +136,8 @@ py::dict to_python(const structure::Separation& own) {
                   "polynomial"_a = own.polynomial, "separated"_a = to_string(own.separated),
                   "staeckel"_a = to_string(own.staeckel), "relations"_a = relations,
                   "nonzero"_a = own.nonzero, "point"_a = own.point, "real"_a = own.real,
-                  "reason"_a = own.reason);
+                  "reason"_a = own.reason, "map"_a = to_string(own.map),
+                  "map_case"_a = own.map_case);
 }
 
 /// \param roots  a polynomial, or none
