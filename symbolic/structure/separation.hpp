@@ -41,13 +41,20 @@ struct SeparationRequest {
 /// bracket is 2n at most; all brackets as above, identically on the level; the determinant by that
 /// of {a_k, F_j} and the discriminant.
 ///
+/// Where all s_j(u_i) vanish the sum says nothing, but the integrals still separate: on a leaf on
+/// which the coefficients are not all zero these points are nowhere dense, and the condition of
+/// theorem 3 is closed. A coefficient that is no number is therefore listed in `nonzero`.
+///
 /// Theorem 2 (Magri; Falqui and Pedroni 2003, Theorem 4.2). Let P' be tangent to the leaves with
 /// [P, P'] = 0 and [P', P'] = 0, the roots of det(P' - u P) be u_1, .., u_n, each twice, distinct
 /// and independent, and {F_i, F_j} = {F_i, F_j}' = 0. Then u_i have canonical momenta p_i with
 /// N* du_i = u_i du_i, N* dp_i = u_i dp_i for N = P' P^(-1), and F_i separate in them: N takes the
 /// tangent space of F = const to itself, as that is its own complement for P, and therefore is
 /// spanned by vectors d/du_i + sum_j dp_j/du_i d/dp_j, each an eigenvector, so that dp_j/du_i = 0
-/// for j != i. Checked as above, and P' dC = 0 for as many independent C as the rank leaves.
+/// for j != i. Checked as above, and P' by `Leaves::is_tangent`.
+///
+/// Theorem 3 (after Levi-Civita) is that of `levi_civita_defect`: of two roots that were given it
+/// decides.
 struct Separation {
   /// sum_j s_j(u) F_j is a function of u and its momentum, for each root u or for one of them.
   struct Relation {

@@ -95,10 +95,33 @@ void SeparationJudge::judge_commuting(Separation& result, const RootCoefficients
   }
 }
 
+/// Where no multiplier is a number, one of the coefficients that are constant on a leaf must not be
+/// zero: then the multipliers vanish for some values of the root at most.
+bool SeparationJudge::exclude_zeros(Separation& result, const StaeckelForm& form,
+                                    RealPoint& point) const {
+  std::vector<Polynomial> nonzero;
+  for (const Multipliers& s : form.multipliers) {
+    std::optional<Polynomial> shortest;
+    for (const std::vector<Polynomial>& row : s) {
+      for (const Polynomial& p : row) {
+        if (!leaves_.vanishes(p) && (!shortest || p.terms() < shortest->terms())) shortest = p;
+        if (p.is_constant() && !p.is_zero()) shortest = p;
+      }
+    }
+    if (!shortest || !is_certainly_not_zero(point, *shortest)) return false;
+    nonzero.push_back(*shortest);
+  }
+  for (const std::string& own : factors_of(leaves_, nonzero))
+    if (std::ranges::find(result.nonzero, own) == result.nonzero.end())
+      result.nonzero.push_back(own);
+  return true;
+}
+
 void SeparationJudge::judge_multipliers(Separation& result, const RootCoefficients& a,
-                                        const std::vector<Polynomial>& integrals) const {
+                                        const std::vector<Polynomial>& integrals,
+                                        RealPoint& point) const {
   const auto form = staeckel_form(leaves_, a, integrals, casimirs_, watch_);
-  if (!form) return;
+  if (!form || !exclude_zeros(result, *form, point)) return;
   result.staeckel = Verdict::proved;
   std::vector<SeparatedEquation> equations;
   for (std::size_t i = 0; i < form->multipliers.size(); ++i) {
@@ -178,7 +201,7 @@ std::optional<Separation> SeparationJudge::of_bivector(
   judge_bivector(result, *own, integrals);
   judge_commuting(result, a, *point);
   if (result.commuting != Verdict::proved) return std::nullopt;
-  judge_multipliers(result, a, integrals);
+  judge_multipliers(result, a, integrals, *point);
   const auto proved = {result.tangent, result.compatible, result.jacobi, result.involution};
   const bool by_bivector =
       std::ranges::all_of(proved, [](Verdict verdict) { return verdict == Verdict::proved; });
@@ -200,7 +223,7 @@ Separation SeparationJudge::of_roots(const RootCoefficients& a,
   judge_commuting(result, a, *point);
   if (result.commuting == Verdict::refuted) result.separated = Verdict::refuted;
   if (result.commuting != Verdict::proved) return result;
-  judge_multipliers(result, a, integrals);
+  judge_multipliers(result, a, integrals, *point);
   if (result.staeckel == Verdict::proved)
     result.separated = Verdict::proved;
   else if (a.size() == 2)

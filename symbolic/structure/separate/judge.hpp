@@ -32,8 +32,9 @@ class SeparationJudge {
   Separation begin(const RootCoefficients& a, const std::vector<Polynomial>& integrals) const;
   void judge_bivector(Separation& result, const Characteristic& own,
                       const std::vector<Polynomial>& integrals) const;
+  bool exclude_zeros(Separation& result, const StaeckelForm& form, RealPoint& point) const;
   void judge_multipliers(Separation& result, const RootCoefficients& a,
-                         const std::vector<Polynomial>& integrals) const;
+                         const std::vector<Polynomial>& integrals, RealPoint& point) const;
   void judge_map(Separation& result, const RootCoefficients& a, const StaeckelForm& form,
                  const std::vector<SeparatedEquation>& equations,
                  const std::vector<Polynomial>& integrals) const;
