@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "symbolic/structure/separate/separation_text.hpp"
 #include "symbolic/structure/separate/with_root.hpp"
@@ -15,6 +16,14 @@ namespace {
 constexpr std::size_t kLongestSeparatedCase = 20000;
 
 std::string quoted(const std::string& text) { return "\"" + text + "\""; }
+
+/// The name of a file may have any characters.
+std::string plain_name(std::string name) {
+  std::erase_if(name, [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_';
+  });
+  return name;
+}
 
 std::string list_of(const std::vector<std::string>& texts) {
   std::vector<std::string> parts;
@@ -68,7 +77,7 @@ class CaseWriter {
     for (const Assumption& own : model.assumptions) assumed.push_back(own.text);
     std::string result = fmt::format(
         "title = \"{}, separated\"\nhamiltonian = \"{}\"\n\n[phase_space]\nvariables = {}\n",
-        model.name, text(integrals_.front()), list_of(names));
+        plain_name(model.name), text(integrals_.front()), list_of(names));
     if (!assumed.empty()) result += fmt::format("domain = {}\n", list_of(assumed));
     result += fmt::format("\n[phase_space.brackets]\n{}\n", fmt::join(brackets, ""));
     if (!model.parameters.empty()) result += "[parameters]\n";
