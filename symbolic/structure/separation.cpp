@@ -16,6 +16,7 @@
 namespace casimir::structure {
 namespace {
 
+constexpr std::size_t kMostChoicesOfIntegrals = 6;
 constexpr std::size_t kMostExamined = 60;   ///< bivectors of one space
 constexpr std::size_t kPointsOfLevel = 12;  ///< that are drawn
 constexpr int kHighestInMany = 4;           ///< degree of integrals where variables are many
@@ -238,7 +239,7 @@ bool SeparationSearch::look(const std::vector<Text>& on, int degree) {
   if (!read(on, degree)) return true;
   report_.integrals.clear();
   for (const Polynomial& f : functions_) report_.integrals.push_back(text(f));
-  const auto choices = commuting_choices(*leaves_, functions_, points_);
+  const auto choices = commuting_choices(*leaves_, functions_, points_, kMostChoicesOfIntegrals);
   if (choices.empty()) {
     report_.reason = fmt::format(
         "{} integrals in involution are needed whose flows are independent, the Hamiltonian being "
@@ -250,7 +251,7 @@ bool SeparationSearch::look(const std::vector<Text>& on, int degree) {
     look_at_roots(choices);
     return true;
   }
-  report_.none = true;
+  report_.none = choices.size() < kMostChoicesOfIntegrals;
   for (const std::vector<Polynomial>& own : choices)
     if (look_with(own)) return true;
   std::optional<std::string> doubt;

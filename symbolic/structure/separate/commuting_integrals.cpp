@@ -8,7 +8,6 @@ namespace casimir::structure {
 namespace {
 
 constexpr int kHighestOfCasimirs = 2;
-constexpr std::size_t kMostIntegralChoices = 6;
 
 /// The flows {x_i, f} of some functions, as rows.
 PolynomialRows flows_of(const Leaves& leaves, const std::vector<Polynomial>& functions) {
@@ -88,18 +87,18 @@ std::vector<RealPoint> points_of(Leaves& leaves, std::size_t count) {
 
 std::vector<std::vector<Polynomial>> commuting_choices(const Leaves& leaves,
                                                        const std::vector<Polynomial>& functions,
-                                                       std::vector<RealPoint>& points) {
+                                                       std::vector<RealPoint>& points,
+                                                       std::size_t most) {
   const std::size_t n = leaves.degrees_of_freedom();
   std::vector<std::vector<Polynomial>> result;
   // Extends a list by later functions, as long as all of them commute and are independent.
   const std::function<void(std::vector<Polynomial>, std::size_t)> extend =
       [&](std::vector<Polynomial> list, std::size_t next) {
         if (list.size() == n) {
-          if (result.size() < kMostIntegralChoices) result.push_back(std::move(list));
+          if (result.size() < most) result.push_back(std::move(list));
           return;
         }
-        for (std::size_t k = next; k < functions.size() && result.size() < kMostIntegralChoices;
-             ++k) {
+        for (std::size_t k = next; k < functions.size() && result.size() < most; ++k) {
           std::vector<Polynomial> longer = list;
           longer.push_back(functions[k]);
           const bool commute = std::ranges::all_of(list, [&](const Polynomial& f) {

@@ -21,8 +21,10 @@ std::vector<RealPoint> points_of(Leaves& leaves, std::size_t count);
 
 /// Choices of n functions, the first (the Hamiltonian) always among them, that are in involution on
 /// the level and whose flows are independent at one of the points.
+/// \param most  of the choices
 std::vector<std::vector<Polynomial>> commuting_choices(const Leaves& leaves,
                                                        const std::vector<Polynomial>& functions,
-                                                       std::vector<RealPoint>& points);
+                                                       std::vector<RealPoint>& points,
+                                                       std::size_t most);
 
 }  // namespace casimir::structure

@@ -79,18 +79,16 @@ RealPoint* SeparationJudge::judge_point(Separation& result, const RootCoefficien
 /// A bracket of coefficients that is not zero where the roots are distinct makes one of the roots'.
 void SeparationJudge::judge_commuting(Separation& result, const RootCoefficients& a,
                                       RealPoint& point) const {
-  result.commuting = Verdict::proved;
+  if (roots_commute(leaves_, a)) {
+    result.commuting = Verdict::proved;
+    return;
+  }
+  result.reason = "it is not shown that the roots commute";
   for (std::size_t k = 0; k < a.size(); ++k) {
     for (std::size_t l = k + 1; l < a.size(); ++l) {
-      const Polynomial own = leaves_.reduced(leaves_.bracket(a[k], a[l]));
-      if (own.is_zero()) continue;
-      if (is_certainly_not_zero(point, own)) {
-        result.commuting = Verdict::refuted;
-        result.reason = "the roots do not commute at the point";
-        return;
-      }
-      result.commuting = Verdict::undecided;
-      result.reason = "it is not shown that the roots commute";
+      if (!is_certainly_not_zero(point, leaves_.bracket(a[k], a[l]))) continue;
+      result.commuting = Verdict::refuted;
+      result.reason = "the roots do not commute at the point";
     }
   }
 }

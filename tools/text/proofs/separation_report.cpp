@@ -142,7 +142,8 @@ void print(const Model& model, const SeparationReport& report, double seconds) {
       fmt::print("integrals that commute with the Hamiltonian: {}\n",
                  fmt::join(report.integrals, "; "));
     if (report.none)
-      fmt::print("No such bivector up to degree {}{}: {}\n", report.degree,
+      fmt::print("No such bivector with polynomial components up to degree {}{}: {}\n",
+                 report.degree,
                  report.generic.empty()
                      ? ""
                      : fmt::format(", for generic values of {}", fmt::join(report.generic, ", ")),
