@@ -479,6 +479,32 @@ TEST_F(PartsOfSeparation, RefuseRootsInWhichNothingSeparates) {
   EXPECT_FALSE(obeys_levi_civita(a));
 }
 
+/// Staeckel's form and Levi-Civita's condition are two roads to the same: where the first is proved
+/// the second holds, with roots that are no polynomials and on a level too.
+TEST(LeviCivita, HoldsWhereverStaeckelsFormIsThere) {
+  const auto defect_of = [](const Model& model, const SeparationReport& report) {
+    std::vector<NamedExpression> on;
+    for (const std::string& one : report.on) on.push_back(model.parse_named(text_of(one)));
+    std::vector<GiNaC::ex> functions;
+    for (const std::string& one : report.found.at(0).integrals)
+      functions.push_back(model.parse(text_of(one)));
+    structure::Leaves leaves(model, on, functions);
+    std::vector<Polynomial> integrals;
+    for (const GiNaC::ex& f : functions) integrals.push_back(leaves.convert(f));
+    structure::RootCoefficients a;
+    for (const std::string& one : report.found[0].coefficients)
+      a.push_back(leaves.convert(model.parse(text_of(one))));
+    EXPECT_TRUE(std::ranges::all_of(structure::levi_civita_defect(leaves, a, integrals),
+                                    [](const Polynomial& p) { return p.is_zero(); }));
+    a[0] = a[0] + a[0];
+    EXPECT_FALSE(std::ranges::all_of(structure::levi_civita_defect(leaves, a, integrals),
+                                     [](const Polynomial& p) { return p.is_zero(); }));
+  };
+  const Model top = bundled("goryachev-chaplygin"), plane = bundled("henon-heiles");
+  defect_of(top, examined(top, "u^2 - 2*M3*u - (M1^2 + M2^2)"));
+  defect_of(plane, searched(plane, 1));
+}
+
 /// On the leaves of e(3): M1, g1 are not tangent to them, the bracket and its multiples are.
 TEST(LeavesOfABracket, KnowWhichBivectorsAreTangent) {
   const Model model = bundled("goryachev-chaplygin");
