@@ -44,7 +44,7 @@ TEST(Manual, OfCaseFilesIsCleanAndNamesEveryKey) {
   EXPECT_EQ(checked.out + checked.err, "");
   const std::string shown = file_text(installed / "page");
   // The keys that the reader allows, as its source has them.
-  const std::string reader = file_text(CASIMIR_SOURCE_DIR "/symbolic/case_file.cpp") +
+  const std::string reader = file_text(CASIMIR_SOURCE_DIR "/symbolic/case/case_tables.cpp") +
                              file_text(CASIMIR_SOURCE_DIR "/symbolic/case/toml_keys.cpp");
   static const std::regex kList(R"((?:allow\([^;{]*|keys = )\{([^}]*)\})");
   static const std::regex kKey("\"([a-zA-Z_]+)\"");
