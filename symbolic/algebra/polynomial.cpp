@@ -304,4 +304,13 @@ Polynomial Polynomial::remainder(const std::vector<Polynomial>& divisors,
   return rest;
 }
 
+Polynomial in_ring(const Polynomial& p, const PolynomialRing& ring) {
+  TermCollector collector(ring);
+  for (auto [number, exponents] : p.term_list()) {
+    exponents.resize(ring.size(), 0);
+    collector.add(number, exponents);
+  }
+  return collector.finish();
+}
+
 }  // namespace casimir

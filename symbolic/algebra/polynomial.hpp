@@ -164,4 +164,8 @@ class TermCollector {
   fmpz_t coefficient_, term_denominator_, denominator_;
 };
 
+/// The same polynomial over a ring with more variables behind its own, or without the last of them,
+/// which it must not use.
+Polynomial in_ring(const Polynomial& p, const PolynomialRing& ring);
+
 }  // namespace casimir

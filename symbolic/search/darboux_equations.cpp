@@ -39,15 +39,6 @@ std::size_t room_for(const System& system, const Monomials& a, const Monomials& 
   return system.ring().size() + a.size() + b.size();
 }
 
-Polynomial moved(const Polynomial& p, const PolynomialRing& ring) {
-  TermCollector collector(ring);
-  for (auto [number, exponents] : p.term_list()) {
-    exponents.resize(ring.size(), 0);
-    collector.add(number, exponents);
-  }
-  return collector.finish();
-}
-
 }  // namespace
 
 DarbouxEquations::DarbouxEquations(const Model& model, int degree)
@@ -61,7 +52,7 @@ DarbouxEquations::DarbouxEquations(const Model& model, int degree)
   if (model.time || system_.atoms().size() > dimension_)
     throw ModelError(
         "Darboux polynomials need equations of motion that are rational in the variables");
-  for (const Polynomial& rate : system_.flow()) field_.push_back(moved(rate, ring_));
+  for (const Polynomial& rate : system_.flow()) field_.push_back(in_ring(rate, ring_));
   find_grading(model);
 }
 

@@ -258,7 +258,7 @@ std::vector<ParametricRow> ConformalEquations::rows(const Ansatz& ansatz,
       const Polynomial own = monomial(exponents_of(ansatz.monomials, i));
       const auto add = [&](std::size_t to, const Polynomial& p, const Polynomial& factor) {
         for (const auto& [exponents, number] : coefficients_of(p)) {
-          const Polynomial entry = in_larger_ring(number, ring) * factor;
+          const Polynomial entry = in_ring(number, ring) * factor;
           const auto [place, is_new] = all[{to, exponents}].try_emplace(column, entry);
           if (!is_new) place->second += entry;
         }

@@ -230,16 +230,16 @@ Cofactors FactorSearch::unknowns_of(const Motion& motion, const Cofactor& f,
   for (const Polynomial& condition : values.roots) {
     AlgebraicCofactor algebraic{f, {{unknown.front(), {}}}};
     for (const Polynomial& coefficient : condition.coefficients(first))
-      algebraic.roots[0].coefficients.push_back(in_smaller_ring(coefficient, ring()));
+      algebraic.roots[0].coefficients.push_back(in_ring(coefficient, ring()));
     if (!excludes_roots(equations_, motion, ansatz_.monomials, algebraic))
       result.algebraic.push_back(std::move(algebraic));
   }
   for (const std::vector<PencilValue>& found : values.found) {
     Cofactor sum = f;
     for (std::size_t k = 0; k < unknown.size(); ++k) {
-      const Polynomial top = in_smaller_ring(found[k].top, ring());
-      sum = sum_of(sum, lowest(top * equations_.monomial(unknown[k]),
-                               in_smaller_ring(found[k].bottom, ring())));
+      const Polynomial top = in_ring(found[k].top, ring());
+      sum = sum_of(sum,
+                   lowest(top * equations_.monomial(unknown[k]), in_ring(found[k].bottom, ring())));
     }
     const Ansatz there{motion, ansatz_.monomials, sum, {}};
     if (!equations_.has_no_solution(equations_.rows(there, ring()), columns)) result.add(sum);

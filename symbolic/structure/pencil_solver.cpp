@@ -10,6 +10,16 @@
 namespace casimir::structure {
 namespace {
 
+/// Of the entries of a row, of which none is zero.
+Polynomial common_factor(const ParametricRow& row) {
+  Polynomial common = row.begin()->second;
+  for (const auto& [column, entry] : row) {
+    if (common.is_constant()) break;
+    common = Polynomial::gcd(common, entry);
+  }
+  return common;
+}
+
 class PencilSolver {
  public:
   PencilSolver(std::vector<ParametricRow> rows, std::size_t columns, const PolynomialRing& ring,
@@ -99,11 +109,7 @@ std::optional<PencilSolver::Pivot> PencilSolver::find_pivot() const {
 void PencilSolver::shorten(ParametricRow& row) const {
   std::erase_if(row, [](const auto& entry) { return entry.second.is_zero(); });
   if (row.empty()) return;
-  Polynomial common = row.begin()->second;
-  for (const auto& [column, entry] : row) {
-    if (common.is_constant()) break;
-    common = Polynomial::gcd(common, entry);
-  }
+  Polynomial common = common_factor(row);
   if (!common.is_constant()) {
     Polynomial known = ring_.constant(1);
     for (const auto& [factor, exponent] : common.factors())
@@ -161,7 +167,7 @@ bool PencilSolver::add_values(const std::vector<search::SolvedUnknown>& solved,
     for (const search::SolvedUnknown& own : solved) search::put(own, top, bottom);
     for (std::size_t u = first_; u < larger.size(); ++u)
       if (top.uses(u) || bottom.uses(u)) return false;
-    values.push_back({in_smaller_ring(top, ring_), in_smaller_ring(bottom, ring_)});
+    values.push_back({in_ring(top, ring_), in_ring(bottom, ring_)});
   }
   result_.found.push_back(std::move(values));
   return true;
@@ -203,11 +209,7 @@ void PencilSolver::note(Elimination& result, const Polynomial& p) const {
 void PencilSolver::divide_out(Elimination& result, ParametricRow& row) const {
   std::erase_if(row, [](const auto& entry) { return entry.second.is_zero(); });
   if (row.empty()) return;
-  Polynomial common = row.begin()->second;
-  for (const auto& [column, entry] : row) {
-    if (common.is_constant()) break;
-    common = Polynomial::gcd(common, entry);
-  }
+  Polynomial common = common_factor(row);
   if (common.is_constant()) common = ring_.constant(row.begin()->second.content());
   note(result, common);
   for (auto& [column, entry] : row) entry.divide(common, &entry);
@@ -331,13 +333,13 @@ void PencilSolver::solve_from(std::size_t leading, const PolynomialRing& larger,
     if (std::ranges::find(solved, place, &search::SolvedUnknown::place) == solved.end())
       unknowns.push_back(place);
   }
-  std::vector<Polynomial> equations{in_larger_ring(condition, larger)};
+  std::vector<Polynomial> equations{in_ring(condition, larger)};
   for (const ParametricRow& row : rows) {
     Polynomial sum(larger);
     for (std::size_t k = 0; k <= leading; ++k) {
       const auto entry = row.find(left_[k]);
       if (entry == row.end()) continue;
-      const Polynomial own = in_larger_ring(entry->second, larger);
+      const Polynomial own = in_ring(entry->second, larger);
       sum += k == leading ? own : own * larger.variable(coefficients + k);
     }
     if (!sum.is_zero()) equations.push_back(std::move(sum));
@@ -345,8 +347,8 @@ void PencilSolver::solve_from(std::size_t leading, const PolynomialRing& larger,
   for (search::Branch branch : search::solve_system(equations, unknowns, watch_)) {
     std::vector<search::SolvedUnknown> all;
     for (const search::SolvedUnknown& own : solved)
-      all.push_back({own.place, in_larger_ring(own.numerator, larger),
-                     in_larger_ring(own.denominator, larger)});
+      all.push_back({own.place, in_ring(own.numerator, larger),
+                     in_ring(own.denominator, larger)});
     all.insert(all.end(), branch.solved.begin(), branch.solved.end());
     branch.solved = std::move(all);
     take(branch, unknowns, larger);
@@ -361,25 +363,7 @@ PencilSolutions PencilSolver::run() {
   return std::move(result_);
 }
 
-/// The first variables of a term, or zeros behind them.
-Polynomial with_places(const Polynomial& p, const PolynomialRing& ring) {
-  TermCollector collector(ring);
-  for (auto [number, exponents] : p.term_list()) {
-    exponents.resize(ring.size(), 0);
-    collector.add(number, exponents);
-  }
-  return collector.finish();
-}
-
 }  // namespace
-
-Polynomial in_larger_ring(const Polynomial& p, const PolynomialRing& ring) {
-  return with_places(p, ring);
-}
-
-Polynomial in_smaller_ring(const Polynomial& p, const PolynomialRing& ring) {
-  return with_places(p, ring);
-}
 
 PencilSolutions solve_pencil(std::vector<ParametricRow> rows, std::size_t columns,
                              const PolynomialRing& ring, std::size_t first,

@@ -9,11 +9,6 @@
 
 namespace casimir::structure {
 
-/// p over a ring with more variables behind its own.
-Polynomial in_larger_ring(const Polynomial& p, const PolynomialRing& ring);
-/// p over a ring with its first variables; it uses no others.
-Polynomial in_smaller_ring(const Polynomial& p, const PolynomialRing& ring);
-
 /// A quotient of polynomials in the parameters.
 struct PencilValue {
   Polynomial top, bottom;

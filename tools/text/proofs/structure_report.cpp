@@ -81,6 +81,20 @@ void print_bracket(const Bracket& bracket, bool colour) {
   }
 }
 
+/// What was found with factors, into a list of the document, and how the search ended.
+template <class Report>
+void add_with_factors(nlohmann::ordered_json& json, const char* list, const Report& report,
+                      double seconds) {
+  for (const auto& own : report.found) {
+    json[list].push_back({{"components", object_of(own.texts)},
+                          {"factor", own.factor_text},
+                          {"degree", own.degree},
+                          {"verdict", to_string(own.verdict)}});
+  }
+  if (!report.reason.empty()) json["reason"] = report.reason;
+  json["seconds"] = seconds;
+}
+
 }  // namespace
 
 nlohmann::ordered_json to_json(const Model& model, int degree, const TensorReport& report,
@@ -136,14 +150,7 @@ nlohmann::ordered_json to_json(const Model& model, int degree,
                               {"fields", nlohmann::ordered_json::array()},
                               {"verdict", report.complete ? "proved" : "undecided"},
                               {"generic", report.generic}};
-  for (const structure::OrbitalSymmetry& own : report.found) {
-    json["fields"].push_back({{"components", object_of(own.texts)},
-                              {"factor", own.factor_text},
-                              {"degree", own.degree},
-                              {"verdict", to_string(own.verdict)}});
-  }
-  if (!report.reason.empty()) json["reason"] = report.reason;
-  json["seconds"] = seconds;
+  add_with_factors(json, "fields", report, seconds);
   return json;
 }
 
@@ -179,14 +186,7 @@ nlohmann::ordered_json to_json(const Model& model, int degree,
       {"rational", report.complete_rational ? "proved" : "undecided"},
       {"constant_factors", report.complete_constants ? "proved" : "undecided"},
       {"generic", report.generic}};
-  for (const structure::ConformalTensor& own : report.found) {
-    json["tensors"].push_back({{"components", object_of(own.texts)},
-                               {"factor", own.factor_text},
-                               {"degree", own.degree},
-                               {"verdict", to_string(own.verdict)}});
-  }
-  if (!report.reason.empty()) json["reason"] = report.reason;
-  json["seconds"] = seconds;
+  add_with_factors(json, "tensors", report, seconds);
   return json;
 }
 
