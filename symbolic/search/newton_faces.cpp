@@ -56,8 +56,7 @@ long product(const std::vector<long>& w, const std::vector<long>& a) {
 
 bool NewtonFaces::Face::contains(const Vector& a) const { return product(direction, a) == height; }
 
-NewtonFaces::NewtonFaces(const std::vector<Polynomial>& field, std::size_t dimension)
-    : dimension_(dimension) {
+NewtonFaces::NewtonFaces(const std::vector<Polynomial>& field, std::size_t dimension) {
   for (std::size_t i = 0; i < dimension; ++i) {
     const PolynomialRing& ring = field[i].ring();
     for (auto [number, exponents] : field[i].term_list()) {

@@ -41,7 +41,6 @@ class NewtonFaces {
  private:
   void add_direction(const Vector& w);
 
-  std::size_t dimension_;
   std::map<Vector, std::vector<Polynomial>> terms_;  ///< D_a
   std::vector<Face> all_;                            ///< of all directions that were tried
   std::vector<Vector> vertices_;

@@ -80,16 +80,20 @@ std::vector<Generator> Finder::casimirs_as_needed() {
   Problem problem;
   problem.fields = {system_.atoms(), system_.coordinate_flows(), system_.plain_coordinate_flows()};
   problem.weights = weights_;
-  // At rest, the time and functions of it alone would be some of them.
+  // The time and functions of it alone would be some of them: they are numbers here. Functions of
+  // Casimir functions are answers, and coefficients of others.
   for (std::size_t k = problem.fields.places.size(); k-- > model_.variables.size();) {
-    if (std::any_of(problem.fields.rates.begin(), problem.fields.rates.end(),
-                    [&](const auto& row) { return !row[k].is_zero(); }))
+    const std::vector<Polynomial> slopes =
+        system_.gradient(system_.ring().variable(problem.fields.places[k]));
+    if (std::any_of(slopes.begin(), slopes.begin() + model_.variables.size(),
+                    [](const Polynomial& slope) { return !slope.is_zero(); }))
       continue;
     const auto place = static_cast<std::ptrdiff_t>(k);
     problem.fields.places.erase(problem.fields.places.begin() + place);
     for (auto& row : problem.fields.rates) row.erase(row.begin() + place);
-    for (auto& row : problem.fields.plain) row.erase(row.begin() + place);
     problem.weights.erase(problem.weights.begin() + place);
+    // At points where a number of these has other values, they would be no numbers.
+    problem.fields.plain.clear();
   }
   // The rank of the bracket at a random point is a lower bound of the generic one.
   std::size_t rank = 0;

@@ -347,8 +347,7 @@ void PencilSolver::solve_from(std::size_t leading, const PolynomialRing& larger,
   for (search::Branch branch : search::solve_system(equations, unknowns, watch_)) {
     std::vector<search::SolvedUnknown> all;
     for (const search::SolvedUnknown& own : solved)
-      all.push_back({own.place, in_ring(own.numerator, larger),
-                     in_ring(own.denominator, larger)});
+      all.push_back({own.place, in_ring(own.numerator, larger), in_ring(own.denominator, larger)});
     all.insert(all.end(), branch.solved.begin(), branch.solved.end());
     branch.solved = std::move(all);
     take(branch, unknowns, larger);

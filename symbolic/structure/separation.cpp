@@ -62,6 +62,11 @@ class SeparationSearch {
   SeparationSearch(const Model& model, const SeparationRequest& request, const search::Watch& watch)
       : model_(model), request_(request), watch_(watch) {
     report_.degree = request.degree;
+    names_.root = free_name({"u", "v", "w", "z", "s", "lambda"});
+    names_.sum = free_name({"G", "Phi", "Sigma"});
+    names_.rate = free_name({"w", "v", "y", "rate"});
+    if (names_.rate == names_.root) names_.rate = free_name({"rate"});
+    names_.integral = free_name({"F", "K", "Q", "f"}, true);
   }
 
   SeparationReport run();
@@ -73,69 +78,86 @@ class SeparationSearch {
   bool look_with(const std::vector<Polynomial>& integrals);
   bool look_among(const BivectorSpace& space, const std::vector<Polynomial>& integrals);
   std::string text(const Polynomial& p) const { return leaves_->system().functions().text(p); }
-  std::string free_name() const;
-  SeparationJudge judge() {
-    return SeparationJudge(*leaves_, casimirs_, points_, free_name(), watch_);
-  }
+  bool is_used(const std::string& name) const;
+  std::string free_name(std::initializer_list<const char*> wanted, bool is_start = false) const;
+  SeparationJudge judge() { return SeparationJudge(*leaves_, casimirs_, points_, names_, watch_); }
   void read_roots();
   void look_at_roots(const std::vector<std::vector<Polynomial>>& choices);
 
   const Model& model_;
   const SeparationRequest& request_;
   const search::Watch& watch_;
+  SeparationNames names_;
   std::vector<GiNaC::ex> roots_;  ///< the coefficients of the polynomial that was given
+  std::vector<GiNaC::ex> poles_;  ///< where one of these is zero, they have no values
   std::optional<Leaves> leaves_;
   std::vector<Polynomial> casimirs_, functions_;
   std::vector<RealPoint> points_;
   SeparationReport report_;
 };
 
-/// "u", or the first other name that the case does not use.
-std::string SeparationSearch::free_name() const {
-  const auto used = [&](const std::string& name) {
-    const auto is = [&](const GiNaC::symbol& own) { return own.get_name() == name; };
-    const auto is_named = [&](const NamedExpression& own) { return own.name == name; };
-    return std::ranges::any_of(model_.variables, is) ||
-           std::ranges::any_of(model_.parameters, is) ||
-           std::ranges::any_of(model_.definitions, is_named) ||
-           std::ranges::any_of(model_.casimirs, is_named) ||
-           std::ranges::any_of(model_.integrals, is_named);
-  };
-  for (const char* name : {"u", "v", "w", "z", "s", "lambda"})
-    if (!used(name)) return name;
-  return "u_";
+bool SeparationSearch::is_used(const std::string& name) const {
+  const auto is = [&](const GiNaC::symbol& own) { return own.get_name() == name; };
+  const auto is_named = [&](const NamedExpression& own) { return own.name == name; };
+  return std::ranges::any_of(model_.symbols(), is) ||
+         std::ranges::any_of(model_.definitions, is_named) ||
+         std::ranges::any_of(model_.casimirs, is_named) ||
+         std::ranges::any_of(model_.integrals, is_named);
+}
+
+/// The first that the case does not use, with 1, 2, .. behind it if it is a start.
+std::string SeparationSearch::free_name(std::initializer_list<const char*> wanted,
+                                        bool is_start) const {
+  constexpr int kMostNumbers = 9;
+  for (std::string tail;; tail += "_") {
+    for (const char* own : wanted) {
+      const std::string name = own + tail;
+      bool used = is_used(name);
+      for (int k = 1; is_start && k <= kMostNumbers; ++k)
+        used = used || is_used(name + std::to_string(k));
+      if (!used) return name;
+    }
+  }
 }
 
 /// The coefficients of the polynomial that was given, where the highest one is 1.
 void SeparationSearch::read_roots() {
   if (!request_.roots) return;
-  const GiNaC::symbol u(free_name());
+  const GiNaC::symbol u(names_.root);
   Model with_root = model_;
   with_root.parameters.push_back(u);
   const GiNaC::ex given = with_root.parse(*request_.roots).expand();
   if (!given.is_polynomial(u) || given.degree(u) < 1)
     throw request_.roots->error(fmt::format("'{}' is not a polynomial in {}",
-                                            printable(request_.roots->value), free_name()));
+                                            printable(request_.roots->value), names_.root));
   const int n = given.degree(u);
-  for (int k = 1; k <= n; ++k)
+  poles_.push_back(given.coeff(u, n));
+  for (int k = 1; k <= n; ++k) {
+    poles_.push_back(given.coeff(u, n - k).normal().denom());
     roots_.push_back((given.coeff(u, n - k) / given.coeff(u, n)).normal());
+  }
 }
 
-/// The first choice of integrals that separate in the roots, or else the first one.
+/// The first choice of integrals that separate in the roots, or else the first that are not shown
+/// not to; what is refuted is so for all choices.
 void SeparationSearch::look_at_roots(const std::vector<std::vector<Polynomial>>& choices) {
-  if (roots_.size() != report_.freedom)
+  if (roots_.size() != *report_.freedom)
     throw request_.roots->error(
         fmt::format("a polynomial of degree {} is needed, as the leaves have "
                     "dimension {}; this one has degree {}",
-                    report_.freedom, 2 * report_.freedom, roots_.size()));
+                    *report_.freedom, 2 * *report_.freedom, roots_.size()));
   RootCoefficients a;
   for (const GiNaC::ex& own : roots_) a.push_back(leaves_->convert(own));
+  std::vector<Polynomial> poles;
+  for (const GiNaC::ex& own : poles_)
+    if (!GiNaC::is_a<GiNaC::numeric>(own)) poles.push_back(leaves_->convert(own));
   for (const std::vector<Polynomial>& integrals : choices) {
-    Separation own = judge().of_roots(a, integrals);
-    const bool is_proved = own.separated == Verdict::proved;
-    if (is_proved) report_.found.clear();
-    if (report_.found.empty()) report_.found.push_back(std::move(own));
-    if (is_proved) return;
+    Separation own = judge().of_roots(a, poles, integrals);
+    const bool is_better =
+        report_.found.empty() || own.separated == Verdict::proved ||
+        (report_.found.front().separated == Verdict::refuted && own.separated != Verdict::refuted);
+    if (is_better) report_.found.assign(1, std::move(own));
+    if (report_.found.front().separated == Verdict::proved) return;
   }
 }
 
@@ -193,7 +215,9 @@ bool SeparationSearch::read(const std::vector<Text>& on, int degree) {
                                casimirs = possible_casimirs(model_, watch_);
   std::vector<GiNaC::ex> others = values;
   others.insert(others.end(), casimirs.begin(), casimirs.end());
+  for (const NamedExpression& own : model_.constraints) others.push_back(own.value);
   others.insert(others.end(), roots_.begin(), roots_.end());
+  others.insert(others.end(), poles_.begin(), poles_.end());
   points_.clear();  // of the ring that goes, as all that follows
   casimirs_.clear();
   functions_.clear();
@@ -205,7 +229,12 @@ bool SeparationSearch::read(const std::vector<Text>& on, int degree) {
   report_.on = names_of(level);
   report_.generic.clear();
   for (const std::size_t place : system.parameters()) report_.generic.push_back(system.name(place));
-  report_.freedom = leaves_->degrees_of_freedom();
+  const std::size_t n = leaves_->degrees_of_freedom();
+  report_.freedom = n;
+  report_.not_used.clear();
+  for (const NamedExpression& own : model_.constraints)
+    if (!leaves_->vanishes(leaves_->convert(own.value)))
+      report_.not_used.push_back(text(leaves_->convert(own.value)));
   for (const GiNaC::ex& c : casimirs) {
     const Polynomial& own = leaves_->convert(c);
     bool is_one = true;
@@ -220,10 +249,10 @@ bool SeparationSearch::read(const std::vector<Text>& on, int degree) {
   }
   PolynomialRows slopes;
   for (const Polynomial& f : functions_) slopes.push_back(leaves_->gradient(f));
-  if (report_.freedom < 2)
-    report_.reason = report_.freedom == 0 ? "the bracket is zero on the level"
-                                          : "the leaves have one degree of freedom: there is "
-                                            "nothing to separate";
+  if (n < 2)
+    report_.reason = n == 0 ? "the bracket is zero on the level"
+                            : "the leaves have one degree of freedom: there is "
+                              "nothing to separate";
   else if (model_.complex_numbers || !system.prover().has_no_zero_divisors(slopes))
     report_.reason = "variables that separate are searched for functions without I and |x|";
   else
@@ -244,18 +273,23 @@ bool SeparationSearch::look(const std::vector<Text>& on, int degree) {
     report_.reason = fmt::format(
         "{} integrals in involution are needed whose flows are independent, the Hamiltonian being "
         "one of them; so many were not found",
-        report_.freedom);
+        *report_.freedom);
     return false;
   }
   if (request_.roots) {
     look_at_roots(choices);
     return true;
   }
-  report_.none = choices.size() < kMostChoicesOfIntegrals;
+  report_.none = true;
   for (const std::vector<Polynomial>& own : choices)
     if (look_with(own)) return true;
+  report_.involved.clear();
+  for (const Polynomial& f : choices.front()) report_.involved.push_back(text(f));
   std::optional<std::string> doubt;
-  if (report_.none) doubt = doubt_of_none();
+  if (report_.none && choices.size() > 1)
+    doubt = "the Hamiltonian has more integrals than these, of which other combinations may do";
+  else if (report_.none)
+    doubt = doubt_of_none();
   report_.none = report_.none && !doubt;
   report_.reason = doubt ? "no bivector of this degree was found, but " + *doubt
                    : report_.none

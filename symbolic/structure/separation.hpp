@@ -20,6 +20,12 @@ struct SeparationRequest {
   std::optional<Text> roots;
 };
 
+/// What the texts of a separation call things: by no name of the case.
+struct SeparationNames {
+  std::string root = "u", sum = "G", rate = "w";
+  std::string integral = "F";  ///< a number follows
+};
+
 /// Variables u_1, .., u_n on the symplectic leaves in which the integrals F_1, .., F_n separate:
 /// the roots of u^n + a_1 u^(n-1) + .. + a_n = 0.
 ///
@@ -69,9 +75,9 @@ struct Separation {
   };
   /// P', as "M1,M2" and "-M3"; empty where the roots were given
   std::vector<std::pair<std::string, std::string>> bivector;
-  int degree = 0;                         ///< of its components
-  std::vector<std::string> integrals;     ///< F_1, .., F_n, the Hamiltonian first
-  std::string variable;                   ///< the name of u: no name of the case
+  int degree = 0;                      ///< of its components
+  std::vector<std::string> integrals;  ///< F_1, .., F_n, the Hamiltonian first
+  SeparationNames names;
   std::vector<std::string> coefficients;  ///< a_1, .., a_n
   std::string polynomial;                 ///< with all of them
 
@@ -99,15 +105,21 @@ struct Separation {
 /// What a search for such variables found.
 struct SeparationReport {
   int degree = 0;
-  std::size_t freedom = 0;      ///< n, half the dimension of the leaves on the level
-  std::vector<std::string> on;  ///< the level
+  /// n, half the dimension of the leaves on the level, or less at all real points; empty where that
+  /// was not computed.
+  std::optional<std::size_t> freedom;
+  std::vector<std::string> on;                   ///< the level
   std::optional<std::string> bracket_of_motion;  ///< said where the case has no bracket of its own
   std::vector<std::string> integrals;            ///< in involution, that were looked at
   std::vector<Separation> found;                 ///< the first that was proved, or none
   std::size_t examined = 0;                      ///< bivectors that were looked at
   /// Proved where nothing was found: no bivector of that degree obeys the linear conditions, beside
-  /// multiples of P by Casimir functions, for generic parameters and these integrals.
+  /// multiples of P by Casimir functions, for generic parameters and these integrals: of others, or
+  /// of other combinations, it says nothing.
   bool none = false;
+  std::vector<std::string> involved;  ///< the integrals of `none`
+  /// Constraints of the case that are no part of the level: all is about the whole space.
+  std::vector<std::string> not_used;
   std::string reason;  ///< where nothing was found
   std::vector<std::string> generic;
 };

@@ -123,14 +123,14 @@ void SeparationJudge::judge_multipliers(Separation& result, const RootCoefficien
   result.staeckel = Verdict::proved;
   std::vector<SeparatedEquation> equations;
   for (std::size_t i = 0; i < form->multipliers.size(); ++i) {
-    result.relations.push_back(relation_of(leaves_, form->multipliers[i], result.variable));
+    result.relations.push_back(relation_of(leaves_, form->multipliers[i], names_));
     Separation::Relation& own = result.relations.back();
     if (!form->roots.empty()) own.root = text_of(leaves_, form->roots[i]);
     const auto equation =
         separated_equation(leaves_, form->roots.empty() ? a : RootCoefficients{-form->roots[i]},
                            form->multipliers[i], integrals, casimirs_, watch_);
     if (!equation) continue;
-    own.equation = text_of(leaves_, *equation, result.variable, "G");
+    own.equation = text_of(leaves_, *equation, names_.root, names_.sum);
     equations.push_back(*equation);
   }
   if (equations.size() == form->multipliers.size())
@@ -169,7 +169,9 @@ void SeparationJudge::judge_levi_civita(Separation& result, const RootCoefficien
   } else if (std::ranges::any_of(
                  defect, [&](const Polynomial& p) { return is_certainly_not_zero(point, p); })) {
     result.separated = Verdict::refuted;
-    result.reason = "Levi-Civita's condition is violated at the point";
+    result.reason =
+        "Levi-Civita's condition is violated at the point; other integrals of the Hamiltonian are "
+        "not excluded";
   } else {
     result.reason = "Levi-Civita's condition is not decided at the point";
   }
@@ -178,7 +180,7 @@ void SeparationJudge::judge_levi_civita(Separation& result, const RootCoefficien
 Separation SeparationJudge::begin(const RootCoefficients& a,
                                   const std::vector<Polynomial>& integrals) const {
   Separation result;
-  result.variable = variable_;
+  result.names = names_;
   for (const Polynomial& f : integrals) result.integrals.push_back(text_of(leaves_, f));
   write_roots(result, leaves_, a);
   return result;
@@ -209,6 +211,7 @@ std::optional<Separation> SeparationJudge::of_bivector(
 }
 
 Separation SeparationJudge::of_roots(const RootCoefficients& a,
+                                     const std::vector<Polynomial>& poles,
                                      const std::vector<Polynomial>& integrals) const {
   Separation result = begin(a, integrals);
   auto nonzero = regular_where(leaves_, a, integrals);
@@ -216,6 +219,7 @@ Separation SeparationJudge::of_roots(const RootCoefficients& a,
     result.reason = "the roots are not distinct, or no coordinates on the tori of the integrals";
     return result;
   }
+  nonzero->insert(nonzero->end(), poles.begin(), poles.end());
   RealPoint* point = judge_point(result, a, std::move(*nonzero));
   if (point == nullptr) return result;
   judge_commuting(result, a, *point);

@@ -12,13 +12,12 @@ class SeparationJudge {
   /// Borrows all.
   /// \param casimirs  each of them one on the level
   /// \param points  of the level, inside all assumptions
-  /// \param variable  the name of the roots
   SeparationJudge(const Leaves& leaves, const std::vector<Polynomial>& casimirs,
-                  std::vector<RealPoint>& points, std::string variable, const search::Watch& watch)
+                  std::vector<RealPoint>& points, SeparationNames names, const search::Watch& watch)
       : leaves_(leaves),
         casimirs_(casimirs),
         points_(points),
-        variable_(std::move(variable)),
+        names_(std::move(names)),
         watch_(watch) {}
 
   /// Of the roots of det(P' - u P); empty where they are no variables, or not shown to separate.
@@ -26,7 +25,9 @@ class SeparationJudge {
   std::optional<Separation> of_bivector(const Bivector& p,
                                         const std::vector<Polynomial>& integrals) const;
   /// Of the roots of a polynomial; `separated` may have any verdict.
-  Separation of_roots(const RootCoefficients& a, const std::vector<Polynomial>& integrals) const;
+  /// \param poles  where one of these is zero, the coefficients have no values
+  Separation of_roots(const RootCoefficients& a, const std::vector<Polynomial>& poles,
+                      const std::vector<Polynomial>& integrals) const;
 
  private:
   Separation begin(const RootCoefficients& a, const std::vector<Polynomial>& integrals) const;
@@ -47,7 +48,7 @@ class SeparationJudge {
   const Leaves& leaves_;
   const std::vector<Polynomial>& casimirs_;
   std::vector<RealPoint>& points_;
-  std::string variable_;
+  SeparationNames names_;
   const search::Watch& watch_;
 };
 

@@ -24,11 +24,12 @@ std::string text_of(const Leaves& leaves, const Polynomial& p) {
   return leaves.system().functions().text(p);
 }
 
-Separation::Relation relation_of(const Leaves& leaves, const Multipliers& s, const std::string& u) {
+Separation::Relation relation_of(const Leaves& leaves, const Multipliers& s,
+                                 const SeparationNames& names) {
   Separation::Relation result;
   result.may_vanish = true;
   for (std::size_t j = 0; j < s.size(); ++j) {
-    std::string own = in_powers(leaves, s[j], u);
+    std::string own = in_powers(leaves, s[j], names.root);
     result.multipliers.push_back(own);
     if (own == "0") continue;
     const bool is_constant = std::ranges::all_of(s[j].begin() + 1, s[j].end(),
@@ -38,7 +39,8 @@ Separation::Relation relation_of(const Leaves& leaves, const Multipliers& s, con
     if (minus) own.erase(0, 1);
     if (own.find(' ') != std::string::npos && (own[0] != '(' || own.find(')') + 1 != own.size()))
       own = "(" + own + ")";
-    const std::string product = (own == "1" ? "" : own + "*") + fmt::format("F{}", j + 1);
+    const std::string product =
+        (own == "1" ? "" : own + "*") + fmt::format("{}{}", names.integral, j + 1);
     const std::string sign = result.sum.empty() ? (minus ? "-" : "") : minus ? " - " : " + ";
     result.sum += sign + product;
   }
@@ -111,14 +113,14 @@ void write_bivector(Separation& result, const Leaves& leaves, const Bivector& bi
 
 void write_roots(Separation& result, const Leaves& leaves, const RootCoefficients& a) {
   const std::size_t n = a.size();
-  result.polynomial = fmt::format("{}^{}", result.variable, n);
+  result.polynomial = fmt::format("{}^{}", result.names.root, n);
   for (std::size_t k = 1; k <= n; ++k) {
     const std::string own_text = text_of(leaves, a[k - 1]);
     result.coefficients.push_back(own_text);
     if (a[k - 1].is_zero()) continue;
     const std::string power = n == k       ? ""
-                              : n - k == 1 ? "*" + result.variable
-                                           : fmt::format("*{}^{}", result.variable, n - k);
+                              : n - k == 1 ? "*" + result.names.root
+                                           : fmt::format("*{}^{}", result.names.root, n - k);
     result.polynomial += fmt::format(" + ({}){}", own_text, power);
   }
 }

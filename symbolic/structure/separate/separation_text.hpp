@@ -15,13 +15,14 @@ std::string in_powers(const Leaves& leaves, const std::vector<Polynomial>& coeff
 /// \param g  that of the sum
 std::string text_of(const Leaves& leaves, const SeparatedEquation& equation, const std::string& u,
                     const std::string& g);
-Separation::Relation relation_of(const Leaves& leaves, const Multipliers& s, const std::string& u);
+Separation::Relation relation_of(const Leaves& leaves, const Multipliers& s,
+                                 const SeparationNames& names);
 
 /// The irreducible factors of all, each once, without numbers.
 std::vector<std::string> factors_of(const Leaves& leaves, const std::vector<Polynomial>& list);
 
 void write_bivector(Separation& result, const Leaves& leaves, const Bivector& bivector);
-/// The coefficients and, with them, the polynomial in `result.variable`.
+/// The coefficients and, with them, the polynomial in `result.names.root`.
 void write_roots(Separation& result, const Leaves& leaves, const RootCoefficients& a);
 
 }  // namespace casimir::structure

@@ -82,6 +82,28 @@ TEST(FunctionsWithRelations, CasimirFunctionsAreAllFoundToo) {
   for (const auto& own : report.found) EXPECT_EQ(own.verdict, Verdict::proved);
 }
 
+/// A function of Casimir functions is one, and a coefficient of others.
+TEST(FunctionsWithRelations, OfCasimirFunctionsAreCasimirFunctionsAndTheirCoefficients) {
+  search::Request request = up_to(2);
+  request.casimirs = true;
+  const Model model = model_of(
+      "hamiltonian = \"y\"\n[phase_space]\nvariables = [\"x\", \"y\", \"w\", \"z\"]\n"
+      "[phase_space.brackets]\n\"x,y\" = \"sqrt(z)\"\n\"y,w\" = \"1\"\n\"x,w\" = \"0\"\n");
+  const auto report = search::find_integrals(model, request);
+  EXPECT_TRUE(report.complete) << report.reason;
+  std::vector<std::string> texts;
+  for (const auto& own : report.found) texts.push_back(own.text);
+  EXPECT_TRUE(std::ranges::find(texts, "w*sqrt(z) + x") != texts.end());
+  EXPECT_TRUE(std::ranges::find(texts, "sqrt(z)") != texts.end());
+  // x + sin(t)*z: functions of the time are no coefficients that a search writes down.
+  const auto moving = search::find_integrals(
+      model_of("hamiltonian = \"y\"\n[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n"
+               "time = \"t\"\n[phase_space.brackets]\n\"x,y\" = \"sin(t)\"\n\"y,z\" = \"1\"\n"
+               "\"x,z\" = \"0\"\n"),
+      request);
+  EXPECT_FALSE(moving.complete);
+}
+
 /// What vanishes at points modulo a prime is no proof for functions of which other relations may
 /// hold: |x| - x is zero on half of the line.
 TEST(FunctionsWithRelations, AbsoluteValuesLeaveTheAnswerOpen) {

@@ -74,7 +74,7 @@ class AtPoint {
   }
   /// s_j at a root, which is real in the tests.
   double multiplier(const Separation::Relation& relation, std::size_t j, std::size_t i) const {
-    return number(model_.parse(text_of(with_number(relation.multipliers[j], own_.variable, i))));
+    return number(model_.parse(text_of(with_number(relation.multipliers[j], own_.names.root, i))));
   }
   /// The difference of the two sides of the equation for {u, G}^2.
   double equation_defect(const Separation::Relation& relation, std::size_t i) const {
@@ -83,7 +83,7 @@ class AtPoint {
       g += multiplier(relation, j, i) * number(f_[j]);
       w += multiplier(relation, j, i) * with_integral(i, j).real();
     }
-    const std::string sides = std::regex_replace(with_number(relation.equation, own_.variable, i),
+    const std::string sides = std::regex_replace(with_number(relation.equation, own_.names.root, i),
                                                  std::regex("\\bG\\b"), "(" + fraction_of(g) + ")");
     return number(model_.parse(text_of(sides))) - w * w;
   }
@@ -298,6 +298,52 @@ TEST(Separation, LeavesOutIntegralsThatAreNone) {
   EXPECT_EQ(report.integrals.size(), 1U);
 }
 
+/// Each of the integrals A, B that are claimed has no bivector of degree 1 beside the Hamiltonian,
+/// and A - B has one: no word about all of them.
+TEST(Separation, OfOtherCombinationsOfIntegralsIsNotExcluded) {
+  const std::string p1 = "(px + x^2)", p2 = "(py + y^2)";
+  const std::string l = "3*(x*" + p2 + " - y*" + p1 + ")*" + p1 + " + 5*" + p2 + "^2";
+  const SeparationReport report =
+      searched(canonical(kPlane, p1 + "^2 + " + p2 + "^2",
+                         "[integrals]\nA = \"" + l + " - 7*" + p1 + "\"\nB = \"" + l + "\"\n"),
+               1);
+  EXPECT_TRUE(report.found.empty());
+  EXPECT_FALSE(report.none);
+}
+
+TEST(Separation, ThatDoesNotExistIsSaidOfTheIntegralsAndOfTheSpaceThatWereLookedAt) {
+  const SeparationReport report = searched(bundled("kovalevskaya"), 1);
+  EXPECT_TRUE(report.none) << report.reason;
+  EXPECT_EQ(report.involved.size(), 2U);
+  EXPECT_EQ(report.not_used.size(), 1U);
+}
+
+TEST(Separation, UsesNoNameOfTheCase) {
+  const SeparationReport report =
+      searched(canonical(R"("G", "u", "F1", "w")", "(F1^2 + w^2)/2 + G^4 + u^4 + K*u",
+                         "[parameters]\nK = {}\n[integrals]\nI1 = \"F1^2/2 + G^4\"\n"),
+               1);
+  ASSERT_EQ(report.found.size(), 1U);
+  const structure::SeparationNames& names = report.found[0].names;
+  for (const std::string& own : {names.root, names.sum, names.rate})
+    EXPECT_TRUE(own != "G" && own != "u" && own != "w" && own != "K") << own;
+  EXPECT_NE(names.integral, "F");
+  EXPECT_EQ(report.found[0].map, Verdict::proved);
+}
+
+TEST(Separation, NamesWhereTheGivenPolynomialHasNoRoots) {
+  structure::SeparationRequest request;
+  request.roots = text_of("(a*u - x)*(u - y)");
+  const SeparationReport report = structure::find_separation(
+      canonical(kPlane, "(px^2 + py^2)/2 + x^4 + y^4",
+                "[parameters]\na = {}\n[integrals]\nK = \"px^2/2 + x^4\"\n"),
+      request);
+  ASSERT_EQ(report.found.size(), 1U);
+  EXPECT_EQ(report.found[0].separated, Verdict::proved);
+  const std::vector<std::string>& nonzero = report.found[0].nonzero;
+  EXPECT_NE(std::ranges::find(nonzero, "a"), nonzero.end());
+}
+
 TEST(Separation, HasNothingToDoInOneDegreeOfFreedom) {
   const SeparationReport report = searched(canonical(R"("q", "p")", "p^2 + q^4"), 2);
   EXPECT_EQ(report.freedom, 1U);
@@ -405,7 +451,7 @@ TEST(RootsThatAreGiven, HaveAnotherNameWhereTheCaseHasAnU) {
                                 "[integrals]\nK = \"pu^2/2 + u^4\"\n");
   const SeparationReport report = examined(model, "(v - u)*(v - y)");
   ASSERT_EQ(report.found.size(), 1U);
-  EXPECT_EQ(report.found[0].variable, "v");
+  EXPECT_EQ(report.found[0].names.root, "v");
   EXPECT_EQ(report.found[0].separated, Verdict::proved);
 }
 

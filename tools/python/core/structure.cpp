@@ -132,7 +132,7 @@ py::dict to_python(const structure::Separation& own) {
                               "sum"_a = one.sum, "equation"_a = one.equation,
                               "may_vanish"_a = one.may_vanish));
   return py::dict("integrals"_a = own.integrals, "bivector"_a = table_of(own.bivector),
-                  "variable"_a = own.variable, "coefficients"_a = own.coefficients,
+                  "variable"_a = own.names.root, "coefficients"_a = own.coefficients,
                   "polynomial"_a = own.polynomial, "separated"_a = to_string(own.separated),
                   "staeckel"_a = to_string(own.staeckel), "relations"_a = relations,
                   "nonzero"_a = own.nonzero, "point"_a = own.point, "real"_a = own.real,
@@ -153,7 +153,7 @@ py::object separation(const Case& self, int degree, const Names& on, const Names
     py::list found;
     for (const structure::Separation& own : report.found) found.append(to_python(own));
     const std::string verdict = report.found.empty()
-                                    ? verdict_of(report.none || report.freedom == 1)
+                                    ? verdict_of(report.none || report.freedom == 1U)
                                     : to_string(report.found.front().separated);
     return py::dict("found"_a = found, "degrees_of_freedom"_a = report.freedom, "on"_a = report.on,
                     "integrals"_a = report.integrals, "none"_a = report.none, "verdict"_a = verdict,

@@ -15,23 +15,26 @@ using structure::SeparationReport;
 nlohmann::ordered_json json_of(const Separation& own) {
   nlohmann::ordered_json brackets = nlohmann::ordered_json::object();
   for (const auto& [label, text] : own.bivector) brackets[label] = text;
-  nlohmann::ordered_json result{{"integrals", own.integrals},
-                                {"bivector", brackets},
-                                {"degree", own.degree},
-                                {"tangent", to_string(own.tangent)},
-                                {"compatible", to_string(own.compatible)},
-                                {"jacobi", to_string(own.jacobi)},
-                                {"involution", to_string(own.involution)},
-                                {"variable", own.variable},
-                                {"coefficients", own.coefficients},
-                                {"polynomial", own.polynomial},
-                                {"commuting", to_string(own.commuting)},
-                                {"distinct", to_string(own.distinct)},
-                                {"real", own.real},
-                                {"point", own.point},
-                                {"nonzero", own.nonzero},
-                                {"separated", to_string(own.separated)},
-                                {"staeckel", to_string(own.staeckel)}};
+  nlohmann::ordered_json result{
+      {"integrals", own.integrals},
+      {"bivector", brackets},
+      {"degree", own.degree},
+      {"tangent", to_string(own.tangent)},
+      {"compatible", to_string(own.compatible)},
+      {"jacobi", to_string(own.jacobi)},
+      {"involution", to_string(own.involution)},
+      {"variable", own.names.root},
+      {"names",
+       {{"sum", own.names.sum}, {"rate", own.names.rate}, {"integral", own.names.integral}}},
+      {"coefficients", own.coefficients},
+      {"polynomial", own.polynomial},
+      {"commuting", to_string(own.commuting)},
+      {"distinct", to_string(own.distinct)},
+      {"real", own.real},
+      {"point", own.point},
+      {"nonzero", own.nonzero},
+      {"separated", to_string(own.separated)},
+      {"staeckel", to_string(own.staeckel)}};
   nlohmann::ordered_json relations = nlohmann::ordered_json::array();
   for (const Separation::Relation& one : own.relations) {
     relations.push_back({{"multipliers", one.multipliers}, {"sum", one.sum}});
@@ -58,16 +61,18 @@ void print_bivector(const Separation& own) {
   fmt::print("  tangent to the leaves   {}\n", verdict_text(own.tangent, colour));
   fmt::print("  compatible, [P, P'] = 0   {}\n", verdict_text(own.compatible, colour));
   fmt::print("  Jacobi identity, [P', P'] = 0   {}\n", verdict_text(own.jacobi, colour));
-  fmt::print("  {{F_i, F_j}}' = 0   {}\n", verdict_text(own.involution, colour));
+  fmt::print("  {{{0}_i, {0}_j}}' = 0   {1}\n", own.names.integral,
+             verdict_text(own.involution, colour));
 }
 
 void print_relations(const Separation& own) {
-  const std::string& u = own.variable;
+  const std::string& u = own.names.root;
   for (const Separation::Relation& one : own.relations) {
-    fmt::print("    G = {} for {}{}\n", one.sum,
+    fmt::print("    {} = {} for {}{}\n", own.names.sum, one.sum,
                one.root.empty() ? "each root " + u : fmt::format("the root {} = {}", u, one.root),
                one.may_vanish ? ", where its coefficients are not all zero" : "");
-    if (!one.equation.empty()) fmt::print("    {{{}, G}}^2 = {}\n", u, one.equation);
+    if (!one.equation.empty())
+      fmt::print("    {{{}, {}}}^2 = {}\n", u, own.names.sum, one.equation);
   }
 }
 
@@ -77,9 +82,10 @@ void print_separation(const Separation& own) {
     fmt::print("  {}   {}\n", what, verdict_text(verdict, colour));
   };
   for (std::size_t j = 0; j < own.integrals.size(); ++j)
-    fmt::print("F{} = {}{}\n", j + 1, own.integrals[j], j == 0 ? "  (the Hamiltonian)" : "");
+    fmt::print("{}{} = {}{}\n", own.names.integral, j + 1, own.integrals[j],
+               j == 0 ? "  (the Hamiltonian)" : "");
   if (!own.bivector.empty()) print_bivector(own);
-  const std::string& u = own.variable;
+  const std::string& u = own.names.root;
   fmt::print("variables: the roots of {} = 0\n", own.polynomial);
   if (own.distinct == Verdict::proved)
     line(fmt::format("distinct and coordinates on the tori at {}, {}", own.point,
@@ -97,27 +103,33 @@ void print_separation(const Separation& own) {
        own.staeckel);
   print_relations(own);
   if (!own.map_case.empty())
-    line("the [[map]] to u, G and w = {u, G} of all roots (--output FILE writes it)", own.map);
+    line(fmt::format("the [[map]] to {0}, {1} and {2} = {{{0}, {1}}} of all roots (--output FILE "
+                     "writes it)",
+                     u, own.names.sum, own.names.rate),
+         own.map);
 }
 
 }  // namespace
 
 Verdict verdict_of(const SeparationReport& report) {
   if (!report.found.empty()) return report.found.front().separated;
-  return report.none || report.freedom == 1 ? Verdict::proved : Verdict::undecided;
+  return report.none || report.freedom == 1U ? Verdict::proved : Verdict::undecided;
 }
 
 nlohmann::ordered_json to_json(const Model& model, const SeparationReport& report, double seconds) {
   nlohmann::ordered_json json{{"case", model.name},
                               {"degree", report.degree},
-                              {"degrees_of_freedom", report.freedom},
+                              {"degrees_of_freedom", nullptr},
                               {"on", report.on},
                               {"integrals", report.integrals},
                               {"examined", report.examined},
                               {"separations", nlohmann::ordered_json::array()}};
+  if (report.freedom) json["degrees_of_freedom"] = *report.freedom;
   if (report.bracket_of_motion) json["bracket"] = *report.bracket_of_motion;
   for (const Separation& own : report.found) json["separations"].push_back(json_of(own));
   json["none"] = report.none;
+  if (report.none) json["involved"] = report.involved;
+  if (!report.not_used.empty()) json["constraints_not_used"] = report.not_used;
   json["verdict"] = to_string(verdict_of(report));
   json["generic"] = report.generic;
   if (!report.reason.empty()) json["reason"] = report.reason;
@@ -133,22 +145,32 @@ void print(const Model& model, const SeparationReport& report, double seconds) {
     fmt::print("{}: variables that separate, by a second bivector of degree {} at most\n",
                model.name, report.degree);
   if (report.bracket_of_motion) fmt::print("bracket found: {}\n", *report.bracket_of_motion);
-  fmt::print(
-      "{} degrees of freedom{}\n", report.freedom,
-      report.on.empty() ? "" : fmt::format(" on the level {} = 0", fmt::join(report.on, " = ")));
+  if (report.freedom)
+    fmt::print(
+        "{}{} degree{} of freedom{}\n", report.found.empty() ? "at most " : "", *report.freedom,
+        *report.freedom == 1 ? "" : "s",
+        report.on.empty() ? "" : fmt::format(" on the level {} = 0", fmt::join(report.on, " = ")));
+  if (!report.not_used.empty())
+    fmt::print("of the whole space: the constraint{} {} = 0 {} no part of the level (--on)\n",
+               report.not_used.size() == 1 ? "" : "s", fmt::join(report.not_used, " = 0, "),
+               report.not_used.size() == 1 ? "is" : "are");
   for (const Separation& own : report.found) print_separation(own);
   if (report.found.empty()) {
-    if (!report.integrals.empty())
-      fmt::print("integrals that commute with the Hamiltonian: {}\n",
-                 fmt::join(report.integrals, "; "));
+    const std::vector<std::string>& listed = report.none ? report.involved : report.integrals;
+    if (!listed.empty())
+      fmt::print("{}: {}\n",
+                 report.none ? "integrals" : "integrals that commute with the Hamiltonian",
+                 fmt::join(listed, "; "));
     if (report.none)
-      fmt::print("No such bivector with polynomial components up to degree {}{}: {}\n",
-                 report.degree,
-                 report.generic.empty()
-                     ? ""
-                     : fmt::format(", for generic values of {}", fmt::join(report.generic, ", ")),
-                 verdict_text(Verdict::proved, colour));
-    else if (report.freedom == 1)
+      fmt::print(
+          "No such bivector with polynomial components up to degree {} for which these integrals "
+          "are in involution{}: {}\n",
+          report.degree,
+          report.generic.empty()
+              ? ""
+              : fmt::format(", for generic values of {}", fmt::join(report.generic, ", ")),
+          verdict_text(Verdict::proved, colour));
+    else if (report.freedom == 1U)
       fmt::print("Nothing to do: {}\n", report.reason);
     else
       fmt::print("None found ({}): {}\n", verdict_text(Verdict::undecided, colour), report.reason);
