@@ -272,7 +272,7 @@ TEST(SearchStructure, VariablesThatSeparateAreTheRootsOfAPolynomial) {
   EXPECT_EQ(own.at("separated"), "proved");
   EXPECT_EQ(own.at("staeckel"), "proved");
   EXPECT_EQ(own.at("polynomial"), "u^2 + (2*M3)*u + (-M1^2 - M2^2)");
-  EXPECT_EQ(own.at("relations")[0].at("sum"), "u*F1 - F2");
+  EXPECT_EQ(own.at("relations")[0].at("sum"), "u*K1 - K2");
 }
 
 TEST(SearchStructure, TheMapToSeparatedVariablesIsWrittenAndProved) {
