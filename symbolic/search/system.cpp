@@ -307,7 +307,9 @@ std::optional<Residue> System::bound_value(std::size_t place, const Point& point
 
 std::optional<Point> System::random_point(const Modulus& modulus, std::mt19937_64& random,
                                           const Point* constants) const {
-  constexpr int kTries = 400;
+  // Half of all numbers have a square root: ten roots need a thousand tries, of which most end at
+  // once.
+  constexpr int kTries = 8192;
   const std::size_t symbols = prover_.ring().symbols().size();
   for (int attempt = 0; attempt < kTries; ++attempt) {
     Point point(ring().size(), 0);
