@@ -21,12 +21,25 @@ ex principal_power(const ex& base, const ex& exponent, bool complex_numbers) {
          GiNaC::pow(GiNaC::pow(inner.op(0), 2), exponent);
 }
 
+namespace {
+
+/// GiNaC leaves sqrt(-2) as it is, while sqrt(-4) is 2*I.
+bool is_even_root_of_negative(const ex& part) {
+  if (!GiNaC::is_exactly_a<GiNaC::power>(part)) return false;
+  const ex base = part.op(0), exponent = part.op(1);
+  return base.info(GiNaC::info_flags::negative) && exponent.info(GiNaC::info_flags::rational) &&
+         GiNaC::ex_to<GiNaC::numeric>(exponent).denom().is_even();
+}
+
+}  // namespace
+
 bool is_complex_constant(const ex& value) {
   bool complex = false;
   for (auto part = value.preorder_begin(); part != value.preorder_end(); ++part) {
     if (GiNaC::is_a<GiNaC::symbol>(*part)) return false;
-    complex = complex || (GiNaC::is_exactly_a<GiNaC::numeric>(*part) &&
-                          !GiNaC::ex_to<GiNaC::numeric>(*part).is_real());
+    complex = complex || is_even_root_of_negative(*part) ||
+              (GiNaC::is_exactly_a<GiNaC::numeric>(*part) &&
+               !GiNaC::ex_to<GiNaC::numeric>(*part).is_real());
   }
   return complex;
 }

@@ -8,8 +8,8 @@ namespace casimir {
 /// only; among complex numbers it is x^(1/2)/(x^2)^(1/2).
 GiNaC::ex principal_power(const GiNaC::ex& base, const GiNaC::ex& exponent, bool complex_numbers);
 
-/// Whether it is a constant that is made of numbers that are not real, as GiNaC's log(-3). Only
-/// constants become complex by themselves.
+/// Whether it is a constant that is made of numbers that are not real, as GiNaC's log(-3), or a
+/// root of even order of a negative number. Only constants become complex by themselves.
 bool is_complex_constant(const GiNaC::ex& value);
 
 }  // namespace casimir

@@ -59,6 +59,8 @@ TEST_F(Expression, HasNoValueAtThePolesOfItsFunctions) {
 TEST_F(Expression, HasNoValueWhereItWouldBeComplexAmongRealNumbers) {
   EXPECT_EQ(error_of("x + log(-3)"), "5: this has no real value");
   EXPECT_EQ(error_of("2*sqrt(-4)"), "3: this has no real value");
+  EXPECT_EQ(error_of("2*sqrt(-2)"), "3: this has no real value");
+  EXPECT_EQ(error_of("x + (-3)^(-3/4)"), "9: this has no real value");
   EXPECT_EQ(error_of("x*(-1)^(1/2)"), "7: this has no real value");
   EXPECT_EQ(error_of("y*sqrt(7 - 4*sqrt(4))"), "3: this has no real value");
   EXPECT_EQ(parse("I*sqrt(-4)"), -2);
