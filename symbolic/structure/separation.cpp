@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <regex>
 
 #include "symbolic/search/conditions/real_ideal.hpp"
 #include "symbolic/search/finder.hpp"
@@ -120,6 +121,44 @@ std::string SeparationSearch::free_name(std::initializer_list<const char*> wante
   }
 }
 
+/// The roots may be complex, the coefficients are real functions: points are certified for these.
+void refuse_complex(const GiNaC::ex& given, const Text& text) {
+  const auto is_complex = [](const GiNaC::ex& part) {
+    return GiNaC::is_exactly_a<GiNaC::numeric>(part) &&
+           !GiNaC::ex_to<GiNaC::numeric>(part).is_real();
+  };
+  if (std::none_of(given.preorder_begin(), given.preorder_end(), is_complex)) return;
+  const std::regex unit("\\bI\\b");
+  std::smatch found;
+  const bool shown = std::regex_search(text.value, found, unit);
+  throw text.error("the polynomial has to be real, without I",
+                   shown ? static_cast<std::size_t>(found.position()) : 0);
+}
+
+/// What is divided by may vanish identically in a way that is hidden, as sin(x)^2 + cos(x)^2 - 1.
+/// \param coefficients  divided by the leading one
+void check_coefficients(const Model& model, const GiNaC::ex& leading,
+                        const std::vector<GiNaC::ex>& coefficients, const Text& text) {
+  const auto is_polynomial = [](const GiNaC::ex& own) {
+    return own.info(GiNaC::info_flags::polynomial);
+  };
+  if (GiNaC::is_exactly_a<GiNaC::numeric>(leading) &&
+      std::ranges::all_of(coefficients, is_polynomial))
+    return;
+  try {
+    Prover alone(model, {leading});
+    if (alone.ring().reduced(alone.convert(leading)).is_zero())
+      throw text.error(fmt::format("the leading coefficient of '{}' is identically zero",
+                                   printable(text.value)));
+    Prover prover(model, coefficients);
+    for (const GiNaC::ex& own : coefficients) prover.convert(own);
+  } catch (const TooLarge&) {
+    throw;
+  } catch (const ModelError& problem) {
+    throw text.error(problem.what());
+  }
+}
+
 /// The coefficients of the polynomial that was given, where the highest one is 1.
 void SeparationSearch::read_roots() {
   if (!request_.roots) return;
@@ -127,15 +166,19 @@ void SeparationSearch::read_roots() {
   Model with_root = model_;
   with_root.parameters.push_back(u);
   const GiNaC::ex given = with_root.parse(*request_.roots).expand();
+  refuse_complex(given, *request_.roots);
   if (!given.is_polynomial(u) || given.degree(u) < 1)
     throw request_.roots->error(fmt::format("'{}' is not a polynomial in {}",
                                             printable(request_.roots->value), names_.root));
   const int n = given.degree(u);
-  poles_.push_back(given.coeff(u, n));
+  const GiNaC::ex leading = given.coeff(u, n);
+  poles_.push_back(leading);
   for (int k = 1; k <= n; ++k) {
-    poles_.push_back(given.coeff(u, n - k).normal().denom());
-    roots_.push_back((given.coeff(u, n - k) / given.coeff(u, n)).normal());
+    const GiNaC::ex own = given.coeff(u, n - k);
+    poles_.push_back(own.normal().denom());
+    roots_.push_back((own / leading).normal());
   }
+  check_coefficients(model_, leading, roots_, *request_.roots);
 }
 
 /// The first choice of integrals that separate in the roots, or else the first that are not shown

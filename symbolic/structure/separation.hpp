@@ -96,6 +96,7 @@ struct Separation {
   /// w = {u, G}, and what the prover of claims says of that map; empty where none is made.
   std::string map_case;
   Verdict map = Verdict::undecided;
+  std::string no_map;                ///< why none is made, where the integrals separate
   std::vector<std::string> nonzero;  ///< irreducible; where one of them is zero, nothing is said
   std::string point;                 ///< at which none is
   bool real = false;                 ///< all roots are real at `point`, and so near it

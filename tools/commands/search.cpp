@@ -106,35 +106,48 @@ int search_structure(const SearchArguments& options, const Model& model, SearchW
                 watch);
 }
 
-/// The case with the map to separated variables, where one was asked for and made.
-void write_map_case(const SearchArguments& options, const structure::SeparationReport& report) {
-  if (options.output.empty()) return;
-  if (report.found.empty() || report.found.front().map_case.empty()) {
-    fmt::print(stderr, "casimir: no map to separated variables was made, '{}' is not written\n",
-               printable(options.output, 200));
-    return;
-  }
-  OutputFile file(options.output);
-  file.stream() << report.found.front().map_case;
-  file.commit();
+/// Why there is no case with a map to write; empty where there is one.
+std::string why_no_map(const structure::SeparationReport& report) {
+  if (report.found.empty()) return "no variables that separate were found";
+  const structure::Separation& own = report.found.front();
+  if (!own.map_case.empty()) return {};
+  return own.no_map.empty() ? "the integrals are not shown to separate" : own.no_map;
 }
 
 /// Done where variables were found, or where none are needed or it is proved that there is no
 /// bivector of this degree that would give them; failed where roots that were given are refuted.
+/// A file that was asked for and cannot be made leaves the question open.
 int search_separation(const SearchArguments& options, const Model& model, SearchWatch& watch) {
   structure::SeparationRequest request{
       std::max(options.degree, 0), texts_of(options.on, "--on"), {}};
   if (!options.roots.empty()) request.roots = texts_of({options.roots}, "--roots").front();
+  // A place that cannot be written is told before the search.
+  std::optional<OutputFile> file;
+  if (!options.output.empty()) file.emplace(options.output);
   const structure::SeparationReport report =
       structure::find_separation(model, request, watch.watch());
   const double seconds = watch.end();
-  if (options.common.json)
-    print_json(to_json(model, report, seconds));
-  else if (!options.common.quiet)
+  const std::string obstacle = why_no_map(report);
+  const bool writes = file && obstacle.empty();
+  if (writes) {
+    file->stream() << report.found.front().map_case;
+    file->commit();
+  }
+  if (options.common.json) {
+    nlohmann::ordered_json json = to_json(model, report, seconds);
+    if (writes) json["file"] = options.output;
+    print_json(json);
+  } else if (!options.common.quiet) {
     print(model, report, seconds);
-  write_map_case(options, report);
+    if (writes) fmt::print("wrote {}\n", printable(options.output, 200));
+  }
+  if (file && !writes)
+    fmt::print(stderr,
+               "casimir: '{}' is not written, as no map to separated variables was made: {}\n",
+               printable(options.output, 200), obstacle);
   const Verdict verdict = verdict_of(report);
-  return verdict == Verdict::proved ? kDone : verdict == Verdict::refuted ? kFailed : kUndecided;
+  if (verdict == Verdict::refuted) return kFailed;
+  return verdict == Verdict::proved && (!file || writes) ? kDone : kUndecided;
 }
 
 int search_case(const SearchArguments& options) {
@@ -232,7 +245,10 @@ void add_structure_options(CLI::App& command, SearchArguments& options) {
   command
       .add_option("-o,--output", options.output,
                   "With --separation: write a case with the map to the separated variables here")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check([](const std::string& name) {
+        return name.empty() ? std::string("a name of a file is needed") : std::string();
+      });
   command.add_flag("--separation", options.separation,
                    "Variables in which the integrals separate: the roots of det(P' - u*P) for a "
                    "second bivector P' of that degree");

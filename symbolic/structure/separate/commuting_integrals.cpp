@@ -1,5 +1,7 @@
 #include "symbolic/structure/separate/commuting_integrals.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "symbolic/search/search.hpp"
@@ -28,6 +30,18 @@ bool is_on_level(Leaves& leaves, RealPoint& point) {
   });
 }
 
+/// What a search up to the degree of the request finds.
+std::vector<search::Found> found_by(const Model& model, const search::Request& request,
+                                    const search::Watch& watch) {
+  try {
+    return search::find_integrals(model, request, watch).found;
+  } catch (const search::TooMuchWork& problem) {
+    throw search::TooMuchWork(fmt::format(
+        "the search for {} up to degree {} that this needs is too large: {}",
+        request.casimirs ? "Casimir functions" : "integrals", request.degree, problem.what()));
+  }
+}
+
 }  // namespace
 
 std::vector<GiNaC::ex> possible_integrals(const Model& model, const std::vector<Text>& on,
@@ -39,7 +53,7 @@ std::vector<GiNaC::ex> possible_integrals(const Model& model, const std::vector<
   search::Request request;
   request.degree = degree;
   request.on = on;
-  for (const search::Found& found : search::find_integrals(model, request, watch).found)
+  for (const search::Found& found : found_by(model, request, watch))
     if (found.independent) result.push_back(found.value);
   return result;
 }
@@ -50,8 +64,7 @@ std::vector<GiNaC::ex> possible_casimirs(const Model& model, const search::Watch
   search::Request request;
   request.degree = kHighestOfCasimirs;
   request.casimirs = true;
-  for (const search::Found& found : search::find_integrals(model, request, watch).found)
-    result.push_back(found.value);
+  for (const search::Found& found : found_by(model, request, watch)) result.push_back(found.value);
   return result;
 }
 

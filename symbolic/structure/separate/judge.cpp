@@ -53,7 +53,7 @@ void SeparationJudge::judge_bivector(Separation& result, const Characteristic& o
 RealPoint* SeparationJudge::judge_point(Separation& result, const RootCoefficients& a,
                                         std::vector<Polynomial> nonzero) const {
   result.nonzero = factors_of(leaves_, nonzero);
-  const std::vector<Polynomial> hermite = hermite_minors(leaves_, a);
+  const std::vector<Polynomial> hermite = positive_where_real(leaves_, a);
   RealPoint* found = nullptr;
   for (RealPoint& point : points_) {
     try {
@@ -119,7 +119,10 @@ void SeparationJudge::judge_multipliers(Separation& result, const RootCoefficien
                                         const std::vector<Polynomial>& integrals,
                                         RealPoint& point) const {
   const auto form = staeckel_form(leaves_, a, integrals, casimirs_, watch_);
-  if (!form || !exclude_zeros(result, *form, point)) return;
+  if (!form || !exclude_zeros(result, *form, point)) {
+    result.no_map = "Staeckel's form was not found";
+    return;
+  }
   result.staeckel = Verdict::proved;
   std::vector<SeparatedEquation> equations;
   for (std::size_t i = 0; i < form->multipliers.size(); ++i) {
@@ -135,6 +138,8 @@ void SeparationJudge::judge_multipliers(Separation& result, const RootCoefficien
   }
   if (equations.size() == form->multipliers.size())
     judge_map(result, a, *form, equations, integrals);
+  else
+    result.no_map = "no equation of each root with its sum was found";
 }
 
 /// The map to the separated variables, where the roots can be written down.
@@ -152,11 +157,14 @@ void SeparationJudge::judge_map(Separation& result, const RootCoefficients& a,
                                    text_of(leaves_, a[1]), sign),
                        a, form.multipliers[0], equations[0]});
   }
-  if (pairs.empty()) return;
-  const auto own = separated_case(leaves_, integrals, pairs);
-  if (!own) return;
-  result.map_case = *own;
-  result.map = verdict_of_map(*own, leaves_.system().model().limits);
+  if (pairs.empty()) {
+    result.no_map = "the roots are no polynomials, and more than two";
+    return;
+  }
+  SeparatedCase own = separated_case(leaves_, integrals, pairs);
+  result.map_case = std::move(own.text);
+  result.map = own.map;
+  result.no_map = std::move(own.reason);
 }
 
 /// By theorem 3, for two degrees of freedom.

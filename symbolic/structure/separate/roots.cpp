@@ -2,13 +2,22 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
 
+#include "symbolic/error.hpp"
 #include "symbolic/search/modular/monomials.hpp"
 #include "symbolic/search/polynomial_system.hpp"
 #include "symbolic/structure/separate/constant_kernel.hpp"
 
 namespace casimir::structure {
 namespace {
+
+std::vector<Polynomial> differences_of(const std::vector<Polynomial>& roots) {
+  std::vector<Polynomial> result;
+  for (std::size_t i = 0; i < roots.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) result.push_back(roots[i] - roots[j]);
+  return result;
+}
 
 long degree_in_coordinates(const Leaves& leaves, const Polynomial& p) {
   unsigned long highest = 0;
@@ -161,6 +170,14 @@ std::vector<Polynomial> hermite_minors(const Leaves& leaves, const RootCoefficie
   return result;
 }
 
+std::vector<Polynomial> positive_where_real(const Leaves& leaves, const RootCoefficients& a) {
+  const auto roots = polynomial_roots(leaves, a);
+  if (!roots) return hermite_minors(leaves, a);
+  std::vector<Polynomial> result = differences_of(*roots);
+  for (Polynomial& p : result) p = p * p;
+  return result;
+}
+
 std::vector<std::vector<Polynomial>> rates_of_coefficients(
     const Leaves& leaves, const RootCoefficients& a, const std::vector<Polynomial>& integrals) {
   std::vector<Polynomial> all;
@@ -179,12 +196,29 @@ std::vector<std::vector<Polynomial>> rates_of_coefficients(
 std::optional<std::vector<Polynomial>> regular_where(const Leaves& leaves,
                                                      const RootCoefficients& a,
                                                      const std::vector<Polynomial>& integrals) {
-  Polynomial discriminant = leaves.reduced(hermite_minors(leaves, a).back());
-  if (discriminant.is_zero()) return std::nullopt;
-  Polynomial rates = leaves.reduced(
-      search::determinant_without_sign(rates_of_coefficients(leaves, a, integrals), leaves.ring()));
-  if (rates.is_zero()) return std::nullopt;
-  return std::vector<Polynomial>{std::move(discriminant), std::move(rates)};
+  const auto roots = polynomial_roots(leaves, a);
+  std::vector<Polynomial> result =
+      roots ? differences_of(*roots) : std::vector{hermite_minors(leaves, a).back()};
+  result.push_back(search::determinant_without_sign(
+      rates_of_coefficients(leaves, roots ? *roots : a, integrals), leaves.ring()));
+  for (Polynomial& p : result) {
+    p = leaves.reduced(p);
+    if (p.is_zero()) return std::nullopt;
+  }
+  return result;
+}
+
+std::vector<Polynomial> moderate_factors(const Polynomial& p) {
+  std::vector<Polynomial> result;
+  try {
+    for (const auto& [factor, exponent] : p.factors())
+      result.insert(result.end(), exponent, factor);
+  } catch (const TooLarge&) {
+    result.clear();
+  } catch (const std::overflow_error&) {
+    result.clear();
+  }
+  return result;
 }
 
 std::optional<std::vector<Polynomial>> polynomial_roots(const Leaves& leaves,
@@ -201,10 +235,10 @@ std::optional<std::vector<Polynomial>> polynomial_roots(const Leaves& leaves,
     }
   }
   std::vector<Polynomial> result;
-  for (const auto& [factor, exponent] : sum.finish().factors()) {
+  for (const Polynomial& factor : moderate_factors(sum.finish())) {
     if (factor.is_constant()) continue;
     const std::vector<Polynomial> c = factor.coefficients(leaves.ring().size());
-    if (c.size() != 2 || !c[1].is_constant() || exponent != 1) return std::nullopt;
+    if (c.size() != 2 || !c[1].is_constant()) return std::nullopt;
     const cln::cl_RA leading = c[1].term_list().front().first;
     TermCollector root(leaves.ring());
     for (auto [number, exponents] : c[0].term_list()) {
@@ -213,6 +247,7 @@ std::optional<std::vector<Polynomial>> polynomial_roots(const Leaves& leaves,
     }
     result.push_back(root.finish());
   }
+  if (result.size() != a.size()) return std::nullopt;
   return result;
 }
 

@@ -42,11 +42,17 @@ bool roots_commute(const Leaves& leaves, const RootCoefficients& a);
 /// and distinct (Hermite).
 std::vector<Polynomial> hermite_minors(const Leaves& leaves, const RootCoefficients& a);
 
+/// Functions that are all positive where, and only where, the roots are real and distinct: the
+/// minors above or, of roots that are polynomials with real coefficients, the squares of their
+/// differences, which are much shorter.
+std::vector<Polynomial> positive_where_real(const Leaves& leaves, const RootCoefficients& a);
+
 /// {a_k, F_j}, all times one function that vanishes nowhere.
 std::vector<std::vector<Polynomial>> rates_of_coefficients(
     const Leaves& leaves, const RootCoefficients& a, const std::vector<Polynomial>& integrals);
 
-/// The discriminant of the roots and det {a_k, F_j}, both modulo the ideal of the level; empty
+/// The discriminant of the roots and det {a_k, F_j}, both modulo the ideal of the level, or where
+/// the roots are polynomials their differences and det {u_i, F_j}, which are much shorter; empty
 /// where one of them is zero. Where neither is, the roots are distinct and, with the integrals,
 /// coordinates on the leaf: {u_i, F_j} = -sum_k {a_k, F_j} u_i^(n-k) / D'(u_i), so that det {u_i,
 /// F_j} is det {a_k, F_j} times Vandermonde's determinant over the product of all D'(u_i).
@@ -54,7 +60,11 @@ std::optional<std::vector<Polynomial>> regular_where(const Leaves& leaves,
                                                      const RootCoefficients& a,
                                                      const std::vector<Polynomial>& integrals);
 
-/// The roots, where all of them are polynomials; empty where this is not so.
+/// The factors, each as often as it occurs; none where they would take too long.
+std::vector<Polynomial> moderate_factors(const Polynomial& p);
+
+/// The roots, where all of them are polynomials; empty where this is not so, and where that would
+/// take too long to find out.
 std::optional<std::vector<Polynomial>> polynomial_roots(const Leaves& leaves,
                                                         const RootCoefficients& a);
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "symbolic/expression/arbitrary.hpp"
+#include "symbolic/proof/prover.hpp"
 #include "symbolic/structure/separate/separation_text.hpp"
 #include "symbolic/structure/separate/with_root.hpp"
 
@@ -37,7 +39,8 @@ class CaseWriter {
              const std::vector<SeparatedPair>& pairs)
       : leaves_(leaves), integrals_(integrals), pairs_(pairs) {}
 
-  bool is_possible() const {
+  /// Why no map can be written, or empty.
+  std::string obstacle() const {
     const auto plain = [&](const SeparatedPair& own) {
       return std::ranges::all_of(own.equation.terms, [&](const SeparatedEquation::Term& one) {
         for (std::size_t i = 0; i < leaves_.dimension(); ++i)
@@ -45,17 +48,17 @@ class CaseWriter {
         return true;
       });
     };
+    if (!std::ranges::all_of(pairs_, plain))
+      return "an equation of {u, G} has Casimir functions in it, whose values the level does not "
+             "fix";
     const Model& model = leaves_.system().model();
-    const auto is_taken = [&](const GiNaC::symbol& own) {
-      const std::string name = own.get_name();
-      for (std::size_t i = 1; i <= pairs_.size(); ++i) {
-        for (const char* start : {"u", "G", "w", "root", "sum", "rate"})
-          if (name == fmt::format("{}{}", start, i)) return true;
-      }
-      return false;
-    };
-    return std::ranges::all_of(pairs_, plain) && std::ranges::none_of(model.variables, is_taken) &&
-           std::ranges::none_of(model.parameters, is_taken);
+    for (const auto* symbols : {&model.variables, &model.parameters}) {
+      const auto taken = std::ranges::find_if(
+          *symbols, [&](const auto& own) { return is_own_name(own.get_name()); });
+      if (taken != symbols->end())
+        return fmt::format("the case has the name '{}', which the map needs", taken->get_name());
+    }
+    return {};
   }
 
   std::string whole() const { return head() + definitions() + map(); }
@@ -63,9 +66,48 @@ class CaseWriter {
  private:
   std::string text(const Polynomial& p) const { return text_of(leaves_, p); }
 
+  bool is_own_name(const std::string& name) const {
+    for (std::size_t i = 1; i <= pairs_.size(); ++i) {
+      for (const char* start : {"u", "G", "w", "root", "sum", "rate"})
+        if (name == fmt::format("{}{}", start, i)) return true;
+    }
+    return false;
+  }
+
+  /// In the variables and parameters alone: definitions and Casimir functions are not written, and
+  /// a parameter may have got a value.
+  std::vector<std::string> in_symbols(const std::vector<GiNaC::ex>& list) const {
+    Prover prover(leaves_.system().model(), list);
+    std::vector<std::string> result;
+    for (const GiNaC::ex& own : list) result.push_back(prover.ring().text(prover.convert(own)));
+    return result;
+  }
+
+  /// What the case assumes, but for what holds of numbers alone.
+  std::vector<std::string> domain() const {
+    const Model& model = leaves_.system().model();
+    std::vector<GiNaC::ex> differences;
+    std::vector<Comparison> signs;
+    for (const Assumption& own : model.assumptions) {
+      if (own.holds_at({}, model.limits)) continue;
+      differences.push_back(own.difference);
+      signs.push_back(own.comparison);
+    }
+    std::vector<std::string> result = in_symbols(differences);
+    for (std::size_t k = 0; k < result.size(); ++k)
+      result[k] += fmt::format(" {} 0", to_string(signs[k]));
+    return result;
+  }
+
+  std::vector<std::string> level() const {
+    std::vector<GiNaC::ex> values;
+    for (const NamedExpression& f : leaves_.on()) values.push_back(f.value);
+    return in_symbols(values);
+  }
+
   std::string head() const {
     const Model& model = leaves_.system().model();
-    std::vector<std::string> names, brackets, assumed;
+    std::vector<std::string> names, brackets;
     for (const GiNaC::symbol& x : model.variables) names.push_back(x.get_name());
     const auto pairs = skew_indices(leaves_.dimension(), 2);
     for (std::size_t c = 0; c < pairs.size(); ++c) {
@@ -74,15 +116,18 @@ class CaseWriter {
         brackets.push_back(
             fmt::format("\"{},{}\" = \"{}\"\n", names[pairs[c][0]], names[pairs[c][1]], text(own)));
     }
-    for (const Assumption& own : model.assumptions) assumed.push_back(own.text);
+    const std::vector<std::string> assumed = domain();
     std::string result = fmt::format(
         "title = \"{}, separated\"\nhamiltonian = \"{}\"\n\n[phase_space]\nvariables = {}\n",
         plain_name(model.name), text(integrals_.front()), list_of(names));
     if (!assumed.empty()) result += fmt::format("domain = {}\n", list_of(assumed));
     result += fmt::format("\n[phase_space.brackets]\n{}\n", fmt::join(brackets, ""));
-    if (!model.parameters.empty()) result += "[parameters]\n";
-    for (const GiNaC::symbol& own : model.parameters) result += own.get_name() + " = {}\n";
-    return result;
+    std::string parameters;
+    for (const GiNaC::symbol& own : model.parameters) {
+      // No function of the separated system has an arbitrary one in it.
+      if (!function_name(own.get_name())) parameters += own.get_name() + " = {}\n";
+    }
+    return parameters.empty() ? result : result + "[parameters]\n" + parameters;
   }
 
   std::string definitions() const {
@@ -140,7 +185,7 @@ class CaseWriter {
     std::string result = fmt::format(
         "\n[[map]]\nname = \"separated\"\nto = {{ variables = {}, brackets = {{ {} }} }}\n",
         list_of(names), fmt::join(brackets, ", "));
-    std::vector<std::string> on = names_of(leaves_.on());
+    const std::vector<std::string> on = level();
     if (!on.empty()) result += fmt::format("on = {}\n", list_of(on));
     return result + fmt::format("image = {}\nexpressions = {{ {} }}\n", list_of(image),
                                 fmt::join(expressions, ", "));
@@ -151,27 +196,51 @@ class CaseWriter {
   const std::vector<SeparatedPair>& pairs_;
 };
 
+/// \throws CaseError, ModelError  where the text is no case
+Model read_back(const std::string& case_text, const Limits& limits) {
+  return build_model(parse_case(case_text, "separated.toml", limits));
+}
+
+Verdict verdict_of_only_map(const Model& model) {
+  Candidates only;
+  only.only = ClaimKind::map;
+  const std::vector<Proof> proofs = prove(model, only);
+  return proofs.size() == 1 ? proofs.front().verdict : Verdict::undecided;
+}
+
 }  // namespace
 
-std::optional<std::string> separated_case(const Leaves& leaves,
-                                          const std::vector<Polynomial>& integrals,
-                                          const std::vector<SeparatedPair>& pairs) {
+SeparatedCase separated_case(const Leaves& leaves, const std::vector<Polynomial>& integrals,
+                             const std::vector<SeparatedPair>& pairs) {
   const CaseWriter writer(leaves, integrals, pairs);
-  if (!writer.is_possible()) return std::nullopt;
-  std::string result = writer.whole();
-  if (result.size() > kLongestSeparatedCase) return std::nullopt;
+  SeparatedCase result;
+  result.reason = writer.obstacle();
+  if (!result.reason.empty()) return result;
+  std::string text = writer.whole();
+  if (text.size() > kLongestSeparatedCase) {
+    result.reason = fmt::format("its file would have {} characters, more than {}", text.size(),
+                                kLongestSeparatedCase);
+    return result;
+  }
+  try {
+    result.map = verdict_of_map(text, leaves.system().model().limits);
+    result.text = std::move(text);
+  } catch (const CaseError& problem) {
+    result.reason = "its file could not be read back: " + problem.text();
+  } catch (const ModelError& problem) {
+    result.reason = fmt::format("its file could not be read back: {}", problem.what());
+  }
   return result;
 }
 
 Verdict verdict_of_map(const std::string& case_text, const Limits& limits) {
+  const Model model = read_back(case_text, limits);
   try {
-    const Model model = build_model(parse_case(case_text, "separated.toml", limits));
-    Candidates only;
-    only.only = ClaimKind::map;
-    const std::vector<Proof> proofs = prove(model, only);
-    return proofs.size() == 1 ? proofs.front().verdict : Verdict::undecided;
+    return verdict_of_only_map(model);
   } catch (const CaseError&) {
     return Verdict::undecided;  // a limit of the case was reached
+  } catch (const TooLarge&) {
+    return Verdict::undecided;
   }
 }
 

@@ -85,7 +85,9 @@ std::string text_of(const Leaves& leaves, const SeparatedEquation& equation, con
 std::vector<std::string> factors_of(const Leaves& leaves, const std::vector<Polynomial>& list) {
   std::vector<std::string> result;
   for (const Polynomial& p : list) {
-    for (const auto& [factor, exponent] : p.factors()) {
+    std::vector<Polynomial> factors = moderate_factors(p);
+    if (factors.empty()) factors.push_back(p);
+    for (const Polynomial& factor : factors) {
       if (factor.is_constant()) continue;
       const std::string own = text_of(leaves, factor);
       if (std::ranges::find(result, own) == result.end()) result.push_back(own);

@@ -18,7 +18,8 @@ std::string text_of(const Leaves& leaves, const SeparatedEquation& equation, con
 Separation::Relation relation_of(const Leaves& leaves, const Multipliers& s,
                                  const SeparationNames& names);
 
-/// The irreducible factors of all, each once, without numbers.
+/// The irreducible factors of all, each once, without numbers; what is too large to be factored is
+/// left whole.
 std::vector<std::string> factors_of(const Leaves& leaves, const std::vector<Polynomial>& list);
 
 void write_bivector(Separation& result, const Leaves& leaves, const Bivector& bivector);

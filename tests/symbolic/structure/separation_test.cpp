@@ -203,6 +203,31 @@ TEST(Separation, OfGoryachevAndChaplyginIsAPoissonMap) {
   EXPECT_EQ(structure::verdict_of_map(wrong, {}), Verdict::refuted) << wrong;
 }
 
+/// Definitions and Casimir functions are not written, so nothing may go by their names.
+TEST(Separation, WritesItsLevelAndDomainInTheVariablesAlone) {
+  const Model top = model_of(R"toml(
+hamiltonian = "(M1^2 + M2^2 + 4*M3^2)/2 - g1"
+[phase_space]
+variables = ["M1", "M2", "M3", "g1", "g2", "g3"]
+algebra = "e(3)"
+domain = ["twice != 0"]
+[definitions]
+area = "M1*g1 + M2*g2 + M3*g3"
+twice = "2*M3"
+[casimirs]
+B = "g1^2 + g2^2 + g3^2"
+[[conditional]]
+name = "G"
+expression = "M3*(M1^2 + M2^2) + M1*g3"
+on = ["area"]
+)toml");
+  const SeparationReport report = searched(top, 2, {"area", "B - 1"});
+  ASSERT_EQ(report.found.size(), 1U) << report.reason;
+  EXPECT_EQ(report.found[0].map, Verdict::proved) << report.found[0].no_map;
+  EXPECT_NE(report.found[0].map_case.find("domain = [\"2*M3 != 0\"]"), std::string::npos)
+      << report.found[0].map_case;
+}
+
 /// Neither bracket nor Hamiltonian nor integral is given, only the level.
 TEST(Separation, OfGoryachevAndChaplyginIsFoundFromBareEquations) {
   const Model bare = model_of(R"(
@@ -386,7 +411,7 @@ TEST(Separation, IsAskedForOnLevelsOfCasimirFunctionsOnly) {
 
 SeparationReport examined(const Model& model, const std::string& roots) {
   structure::SeparationRequest request;
-  request.roots = text_of(roots);
+  request.roots = Text{roots, {"a test", 1, 1}, roots};
   return structure::find_separation(model, request);
 }
 
@@ -427,6 +452,86 @@ TEST(RootsThatAreGiven, AreRefutedWhereTheyDoNotCommute) {
   ASSERT_EQ(report.found.size(), 1U);
   EXPECT_EQ(report.found[0].commuting, Verdict::refuted);
   EXPECT_EQ(report.found[0].separated, Verdict::refuted);
+}
+
+/// Assumptions on parameters that have got values, and functions that are not used.
+TEST(Separation, WritesNoParameterThatIsNotThere) {
+  const std::string text = R"(
+hamiltonian = "px^2 + py^2 + b*x^4 + a*y^4"
+[phase_space]
+variables = ["x", "y", "px", "py"]
+canonical = true
+[functions]
+U = ["r"]
+[parameters]
+a = { assume = "a > b" }
+b = { assume = "b != 0" }
+[integrals]
+E = "px^2 + b*x^4"
+)";
+  for (const char* b : {"", "-1/2"}) {
+    ParameterValues values;
+    if (*b != 0) values.emplace_back(text_of("b"), text_of(b));
+    const SeparationReport report =
+        examined(build_model(parse_case(text, "a test"), values), "(u - x)*(u - y)");
+    ASSERT_EQ(report.found.size(), 1U) << report.reason;
+    const Separation& own = report.found[0];
+    EXPECT_EQ(own.map, Verdict::proved) << own.no_map << own.map_case;
+    EXPECT_EQ(own.map_case.find("U"), std::string::npos) << own.map_case;
+    EXPECT_NE(own.map_case.find(*b == 0 ? "\"a - b > 0\"" : "\"a + 1/2 > 0\""), std::string::npos)
+        << own.map_case;
+  }
+}
+
+TEST(Separation, SaysWhyThereIsNoMap) {
+  const Model model = canonical(R"("x", "u1", "px", "py")", "px^2 + py^2 + x^4 + u1^4",
+                                "[integrals]\nE = \"px^2 + x^4\"\n");
+  const SeparationReport report = examined(model, "(u - x)*(u - u1)");
+  ASSERT_EQ(report.found.size(), 1U) << report.reason;
+  EXPECT_EQ(report.found[0].separated, Verdict::proved);
+  EXPECT_TRUE(report.found[0].map_case.empty());
+  EXPECT_EQ(report.found[0].no_map, "the case has the name 'u1', which the map needs");
+}
+
+/// The discriminant of six roots has 56183 terms, too many to be factored: their differences are
+/// said.
+TEST(Separation, OfSixRootsThatArePolynomialsIsSaidByDifferences) {
+  std::string variables, momenta, hamiltonian, integrals, roots;
+  for (int i = 1; i <= 6; ++i) {
+    const std::string n = std::to_string(i), comma = i < 6 ? ", " : "";
+    const std::string own = "p" + n + "^2/2 + " + n + "*q" + n + (i % 2 == 0 ? "^4" : "^2");
+    variables += "\"q" + n + "\", ";
+    momenta += "\"p" + n + "\"" + comma;
+    hamiltonian += (i > 1 ? " + " : "") + own;
+    if (i < 6) integrals += "E" + n + " = \"" + own + "\"\n";
+    roots += (i > 1 ? "*(u - q" : "(u - q") + n + ")";
+  }
+  const SeparationReport report =
+      examined(canonical(variables + momenta, hamiltonian, "[integrals]\n" + integrals), roots);
+  ASSERT_EQ(report.found.size(), 1U) << report.reason;
+  EXPECT_EQ(report.found[0].separated, Verdict::proved) << report.found[0].reason;
+  EXPECT_EQ(report.found[0].nonzero.size(), 21U);  // 15 differences, 6 momenta
+}
+
+/// Where: the roots are given on a command line.
+TEST(Separation, SaysWhatIsWrongWithThePolynomial) {
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {"(sin(x)^2 + cos(x)^2 - 1)*u^3 + u^2 - x*y",
+       "1: the leading coefficient of '(sin(x)^2 + cos(x)^2 - 1)*u^3 + u^2 - x*y' is identically "
+       "zero"},
+      {"u^2 - x/(sin(x)^2 + cos(x)^2 - 1)",
+       "1: division by an expression that is identically zero"},
+      {"u^2 + x*I", "9: the polynomial has to be real, without I"},
+      {"u^2 + sqrt(-1)", "7: this has no real value"},
+      {"u^2 + sqrt(-2)", "7: this has no real value"}};
+  for (const auto& [roots, error] : wrong) {
+    try {
+      examined(central(), roots);
+      ADD_FAILURE() << roots;
+    } catch (const CaseError& problem) {
+      EXPECT_EQ(std::to_string(problem.where().column) + ": " + problem.text(), error);
+    }
+  }
 }
 
 /// Equal roots, roots that depend on each other, a root that is an integral: nothing is said.

@@ -280,7 +280,33 @@ TEST(SearchStructure, TheMapToSeparatedVariablesIsWrittenAndProved) {
   const Json found = answered(
       folder, {"search", "henon-heiles", "--separation", "--degree", "1", "-o", "separated.toml"});
   EXPECT_EQ(found.at("separations")[0].at("map"), "proved");
+  EXPECT_EQ(found.at("file"), "separated.toml");
   answered(folder, {"verify", "./separated.toml"});
+}
+
+/// Of what was asked for, the file is missing.
+TEST(SearchStructure, WhereNoMapIsMadeAFileIsNotWrittenAndTheReasonIsSaid) {
+  const Folder folder;
+  const std::vector<std::string> command = {
+      "search", "goryachev-chaplygin", "--separation", "--degree", "2", "-o", "separated.toml"};
+  const Json found = answered(folder, command, 3);
+  EXPECT_EQ(found.at("separations")[0].at("separated"), "proved");
+  EXPECT_EQ(
+      found.at("separations")[0].at("no_map"),
+      "an equation of {u, G} has Casimir functions in it, whose values the level does not fix");
+  EXPECT_FALSE(found.contains("file"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "separated.toml"));
+}
+
+TEST(SearchStructure, OfVariablesThatSeparateSaysWhatWasTooLarge) {
+  const Folder folder;
+  const Outcome outcome = run_in(folder, {"search", "andoyer", "--separation", "--degree", "1"});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_TRUE(has(outcome.out, "the search for integrals up to degree ")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, " that this needs is too large: ")) << outcome.out;
+  EXPECT_EQ(
+      run_in(folder, {"search", "henon-heiles", "--separation", "--degree", "1", "-o", ""}).status,
+      2);
 }
 
 TEST(SearchStructure, RootsThatAreGivenAreRefuted) {

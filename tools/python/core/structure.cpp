@@ -137,7 +137,7 @@ py::dict to_python(const structure::Separation& own) {
                   "staeckel"_a = to_string(own.staeckel), "relations"_a = relations,
                   "nonzero"_a = own.nonzero, "point"_a = own.point, "real"_a = own.real,
                   "reason"_a = own.reason, "map"_a = to_string(own.map),
-                  "map_case"_a = own.map_case);
+                  "map_case"_a = own.map_case, "no_map"_a = own.no_map);
 }
 
 /// \param roots  a polynomial, or none

@@ -46,6 +46,8 @@ nlohmann::ordered_json json_of(const Separation& own) {
   if (!own.map_case.empty()) {
     result["map"] = to_string(own.map);
     result["map_case"] = own.map_case;
+  } else if (!own.no_map.empty()) {
+    result["no_map"] = own.no_map;
   }
   if (!own.reason.empty()) result["reason"] = own.reason;
   return result;
