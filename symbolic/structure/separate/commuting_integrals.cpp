@@ -30,15 +30,21 @@ bool is_on_level(Leaves& leaves, RealPoint& point) {
   });
 }
 
-/// What a search up to the degree of the request finds.
+/// What a search up to the degree of the request finds. Where that is too large it is said which
+/// one, as its degree is not that of the bivectors that were asked for.
 std::vector<search::Found> found_by(const Model& model, const search::Request& request,
                                     const search::Watch& watch) {
+  const auto named = [&](const std::exception& problem) {
+    return fmt::format("the search for {} up to degree {}, which this needs, is too large: {}",
+                       request.casimirs ? "Casimir functions" : "integrals", request.degree,
+                       problem.what());
+  };
   try {
     return search::find_integrals(model, request, watch).found;
   } catch (const search::TooMuchWork& problem) {
-    throw search::TooMuchWork(fmt::format(
-        "the search for {} up to degree {} that this needs is too large: {}",
-        request.casimirs ? "Casimir functions" : "integrals", request.degree, problem.what()));
+    throw search::TooMuchWork(named(problem));
+  } catch (const search::TooMuchMemory& problem) {
+    throw search::TooMuchMemory(named(problem));
   }
 }
 

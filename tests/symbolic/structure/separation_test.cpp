@@ -513,6 +513,22 @@ TEST(Separation, OfSixRootsThatArePolynomialsIsSaidByDifferences) {
   EXPECT_EQ(report.found[0].nonzero.size(), 21U);  // 15 differences, 6 momenta
 }
 
+/// Its degree is not the one that was asked for.
+TEST(Separation, SaysWhichSearchWasTooLarge) {
+  search::Watch watch;
+  watch.memory_limit = 1;
+  try {
+    structure::find_separation(central(), {1, {}, {}}, watch);
+    ADD_FAILURE();
+  } catch (const search::TooMuchMemory& problem) {
+    EXPECT_EQ(std::string(problem.what())
+                  .find("the search for Casimir functions up to degree 2, which this needs, is too "
+                        "large: degree 2 has "),
+              0U)
+        << problem.what();
+  }
+}
+
 /// Where: the roots are given on a command line.
 TEST(Separation, SaysWhatIsWrongWithThePolynomial) {
   const std::vector<std::pair<std::string, std::string>> wrong = {
