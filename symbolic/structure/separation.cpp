@@ -199,7 +199,10 @@ void SeparationSearch::look_at_roots(const std::vector<std::vector<Polynomial>>&
     const bool is_better =
         report_.found.empty() || own.separated == Verdict::proved ||
         (report_.found.front().separated == Verdict::refuted && own.separated != Verdict::refuted);
-    if (is_better) report_.found.assign(1, std::move(own));
+    if (is_better) {
+      report_.found.clear();
+      report_.found.push_back(std::move(own));
+    }
     if (report_.found.front().separated == Verdict::proved) return;
   }
 }
