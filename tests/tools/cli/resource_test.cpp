@@ -216,8 +216,10 @@ TEST(ResourceBombs, ThatGrowWhenTheyAreMultipliedOutAreTakenAsTheyAreWritten) {
   const Folder folder;
   for (const char* hamiltonian : {"d12", "x + 1/d12"}) {
     folder.write("bomb.toml", system_with(hamiltonian, chain(12, "@*@ + z")));
-    for (const std::vector<std::string>& more :
-         {std::vector<std::string>{"show", "--json"}, {"generate", "--observe", "x"}}) {
+    for (const std::vector<std::string>& more : {std::vector<std::string>{"show"},
+                                                 {"show", "--format", "latex"},
+                                                 {"show", "--json"},
+                                                 {"generate", "--observe", "x"}}) {
       std::vector<std::string> arguments = more;
       arguments.insert(arguments.begin() + 1, "./bomb.toml");
       const Outcome outcome = run_in(folder, arguments);

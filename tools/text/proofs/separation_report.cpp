@@ -153,9 +153,8 @@ void print(const Model& model, const SeparationReport& report, double seconds) {
         *report.freedom == 1 ? "" : "s",
         report.on.empty() ? "" : fmt::format(" on the level {} = 0", fmt::join(report.on, " = ")));
   if (!report.not_used.empty())
-    fmt::print("of the whole space: the constraint{} {} = 0 {} no part of the level (--on)\n",
-               report.not_used.size() == 1 ? "" : "s", fmt::join(report.not_used, " = 0, "),
-               report.not_used.size() == 1 ? "is" : "are");
+    fmt::print("not used: the constraint{} {} = 0 of the case; --on takes a level\n",
+               report.not_used.size() == 1 ? "" : "s", fmt::join(report.not_used, " = 0, "));
   for (const Separation& own : report.found) print_separation(own);
   if (report.found.empty()) {
     const std::vector<std::string>& listed = report.none ? report.involved : report.integrals;
