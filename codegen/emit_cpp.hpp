@@ -43,19 +43,25 @@ struct HeaderOptions {
 ///                     coefficients.
 std::string emit_header(const Specialisation& specialisation, const HeaderOptions& options = {});
 
+/// What the kernel of a method asks of `System` beside the right-hand side.
+struct KernelNeeds {
+  /// Instead of `casimir_integrate`, what the precompiled integrator along Taylor series calls; the
+  /// kernel is then the storage of recurrences (runtime/kernels/taylor/convolved.hpp).
+  bool series = false;
+  /// The flows of the parts of the Hamiltonian, for runtime/kernels/one_step/splitting.hpp.
+  std::optional<Splitting> splitting = {};
+  /// Of a free body, for runtime/kernels/one_step/moser_veselov.hpp; see `free_body_moments`.
+  std::optional<Program> moments = {};
+};
+
 /// The text of a module as in runtime/module_abi.h, in double. It includes nothing.
 /// \param kernel_source  C++ text that holds the interface and a template
 ///        `casimir_kernel::integrate<System>(const casimir_run*, double*, casimir_outcome*)`;
 ///        empty: the module has no `casimir_integrate`.
 /// `System` has `n`, `rhs(t, x, p, dx)` and, where the specialisation has it, `jacobian(t, x, p,
 /// J)` by columns, all entries.
-/// \param with_series  instead of `casimir_integrate`, what the precompiled integrator along Taylor
-///        series calls; the kernel is then the storage of recurrences
-///        (runtime/kernels/taylor/convolved.hpp).
-/// \param splitting  if set, `System` has also the flows of the parts of the Hamiltonian, as
-///        runtime/kernels/one_step/splitting.hpp asks for them.
 std::string emit_module(const Specialisation& specialisation, const std::string& kernel_source = {},
-                        bool with_series = false, const Splitting* splitting = nullptr);
+                        const KernelNeeds& needs = {});
 
 /// The text of a module for ensembles: Taylor series, one trajectory in each lane of a register.
 /// Run-time parameters are those of a member. Quadratic systems have a better one, see

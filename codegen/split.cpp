@@ -18,7 +18,7 @@ using GiNaC::symbol;
 /// A Hamiltonian of more terms is taken for one that does not split.
 constexpr double kMostTermsOfHamiltonian = 1e5;
 
-bool is_null(const ex& e) { return e.expand().is_zero() || normal_form(e).is_zero(); }
+using codegen::is_null;
 
 bool is_null(const matrix& m) {
   for (unsigned i = 0; i < m.nops(); ++i)
@@ -129,7 +129,7 @@ struct Part {
 
 class Splitter {
  public:
-  explicit Splitter(const SplitSource& source) : source_(source) {}
+  explicit Splitter(const SceneHamiltonian& source) : source_(source) {}
 
   Splitting run() {
     take_terms();
@@ -344,7 +344,7 @@ class Splitter {
     return result;
   }
 
-  const SplitSource& source_;
+  const SceneHamiltonian& source_;
   const symbol time_{"t"};
   std::vector<ex> terms_;  ///< of the Hamiltonian, that are in no part yet
   std::vector<Part> parts_;
@@ -352,40 +352,7 @@ class Splitter {
 
 }  // namespace
 
-std::optional<SplitSource> split_source(const Model& model, const Scene& scene,
-                                        const std::vector<std::string>& states,
-                                        const std::vector<std::string>& parameters,
-                                        std::string& why_not) {
-  if (!model.poisson || !model.hamiltonian) {
-    why_not = "the equations have no Hamiltonian and bracket that could be split";
-    return {};
-  }
-  if (states.size() != model.variables.size()) {
-    why_not = "states are left out, and what is left has no bracket; observe every variable";
-    return {};
-  }
-  Scene binding = scene;
-  SplitSource source;
-  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
-    if (!std::ranges::count(parameters, model.parameters[i].get_name())) continue;
-    binding.parameters.at(i) = model.parameters[i];
-    source.parameters.push_back(model.parameters[i]);
-  }
-  source.states = model.variables;
-  source.hamiltonian = model.at_parameters(*model.hamiltonian, binding);
-  if (model.time && source.hamiltonian.has(*model.time)) {
-    why_not = "the Hamiltonian depends on the time";
-    return {};
-  }
-  const auto n = static_cast<unsigned>(states.size());
-  source.bracket = matrix(n, n);
-  for (unsigned i = 0; i < n; ++i)
-    for (unsigned j = 0; j < n; ++j)
-      source.bracket(i, j) = model.at_parameters((*model.poisson)(i, j), binding);
-  return source;
-}
-
-Splitting split(const SplitSource& source) { return Splitter(source).run(); }
+Splitting split(const SceneHamiltonian& source) { return Splitter(source).run(); }
 
 std::vector<bool> codegen::moved_states(const Program& flow) {
   std::vector<bool> moved;

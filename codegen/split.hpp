@@ -1,13 +1,10 @@
 #pragma once
 
-#include <ginac/ginac.h>
-
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "codegen/scene_hamiltonian.hpp"
 #include "runtime/program.hpp"
-#include "symbolic/model.hpp"
 
 namespace casimir {
 
@@ -19,21 +16,6 @@ struct Splitting {
   std::vector<Program> flows;
 };
 
-/// What a splitting is made from: a Hamiltonian system for the values of a scene.
-struct SplitSource {
-  std::vector<GiNaC::symbol> states, parameters;
-  GiNaC::matrix bracket;  ///< {x_i, x_j}
-  GiNaC::ex hamiltonian;
-};
-
-/// The system of a scene, or nothing and why there is none: no bracket, states left out, a
-/// dependence on time.
-/// \param states  the kept ones, as Specialisation::states
-std::optional<SplitSource> split_source(const Model& model, const Scene& scene,
-                                        const std::vector<std::string>& states,
-                                        const std::vector<std::string>& parameters,
-                                        std::string& why_not);
-
 /// Splits the Hamiltonian. Parts are sums of terms along whose common field the field itself does
 /// not change (x + t X(x): kinetic and potential energy, functions of commuting variables);
 /// functions of one variable, or of one linear form, of a Lie algebra (rotations about an axis of
@@ -41,7 +23,7 @@ std::optional<SplitSource> split_source(const Model& model, const Scene& scene,
 /// quadratic forms of canonical variables with a linear flow of the same kind (McLachlan, Quispel:
 /// Splitting methods, Acta Numerica 11 (2002) 341).
 /// \throws ModelError  naming the first term that no part can take.
-Splitting split(const SplitSource& source);
+Splitting split(const SceneHamiltonian& source);
 
 namespace codegen {
 /// For each state, whether a flow adds anything but zero to it.

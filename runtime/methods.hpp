@@ -19,6 +19,8 @@ struct Method {
   bool splits = false;               ///< follows the flows of the parts of a Hamiltonian
   bool closed_form = false;     ///< takes no steps: evaluates the solution of systems that have one
   bool quadratic_only = false;  ///< is defined for equations that are polynomials of degree two
+  bool free_body =
+      false;  ///< is defined for a free rigid body, and asks for its moments of inertia
   std::string_view outside = {};  ///< the library that does it, or empty: a kernel of our own
   std::string_view header = {};   ///< of the kernel, in kernels/; empty: a library calls rhs
   std::string_view entry = {};    ///< the function template of the kernel, called with <System ..>;

@@ -60,14 +60,14 @@ class ModuleText {
     style_.indent = "    ";
   }
 
-  std::string run(const std::string& kernel, bool with_series, const Splitting* splitting) {
+  std::string run(const std::string& kernel, const KernelNeeds& needs) {
     // The same text for all values of the parameters at run time: it is compiled once.
     std::string text = codegen::head_comment(spec_, false) + "\n";
     if (!kernel.empty()) text += kernel + (kernel.ends_with('\n') ? "\n" : "\n\n");
     text += "namespace {\n\nstruct System {\n  static constexpr int n = " +
             std::to_string(spec_.states.size()) + ";\n\n";
     // A kernel that is compiled with the system calls it with one set of parameters many times.
-    if (!kernel.empty() && !with_series && !spec_.parameters.empty()) prepare();
+    if (!kernel.empty() && !needs.series && !spec_.parameters.empty()) prepare();
     if (prepares()) text += preparation();
     text += function("rhs", "dx", prepares() ? prepared_.rest[0] : spec_.rhs, "");
     if (spec_.has_jacobian) {
@@ -76,11 +76,12 @@ class ModuleText {
                        jacobian_zeros());
     }
     text += "\n" + function("invariants", "values", spec_.invariants, "");
-    if (splitting) text += flows(*splitting);
-    if (with_series) text += "\n" + codegen::series_struct(spec_.rhs, names_, spec_.limits);
+    if (needs.splitting) text += flows(*needs.splitting);
+    if (needs.moments) text += moments(*needs.moments);
+    if (needs.series) text += "\n" + codegen::series_struct(spec_.rhs, names_, spec_.limits);
     text += "};\n\n}  // namespace\n\n";
     text += exports();
-    if (with_series)
+    if (needs.series)
       text += series_exports();
     else if (!kernel.empty())
       text += integrate_export();
@@ -192,6 +193,16 @@ class ModuleText {
            choice + "  }\n";
   }
 
+  /// The moments of inertia of a free body, which depend on parameters only.
+  std::string moments(const Program& program) const {
+    std::vector<std::string> targets;
+    for (std::size_t k = 0; k < program.outputs.size(); ++k)
+      targets.push_back("values[" + std::to_string(k) + "]");
+    return "\n  // The principal moments of inertia, and the factor of the time.\n"
+           "  static inline void moments([[maybe_unused]] const double* p, double* values) {\n" +
+           codegen::statements(program, sources_, names_, targets, style_) + "  }\n";
+  }
+
   std::string exports() const {
     const auto constant = [](const std::string& name, std::size_t value) {
       return "int " + name + "(void) { return " + std::to_string(value) + "; }\n";
@@ -290,8 +301,8 @@ bool needs_math_library(const Specialisation& spec) {
 }
 
 std::string emit_module(const Specialisation& spec, const std::string& kernel_source,
-                        bool with_series, const Splitting* splitting) {
-  return ModuleText(spec).run(kernel_source, with_series, splitting);
+                        const KernelNeeds& needs) {
+  return ModuleText(spec).run(kernel_source, needs);
 }
 
 }  // namespace casimir

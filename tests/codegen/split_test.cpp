@@ -32,7 +32,7 @@ struct Prepared {
 Splitting split_of(const Model& model, const Scene& scene) {
   const Specialisation spec = specialise(model, scene);
   std::string why_not;
-  const auto source = split_source(model, scene, spec.states, spec.parameters, why_not);
+  const auto source = scene_hamiltonian(model, scene, spec.states, spec.parameters, why_not);
   if (!source) throw ModelError(why_not);
   return split(*source);
 }
@@ -161,7 +161,8 @@ TEST(Split, WhatDoesNotSplitIsNamed) {
 Module compiled(const Model& model, const Method& method) {
   const Splitting splitting = split_of(model, model.scenes[0]);
   const Specialisation spec = specialise(model, model.scenes[0]);
-  return Module::load(compile(emit_module(spec, kernel_source(method), false, &splitting)).path);
+  return Module::load(
+      compile(emit_module(spec, kernel_source(method), {.splitting = splitting})).path);
 }
 
 double error_at(const Module& module, const Method& method, double step,

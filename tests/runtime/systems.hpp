@@ -178,7 +178,7 @@ inline std::vector<std::string> own_methods() {
   std::vector<std::string> names;
   for (const Method& method : methods())
     if (method.outside.empty() && !method.series && !method.splits && !method.closed_form &&
-        !method.quadratic_only)
+        !method.quadratic_only && !method.free_body)
       names.emplace_back(method.name);
   return names;
 }

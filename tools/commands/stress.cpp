@@ -54,7 +54,7 @@ std::vector<std::string> default_methods() {
   for (const Method& method : methods()) {
     const bool multistep = method.header.empty() && method.order == 0;
     if (method.name != kAutomatic && !method.closed_form && !method.quadratic_only &&
-        (method.outside.empty() || multistep))
+        !method.free_body && (method.outside.empty() || multistep))
       names.emplace_back(method.name);
   }
   return names;

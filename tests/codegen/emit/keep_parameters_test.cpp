@@ -103,8 +103,8 @@ TEST(KeepParameters, ADivisionByZeroAtRunTimeEndsInAStatus) {
   const Specialisation spec = specialised(with_values("1", "2", "3"), keeping_all());
   for (const char* name : {"dop853", "gauss8", "taylor-compiled"}) {
     const Method& method = *find_method(name);
-    const Module module =
-        Module::load(compile(emit_module(spec, kernel_source(method), method.series)).path);
+    const Module module = Module::load(
+        compile(emit_module(spec, kernel_source(method), {.series = method.series})).path);
     Settings settings;
     settings.duration = 1;
     const std::vector<double> start{0.5, 0.5, 0.5};

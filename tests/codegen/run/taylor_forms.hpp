@@ -25,7 +25,7 @@ inline const Method& taylor() { return *find_method("taylor"); }
 
 inline Module compiled(const Specialisation& s, const char* method = "taylor") {
   const Method& m = *find_method(method);
-  return Module::load(compile(emit_module(s, kernel_source(m), m.series)).path);
+  return Module::load(compile(emit_module(s, kernel_source(m), {.series = m.series})).path);
 }
 
 /// Every form of the method that the system has, and its name.

@@ -32,7 +32,7 @@ Specialisation watched_system(bool keep_parameter = false) {
 
 Module with_watch(const Specialisation& s, const char* method) {
   const Method& m = *find_method(method);
-  const std::string text = emit_module(s, kernel_source(m), m.series);
+  const std::string text = emit_module(s, kernel_source(m), {.series = m.series});
   Module module = Module::load(compile(text + emit_watched(s, StepWatch(s.rhs).arguments())).path);
   module.know_equations(s.rhs);
   return module;

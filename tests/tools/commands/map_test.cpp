@@ -293,5 +293,25 @@ TEST(MapCommands, KahanIsAMethod) {
   EXPECT_TRUE(has(bench.err, "--method kahan")) << bench.err;
 }
 
+// Moser's and Veselov's map as a method: what `discretise` writes, with added variables that hold
+// the solution of a quartic, and what Newton's method finds are the same map.
+TEST(MapCommands, MoserVeselovIsAMethod) {
+  const Folder folder;
+  ASSERT_EQ(
+      run_in(folder, {"discretise", "euler", "--moser-veselov", "1/10", "-o", "mv.toml"}).status,
+      0);
+  const Json map = run_in(folder, {"integrate", "./mv.toml", "--duration", "100", "--json"}).json();
+  const Json flow = run_in(folder, {"integrate", "euler", "--method", "moser-veselov", "--step",
+                                    "0.1", "--duration", "10", "--json"})
+                        .json();
+  EXPECT_EQ(flow.at("method"), "moser-veselov");
+  for (const char* name : {"M1", "M2", "M3"})
+    EXPECT_NEAR(std::stod(flow.at("state").at(name).get<std::string>()),
+                std::stod(map.at("state").at(name).get<std::string>()), 1e-12);
+  const Outcome refused = run({"integrate", "kovalevskaya", "--method", "moser-veselov"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(has(refused.err, "free rigid body")) << refused.err;
+}
+
 }  // namespace
 }  // namespace casimir::test

@@ -14,7 +14,9 @@
 #include "codegen/emit/number_literal.hpp"
 #include "codegen/emit_cpp.hpp"
 #include "codegen/emit_watched.hpp"
+#include "codegen/free_body.hpp"
 #include "codegen/quadratic.hpp"
+#include "codegen/split.hpp"
 #include "runtime/evaluate.hpp"
 #include "runtime/exact/closed_form.hpp"
 #include "runtime/exact/polynomial_field.hpp"
@@ -92,7 +94,7 @@ PreparedScene prepare(const Model& model, const Scene& scene, const SceneOptions
   }
   run.duration = rounded(values[next]);
   run.where = scene.where;
-  run.split_source = split_source(model, scene, s.states, s.parameters, run.no_split);
+  run.hamiltonian = scene_hamiltonian(model, scene, s.states, s.parameters, run.no_hamiltonian);
   run.generate_seconds = seconds_since(start);
   return run;
 }
@@ -122,10 +124,21 @@ InvariantTerms PreparedScene::invariant_terms() const {
 
 namespace {
 
-/// \throws ModelError  where the Hamiltonian does not split.
-Splitting splitting_of(const PreparedScene& run) {
-  if (!run.split_source) throw ModelError("no splitting: " + run.no_split);
-  return split(*run.split_source);
+/// The system that the method is made from.
+/// \throws ModelError  where there is none.
+const SceneHamiltonian& hamiltonian_of(const PreparedScene& run, const Method& method) {
+  if (!run.hamiltonian)
+    throw ModelError(fmt::format("{} cannot be used: {}", method.name, run.no_hamiltonian));
+  return *run.hamiltonian;
+}
+
+/// What the kernel of a method asks for beside a right-hand side.
+/// \throws ModelError  where the system does not have it.
+KernelNeeds needs_of(const PreparedScene& run, const Method& method) {
+  KernelNeeds needs{.series = method.series};
+  if (method.splits) needs.splitting = split(hamiltonian_of(run, method));
+  if (method.free_body) needs.moments = free_body_moments(hamiltonian_of(run, method));
+  return needs;
 }
 
 /// For any values of the parameters at run time: those of the scene are as good as others.
@@ -144,15 +157,14 @@ CompiledModule compiled_module(const PreparedScene& run, const Method& method) {
         "and do not depend on the time, and these are not",
         method.name));
   Specialisation s = run.specialisation;
-  std::optional<Splitting> splitting;
-  if (method.splits) splitting = splitting_of(run);
+  const KernelNeeds needs = needs_of(run, method);
   // What no kernel of ours calls need not be compiled.
   if (method.header.empty() || method.uses_jacobian) add_jacobian(s);
   // A library that only calls the right-hand side has no kernel: one module serves them all.
   const std::string kernel = method.header.empty() ? std::string{} : kernel_source(method);
   CompileOptions options;
   options.standard_library = !method.outside.empty() && !kernel.empty();
-  std::string text = emit_module(s, kernel, method.series, splitting ? &*splitting : nullptr);
+  std::string text = emit_module(s, kernel, needs);
   // Only our own kernels ask whether a step may be taken.
   if (!kernel.empty() && method.outside.empty())
     text += emit_watched(s, StepWatch(s.rhs).arguments());
@@ -242,9 +254,8 @@ bool suits(const PreparedScene& run, const Method& method) {
   std::vector<cln::cl_F> start;
   if (method.closed_form) return recognised(run, start).form != nullptr;
   if (method.quadratic_only) return is_quadratic(run);
-  if (!method.splits) return true;
   try {
-    splitting_of(run);
+    needs_of(run, method);
     return true;
   } catch (const ModelError&) {
     return false;

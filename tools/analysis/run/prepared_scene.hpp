@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "codegen/compile.hpp"
+#include "codegen/scene_hamiltonian.hpp"
 #include "codegen/specialise.hpp"
-#include "codegen/split.hpp"
 #include "runtime/integrate.hpp"
 #include "symbolic/model.hpp"
 
@@ -23,10 +23,10 @@ struct PreparedScene {
   std::vector<double> rounding;    ///< what rounding them to double left out
   std::vector<double> parameters;  ///< at run time; empty when folded
   std::vector<double> parameter_rounding;
-  double duration = 0;                      ///< see `duration_of`
-  Location where;                           ///< of the scene in its file
-  std::optional<SplitSource> split_source;  ///< of a method that splits the Hamiltonian
-  std::string no_split;                     ///< why there is none
+  double duration = 0;                          ///< see `duration_of`
+  Location where;                               ///< of the scene in its file
+  std::optional<SceneHamiltonian> hamiltonian;  ///< of a method that needs it
+  std::string no_hamiltonian;                   ///< why there is none
 
   /// For Settings; the scene must outlive it.
   InvariantTerms invariant_terms() const;
@@ -60,11 +60,11 @@ struct CompiledModule {
   std::string warning = {};  ///< what the user should know about how it was made, or empty
 };
 /// \throws ModelError  where the method splits the Hamiltonian and it does not split, or is defined
-///                     for quadratic equations and these are not.
+///                     for quadratic equations or free bodies and this is none.
 CompiledModule compile_for(const PreparedScene& run, const Method& method);
 
 /// Whether the method can do anything with the scene: those that split the Hamiltonian need one
-/// that splits, Kahan's map quadratic equations.
+/// that splits, Kahan's map quadratic equations, Moser's and Veselov's a free body.
 bool suits(const PreparedScene& run, const Method& method);
 
 /// What `load` loads of a compiled object.

@@ -197,7 +197,7 @@ std::string Indicators::fingerprint() const {
                                  CASIMIR_VERSION, exact_text(settings_.rtol),
                                  exact_text(settings_.atol), exact_text(settings_.duration));
   for (const std::string& name : proved_) text += name + "\n";
-  text += emit_module(deviating_.specialisation, {}, false);
+  text += emit_module(deviating_.specialisation);
   for (const double x : deviating_.initial) text += exact_text(x) + " ";
   for (const double p : deviating_.parameters) text += exact_text(p) + " ";
   return text;

@@ -36,7 +36,7 @@ std::string Integrations::fingerprint() const {
                   CASIMIR_VERSION, exact_text(settings_.rtol), exact_text(settings_.atol),
                   asked_.atol ? "" : " in units of each start", exact_text(settings_.fixed_step),
                   exact_text(settings_.duration), settings_.max_steps);
-  text += emit_module(run_.specialisation, {}, false);
+  text += emit_module(run_.specialisation);
   for (const double x : run_.initial) text += exact_text(x) + " ";
   for (const double p : run_.parameters) text += exact_text(p) + " ";
   return text;

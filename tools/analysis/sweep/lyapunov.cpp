@@ -34,7 +34,7 @@ std::string LyapunovExponents::fingerprint() const {
   std::string text = fmt::format("exponents {} {} rtol {} atol {} duration {}\n", method_.name,
                                  CASIMIR_VERSION, exact_text(settings_.rtol),
                                  exact_text(settings_.atol), exact_text(settings_.duration));
-  text += emit_module(deviating_.specialisation, {}, false);
+  text += emit_module(deviating_.specialisation);
   for (const double x : deviating_.initial) text += exact_text(x) + " ";
   for (const double p : deviating_.parameters) text += exact_text(p) + " ";
   return text;

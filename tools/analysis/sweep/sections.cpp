@@ -28,7 +28,7 @@ Sections::Sections(const Model& model, const Scene& scene, const GridPoints& pla
   const SectionProblem problem = section_problem(model, scene, request_);
   text_ = fmt::format("{} {} {} {}\n", problem.plane_text, problem.plane.upwards,
                       problem.plotted[0].text, problem.plotted[1].text) +
-          emit_module(problem.run.specialisation, {}, false);
+          emit_module(problem.run.specialisation);
   for (const double x : problem.run.initial) text_ += exact_text(x) + " ";
 }
 
