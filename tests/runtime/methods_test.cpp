@@ -284,13 +284,19 @@ TEST(Methods, NamesAreFoundAndUnique) {
 
 constexpr const char* kSystem = R"(
 struct System {
-  static constexpr int n = 2;
-  static void rhs(double, const double* x, const double*, double* dx) { dx[0] = x[1]; dx[1] = -x[0]; }
-  static void jacobian(double, const double*, const double*, double* J) {
-    J[0] = J[3] = 0; J[1] = -1; J[2] = 1;
+  static constexpr int n = 3;
+  static void rhs(double, const double* x, const double*, double* dx) {
+    dx[0] = x[2] * x[1]; dx[1] = -x[2] * x[0]; dx[2] = 0;
+  }
+  static void jacobian(double, const double* x, const double*, double* J) {
+    for (int k = 0; k < 9; ++k) J[k] = 0;
+    J[1] = -x[2]; J[3] = x[2]; J[6] = x[1]; J[7] = -x[0];
+  }
+  static void moments(const double*, double* values) {
+    values[0] = values[1] = values[3] = 1; values[2] = 0.5;
   }
   static constexpr int parts = 2;
-  static constexpr bool moves[parts][n] = {{true, false}, {false, true}};
+  static constexpr bool moves[parts][n] = {{true, false, false}, {false, true, false}};
   template <int k>
   static void flow(double t, const double* x, const double*, double* dx) {
     if constexpr (k == 0) dx[0] = t * x[1]; else dx[1] = -t * x[0];
@@ -298,7 +304,7 @@ struct System {
 };
 extern "C" {
 int casimir_abi_version(void) { return CASIMIR_ABI_VERSION; }
-int casimir_dimension(void) { return 2; }
+int casimir_dimension(void) { return 3; }
 int casimir_parameter_count(void) { return 0; }
 int casimir_invariant_count(void) { return 0; }
 void casimir_rhs(double t, const double* x, const double* p, double* dx) { System::rhs(t, x, p, dx); }
@@ -329,7 +335,7 @@ TEST(Methods, KernelTextsCompileWithoutHeaders) {
     const Module module = Module::load(folder / "module.so");
     Settings settings;
     settings.duration = 3;
-    const Trajectory orbit = integrate(module, method, settings, {1, 0});
+    const Trajectory orbit = integrate(module, method, settings, {1, 0, 1});
     EXPECT_EQ(orbit.status, Status::ok);
     EXPECT_NEAR(orbit.state[0], std::cos(3.), 1e-8) << method.name;
     std::filesystem::remove(folder / "module.so");

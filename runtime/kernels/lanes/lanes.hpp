@@ -66,6 +66,29 @@ CASIMIR_INLINE double lane_sum(Lanes8 v) {
   return lane_sum(low + high);
 }
 
+/// Writes the sums of the lanes of four registers.
+CASIMIR_INLINE void lane_sums(Lanes2 a, Lanes2 b, Lanes2 c, Lanes2 d, double* sums) {
+  const Lanes2 ab = __builtin_shufflevector(a, b, 0, 2) + __builtin_shufflevector(a, b, 1, 3);
+  const Lanes2 cd = __builtin_shufflevector(c, d, 0, 2) + __builtin_shufflevector(c, d, 1, 3);
+  __builtin_memcpy(sums, &ab, sizeof ab);
+  __builtin_memcpy(sums + 2, &cd, sizeof cd);
+}
+CASIMIR_INLINE void lane_sums(Lanes4 a, Lanes4 b, Lanes4 c, Lanes4 d, double* sums) {
+  const Lanes4 ab =
+      __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Lanes4 cd =
+      __builtin_shufflevector(c, d, 0, 4, 2, 6) + __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  const Lanes4 all =
+      __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+  __builtin_memcpy(sums, &all, sizeof all);
+}
+CASIMIR_INLINE void lane_sums(Lanes8 a, Lanes8 b, Lanes8 c, Lanes8 d, double* sums) {
+  const auto half = [](Lanes8 v) CASIMIR_INLINE_LAMBDA {
+    return __builtin_shufflevector(v, v, 0, 1, 2, 3) + __builtin_shufflevector(v, v, 4, 5, 6, 7);
+  };
+  lane_sums(half(a), half(b), half(c), half(d), sums);
+}
+
 /// Whether any lane of a mask is set.
 CASIMIR_INLINE bool any(Indices<2> mask) { return (mask[0] | mask[1]) != 0; }
 CASIMIR_INLINE bool any(Indices<4> mask) {

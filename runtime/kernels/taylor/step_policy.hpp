@@ -19,6 +19,16 @@ struct StepPolicy {
   static constexpr double kLongest = 16;
   /// .. which is where the last terms shrink by so many binary digits with each order.
   static constexpr double kSteepest = -4;
+  /// The continuation of a series is taken to miss so many times what the last coefficients miss it
+  /// by. It is used where the step becomes longer by the first log2, and to no more than the
+  /// second.
+  static constexpr double kDoubt = 2, kWorthwhile = 0.03, kMostGained = 0.7;
+  /// And where what it is divided by, 1 at the start, does not come nearer to 0 than that.
+  static constexpr double kLeastDenominator = 0x1p-4;
+  /// The doubt where truncation is to be out of sight: what is missed adds up in one direction.
+  /// Where the leading terms are worked out in more digits nothing is continued: of a longer step
+  /// the other terms are larger, and their rounding is what such a run shows.
+  static constexpr double kDoubtIfCareful = 8;
   /// A step longer than this many units leans on coefficients that it does not see: it is compared
   /// with the equations even where they are a polynomial.
   static constexpr double kUnseen = 3;

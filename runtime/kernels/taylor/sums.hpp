@@ -16,7 +16,7 @@ CASIMIR_INLINE double rough_log2(double a) {
   bits = (bits & 0xfffffffffffffLL) | 0x3ff0000000000000LL;
   double m;
   __builtin_memcpy(&m, &bits, sizeof m);
-  return exponent + (m * (2 - m / 3) - 5. / 3);
+  return exponent + (m * (2 - m * (1. / 3)) - 5. / 3);
 }
 
 /// 2^a to within 1 %, for |a| < 1000.

@@ -2,6 +2,7 @@
 
 #include "runtime/kernels/lanes/lanes.hpp"
 #include "runtime/kernels/one_step/control.hpp"
+#include "runtime/kernels/taylor/continuation.hpp"
 #include "runtime/kernels/taylor/step_policy.hpp"
 #include "runtime/kernels/taylor/sums.hpp"
 
@@ -64,6 +65,7 @@ class March {
         leading_(run->leading && run->leading->from == 0 ? run->leading : nullptr),
         rtol_(run->rtol * aim(run, leading_)),
         atol_(run->atol * aim(run, leading_)),
+        doubt_(rtol_ < run->rtol ? Policy::kDoubtIfCareful : Policy::kDoubt),
         span_(run->t_end - run->t_begin),
         pace_(run->t_begin) {}
 
@@ -177,9 +179,38 @@ class March {
     const double a = lane_sum(before), z = lane_sum(last);
     if (!(a + z < Policy::kNoNumber)) return 0;
     if (pieces_ > 0) return fixed_step(z);
-    const double rate = larger(rough_log2(a) / (order - 1), rough_log2(z) / order);
-    const double s = rate < Policy::kSteepest ? Policy::kLongest : rough_exp2(-rate);
-    return s;
+    const double rate = rate_of(a, z);
+    if (leading_ || rate < Policy::kSteepest) {
+      continuation_.forget();
+      return rate < Policy::kSteepest ? Policy::kLongest : rough_exp2(-rate);
+    }
+    return continued_step(rate);
+  }
+
+  /// log2 of the factor from order to order that makes terms of these sizes out of one of size 1:
+  /// the larger one of what the last but one and the last say.
+  CASIMIR_INLINE double rate_of(double before, double last) const {
+    return larger(rough_log2(before) * (1. / (series_.order - 1)),
+                  rough_log2(last) * (1. / series_.order));
+  }
+
+  /// The step where the last terms, in units, are as large as this log2 says: a longer one where
+  /// the series can be continued. What the last two coefficients miss then takes their place.
+  CASIMIR_INLINE double continued_step(double rate) {
+    const auto missed = continuation_.fit(series_, weight_);
+    const double gain = rate - rate_of(missed.before * doubt_, missed.last * doubt_);
+    if (gain > Policy::kWorthwhile) {
+      const double s = rough_exp2((gain < Policy::kMostGained ? gain : Policy::kMostGained) - rate);
+      if (continuation_.use(series_, s)) return s;
+    }
+    continuation_.forget();
+    return rough_exp2(-rate);
+  }
+
+  /// What the series adds to the state after s units.
+  CASIMIR_INLINE void gain_after(double s, V* sum) const {
+    increment(series_, s, sum);
+    if (continuation_.used()) continuation_.add(series_.order, series_.blocks, s, sum);
   }
 
   double fixed_step(double last) {
@@ -216,7 +247,7 @@ class March {
     if (!(__builtin_expect(leading_ != nullptr, 0) &&
           step_with_leading_terms(s, next, next_carry))) {
       V sum[most_blocks];
-      increment(series_, s, sum);
+      gain_after(s, sum);
       CASIMIR_UNROLL
       for (int b = 0; b < series_.blocks; ++b) {
         next[b] = state_[b];
@@ -299,7 +330,7 @@ class March {
       if (place_ >= 1) place_ -= 1;
       const double within = s * Policy::place(i, places, place_);
       V x[most_blocks];
-      increment(series_, within, x);
+      gain_after(within, x);
       CASIMIR_UNROLL
       for (int b = 0; b < series_.blocks; ++b) x[b] = state_[b] + x[b];
       if (!follows_at(within, t_ + within * unit_, x)) return false;
@@ -313,6 +344,7 @@ class March {
   CASIMIR_INLINE bool follows_at(double s, double t, const V* next) {
     V told[most_blocks], defect = V{};
     slope(series_, s, told);
+    if (continuation_.used()) continuation_.add_slope(series_.order, series_.blocks, s, told);
     series_.begin(t, next);
     ++evaluations_;
     CASIMIR_UNROLL
@@ -389,7 +421,7 @@ class March {
   __attribute__((cold)) static void dense(const casimir_step* step, double t, double* at) {
     const March* self = static_cast<const March*>(step->data);
     V sum[most_blocks];
-    increment(self->series_, (t - step->t0) / self->unit_, sum);
+    self->gain_after((t - step->t0) / self->unit_, sum);
     for (int i = 0; i < self->series_.states; ++i) at[i] = step->x0[i] + sum[i / width][i % width];
   }
 
@@ -457,6 +489,7 @@ class March {
   casimir_outcome* out_;
   const casimir_leading* leading_;  // as soon as it is worth its time
   double rtol_, atol_;              // aimed at
+  const double doubt_;              // of the continued series
   V state_[most_blocks], carry_[most_blocks], weight_[most_blocks];
   double t_ = 0, t_carry_ = 0;
   const double span_;
@@ -464,6 +497,7 @@ class March {
   double unit_ = 1, pieces_ = 0, scale_ = 0;
   unsigned long long steps_ = 0, rejected_ = 0, expansions_ = 0, evaluations_ = 0;
   unsigned long long shrunk_ = 0;  // units
+  Continuation<V, most_blocks> continuation_;
   int status_ = CASIMIR_OK, failure_ = CASIMIR_OK;
   bool there_ = false, fresh_ = false, cut_ = false, jumps_ = false;
   double part_ = Policy::kShorter;  // of a step that did not hold, what is tried next
