@@ -18,13 +18,13 @@ using casimir_kernel::taylor::Continuation;
 using V = Lanes2;
 using Complex = std::complex<double>;
 
-constexpr int kOrder = 24;
+constexpr int kPlantedOrder = 24;
 
 /// States in so many registers of two, and their coefficients.
 template <int registers>
 struct PlantedSeries {
-  static constexpr int blocks = registers, states = 2 * registers, order = kOrder;
-  V c[kOrder + 1][blocks] = {};
+  static constexpr int blocks = registers, states = 2 * registers, order = kPlantedOrder;
+  V c[kPlantedOrder + 1][blocks] = {};
 
   void set(int state, int k, double value) { c[k][state / 2][state % 2] = value; }
 };
@@ -53,7 +53,7 @@ template <int registers = 3>
 PlantedSeries<registers> series_of(const std::vector<Pole>& poles) {
   PlantedSeries<registers> series;
   for (int state = 0; state < series.states; ++state)
-    for (int k = 0; k <= kOrder; ++k) {
+    for (int k = 0; k <= kPlantedOrder; ++k) {
       double sum = 0;
       for (const Pole& pole : poles) sum += pole.coefficient(state, k);
       series.set(state, k, sum);
@@ -74,8 +74,8 @@ std::pair<double, double> errors(const std::vector<Pole>& poles,
   taylor::increment(series, s, sum);
   taylor::slope(series, s, slope);
   if (continued.used()) {
-    continued.add(kOrder, registers, s, sum);
-    continued.add_slope(kOrder, registers, s, slope);
+    continued.add(kPlantedOrder, registers, s, sum);
+    continued.add_slope(kPlantedOrder, registers, s, slope);
   }
   double error = 0, error_of_slope = 0;
   for (int state = 0; state < series.states; ++state) {
@@ -97,8 +97,8 @@ TEST(Continuation, TwoPairsOfPolesAreContinuedExactly) {
   const auto before = errors(poles, series, continued, 0.8);
   EXPECT_GT(before.first, 1e-5);
   const ContinuedSum::Missed missed = continued.fit(series, kWeightsOfOne);
-  EXPECT_LT(missed.last, 1e-6 * std::abs(series.c[kOrder][0][0]));
-  EXPECT_LT(missed.before, 1e-6 * std::abs(series.c[kOrder - 1][0][0]));
+  EXPECT_LT(missed.last, 1e-6 * std::abs(series.c[kPlantedOrder][0][0]));
+  EXPECT_LT(missed.before, 1e-6 * std::abs(series.c[kPlantedOrder - 1][0][0]));
   ASSERT_TRUE(continued.use(series, 0.8));
   for (const double s : {-0.7, 0.1, 0.4, 0.8}) {
     const auto [error, error_of_slope] = errors(poles, series, continued, s);
@@ -132,7 +132,7 @@ TEST(Continuation, WhatTheLastCoefficientsMissTellsTheError) {
     const double error = errors(poles, series, continued, s).first;
     continued.forget();
     EXPECT_LT(error, plain / 10) << s;
-    EXPECT_LT(error, 2 * missed.last * std::pow(s, kOrder)) << s;
+    EXPECT_LT(error, 2 * missed.last * std::pow(s, kPlantedOrder)) << s;
   }
 }
 
@@ -151,7 +151,7 @@ TEST(Continuation, StopsBeforePolesOnTheWay) {
 
 TEST(Continuation, NumbersThatAreNoneAreNotUsed) {
   auto series = series_of({{{0.5, 1.2}, 1}});
-  series.set(0, kOrder - 5, std::nan(""));
+  series.set(0, kPlantedOrder - 5, std::nan(""));
   ContinuedSum continued;
   const ContinuedSum::Missed missed = continued.fit(series, kWeightsOfOne);
   EXPECT_FALSE(missed.last < 1e300);
