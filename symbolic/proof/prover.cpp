@@ -85,6 +85,7 @@ void Prover::begin_claim(const std::vector<ex>& expressions, Subject subject) {
   divisors_.reset();
   motion_divisors_.reset();
   claim_inhabited_.reset();
+  holds_on_constraints_ = false;
   kept_from_zero_.clear();
 }
 

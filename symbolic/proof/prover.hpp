@@ -119,7 +119,16 @@ class Prover {
 
   /// Fills in verdict, evidence, residual, reason and witness: are all residuals zero on the level,
   /// wherever the functions of the claim have real values? A claim about nothing is not proved.
+  ///
+  /// Where the case has constraints a point outside of them refutes nothing. What is zero there
+  /// only is left undecided, and `holds_on_constraints` says so: whether that proves the claim
+  /// depends on what it says of points nearby.
   void decide(Proof& proof, const std::vector<Residual>& residuals, const Level& level);
+
+  /// Whether the last decision found residuals that are zero on the constraints and not elsewhere.
+  bool holds_on_constraints() const { return holds_on_constraints_; }
+  /// Functions whose common zeros are a part of the constraints: these with them.
+  std::vector<NamedExpression> within_constraints(std::vector<NamedExpression> functions) const;
 
   /// Whether `p` is zero wherever it has a value. That its numerator is says so only where no
   /// denominator is a divisor of zero, as |x| - x is: (|x| - x)*(|x| + x) = 0.
@@ -173,6 +182,9 @@ class Prover {
   bool in_ideal(const Residual& residual, const Level& level);
   bool vanishes_on(const Residual& residual, Polynomial& rest, const Level& level, Proof& proof);
   void decide_on(Proof& proof, const std::vector<Residual>& residuals, const Level& level);
+  void decide_with_branches(Proof& proof, const std::vector<Residual>& residuals, const Level& own);
+  void decide_again_on_constraints(Proof& proof, const std::vector<Residual>& residuals,
+                                   const Level& own);
   void decide_invariance_once(Proof& proof, std::vector<NamedExpression> functions);
   /// Decides again on the part of the level where what it was solved by vanishes.
   void decide_branches(
@@ -218,7 +230,7 @@ class Prover {
   /// With the end of the generators that they are about.
   std::pair<std::size_t, std::vector<Polynomial>> square_relations_;
   std::optional<bool> all_inhabited_, claim_inhabited_;
-  bool taken_as_inhabited_ = false;
+  bool taken_as_inhabited_ = false, holds_on_constraints_ = false;
   /// A level, by its functions and by how much work it was worth.
   struct KnownLevel {
     std::vector<NamedExpression> on;

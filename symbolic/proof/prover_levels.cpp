@@ -420,6 +420,47 @@ void Prover::decide_on(Proof& proof, const std::vector<Residual>& residuals, con
 }
 
 void Prover::decide(Proof& proof, const std::vector<Residual>& residuals, const Level& own) {
+  const Proof blank = proof;
+  holds_on_constraints_ = false;
+  decide_with_branches(proof, residuals, own);
+  if (proof.verdict != Verdict::refuted) return;
+  Proof there = blank;
+  decide_again_on_constraints(there, residuals, own);
+  if (there.verdict != Verdict::refuted || there.witness) proof = std::move(there);
+}
+
+std::vector<NamedExpression> Prover::within_constraints(
+    std::vector<NamedExpression> functions) const {
+  for (const NamedExpression& constraint : model_.constraints) {
+    const bool known =
+        std::any_of(functions.begin(), functions.end(),
+                    [&](const NamedExpression& f) { return f.value.is_equal(constraint.value); });
+    if (!known) functions.push_back(constraint);
+  }
+  return functions;
+}
+
+/// Leaves a refutation without a witness where there is nothing to decide again.
+void Prover::decide_again_on_constraints(Proof& proof, const std::vector<Residual>& residuals,
+                                         const Level& own) {
+  const std::vector<NamedExpression> given = functions_of(own);
+  const std::vector<NamedExpression> functions = within_constraints(given);
+  proof.verdict = Verdict::refuted;
+  if (functions.size() == given.size()) return;
+  decide_with_branches(proof, residuals, level(functions));
+  if (proof.verdict == Verdict::refuted) return;
+  holds_on_constraints_ = proof.verdict == Verdict::proved;
+  proof.verdict = Verdict::undecided;
+  proof.evidence.clear();
+  proof.where.clear();
+  proof.nonzero.clear();
+  proof.reason = holds_on_constraints_
+                     ? "it holds on the constraints, and not outside of them"
+                     : "it does not hold outside of the constraints; on them, " + proof.reason;
+}
+
+void Prover::decide_with_branches(Proof& proof, const std::vector<Residual>& residuals,
+                                  const Level& own) {
   decide_on(proof, residuals, own);
   std::function<void(Proof&, const std::vector<NamedExpression>&, int)> decide_part;
   decide_part = [&](Proof& part, const std::vector<NamedExpression>& functions, int depth) {

@@ -25,10 +25,10 @@ struct StepPolicy {
   static constexpr double kDoubt = 2, kWorthwhile = 0.03, kMostGained = 0.7;
   /// And where what it is divided by, 1 at the start, does not come nearer to 0 than that.
   static constexpr double kLeastDenominator = 0x1p-4;
-  /// The doubt where truncation is to be out of sight: what is missed adds up in one direction.
-  /// Where the leading terms are worked out in more digits nothing is continued: of a longer step
-  /// the other terms are larger, and their rounding is what such a run shows.
-  static constexpr double kDoubtIfCareful = 8;
+  /// Where rounding is all that a run shows, at this tolerance, nothing is continued: of a longer
+  /// step all terms are larger, and so is what they are rounded by. From the other tolerance on the
+  /// most that may be gained shrinks to that by degrees.
+  static constexpr double kRounded = 1e-15, kUnaffected = 1e-12;
   /// A step longer than this many units leans on coefficients that it does not see: it is compared
   /// with the equations even where they are a polynomial.
   static constexpr double kUnseen = 3;

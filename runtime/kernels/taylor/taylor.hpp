@@ -65,7 +65,7 @@ class March {
         leading_(run->leading && run->leading->from == 0 ? run->leading : nullptr),
         rtol_(run->rtol * aim(run, leading_)),
         atol_(run->atol * aim(run, leading_)),
-        doubt_(rtol_ < run->rtol ? Policy::kDoubtIfCareful : Policy::kDoubt),
+        most_gained_(most_gained(run->rtol)),
         span_(run->t_end - run->t_begin),
         pace_(run->t_begin) {}
 
@@ -144,6 +144,12 @@ class March {
     return status_ == CASIMIR_OK;
   }
 
+  static double most_gained(double tolerance) {
+    const double part = rough_log2(tolerance / Policy::kRounded) *
+                        (1 / rough_log2(Policy::kUnaffected / Policy::kRounded));
+    return Policy::kMostGained * (part < 1 ? part : 1);
+  }
+
   void set_unit(double h) {
     unit_ = power_of_two_near(h);
     if (span_ < 0) unit_ = -unit_;
@@ -180,7 +186,7 @@ class March {
     if (!(a + z < Policy::kNoNumber)) return 0;
     if (pieces_ > 0) return fixed_step(z);
     const double rate = rate_of(a, z);
-    if (leading_ || rate < Policy::kSteepest) {
+    if (!(most_gained_ > Policy::kWorthwhile) || rate < Policy::kSteepest) {
       continuation_.forget();
       return rate < Policy::kSteepest ? Policy::kLongest : rough_exp2(-rate);
     }
@@ -198,9 +204,10 @@ class March {
   /// the series can be continued. What the last two coefficients miss then takes their place.
   CASIMIR_INLINE double continued_step(double rate) {
     const auto missed = continuation_.fit(series_, weight_);
-    const double gain = rate - rate_of(missed.before * doubt_, missed.last * doubt_);
+    const double gain =
+        rate - rate_of(missed.before * Policy::kDoubt, missed.last * Policy::kDoubt);
     if (gain > Policy::kWorthwhile) {
-      const double s = rough_exp2((gain < Policy::kMostGained ? gain : Policy::kMostGained) - rate);
+      const double s = rough_exp2((gain < most_gained_ ? gain : most_gained_) - rate);
       if (continuation_.use(series_, s)) return s;
     }
     continuation_.forget();
@@ -399,6 +406,7 @@ class March {
     const double expected = static_cast<double>(steps_) * (span_ / (t1 - run_->t_begin));
     if (leading_ || !(expected >= static_cast<double>(run_->leading->from)) || pieces_ > 0) return;
     leading_ = run_->leading;
+    most_gained_ = 0;
     rtol_ = run_->rtol * aim(run_, true);
     atol_ = run_->atol * aim(run_, true);
   }
@@ -489,7 +497,7 @@ class March {
   casimir_outcome* out_;
   const casimir_leading* leading_;  // as soon as it is worth its time
   double rtol_, atol_;              // aimed at
-  const double doubt_;              // of the continued series
+  double most_gained_;              // by continuing the series, as a log2
   V state_[most_blocks], carry_[most_blocks], weight_[most_blocks];
   double t_ = 0, t_carry_ = 0;
   const double span_;

@@ -36,6 +36,11 @@ Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>
           LevelClaim{f, on}};
 }
 
+bool constraints_are_casimirs(Prover& prover) {
+  return std::ranges::all_of(prover.model().constraints,
+                             [&](const NamedExpression& f) { return is_casimir(prover, f); });
+}
+
 bool is_casimir(Prover& prover, const NamedExpression& f) {
   const std::vector<Polynomial>& flow = prover.flow(f.value);
   return std::all_of(flow.begin(), flow.end(),

@@ -61,6 +61,9 @@ std::string hamiltonian_name(const Model& model);
 Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
 /// Whether f commutes with every coordinate.
 bool is_casimir(Prover& prover, const NamedExpression& f);
+/// Whether all constraints of the case are: then the bracket of what is left of two functions on
+/// them is what is left of their bracket. True where there are none.
+bool constraints_are_casimirs(Prover& prover);
 /// df/dt = 0, on an invariant level if one is given.
 Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);
 /// The same, under the name of its own that a case gives it on a level.

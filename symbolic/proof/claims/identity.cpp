@@ -8,9 +8,15 @@ namespace casimir {
 Claim identity_claim(const Identity& identity) {
   Claim claim{ClaimKind::identity, identity.name, false, [identity](Prover& prover, Proof& proof) {
                 const GiNaC::ex defect = identity.left - identity.right;
-                prover.decide(
-                    proof, {{"left - right", prover.convert(defect), [defect] { return defect; }}},
-                    prover.level(identity.on));
+                const std::vector<Residual> residuals{
+                    {"left - right", prover.convert(defect), [defect] { return defect; }}};
+                const Proof blank = proof;
+                prover.decide(proof, residuals, prover.level(identity.on));
+                if (proof.verdict != Verdict::undecided || !prover.holds_on_constraints()) return;
+                const auto within = prover.within_constraints(identity.on);
+                proof = blank;
+                prover.decide(proof, residuals, prover.level(within));
+                proof.on = names_of(within);
               }};
   claim.expressions = {identity.left - identity.right};
   // The sides themselves: their difference may be 0 where they have no values.

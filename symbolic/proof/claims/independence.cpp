@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "symbolic/proof/claims/claim.hpp"
+#include "symbolic/proof/claims/on_constraints.hpp"
 #include "symbolic/proof/claims/ranks.hpp"
 
 namespace casimir {
@@ -44,6 +45,7 @@ void decide_independence(Prover& prover, Proof& proof,
                          : "the gradients are independent at " + text_of(found->points);
     say_where(proof, found->where, found->nonzero);
     prover.check_inhabited(proof, {});
+    require_independence_on_constraints(prover, proof, slopes);
   } else if (found->exact) {
     proof.verdict = Verdict::refuted;
     proof.reason = fmt::format(
@@ -97,6 +99,7 @@ void decide_rank(Prover& prover, Proof& proof) {
                                         : "rank taken at " + text_of(found->points));
   say_where(proof, found->where, found->nonzero);
   prover.check_inhabited(proof, {});
+  require_on_constraints(prover, proof, {{structure_rows(prover), found->rank}});
 }
 
 }  // namespace

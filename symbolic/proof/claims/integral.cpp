@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "symbolic/proof/certificate_writer.hpp"
 #include "symbolic/proof/claims/claim.hpp"
@@ -48,6 +49,22 @@ void decide_on_invariant_level(Prover& prover, Proof& proof, const std::vector<R
   proof.nonzero = invariance.nonzero;
 }
 
+/// Decides a claim about motions on a level. What only fails outside of the constraints is decided
+/// on them, which then have to be invariant.
+void decide_within_constraints(
+    Prover& prover, Proof& proof, const std::vector<NamedExpression>& on,
+    const std::function<void(Proof&, const std::vector<NamedExpression>&)>& decide) {
+  const Proof blank = proof;
+  decide(proof, on);
+  const std::vector<NamedExpression> within = prover.within_constraints(on);
+  const bool open = proof.verdict == Verdict::undecided && prover.holds_on_constraints();
+  if (within.size() == on.size() || (proof.verdict != Verdict::refuted && !open)) return;
+  Proof there = blank;
+  decide(there, within);
+  if (there.verdict == Verdict::proved) there.on = names_of(within);
+  proof = std::move(there);
+}
+
 }  // namespace
 
 Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression>& on) {
@@ -55,7 +72,9 @@ Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression
           f.name,
           false,
           [f, on](Prover& prover, Proof& proof) {
-            decide_on_invariant_level(prover, proof, {rate_of(prover, f)}, f, on);
+            decide_within_constraints(prover, proof, on, [&](Proof& own, const auto& level) {
+              decide_on_invariant_level(prover, own, {rate_of(prover, f)}, f, level);
+            });
           },
           names_of(on),
           values_of(on, f),
@@ -76,9 +95,11 @@ Claim invariant_relation_claim(const NamedExpression& f, const std::vector<Named
           false,
           [f, on](Prover& prover, Proof& proof) {
             // The common zero level of f and `on` has to be carried into itself.
-            std::vector<NamedExpression> all = on;
-            all.push_back(f);
-            prover.decide_invariance(proof, all);
+            decide_within_constraints(prover, proof, on, [&](Proof& own, const auto& level) {
+              std::vector<NamedExpression> all = level;
+              all.push_back(f);
+              prover.decide_invariance(own, all);
+            });
           },
           names_of(on),
           values_of(on, f),

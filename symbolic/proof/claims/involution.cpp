@@ -14,21 +14,27 @@ std::vector<Claim> involution_claims(const Model& model) {
       const NamedExpression f = model.integrals[i];
       const NamedExpression g = model.integrals[j];
       const std::string name = fmt::format("{{{}, {}}}", f.name, g.name);
-      claims.push_back(
-          {ClaimKind::involution,
-           name,
-           true,
-           [f, g, name](Prover& prover, Proof& proof) {
-             prover.decide(
-                 proof,
-                 {{name, prover.bracket(f.value, g.value),
-                   [&prover, f, g] { return prover.model().poisson->bracket(f.value, g.value); }}},
-                 {});
-           },
-           {},
-           values_of({f, g}),
-           false,
-           Subject::bracket});
+      claims.push_back({ClaimKind::involution,
+                        name,
+                        true,
+                        [f, g, name](Prover& prover, Proof& proof) {
+                          const std::vector<Residual> residuals{
+                              {name, prover.bracket(f.value, g.value), [&prover, f, g] {
+                                 return prover.model().poisson->bracket(f.value, g.value);
+                               }}};
+                          const Proof blank = proof;
+                          prover.decide(proof, residuals, {});
+                          if (proof.verdict != Verdict::undecided ||
+                              !prover.holds_on_constraints() || !constraints_are_casimirs(prover))
+                            return;
+                          proof = blank;
+                          prover.decide(proof, residuals, prover.level(prover.model().constraints));
+                          proof.on = names_of(prover.model().constraints);
+                        },
+                        {},
+                        values_of({f, g}),
+                        false,
+                        Subject::bracket});
     }
   }
   return claims;

@@ -7,6 +7,7 @@
 
 #include "symbolic/model/given_functions.hpp"
 #include "symbolic/proof/claims/claim.hpp"
+#include "symbolic/proof/claims/on_constraints.hpp"
 #include "symbolic/proof/claims/ranks.hpp"
 #include "symbolic/proof/claims/superintegrability.hpp"
 #include "symbolic/proof/special_parameters.hpp"
@@ -14,13 +15,28 @@
 namespace casimir {
 namespace {
 
+/// Whether the bracket of two functions vanishes, or does on constraints that are Casimir
+/// functions.
+bool commute(Prover& prover, const NamedExpression& f, const NamedExpression& g) {
+  const Polynomial bracket = prover.bracket(f.value, g.value);
+  if (prover.is_zero(bracket)) return true;
+  const Model& model = prover.model();
+  const auto constant = [&](const NamedExpression& c) { return is_casimir(prover, c); };
+  if (model.constraints.empty() || !std::ranges::all_of(model.constraints, constant)) return false;
+  Proof proof;
+  prover.decide(
+      proof, {{"their bracket", bracket, [&] { return model.poisson->bracket(f.value, g.value); }}},
+      prover.level(model.constraints));
+  return proof.verdict == Verdict::proved && proof.where.empty();
+}
+
 /// For each function the set of those that it commutes with, itself included.
 std::vector<unsigned> commuting(Prover& prover, const std::vector<NamedExpression>& functions) {
   std::vector<unsigned> sets(functions.size());
   for (std::size_t i = 0; i < functions.size(); ++i) {
     sets[i] |= 1U << i;
     for (std::size_t j = 0; j < i; ++j) {
-      if (!prover.is_zero(prover.bracket(functions[i].value, functions[j].value))) continue;
+      if (!commute(prover, functions[i], functions[j])) continue;
       sets[i] |= 1U << j;
       sets[j] |= 1U << i;
     }
@@ -180,6 +196,7 @@ void decide_liouville(Prover& prover, Proof& proof) {
   say_where(proof, found.where != leaf->where ? found.where : "",
             needed_parameters(prover, own, needed));
   prover.check_inhabited(proof, {});
+  require_on_constraints(prover, proof, {{structure_rows(prover), leaf->rank}, {own, needed}});
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ std::string why_not_counted(Prover& prover, const std::vector<Polynomial>& found
   const Model& model = prover.model();
   if (!model.poisson || !model.hamiltonian) return "there is no bracket, or no Hamiltonian";
   if (model.time) return "the motion depends on time";
-  if (!std::ranges::all_of(model.constraints, [&](const auto& f) { return is_casimir(prover, f); }))
+  if (!constraints_are_casimirs(prover))
     return "the motion is on constraints that are no Casimir functions";
   if (has_arbitrary_functions(model)) return "the case has arbitrary functions";
   if (found.empty()) return "there is none";

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "symbolic/proof/claims/on_constraints.hpp"
 #include "symbolic/proof/claims/ranks.hpp"
 
 namespace casimir {
@@ -138,6 +139,9 @@ void decide_superintegrability(Prover& prover, Proof& proof) {
   say_where(proof, flows.where != leaf->where ? flows.where : "", flows.nonzero);
   say_where(proof, "", rank->nonzero);
   prover.check_inhabited(proof, {});
+  require_on_constraints(
+      prover, proof,
+      {{structure_rows(prover), leaf->rank}, {chosen->flows, count}, {matrix, isotropic}});
 }
 
 }  // namespace casimir
