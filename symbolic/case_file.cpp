@@ -43,12 +43,21 @@ bool speaks_of_imaginary_unit(const std::string& toml) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
   };
   bool comment = false;
-  bool quoted = false;
+  char quote = 0;  // of the string that is open
   for (std::size_t i = 0; i < toml.size(); ++i) {
-    if (toml[i] == '\n') comment = quoted = false;
+    if (toml[i] == '\n') {
+      comment = false;
+      quote = 0;
+    }
     if ((i == 0 || toml[i - 1] == '\n') && is_line_of_words(toml, i)) comment = true;
-    if (toml[i] == '"') quoted = !quoted;
-    comment = comment || (toml[i] == '#' && !quoted);
+    const bool escaped = quote == '"' && toml[i - 1] == '\\';
+    if (!comment && !escaped && (toml[i] == '"' || toml[i] == '\'')) {
+      if (quote == 0)
+        quote = toml[i];
+      else if (quote == toml[i])
+        quote = 0;
+    }
+    comment = comment || (toml[i] == '#' && quote == 0);
     if (comment || toml[i] != 'I') continue;
     const bool starts = i == 0 || !is_part(toml[i - 1]);
     const bool ends = i + 1 == toml.size() || !is_part(toml[i + 1]);

@@ -195,16 +195,15 @@ Quantity Parser::power() {
     if (base.value.is_zero()) fail_at(offset, "zero to a power that is not a number");
   }
   q.value = real_value(
-      evaluated(
-          offset,
-          [&] { return principal_power(base.value, exponent.value, names_.complex_numbers()); }),
+      evaluated(offset,
+                [&] { return principal_power(base.value, exponent.value, complex_numbers()); }),
       offset);
   if (!exponent.value.info(GiNaC::info_flags::nonnegint)) add_part(q.value);
   return checked(q, offset);
 }
 
 ex Parser::real_value(const ex& value, std::size_t offset) const {
-  if (!names_.complex_numbers() && !imaginary_unit_ && is_complex_constant(value))
+  if (!complex_numbers() && is_complex_constant(value))
     fail_at(offset, "this has no real value",
             "roots and logarithms are those of real numbers unless the case has I");
   return value;

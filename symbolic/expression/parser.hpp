@@ -210,6 +210,9 @@ class Parser {
   double repetitions_ = 0;                             ///< of all sums and products
   std::vector<std::pair<std::string, long>> indices_;  ///< of those that are open
   bool imaginary_unit_ = false;                        ///< `I` has been read
+  /// Whether numbers may be complex: those of the case, or those of this text, as a candidate is
+  /// for a case of real numbers.
+  bool complex_numbers() const { return names_.complex_numbers() || imaginary_unit_; }
   std::vector<ex> parts_;
   std::unordered_set<ex> seen_;
 };

@@ -135,9 +135,9 @@ Quantity Parser::call(const ElementaryFunction& function, std::size_t start) {
   const std::vector<Quantity> arguments = this->arguments(function.name, function.arity, start);
   const Quantity& first = arguments.front();
   const Quantity& last = arguments.back();
-  if (function.real && names_.complex_numbers())
-    fail_at(start,
-            fmt::format("'{}' is for real numbers, and this case has complex ones", function.name));
+  if (function.real && complex_numbers())
+    fail_at(start, fmt::format("'{}' is for real numbers, and there is I here or in the case",
+                               function.name));
   const double uses = function.uses;
   Quantity q{0, uses * first.bits, uses * first.degree, uses * (1 + first.nodes),
              (uses > 1 ? 3 : 1) + std::max(first.depth, last.depth)};
@@ -155,7 +155,7 @@ Quantity Parser::call(const ElementaryFunction& function, std::size_t start) {
                                  [&] {
                                    return function.name == "sqrt"
                                               ? principal_power(first.value, GiNaC::numeric(1, 2),
-                                                                names_.complex_numbers())
+                                                                complex_numbers())
                                               : function.apply(first.value, last.value);
                                  }),
                        start);
@@ -165,9 +165,9 @@ Quantity Parser::call(const ElementaryFunction& function, std::size_t start) {
 
 Quantity Parser::call(const EllipticFunction& function, std::size_t start) {
   const std::vector<Quantity> given = arguments(function.name, function.arity, start);
-  if (names_.complex_numbers())
-    fail_at(start,
-            fmt::format("'{}' is for real numbers, and this case has complex ones", function.name));
+  if (complex_numbers())
+    fail_at(start, fmt::format("'{}' is for real numbers, and there is I here or in the case",
+                               function.name));
   Quantity q{0, 0, 1, 1, 1};
   GiNaC::exvector values;
   for (const Quantity& argument : given) {

@@ -80,7 +80,8 @@ class ResidueMatrix {
 /// What the relation may be made of: the functions, then the parameters, each with its degree.
 class ModularRelation {
  public:
-  ModularRelation(Prover& prover, const std::vector<NamedExpression>& functions) : prover_(prover) {
+  ModularRelation(Prover& prover, const std::vector<NamedExpression>& functions, bool independent)
+      : prover_(prover), independent_(independent) {
     for (const NamedExpression& f : functions)
       add(f.name, prover.convert(f.value), /*parameter=*/false);
     for (std::size_t i = 0; i < prover.model().parameters.size(); ++i) {
@@ -100,7 +101,7 @@ class ModularRelation {
       std::vector<Exponents> monomials = monomials_up_to(bound);
       if (monomials.size() > kMaxMonomials) return std::nullopt;
       const auto relation = null_vector(monomials);
-      if (relation && holds(*relation)) return text(*relation);
+      if (relation && determines_first(*relation) && holds(*relation)) return text(*relation);
     }
     return std::nullopt;
   }
@@ -180,6 +181,23 @@ class ModularRelation {
     return std::nullopt;
   }
 
+  /// Whether the factor of the highest power of the first function is a number, or a function that
+  /// is zero nowhere or everywhere, which it is not.
+  bool determines_first(const std::vector<Term>& relation) const {
+    unsigned highest = 0;
+    for (const auto& [coefficient, exponents] : relation) highest = std::max(highest, exponents[0]);
+    if (highest == 0) return false;
+    Exponents alone(names_.size());
+    alone[0] = highest;
+    std::vector<Exponents> leading;
+    for (const auto& [coefficient, exponents] : relation)
+      if (exponents[0] == highest) leading.push_back(exponents);
+    if (leading == std::vector<Exponents>{alone}) return true;
+    if (!independent_) return false;
+    const FunctionRing::Pieces pieces = prover_.ring().pieces(values_);
+    return pieces.rigid && pieces.switches.empty();
+  }
+
   bool holds(const std::vector<Term>& relation) const {
     Polynomial sum(prover_.ring().ring());
     for (const auto& [coefficient, exponents] : relation) {
@@ -219,6 +237,7 @@ class ModularRelation {
   }
 
   Prover& prover_;
+  const bool independent_;
   std::vector<std::string> names_;
   std::vector<Polynomial> values_;
   std::vector<long> weights_;
@@ -227,8 +246,9 @@ class ModularRelation {
 }  // namespace
 
 std::optional<std::string> polynomial_relation(Prover& prover,
-                                               const std::vector<NamedExpression>& functions) {
-  return ModularRelation(prover, functions).find();
+                                               const std::vector<NamedExpression>& functions,
+                                               bool independent) {
+  return ModularRelation(prover, functions, independent).find();
 }
 
 }  // namespace casimir

@@ -64,15 +64,30 @@ Proof independence_finding(Prover& prover, const NamedExpression& f) {
       proof.evidence += fmt::format(" where {}", fmt::join(proof.where, ", "));
     return proof;
   }
-  if (const auto relation = polynomial_relation(prover, all)) {
+  const bool more = rank_of(all) > before;
+  const auto follows = [&](const Functions& from, bool independent) {
+    Functions functions{f};
+    functions.insert(functions.end(), from.begin(), from.end());
+    const auto relation = polynomial_relation(prover, functions, independent);
+    if (!relation) return false;
     proof.verdict = Verdict::refuted;
-    proof.reason = "it follows from " + names + ": " + *relation;
-    return proof;
+    proof.reason =
+        fmt::format("it follows from {}: {}", fmt::join(names_of(from), ", "), *relation);
+    return true;
+  };
+  if (!more && follows(known, before == known.size())) return proof;
+  if (!more && before < known.size()) {
+    // A relation between the known ones alone hides one with the candidate.
+    Functions independent;
+    for (const NamedExpression& g : known) {
+      independent.push_back(g);
+      if (rank_of(independent) < independent.size()) independent.pop_back();
+    }
+    if (follows(independent, true)) return proof;
   }
-  proof.reason = rank_of(all) > before
-                     ? "it is independent of the independent ones among " + names
-                     : "its gradient depends on those of " + names +
-                           " at the points tried; no polynomial relation of low degree was found";
+  proof.reason = more ? "it is independent of the independent ones among " + names
+                      : "its gradient depends on those of " + names +
+                            " at the points tried; no polynomial relation of low degree was found";
   return proof;
 }
 

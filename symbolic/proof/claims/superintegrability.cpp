@@ -127,7 +127,9 @@ void decide_superintegrability(Prover& prover, Proof& proof) {
   const GenericRank& flows = chosen->rank;
   proof.evidence = fmt::format(
       "{} are independent on leaves of dimension {}, where {} would do{}{}; their brackets are "
-      "functions of them and have rank {}: the motion is on tori of dimension {}",
+      "functions of them and have rank {}: on joint levels that are compact the motion is on tori "
+      "of "
+      "dimension {}",
       listed(chosen->functions), leaf->rank, half,
       count + 1 == leaf->rank ? ": as many as there can be" : "",
       flows.points.empty() ? "" : " (at " + text_of(flows.points) + ")", isotropic,

@@ -50,6 +50,36 @@ TEST(Judgement, AlgebraicDependenceIsFoundToo) {
       << dependence->reason;
 }
 
+// The known functions may depend on each other: F - 2*H = 0 says nothing of p1.
+TEST(Judgement, ARelationBetweenTheKnownFunctionsIsNoneOfTheCandidate) {
+  const Model model = model_of(
+      "hamiltonian = \"(p1^2 + p2^2)/2\"\n[phase_space]\nvariables = "
+      "[\"q1\",\"q2\",\"p1\",\"p2\"]\ncanonical = true\n[integrals]\nF = \"p1^2 + p2^2\"\n");
+  for (const char* f : {"p1", "q1*p2 - q2*p1", "p1^3 + p1*p2"}) {
+    const Proof note = judgement(model, f);
+    const Proof* dependence = finding(note, "independence");
+    ASSERT_NE(dependence, nullptr);
+    EXPECT_NE(dependence->verdict, Verdict::refuted) << f << ": " << dependence->reason;
+  }
+  const Proof note = judgement(model, "p1^2 + p2^2 + 1");
+  EXPECT_EQ(finding(note, "independence")->verdict, Verdict::refuted);
+}
+
+// F = p1 + |p1| is 0 on half of the space, where p1 is no function of it.
+TEST(Judgement, ARelationThatIsEmptyOnAPartOfTheDomainIsNone) {
+  const Model model = model_of(
+      "hamiltonian = \"p1^2 + p2^2\"\n[phase_space]\nvariables = "
+      "[\"q1\",\"q2\",\"p1\",\"p2\"]\ncanonical = true\n[integrals]\nF = \"p1 + abs(p1)\"\n");
+  for (const char* f : {"p1", "abs(p1) - p1", "abs(p2)"}) {
+    const Proof note = judgement(model, f);
+    const Proof* dependence = finding(note, "independence");
+    ASSERT_NE(dependence, nullptr);
+    EXPECT_NE(dependence->verdict, Verdict::refuted) << f << ": " << dependence->reason;
+  }
+  const Proof note = judgement(model, "(p1 + abs(p1))^2");
+  EXPECT_EQ(finding(note, "independence")->verdict, Verdict::refuted);
+}
+
 TEST(Judgement, IndependenceHasConditionsOnParameters) {
   const Model model = model_of(
       "hamiltonian = \"p1^2\"\n[phase_space]\nvariables = [\"q1\",\"q2\",\"p1\",\"p2\"]\n"
@@ -96,6 +126,32 @@ TEST(Judgement, IntegralOnAKnownLevelIsFound) {
 TEST(Judgement, ConstantIsSaidToBeOne) {
   const Proof note = judgement(goryachev_chaplygin(), "r^2 + 1");
   EXPECT_EQ(finding(note, "independence")->reason, "it is a constant");
+}
+
+// |z| is written as sqrt(z^2), which for complex z is z or -z: so it is refused, wherever the I is.
+TEST(Candidates, AbsoluteValuesOfComplexNumbersAreRefused) {
+  const Model model = goryachev_chaplygin();
+  const auto verify = [&](const char* left) {
+    Candidates candidates;
+    candidates.identities = {{left, {"--identity", 1, 1}, left}};
+    return prove(model, candidates);
+  };
+  for (const char* identity :
+       {"abs(1 + I) = 1 + I", "abs(M1 + I*M2)^2 = (M1 + I*M2)^2", "sign(I) = 1", "I*abs(I) = I^2"})
+    EXPECT_THROW(verify(identity), CaseError) << identity;
+  EXPECT_EQ(verify("abs(M1)^2 = M1^2").front().verdict, Verdict::proved);
+  EXPECT_EQ(verify("(M1 + I*M2)*(M1 - I*M2) = M1^2 + M2^2").front().verdict, Verdict::proved);
+}
+
+// A '#' in a string does not begin a comment, whichever its quotes are.
+TEST(Candidates, TheImaginaryUnitIsSeenBehindEveryKindOfString) {
+  const std::string space = "[phase_space]\nvariables = [\"x\"]\n[equations]\nx = \"0\"\n";
+  const std::string rest = "\", right = \"-x^2\" }]\n";
+  for (const char* name : {"'#'", "\"#\"", "'\"#'", "\"\\\"#\""}) {
+    const std::string text = std::string("identity = [{ name = ") + name;
+    EXPECT_THROW(model_of(text + ", left = \"abs(I*x)^2" + rest + space), CaseError) << name;
+    EXPECT_NO_THROW(model_of(text + ", left = \"abs(x)^2" + rest + space)) << name;
+  }
 }
 
 }  // namespace
