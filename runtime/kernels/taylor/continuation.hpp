@@ -49,14 +49,14 @@ class Continuation {
   }
 
   /// Continues the series for steps of up to s units. Whether it does: not where what it is divided
-  /// by comes near zero up to twice as far. A singularity that the motion itself runs into has its
-  /// zero there, and nothing may be continued across it.
+  /// by comes near zero up to half as far again. A singularity that the motion itself runs into has
+  /// its zero there, and nothing may be continued across it.
   template <class Series>
   CASIMIR_INLINE bool use(const Series& series, double s) {
     constexpr double kLeast = StepPolicy::kLeastDenominator;
     // Not a number is not above it.
     used_ = denominator(s / 2) > kLeast && denominator(s) > kLeast &&
-            denominator(1.5 * s) > kLeast && denominator(2 * s) > kLeast;
+            denominator(1.25 * s) > kLeast && denominator(1.5 * s) > kLeast;
     if (!used_) return false;
     const int blocks = series.blocks;
     CASIMIR_UNROLL

@@ -25,10 +25,12 @@ struct StepPolicy {
   static constexpr double kDoubt = 2, kWorthwhile = 0.03, kMostGained = 0.7;
   /// And where what it is divided by, 1 at the start, does not come nearer to 0 than that.
   static constexpr double kLeastDenominator = 0x1p-4;
-  /// Where rounding is all that a run shows, at this tolerance, nothing is continued: of a longer
-  /// step all terms are larger, and so is what they are rounded by. From the other tolerance on the
-  /// most that may be gained shrinks to that by degrees.
-  static constexpr double kRounded = 1e-15, kUnaffected = 1e-12;
+  /// Where rounding is all that a run shows, from the first tolerance down, little is gained: of a
+  /// longer step all terms are larger, and so is what they are rounded by. From the other tolerance
+  /// on it shrinks to that by degrees.
+  static constexpr double kRounded = 1e-15, kUnaffected = 1e-14, kLeastGained = 0.15;
+  /// Coarser than this it is not worth the time where steps are compared with the equations anyway.
+  static constexpr double kFewDigits = 1e-8;
   /// A step longer than this many units leans on coefficients that it does not see: it is compared
   /// with the equations even where they are a polynomial.
   static constexpr double kUnseen = 3;

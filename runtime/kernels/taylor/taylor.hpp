@@ -65,7 +65,7 @@ class March {
         leading_(run->leading && run->leading->from == 0 ? run->leading : nullptr),
         rtol_(run->rtol * aim(run, leading_)),
         atol_(run->atol * aim(run, leading_)),
-        most_gained_(most_gained(run->rtol)),
+        most_gained_(most_gained(run->rtol, series.smooth)),
         span_(run->t_end - run->t_begin),
         pace_(run->t_begin) {}
 
@@ -144,10 +144,12 @@ class March {
     return status_ == CASIMIR_OK;
   }
 
-  static double most_gained(double tolerance) {
+  static double most_gained(double tolerance, bool smooth) {
+    if (!smooth && tolerance > Policy::kFewDigits) return 0;
     const double part = rough_log2(tolerance / Policy::kRounded) *
                         (1 / rough_log2(Policy::kUnaffected / Policy::kRounded));
-    return Policy::kMostGained * (part < 1 ? part : 1);
+    constexpr double kLeast = Policy::kLeastGained, kMost = Policy::kMostGained;
+    return part > 0 ? kLeast + (kMost - kLeast) * (part < 1 ? part : 1) : kLeast;
   }
 
   void set_unit(double h) {
