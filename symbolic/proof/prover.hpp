@@ -127,6 +127,9 @@ class Prover {
 
   /// Whether the last decision found residuals that are zero on the constraints and not elsewhere.
   bool holds_on_constraints() const { return holds_on_constraints_; }
+  /// Lets points outside of the constraints refute, until the next claim: for questions whose only
+  /// answer of interest is `proved`, and that are not worth the time of deciding twice.
+  void disregard_constraints() { constraints_count_ = false; }
   /// Functions whose common zeros are a part of the constraints: these with them.
   std::vector<NamedExpression> within_constraints(std::vector<NamedExpression> functions) const;
 
@@ -230,7 +233,7 @@ class Prover {
   /// With the end of the generators that they are about.
   std::pair<std::size_t, std::vector<Polynomial>> square_relations_;
   std::optional<bool> all_inhabited_, claim_inhabited_;
-  bool taken_as_inhabited_ = false, holds_on_constraints_ = false;
+  bool taken_as_inhabited_ = false, holds_on_constraints_ = false, constraints_count_ = true;
   /// A level, by its functions and by how much work it was worth.
   struct KnownLevel {
     std::vector<NamedExpression> on;

@@ -431,6 +431,7 @@ void Prover::decide(Proof& proof, const std::vector<Residual>& residuals, const 
 
 std::vector<NamedExpression> Prover::within_constraints(
     std::vector<NamedExpression> functions) const {
+  if (!constraints_count_) return functions;
   for (const NamedExpression& constraint : model_.constraints) {
     const bool known =
         std::any_of(functions.begin(), functions.end(),

@@ -123,6 +123,7 @@ void judge(Prover& prover, Proof& note, const NamedExpression& f) {
     note.findings.push_back(independence_finding(prover, f));
     return;
   }
+  prover.disregard_constraints();
   for (const Functions& level : known_levels(prover.model())) {
     // Of x^2 + y^2 + z^2 the zero level is one point, where too much is an integral.
     const Level points = prover.level(level);
