@@ -21,7 +21,7 @@ Origin origin_of(const GeneratorTable& table, std::size_t place) {
     case Kind::absolute:
       return {Of::absolute, g.base, g.order};
     case Kind::imaginary:
-      return {Of::imaginary, g.base};
+      return {Of::imaginary, g.base, g.order};
     case Kind::function:
       break;
   }

@@ -24,7 +24,7 @@ struct Origin {
   };
   Kind kind;
   Polynomial argument;      ///< of a function of two, the sum of their squares
-  unsigned long order = 1;  ///< of a root
+  unsigned long order = 1;  ///< of a root, and of I, the root of -1
 };
 
 /// \param place  of the generator among the variables of the ring, behind the symbols

@@ -41,8 +41,7 @@ class DarbouxSearch {
 
 DarbouxSearch::DarbouxSearch(const Model& model, int degree, const Watch& watch)
     : model_(model), watch_(watch), equations_(model, degree), system_(equations_.system()) {
-  for (const std::size_t place : system_.parameters())
-    report_.generic.push_back(system_.name(place));
+  report_.generic = system_.generic_parameters();
 }
 
 /// Read off the rate by the equations of motion. The fields of the search are a multiple of them

@@ -338,6 +338,12 @@ std::optional<Polynomial> Run::realise(const Vector& vector) {
                                              support, system_.parameters(), watch_)
                    : reconstruct(system_, problem_.fields, support, relations_,
                                  system_.parameters(), watch_);
+    // As a function of a free I, or sqrt(2), there may be none.
+    const bool rooted = !by_values_ && problem_.on.empty() && !problem_.fields.plain.empty() &&
+                        !system_.bound_parameter().empty();
+    if (!f && rooted)
+      f = reconstruct_from_values(system_, problem_.fields, Samples::Goal::annihilated, support,
+                                  system_.parameters(), watch_);
     if (f && !span_.contains(values_of(*f))) return f;
   }
   return std::nullopt;

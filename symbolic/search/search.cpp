@@ -267,8 +267,7 @@ Report Finder::run() {
   report_.kind = request_.casimirs ? ClaimKind::casimir
                  : on_.empty()     ? ClaimKind::integral
                                    : ClaimKind::conditional;
-  for (const std::size_t place : system_.parameters())
-    report_.generic.push_back(system_.name(place));
+  report_.generic = system_.generic_parameters();
   std::vector<Generator> casimirs = casimirs_as_needed();
   if (request_.casimirs) {
     report_.found = described(casimirs, {}, ClaimKind::casimir);

@@ -244,6 +244,27 @@ void System::collect_parameters() {
   }
 }
 
+std::vector<std::string> System::generic_parameters() const {
+  std::vector<std::string> names;
+  for (const std::size_t place : parameters_)
+    if (!is_number(place)) names.push_back(name(place));
+  return names;
+}
+
+bool System::is_number(std::size_t place) const {
+  if (place < functions().symbols().size() || place >= functions().end_of_generators())
+    return false;
+  const GiNaC::ex value = functions().variable_value(place);
+  return std::none_of(functions().symbols().begin(), functions().symbols().end(),
+                      [&](const GiNaC::symbol& s) { return GiNaC::has(value, s); });
+}
+
+unsigned long System::order_of(std::size_t place) const {
+  const std::size_t symbols = prover_.ring().symbols().size();
+  if (place < symbols || bonds_[place - symbols].kind != Bond::Kind::root) return 0;
+  return bonds_[place - symbols].order;
+}
+
 std::string System::bound_parameter() const {
   const std::size_t symbols = prover_.ring().symbols().size();
   for (const std::size_t place : parameters_) {

@@ -59,6 +59,13 @@ class System {
   const std::vector<bool>& is_constant() const { return constant_; }
   /// Those that the fields contain.
   const std::vector<std::size_t>& parameters() const { return parameters_; }
+  /// The names of these that have values: sqrt(2) and I have one alone.
+  std::vector<std::string> generic_parameters() const;
+  /// Whether a variable of the ring is a number, as sqrt(2).
+  bool is_number(std::size_t place) const;
+  /// The q for which the power u^q of a variable of the ring is made of earlier ones, as of a root
+  /// of order q; 0 where there is none.
+  unsigned long order_of(std::size_t place) const;
   /// A parameter that is bound to others, as the root of one is; empty if there is none.
   std::string bound_parameter() const;
 

@@ -187,7 +187,7 @@ BracketReport HamiltonianSearch::run() {
   for (int degree = 0; degree <= report_.degree; ++degree)
     search_degree(degree, degree == report_.degree);
   const search::System& system = search_.space().system();
-  for (const std::size_t place : system.parameters()) report_.generic.push_back(system.name(place));
+  report_.generic = system.generic_parameters();
   return report_;
 }
 

@@ -79,8 +79,7 @@ ConformalSearch::ConformalSearch(const Model& model, TensorType type, int degree
   for (search::Residue& value : point_) value = modulus_.random(random);
   report_.type = type;
   report_.degree = degree;
-  for (const std::size_t place : equations_.system().parameters())
-    report_.generic.push_back(equations_.system().name(place));
+  report_.generic = equations_.system().generic_parameters();
 }
 
 /// Darboux polynomials and integrals. Where some are missing, more is listed.

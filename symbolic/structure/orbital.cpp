@@ -126,8 +126,7 @@ OrbitalSearch::OrbitalSearch(const Model& model, int degree, const search::Watch
                     unknowns(), kMostUnknowns));
   report_.degree = degree;
   report_.trivial = multiples_.size();
-  for (const std::size_t place : system_.parameters())
-    report_.generic.push_back(system_.name(place));
+  report_.generic = system_.generic_parameters();
 }
 
 Polynomial OrbitalSearch::monomial(const Monomials& list, std::size_t i) const {

@@ -261,7 +261,7 @@ void PencilSearch::compare() {
 
 BracketReport PencilSearch::run() {
   const search::System& system = search_.space().system();
-  for (const std::size_t place : system.parameters()) report_.generic.push_back(system.name(place));
+  report_.generic = system.generic_parameters();
   if (!take_first()) return report_;
   std::vector<search::Branch> families;
   for (int degree = 0; degree <= report_.degree; ++degree) {

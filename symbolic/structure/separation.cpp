@@ -274,7 +274,7 @@ bool SeparationSearch::read(const std::vector<Text>& on, int degree) {
   system.prover().begin_claim(domain, Subject::motion);
   report_.on = names_of(level);
   report_.generic.clear();
-  for (const std::size_t place : system.parameters()) report_.generic.push_back(system.name(place));
+  report_.generic = system.generic_parameters();
   const std::size_t n = leaves_->degrees_of_freedom();
   report_.freedom = n;
   report_.not_used.clear();

@@ -146,8 +146,7 @@ void TensorSearch::search_rank(int rank) {
   report_.dimensions = space.dimensions();
   report_.complete = space.complete();
   report_.reason = space.reason();
-  for (const std::size_t place : space.system().parameters())
-    report_.generic.push_back(space.system().name(place));
+  report_.generic = space.system().generic_parameters();
   for (const search::Generator& g : space.found()) report_.found.push_back(described(space, g));
 }
 

@@ -22,7 +22,9 @@ Fields with_parameters(const System& system, const Fields& fields,
 
 /// Every monomial times every one in `count` further variables of a degree up to `degree`; those of
 /// low degree first.
-Monomials times_parameters(const Monomials& monomials, std::size_t count, int degree) {
+/// \param orders  of each of these variables: only lower powers; 0 for no limit; or empty
+Monomials times_parameters(const Monomials& monomials, std::size_t count, int degree,
+                           const std::vector<unsigned long>& orders = {}) {
   Monomials result(monomials.variables() + count);
   if (count == 0) {
     for (std::size_t c = 0; c < monomials.size(); ++c)
@@ -32,6 +34,10 @@ Monomials times_parameters(const Monomials& monomials, std::size_t count, int de
   const Monomials factors = all_monomials(std::vector<int>(count, 1), degree);
   std::vector<std::uint8_t> exponents;
   for (std::size_t f = 0; f < factors.size(); ++f) {
+    bool reduced = true;
+    for (std::size_t k = 0; k < orders.size(); ++k)
+      reduced = reduced && (orders[k] == 0 || factors[f][k] < orders[k]);
+    if (!reduced) continue;
     for (std::size_t c = 0; c < monomials.size(); ++c) {
       exponents.assign(monomials[c], monomials[c] + monomials.variables());
       exponents.insert(exponents.end(), factors[f], factors[f] + count);
@@ -153,16 +159,18 @@ std::optional<Polynomial> lift(Lift result, const Solver& solve, const Monomials
 }
 
 /// The least degree in the parameters at which there is a solution, and that one exactly.
+/// \param orders  powers of the parameters below these; or empty
 /// \param most  of the unknowns
 std::optional<Polynomial> reconstruct_by(const System& system, const Fields& extended,
                                          const Solver& solve, const Modulus& modulus,
                                          const Monomials& support, std::size_t parameters,
-                                         bool exact_check, double most, const Watch& watch) {
+                                         const std::vector<unsigned long>& orders, bool exact_check,
+                                         double most, const Watch& watch) {
   constexpr int kHighestDegree = 12;
   for (int degree = 0; degree <= kHighestDegree; ++degree) {
     const std::vector<int> weights(parameters, 1);
     if (static_cast<double>(support.size()) * count_monomials(weights, degree) > most) break;
-    const Monomials monomials = times_parameters(support, parameters, degree);
+    const Monomials monomials = times_parameters(support, parameters, degree, orders);
     const std::optional<std::vector<Residue>> solution = solve(monomials, degree, modulus);
     if (!solution) return std::nullopt;
     if (!solution->empty()) {
@@ -200,7 +208,7 @@ std::optional<Polynomial> reconstruct(const System& system, const Fields& fields
     const Equations equations = make_equations(extended, monomials, scaled, constants, modulus);
     return std::optional(first_solution(equations, multipliers, modulus, watch));
   };
-  return reconstruct_by(system, extended, solve, Modulus::nth(0), support, parameters.size(),
+  return reconstruct_by(system, extended, solve, Modulus::nth(0), support, parameters.size(), {},
                         relations.empty(), kUnknowns, watch);
 }
 
@@ -211,13 +219,19 @@ std::optional<Polynomial> reconstruct_from_values(const System& system, const Fi
   constexpr double kUnknowns = 3000;
   constexpr std::size_t kMore = 8;
   const Fields extended = with_parameters(system, fields, parameters);
+  // Roots among them obey their equations, and lower powers of these are independent: x + I*y is
+  // annihilated by I*x*d/dx + .. only since I^2 = -1.
+  std::vector<unsigned long> orders;
+  for (const std::size_t place : parameters) orders.push_back(system.order_of(place));
+  const bool rooted = std::any_of(orders.begin(), orders.end(), [](auto q) { return q > 0; });
+  const std::vector<std::size_t> free = rooted ? std::vector<std::size_t>{} : parameters;
   const auto solve = [&](const Monomials& monomials, int,
                          const Modulus& modulus) -> std::optional<std::vector<Residue>> {
     std::mt19937_64 random(5);
     if (!system.random_point(modulus, random)) return std::nullopt;
     Samples samples(system, fields, modulus, 17);
     const std::size_t rows = monomials.size() + kMore;
-    if (!samples.draw(rows, nullptr, parameters, watch)) return std::nullopt;
+    if (!samples.draw(rows, nullptr, free, watch)) return std::nullopt;
     std::vector<std::uint32_t> columns(monomials.size());
     std::iota(columns.begin(), columns.end(), 0U);
     const Echelon echelon(modulus, samples.rows(goal, monomials, columns, extended.places, rows),
@@ -226,7 +240,7 @@ std::optional<Polynomial> reconstruct_from_values(const System& system, const Fi
     return echelon.null_basis().front();
   };
   return reconstruct_by(system, extended, solve, usable_modulus(system), support, parameters.size(),
-                        false, kUnknowns, watch);
+                        orders, false, kUnknowns, watch);
 }
 
 }  // namespace casimir::search

@@ -183,8 +183,7 @@ void SymmetrySearch::add(std::vector<ex> matrix, const ex& integral) {
 }
 
 SymmetryReport SymmetrySearch::run() {
-  for (const std::size_t place : system_.parameters())
-    report_.generic.push_back(system_.name(place));
+  report_.generic = system_.generic_parameters();
   if (const std::string bound = system_.bound_parameter(); !bound.empty())
     throw ModelError("the parameter " + bound + " is bound to others: give numbers to them");
   const std::vector<std::vector<ex>> all = fields();

@@ -385,5 +385,22 @@ TEST(Darboux, TheDegreeIsThatOfThePolynomial) {
   for (const auto& found : report.found) EXPECT_EQ(found.degree, 1) << found.text;
 }
 
+// With I taken for -1, or for any number, x + I*y is no integral, and x*y of the second is one.
+TEST(Proved, TheImaginaryUnitObeysItsEquation) {
+  const auto plane = [](const std::string& equations) {
+    return search::find_integrals(
+        model_of("[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\n" + equations), up_to(2));
+  };
+  const search::Report rotated = plane("x = \"I*x + y\"\ny = \"-x + I*y\"\n");
+  EXPECT_TRUE(rotated.complete) << rotated.reason;
+  EXPECT_TRUE(rotated.generic.empty());
+  ASSERT_EQ(rotated.found.size(), 1U);
+  EXPECT_EQ(rotated.found[0].text, "x*I - y");
+  EXPECT_EQ(rotated.found[0].verdict, Verdict::proved);
+  const search::Report none = plane("x = \"I*x\"\ny = \"y\"\n");
+  EXPECT_TRUE(none.complete) << none.reason;
+  EXPECT_TRUE(none.found.empty());
+}
+
 }  // namespace
 }  // namespace casimir::test

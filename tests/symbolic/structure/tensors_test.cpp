@@ -112,5 +112,15 @@ TEST(Tensors, OfATimeDependentSystemAreRefused) {
   EXPECT_THROW(structure::find_tensors(model, kFields, 1), ModelError);
 }
 
+// d/dx - I*d/dy, dx + I*dy and (x - I*y) d/dx^d/dy are there since I^2 = -1.
+TEST(Tensors, AreFoundWhereTheImaginaryUnitObeysItsEquation) {
+  const Model model = model_of(
+      "[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"I*x + y\"\ny = \"-x + "
+      "I*y\"\n");
+  expect_dimensions(model, kFields, {1, 3});
+  expect_dimensions(model, kForms, {1, 2});
+  expect_dimensions(model, kBivectors, {0, 1});
+}
+
 }  // namespace
 }  // namespace casimir::test
