@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <functional>
 #include <numeric>
 #include <set>
@@ -15,7 +16,9 @@
 #include "symbolic/algebra/polynomial_roots.hpp"
 #include "symbolic/case/limits.hpp"
 #include "symbolic/expression/expression.hpp"
+#include "symbolic/search/finder.hpp"
 #include "symbolic/search/generic_parameters.hpp"
+#include "symbolic/search/independence.hpp"
 #include "symbolic/search/polynomial_system.hpp"
 #include "symbolic/search/quasi_homogeneous.hpp"
 #include "symbolic/search/system.hpp"
@@ -42,6 +45,13 @@ class Analysis {
   std::string text(const Polynomial& p) const;
   std::string quotient(const Polynomial& top, const Polynomial& bottom) const;
   bool belongs_to_another(const std::vector<Branch>& branches, std::size_t b) const;
+  bool leading_terms_use(std::size_t place) const;
+  std::optional<double> value_of(std::size_t place) const;
+  void look_at_constants();
+  std::vector<Polynomial> normal_forms(const std::vector<Polynomial>& row) const;
+  Polynomial normal_form(const Polynomial& p) const { return normal_forms({p})[0]; }
+  bool divides_by_zero(const Branch& branch) const;
+  bool is_irrational(const Polynomial& factor) const;
   void describe_leading();
   long root_of_time() const;
   bool branches_itself(const Balance& balance) const;
@@ -60,6 +70,8 @@ class Analysis {
   std::vector<Polynomial> field_;      ///< times factor_
   Polynomial factor_;                  ///< made of parameters
   Weights weights_;
+  bool has_functions_ = false;          ///< of parameters or numbers, in the leading terms
+  std::optional<std::string> doubt_{};  ///< why it is not known what these obey
   ExponentReport report_;
 };
 
@@ -91,7 +103,88 @@ Analysis::Analysis(const Model& model, const std::vector<std::pair<Text, Text>>&
   for (const Polynomial& p : row) field_.push_back(in_own_ring(p));
   read_weights(weights);
   keep_leading_terms();
+  look_at_constants();
   describe_leading();
+}
+
+bool Analysis::leading_terms_use(std::size_t place) const {
+  return factor_.uses(place) ||
+         std::ranges::any_of(field_, [&](const Polynomial& p) { return p.uses(place); });
+}
+
+/// Of a real number.
+std::optional<double> Analysis::value_of(std::size_t place) const {
+  if (!system_.is_number(place)) return std::nullopt;
+  const GiNaC::ex value = system_.functions().variable_value(place).evalf();
+  if (!GiNaC::is_a<GiNaC::numeric>(value)) return std::nullopt;
+  const GiNaC::numeric& number = GiNaC::ex_to<GiNaC::numeric>(value);
+  return number.is_real() ? std::optional(number.to_double()) : std::nullopt;
+}
+
+void Analysis::look_at_constants() {
+  for (std::size_t k = system_.functions().symbols().size(); k < rho_; ++k)
+    has_functions_ = has_functions_ || leading_terms_use(k);
+  if (has_functions_) doubt_ = unknown_relations(system_);
+}
+
+/// All of them times one parameter that is not zero, by what functions of parameters obey.
+///
+/// Where these are known to obey nothing else (`unknown_relations`), the polynomials in them modulo
+/// their relations have no divisors of zero: a polynomial is zero as a function exactly where this
+/// is zero, and a product only where a factor is.
+std::vector<Polynomial> Analysis::normal_forms(const std::vector<Polynomial>& row) const {
+  if (!has_functions_) return row;
+  std::vector<Polynomial> parts;
+  std::vector<std::size_t> counts;
+  for (const Polynomial& p : row) {
+    const std::vector<Polynomial> own = p.coefficients(rho_);
+    counts.push_back(own.size());
+    for (const Polynomial& part : own) parts.push_back(in_ring(part, system_.ring()));
+  }
+  parts = system_.functions().common_numerators(std::move(parts));
+  std::vector<Polynomial> result;
+  std::size_t next = 0;
+  for (const std::size_t count : counts) {
+    Polynomial sum(ring_);
+    for (std::size_t k = 0; k < count; ++k)
+      sum += in_ring(parts[next++], ring_) * ring_.variable(rho_).pow(k);
+    result.push_back(std::move(sum));
+  }
+  return result;
+}
+
+/// Whether what the branch divides by may vanish at one of its solutions: over the field of
+/// sqrt(2), x^2 = 2 has factors, and x - sqrt(2) is zero at one of two. The product of its values
+/// at all of them, which is a power of leading coefficients times the resultant, tells.
+bool Analysis::divides_by_zero(const Branch& branch) const {
+  const std::optional<std::vector<SolvedRelation>> relations = triangular(branch.rest, unknowns_);
+  if (!relations) return true;
+  const auto vanishes = [&](Polynomial p) {
+    for (const SolvedRelation& r : *relations)
+      if (p.uses(r.variable)) p = normal_form(resultant(p, r.relation, r.variable));
+    return normal_form(p).is_zero();
+  };
+  for (const SolvedRelation& r : *relations)
+    if (normal_form(r.leading).is_zero()) return true;
+  return std::ranges::any_of(branch.solved, [&](const SolvedUnknown& s) {
+    return vanishes(branch.reduced(s.denominator));
+  });
+}
+
+/// Whether an irreducible factor in normal form has no parameters but roots of numbers, and no
+/// rational zero. At a rational c its value is in normal form, and so zero as a function only where
+/// it is zero as a polynomial: then rho - c divides it, and is all of it.
+bool Analysis::is_irrational(const Polynomial& factor) const {
+  using Kind = FunctionRing::Origin::Kind;
+  bool has_roots = false;
+  for (std::size_t k = 0; k < rho_; ++k) {
+    if (!factor.uses(k)) continue;
+    if (!system_.is_number(k)) return false;
+    const Kind kind = system_.functions().origin(k).kind;
+    if (kind != Kind::root && kind != Kind::imaginary) return false;
+    has_roots = true;
+  }
+  return has_roots;
 }
 
 Polynomial Analysis::in_own_ring(const Polynomial& p) const {
@@ -200,12 +293,14 @@ Exponent Analysis::exponent_of(const Polynomial& factor) const {
       result.text = rational_text(value);
     } else {
       result.kind = Exponent::Kind::parametric;
+      result.is_irrational = is_irrational(factor);
       result.text = quotient(-parts[0], parts[1]);
     }
     return result;
   }
   result.kind = constant ? Exponent::Kind::algebraic : Exponent::Kind::parametric;
   result.is_root = true;
+  result.is_irrational = !constant && is_irrational(factor);
   const cln::cl_RA content = factor.content();
   result.text = text(factor.scaled(1 / content));
   if (constant) {
@@ -270,6 +365,7 @@ std::vector<Exponent> Analysis::exponents_of(const Branch& branch, bool& decided
   }
   Polynomial characteristic = determinant_without_sign(matrix, ring_);
   if (!simple) characteristic = branch.reduced(characteristic);
+  characteristic = normal_form(characteristic);
   const std::optional<std::vector<SolvedRelation>> relations = triangular(branch.rest, unknowns_);
   if (!relations) {
     decided = false;
@@ -278,10 +374,15 @@ std::vector<Exponent> Analysis::exponents_of(const Branch& branch, bool& decided
   unsigned long norm = 1;
   for (const SolvedRelation& r : *relations) {
     if (!characteristic.uses(r.variable)) continue;
-    characteristic = resultant(characteristic, r.relation, r.variable);
+    characteristic = normal_form(resultant(characteristic, r.relation, r.variable));
     norm *= static_cast<unsigned long>(r.relation.degree(r.variable));
   }
-  const bool conjugate = are_conjugate(*relations);
+  if (characteristic.is_zero()) {
+    decided = false;
+    return {};
+  }
+  // Over the field of sqrt(2) the solutions of x^2 = 2 are not conjugate.
+  const bool conjugate = norm == 1 || (!has_functions_ && are_conjugate(*relations));
   std::vector<Exponent> result;
   unsigned long degree = 0;
   for (const auto& [factor, power] : characteristic.factors()) {
@@ -303,12 +404,15 @@ std::vector<Exponent> Analysis::exponents_of(const Branch& branch, bool& decided
 
 std::optional<Balance> Analysis::balance_of(const Branch& branch) {
   Balance balance;
-  balance.decided = branch.decided;
+  balance.decided = branch.decided && !(has_functions_ && divides_by_zero(branch));
   bool zero = true;
   std::set<std::size_t> free;
   for (std::size_t i = 0; i < dimension_; ++i) {
     Polynomial top = ring_.variable(i), bottom = ring_.constant(1);
     for (const SolvedUnknown& s : branch.solved) put(s, top, bottom);
+    const std::vector<Polynomial> parts = normal_forms({top, bottom});
+    top = parts[0];
+    if (!parts[1].is_zero()) bottom = parts[1];  // else the branch is not decided
     if (!top.is_zero()) zero = false;
     balance.is_nonzero.push_back(!top.is_zero());
     for (std::size_t v = 0; v < dimension_; ++v)
@@ -359,9 +463,8 @@ void Analysis::conclude() {
       const bool of_root =
           e.kind == Exponent::Kind::rational && cln::denominator(e.value * cln::cl_RA(root)) == 1;
       if (of_root && root > 1) continue;
-      auto& list = e.kind == Exponent::Kind::rational     ? rational
-                   : e.kind == Exponent::Kind::parametric ? parametric
-                                                          : irrational;
+      const bool open = e.kind == Exponent::Kind::parametric && !e.is_irrational;
+      auto& list = e.kind == Exponent::Kind::rational ? rational : open ? parametric : irrational;
       const bool is_root = e.kind == Exponent::Kind::algebraic || e.is_root;
       const std::string entry = is_root ? e.text + " = 0" : e.text;
       if (std::find(list.begin(), list.end(), entry) == list.end()) list.push_back(entry);
@@ -419,24 +522,36 @@ bool Analysis::belongs_to_another(const std::vector<Branch>& branches, std::size
 
 /// The parameters of the leading terms; these terms themselves, where there are none.
 void Analysis::describe_leading() {
-  std::set<std::size_t> parameters;
+  bool is_numeric = true;
+  std::vector<double> values(ring_.size(), 1);
+  for (std::size_t k = dimension_; k < rho_; ++k) {
+    if (!leading_terms_use(k)) continue;
+    if (!system_.is_number(k)) report_.generic.push_back(system_.name(k));
+    const std::optional<double> value = value_of(k);
+    is_numeric = is_numeric && value;
+    values[k] = value.value_or(1);
+  }
+  if (!is_numeric) return;
+  const auto number_of = [&](const cln::cl_RA& number, const std::vector<unsigned long>& powers) {
+    double result = cln::double_approx(number);
+    for (std::size_t k = dimension_; k < powers.size(); ++k)
+      result *= std::pow(values[k], static_cast<double>(powers[k]));
+    return result;
+  };
+  double factor = 0;
+  for (const auto& [number, powers] : factor_.term_list()) factor += number_of(number, powers);
   LeadingSystem leading;
-  const cln::cl_RA factor = factor_.is_constant() ? factor_.term_list()[0].first : 1;
   for (std::size_t i = 0; i < dimension_; ++i) {
     leading.names.push_back(model_.variables[i].get_name());
     leading.weights.push_back(cln::double_approx(weight(i)));
     auto& rate = leading.rates.emplace_back();
     for (auto [number, exponents] : field_[i].term_list()) {
-      for (std::size_t k = dimension_; k < exponents.size(); ++k)
-        if (exponents[k] > 0) parameters.insert(k);
+      const double coefficient = number_of(number, exponents) / factor;
       exponents.resize(dimension_);
-      rate.push_back({cln::double_approx(number / factor), exponents});
+      rate.push_back({coefficient, exponents});
     }
   }
-  for (std::size_t k = dimension_; k < ring_.size(); ++k)
-    if (factor_.uses(k)) parameters.insert(k);
-  for (const std::size_t k : parameters) report_.generic.push_back(system_.name(k));
-  if (parameters.empty()) report_.leading = std::move(leading);
+  report_.leading = std::move(leading);
 }
 
 /// No balance is known where the equations are too large.
@@ -453,12 +568,24 @@ ExponentReport Analysis::run() {
 }
 
 void Analysis::find_balances() {
+  if (doubt_) {
+    report_.reason = *doubt_ + ", and what is divided by might be zero";
+    return;
+  }
+  if (!report_.generic.empty()) {
+    if (const auto thin = thin_assumptions(system_)) {
+      report_.reason = *thin;
+      return;
+    }
+  }
   std::vector<Polynomial> equations;
   for (std::size_t i = 0; i < dimension_; ++i)
     equations.push_back(field_[i] + factor_.scaled(weight(i)) * ring_.variable(i));
   watch_.begin("balances");
   report_.complete = true;
-  const std::vector<Branch> branches = solve_system(equations, unknowns_, watch_);
+  NormalForm normal;
+  if (has_functions_) normal = [this](const Polynomial& p) { return normal_form(p); };
+  const std::vector<Branch> branches = solve_system(equations, unknowns_, watch_, {}, normal);
   for (std::size_t b = 0; b < branches.size(); ++b) {
     if (belongs_to_another(branches, b)) continue;
     const std::optional<Balance> balance = balance_of(branches[b]);

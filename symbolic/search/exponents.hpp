@@ -24,6 +24,8 @@ struct Exponent {
   } kind = Kind::integer;
   std::string text;      ///< the number, or the polynomial in `rho` that has it as a root
   bool is_root = false;  ///< whether the text is a polynomial
+  /// Whether a parametric one has roots of numbers only, as sqrt(2), and is not rational.
+  bool is_irrational = false;
   cln::cl_RA value = 0;  ///< of integer and rational ones
   unsigned long multiplicity = 1;
   /// Where they cannot be told apart over the rationals, the number of solutions of the balance's
@@ -63,11 +65,15 @@ struct ExponentReport {
   bool complete = false;
   std::string reason;
   std::vector<std::string> generic;      ///< parameters with generic values
-  std::optional<LeadingSystem> leading;  ///< where there are no parameters
+  std::optional<LeadingSystem> leading;  ///< where there are no parameters, and all is real
   std::vector<std::string> conclusions;  ///< with the theorem used
 };
 
 /// Balances and Kovalevskaya exponents of the equations of motion.
+///
+/// The coefficients are in the field of the parameters with the functions of them that occur, as
+/// sqrt(2), I or sin(a): what these obey, sqrt(2)^2 = 2, is used wherever something is divided by,
+/// or taken not to be zero. Where it is not known that they obey nothing else, there is no answer.
 /// \param weights  name and weight; if empty, the weights are found for which most terms count.
 /// \throws ModelError  where no weights make the equations quasi-homogeneous
 ExponentReport kovalevskaya_exponents(const Model& model,

@@ -16,8 +16,8 @@ constexpr GroebnerLimits kBasisLimits{.reductions = 600, .elements = 100, .terms
 class Solver {
  public:
   Solver(const std::vector<std::size_t>& unknowns, const std::vector<std::size_t>& last,
-         const Watch& watch)
-      : unknowns_(unknowns), last_(last), watch_(watch) {}
+         const Watch& watch, const NormalForm& normal_form)
+      : unknowns_(unknowns), last_(last), watch_(watch), normal_form_(normal_form) {}
 
   std::vector<Branch> branches;
 
@@ -28,6 +28,7 @@ class Solver {
     return std::any_of(unknowns_.begin(), unknowns_.end(),
                        [&](std::size_t u) { return p.uses(u); });
   }
+  Polynomial normal(Polynomial p) const { return normal_form_ ? normal_form_(p) : p; }
   std::vector<Polynomial> factors_of(const Polynomial& p,
                                      const std::vector<Polynomial>& nonzero) const;
   bool assume(Branch& branch, const Polynomial& nonzero) const;
@@ -47,6 +48,7 @@ class Solver {
 
   const std::vector<std::size_t>&unknowns_, &last_;
   const Watch& watch_;
+  const NormalForm& normal_form_;
   std::size_t cases_ = 0;
 };
 
@@ -62,8 +64,9 @@ std::vector<Polynomial> Solver::factors_of(const Polynomial& p,
 
 /// Whether that can be.
 bool Solver::assume(Branch& branch, const Polynomial& nonzero) const {
-  if (nonzero.is_zero()) return false;
-  for (const Polynomial& factor : factors_of(nonzero, branch.nonzero))
+  const Polynomial value = normal(nonzero);
+  if (value.is_zero()) return false;
+  for (const Polynomial& factor : factors_of(value, branch.nonzero))
     branch.nonzero.push_back(factor);
   return true;
 }
@@ -98,6 +101,7 @@ void Solver::solve(std::vector<Polynomial> equations, Branch branch, int depth, 
   }
   // Square-free parts; an equation without unknowns has no solution, for generic parameters.
   std::vector<Polynomial> clean;
+  for (Polynomial& p : equations) p = normal(std::move(p));
   for (const Polynomial& p : equations) {
     if (p.is_zero()) continue;
     if (!has_unknowns(p)) return;
@@ -156,9 +160,9 @@ void Solver::eliminate(const std::vector<Polynomial>& equations, const Linear& l
 /// Equations that neither elimination nor a Groebner basis simplifies.
 void Solver::finish(std::vector<Polynomial> equations, Branch branch, int depth) {
   if (const auto relations = triangular(equations, unknowns_)) {
-    const bool empty =
-        std::any_of(branch.nonzero.begin(), branch.nonzero.end(),
-                    [&](const Polynomial& p) { return pseudo_remainder(p, *relations).is_zero(); });
+    const bool empty = std::any_of(
+        branch.nonzero.begin(), branch.nonzero.end(),
+        [&](const Polynomial& p) { return normal(pseudo_remainder(p, *relations)).is_zero(); });
     branch.rest = std::move(equations);
     if (!empty) branches.push_back(std::move(branch));
     return;
@@ -235,8 +239,9 @@ bool contains(const Branch& family, const Branch& part, const std::vector<std::s
 
 std::vector<Branch> solve_system(std::vector<Polynomial> equations,
                                  const std::vector<std::size_t>& unknowns, const Watch& watch,
-                                 const std::vector<std::size_t>& last) {
-  Solver solver(unknowns, last, watch);
+                                 const std::vector<std::size_t>& last,
+                                 const NormalForm& normal_form) {
+  Solver solver(unknowns, last, watch, normal_form);
   solver.solve(std::move(equations), {}, 0, false);
   return std::move(solver.branches);
 }

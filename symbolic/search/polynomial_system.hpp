@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -35,16 +36,24 @@ std::optional<std::vector<SolvedRelation>> triangular(std::vector<Polynomial> eq
 /// Whether all solutions of `part` belong to `family`; false where that is not found out.
 bool contains(const Branch& family, const Branch& part, const std::vector<std::size_t>& unknowns);
 
+/// A polynomial by the relations that its parameters obey, as sqrt(2)^2 = 2: zero exactly where the
+/// relations make it zero, and else the same times a parameter that is not zero. The relations have
+/// to generate a prime ideal, so that no product is zero unless a factor is. Empty: there are none.
+using NormalForm = std::function<Polynomial(const Polynomial&)>;
+
 /// Splits equations into branches: unknowns in which an equation is linear with a coefficient that
 /// has no unknowns are eliminated, products are split into cases, and where neither is possible a
 /// Groebner basis is tried; if that is not triangular, the cases that a coefficient with unknowns
 /// is zero or not are split. Variables that are no unknowns are parameters with generic values:
 /// what has parameters only is taken not to vanish.
 /// \param unknowns  places in the ring
+/// With relations between these, what is irreducible over the rational numbers may have factors,
+/// and what is then divided by may vanish at some solutions of `rest`: the caller has to look.
 /// \param last  those of the unknowns that are eliminated where no other can be
 std::vector<Branch> solve_system(std::vector<Polynomial> equations,
                                  const std::vector<std::size_t>& unknowns, const Watch& watch,
-                                 const std::vector<std::size_t>& last = {});
+                                 const std::vector<std::size_t>& last = {},
+                                 const NormalForm& normal_form = {});
 
 /// p where variable `place` is numerator/denominator, times the denominator's power.
 Polynomial substituted(const Polynomial& p, std::size_t place, const Polynomial& numerator,

@@ -103,5 +103,83 @@ TEST(Exponents, WithoutABalanceSayNothing) {
   EXPECT_TRUE(report.balances.empty());
 }
 
+/// A motion of x, y (and more) by quadratic rates.
+search::ExponentReport exponents_of(const std::string& variables, const std::string& equations,
+                                    const std::string& parameters = {}) {
+  return search::kovalevskaya_exponents(
+      model_of("[phase_space]\nvariables = [" + variables + "]\n[parameters]\n" + parameters +
+               "[equations]\n" + equations),
+      {});
+}
+
+const std::string kPlane = "\"x\", \"y\"";
+
+// "x = 1/(sqrt(2)^2 - 2)" was a balance, and 1/(sin(a)^2 + cos(a)^2 - 1), 1/(I^2 + 1).
+TEST(Exponents, OfNumbersThatObeyAnEquationDivideByNothingThatIsZero) {
+  for (const auto& [equations, parameters] : std::vector<std::pair<std::string, std::string>>{
+           {"x = \"2*x^2 - y^2\"\ny = \"sqrt(2)*(2*x^2 - y^2)\"\n", ""},
+           {"x = \"a*x^2 - y^2\"\ny = \"sqrt(a)*(a*x^2 - y^2)\"\n", "a = {}\n"},
+           {"x = \"cos(a)^2*x^2 - y^2\"\ny = \"cos(a)*((1 - sin(a)^2)*x^2 - y^2)\"\n", "a = {}\n"},
+           {"x = \"x^2 + y^2\"\ny = \"I*(x^2 + y^2)\"\n", ""}}) {
+    const auto report = exponents_of(kPlane, equations, parameters);
+    EXPECT_TRUE(report.complete) << equations << report.reason;
+    EXPECT_TRUE(report.balances.empty()) << equations;
+  }
+}
+
+TEST(Exponents, OfABalanceThatOnlyAnEquationOfNumbersLeavesAreFound) {
+  // 2*x + 2*sqrt(2)*y = -1 and sqrt(2)*x + 2*y = -1/sqrt(2) are one equation.
+  const auto report = exponents_of(kPlane,
+                                   "x = \"x*(2*x + 2*sqrt(2)*y)\"\n"
+                                   "y = \"sqrt(2)*y*(sqrt(2)*x + 2*y)\"\n");
+  EXPECT_TRUE(report.complete) << report.reason;
+  EXPECT_TRUE(report.generic.empty());
+  EXPECT_TRUE(std::ranges::any_of(report.balances, [](const search::Balance& balance) {
+    return balance.free.size() == 1 && balance.relations.empty();
+  }));
+}
+
+TEST(Exponents, MadeOfARootOfANumberAreNotRationalAndDependOnNoParameter) {
+  const auto report =
+      exponents_of(kPlane, "x = \"x*(sqrt(2)*x + 2*y)\"\ny = \"y*(x + sqrt(2)*y)\"\n");
+  EXPECT_TRUE(report.complete);
+  EXPECT_EQ(report.balances.size(), 2U);  // one more has its coefficients over sqrt(2)^2 - 2
+  std::vector<std::string> irrational;
+  for (const auto& balance : report.balances)
+    for (const auto& e : balance.exponents)
+      if (e.is_irrational) irrational.push_back(e.text);
+  EXPECT_EQ(irrational, (std::vector<std::string>{"-sqrt(2) + 1", "-1/2*sqrt(2) + 1"}));
+  EXPECT_TRUE(report.leading.has_value());
+  ASSERT_EQ(report.conclusions.size(), 1U);
+  EXPECT_EQ(report.conclusions[0].find("parameters"), std::string::npos);
+}
+
+// Of y^2 = 2 only -sqrt(2) gives a balance: (y - sqrt(2))*w = -y has no solution w for sqrt(2).
+// With sqrt(2) as a number of its own, w was (y*sqrt(2) + 2)/(sqrt(2)^2 - 2) for both.
+TEST(Exponents, OfARootAtWhichSomethingIsDividedByZeroAreLeftOut) {
+  const auto report = exponents_of("\"w\", \"y\", \"z\"",
+                                   "z = \"-z^2\"\ny = \"-y*z + y^2 - 2*z^2\"\n"
+                                   "w = \"-w*z + (y - sqrt(2)*z)*w + y*z\"\n");
+  ASSERT_EQ(report.balances.size(), 2U);
+  const auto& last = report.balances[1];
+  EXPECT_TRUE(last.relations.empty());
+  EXPECT_EQ(last.coefficients[0].second, "-1/2");
+  EXPECT_EQ(last.coefficients[1].second, "-2/(sqrt(2))");
+}
+
+TEST(Exponents, OfFunctionsThatMayObeyMoreAreNotSaid) {
+  const auto report = exponents_of(kPlane, "x = \"(abs(a) - a)*x^2\"\ny = \"x*y\"\n", "a = {}\n");
+  EXPECT_FALSE(report.complete);
+  EXPECT_TRUE(report.balances.empty());
+  EXPECT_FALSE(report.reason.empty());
+}
+
+TEST(Exponents, OfParametersThatAssumptionsLeaveOneValueAreNotSaid) {
+  const auto report =
+      exponents_of(kPlane, "x = \"a*x^2\"\ny = \"x*y\"\n", "a = { assume = \"a^2 <= 0\" }\n");
+  EXPECT_FALSE(report.complete);
+  EXPECT_TRUE(report.balances.empty());
+}
+
 }  // namespace
 }  // namespace casimir::test
