@@ -81,7 +81,7 @@ struct Section {
 /// A right inverse of a map on a part of its image.
 struct MapInverse {
   std::vector<GiNaC::ex> expressions;   ///< one for each variable, over the target's coordinates
-  std::vector<Assumption> domain;       ///< where on the target it may be used
+  std::vector<Assumption> domain;       ///< where on the target it is one
   std::vector<GiNaC::ex> defined_by{};  ///< as the domain of NamedExpression
 };
 
@@ -98,6 +98,8 @@ struct PoissonMap {
   std::vector<NamedExpression> image;  ///< over the target's coordinates; vanish on the image
   std::vector<MapInverse> inverses;    ///< the first whose domain holds is used
   std::vector<GiNaC::ex> domain{};     ///< of the expressions and brackets, as of NamedExpression
+  /// The inequalities of the target's domain at phi(x); its equations are in `image`.
+  std::vector<Assumption> leads_to{};
 
   /// The target's brackets {y_i, y_j}, i < j, with the expressions put in for its coordinates.
   std::vector<GiNaC::ex> composed_brackets() const;

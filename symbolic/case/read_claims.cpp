@@ -192,11 +192,17 @@ class ClaimReader {
     for (const ex& part : target_domain) domain.push_back(substituted(part, image, file_.limits));
     for (const Text& condition : target.domain) {
       std::vector<ex> lost;
-      // A map leads into the target's domain, or says nothing.
+      // A map leads into the target's domain: where it does not, nothing is claimed.
       Assumption inside = assumption_of(condition, names, lost);
-      inside.difference = substituted(inside.difference, image, file_.limits);
-      if (const auto part = real_only_where(inside)) domain.push_back(*part);
       for (const ex& part : lost) domain.push_back(substituted(part, image, file_.limits));
+      if (inside.comparison == Comparison::equal) {
+        map.image.push_back({condition.value, inside.difference, {}});
+        continue;
+      }
+      inside.difference = substituted(inside.difference, image, file_.limits);
+      if (inside.comparison != Comparison::unequal)
+        if (const auto part = real_only_where(inside)) domain.push_back(*part);
+      map.leads_to.push_back(std::move(inside));
     }
     map.domain = std::move(domain);
     for (const Text& function : text.image.empty() ? target.constraints : text.image)

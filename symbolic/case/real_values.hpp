@@ -15,7 +15,8 @@ namespace casimir {
 /// allowed, what is then defined has none.
 std::vector<Assumption> conditions_for_values(const GiNaC::ex& expression, bool complex);
 
-/// What has a real value only where the condition holds; nothing for an equation and for numbers.
+/// What has a real value only where the condition holds; nothing for an equation and for numbers,
+/// of which the condition itself has to be asked.
 std::optional<GiNaC::ex> real_only_where(const Assumption& condition);
 
 }  // namespace casimir

@@ -82,6 +82,7 @@ void put_claims(Model& model, const GivenFunctions& given) {
     put_all(map.on, given);
     put_all(map.image, given);
     put_all(map.domain, given);
+    for (Assumption& a : map.leads_to) a.difference = given.put(a.difference);
     for (MapInverse& inverse : map.inverses) {
       put_all(inverse.expressions, given);
       put_all(inverse.defined_by, given);

@@ -1,4 +1,5 @@
 // Poisson and anti-Poisson maps y = phi(x): {phi_i, phi_j} = sign * {y_i, y_j} at y = phi(x).
+#include <cln/rational.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +11,40 @@
 namespace casimir {
 namespace {
 
+/// Whether the difference is a number that does not obey the condition.
+bool is_outside(Prover& prover, const Assumption& condition) {
+  const Polynomial value = prover.ring().reduced(prover.convert(condition.difference));
+  if (!value.is_constant() || value.is_zero()) return false;
+  const cln::cl_RA number = value.term_list()[0].first;
+  return !holds(condition.comparison, cln::plusp(number) ? 1 : -1);
+}
+
+void add_unless_said(std::vector<std::string>& conditions, std::string condition) {
+  if (std::find(conditions.begin(), conditions.end(), condition) == conditions.end())
+    conditions.push_back(std::move(condition));
+}
+
+/// Whether the map leads into the target's domain at all: a number obeys a condition or does not.
+/// Where it leads beside the zeros of a function only, the verdict says so.
+bool leads_into_domain(Prover& prover, Proof& proof, const PoissonMap& map) {
+  for (const Assumption& condition : map.leads_to) {
+    const Polynomial difference = prover.ring().numerator(prover.convert(condition.difference));
+    const bool is_zero = difference.is_zero();
+    if (is_zero ? !holds(condition.comparison, 0) : is_outside(prover, condition)) {
+      proof.verdict = Verdict::undecided;
+      proof.evidence.clear();
+      proof.where.clear();
+      proof.reason =
+          fmt::format("nothing that the map leads to is in the domain of 'to': {} holds nowhere",
+                      condition.text);
+      return false;
+    }
+    if (condition.comparison == Comparison::unequal && !prover.ring().is_nowhere_zero(difference))
+      add_unless_said(proof.where, prover.ring().text(difference) + " != 0");
+  }
+  return true;
+}
+
 /// What the target's domain asks of the image: real logarithms and roots stand for it.
 void say_where_it_leads(Prover& prover, Proof& proof, const PoissonMap& map) {
   for (const GiNaC::ex& part : map.domain) {
@@ -19,9 +54,7 @@ void say_where_it_leads(Prover& prover, Proof& proof, const PoissonMap& map) {
     if (!logarithm && !root) continue;
     const Polynomial& inside = prover.convert(part.op(0));
     if (prover.ring().is_assumed_positive(inside)) continue;
-    const std::string condition = prover.ring().text(inside) + (logarithm ? " > 0" : " >= 0");
-    if (std::find(proof.where.begin(), proof.where.end(), condition) == proof.where.end())
-      proof.where.push_back(condition);
+    add_unless_said(proof.where, prover.ring().text(inside) + (logarithm ? " > 0" : " >= 0"));
   }
 }
 
@@ -58,9 +91,12 @@ std::vector<Residual> residuals_of(Prover& prover,
   return residuals;
 }
 
-/// Whether the map leads where it is said to lead. Where it has inverses, their claims say so.
+/// Whether the map leads where it is said to lead. Where it has an inverse everywhere, the claim of
+/// that says so.
 bool leads_to_its_image(Prover& prover, Proof& proof, const PoissonMap& map) {
-  if (map.image.empty() || !map.inverses.empty()) return true;
+  const bool said = std::any_of(map.inverses.begin(), map.inverses.end(),
+                                [](const MapInverse& own) { return own.domain.empty(); });
+  if (map.image.empty() || said) return true;
   std::vector<NamedExpression> level = map.on;
   for (const NamedExpression& f : prover.model().constraints) level.push_back(f);
   Proof own = proof;
@@ -94,7 +130,9 @@ void decide_map(Prover& prover, Proof& proof, const PoissonMap& map) {
   }
   const Level level = prover.level(map.on);
   prover.decide(proof, residuals, level);
-  if (proof.verdict != Verdict::proved || !leads_to_its_image(prover, proof, map)) return;
+  if (proof.verdict != Verdict::proved || !leads_to_its_image(prover, proof, map) ||
+      !leads_into_domain(prover, proof, map))
+    return;
   say_where_it_leads(prover, proof, map);
   if (level.empty()) return;
   std::vector<NamedExpression> functions;
@@ -127,23 +165,59 @@ std::vector<std::pair<std::string, GiNaC::ex>> inverse_defects(const Model& mode
   return defects;
 }
 
+/// The conditions of an inverse's domain at phi(x).
+std::vector<Assumption> conditions_of(const Model& model, const PoissonMap& map,
+                                      const MapInverse& inverse) {
+  const GiNaC::exmap image = image_point(map);
+  std::vector<Assumption> conditions = inverse.domain;
+  for (Assumption& condition : conditions) {
+    condition.difference = substituted(condition.difference, image, model.limits);
+    condition.text = fmt::format("{} at the image", condition.text);
+  }
+  return conditions;
+}
+
+/// What the claim that it is an inverse is about.
+std::vector<GiNaC::ex> expressions_of_inverse(const Model& model, const PoissonMap& map,
+                                              const MapInverse& inverse) {
+  std::vector<GiNaC::ex> expressions;
+  for (const auto& [label, defect] : inverse_defects(model, map, inverse))
+    expressions.push_back(defect);
+  for (const GiNaC::ex& part : composed(inverse.defined_by, image_point(map), model.limits))
+    expressions.push_back(part);
+  expressions.insert(expressions.end(), map.domain.begin(), map.domain.end());
+  return expressions;
+}
+
+/// Of an inverse with a domain nothing is claimed but at points that the map leads into that: its
+/// conditions are assumptions, of this claim alone.
+void decide_inverse(Prover& prover, Proof& proof, std::size_t index, std::size_t branch) {
+  const Model& model = prover.model();
+  const PoissonMap& map = model.maps[index];
+  const MapInverse& inverse = map.inverses[branch];
+  const auto decide = [&](Prover& own) {
+    own.decide(proof, residuals_of(own, inverse_defects(model, map, inverse)),
+               own.level(model.constraints));
+  };
+  if (inverse.domain.empty()) return decide(prover);
+  Model inside = model;
+  for (Assumption& condition : conditions_of(model, map, inverse))
+    inside.assumptions.push_back(std::move(condition));
+  const std::vector<GiNaC::ex> expressions = expressions_of_inverse(model, map, inverse);
+  Prover own(inside, expressions, Subject::functions);
+  own.begin_claim(expressions, Subject::functions);
+  decide(own);
+}
+
 Claim inverse_claim(const Model& model, std::size_t index, std::size_t branch) {
   const PoissonMap& map = model.maps[index];
   Claim claim{ClaimKind::map, map.name + ", right inverse", false, {}};
   claim.subject = Subject::functions;
   if (map.inverses.size() > 1) claim.name += fmt::format(" {}", branch + 1);
-  for (const auto& [label, defect] : inverse_defects(model, map, map.inverses[branch]))
-    claim.expressions.push_back(defect);
-  for (const GiNaC::ex& part :
-       composed(map.inverses[branch].defined_by, image_point(map), model.limits))
-    claim.expressions.push_back(part);
-  claim.expressions.insert(claim.expressions.end(), map.domain.begin(), map.domain.end());
+  claim.expressions = expressions_of_inverse(model, map, map.inverses[branch]);
   claim.on = names_of(model.constraints);
   claim.decide = [index, branch](Prover& prover, Proof& proof) {
-    const Model& owner = prover.model();
-    const PoissonMap& own = owner.maps[index];
-    prover.decide(proof, residuals_of(prover, inverse_defects(owner, own, own.inverses[branch])),
-                  prover.level(owner.constraints));
+    decide_inverse(prover, proof, index, branch);
   };
   return claim;
 }
@@ -154,6 +228,7 @@ std::vector<GiNaC::ex> expressions_of(const PoissonMap& map, const Limits& limit
   for (const GiNaC::ex& bracket : map.composed_brackets()) expressions.push_back(bracket);
   // What GiNaC simplified away: sqrt(q)^2 is q only where q >= 0.
   expressions.insert(expressions.end(), map.domain.begin(), map.domain.end());
+  for (const Assumption& condition : map.leads_to) expressions.push_back(condition.difference);
   for (const auto& [label, defect] : image_defects(map, limits)) expressions.push_back(defect);
   return expressions;
 }

@@ -357,6 +357,75 @@ TEST(LaxOnALevel, HoldsWhereTheLevelIsInvariant) {
   EXPECT_EQ(proof_of(model_of(lax_on("0", "on = [\"z - 1\"]\n")), "lax").verdict, Verdict::refuted);
 }
 
+/// A map of the plane, and of a Casimir function c, to x, y and L.
+Proof mapped(const std::string& l, const std::string& domain, const std::string& more = {}) {
+  return proof_of(
+      model_of("hamiltonian = \"p^2/2\"\n[phase_space]\nvariables = [\"q\", \"p\", \"c\"]\n"
+               "brackets = { \"q,p\" = \"1\" }\n" +
+               more +
+               "[[map]]\nname = \"m\"\nto = { variables = [\"x\", \"y\", \"L\"], brackets = "
+               "{\"x,y\" = \"1\"}, domain = [\"" +
+               domain +
+               "\"] }\nexpressions = { x = \"q\", "
+               "y = \"p\", L = \"" +
+               l + "\" }\n"),
+      "map", "m");
+}
+
+TEST(Claims, AMapIntoTheComplementOfTheDomainIsNotProved) {
+  for (const auto& [l, domain] :
+       std::vector<std::pair<std::string, std::string>>{{"-1", "L > 0"},
+                                                        {"0", "L > 0"},
+                                                        {"0", "L != 0"},
+                                                        {"1", "L < 0"},
+                                                        {"1", "L <= 0"},
+                                                        {"(c + 1)^2 - c^2 - 2*c - 1", "L != 0"}}) {
+    const Proof proof = mapped(l, domain);
+    EXPECT_EQ(proof.verdict, Verdict::undecided) << l << ' ' << domain;
+    EXPECT_FALSE(proof.reason.empty());
+  }
+  // An equation of the domain has to hold at every point, as what `image` says.
+  EXPECT_EQ(mapped("c", "L = 1").verdict, Verdict::refuted);
+  EXPECT_EQ(mapped("1", "L = 1").verdict, Verdict::proved);
+  EXPECT_EQ(mapped("0", "L <= 0").verdict, Verdict::proved);
+}
+
+TEST(Claims, AMapSaysWhereItLeadsIntoTheDomain) {
+  const auto where = [](const std::string& l, const std::string& domain) {
+    const Proof proof = mapped(l, domain);
+    EXPECT_EQ(proof.verdict, Verdict::proved) << l << ' ' << domain << ' ' << proof.reason;
+    return proof.where;
+  };
+  EXPECT_EQ(where("c", "L > 0"), std::vector<std::string>{"c > 0"});
+  EXPECT_EQ(where("c", "L != 0"), std::vector<std::string>{"c != 0"});
+  EXPECT_TRUE(where("1", "L > 0").empty());
+}
+
+// |x| is x where x > 0, and at q = -1/2 the inverse for that part is not used.
+TEST(Claims, AnInverseOfAMapHoldsOnItsDomainAlone) {
+  const auto verdict = [](const std::string& name, const std::string& q, const std::string& domain,
+                          const std::string& image = {}) {
+    return proof_of(
+               model_of("hamiltonian = \"p^2/2\"\n[phase_space]\nvariables = [\"q\", \"p\"]\n"
+                        "canonical = true\n[[map]]\nname = \"id\"\nto = { variables = [\"x\", "
+                        "\"y\"], brackets = {\"x,y\" = \"1\"} }\nexpressions = { x = \"q\", y = "
+                        "\"p\" }\n" +
+                        image + "[[map.inverse]]\nexpressions = { q = \"" + q +
+                        "\", p = \"y\" }\n" + domain),
+               "map", name)
+        .verdict;
+  };
+  const std::string inverse = "id, right inverse";
+  const std::string positive = "domain = [\"x > 0\"]\n", negative = "domain = [\"x < 0\"]\n";
+  EXPECT_EQ(verdict(inverse, "abs(x)", positive), Verdict::proved);
+  EXPECT_EQ(verdict(inverse, "-abs(x)", negative), Verdict::proved);
+  EXPECT_EQ(verdict(inverse, "abs(x)", negative), Verdict::refuted);
+  EXPECT_EQ(verdict(inverse, "abs(x)", ""), Verdict::refuted);
+  EXPECT_EQ(verdict(inverse, "abs(x)", "domain = [\"x^2 < 0\"]\n"), Verdict::undecided);
+  // What is said of the image is said of all of it, beside the domain of the inverse too.
+  EXPECT_EQ(verdict("id", "x", positive, "image = [\"abs(x) - x\"]\n"), Verdict::refuted);
+}
+
 }  // namespace
 }  // namespace casimir::test
 
