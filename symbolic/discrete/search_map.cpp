@@ -11,6 +11,8 @@
 #include "symbolic/discrete/modular_program.hpp"
 #include "symbolic/discrete/prove_candidate.hpp"
 #include "symbolic/functions/function_ring.hpp"
+#include "symbolic/proof/prover.hpp"
+#include "symbolic/search/finder.hpp"
 #include "symbolic/search/modular/monomials.hpp"
 
 namespace casimir::discrete {
@@ -350,7 +352,14 @@ MapSearch search_map(const MapModel& map, int degree, const search::Watch& watch
       throw ModelError(fmt::format(
           "'{}' is assumed, and a search is for generic values: a definition can say it", a.text));
   }
-  return Search(map, degree, watch).find();
+  MapSearch found = Search(map, degree, watch).find();
+  if (map.base.assumptions.empty()) return found;
+  Prover prover(map.base, {}, Subject::functions);
+  if (const auto thin = search::thin_assumptions(prover)) {
+    found.no_polynomial = found.no_fraction = false;
+    found.not_generic = found.reason = *thin;
+  }
+  return found;
 }
 
 }  // namespace casimir::discrete

@@ -20,7 +20,8 @@ struct FoundOfMap {
 /// Everything is linear: P(x') = P(x) in the coefficients of P; P(x') = det(dx'/dx) P(x) for a
 /// density 1/P; A - h B vanishes along an orbit of A/B = h. Modulo a prime, at random points and
 /// parameters, such a system has no larger rank than it has in general: so the dimensions are upper
-/// bounds, and where one of them is 0 that is a proof.
+/// bounds, and where one of them is 0 that is a proof. In general: the assumptions have to leave an
+/// open set of points and parameters, as a^2 <= 0 does not.
 struct MapSearch {
   std::vector<FoundOfMap> integrals;  ///< independent ones, polynomials before fractions
   std::vector<FoundOfMap> densities;
@@ -30,7 +31,10 @@ struct MapSearch {
   bool no_polynomial = false;        ///< proved: no integral among polynomials of this degree
   bool no_fraction = false;          ///< the same for quotients of them
   std::vector<std::string> generic;  ///< parameters that all this is about generic values of
-  std::string reason;                ///< why functions that seem to exist are not shown
+  /// Why the upper bounds may be about values that the assumptions do not leave: then nothing is
+  /// proved by them. Empty where there is no such doubt.
+  std::string not_generic;
+  std::string reason;  ///< why functions that seem to exist are not shown, or `not_generic`
 };
 
 /// \throws ModelError  for a map that is not rational

@@ -176,9 +176,13 @@ void Finder::check_level() {
 }
 
 std::optional<std::string> thin_assumptions(System& system) {
-  const std::vector<Assumption>& assumptions = system.model().assumptions;
+  return thin_assumptions(system.prover());
+}
+
+std::optional<std::string> thin_assumptions(Prover& prover) {
+  const std::vector<Assumption>& assumptions = prover.model().assumptions;
   if (assumptions.empty()) return std::nullopt;
-  RealPoints& points = system.prover().real_points();
+  RealPoints& points = prover.real_points();
   const auto is_inside = [&](std::vector<GiNaC::ex> coordinates) {
     try {
       RealPoint point = points.at(std::move(coordinates));

@@ -1,9 +1,11 @@
 // casimir search: finds the polynomial integrals of a case up to a degree, and other structure.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "symbolic/discrete/search_map.hpp"
 #include "symbolic/search/conditions/darboux_conditions.hpp"
@@ -56,14 +58,30 @@ bool is_structure(const SearchArguments& o) {
   return o.fields || o.bivectors || o.forms || o.tensors > 0 || o.hamiltonian || o.bihamiltonian;
 }
 
+/// Whether the case has constraints, and the search is about the whole space of the variables all
+/// the same: on the constraints there may be more.
+bool leaves_constraints(const SearchArguments& options, const Model& model) {
+  return !model.constraints.empty() && options.on.empty() && !options.casimirs;
+}
+
 template <class Report>
 int answer(const SearchArguments& options, const Model& model, const Report& report,
            SearchWatch& watch) {
   const double seconds = watch.end();
-  if (options.common.json)
-    print_json(to_json(model, options.degree, report, seconds));
-  else if (!options.common.quiet)
+  const bool beside = leaves_constraints(options, model);
+  if (options.common.json) {
+    nlohmann::ordered_json json = to_json(model, options.degree, report, seconds);
+    if (beside) json["not_on"] = names_of(model.constraints);
+    print_json(json);
+  } else if (!options.common.quiet) {
     print(model, options.degree, report, seconds);
+    // Of integrals it says with which options they are found there.
+    if (beside && !std::is_same_v<Report, search::Report>)
+      fmt::print(
+          "This is about the whole space of the variables, and not about the constraints alone, on "
+          "which there may be more: {}\n",
+          fmt::join(names_of(model.constraints), ", "));
+  }
   return report.complete ? kDone : kUndecided;
 }
 

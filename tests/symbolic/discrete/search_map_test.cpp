@@ -79,5 +79,17 @@ TEST(SearchMap, RefusesWhatIsNotRational) {
   EXPECT_THROW(search_map(plane("[map]\nx = \"sin(x)\"\ny = \"y\"\n"), 2), ModelError);
 }
 
+// a is 0, where x is an integral: what holds for all other values proves nothing.
+TEST(SearchMap, ProvesNothingWhereTheAssumptionsLeaveOneValue) {
+  const std::string equations = "[map]\nx = \"x + a\"\ny = \"2*y\"\n";
+  const MapSearch one =
+      search_map(plane("[parameters]\na = { assume = \"a^2 <= 0\" }\n" + equations), 1);
+  EXPECT_FALSE(one.no_polynomial || one.no_fraction);
+  EXPECT_FALSE(one.not_generic.empty());
+  const MapSearch all =
+      search_map(plane("[parameters]\na = { assume = \"a > 0\" }\n" + equations), 1);
+  EXPECT_TRUE(all.no_polynomial && all.no_fraction);
+}
+
 }  // namespace
 }  // namespace casimir::test

@@ -19,16 +19,16 @@ nlohmann::ordered_json to_json(const Model& base, int degree, const discrete::Ma
   json["none"] = {{"polynomial", found.no_polynomial ? "proved" : "undecided"},
                   {"rational", found.no_fraction ? "proved" : "undecided"}};
   if (!found.generic.empty()) json["generic"] = found.generic;
+  if (!base.constraints.empty()) json["not_on"] = names_of(base.constraints);
   if (!found.reason.empty()) json["reason"] = found.reason;
   json["seconds"] = seconds;
   return json;
 }
 
-void print(const Model& base, int degree, const discrete::MapSearch& found, double seconds) {
-  fmt::print("{}: integrals of the map that are quotients of polynomials up to degree {}\n",
-             base.name, degree);
-  for (const discrete::FoundOfMap& f : found.integrals) fmt::print("  proved  {}\n", f.text);
-  if (found.integrals.empty()) fmt::print("  none was found\n");
+namespace {
+
+/// What the dimensions say, which are upper bounds.
+void print_bounds(const discrete::MapSearch& found) {
   const std::string generic = found.generic.empty() ? ""
                                                     : fmt::format(" (for generic values of {})",
                                                                   fmt::join(found.generic, ", "));
@@ -42,10 +42,25 @@ void print(const Model& base, int degree, const discrete::MapSearch& found, doub
   else
     fmt::print("a general orbit lies on at most {} independent hypersurfaces of this degree{}\n",
                found.relations, generic);
-  for (const discrete::FoundOfMap& f : found.densities) fmt::print("density {}: proved\n", f.text);
   if (found.density_space > found.densities.size())
     fmt::print("at most {} linearly independent polynomials P with a density 1/P{}\n",
                found.density_space, generic);
+}
+
+}  // namespace
+
+void print(const Model& base, int degree, const discrete::MapSearch& found, double seconds) {
+  fmt::print("{}: integrals of the map that are quotients of polynomials up to degree {}\n",
+             base.name, degree);
+  for (const discrete::FoundOfMap& f : found.integrals) fmt::print("  proved  {}\n", f.text);
+  if (found.integrals.empty()) fmt::print("  none was found\n");
+  for (const discrete::FoundOfMap& f : found.densities) fmt::print("density {}: proved\n", f.text);
+  if (found.not_generic.empty()) print_bounds(found);
+  if (!base.constraints.empty())
+    fmt::print(
+        "This is about the whole space of the variables, and not about the constraints alone, on "
+        "which there may be more: {}\n",
+        fmt::join(names_of(base.constraints), ", "));
   if (!found.reason.empty()) fmt::print("{}\n", found.reason);
   fmt::print("{} found, {:.3f} s\n", found.integrals.size(), seconds);
 }
