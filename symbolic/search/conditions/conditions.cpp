@@ -42,6 +42,9 @@ struct Place {
 //   - A has to be polynomial in a: if a is inside a function, then at special values this may be
 //     another function, of which no minor knows (inside_functions);
 //   - the level has to be the same for all a, or its leading monomials might change (run);
+//   - parameters obey no equations: with I for a number without one, the minors I^2 + a and I^2*a +
+//   1
+//     have no common factor, while both vanish at a = 1 (run);
 //   - the generic search has to be complete, with functions that are independent (Finder::doubt);
 //   - denominators that are multiplied out change nothing where they do not vanish identically;
 //     where they do, the equations have no meaning (meaningless);
@@ -295,6 +298,8 @@ ConditionReport ConditionFinder::run(const std::vector<std::size_t>& free) {
   const Ansatz ansatz = make_ansatz(finder_.system(), problem, watch_);
   const std::vector<ParametricBlock> blocks =
       parametric_blocks(finder_.system(), problem.fields, ansatz.monomials, ansatz.relations);
+  if (const std::string bound = finder_.system().bound_parameter(); !bound.empty())
+    leave_open(fmt::format("'{}' is taken as a parameter of its own", bound));
   if (!ansatz.coprime || !ansatz.independent)
     leave_open("only cofactors of low degree were tried, and the functions may need others");
   const std::vector<std::size_t> inside = inside_functions(finder_.system(), free);

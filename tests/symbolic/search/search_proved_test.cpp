@@ -402,5 +402,16 @@ TEST(Proved, TheImaginaryUnitObeysItsEquation) {
   EXPECT_TRUE(none.found.empty());
 }
 
+// At a = 1 there is x + I*y: the minors I^2 + a, I^2*a + 1 and I*(a^2 - 1) have no common factor
+// unless I^2 = -1.
+TEST(Proved, AValueThatOnlyTheEquationOfANumberGivesIsLeftOpen) {
+  const auto report = conditions(
+      "[phase_space]\nvariables = [\"x\", \"y\"]\n[parameters]\na = {}\n[equations]\n"
+      "x = \"I*x + a*y + x^2\"\ny = \"-x + I*y + a*I*x^2\"\n",
+      1, {"a"});
+  EXPECT_FALSE(report.complete);
+  EXPECT_FALSE(report.reason.empty());
+}
+
 }  // namespace
 }  // namespace casimir::test
