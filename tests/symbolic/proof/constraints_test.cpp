@@ -2,6 +2,7 @@
 // what is so outside of them neither proves nor refutes anything. Each test drops a hypothesis.
 #include <gtest/gtest.h>
 
+#include "symbolic/prove.hpp"
 #include "tests/symbolic/cases.hpp"
 
 namespace casimir::test {
