@@ -303,6 +303,12 @@ class March {
   __attribute__((noinline)) bool step_with_leading_terms(double s, V* next, V* next_carry) {
     V rest[most_blocks];
     tail(series_, s, rest);
+    if (continuation_.used()) {
+      V more[most_blocks] = {};
+      continuation_.add(series_.order, series_.blocks, s, more);
+      // The rest begins with the coefficient of s^3.
+      for (int b = 0; b < series_.blocks; ++b) rest[b] += more[b] / (s * s * s);
+    }
     for (int b = 0; b < series_.blocks; ++b) {
       next[b] = state_[b];
       next_carry[b] = carry_[b];

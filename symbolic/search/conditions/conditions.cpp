@@ -42,9 +42,8 @@ struct Place {
 //   - A has to be polynomial in a: if a is inside a function, then at special values this may be
 //     another function, of which no minor knows (inside_functions);
 //   - the level has to be the same for all a, or its leading monomials might change (run);
-//   - parameters obey no equations: with I for a number without one, the minors I^2 + a and I^2*a +
-//   1
-//     have no common factor, while both vanish at a = 1 (run);
+//   - parameters obey no equations: with I for a number without one, the minors I^2 + a and
+//     a*I^2 + 1 have no common factor, while both vanish at a = 1 (run);
 //   - the generic search has to be complete, with functions that are independent (Finder::doubt);
 //   - denominators that are multiplied out change nothing where they do not vanish identically;
 //     where they do, the equations have no meaning (meaningless);
