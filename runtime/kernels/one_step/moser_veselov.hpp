@@ -1,6 +1,6 @@
 #pragma once
 
-#include "runtime/kernels/one_step/control.hpp"
+#include "runtime/kernels/one_step/map_step.hpp"
 
 namespace casimir_kernel {
 
@@ -22,27 +22,17 @@ namespace moser_veselov {
 /// symmetric and of order 2 (Moser, Veselov: Commun. Math. Phys. 139 (1991) 217; McLachlan, Zanna:
 /// Found. Comput. Math. 5 (2005) 87). q is found by Newton's method from the implicit midpoint
 /// rule's first iterate. There is no q for a step that is too long.
-///
-/// The error is estimated as for Kahan's map, dense output takes a shorter step, and an adaptive
-/// step spoils the long-time behaviour.
 template <class System>
-struct Step {
+struct Map {
   static_assert(System::n == 3);
-  static constexpr int n = 3, power = 2;
+  static constexpr int n = 3;
   static constexpr int kMostIterations = 30;
 
   double values[4];
-  double increment[n], f[n], f1[n];
-  double error = 0;
-  const casimir_run* run = nullptr;
-  unsigned long long evaluations = 0, jacobians = 0;
 
-  bool begin(const casimir_run* asked, double, const double* start) {
-    run = asked;
+  bool begin(const casimir_run* run) {
     System::moments(run->parameters, values);
-    System::rhs(run->t_begin, start, run->parameters, f);
-    ++evaluations;
-    return all_finite<n>(f) && all_finite<4>(values);
+    return all_finite<4>(values);
   }
 
   static void cross(const double* a, const double* b, double* c) {
@@ -55,8 +45,8 @@ struct Step {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   }
 
-  /// One step of Newton's method for sqrt(1 - q^2) I q + q x I q = half; `moved` is what it adds.
-  bool improve(const double* half, double* q, double* moved) const {
+  /// One step of Newton's method for sqrt(1 - q^2) I q + q x I q = half; `change` is what it adds.
+  bool improve(const double* half, double* q, double* change) const {
     const double scalar = __builtin_sqrt(1 - dot(q, q));
     double spin[n], turned[n], columns[n][n], defect[n];
     for (int i = 0; i < n; ++i) spin[i] = values[i] * q[i];
@@ -74,17 +64,16 @@ struct Step {
     for (int j = 0; j < n; ++j) cross(columns[(j + 1) % n], columns[(j + 2) % n], minors[j]);
     const double determinant = dot(columns[0], minors[0]);
     for (int j = 0; j < n; ++j) {
-      moved[j] = dot(minors[j], defect) / determinant;
-      q[j] += moved[j];
+      change[j] = dot(minors[j], defect) / determinant;
+      q[j] += change[j];
     }
     return dot(q, q) < 1;
   }
 
-  /// What the map adds to x in the time h, where the field is `field`; false if no rotation is
-  /// found.
-  bool map(const double* x, const double* field, double h, double* move) const {
+  bool move(const casimir_run*, double, const double* x, const double* field, double h,
+            double* moved) const {
     const double scaled = values[3] * h;
-    double half[n], q[n], moved[n], turned[n], spin[n];
+    double half[n], q[n], change[n], turned[n], spin[n];
     for (int i = 0; i < n; ++i) {
       half[i] = scaled * x[i] / 2;
       q[i] = scaled * (x[i] + h * field[i] / 2) / (2 * values[i]);
@@ -92,54 +81,21 @@ struct Step {
     // After a step that changes so little, the square of that is below rounding.
     constexpr double kSettled = 0x1p-60;
     for (int k = 0; k < kMostIterations; ++k) {
-      if (!improve(half, q, moved)) return false;
-      if (!(dot(moved, moved) > kSettled * dot(q, q))) {
+      if (!improve(half, q, change)) return false;
+      if (!(dot(change, change) > kSettled * dot(q, q))) {
         for (int i = 0; i < n; ++i) spin[i] = values[i] * q[i];
         cross(q, spin, turned);
-        for (int i = 0; i < n; ++i) move[i] = scaled == 0 ? 0 : -4 * turned[i] / scaled;
+        for (int i = 0; i < n; ++i) moved[i] = scaled == 0 ? 0 : -4 * turned[i] / scaled;
         return true;
       }
     }
     return false;
   }
-
-  Trial attempt(double t, const double* x, const double*, double h, bool adaptive) {
-    if (!map(x, f, h, increment)) return Trial::not_solved;
-    ++jacobians;
-    if (!all_finite<n>(increment)) return Trial::not_finite;
-    double x1[n];
-    for (int i = 0; i < n; ++i) x1[i] = x[i] + increment[i];
-    System::rhs(t + h, x1, run->parameters, f1);
-    ++evaluations;
-    error = 0;
-    if (!adaptive) return Trial::done;
-    for (int i = 0; i < n; ++i) {
-      const double reach = larger(magnitude(x[i]), magnitude(x1[i]));
-      const double part = magnitude(increment[i] - h * f1[i]) / allowed_error(run, reach);
-      // A NaN here must not look like a small error.
-      error = part <= error ? error : part;
-    }
-    return Trial::done;
-  }
-
-  bool arrive(double, const double*) { return all_finite<n>(f1); }
-
-  void accept() {
-    for (int i = 0; i < n; ++i) f[i] = f1[i];
-  }
-
-  __attribute__((cold)) static void dense(const casimir_step* step, double t, double* at) {
-    const Step* self = static_cast<const Step*>(step->data);
-    double field[n], move[n];
-    System::rhs(step->t0, step->x0, self->run->parameters, field);
-    const bool solved = self->map(step->x0, field, t - step->t0, move);
-    for (int i = 0; i < n; ++i) at[i] = solved ? step->x0[i] + move[i] : __builtin_nan("");
-  }
 };
 
 template <class System>
 void integrate(const casimir_run* run, double* x, casimir_outcome* out) {
-  march<System, Step<System>>(run, x, out);
+  march<System, MapStep<System, Map<System>>>(run, x, out);
 }
 
 }  // namespace moser_veselov
