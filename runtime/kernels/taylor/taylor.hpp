@@ -2,7 +2,7 @@
 
 #include "runtime/kernels/lanes/lanes.hpp"
 #include "runtime/kernels/one_step/control.hpp"
-#include "runtime/kernels/taylor/continuation.hpp"
+#include "runtime/kernels/taylor/step_choice.hpp"
 #include "runtime/kernels/taylor/step_policy.hpp"
 #include "runtime/kernels/taylor/sums.hpp"
 
@@ -32,21 +32,6 @@ namespace casimir_kernel {
 /// size of the state whatever the scales of state and time are.
 namespace taylor {
 
-/// The part of the tolerance that a step aims at. Truncation errors add up in one direction,
-/// rounding errors in all: at the least tolerances truncation shall not be what millions of steps
-/// show. It goes out of sight by degrees, so that no tolerance costs much more than the next one.
-/// \param leading  whether the leading terms of a step are worked out in more digits.
-inline double aim(const casimir_run* run, bool leading) {
-  // A hundredth of what rounding a step costs: 25 million steps show more than that. Where the
-  // leading terms round like all others, a run shows no more than what is a part of that rounding.
-  constexpr double kUnseen = 1e-18, kRounded = 1e-16, kFine = 1e-13, kLeast = 1e-15;
-  if (!(run->rtol > 0 && run->rtol < kFine)) return 1;
-  if (!leading && run->rtol < kLeast) return run->rtol / kLeast * (kRounded / kLeast);
-  // kUnseen at the tolerance kLeast.
-  const double lost = run->rtol / kFine, part = lost * __builtin_sqrt(lost);
-  return larger(part, (leading ? kUnseen : kRounded) / run->rtol);
-}
-
 template <class Series>
 class March {
   using V = typename Series::V;
@@ -63,9 +48,7 @@ class March {
         x_(x),
         out_(out),
         leading_(run->leading && run->leading->from == 0 ? run->leading : nullptr),
-        rtol_(run->rtol * aim(run, leading_)),
-        atol_(run->atol * aim(run, leading_)),
-        most_gained_(most_gained(run->rtol, series.smooth)),
+        choice_(run, series, leading_),
         span_(run->t_end - run->t_begin),
         pace_(run->t_begin) {}
 
@@ -139,17 +122,10 @@ class March {
     pieces_ = larger(pieces_, 1);
     if (!(pieces_ < 0x1p53)) status_ = CASIMIR_STEP_UNDERFLOW;
     set_unit(magnitude(span_) / pieces_);
-    scale_ = 0;
-    for (int i = 0; i < series_.states; ++i) scale_ = larger(scale_, magnitude(x_[i]));
+    double scale = 0;
+    for (int i = 0; i < series_.states; ++i) scale = larger(scale, magnitude(x_[i]));
+    choice_.fix(scale);
     return status_ == CASIMIR_OK;
-  }
-
-  static double most_gained(double tolerance, bool smooth) {
-    if (!smooth && tolerance > Policy::kFewDigits) return 0;
-    const double part = rough_log2(tolerance / Policy::kRounded) *
-                        (1 / rough_log2(Policy::kUnaffected / Policy::kRounded));
-    constexpr double kLeast = Policy::kLeastGained, kMost = Policy::kMostGained;
-    return part > 0 ? kLeast + (kMost - kLeast) * (part < 1 ? part : 1) : kLeast;
   }
 
   void set_unit(double h) {
@@ -164,62 +140,19 @@ class March {
     return lane_sum(zero) == 0;
   }
 
-  /// One over the error allowed to each component, whose size is what it takes during a step of so
-  /// many units.
-  CASIMIR_INLINE V weight(int b, double s = 1) const {
-    const V size = absolute(series_.c[0][b]) + absolute(series_.c[1][b]) * s +
-                   absolute(series_.c[2][b]) * (s * s);
-    const V unit = pieces_ > 0 ? size + scale_ : atol_ + rtol_ * size;
-    return 1 / (unit > kSmallest ? unit : all_lanes<V>(kSmallest));
-  }
-
-  /// The step in units at which the last two terms are as large as the tolerance allows, or 0
-  /// where the coefficients are no numbers.
+  /// The step in units, or 0 where the coefficients are no numbers.
   CASIMIR_INLINE double chosen_step() {
-    const int order = series_.order;
-    V last = V{}, before = V{};
-    CASIMIR_UNROLL
-    for (int b = 0; b < series_.blocks; ++b) {
-      weight_[b] = weight(b);
-      before += absolute(series_.c[order - 1][b]) * weight_[b];
-      last += absolute(series_.c[order][b]) * weight_[b];
-    }
-    const double a = lane_sum(before), z = lane_sum(last);
-    if (!(a + z < Policy::kNoNumber)) return 0;
-    if (pieces_ > 0) return fixed_step(z);
-    const double rate = rate_of(a, z);
-    if (!(most_gained_ > Policy::kWorthwhile) || rate < Policy::kSteepest) {
-      continuation_.forget();
-      return rate < Policy::kSteepest ? Policy::kLongest : rough_exp2(-rate);
-    }
-    return continued_step(rate);
+    const auto sizes = choice_.measure();
+    if (!(sizes.before + sizes.last < Policy::kNoNumber)) return 0;
+    return pieces_ > 0 ? fixed_step(sizes.last) : choice_.length(sizes);
   }
 
-  /// log2 of the factor from order to order that makes terms of these sizes out of one of size 1:
-  /// the larger one of what the last but one and the last say.
-  CASIMIR_INLINE double rate_of(double before, double last) const {
-    return larger(rough_log2(before) * (1. / (series_.order - 1)),
-                  rough_log2(last) * (1. / series_.order));
-  }
-
-  /// The step where the last terms, in units, are as large as this log2 says: a longer one where
-  /// the series can be continued. What the last two coefficients miss then takes their place.
-  CASIMIR_INLINE double continued_step(double rate) {
-    const auto missed = continuation_.fit(series_, weight_);
-    const double gain =
-        rate - rate_of(missed.before * Policy::kDoubt, missed.last * Policy::kDoubt);
-    if (gain > Policy::kWorthwhile) {
-      const double s = rough_exp2((gain < most_gained_ ? gain : most_gained_) - rate);
-      if (continuation_.use(series_, s)) return s;
-    }
-    continuation_.forget();
-    return rough_exp2(-rate);
-  }
+  const auto& continuation() const { return choice_.continuation(); }
 
   /// What the series adds to the state after s units.
   CASIMIR_INLINE void gain_after(double s, V* sum) const {
     increment(series_, s, sum);
-    if (continuation_.used()) continuation_.add(series_.order, series_.blocks, s, sum);
+    if (continuation().used()) continuation().add(series_.order, series_.blocks, s, sum);
   }
 
   double fixed_step(double last) {
@@ -303,9 +236,9 @@ class March {
   __attribute__((noinline)) bool step_with_leading_terms(double s, V* next, V* next_carry) {
     V rest[most_blocks];
     tail(series_, s, rest);
-    if (continuation_.used()) {
+    if (continuation().used()) {
       V more[most_blocks] = {};
-      continuation_.add(series_.order, series_.blocks, s, more);
+      continuation().add(series_.order, series_.blocks, s, more);
       // The rest begins with the coefficient of s^3.
       for (int b = 0; b < series_.blocks; ++b) rest[b] += more[b] / (s * s * s);
     }
@@ -337,9 +270,7 @@ class March {
   __attribute__((noinline)) bool follows(double s, double t1, const V* next) {
     const int places = fresh_ || s > Policy::kUnseen ? Policy::kPlacesAtFirst : Policy::kPlaces;
     // What the unit would make of the state is nothing to a step that was cut to a tiny part of it.
-    if (__builtin_expect(s < Policy::kPartOfUnit, 0)) {
-      for (int b = 0; b < series_.blocks; ++b) weight_[b] = weight(b, s);
-    }
+    if (__builtin_expect(s < Policy::kPartOfUnit, 0)) choice_.weigh(s);
     for (int i = 0; i < places; ++i) {
       place_ += Policy::kGoldenSection;
       if (place_ >= 1) place_ -= 1;
@@ -359,13 +290,13 @@ class March {
   CASIMIR_INLINE bool follows_at(double s, double t, const V* next) {
     V told[most_blocks], defect = V{};
     slope(series_, s, told);
-    if (continuation_.used()) continuation_.add_slope(series_.order, series_.blocks, s, told);
+    if (continuation().used()) continuation().add_slope(series_.order, series_.blocks, s, told);
     series_.begin(t, next);
     ++evaluations_;
     CASIMIR_UNROLL
     for (int b = 0; b < series_.blocks; ++b) {
       const V size = absolute(state_[b]) + absolute(next[b]) + absolute(told[b]);
-      const V w = 1 / (Policy::kDefect / weight_[b] + size * Policy::kRounding);
+      const V w = 1 / (Policy::kDefect / choice_.weight(b) + size * Policy::kRounding);
       defect += absolute(series_.rate[b] * (s * unit_) - told[b]) * w;
     }
     const double sum = lane_sum(defect);
@@ -388,7 +319,7 @@ class March {
     for (int b = 0; b < series_.blocks; ++b) {
       const V size = absolute(state_[b]) + absolute(next[b]) + absolute(told[b]);
       const V noise = absolute((series_.rate[b] - rate[b]) * h);
-      const V w = 1 / (Policy::kDefect / weight_[b] + size * Policy::kRounding + noise);
+      const V w = 1 / (Policy::kDefect / choice_.weight(b) + size * Policy::kRounding + noise);
       defect += absolute(rate[b] * h - told[b]) * w;
     }
     series_.begin(t, next);
@@ -414,9 +345,8 @@ class March {
     const double expected = static_cast<double>(steps_) * (span_ / (t1 - run_->t_begin));
     if (leading_ || !(expected >= static_cast<double>(run_->leading->from)) || pieces_ > 0) return;
     leading_ = run_->leading;
-    most_gained_ = 0;
-    rtol_ = run_->rtol * aim(run_, true);
-    atol_ = run_->atol * aim(run_, true);
+    choice_.continue_no_more();
+    choice_.aim_at(run_, true);
   }
 
   __attribute__((cold, noinline)) void show(double t1, const V* next) {
@@ -504,16 +434,14 @@ class March {
   double* x_;
   casimir_outcome* out_;
   const casimir_leading* leading_;  // as soon as it is worth its time
-  double rtol_, atol_;              // aimed at
-  double most_gained_;              // by continuing the series, as a log2
-  V state_[most_blocks], carry_[most_blocks], weight_[most_blocks];
+  StepChoice<Series> choice_;
+  V state_[most_blocks], carry_[most_blocks];
   double t_ = 0, t_carry_ = 0;
   const double span_;
   Pace pace_;
-  double unit_ = 1, pieces_ = 0, scale_ = 0;
+  double unit_ = 1, pieces_ = 0;
   unsigned long long steps_ = 0, rejected_ = 0, expansions_ = 0, evaluations_ = 0;
   unsigned long long shrunk_ = 0;  // units
-  Continuation<V, most_blocks> continuation_;
   int status_ = CASIMIR_OK, failure_ = CASIMIR_OK;
   bool there_ = false, fresh_ = false, cut_ = false, jumps_ = false;
   double part_ = Policy::kShorter;  // of a step that did not hold, what is tried next
