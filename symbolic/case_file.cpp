@@ -27,43 +27,32 @@ std::string read_text(const std::filesystem::path& path, const Limits& limits) {
   return text;
 }
 
-/// Whether a line gives one of the keys whose values are words: Appendix I is no number.
-bool is_line_of_words(const std::string& toml, std::size_t begin) {
-  for (const std::string key : {"title", "source", "book", "tags"})
-    if (toml.compare(begin, key.size(), key) == 0 && begin + key.size() < toml.size() &&
-        (toml[begin + key.size()] == ' ' || toml[begin + key.size()] == '='))
-      return true;
-  return false;
-}
-
-/// Whether the text has I as a word of its own, outside of comments and of what is said of the
-/// case.
-bool speaks_of_imaginary_unit(const std::string& toml) {
+/// Whether an expression has I as a word of its own.
+bool has_imaginary_unit(std::string_view expression) {
   const auto is_part = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
   };
-  bool comment = false;
-  char quote = 0;  // of the string that is open
-  for (std::size_t i = 0; i < toml.size(); ++i) {
-    if (toml[i] == '\n') {
-      comment = false;
-      quote = 0;
-    }
-    if ((i == 0 || toml[i - 1] == '\n') && is_line_of_words(toml, i)) comment = true;
-    const bool escaped = quote == '"' && toml[i - 1] == '\\';
-    if (!comment && !escaped && (toml[i] == '"' || toml[i] == '\'')) {
-      if (quote == 0)
-        quote = toml[i];
-      else if (quote == toml[i])
-        quote = 0;
-    }
-    comment = comment || (toml[i] == '#' && quote == 0);
-    if (comment || toml[i] != 'I') continue;
-    const bool starts = i == 0 || !is_part(toml[i - 1]);
-    const bool ends = i + 1 == toml.size() || !is_part(toml[i + 1]);
+  for (std::size_t i = 0; i < expression.size(); ++i) {
+    if (expression[i] != 'I') continue;
+    const bool starts = i == 0 || !is_part(expression[i - 1]);
+    const bool ends = i + 1 == expression.size() || !is_part(expression[i + 1]);
     if (starts && ends) return true;
   }
   return false;
+}
+
+/// Whether a string below this node has it.
+/// \param words  keys of this table whose values are words: Appendix I is no number
+bool has_imaginary_unit(const toml::node& node, std::initializer_list<std::string_view> words) {
+  if (const auto* text = node.as_string()) return has_imaginary_unit(std::string_view(**text));
+  if (const auto* list = node.as_array())
+    return std::ranges::any_of(
+        *list, [](const toml::node& part) { return has_imaginary_unit(part, {"name"}); });
+  const auto* table = node.as_table();
+  return table && std::ranges::any_of(*table, [&](const auto& entry) {
+           return std::ranges::find(words, entry.first.str()) == words.end() &&
+                  has_imaginary_unit(entry.second, {});
+         });
 }
 
 /// What people write who think of their formulas and not of TOML.
@@ -115,7 +104,8 @@ AnyCaseFile parse_any_case(const std::string& toml, const std::string& file, con
   if (const std::optional<int> number = line_of_deep_key(toml))
     throw CaseError({file, *number, 1}, "a key has too many parts", reader.line(*number).text());
   try {
-    AnyCaseFile result = reader.read(toml::parse(toml, std::string_view(file)));
+    const toml::table root = toml::parse(toml, std::string_view(file));
+    AnyCaseFile result = reader.read(root);
     CaseFile& common = std::visit(
         [](auto& part) -> CaseFile& {
           if constexpr (std::is_same_v<std::decay_t<decltype(part)>, CaseFile>)
@@ -124,7 +114,7 @@ AnyCaseFile parse_any_case(const std::string& toml, const std::string& file, con
             return part.file;
         },
         result);
-    common.complex_numbers = speaks_of_imaginary_unit(toml);
+    common.complex_numbers = has_imaginary_unit(root, {"title", "source", "book", "tags"});
     common.limits = limits;
     return result;
   } catch (const toml::parse_error& problem) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "symbolic/proof/claims/claim.hpp"
+#include "symbolic/proof/claims/on_constraints.hpp"
 
 namespace casimir {
 
@@ -10,13 +11,12 @@ Claim identity_claim(const Identity& identity) {
                 const GiNaC::ex defect = identity.left - identity.right;
                 const std::vector<Residual> residuals{
                     {"left - right", prover.convert(defect), [defect] { return defect; }}};
-                const Proof blank = proof;
-                prover.decide(proof, residuals, prover.level(identity.on));
-                if (proof.verdict != Verdict::undecided || !prover.holds_on_constraints()) return;
-                const auto within = prover.within_constraints(identity.on);
-                proof = blank;
-                prover.decide(proof, residuals, prover.level(within));
-                proof.on = names_of(within);
+                const auto on_level = [&](Proof& own, const auto& level) {
+                  prover.decide(own, residuals, prover.level(level));
+                };
+                decide_within_constraints(
+                    prover, proof, identity.on, on_level,
+                    [&](const Proof& open) { return is_open_on_constraints(prover, open); });
               }};
   claim.expressions = {identity.left - identity.right};
   // The sides themselves: their difference may be 0 where they have no values.

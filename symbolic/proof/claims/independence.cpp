@@ -45,7 +45,7 @@ void decide_independence(Prover& prover, Proof& proof,
                          : "the gradients are independent at " + text_of(found->points);
     say_where(proof, found->where, found->nonzero);
     prover.check_inhabited(proof, {});
-    require_independence_on_constraints(prover, proof, slopes);
+    require_independence_on_constraints(prover, proof, functions);
   } else if (found->exact) {
     proof.verdict = Verdict::refuted;
     proof.reason = fmt::format(

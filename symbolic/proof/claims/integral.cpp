@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 
 #include "symbolic/proof/certificate_writer.hpp"
 #include "symbolic/proof/claims/claim.hpp"
+#include "symbolic/proof/claims/on_constraints.hpp"
 #include "symbolic/proof/claims/theorems.hpp"
 
 namespace casimir {
@@ -49,20 +49,12 @@ void decide_on_invariant_level(Prover& prover, Proof& proof, const std::vector<R
   proof.nonzero = invariance.nonzero;
 }
 
-/// Decides a claim about motions on a level. What only fails outside of the constraints is decided
-/// on them, which then have to be invariant.
-void decide_within_constraints(
-    Prover& prover, Proof& proof, const std::vector<NamedExpression>& on,
-    const std::function<void(Proof&, const std::vector<NamedExpression>&)>& decide) {
-  const Proof blank = proof;
-  decide(proof, on);
-  const std::vector<NamedExpression> within = prover.within_constraints(on);
-  const bool open = proof.verdict == Verdict::undecided && prover.holds_on_constraints();
-  if (within.size() == on.size() || (proof.verdict != Verdict::refuted && !open)) return;
-  Proof there = blank;
-  decide(there, within);
-  if (there.verdict == Verdict::proved) there.on = names_of(within);
-  proof = std::move(there);
+/// A level may fail to be invariant outside of the constraints only.
+void decide_motions(Prover& prover, Proof& proof, const std::vector<NamedExpression>& on,
+                    const DecideOnLevel& decide) {
+  decide_within_constraints(prover, proof, on, decide, [&](const Proof& open) {
+    return open.verdict == Verdict::refuted || is_open_on_constraints(prover, open);
+  });
 }
 
 }  // namespace
@@ -72,7 +64,7 @@ Claim integral_claim(const NamedExpression& f, const std::vector<NamedExpression
           f.name,
           false,
           [f, on](Prover& prover, Proof& proof) {
-            decide_within_constraints(prover, proof, on, [&](Proof& own, const auto& level) {
+            decide_motions(prover, proof, on, [&](Proof& own, const auto& level) {
               decide_on_invariant_level(prover, own, {rate_of(prover, f)}, f, level);
             });
           },
@@ -95,7 +87,7 @@ Claim invariant_relation_claim(const NamedExpression& f, const std::vector<Named
           false,
           [f, on](Prover& prover, Proof& proof) {
             // The common zero level of f and `on` has to be carried into itself.
-            decide_within_constraints(prover, proof, on, [&](Proof& own, const auto& level) {
+            decide_motions(prover, proof, on, [&](Proof& own, const auto& level) {
               std::vector<NamedExpression> all = level;
               all.push_back(f);
               prover.decide_invariance(own, all);

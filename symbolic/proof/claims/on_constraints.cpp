@@ -1,19 +1,15 @@
 #include "symbolic/proof/claims/on_constraints.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <functional>
+#include <span>
+
+#include "symbolic/error.hpp"
 
 namespace casimir {
 namespace {
-
-using Condition = std::function<bool(RealPoint&)>;
-
-bool holds_at(RealPoint& point, const Condition& condition) {
-  try {
-    return condition(point);
-  } catch (const NotCertified&) {
-    return false;
-  }
-}
 
 std::optional<RealPoint> admitted(Prover& prover, std::vector<GiNaC::ex> coordinates) {
   try {
@@ -24,22 +20,62 @@ std::optional<RealPoint> admitted(Prover& prover, std::vector<GiNaC::ex> coordin
   return std::nullopt;
 }
 
-/// Leaves a proof undecided, unless the condition holds at an exact point of the constraints.
-void require(Prover& prover, Proof& proof, const Condition& condition) {
-  const std::vector<NamedExpression>& constraints = prover.model().constraints;
+/// Looks at exact points of the constraints until one is enough: initial states of scenes, which
+/// may be rounded ones, then others of a level.
+/// \return  whether there was any
+bool look_at_points(Prover& prover, const ConstraintSet& constraints,
+                    const std::function<bool(RealPoint&)>& is_enough) {
   bool any = false;
+  const auto ends = [&](RealPoint& point) {
+    any = true;
+    try {
+      return is_enough(point);
+    } catch (const NotCertified&) {
+      return false;
+    }
+  };
   for (std::vector<GiNaC::ex>& scene : prover.real_points().scenes()) {
     auto point = admitted(prover, std::move(scene));
-    any = any || point;
-    if (point && holds_at(*point, condition)) return;
+    if (point && constraints.contains(*point) && ends(*point)) return true;
   }
-  const Level& level = prover.level(constraints);
+  const Level& level = prover.level(prover.model().constraints);
   constexpr int kPoints = 3;
   for (int i = 0; i < kPoints; ++i) {
     auto point = prover.exact_point(level);
-    any = any || point;
-    if (!point) break;
-    if (holds_at(*point, condition)) return;
+    if (!point || ends(*point)) break;
+  }
+  return any;
+}
+
+/// The scene that begins at the point, or else its coordinates.
+std::string name_of(const Model& model, const RealPoint& point) {
+  const auto& coordinates = point.coordinates();
+  for (const Scene& scene : model.scenes) {
+    if (scene.initial.size() != model.variables.size()) continue;
+    if (std::ranges::equal(scene.initial, std::span(coordinates).first(scene.initial.size()),
+                           [](const auto& a, const auto& b) { return a.is_equal(b); }))
+      return fmt::format("the scene '{}'", printable(scene.name));
+  }
+  return point.text();
+}
+
+/// Leaves a proof undecided, unless these matrices have their ranks at an exact point of the
+/// constraints; where that does not speak for all of them, says of which part it does.
+void require(Prover& prover, Proof& proof, const ConstraintSet& constraints,
+             const std::vector<RankedRows>& all) {
+  std::string part;
+  bool of_all = false;
+  const bool any = look_at_points(prover, constraints, [&](RealPoint& point) {
+    for (const RankedRows& one : all)
+      if (point.rank(one.rows) < rank_at(point, one)) return false;
+    if (part.empty()) part = name_of(prover.model(), point);
+    of_all = constraints.have_ranks_everywhere(point, all);
+    return of_all;
+  });
+  if (of_all) return;
+  if (!part.empty()) {
+    say_where(proof, "the state is on the part of the constraints with " + part);
+    return;
   }
   proof.verdict = Verdict::undecided;
   proof.evidence.clear();
@@ -54,37 +90,41 @@ bool may_be_asked(const Prover& prover, const Proof& proof) {
   return proof.verdict == Verdict::proved && !prover.model().constraints.empty();
 }
 
-PolynomialRows joined(PolynomialRows rows, const PolynomialRows& more) {
-  rows.insert(rows.end(), more.begin(), more.end());
-  return rows;
-}
-
 }  // namespace
 
 void require_on_constraints(Prover& prover, Proof& proof, const std::vector<RankedRows>& all) {
-  if (!may_be_asked(prover, proof)) return;
-  require(prover, proof, [&](RealPoint& point) {
-    return std::ranges::all_of(
-        all, [&](const RankedRows& one) { return point.rank(one.rows) >= one.rank; });
-  });
+  if (may_be_asked(prover, proof)) require(prover, proof, ConstraintSet(prover), all);
 }
 
 void require_independence_on_constraints(Prover& prover, Proof& proof,
-                                         const PolynomialRows& slopes) {
+                                         const std::vector<NamedExpression>& functions) {
   if (!may_be_asked(prover, proof)) return;
-  const PolynomialRows constraints = gradients(prover, prover.model().constraints);
-  require(prover, proof, [&](RealPoint& point) {
-    if (point.rank(slopes) < slopes.size()) return false;
-    const std::size_t own = point.rank(constraints);
-    PolynomialRows all = constraints;
-    std::size_t varying = 0;
-    for (const auto& slope : slopes) {
-      if (point.rank(joined(constraints, {slope})) == own) continue;  // constant on them
-      all.push_back(slope);
-      ++varying;
-    }
-    return point.rank(all) == own + varying;
-  });
+  const ConstraintSet constraints(prover);
+  std::vector<NamedExpression> varying = functions;
+  std::erase_if(varying, [&](const NamedExpression& f) { return constraints.makes_constant(f); });
+  PolynomialRows together = constraints.slopes();
+  for (auto& slope : gradients(prover, varying)) together.push_back(std::move(slope));
+  require(prover, proof, constraints,
+          {{gradients(prover, functions), functions.size()},
+           {std::move(together), varying.size(), constraints.slopes()}});
+}
+
+void decide_within_constraints(Prover& prover, Proof& proof, const std::vector<NamedExpression>& on,
+                               const DecideOnLevel& decide,
+                               const std::function<bool(const Proof&)>& is_open) {
+  const Proof blank = proof;
+  decide(proof, on);
+  if (!is_open(proof)) return;
+  const std::vector<NamedExpression> within = prover.within_constraints(on);
+  if (within.size() == on.size()) return;
+  Proof there = blank;
+  decide(there, within);
+  if (there.verdict == Verdict::proved) there.on = names_of(within);
+  proof = std::move(there);
+}
+
+bool is_open_on_constraints(const Prover& prover, const Proof& proof) {
+  return proof.verdict == Verdict::undecided && prover.holds_on_constraints();
 }
 
 PolynomialRows structure_rows(const Prover& prover) {

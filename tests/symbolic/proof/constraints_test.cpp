@@ -112,5 +112,72 @@ TEST(Constraints, TheRankIsThatOnThem) {
   }
 }
 
+/// The proof of a kind for a bracket {x, y} = c with Casimir functions c and d.
+Proof proof_on_parts(const std::string& kind, const std::string& constraint) {
+  return proof_within(
+      kind,
+      "hamiltonian = \"(x^2 + y^2)/2\"\nintegrable = true\n[phase_space]\nvariables = [\"x\", "
+      "\"y\", \"c\", \"d\"]\nbrackets = { \"x,y\" = \"c\" }\nconstraints = [" +
+          constraint + "]\n[casimirs]\nC = \"c\"\nD = \"d\"\n");
+}
+
+// c*d = 0 has a part on which the bracket is zero. A point of the other one says nothing of that.
+TEST(Constraints, ARankIsThatOfThePartOfThemWithThePoint) {
+  const Proof parts = proof_on_parts("rank", "\"c*d\"");
+  EXPECT_EQ(parts.verdict, Verdict::proved);
+  ASSERT_EQ(parts.where.size(), 1u);
+  EXPECT_EQ(parts.where[0].find("the state is on the part of the constraints with x = "), 0u);
+  EXPECT_EQ(proof_on_parts("rank", "\"c*d\", \"x*y - 1\"").where.size(), 1u);
+}
+
+// One irreducible equation, and parts on none of which a minor is zero.
+TEST(Constraints, OfAllPartsNothingIsSaid) {
+  for (const char* constraint :
+       {"\"c*d - 1\"", "\"d^2\"", "\"d*(c^2 - 4)\"", "\"x^2 + y^2 - 1\", \"c^2 + d^2 - 1\"",
+        "\"x^2 + y^2 + c^2 - 1\", \"x*d + y\"", "\"c^2 - 1\", \"d^2 - 1\""}) {
+    const Proof proof = proof_on_parts("rank", constraint);
+    EXPECT_EQ(proof.verdict, Verdict::proved) << constraint;
+    EXPECT_TRUE(proof.where.empty()) << constraint << ": " << proof.where[0];
+  }
+}
+
+// The real points of an irreducible set may be two: on c = 0 the bracket is zero, on c = 1 not.
+TEST(Constraints, PointsThatAreNotRegularSpeakForThemselves) {
+  EXPECT_EQ(proof_on_parts("rank", "\"d^2 + (c^2 - c)^2\"").where.size(), 1u);
+}
+
+// Rounded to doubles, a state lies beside the constraints, where the bracket is not zero.
+TEST(Constraints, AScenesRoundedStateIsNoPointOfThem) {
+  CaseFile file =
+      parse_case(on_leaf("c + x - 1", "c + x - 1") +
+                     "[[scene]]\nname = \"default\"\n"
+                     "initial = { x = \"0.1\", y = \"1\", c = \"0.90000000000000002\" }\n",
+                 "test.toml");
+  for (SceneText& scene : file.scenes) scene.rounded = true;
+  const Model model = build_model(file);
+  ASSERT_TRUE(model.scenes.at(0).unusable.empty());
+  for (const Proof& proof : prove(model)) {
+    if (to_string(proof.kind) == "rank") {
+      EXPECT_EQ(proof.verdict, Verdict::undecided);
+    }
+  }
+}
+
+// x = 0 makes x + y^2 the square of y: at y = 0, where the scene is, only its gradient looks like
+// that of a constant.
+TEST(Constraints, AFunctionWithACriticalPointIsNoConstant) {
+  const auto independence = [](const std::string& f) {
+    return proof_within("independence",
+                        "hamiltonian = \"y\"\n[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n"
+                        "brackets = { \"y,z\" = \"1\" }\nconstraints = [\"x\"]\n"
+                        "[casimirs]\nC = \"" +
+                            f +
+                            "\"\n[[scene]]\nname = \"default\"\n"
+                            "initial = { x = \"0\", y = \"0\", z = \"1\" }\n");
+  };
+  EXPECT_EQ(independence("x + y^2").verdict, Verdict::undecided);
+  EXPECT_EQ(independence("x + x*y^2").verdict, Verdict::proved);
+}
+
 }  // namespace
 }  // namespace casimir::test
