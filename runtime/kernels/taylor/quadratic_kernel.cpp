@@ -45,7 +45,8 @@ template <int blocks>
 void integrate_wide(const casimir_wide& tables, const casimir_run* run, double* x,
                     casimir_outcome* out) {
   if constexpr (blocks < kMostBlocks) {
-    if (tables.blocks > blocks) return integrate_wide<blocks + 1>(tables, run, x, out);
+    if (tables.blocks > blocks)
+      return integrate_wide<CASIMIR_WIDE_NEXT(blocks, kWidth)>(tables, run, x, out);
   }
   using Series = casimir_kernel::taylor::Wide<kWidth, blocks>;
   Series series(tables, casimir_kernel::taylor::order_for(run, tables.registers >= kManyRegisters));

@@ -12,6 +12,12 @@ enum {
   CASIMIR_WIDE_BLOCKS = 3
 };
 
+/* States fill one of these numbers of registers, 1, 2, .., up to that which all of them need: the
+ * march over the steps is compiled for each. With two numbers in a register, which few machines
+ * still have at most, some numbers are left out, as each takes seconds of a build. */
+#define CASIMIR_WIDE_NEXT(blocks, width) \
+  ((blocks) + ((width) > 2 || (blocks) < 4 ? 1 : (blocks) == 4 ? 2 : 3))
+
 struct casimir_wide {
   int states, width;
   int blocks;    /* registers of states */
