@@ -4,6 +4,7 @@
 
 #include "codegen/dag/expression_dag.hpp"
 #include "codegen/optimise/optimise.hpp"
+#include "symbolic/discrete/free_body.hpp"
 #include "symbolic/error.hpp"
 #include "symbolic/expression/expression_size.hpp"
 
@@ -11,27 +12,20 @@ namespace casimir {
 namespace {
 
 using codegen::is_null;
+using discrete::refuse_free_body;
 using GiNaC::ex;
 
 constexpr unsigned kAxes = 3;
-
-[[noreturn]] void refuse(const std::string& what) {
-  throw ModelError(
-      what +
-      ": Moser's and Veselov's map is that of a free rigid body, with the bracket of so(3) in "
-      "three variables and a Hamiltonian that is a sum of their squares with coefficients other "
-      "than 0");
-}
 
 /// c of {m_i, m_j} = -c m_k, the same for all three.
 ex bracket_factor(const SceneHamiltonian& source) {
   const ex factor = -source.bracket(0, 1).diff(source.states[2]).expand();
   if (!factor.info(GiNaC::info_flags::rational) || factor.is_zero())
-    refuse("the bracket is not that of so(3)");
+    refuse_free_body("the bracket is not that of so(3)");
   for (unsigned i = 0; i < kAxes; ++i) {
     const ex expected = -factor * source.states[(i + 2) % kAxes];
     if (!is_null(source.bracket(i, (i + 1) % kAxes) - expected))
-      refuse("the bracket is not that of so(3)");
+      refuse_free_body("the bracket is not that of so(3)");
   }
   return factor;
 }
@@ -41,10 +35,11 @@ ex coefficient(const SceneHamiltonian& source, const GiNaC::symbol& m) {
   const ex slope = source.hamiltonian.diff(m);
   const ex twice = normal_form(slope.diff(m));
   for (const GiNaC::symbol& state : source.states)
-    if (twice.has(state)) refuse("the Hamiltonian is no sum of squares in " + m.get_name());
+    if (twice.has(state))
+      refuse_free_body("the Hamiltonian is no sum of squares in " + m.get_name());
   if (!is_null(slope - twice * m))
-    refuse("the Hamiltonian is no sum of squares in " + m.get_name());
-  if (twice.is_zero()) refuse(fmt::format("the coefficient of {}^2 is 0", m.get_name()));
+    refuse_free_body("the Hamiltonian is no sum of squares in " + m.get_name());
+  if (twice.is_zero()) refuse_free_body(fmt::format("the coefficient of {}^2 is 0", m.get_name()));
   return twice;
 }
 
@@ -52,7 +47,7 @@ ex coefficient(const SceneHamiltonian& source, const GiNaC::symbol& m) {
 
 Program free_body_moments(const SceneHamiltonian& source) {
   if (source.states.size() != kAxes)
-    refuse(fmt::format("the case has {} variables, not 3", source.states.size()));
+    refuse_free_body(fmt::format("the case has {} variables, not 3", source.states.size()));
   const ex factor = bracket_factor(source);
   std::vector<ex> values;
   for (const GiNaC::symbol& m : source.states) values.push_back(1 / coefficient(source, m));

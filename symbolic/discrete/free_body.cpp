@@ -11,26 +11,19 @@ struct Fraction {
   Polynomial top, bottom;
 };
 
-[[noreturn]] void refuse(const std::string& what) {
-  throw ModelError(
-      what +
-      ": Moser's and Veselov's map is that of a free rigid body, with the bracket of so(3) in "
-      "three "
-      "variables and a Hamiltonian that is a sum of their squares with coefficients other than 0");
-}
-
 /// s of {m_i, m_j} = s m_k, the same for all three.
 cln::cl_RA bracket_sign(const Model& flow) {
-  if (!flow.poisson || !flow.hamiltonian) refuse("the case has no bracket with a Hamiltonian");
+  if (!flow.poisson || !flow.hamiltonian)
+    refuse_free_body("the case has no bracket with a Hamiltonian");
   if (flow.variables.size() != 3)
-    refuse(fmt::format("the case has {} variables, not 3", flow.variables.size()));
+    refuse_free_body(fmt::format("the case has {} variables, not 3", flow.variables.size()));
   const GiNaC::ex sign = (*flow.poisson)(0, 1).diff(flow.variables[2]).expand();
   if (!GiNaC::is_a<GiNaC::numeric>(sign) || sign.is_zero() ||
       !GiNaC::ex_to<GiNaC::numeric>(sign).is_rational())
-    refuse("the bracket is not that of so(3)");
+    refuse_free_body("the bracket is not that of so(3)");
   for (std::size_t i = 0; i < 3; ++i) {
     const GiNaC::ex defect = (*flow.poisson)(i, (i + 1) % 3) - sign * flow.variables[(i + 2) % 3];
-    if (!defect.expand().is_zero()) refuse("the bracket is not that of so(3)");
+    if (!defect.expand().is_zero()) refuse_free_body("the bracket is not that of so(3)");
   }
   return cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(sign).to_cl_N());
 }
@@ -43,11 +36,11 @@ Fraction coefficient(const Model& flow, const FunctionRing& ring, const Polynomi
   const auto vanishes = [&](const Polynomial& p) { return ring.numerator(p).is_zero(); };
   const std::string name = flow.variables[i].get_name();
   if (!vanishes(slope - ring.checked_product(twice, ring.ring().variable(i))))
-    refuse("the Hamiltonian is no sum of squares in " + name);
+    refuse_free_body("the Hamiltonian is no sum of squares in " + name);
   auto [top, bottom] = ring.lowest_terms(twice);
   if (ring.depends_on_first(top, 3) || ring.depends_on_first(bottom, 3))
-    refuse("the Hamiltonian is no sum of squares in " + name);
-  if (top.is_zero()) refuse(fmt::format("the coefficient of {}^2 is 0", name));
+    refuse_free_body("the Hamiltonian is no sum of squares in " + name);
+  if (top.is_zero()) refuse_free_body(fmt::format("the coefficient of {}^2 is 0", name));
   const cln::cl_RA content = top.content();
   return {top.scaled(1 / content), bottom.scaled(1 / content)};
 }
@@ -67,7 +60,7 @@ Polynomial common_multiple(const std::vector<Fraction>& a, const FunctionRing& r
 
 FreeBody free_body(const Model& flow, FunctionRing& ring) {
   FreeBody body{{}, ring.ring().constant(1), bracket_sign(flow), {}};
-  if (flow.time) refuse("the equations depend on time");
+  if (flow.time) refuse_free_body("the equations depend on time");
   const Polynomial& energy = ring.convert(*flow.hamiltonian);
   std::vector<Fraction> a;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -85,6 +78,14 @@ FreeBody free_body(const Model& flow, FunctionRing& ring) {
     body.tensor.push_back(
         (moments[(i + 1) % 3] + moments[(i + 2) % 3] - moments[i]).scaled(cln::cl_RA(1) / 2));
   return body;
+}
+
+void refuse_free_body(const std::string& missing) {
+  throw ModelError(
+      missing +
+      ": Moser's and Veselov's map is that of a free rigid body, with the bracket of so(3) in "
+      "three variables and a Hamiltonian that is a sum of their squares with coefficients other "
+      "than 0");
 }
 
 }  // namespace casimir::discrete

@@ -21,4 +21,8 @@ struct FreeBody {
 /// \throws ModelError  that says what is missing for a free body
 FreeBody free_body(const Model& flow, FunctionRing& ring);
 
+/// Says of what is no free body what is missing.
+/// \throws ModelError
+[[noreturn]] void refuse_free_body(const std::string& missing);
+
 }  // namespace casimir::discrete
