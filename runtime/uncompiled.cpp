@@ -43,7 +43,7 @@ void integrate_scaled(const QuadraticForm& form, double scale, const casimir_run
   const ScaledRun run(asked, scale, states);
   for (std::size_t i = 0; i < states; ++i) x[i] /= scale;
   QuadraticKernel(scaled(form, scale)).integrate(&run.run(), x, out);
-  for (std::size_t i = 0; i < states; ++i) x[i] *= scale;
+  run.finish(x, out);
 }
 
 /// Ends a run whose state has grown out of the unit in which it is followed: of numbers beyond

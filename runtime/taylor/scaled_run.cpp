@@ -9,7 +9,6 @@ ScaledRun::ScaledRun(const casimir_run& run, double scale, std::size_t states)
     : run_(run), scaled_(run), scale_(scale), x0_(states), x1_(states) {
   scaled_.atol = run.atol / scale;
   scaled_.leading = nullptr;  // of the unscaled equations
-  if (!run.observe) return;
   scaled_.observe = &observe;
   scaled_.observer = this;
 }
@@ -25,12 +24,25 @@ double ScaledRun::scale_for(const double* x, std::size_t states) {
   return exponent > kHuge || exponent < kTiny ? std::ldexp(1.0, exponent) : 1;
 }
 
+void ScaledRun::finish(double* x, casimir_outcome* out) const {
+  if (left_range_) {
+    std::ranges::copy(x0_, x);
+    out->t = t0_;
+    out->status = CASIMIR_NON_FINITE;
+    return;
+  }
+  for (std::size_t i = 0; i < x0_.size(); ++i) x[i] *= scale_;
+}
+
 int ScaledRun::observe(void* self, const casimir_step* seen) {
   auto& run = *static_cast<ScaledRun*>(self);
   for (std::size_t i = 0; i < run.x0_.size(); ++i) {
     run.x0_[i] = seen->x0[i] * run.scale_;
     run.x1_[i] = seen->x1[i] * run.scale_;
+    run.left_range_ = run.left_range_ || !std::isfinite(run.x1_[i]);
   }
+  if (run.left_range_) run.t0_ = seen->t0;
+  if (run.left_range_ || !run.run_.observe) return run.left_range_;
   run.seen_ = seen;
   const casimir_step shown = {seen->t0, seen->t1, run.x0_.data(), run.x1_.data(),
                               &dense,   &run,     nullptr,        nullptr};
