@@ -5,8 +5,10 @@
 
 #include <cmath>
 
+#include "runtime/methods.hpp"
 #include "tests/tools/analysis/systems.hpp"
 #include "tools/analysis/estimate/growth_of_changes.hpp"
+#include "tools/analysis/run/prepared_scene.hpp"
 #include "tools/analysis/solve.hpp"
 
 namespace casimir::test {
@@ -92,6 +94,87 @@ TEST(ErrorEstimate, DigitsThatTheEquationsLoseAreCounted) {
   const Solution motion = solve(keeps, keeps.scene("default"));
   EXPECT_NEAR(motion.trajectory().state[0] / (64. / 3), 1, 1e-14);
   EXPECT_LT(motion.trust().error_estimate, 1e-13);
+}
+
+/// x' = y, y' = -2x^3 from x = 0, y = 1: the sine of the lemniscate. An eighth of its period, which
+/// is twice 2.622057.., after the start, and so many periods later, x^2 is sqrt(2) - 1.
+struct Lemniscate {
+  GiNaC::symbol x{"x"}, y{"y"};
+  Model model = model_of(
+      "[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"y\"\ny = \"-2*x^3\"\n");
+  Scene scene() const { return scene_from(model, {0, 1}, 1); }
+  static double duration(int periods) { return 2 * 2.62205755429211981 * (periods + 0.125); }
+  static double error(const Trajectory& run) {
+    const double x = std::sqrt(std::sqrt(2.) - 1);
+    return std::hypot(run.state[0] - x, run.state[1] - std::sqrt(1 - std::pow(x, 4)));
+  }
+};
+
+ErrorEstimate estimate_of(const Model& model, const Scene& scene, const char* name,
+                          const Settings& settings, Trajectory* trajectory, double budget) {
+  const PreparedScene run = prepare(model, scene);
+  const Method& method = *find_method(name);
+  const CompiledModule compiled = compile_for(run, method);
+  *trajectory = integrate(compiled.module, method, settings, run.initial, run.parameters);
+  return assess(run, compiled, method, settings, *trajectory, budget);
+}
+
+// Errors of single steps grow until the end, also where there is no time for a second run.
+TEST(ErrorEstimate, OfLongRunsHasTheGrowthOfTheirErrors) {
+  const Lemniscate lemniscate;
+  constexpr int kPeriods = 10000;
+  for (const auto& [method, tolerance] : {std::pair("taylor", 1e-10), std::pair("dop853", 1e-11)}) {
+    Settings settings;
+    settings.duration = Lemniscate::duration(kPeriods);
+    settings.rtol = settings.atol = tolerance;
+    for (const double budget : {1., 0.}) {
+      Trajectory run;
+      const ErrorEstimate trust =
+          estimate_of(lemniscate.model, lemniscate.scene(), method, settings, &run, budget);
+      ASSERT_EQ(run.status, Status::ok) << method;
+      const double error = Lemniscate::error(run);
+      EXPECT_GT(error, 1e-6) << method;
+      EXPECT_GT(trust.error_estimate, error / 3) << method << ' ' << budget;
+      EXPECT_LT(trust.error_estimate, (budget > 0 ? 10 : 1e4) * error) << method << ' ' << budget;
+    }
+  }
+}
+
+// A kink ends the steps of series at every tolerance, and from 1e-8 down they have the same order.
+TEST(ErrorEstimate, IsNoDifferenceOfRunsWithTheSameSteps) {
+  const Model kinks = model_of(
+      "[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx = \"y\"\n"
+      "y = \"-x - 5/16*abs(x + 1/2)\"\n[[scene]]\nname = \"default\"\n"
+      "initial = { x = \"1\", y = \"0\" }\nduration = \"11\"\n");
+  Settings settings;
+  settings.duration = 11;
+  settings.rtol = settings.atol = 1e-14;
+  Trajectory truth, run;
+  estimate_of(kinks, kinks.scene("default"), "dop853", settings, &truth, 1);
+  for (const double tolerance : {1e-8, 1e-9}) {
+    settings.rtol = settings.atol = tolerance;
+    const ErrorEstimate trust =
+        estimate_of(kinks, kinks.scene("default"), "taylor", settings, &run, 1);
+    const double error = std::hypot(run.state[0] - truth.state[0], run.state[1] - truth.state[1]);
+    EXPECT_GT(trust.error_estimate, error / 3) << tolerance;
+  }
+}
+
+// A few steps are the same ones at many tolerances.
+TEST(ErrorEstimate, OfAFewStepsIsNotAboveWhatIsKnown) {
+  const Oscillator oscillator;
+  for (const double tolerance : {1e-3, 1e-5}) {
+    Settings settings;
+    settings.duration = 0.5;
+    settings.rtol = settings.atol = tolerance;
+    for (const char* method : {"dop853", "taylor"}) {
+      Trajectory run;
+      const ErrorEstimate trust = estimate_of(
+          oscillator.model, oscillator.scene(GiNaC::numeric(1, 2)), method, settings, &run, 1);
+      const double error = std::hypot(run.state[0] - std::cos(0.5), run.state[1] + std::sin(0.5));
+      EXPECT_GT(trust.error_estimate, error / 3) << method << tolerance;
+    }
+  }
 }
 
 TEST(ErrorEstimate, ChangesThatDiedOutAreToldFromThoseThatAreThere) {

@@ -23,8 +23,8 @@ constexpr double kSpoiled = 1e-3;
 constexpr double kSixDigits = 1e-6;
 /// Of the run that is repeated: no whole number of periods of anything between them.
 constexpr double kSamplesOfRun = 61.8;
-/// Seconds of a run that is repeated though it takes long, since it may have passed something over.
-constexpr double kLongestToRepeat = 10;
+/// Seconds of a run that is repeated, and of one that may have passed something over.
+constexpr double kLongToRepeat = 3, kLongestToRepeat = 10;
 constexpr double kCrossCheckTolerance = 1e-10;
 constexpr unsigned long long kCrossCheckSteps = 20000;
 /// What is narrower than a thousandth of the run CVODE may step over.
@@ -39,13 +39,26 @@ double distance(const std::vector<double>& a, const std::vector<double>& b,
   return largest;
 }
 
-/// More steps than a run with a hundredth of the tolerance has: one that takes so many follows
+/// The part of the tolerance that is left to a run that is repeated.
+constexpr double kHundredth = 0.01;
+
+/// Series continue behind their last coefficient, so that steps of many tolerances are much the
+/// same and err alike: their runs are repeated with a tolerance at which they have other
+/// coefficients.
+double part_of_tolerance(const Method& method, const Settings& settings) {
+  constexpr double kFine = 1e-12;
+  if (!method.series || !(settings.rtol > 0) || settings.fixed_step > 0) return kHundredth;
+  return std::min(kHundredth, kFine / settings.rtol);
+}
+
+/// More steps than a run with this part of the tolerance has: one that takes so many follows
 /// something else than the first, such as the rounding of the equations, and may come to no end.
-unsigned long long steps_of_repeated(const Method& method, const Trajectory& trajectory) {
-  constexpr double kHundred = 100, kHighOrder = 8, kTimes = 3, kAlways = 10000;
+unsigned long long steps_of_repeated(const Method& method, const Trajectory& trajectory,
+                                     double part) {
+  constexpr double kHighOrder = 8, kTimes = 3, kAlways = 10000;
   const double order = method.order > 0 ? method.order : kHighOrder;
   const auto first = static_cast<double>(trajectory.steps + trajectory.rejected);
-  return static_cast<unsigned long long>(kAlways + kTimes * std::pow(kHundred, 1 / order) * first);
+  return static_cast<unsigned long long>(kAlways + kTimes * std::pow(part, -1 / order) * first);
 }
 
 /// Runs beside the one that is assessed.
@@ -55,25 +68,34 @@ class Neighbours {
              const Settings& settings, const Trajectory& trajectory,
              const std::vector<double>& sizes)
       : run_(run), compiled_(compiled), method_(method), tight_(settings), sizes_(sizes) {
-    if (tight_.max_steps == 0) tight_.max_steps = steps_of_repeated(method, trajectory);
+    const double part = part_of_tolerance(method, settings);
+    if (tight_.max_steps == 0) tight_.max_steps = steps_of_repeated(method, trajectory, part);
     // Only a run that is watched goes on where products of states are beyond all numbers.
     constexpr double kHuge = 1e130;
     tight_.monitor = std::ranges::max(sizes) > kHuge;
     tight_.sample_every = std::abs(settings.duration) / kSamplesOfRun;
     tight_.invariant_changes = nullptr;
-    tight_.rtol = std::max(settings.rtol / 100, 2 * kLeastTolerance);
-    tight_.atol = settings.atol / 100;
+    tight_.rtol = std::max(settings.rtol * part, 2 * kLeastTolerance);
+    tight_.atol = settings.atol * part;
+    if (part < kHundredth) refined_ = kHundredth / part;
     tight_.fixed_step = settings.fixed_step / 2;
     // At the least tolerance the steps would be the same ones.
     constexpr double kOdd = 0.0618;
     tight_.begin_anew = settings.fixed_step > 0 ? 0 : kOdd * std::abs(settings.duration);
   }
 
-  /// With a hundredth of the tolerance; by an implicit method near what rounding allows, where no
-  /// equations are solved to such a tolerance, with a hundred times as much of it: then the
-  /// difference is an error of the other run. \return  whether it reached the end.
+  /// With a hundredth of the tolerance, or as little as series need. By an implicit method near
+  /// what rounding allows, where no equations are solved to such a tolerance, with a hundred times
+  /// as much of it: then the difference is an error of the other run.
+  /// \return  whether it reached the end
   bool begin() {
     better_ = integrate(compiled_.module, method_, tight_, run_.initial, run_.parameters);
+    if (better_.status != Status::ok && better_.status != Status::stopped && refined_ > 0) {
+      // Noise of the equations may be in the way of a much finer tolerance.
+      tight_.rtol *= refined_;
+      tight_.atol *= refined_;
+      better_ = integrate(compiled_.module, method_, tight_, run_.initial, run_.parameters);
+    }
     constexpr double kNearRounding = 1e-11, kLooser = 1e4;
     const bool too_tight = method_.implicit && tight_.rtol < kNearRounding &&
                            !(tight_.fixed_step > 0) && better_.status != Status::stopped;
@@ -123,6 +145,7 @@ class Neighbours {
   const CompiledModule& compiled_;
   const Method& method_;
   Settings tight_;
+  double refined_ = 0;  ///< how many times a hundredth of the tolerance is what was taken
   const std::vector<double>& sizes_;
   Trajectory better_;
 };
@@ -142,13 +165,25 @@ std::optional<Conditioning> conditioning_at_end(const Neighbours& neighbours, st
 }
 
 /// Where a second run would take too long: rounding errors that are made at every step and grow
-/// from there on, the drift of invariants, which grows likewise, and the local errors allowed.
+/// from there on, the drift of invariants, which grows likewise, and the local errors allowed. Each
+/// of these grows as well, half as much on the average as what was there at the start.
 double estimate_without_repeat(double growth, const Settings& settings,
                                const Trajectory& trajectory) {
   const auto steps = static_cast<double>(trajectory.steps);
   double drift = 0.03 * kRoundoff * std::sqrt(steps);
   for (const InvariantRecord& record : trajectory.invariants) drift = std::max(drift, record.drift);
-  return growth * drift + steps * settings.rtol;
+  return growth * drift + steps * settings.rtol * std::max(1., growth / 2);
+}
+
+/// What is to be believed at least of a run that takes as many steps as one with a hundredth of the
+/// tolerance: something else than the tolerance sets them, such as kinks of the equations, or there
+/// are only few of them. Then both have errors of one size, and their difference is no error.
+double least_of_equal_steps(double growth, const Settings& settings, const Trajectory& first,
+                            const Trajectory& second) {
+  constexpr double kNoMore = 1.05;
+  const auto steps = static_cast<double>(first.steps);
+  if (settings.fixed_step > 0 || static_cast<double>(second.steps) > kNoMore * steps) return 0;
+  return kHundredth * steps * settings.rtol * std::max(1., growth);
 }
 
 /// The same motion by a method of another kind: steps that jump over a narrow passage do so at
@@ -184,7 +219,10 @@ CrossCheck cross_check(const PreparedScene& run, const Method& method, const Set
                        (other.status == Status::singularity || other.status == Status::non_finite ||
                         other.status == Status::step_underflow);
   if (other.status != Status::ok) return result;
-  const double explained = std::min(0.1, 100 * growth * (own.rtol + settings.rtol));
+  // Both run with local errors of so much, which add up.
+  const double local = std::max(100., static_cast<double>(other.steps)) * own.rtol +
+                       std::max(100., static_cast<double>(trajectory.steps)) * settings.rtol;
+  const double explained = std::min(0.1, growth * local);
   result.distance = distance(other.state, trajectory.state, sizes);
   if (result.distance > explained && !check->series) {
     // It is CVODE that may have stepped over something: its word is taken for it with more steps.
@@ -267,8 +305,8 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
   const double* const numbers = run.parameters.empty() ? nullptr : run.parameters.data();
   const bool may_hide =
       (watch && watch->looks(numbers, run.initial.data())) || run.specialisation.uses_time;
-  const bool has_time =
-      3 * trajectory.seconds < budget || (may_hide && trajectory.seconds < kLongestToRepeat);
+  const bool has_time = trajectory.seconds < kLongToRepeat * budget ||
+                        (may_hide && trajectory.seconds < kLongestToRepeat);
   const bool repeated = has_time && neighbours.begin();
   trust.unconfirmed = has_time && !repeated;
   const bool stiff = method.implicit && !method.preserves_quadratic;
@@ -297,6 +335,9 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
     const double rounding =
         rounding_of_rates(run, compiled.module, neighbours.better(), end_sizes(run, trajectory));
     trust.error_estimate += std::min(rounding * growth, std::max(rounding, 1.));
+    trust.error_estimate =
+        std::max(trust.error_estimate,
+                 least_of_equal_steps(growth, settings, trajectory, neighbours.better()));
   }
   if (grows(run, sizes)) trust.error_estimate += kRoundoff * static_cast<double>(trajectory.steps);
   if (!method.series || may_hide) {

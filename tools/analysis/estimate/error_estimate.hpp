@@ -13,8 +13,8 @@ struct ErrorEstimate {
   double conditioning = 0;     ///< largest growth of a small change of the initial state
   double on_the_way = 0;       ///< the same up to any time before the end
   double input_rounding = 0;   ///< error from rounding the scene's exact data to double
-  double error_estimate = 0;   ///< difference to a run with a hundredth of the tolerance, and
-                               ///< what double arithmetic alone costs
+  double error_estimate = 0;   ///< difference to a run with a hundredth of the tolerance or less,
+                               ///< and what double arithmetic alone costs
   bool unconfirmed = false;    ///< a run with a tighter tolerance fails: there is no estimate
   bool beyond_double = false;  ///< rounding alone spoils all but a few digits, at the end or before
   /// Up to when rounding leaves six digits, where it does not to the end.
@@ -27,7 +27,8 @@ struct ErrorEstimate {
 };
 
 /// Integrates the variational equations along a finished run, and repeats it with a tighter
-/// tolerance where that takes about `budget` seconds at most.
+/// tolerance where the run took no more than three times `budget` seconds; else the estimate is an
+/// upper bound of what its steps may have erred by.
 ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, const Method& method,
                      const Settings& settings, const Trajectory& trajectory, double budget = 1);
 
