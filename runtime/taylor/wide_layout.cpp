@@ -241,7 +241,7 @@ WideTables::WideTables(const QuadraticForm& form, int width)
                                 " products");
   while (blocks_ * width < states_) blocks_ = CASIMIR_WIDE_NEXT(blocks_, width);
   registers_ = (static_cast<int>(form.products.size()) + width - 1) / width;
-  constant_.resize(static_cast<std::size_t>(blocks_ * width));
+  constant_.resize(static_cast<std::size_t>(blocks_) * static_cast<std::size_t>(width));
   std::copy(form.constant.begin(), form.constant.end(), constant_.data());
   WideLayout(form, *this).run();
 }

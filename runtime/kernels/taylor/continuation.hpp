@@ -71,6 +71,18 @@ class Continuation {
     return true;
   }
 
+  /// Half of the way to where what it is divided by comes near zero, if it does within s units;
+  /// else s. A component that is far below the tolerance may have its pole there, unseen by the
+  /// size of its terms.
+  __attribute__((cold, noinline)) double before_zero(double s) const {
+    constexpr int kPlaces = 16;
+    for (int i = 1; i <= kPlaces; ++i) {
+      const double place = s * i / kPlaces;
+      if (denominator(place) < StepPolicy::kLeastDenominator) return place / 2;
+    }
+    return s;
+  }
+
   /// Adds what follows to a sum of the series after s units.
   CASIMIR_INLINE void add(int order, int blocks, double s, V* sum) const {
     const V factor = all_lanes<V>(power(order, s) * s / denominator(s));

@@ -120,6 +120,7 @@ class StepChoice {
     if (gain > Policy::kWorthwhile) {
       const double s = rough_exp2((gain < most_gained_ ? gain : most_gained_) - rate);
       if (continuation_.use(series_, s)) return s;
+      return continuation_.before_zero(rough_exp2(-rate));
     }
     continuation_.forget();
     return rough_exp2(-rate);

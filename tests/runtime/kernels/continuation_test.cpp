@@ -147,6 +147,10 @@ TEST(Continuation, StopsBeforePolesOnTheWay) {
     EXPECT_FALSE(continued.use(series, s)) << s;
     EXPECT_FALSE(continued.used());
   }
+  // Nor does a step of the series itself, where nobody sees how large its terms are.
+  EXPECT_EQ(continued.before_zero(0.3), 0.3);
+  EXPECT_LT(continued.before_zero(2), 0.55);
+  EXPECT_GT(continued.before_zero(2), 0.4);
 }
 
 TEST(Continuation, NumbersThatAreNoneAreNotUsed) {

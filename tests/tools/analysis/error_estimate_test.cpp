@@ -160,6 +160,23 @@ TEST(ErrorEstimate, IsNoDifferenceOfRunsWithTheSameSteps) {
   }
 }
 
+// x = 1e-25/(1 - t) is below all absolute tolerances until it is at its pole.
+TEST(ErrorEstimate, APoleBelowTheToleranceIsNotPassedInSilence) {
+  const Model weak = model_of(
+      "[phase_space]\nvariables = [\"x\", \"u\", \"v\"]\n[equations]\nx = \"10^25*x^2\"\n"
+      "u = \"v\"\nv = \"-u\"\n[[scene]]\nname = \"default\"\n"
+      "initial = { x = \"10^(-25)\", u = \"1\", v = \"0\" }\nduration = \"2\"\n");
+  for (const double tolerance : {1e-3, 1e-6, 1e-9, 1e-12}) {
+    SolveOptions options;
+    options.method = "taylor";
+    options.run.tolerance = tolerance;
+    const Solution motion = solve(weak, weak.scene("default"), options);
+    const ErrorEstimate& trust = motion.trust();
+    EXPECT_TRUE(!motion.ok() || trust.unconfirmed || !trust.known || trust.error_estimate > 0.1)
+        << tolerance << ' ' << trust.error_estimate;
+  }
+}
+
 // A few steps are the same ones at many tolerances.
 TEST(ErrorEstimate, OfAFewStepsIsNotAboveWhatIsKnown) {
   const Oscillator oscillator;
