@@ -75,9 +75,10 @@ bool ConstraintSet::contains(const RealPoint& point) const {
   const auto& symbols = prover_.ring().symbols();
   for (std::size_t i = 0; i < symbols.size() && i < point.coordinates().size(); ++i)
     at[symbols[i]] = point.coordinates()[i];
-  return std::ranges::all_of(prover_.model().constraints, [&](const NamedExpression& constraint) {
+  return std::ranges::all_of(reduced_, [&](const Polynomial& constraint) {
+    const GiNaC::ex function = prover_.ring().expression(constraint);
     const auto value =
-        exact_constant(normal_form(substituted(constraint.value, at, prover_.model().limits)));
+        exact_constant(normal_form(substituted(function, at, prover_.model().limits)));
     return value && value->zero;
   });
 }

@@ -30,7 +30,8 @@ class ConstraintSet {
  public:
   explicit ConstraintSet(Prover& prover);
 
-  /// Whether all constraints are certainly zero there.
+  /// Whether all constraints are certainly zero there, and not by their parameters alone: (a - 1)*c
+  /// is zero at a = 1 for all c, and for almost all a at c = 0 only.
   bool contains(const RealPoint& point) const;
 
   /// Whether matrices that have these ranks at a point of the set have them at almost all: the

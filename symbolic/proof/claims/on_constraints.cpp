@@ -42,7 +42,7 @@ bool look_at_points(Prover& prover, const ConstraintSet& constraints,
   constexpr int kPoints = 3;
   for (int i = 0; i < kPoints; ++i) {
     auto point = prover.exact_point(level);
-    if (!point || ends(*point)) break;
+    if (!point || (constraints.contains(*point) && ends(*point))) break;
   }
   return any;
 }
@@ -74,7 +74,10 @@ void require(Prover& prover, Proof& proof, const ConstraintSet& constraints,
   });
   if (of_all) return;
   if (!part.empty()) {
-    say_where(proof, "the state is on the part of the constraints with " + part);
+    // The parts are those of the space of both.
+    const char* who =
+        prover.model().parameters.empty() ? "the state is" : "state and parameters are";
+    say_where(proof, fmt::format("{} on the part of the constraints with {}", who, part));
     return;
   }
   proof.verdict = Verdict::undecided;

@@ -130,6 +130,17 @@ TEST(Constraints, ARankIsThatOfThePartOfThemWithThePoint) {
   EXPECT_EQ(proof_on_parts("rank", "\"c*d\", \"x*y - 1\"").where.size(), 1u);
 }
 
+// At a = 1 all states are on (a - 1)*c = 0; for almost all a only those are where the bracket is
+// zero.
+TEST(Constraints, AreNotZeroByTheirParametersAlone) {
+  const std::string scene =
+      "[parameters]\na = {}\n[[scene]]\nname = \"default\"\nparameters = { a = \"1\" }\n"
+      "initial = { x = \"1\", y = \"1\", c = \"5\" }\n";
+  for (const char* kind : {"rank", "liouville"})
+    EXPECT_EQ(proof_within(kind, on_leaf("c", "(a - 1)*c") + scene).verdict, Verdict::undecided)
+        << kind;
+}
+
 // One irreducible equation, and parts on none of which a minor is zero.
 TEST(Constraints, OfAllPartsNothingIsSaid) {
   for (const char* constraint :
