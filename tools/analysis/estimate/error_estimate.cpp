@@ -178,11 +178,13 @@ double estimate_without_repeat(double growth, const Settings& settings,
 /// What is to be believed at least of a run that takes as many steps as one with a hundredth of the
 /// tolerance: something else than the tolerance sets them, such as kinks of the equations, or there
 /// are only few of them. Then both have errors of one size, and their difference is no error.
+/// (Series of another order take fewer steps, and err less.)
 double least_of_equal_steps(double growth, const Settings& settings, const Trajectory& first,
                             const Trajectory& second) {
-  constexpr double kNoMore = 1.05;
+  constexpr double kEqual = 0.05;
   const auto steps = static_cast<double>(first.steps);
-  if (settings.fixed_step > 0 || static_cast<double>(second.steps) > kNoMore * steps) return 0;
+  const double more = static_cast<double>(second.steps) - steps;
+  if (settings.fixed_step > 0 || std::abs(more) > std::max(1., kEqual * steps)) return 0;
   return kHundredth * steps * settings.rtol * std::max(1., growth);
 }
 
