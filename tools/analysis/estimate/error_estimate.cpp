@@ -164,15 +164,27 @@ std::optional<Conditioning> conditioning_at_end(const Neighbours& neighbours, st
   return result;
 }
 
+/// What rounding at every step comes to before it grows: as chance adds it up, and as the
+/// invariants show.
+double drift_of(const Trajectory& trajectory) {
+  double drift = 0.03 * kRoundoff * std::sqrt(static_cast<double>(trajectory.steps));
+  for (const InvariantRecord& record : trajectory.invariants) drift = std::max(drift, record.drift);
+  return drift;
+}
+
+/// What two runs that only differ by rounding are believed at least: they may err alike.
+double least_of_rounding(double growth, const Settings& settings, const Trajectory& trajectory) {
+  const bool is_tighter = settings.rtol * kHundredth >= 2 * kLeastTolerance;
+  return is_tighter || settings.fixed_step > 0 ? 0 : growth * drift_of(trajectory);
+}
+
 /// Where a second run would take too long: rounding errors that are made at every step and grow
 /// from there on, the drift of invariants, which grows likewise, and the local errors allowed. Each
 /// of these grows as well, half as much on the average as what was there at the start.
 double estimate_without_repeat(double growth, const Settings& settings,
                                const Trajectory& trajectory) {
   const auto steps = static_cast<double>(trajectory.steps);
-  double drift = 0.03 * kRoundoff * std::sqrt(steps);
-  for (const InvariantRecord& record : trajectory.invariants) drift = std::max(drift, record.drift);
-  return growth * drift + steps * settings.rtol * std::max(1., growth / 2);
+  return growth * drift_of(trajectory) + steps * settings.rtol * std::max(1., growth / 2);
 }
 
 /// What is to be believed at least of a run that takes as many steps as one with a hundredth of the
@@ -338,8 +350,8 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
         rounding_of_rates(run, compiled.module, neighbours.better(), end_sizes(run, trajectory));
     trust.error_estimate += std::min(rounding * growth, std::max(rounding, 1.));
     trust.error_estimate =
-        std::max(trust.error_estimate,
-                 least_of_equal_steps(growth, settings, trajectory, neighbours.better()));
+        std::max({trust.error_estimate, least_of_rounding(growth, settings, trajectory),
+                  least_of_equal_steps(growth, settings, trajectory, neighbours.better())});
   }
   if (grows(run, sizes)) trust.error_estimate += kRoundoff * static_cast<double>(trajectory.steps);
   if (!method.series || may_hide) {
