@@ -7,6 +7,7 @@
 #include "codegen/compile.hpp"
 #include "codegen/emit_cpp.hpp"
 #include "codegen/emit_watched.hpp"
+#include "codegen/expansion_loss.hpp"
 #include "codegen/lane_form.hpp"
 #include "runtime/step/step_watch.hpp"
 #include "runtime/uncompiled.hpp"
@@ -93,7 +94,8 @@ EnsembleKernel ensemble_kernel(const PreparedScene& run, const Method& method, s
   const Specialisation& s = run.specialisation;
   const bool compiled = method.name == "taylor-compiled";
   if (lanes && method.series) {
-    if (const auto form = lane_form(s.rhs, s.limits)) {
+    const auto form = expansion_loses_digits(s.rhs) ? std::nullopt : lane_form(s.rhs, s.limits);
+    if (form) {
       quadratic(*form, compiled || members >= kFew, result);
     } else {
       try {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "codegen/expansion_loss.hpp"
 #include "codegen/quadratic.hpp"
 #include "runtime/taylor/quadratic_targets.hpp"
 #include "runtime/uncompiled.hpp"
@@ -11,7 +12,8 @@ namespace casimir {
 
 TaylorChoice choose_taylor_path(const Program& rhs, const Limits& limits,
                                 const std::vector<double>& parameters, bool may_compile) {
-  if (auto form = quadratic_form(rhs, limits, parameters); form && has_quadratic_kernel(*form))
+  if (auto form = quadratic_form(rhs, limits, parameters);
+      form && has_quadratic_kernel(*form) && !expansion_loses_digits(rhs))
     return {TaylorPath::tables, std::move(form)};
   return {may_compile ? TaylorPath::compiled : TaylorPath::interpreted, std::nullopt};
 }

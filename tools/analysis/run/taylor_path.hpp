@@ -24,8 +24,9 @@ struct TaylorChoice {
   std::optional<QuadraticForm> form;  ///< where `path` is `tables`
 };
 
-/// Tables where the right-hand side is quadratic and a precompiled kernel has room for it, else
-/// what the compiler makes if there may be one, else the interpreter.
+/// Tables where the right-hand side is quadratic, a precompiled kernel has room for it, and writing
+/// it out as a sum of products loses nothing; else what the compiler makes if there may be one,
+/// else the interpreter.
 /// \param limits  of the numbers in it: those of the specialisation
 TaylorChoice choose_taylor_path(const Program& rhs, const Limits& limits,
                                 const std::vector<double>& parameters, bool may_compile);
