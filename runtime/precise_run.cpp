@@ -71,6 +71,7 @@ class Runner {
     for (const cln::cl_R& value : problem.start(digits + kGuardDigits)) start.emplace_back(value);
     const auto middle = start.begin() + static_cast<std::ptrdiff_t>(states);
     state_.assign(start.begin(), middle);
+    if (problem.from_other_side) move_to_other_side();
     parameters_.assign(middle, start.end() - 1);
     look_.emplace(*problem.rhs, state_, parameters_);
     end_ = problem.end ? BigFloat(*problem.end) : start.back();
@@ -104,6 +105,20 @@ class Runner {
   }
 
  private:
+  /// Moves each state that was rounded by its last bit, to beyond its exact value.
+  void move_to_other_side() {
+    constexpr int kToCompare = 30;
+    const Precision precision(bits_for(digits_ + kToCompare));
+    const std::vector<cln::cl_R> exact = problem_.start(digits_ + kGuardDigits + kToCompare);
+    for (std::size_t i = 0; i < state_.size(); ++i) {
+      const int side = (BigFloat(exact[i]) - state_[i]).sign();
+      if (side == 0) continue;
+      BigFloat last_bit;
+      arf_set_si_2exp_si(last_bit.mid(), side, static_cast<slong>(state_[i].log2()) - bits_);
+      state_[i] = state_[i] + last_bit;
+    }
+  }
+
   void integrate() {
     const Arithmetic<BigFloat> arithmetic{
         .bits = bits_, .order = order_, .spare = kSpareBits, .give_up = [this] {

@@ -25,6 +25,9 @@ struct PreciseProblem {
   std::function<bool(double share)> give_up = {};
   std::optional<cln::cl_R> end = {};   ///< in the place of the duration
   std::optional<cln::cl_R> mark = {};  ///< a time whose state is wanted
+  /// To begin, where a state has to be rounded, on the other side of its exact value: what the
+  /// rounding comes to is seen beside a run that begins at the nearest numbers.
+  bool from_other_side = false;
 };
 
 /// A function that should stay constant along a run.

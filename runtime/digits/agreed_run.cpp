@@ -133,9 +133,11 @@ class Search {
   void compare(int working, int most) {
     const int more = std::max(kMoreDigits, wanted_ / 16);
     AgreedRun next;
-    next.check = run(problem_, working);
-    if (stopped_) return keep_stopped(std::move(next.check));
     PreciseProblem checking = problem_;
+    checking.from_other_side = true;
+    next.check = run(checking, working);
+    if (stopped_) return keep_stopped(std::move(next.check));
+    checking.from_other_side = false;
     if (next.check.status == Status::max_steps) {
       checking.max_steps = 0;
       checking.end = next.check.time;

@@ -73,6 +73,25 @@ TEST(PreciseRun, StatesThatStayZeroTakeNoMoreDigits) {
   EXPECT_TRUE(cln::zerop(agreed.run.state[0]));
 }
 
+/// x' = 10^60 (x - 1)^2 from x = 1 + 10^-60 has its pole at t = 1. To 30 digits x is 1 at the
+/// start, where the equation rests: two runs that begin there agree.
+TEST(PreciseRun, AStartThatRoundsToARestIsFollowedWithMoreDigits) {
+  Builder b({"x"});
+  const int one = b.number(1), factor = b.number(cln::expt(cln::cl_RA(10), 60));
+  const int away = b.op(Op::sub, 0, one);
+  b.output(b.op(Op::mul, factor, b.op(Op::mul, away, away)));
+  const Program program = b.program();
+  const cln::cl_R start = 1 + cln::expt(cln::cl_RA(10), -60);
+  const AgreedRun agreed = agreed_run(problem(program, {start, 2}), 30);
+  ASSERT_EQ(agreed.run.status, Status::singularity) << agreed.run.reason;
+  ASSERT_TRUE(agreed.run.singular_time);
+  EXPECT_NEAR(cln::double_approx(*agreed.run.singular_time), 1, 1e-9);
+  // The twin rests.
+  const AgreedRun rest = agreed_run(problem(program, {1, 2}), 30);
+  EXPECT_EQ(rest.run.status, Status::ok);
+  EXPECT_EQ(rest.digits, 30);
+}
+
 TEST(PreciseRun, NumbersNextToNothingTakeNoMemory) {
   const Precision precision(128);
   const BigFloat tiny =

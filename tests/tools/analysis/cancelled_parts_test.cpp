@@ -113,6 +113,16 @@ TEST(CancelledParts, ThatEveryStateHasAreNone) {
 
 /// y + |x| is an integral where x > 0 alone, and the motion leaves that: a box around the motion is
 /// made no smaller by it.
+// Numbers in front of them, and other powers, are no reason to think that they cancel.
+TEST(CancelledParts, AreNotThoseThatStandThereInAnotherForm) {
+  for (const char* rate : {"-x/(1/100 + x^2)", "3*x^2/(2*x + 1/3)^3", "1/(2*x) + 1/(x/3 + 1)^2"}) {
+    const Model model = one_equation(rate, "1");
+    EXPECT_EQ(unwatched_parts(model, model.scene("default")), "") << rate;
+  }
+  const Model cancels = one_equation("x*(x + 1)/(x + 1)", "1");
+  EXPECT_NE(unwatched_parts(cancels, cancels.scene("default")), "");
+}
+
 TEST(Validated, AnIntegralThatNeedsAnAssumptionOnVariablesContractsNothing) {
   const Model model = model_of(
       "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\ndomain = [\"x > "

@@ -76,6 +76,27 @@ TEST(ErrorEstimate, RoundingOfTheDataIsCounted) {
   EXPECT_LT(input(GiNaC::numeric(1, 3)), 1e-15);
 }
 
+// From x = 1 + 1/K the motion has its pole at t = 1; from x = 1, which is what is left of that, it
+// rests.
+TEST(ErrorEstimate, AStartThatRoundsToARestIsInDoubt) {
+  const auto scene_of = [](const char* start) {
+    return model_of(
+        "[phase_space]\nvariables = [\"x\"]\n[equations]\nx = \"10^24*(x-1)^2\"\n"
+        "[[scene]]\nname = \"default\"\ninitial = { x = \"" +
+        std::string(start) + "\" }\nduration = \"2\"\n");
+  };
+  const Model rounded = scene_of("1 + 10^(-24)");
+  for (const char* method : {"taylor", "dop853"}) {
+    SolveOptions options;
+    options.method = method;
+    const Solution motion = solve(rounded, rounded.scene("default"), options);
+    EXPECT_TRUE(!motion.ok() || motion.trust().input_rounding >= 1) << method;
+  }
+  // The twin is a rest.
+  const Model rest = scene_of("1");
+  EXPECT_LT(solve(rest, rest.scene("default")).trust().error_estimate, 1e-14);
+}
+
 /// x' = 2 (1 - cos(t/10^8)) 10^16 is t^2, and 0 or 2.2 in double precision, whatever the method.
 TEST(ErrorEstimate, DigitsThatTheEquationsLoseAreCounted) {
   for (const char* method : {"dop853", "gauss8", "radau5"}) {
@@ -175,6 +196,24 @@ TEST(ErrorEstimate, APoleBelowTheToleranceIsNotPassedInSilence) {
     EXPECT_TRUE(!motion.ok() || trust.unconfirmed || !trust.known || trust.error_estimate > 0.1)
         << tolerance << ' ' << trust.error_estimate;
   }
+}
+
+// x = 1 + 1/(K(1 - t)): written out as x^2 - 2x + 1 its rate is rounding.
+TEST(ErrorEstimate, ADoubleRestOfTheEquationsIsNotWrittenOut) {
+  const auto scene_of = [](const std::string& rate, const std::string& start,
+                           const char* duration) {
+    return model_of("[phase_space]\nvariables = [\"x\", \"u\", \"v\"]\n[equations]\nx = \"" + rate +
+                    "\"\nu = \"v\"\nv = \"-u\"\n[[scene]]\nname = \"default\"\ninitial = { x = \"" +
+                    start + "\", u = \"1\", v = \"0\" }\nduration = \"" + duration + "\"\n");
+  };
+  SolveOptions options;
+  options.method = "taylor";
+  const Model pole = scene_of("2*10^8*(x-1)^2", "1+1/(2*10^8)", "1.05");
+  EXPECT_FALSE(solve(pole, pole.scene("default"), options).ok());
+  const Model towards = scene_of("-10^8*(x-1)^2", "2", "100");
+  const Solution motion = solve(towards, towards.scene("default"), options);
+  ASSERT_TRUE(motion.ok());
+  EXPECT_NEAR(motion.trajectory().state[0], 1, 1e-9);
 }
 
 // A few steps are the same ones at many tolerances.

@@ -47,6 +47,26 @@ std::vector<GiNaC::symbol> symbols_in(const Model& model) {
   return symbols;
 }
 
+/// Whether a factor stands in an expression: itself, or a pole as another power of the same.
+bool shows_factor(const ex& e, const ex& factor) {
+  if (e.has(factor)) return true;
+  if (!GiNaC::is_a<GiNaC::power>(factor) || !factor.op(1).info(GiNaC::info_flags::negint))
+    return false;
+  return std::any_of(e.preorder_begin(), e.preorder_end(), [&](const ex& part) {
+    return GiNaC::is_a<GiNaC::power>(part) && part.op(0).is_equal(factor.op(0)) &&
+           part.op(1).info(GiNaC::info_flags::negint);
+  });
+}
+
+/// Whether an expression has no value where a part has none, as it is written: it shows all factors
+/// of the part.
+bool shows(const ex& e, const ex& part) {
+  if (!GiNaC::is_a<GiNaC::mul>(part)) return shows_factor(e, part);
+  return std::all_of(part.begin(), part.end(), [&](const ex& factor) {
+    return GiNaC::is_a<GiNaC::numeric>(factor) || shows_factor(e, factor);
+  });
+}
+
 bool is_pole_of_polynomial(const ex& part, const std::vector<GiNaC::symbol>& symbols) {
   if (!GiNaC::is_a<GiNaC::power>(part) || !part.op(1).info(GiNaC::info_flags::negint)) return false;
   GiNaC::lst list;
@@ -76,7 +96,7 @@ std::vector<ex> cancelled_parts(const Model& model, const Scene& binding) {
     for (const ex& written : *list) {
       const ex part = bound(model, binding, written);
       const auto is_it = [&](const ex& other) { return other.is_equal(part); };
-      const auto shows_it = [&](const ex& rate) { return rate.has(part); };
+      const auto shows_it = [&](const ex& rate) { return shows(rate, part); };
       if (GiNaC::is_a<GiNaC::numeric>(part) || std::ranges::any_of(parts, is_it) ||
           std::ranges::any_of(fields, shows_it))
         continue;

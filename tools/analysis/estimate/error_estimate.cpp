@@ -108,6 +108,21 @@ class Neighbours {
   }
   const Trajectory& better() const { return better_; }
 
+  /// How far the end is moved where each state of the scene that has been rounded begins at the
+  /// next double on the other side of its exact value: by more than what small changes grow to
+  /// where the rounded start rests and the exact one does not. Infinite where that run fails;
+  /// nothing where no state was rounded.
+  std::optional<double> moved_by_rounding() const {
+    std::vector<double> moved = run_.initial;
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      if (run_.rounding[i] != 0)
+        moved[i] = std::nextafter(moved[i], run_.rounding[i] > 0 ? HUGE_VAL : -HUGE_VAL);
+    if (moved == run_.initial) return std::nullopt;
+    const Trajectory other = integrate(compiled_.module, method_, tight_, moved, run_.parameters);
+    if (other.status != Status::ok) return HUGE_VAL;
+    return distance(other.state, better_.state, sizes_);
+  }
+
   /// How many times a relative change of a state has grown at the end; nothing if a run fails.
   std::optional<double> growth_of_state(std::size_t j) const {
     return growth([&](double change) {
@@ -273,6 +288,21 @@ bool grows(const PreparedScene& run, const std::vector<double>& sizes) {
   return part < kSmallPart;
 }
 
+/// What rounding the start does to the end, where that is far more than the growth of small changes
+/// says; else 0.
+double unforeseen(const Neighbours& neighbours, const PreparedScene& run,
+                  const std::optional<Conditioning>& flow, const std::vector<double>& sizes) {
+  constexpr double kFarMore = 30, kRoundings = 1000, kAll = 1;
+  if (!flow) return 0;
+  const std::optional<double> moved = neighbours.moved_by_rounding();
+  if (!moved) return 0;
+  double foreseen = kRoundings * kRoundoff;
+  for (std::size_t j = 0; j < sizes.size(); ++j)
+    foreseen += flow->columns[j] * 2 * kRoundoff * std::abs(run.initial[j]) / sizes[j];
+  foreseen = std::max(foreseen, kRoundoff * flow->on_the_way());
+  return *moved > kFarMore * foreseen ? std::min(*moved, kAll) : 0;
+}
+
 }  // namespace
 
 bool ErrorEstimate::died_out() const {
@@ -340,6 +370,8 @@ ErrorEstimate assess(const PreparedScene& run, const CompiledModule& compiled, c
     const double own = neighbours.growth_of_parameter(j).value_or(growth);
     trust.input_rounding += own * std::abs(run.parameter_rounding[j] / run.parameters[j]);
   }
+  if (repeated && trajectory.seconds < budget)
+    trust.input_rounding = std::max(trust.input_rounding, unforeseen(neighbours, run, flow, sizes));
   trust.error_estimate =
       trust.input_rounding + (repeated ? distance(neighbours.better().state, trajectory.state,
                                                   end_sizes(run, trajectory)) +

@@ -61,9 +61,13 @@ std::vector<std::string> warnings_of(const ErrorEstimate& trust, bool constant_s
         static_cast<int>(20 + std::log10(trust.conditioning))));
   }
   if (!trust.beyond_double && !trust.unconfirmed && !(trust.error_estimate < kDoubtful)) {
-    warnings.push_back(
-        fmt::format("the end state may be off by {:.0e} of its size: {}", trust.error_estimate,
-                    constant_step ? "take a smaller --step" : "tighten --tolerance"));
+    const bool by_rounding = trust.input_rounding > trust.error_estimate / 2;
+    warnings.push_back(fmt::format("the end state may be off by {:.0e} of its size{}",
+                                   trust.error_estimate,
+                                   by_rounding ? ", since the start of the scene has to be rounded "
+                                                 "to double: --digits 30 sees the rest of it"
+                                   : constant_step ? ": take a smaller --step"
+                                                   : ": tighten --tolerance"));
   }
   return warnings;
 }
