@@ -216,6 +216,39 @@ TEST(ErrorEstimate, ADoubleRestOfTheEquationsIsNotWrittenOut) {
   EXPECT_NEAR(motion.trajectory().state[0], 1, 1e-9);
 }
 
+// x = sqrt(1 - 2t) ends at t = 1/2; errors of the tolerance take each step to the other side of x =
+// 0, and the run once went on like that for minutes.
+TEST(ErrorEstimate, ARunThatGoesToAndFroOverAPoleEnds) {
+  const Model ends = one_equation("-1/x", "1");
+  for (const char* method : {"taylor", "dopri5"}) {
+    SolveOptions options;
+    options.method = method;
+    options.run.tolerance = 1e-6;
+    const Solution motion = solve(ends, ends.scene("default"), options);
+    EXPECT_EQ(motion.trajectory().status, Status::singularity) << method;
+    EXPECT_NEAR(motion.trajectory().time, 0.5, 0.01) << method;
+    EXPECT_LT(motion.trajectory().steps, 100000U) << method;
+  }
+}
+
+// Jacobi's functions of the size 1e-9 beside an oscillator: small changes grow some hundred times.
+TEST(ErrorEstimate, GrowthOfSmallStatesIsTheirOwn) {
+  const Model small = model_of(
+      "[phase_space]\nvariables = [\"a\", \"b\", \"c\", \"u\", \"v\"]\n[equations]\na = "
+      "\"10^9*b*c\"\n"
+      "b = \"-10^9*a*c\"\nc = \"-1/2*10^9*a*b\"\nu = \"v\"\nv = \"-u\"\n[[scene]]\nname = "
+      "\"default\"\n"
+      "initial = { a = \"0\", b = \"10^(-9)\", c = \"10^(-9)\", u = \"1\", v = \"0\" }\nduration = "
+      "\"20\"\n");
+  SolveOptions options;
+  options.method = "dop853";
+  options.run.tolerance = 1e-6;
+  EXPECT_LT(solve(small, small.scene("default"), options).trust().conditioning, 1e4);
+  options.run.tolerance = 1e-12;
+  const ErrorEstimate trust = solve(small, small.scene("default"), options).trust();
+  EXPECT_LT(trust.error_estimate, 1e-4);
+}
+
 // A few steps are the same ones at many tolerances.
 TEST(ErrorEstimate, OfAFewStepsIsNotAboveWhatIsKnown) {
   const Oscillator oscillator;

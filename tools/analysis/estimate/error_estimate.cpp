@@ -236,6 +236,8 @@ CrossCheck cross_check(const PreparedScene& run, const Method& method, const Set
   own.longest_step = std::abs(trajectory.time) / kLeastCrossCheckSteps;
   own.give_up = settings.give_up;
   const Method* check = find_method(method.series ? "cvode-adams" : "taylor");
+  // Differences are relative to the size of each state; series are as fast with a small one.
+  if (check->series) own.atol = std::min(own.atol, own.rtol * std::ranges::min(sizes));
   Trajectory other = integrate(module, *check, own, run.initial, run.parameters);
   if (!method.series && other.status == Status::non_finite &&
       has_rates(module, other.time, other.state, run.parameters)) {

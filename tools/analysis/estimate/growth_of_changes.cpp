@@ -94,7 +94,8 @@ class Follower {
     settings_.duration = duration;
     settings_.rtol = choice.form ? std::clamp(settings.rtol, kTightest, kLoosest) : kLoosest;
     const double tighter = settings.rtol > 0 ? settings_.rtol / settings.rtol : 1;
-    settings_.atol = settings.atol * tighter;
+    // Growth is relative to the size of each state, which what is allowed has to be small beside.
+    settings_.atol = std::min(settings.atol * tighter, settings_.rtol * std::ranges::min(sizes));
     settings_.give_up = settings.give_up;
     steps_ = choice.form ? kSteps : kInterpretedSteps;
     result_.followed = std::abs(duration);

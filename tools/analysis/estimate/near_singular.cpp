@@ -95,17 +95,39 @@ void NearSingular::see(double t, const double* x) {
   std::copy_n(x, run_.initial.size(), inputs_.begin());
   inputs_.back() = t;
   (*divisors_)(inputs_.data(), values_.data());
+  bool crosses = false;
   for (std::size_t i = 0; i < values_.size(); ++i) {
     Range& range = ranges_[i];
     const double size = std::abs(values_[i]);
     range.largest = std::max(range.largest, size);
-    if (values_[i] * range.last < 0 && !range.crossed) range.crossed = t;
+    const bool other_sign = values_[i] * range.last < 0;
+    crosses = crosses || other_sign;
+    if (other_sign && !range.crossed) range.crossed = t;
     range.last = values_[i];
     if (!range.state.empty() && !(size < range.least)) continue;
     range.least = size;
     range.time = t;
     range.state.assign(x, x + run_.initial.size());
   }
+  count(t, crosses);
+}
+
+void NearSingular::count(double t, bool crosses) {
+  constexpr unsigned long long kWindow = 4096, kOften = kWindow / 4;
+  constexpr double kTiny = 1e-3;
+  ++steps_;
+  if (crosses && changes_ == 0) {
+    step_before_ = std::abs(t) / static_cast<double>(steps_);
+    window_begins_ = steps_;
+    window_time_ = t;
+  }
+  if (crosses) ++changes_;
+  if (changes_ == 0 || steps_ < window_begins_ + kWindow) return;
+  const double step = std::abs(t - window_time_) / static_cast<double>(kWindow);
+  to_and_fro_ = to_and_fro_ || (changes_ > kOften && step < kTiny * step_before_);
+  window_begins_ = steps_;
+  window_time_ = t;
+  changes_ = 1;
 }
 
 bool NearSingular::crossed() const {

@@ -198,10 +198,10 @@ class Judge {
         if (parts_->any()) parts_->see(t, x);
         if (smoothness) smoothness->see(t, x);
       };
-    if (smoothness || parts_->any())
+    if (smoothness || parts_->any() || singular_->divides())
       settings.give_up = [this, smoothness, limit = settings.give_up] {
-        return parts_->lost() || (smoothness && !smoothness->finding().empty()) ||
-               (limit && limit());
+        return parts_->lost() || singular_->goes_to_and_fro() ||
+               (smoothness && !smoothness->finding().empty()) || (limit && limit());
       };
     const auto run = [&] {
       try {
@@ -218,6 +218,10 @@ class Judge {
     else
       run();
     if (parts_->lost()) parts_->end(result_.trajectory);
+    if (singular_->goes_to_and_fro() && result_.trajectory.status == Status::stopped) {
+      result_.trajectory.status = Status::singularity;
+      result_.trajectory.reason = reason_of(Status::singularity);
+    }
   }
 
   /// Of code that is compiled in the middle of a run.
