@@ -47,6 +47,12 @@ class ModelError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// An expression that has a value nowhere: it divides by what is identically zero, or takes the
+/// logarithm of it. That is known of the expression; no other ModelError says anything of values.
+class NoValue : public ModelError {
+  using ModelError::ModelError;
+};
+
 /// An expression that exact algebra cannot treat within the limits of this program.
 class TooLarge : public ModelError {
  public:

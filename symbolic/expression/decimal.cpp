@@ -17,7 +17,7 @@ namespace {
 using GiNaC::ex;
 using GiNaC::numeric;
 
-struct NoValue {};
+struct NoDecimal {};
 
 /// The binary exponent of the larger of the two parts; 0 for zero.
 double size_of(const numeric& number) {
@@ -37,7 +37,7 @@ void check_inverse(const std::string& function, const GiNaC::exvector& arguments
                                                 "asinh", "acosh", "atanh"};
   if (!inverse.contains(function)) return;
   for (const ex& argument : arguments) {
-    if (!GiNaC::ex_to<numeric>(argument).is_real()) throw NoValue{};
+    if (!GiNaC::ex_to<numeric>(argument).is_real()) throw NoDecimal{};
   }
 }
 
@@ -49,11 +49,11 @@ class Evaluation {
 
  private:
   numeric checked(const numeric& number) const {
-    if (std::abs(size_of(number)) > bits_) throw NoValue{};
+    if (std::abs(size_of(number)) > bits_) throw NoDecimal{};
     return number;
   }
   numeric number_of(const ex& value) const {
-    if (!GiNaC::is_a<numeric>(value)) throw NoValue{};
+    if (!GiNaC::is_a<numeric>(value)) throw NoDecimal{};
     return checked(GiNaC::ex_to<numeric>(value));
   }
   numeric power(const ex& e) const;
@@ -70,7 +70,7 @@ numeric Evaluation::power(const ex& e) const {
           : (*this)(e.op(1));
   const double growth =
       std::abs(exponent.is_real() ? exponent.to_double() : GiNaC::abs(exponent).to_double());
-  if (!(growth * std::max(1.0, std::abs(size_of(base))) <= bits_)) throw NoValue{};
+  if (!(growth * std::max(1.0, std::abs(size_of(base))) <= bits_)) throw NoDecimal{};
   return checked(base.power(exponent));
 }
 
@@ -92,7 +92,7 @@ numeric Evaluation::operator()(const ex& e) const {
     static const std::set<std::string> exponential = {"exp", "sinh", "cosh", "tanh"};
     if (exponential.contains(f.get_name()) &&
         size_of(GiNaC::ex_to<numeric>(arguments[0])) > 2 + std::log2(bits_))
-      throw NoValue{};
+      throw NoDecimal{};
     return number_of(ex(GiNaC::function(f.get_serial(), arguments)).evalf());
   }
   return number_of(e.evalf());
@@ -103,7 +103,7 @@ numeric Evaluation::operator()(const ex& e) const {
 std::optional<numeric> decimal(const ex& value, double bits) {
   try {
     return where_defined([&] { return Evaluation(bits)(value); });
-  } catch (const NoValue&) {
+  } catch (const NoDecimal&) {
     return std::nullopt;
   }
 }

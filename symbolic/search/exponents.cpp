@@ -29,7 +29,11 @@ class Analysis {
     leading_.describe(report_);
   }
   ExponentReport run();
-  ExponentReport without_balances() const { return report_; }
+  ExponentReport without_balances() const {
+    ExponentReport report = report_;
+    say_what_of_constraints(model_, report);
+    return report;
+  }
 
  private:
   void find_balances();

@@ -70,6 +70,7 @@ nlohmann::ordered_json exponents_json(const Model& model, const search::Exponent
     json["balances"].push_back(own);
   }
   json["conclusions"] = report.conclusions;
+  if (!model.constraints.empty()) json["not_on"] = names_of(model.constraints);
   json["generic"] = report.generic;
   json["verdict"] = report.complete ? "proved" : "undecided";
   if (starts > 0) json["starts"] = starts;

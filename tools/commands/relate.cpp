@@ -13,6 +13,7 @@
 #include "tools/cli/json_output.hpp"
 #include "tools/cli/output.hpp"
 #include "tools/cli/search_watch.hpp"
+#include "tools/text/proofs/constraints_note.hpp"
 #include "tools/text/proofs/proof_report.hpp"
 
 namespace casimir::tools {
@@ -51,6 +52,15 @@ nlohmann::ordered_json object_of(const std::vector<std::pair<std::string, std::s
   return result;
 }
 
+/// Those of both: what is said of the spaces of all variables need not be true of them.
+std::vector<std::string> constraints_of(const Model& a, const Model& b) {
+  std::vector<std::string> names = names_of(a.constraints);
+  for (const std::string& name : names_of(b.constraints)) {
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
 nlohmann::ordered_json relation_json(const Model& a, const Model& b, const Relation& relation,
                                      double seconds) {
   nlohmann::ordered_json json{{"case", a.name},
@@ -68,6 +78,8 @@ nlohmann::ordered_json relation_json(const Model& a, const Model& b, const Relat
   for (const structure::Difference& d : relation.differences)
     json["differences"].push_back({{"name", d.name}, {"case", d.first}, {"to", d.second}});
   if (!relation.reason.empty()) json["reason"] = relation.reason;
+  const std::vector<std::string> beside = constraints_of(a, b);
+  if (!beside.empty()) json["not_on"] = beside;
   json["seconds"] = seconds;
   return json;
 }
@@ -100,7 +112,7 @@ void print_relation(const Model& a, const Model& b, const Relation& relation, do
                  relation.reason);
       break;
   }
-  fmt::print("{:.3f} s\n", seconds);
+  fmt::print("{}{:.3f} s\n", whole_space_note(constraints_of(a, b)), seconds);
 }
 
 int relate_two(const RelateArguments& options) {
@@ -162,6 +174,7 @@ int symmetries(const RelateArguments& options) {
     json["verdict"] = report.complete ? "proved" : "undecided";
     if (!report.reason.empty()) json["reason"] = report.reason;
     json["generic"] = report.generic;
+    if (!model.constraints.empty()) json["not_on"] = names_of(model.constraints);
     json["seconds"] = seconds;
     print_json(json);
   } else if (!options.common.quiet) {
@@ -185,7 +198,8 @@ int symmetries(const RelateArguments& options) {
     else
       fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
                  report.reason);
-    fmt::print("{} found, {:.3f} s\n", report.found.size(), seconds);
+    fmt::print("{}{} found, {:.3f} s\n", whole_space_note(names_of(model.constraints)),
+               report.found.size(), seconds);
   }
   return report.complete ? kDone : kUndecided;
 }

@@ -24,6 +24,7 @@
 #include "tools/cli/resources.hpp"
 #include "tools/cli/search_watch.hpp"
 #include "tools/runs/atlas.hpp"
+#include "tools/text/proofs/constraints_note.hpp"
 #include "tools/text/proofs/map_search_report.hpp"
 #include "tools/text/proofs/proof_report.hpp"
 #include "tools/text/proofs/search_report.hpp"
@@ -58,29 +59,57 @@ bool is_structure(const SearchArguments& o) {
   return o.fields || o.bivectors || o.forms || o.tensors > 0 || o.hamiltonian || o.bihamiltonian;
 }
 
-/// Whether the case has constraints, and the search is about the whole space of the variables all
-/// the same: on the constraints there may be more.
-bool leaves_constraints(const SearchArguments& options, const Model& model) {
-  return !model.constraints.empty() && options.on.empty() && !options.casimirs;
+/// Whether two functions vanish at the same points, as one is a multiple of the other by a number.
+bool have_one_zero_set(const GiNaC::ex& f, const GiNaC::ex& g) {
+  if (f.is_equal(g)) return true;
+  if (f.is_zero() || g.is_zero()) return false;
+  const GiNaC::ex ratio = (f / g).normal();
+  return GiNaC::is_a<GiNaC::numeric>(ratio) && !ratio.is_zero();
+}
+
+/// The constraints of the case that the search is not about: it is about the whole space of the
+/// variables, or about the level that was given, and on the constraints too there may be more.
+std::vector<std::string> constraints_left_out(const SearchArguments& options, const Model& model) {
+  std::vector<GiNaC::ex> level;
+  for (const Text& function : texts_of(options.on, "--on")) level.push_back(model.parse(function));
+  std::vector<std::string> left;
+  for (const NamedExpression& constraint : model.constraints) {
+    if (std::ranges::none_of(
+            level, [&](const GiNaC::ex& f) { return have_one_zero_set(f, constraint.value); }))
+      left.push_back(constraint.name);
+  }
+  return left;
+}
+
+/// What is said of the constraints below the answer; empty where the answer says it.
+template <class Report>
+std::string note_of(const SearchArguments& options, const Report& report,
+                    const std::vector<std::string>& constraints) {
+  if (constraints.empty()) return {};
+  if (!options.on.empty())
+    return fmt::format(
+        "This is about the level in the whole space of the variables; on the constraints as well: "
+        "--on '{}'\n",
+        fmt::join(constraints, "' --on '"));
+  if constexpr (std::is_same_v<Report, search::Report>) {
+    // Of integrals it says with which options they are found there.
+    if (report.kind == ClaimKind::integral) return {};
+  }
+  return whole_space_note(constraints);
 }
 
 template <class Report>
 int answer(const SearchArguments& options, const Model& model, const Report& report,
            SearchWatch& watch) {
   const double seconds = watch.end();
-  const bool beside = leaves_constraints(options, model);
+  const std::vector<std::string> beside = constraints_left_out(options, model);
   if (options.common.json) {
     nlohmann::ordered_json json = to_json(model, options.degree, report, seconds);
-    if (beside) json["not_on"] = names_of(model.constraints);
+    if (!beside.empty()) json["not_on"] = beside;
     print_json(json);
   } else if (!options.common.quiet) {
     print(model, options.degree, report, seconds);
-    // Of integrals it says with which options they are found there.
-    if (beside && !std::is_same_v<Report, search::Report>)
-      fmt::print(
-          "This is about the whole space of the variables, and not about the constraints alone, on "
-          "which there may be more: {}\n",
-          fmt::join(names_of(model.constraints), ", "));
+    fmt::print("{}", note_of(options, report, beside));
   }
   return report.complete ? kDone : kUndecided;
 }

@@ -20,7 +20,7 @@ Polynomial Converter::convert_function(const GiNaC::function& f) {
   if (name == "cos") return angles_.sine_cosine(convert(f.op(0))).second;
   if (name == "tan") {
     const auto [s, c] = angles_.sine_cosine(convert(f.op(0)));
-    return table_.checked_product(s, inverse_of(table_, c));
+    return table_.checked_product(s, divided_by(table_, c));
   }
   if (name == "exp") return exponentials_.exponential(convert(f.op(0)));
   if (is_elliptic_function(f)) return elliptic_polynomial(elliptic_tools(), f);

@@ -206,7 +206,7 @@ Polynomial Converter::convert_power(const ex& base, const ex& exponent) {
         "apart "
         "here");
   const unsigned long size = machine_word(whole);
-  Polynomial result = table_.power(whole >= 0 ? b : inverse_of(table_, b), size);
+  Polynomial result = table_.power(whole >= 0 ? b : divided_by(table_, b), size);
   if (!cln::zerop(part)) {
     // 1/sqrt(x) has a value for x > 0 alone.
     if (cln::minusp(e) && cln::evenp(cln::denominator(part)) && !table_.is_complex()) {

@@ -2,12 +2,20 @@
 
 #include <cln/rational.h>
 
+#include <optional>
+#include <utility>
+
 namespace casimir::functions {
 
-Polynomial inverse_of(GeneratorTable& table, const Polynomial& p) {
+namespace {
+
+constexpr const char* kDivisionByZero = "division by an expression that is identically zero";
+
+/// Empty where p is identically zero.
+std::optional<Polynomial> inverse_if_any(GeneratorTable& table, const Polynomial& p) {
   const auto [unreduced, bottom] = table.fraction(p);
   const Polynomial reduced_top = table.numerator(unreduced);
-  if (reduced_top.is_zero()) throw ModelError("division by an expression that is identically zero");
+  if (reduced_top.is_zero()) return std::nullopt;
   // sin^2 + cos^2 is 1, but cos^2 as it stands says more than (1 - sin)(1 + sin).
   const Polynomial& top = reduced_top.terms() < unreduced.terms() ? reduced_top : unreduced;
   Polynomial result = bottom;
@@ -28,6 +36,18 @@ Polynomial inverse_of(GeneratorTable& table, const Polynomial& p) {
     result = table.checked_product(result, table.power(y, exponent));
   }
   return result;
+}
+
+}  // namespace
+
+Polynomial inverse_of(GeneratorTable& table, const Polynomial& p) {
+  if (std::optional<Polynomial> inverse = inverse_if_any(table, p)) return *std::move(inverse);
+  throw ModelError(kDivisionByZero);
+}
+
+Polynomial divided_by(GeneratorTable& table, const Polynomial& p) {
+  if (std::optional<Polynomial> inverse = inverse_if_any(table, p)) return *std::move(inverse);
+  throw NoValue(kDivisionByZero);
 }
 
 }  // namespace casimir::functions

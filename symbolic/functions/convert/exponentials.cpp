@@ -68,7 +68,7 @@ Polynomial Exponentials::logarithm(const ex& whole, const Polynomial& p) {
   if (table_.is_complex()) return generator_of(p, whole, kLogarithm);
   const auto [unreduced, bottom] = table_.fraction(p);
   const Polynomial top = table_.numerator(unreduced);
-  if (top.is_zero()) throw ModelError("the logarithm of an expression that is identically zero");
+  if (top.is_zero()) throw NoValue("the logarithm of an expression that is identically zero");
   auto factors = factors_of(table_, top);
   const std::size_t above = factors.size();
   for (auto& factor : factors_of(table_, bottom)) factors.push_back(std::move(factor));

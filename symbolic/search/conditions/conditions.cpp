@@ -5,11 +5,13 @@
 
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/error.hpp"
+#include "symbolic/search/conditions/parametric_block.hpp"
 #include "symbolic/search/conditions/rank_conditions.hpp"
 #include "symbolic/search/conditions/special_model.hpp"
 #include "symbolic/search/conditions/special_sets.hpp"
 #include "symbolic/search/conditions/special_values.hpp"
 #include "symbolic/search/finder.hpp"
+#include "symbolic/search/polynomial_system.hpp"
 
 namespace casimir::search {
 namespace {
@@ -51,7 +53,9 @@ struct Place {
 //
 // For several parameters common factors of minors are hypersurfaces. All minors may vanish on
 // smaller sets as well: none are left where one combination of minors has no other factors
-// (RankConditions::covered), else they are sought among simple ones and the answer is open.
+// (RankConditions::covered), and where on the hypersurfaces themselves the rank is the same
+// everywhere but on parts that are known (look_inside); else they are sought among simple ones and
+// the answer is open.
 class ConditionFinder {
  public:
   ConditionFinder(const Model& model, const Request& request, const Watch& watch)
@@ -62,6 +66,10 @@ class ConditionFinder {
  private:
   void add_factor(const Polynomial& factor, const std::vector<std::size_t>& free);
   void add_roots(const Polynomial& factor, std::size_t place);
+  bool look_inside(ParametricBlock block, const RankConditions& own, const Polynomial& surface,
+                   const std::vector<std::size_t>& free);
+  bool add_inside(const SpecialSet& surface, const Polynomial& factor,
+                  const std::vector<std::size_t>& rest);
   void add_points(const std::vector<ParametricBlock>& blocks, const std::vector<std::size_t>& free);
   void add_sets(const std::vector<ParametricBlock>& blocks, const std::vector<std::size_t>& free);
   void try_values(std::size_t place);
@@ -151,9 +159,15 @@ ConditionFinder::Confirmed ConditionFinder::confirm(const Place& place, Conditio
     }
     if (condition.found.empty()) return found.complete ? Confirmed::none : Confirmed::open;
   } catch (const GiNaC::pole_error&) {
-    return Confirmed::none;
+    // Not of the equations, but of what is compared with what is found.
+    leave_open(fmt::format("the search at {} has no answer: a division by zero", where));
+    return Confirmed::open;
   } catch (const ModelError& problem) {
     leave_open(fmt::format("the search at {} has no answer: {}", where, problem.what()));
+    return Confirmed::open;
+  } catch (const CaseError& problem) {
+    // The level or a declared function uses a definition that has no value there.
+    leave_open(fmt::format("the search at {} has no answer: {}", where, problem.text()));
     return Confirmed::open;
   } catch (const TooMuchWork& problem) {
     leave_open(fmt::format("the search at {} has no answer: {}", where, problem.what()));
@@ -229,6 +243,78 @@ bool ConditionFinder::on_a_found_surface(const GiNaC::exmap& point) const {
   });
 }
 
+/// A parameter that is a polynomial in the others where the condition vanishes, and its value.
+std::optional<std::pair<std::size_t, Polynomial>> solved_for(const Polynomial& condition,
+                                                             const std::vector<std::size_t>& free) {
+  for (const std::size_t place : free) {
+    if (condition.degree(place) != 1) continue;
+    const std::vector<Polynomial> parts = condition.coefficients(place);
+    if (parts[1].is_constant())
+      return std::pair{place, parts[0].scaled(-1 / parts[1].term_list()[0].first)};
+  }
+  return std::nullopt;
+}
+
+/// Whether it has no real zero, as far as that is known: it depends on one symbol alone.
+bool has_no_real_zero(const Polynomial& factor) {
+  std::vector<std::size_t> used;
+  for (std::size_t i = 0; i < factor.ring().size(); ++i)
+    if (factor.uses(i)) used.push_back(i);
+  return used.size() == 1 && real_roots(factor, used[0]) == 0;
+}
+
+/// How many of the parameters the block depends on.
+std::size_t used_by(const ParametricBlock& block, const std::vector<std::size_t>& free) {
+  const auto is_used = [&](std::size_t place) {
+    return std::ranges::any_of(block.rows, [&](const ParametricBlock::Row& row) {
+      return std::ranges::any_of(row, [&](const auto& entry) { return entry.second.uses(place); });
+    });
+  };
+  return static_cast<std::size_t>(std::ranges::count_if(free, is_used));
+}
+
+/// On a surface where a block loses rank it may lose more on some parts: there are more solutions
+/// than those that the surface has everywhere. Confirms the parts that are found.
+/// \return  whether that are all of them
+bool ConditionFinder::look_inside(ParametricBlock block, const RankConditions& own,
+                                  const Polynomial& surface, const std::vector<std::size_t>& free) {
+  // Below rank one there is nothing more to lose.
+  if (own.rank <= 1 || used_by(block, free) <= 1 || has_no_real_zero(surface)) return true;
+  const auto value = solved_for(surface, free);
+  if (!value) return false;
+  block.put(value->first, value->second);
+  std::vector<std::size_t> rest = free;
+  std::erase(rest, value->first);
+  const RankConditions inside = rank_conditions(finder_.system(), block, rest, watch_);
+  bool all = inside.decided && inside.covered;
+  for (const Polynomial& factor : inside.factors) all = add_inside({{*value}}, factor, rest) && all;
+  return all;
+}
+
+/// One part of a surface.
+/// \return  whether it is known what there is on it, and that it has no such parts of its own
+bool ConditionFinder::add_inside(const SpecialSet& surface, const Polynomial& factor,
+                                 const std::vector<std::size_t>& rest) {
+  if (has_no_real_zero(factor)) return true;
+  const auto value = solved_for(factor, rest);
+  if (!value) return false;
+  const FunctionRing& ring = finder_.system().functions();
+  SpecialSet set = surface;
+  for (auto& [known, old] : set.values)
+    old = substituted(old, value->first, value->second, old.ring().constant(1));
+  set.values.push_back(*value);
+  std::ranges::sort(set.values, {}, [](const auto& entry) { return entry.first; });
+  Place place;
+  for (const auto& [known, own] : set.values) {
+    place.values.emplace_back(parameter(known), ring.expression(own));
+    place.names.emplace_back(parameter(known).get_name(), text(own));
+  }
+  // It lies in a known place; only itself is not to be confirmed twice.
+  if (std::ranges::none_of(confirmed_, [&](const Place& p) { return p.names == place.names; }))
+    confirm(place, {});
+  return rest.size() == 1;
+}
+
 /// Isolated points of two parameters: candidates for the first, and the search for the second with
 /// the first fixed.
 void ConditionFinder::add_points(const std::vector<ParametricBlock>& blocks,
@@ -247,11 +333,17 @@ void ConditionFinder::add_points(const std::vector<ParametricBlock>& blocks,
     const GiNaC::symbol& second = parameter(free[1]);
     const ex number{GiNaC::numeric(value)};
     if (on_a_found_surface({{first, number}})) continue;
-    const std::optional<Model> special = with_value(model_, first, number);
-    if (!special) continue;
-    const ConditionReport inner =
-        find_conditions(*special, request_, {{second.get_name(), {}, {}}}, watch_);
-    for (const Condition& point : inner.conditions) {
+    std::vector<Condition> points;
+    try {
+      const std::optional<Model> special = with_value(model_, first, number);
+      if (!special || is_meaningless(*special)) continue;
+      points =
+          find_conditions(*special, request_, {{second.get_name(), {}, {}}}, watch_).conditions;
+    } catch (const ModelError& problem) {
+      leave_open(fmt::format("the search at {} = {} has no answer: {}", first.get_name(),
+                             rational_text(value), problem.what()));
+    }
+    for (const Condition& point : points) {
       if (point.parameters.empty() || point.found.empty()) continue;
       const ex& other = point.values[0];
       if (on_a_found_surface({{first, number}, {second, other}})) continue;
@@ -312,7 +404,7 @@ ConditionReport ConditionFinder::run(const std::vector<std::size_t>& free) {
         leave_open(fmt::format("the level depends on '{}'", parameter(place).get_name()));
     }
   }
-  std::vector<Polynomial> factors;
+  std::vector<RankConditions> losses;
   bool covered = true;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     watch_.tick(static_cast<double>(b) / static_cast<double>(blocks.size()));
@@ -323,11 +415,15 @@ ConditionReport ConditionFinder::run(const std::vector<std::size_t>& free) {
           "give numbers to other parameters, or free them too");
     }
     covered = covered && own.covered;
-    for (const Polynomial& factor : own.factors) factors.push_back(factor);
+    losses.push_back(own);
   }
-  for (const Polynomial& factor : factors) add_factor(factor, free);
+  for (const RankConditions& own : losses)
+    for (const Polynomial& factor : own.factors) add_factor(factor, free);
   for (const std::size_t place : inside) try_values(place);
   if (free.size() > 1) {
+    for (std::size_t b = 0; b < blocks.size() && covered; ++b)
+      for (const Polynomial& factor : losses[b].factors)
+        covered = look_inside(blocks[b], losses[b], factor, free) && covered;
     if (free.size() == 2) add_points(blocks, free);
     add_sets(blocks, free);
     report_.sets_open = report_.complete && !covered;

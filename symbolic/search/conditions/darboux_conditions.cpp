@@ -231,6 +231,8 @@ void DarbouxConditions::confirm(const DarbouxPlace& place) {
   condition.parameters = place.names;
   GiNaC::exmap here;
   std::string where;
+  for (const auto& [name, value] : place.names)
+    where += fmt::format("{}{} = {}", where.empty() ? "" : ", ", name, value);
   Model special = model_;
   try {
     for (const auto& [symbol, value] : place.values) {
@@ -240,8 +242,6 @@ void DarbouxConditions::confirm(const DarbouxPlace& place) {
       if (!next) return;
       special = std::move(*next);
     }
-    for (const auto& [name, value] : place.names)
-      where += fmt::format("{}{} = {}", where.empty() ? "" : ", ", name, value);
     if (contradict(special) || is_meaningless(special)) return;
     const DarbouxReport found = find_darboux_polynomials(special, degree_, watch_);
     if (!found.complete) {

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <optional>
 
+#include "symbolic/search/polynomial_system.hpp"
+
 namespace casimir::search {
 namespace {
 
@@ -139,6 +141,15 @@ void ParametricBlock::eliminate_constants() {
     }
     std::erase_if(rows, [](const Row& row) { return row.empty(); });
   }
+}
+
+void ParametricBlock::put(std::size_t place, const Polynomial& value) {
+  const Polynomial one = value.ring().constant(1);
+  for (Row& row : rows) {
+    for (auto& [column, entry] : row) entry = substituted(entry, place, value, one);
+    std::erase_if(row, [](const auto& entry) { return entry.second.is_zero(); });
+  }
+  std::erase_if(rows, [](const Row& row) { return row.empty(); });
 }
 
 DenseRows ParametricBlock::at(const Point& point, const Modulus& modulus) const {

@@ -18,6 +18,9 @@ struct ParametricBlock {
   /// loses rank, and nowhere else, the block does.
   void eliminate_constants();
 
+  /// Gives a parameter a value, a polynomial in the others; zeros and empty rows are left out.
+  void put(std::size_t place, const Polynomial& value);
+
   /// The coefficients at a point; columns and rows without any are left out.
   DenseRows at(const Point& point, const Modulus& modulus) const;
 };

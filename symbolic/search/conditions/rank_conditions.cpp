@@ -333,6 +333,7 @@ RankConditions rank_conditions(const System& system, ParametricBlock block,
     return result;
   const std::size_t rank = generic_rank(system, block);
   if (rank == 0) return result;
+  result.rank = rank;
   std::optional<Polynomial> common;
   std::vector<Polynomial> combinations;
   std::vector<std::size_t> own;

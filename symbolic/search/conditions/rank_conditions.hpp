@@ -15,8 +15,10 @@ struct RankConditions {
   /// the rank is lower nowhere else.
   std::vector<Polynomial> factors;
   bool decided = true;  ///< false where the block was too large
-  /// The rank is lower on the zero sets of the factors and nowhere else.
+  /// The rank is lower on the zero sets of the factors and nowhere else. On parts of these it may
+  /// be lower still.
   bool covered = true;
+  std::size_t rank = 0;  ///< for generic values, of what is left without constant coefficients
 };
 
 /// The common factors of the minors of full rank: of several random combinations of them, each the

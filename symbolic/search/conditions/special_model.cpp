@@ -4,10 +4,12 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <stdexcept>
 
 #include "symbolic/algebra/rational_matrix.hpp"
 #include "symbolic/error.hpp"
 #include "symbolic/expression/expression.hpp"
+#include "symbolic/expression/principal_values.hpp"
 #include "symbolic/functions/function_ring.hpp"
 #include "symbolic/proof/claims/claim_kinds.hpp"
 #include "symbolic/proof/prover.hpp"
@@ -17,13 +19,34 @@ namespace {
 
 using GiNaC::ex;
 
+using Put = std::function<ex(const ex&)>;
+
+/// What `compute` gives, or nothing where there is no value: GiNaC divides by zero or meets a pole
+/// on the way, or a root is not real. All else that it may throw says nothing of values, and
+/// passes.
+template <class Compute>
+auto where_it_has_value(const Compute& compute) -> std::optional<decltype(compute())> {
+  try {
+    return compute();
+  } catch (const GiNaC::pole_error&) {
+    return std::nullopt;
+  } catch (const std::overflow_error&) {  // GiNaC's division of numbers by zero
+    return std::nullopt;
+  } catch (const NoValue&) {
+    return std::nullopt;
+  }
+}
+
 enum class Domain { inside, outside };
 
-/// An assumption where a parameter has a value; kept where it still says something.
-Domain put_assumptions(Model& model, const std::function<ex(const ex&)>& put) {
+/// An assumption where a parameter has a value; kept where it still says something. It does not
+/// hold where its difference has no value.
+Domain put_assumptions(Model& model, const Put& put) {
   std::vector<Assumption> kept;
   for (Assumption& a : model.assumptions) {
-    a.difference = put(a.difference);
+    const std::optional<ex> difference = where_it_has_value([&] { return put(a.difference); });
+    if (!difference) return Domain::outside;
+    a.difference = *difference;
     if (!GiNaC::is_a<GiNaC::numeric>(a.difference.expand())) {
       kept.push_back(a);
     } else if (a.difference.expand().info(GiNaC::info_flags::rational) &&
@@ -33,6 +56,59 @@ Domain put_assumptions(Model& model, const std::function<ex(const ex&)>& put) {
   }
   model.assumptions = std::move(kept);
   return Domain::inside;
+}
+
+/// Whether some part of it is a constant that is not real, as sqrt(a)*sqrt(a) has at a = -2
+/// although GiNaC makes -2 of the whole.
+bool has_complex_constant(const ex& value) {
+  for (auto part = value.preorder_begin(); part != value.preorder_end(); ++part)
+    if (is_complex_constant(*part)) return true;
+  return false;
+}
+
+void put_list(std::vector<ex>& list, const Put& put) {
+  for (ex& own : list) own = put(own);
+}
+
+/// The value in all that the motion is made of, also in what GiNaC no longer shows of it.
+void put_motion(Model& model, const Put& put) {
+  put_list(model.domain, put);
+  put_list(model.bracket_domain, put);
+  if (model.hamiltonian) model.hamiltonian = put(*model.hamiltonian);
+  if (model.poisson) {
+    std::vector<ex> upper;
+    for (std::size_t i = 0; i < model.poisson->dimension(); ++i)
+      for (std::size_t j = i + 1; j < model.poisson->dimension(); ++j)
+        upper.push_back(put((*model.poisson)(i, j)));
+    model.poisson = PoissonStructure(model.poisson->coordinates(), upper);
+  }
+  // Derived anew: the derivative for all values may have a pole that this one has not.
+  if (model.poisson && model.hamiltonian)
+    model.field = model.poisson->flow(*model.hamiltonian);
+  else
+    put_list(model.field, put);
+}
+
+/// The same of named functions. Those that have no value then are none of the special case.
+void put_functions(std::vector<NamedExpression>& list, const Put& put) {
+  std::vector<NamedExpression> kept;
+  for (NamedExpression& f : list) {
+    const auto done = where_it_has_value([&] {
+      f.value = put(f.value);
+      put_list(f.domain, put);
+      return true;
+    });
+    if (done) kept.push_back(std::move(f));
+  }
+  list = std::move(kept);
+}
+
+/// The same of the constraints. Where one has no value there is no point of the phase space; that
+/// says nothing of the equations, which have integrals all the same.
+void put_constraints(std::vector<NamedExpression>& constraints, const Put& put) {
+  const std::size_t count = constraints.size();
+  put_functions(constraints, put);
+  if (constraints.size() < count) throw ModelError("a constraint has no value there");
 }
 
 std::vector<GiNaC::symbol> symbols_in(const Model& model) {
@@ -46,25 +122,28 @@ std::vector<GiNaC::symbol> symbols_in(const Model& model) {
 std::optional<Model> with_value(const Model& model, const GiNaC::symbol& parameter,
                                 const ex& value) {
   const GiNaC::exmap map{{parameter, value}};
-  const auto put = [&](const ex& e) { return e.subs(map, GiNaC::subs_options::no_pattern); };
+  const Put put = [&](const ex& e) {
+    ex result = e.subs(map, GiNaC::subs_options::no_pattern);
+    if (!model.complex_numbers && has_complex_constant(result))
+      throw NoValue("an expression has no real value");
+    return result;
+  };
   Model result = model;
   std::erase_if(result.parameters, [&](const GiNaC::symbol& s) { return s.is_equal(parameter); });
   if (put_assumptions(result, put) == Domain::outside) return std::nullopt;
-  if (result.hamiltonian) result.hamiltonian = put(*result.hamiltonian);
-  for (ex& rate : result.field) rate = put(rate);
+  const auto has_motion = where_it_has_value([&] {
+    put_motion(result, put);
+    return true;
+  });
+  if (!has_motion) return std::nullopt;
   for (auto* list : {&result.definitions, &result.casimirs, &result.integrals})
-    for (NamedExpression& f : *list) f.value = put(f.value);
-  if (result.poisson) {
-    std::vector<ex> upper;
-    for (std::size_t i = 0; i < result.poisson->dimension(); ++i)
-      for (std::size_t j = i + 1; j < result.poisson->dimension(); ++j)
-        upper.push_back(put((*result.poisson)(i, j)));
-    result.poisson = PoissonStructure(result.poisson->coordinates(), upper);
-  }
+    put_functions(*list, put);
+  put_constraints(result.constraints, put);
   for (const ClaimRow& row : claim_rows()) {
     const bool known = row.kind == ClaimKind::casimir || row.kind == ClaimKind::integral;
     if (row.clear && !known) row.clear(result);
   }
+  result.frame.reset();  // it has made its bracket
   result.scenes.clear();
   result.section.reset();
   result.fixed.emplace_back(Text{parameter.get_name(), {}, {}}, value);
@@ -110,13 +189,13 @@ std::vector<std::size_t> free_places(const Model& model, const std::vector<Text>
 }
 
 bool is_meaningless(const Model& special) {
+  Model motion = special;
+  motion.constraints.clear();
   try {
-    Prover prover(special, {});
+    Prover prover(motion, {});
     prover.field();
     return false;
-  } catch (const TooLarge&) {
-    return false;
-  } catch (const ModelError&) {
+  } catch (const NoValue&) {
     return true;
   }
 }

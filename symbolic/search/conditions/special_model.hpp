@@ -9,8 +9,10 @@
 
 namespace casimir::search {
 
-/// The model where a parameter has a value, which may contain the others. Only what a search needs;
-/// empty where an assumption excludes the value.
+/// The model where a parameter has a value, which may contain the others. Only what a search needs:
+/// definitions, Casimir functions and integrals that have no value then are left out. Empty where
+/// an assumption excludes the value, and where the equations of motion have no real value.
+/// \throws ModelError  where a constraint of the phase space has no value
 std::optional<Model> with_value(const Model& model, const GiNaC::symbol& parameter,
                                 const GiNaC::ex& value);
 
@@ -18,7 +20,8 @@ std::optional<Model> with_value(const Model& model, const GiNaC::symbol& paramet
 /// \throws CaseError  for what is no parameter, and for one that is named twice
 std::vector<std::size_t> free_places(const Model& model, const std::vector<Text>& free);
 
-/// Whether the equations of motion cannot be read there, as a denominator vanishes.
+/// Whether the equations of motion have a value nowhere, as a denominator vanishes identically.
+/// \throws ModelError  for what exact algebra cannot treat, which says nothing of values
 bool is_meaningless(const Model& special);
 
 /// Whether some assumption cannot hold where all others do, by the signs that these give: for no

@@ -196,11 +196,7 @@ void SetSearch::look_for_factors(const Polynomial& condition) {
   std::erase(rest, set->values[0].first);
   for (ParametricBlock block : blocks_) {
     if (spent() || block.columns > kLargest || block.rows.size() > 4 * kLargest) continue;
-    for (auto& row : block.rows) {
-      for (auto& [column, entry] : row) entry = reduced(entry, *set);
-      std::erase_if(row, [](const auto& entry) { return entry.second.is_zero(); });
-    }
-    std::erase_if(block.rows, [](const auto& row) { return row.empty(); });
+    block.put(set->values[0].first, set->values[0].second);
     if (block.rows.empty()) continue;
     work_ += kMostWorkOfSets / 500;
     const RankConditions own = rank_conditions(system_, block, rest, watch_);

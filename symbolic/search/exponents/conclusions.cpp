@@ -103,6 +103,15 @@ void conclude(const LeadingPart& leading, ExponentReport& report) {
         "all exponents are integers: Kovalevskaya's necessary condition for single-valued general "
         "solutions holds for these balances; that excludes no logarithms and alone proves no "
         "integrability");
+  say_what_of_constraints(leading.system().model(), report);
+}
+
+void say_what_of_constraints(const Model& model, ExponentReport& report) {
+  if (model.constraints.empty()) return;
+  report.conclusions.push_back(
+      fmt::format("all this is about the whole space of the variables, and not about the "
+                  "constraints alone, on which there may be fewer exponents and more integrals: {}",
+                  fmt::join(names_of(model.constraints), ", ")));
 }
 
 }  // namespace casimir::search

@@ -9,4 +9,8 @@ namespace casimir::search {
 /// with the theorem used: `report.conclusions`.
 void conclude(const LeadingPart& leading, ExponentReport& report);
 
+/// Adds to `report.conclusions` that they are about the whole space of the variables, where a case
+/// has constraints.
+void say_what_of_constraints(const Model& model, ExponentReport& report);
+
 }  // namespace casimir::search

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "tools/text/proofs/constraints_note.hpp"
+
 namespace casimir::tools {
 
 nlohmann::ordered_json to_json(const Model& base, int degree, const discrete::MapSearch& found,
@@ -56,11 +58,7 @@ void print(const Model& base, int degree, const discrete::MapSearch& found, doub
   if (found.integrals.empty()) fmt::print("  none was found\n");
   for (const discrete::FoundOfMap& f : found.densities) fmt::print("density {}: proved\n", f.text);
   if (found.not_generic.empty()) print_bounds(found);
-  if (!base.constraints.empty())
-    fmt::print(
-        "This is about the whole space of the variables, and not about the constraints alone, on "
-        "which there may be more: {}\n",
-        fmt::join(names_of(base.constraints), ", "));
+  fmt::print("{}", whole_space_note(names_of(base.constraints)));
   if (!found.reason.empty()) fmt::print("{}\n", found.reason);
   fmt::print("{} found, {:.3f} s\n", found.integrals.size(), seconds);
 }
