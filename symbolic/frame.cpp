@@ -41,7 +41,9 @@ void read_fields(const VectorFieldsText& text, const Symbols& variables, Scope& 
     for (const auto& [name, value] : field.components) {
       const std::size_t i =
           symbol_position(name, name.value, 0, frame.coordinates, "one of the coordinates");
-      frame.fields[s][i] = parse_expression(value, names).value;
+      const Quantity component = parse_expression(value, names);
+      frame.fields[s][i] = component.value;
+      for (const ex& part : lost_parts(component)) frame.domain.push_back(part);
       for (const GiNaC::symbol& v : variables) {
         const bool is_coordinate =
             std::any_of(frame.coordinates.begin(), frame.coordinates.end(),

@@ -22,6 +22,7 @@ struct Frame {
   std::vector<GiNaC::symbol> velocities;       ///< k of them
   std::vector<std::vector<GiNaC::ex>> fields;  ///< fields[s][i] is the component v^s_i
   std::vector<GiNaC::ex> structure;            ///< k*k*k entries: c_ij^s at (i*k + j)*k + s
+  std::vector<GiNaC::ex> domain;               ///< of the fields, as of NamedExpression
   std::optional<GiNaC::ex> lagrangian;         ///< L(q, w), where the file gives one
 
   /// The structure function c_ij^s.

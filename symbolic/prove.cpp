@@ -139,8 +139,8 @@ std::vector<Proof> pending(const Model& model, const Candidates& candidates) {
 namespace {
 
 /// What decides the claims: one prover for all of them; but where a root or a logarithm makes some
-/// function positive, or one of them has complex numbers, a prover for each, so that no proof rests
-/// on the domain of another claim.
+/// function positive or other than zero, or one of them has complex numbers, a prover for each, so
+/// that no proof rests on the domain of another claim.
 class Provers {
  public:
   /// \param inhabited  that the claims are about something is shown elsewhere
@@ -152,7 +152,8 @@ class Provers {
     try {
       const WorkMeter meter(model.limits);
       shared_.emplace(model, all);
-      if (shared_->ring().implied_positive().empty() && !shared_->ring().is_complex()) return;
+      const FunctionRing& ring = shared_->ring();
+      if (!ring.rests_on_what_was_converted() && !ring.is_complex()) return;
       shared_.reset();
     } catch (const ModelError&) {
       // A single claim may be small enough, and have values where another has none.

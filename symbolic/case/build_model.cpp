@@ -325,7 +325,8 @@ class Builder {
       }
       read_hamiltonian();
       // In a function of that name, and before it, H is not known.
-      if (!function_named_H()) names_.offer("H", measured(*model_.hamiltonian));
+      if (!function_named_H())
+        names_.offer("H", with_parts(measured(*model_.hamiltonian), model_.domain));
       model_.field = model_.poisson->flow(*model_.hamiltonian);
     }
     read_definitions();
@@ -354,6 +355,8 @@ class Builder {
       model_.hamiltonian = in_domain(parse_expression(*file_.hamiltonian, names_));
     } else if (file_.lagrangian) {
       model_.hamiltonian = legendre_transform(*model_.frame, *file_.lagrangian);
+      // What L shows, H may not.
+      in_domain({*model_.hamiltonian, 1, 0, 1, 1, lagrangian_.parts});
     } else {
       no_hamiltonian();
     }
@@ -368,6 +371,11 @@ class Builder {
       }
     }
     throw CaseError({file_.file, 1, 1}, what);
+  }
+
+  bool has_velocity(const ex& part) const {
+    return std::ranges::any_of(model_.frame->velocities,
+                               [&](const GiNaC::symbol& w) { return part.has(w); });
   }
 
   /// In the quasi-velocities, by default w1, w2, ..
@@ -397,7 +405,18 @@ class Builder {
       model_.frame->velocities.push_back(GiNaC::symbol(name.value));
     }
     ExtendedNames names(names_, model_.frame->velocities);
-    model_.frame->lagrangian = parse_expression(text, names).value;
+    lagrangian_ = parse_expression(text, names);
+    for (const ex& part : lost_parts(lagrangian_))
+      if (has_velocity(part))
+        throw text.error(
+            fmt::format("{} cancels in the Lagrangian, which has values elsewhere too: write it "
+                        "without",
+                        printable(expression_text(part), 80)));
+    model_.frame->lagrangian = in_domain(lagrangian_);
+    std::vector<ex> parts;
+    for (const ex& part : lagrangian_.parts ? *lagrangian_.parts : parts)
+      if (!has_velocity(part)) parts.push_back(part);
+    lagrangian_.parts = std::make_shared<const std::vector<ex>>(std::move(parts));
   }
 
   void read_explicit_field() {
@@ -435,6 +454,7 @@ class Builder {
   const ParameterValues& fixed_;
   const FindCase& find_case_;
   CaseNames names_;
+  Quantity lagrangian_;  ///< with those of its parts that have no velocity
   Model model_;
   ModelDynamics dynamics_;
 };

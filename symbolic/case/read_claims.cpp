@@ -204,9 +204,13 @@ class ClaimReader {
         if (const auto part = real_only_where(inside)) domain.push_back(*part);
       map.leads_to.push_back(std::move(inside));
     }
+    for (const Text& function : text.image.empty() ? target.constraints : text.image) {
+      const Quantity value = parse_expression(function, names);
+      map.image.push_back({function.value, value.value, {}});
+      for (const ex& part : lost_parts(value))
+        domain.push_back(substituted(part, image, file_.limits));
+    }
     map.domain = std::move(domain);
-    for (const Text& function : text.image.empty() ? target.constraints : text.image)
-      map.image.push_back({function.value, parse_expression(function, names).value, {}});
     for (const MapInverseText& inverse : text.inverses) {
       MapInverse& branch = map.inverses.emplace_back();
       branch.expressions = all_components(text.name, inverse.expressions, model_.variables, names,

@@ -12,6 +12,7 @@
 #include "symbolic/discrete/prove_candidate.hpp"
 #include "symbolic/functions/function_ring.hpp"
 #include "symbolic/proof/prover.hpp"
+#include "symbolic/proof/thin_domain.hpp"
 #include "symbolic/search/finder.hpp"
 #include "symbolic/search/modular/monomials.hpp"
 
@@ -355,7 +356,7 @@ MapSearch search_map(const MapModel& map, int degree, const search::Watch& watch
   MapSearch found = Search(map, degree, watch).find();
   if (map.base.assumptions.empty()) return found;
   Prover prover(map.base, {}, Subject::functions);
-  if (const auto thin = search::thin_assumptions(prover)) {
+  if (const auto thin = thin_assumptions(prover)) {
     found.no_polynomial = found.no_fraction = false;
     found.not_generic = found.reason = *thin;
   }

@@ -49,6 +49,9 @@ class Dynamics {
   /// df/dt along the flow; only where there is one.
   virtual GiNaC::ex rate(const GiNaC::ex& f) const = 0;
   virtual std::size_t dimension() const = 0;
+  /// What has to have values beside what the bracket, or the flow, shows: as of `lost_parts`.
+  virtual std::vector<GiNaC::ex> parts_of_bracket() const { return {}; }
+  virtual std::vector<GiNaC::ex> parts_of_flow() const { return {}; }
 };
 
 /// The names that an expression may use, and how large it may become.

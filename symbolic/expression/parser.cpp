@@ -252,6 +252,11 @@ Quantity Parser::latex(std::string_view command) {
   return name();
 }
 
+void Parser::add_parts_of(const Quantity& quantity) {
+  if (!quantity.parts) return;
+  for (const ex& part : *quantity.parts) add_part(part);
+}
+
 void Parser::add_part(const ex& part) {
   if (!GiNaC::is_a<GiNaC::numeric>(part) && seen_.insert(part).second) parts_.push_back(part);
 }

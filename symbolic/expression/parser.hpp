@@ -97,6 +97,7 @@ class Parser {
   }
   /// Each once; numbers have values everywhere.
   void add_part(const ex& part);
+  void add_parts_of(const Quantity& quantity);
 
   // The grammar (parser.cpp).
 

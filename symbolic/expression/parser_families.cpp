@@ -148,7 +148,7 @@ Quantity Parser::component_of(const std::string& family, std::size_t start) {
     fail_at(start, fmt::format("'{}' has {} components, and {} are needed here", family, count,
                                dimension_));
   const Quantity& known = *names_.find(indexed_name(family, {*component_}));
-  for (const ex& part : known.parts ? *known.parts : std::vector<ex>{}) add_part(part);
+  add_parts_of(known);
   Quantity q = known;
   q.vector = true;
   return q;

@@ -242,7 +242,7 @@ Quantity Parser::member(const std::string& family, const std::vector<long>& plac
   if (known == nullptr)
     fail_at(start,
             fmt::format("the matrix '{}' has no entry {}", printable(family), printable(name)));
-  for (const ex& part : known->parts ? *known->parts : std::vector<ex>{}) add_part(part);
+  add_parts_of(*known);
   return *known;
 }
 

@@ -49,7 +49,7 @@ Quantity Parser::name() {
   if (known == nullptr) undeclared(word, start);
   if (const auto function = named_function(known->value))
     return arbitrary_call(known->value, *function, start);
-  for (const ex& part : known->parts ? *known->parts : std::vector<ex>{}) add_part(part);
+  add_parts_of(*known);
   return *known;
 }
 
@@ -103,6 +103,7 @@ Quantity Parser::bracket() {
              3 + 2 * std::max(f.depth, g.depth)};
   checked(q, start);
   q.value = evaluated(start, [&] { return dynamics->bracket(f.value, g.value); });
+  add_parts_of(with_parts(q, dynamics->parts_of_bracket()));
   return q;
 }
 
@@ -115,6 +116,7 @@ Quantity Parser::rate(std::size_t start) {
   Quantity q{0, f.bits * 2, f.degree * 2, n * n * derivative_nodes(f), 3 + 2 * f.depth};
   checked(q, start);
   q.value = evaluated(start, [&] { return dynamics->rate(f.value); });
+  add_parts_of(with_parts(q, dynamics->parts_of_flow()));
   return q;
 }
 

@@ -130,4 +130,28 @@ bool FunctionRing::depends_on_first(const Polynomial& p, std::size_t coordinates
   return false;
 }
 
+bool FunctionRing::rests_on_what_was_converted() const {
+  using functions::Kind;
+  if (signs_.rests_on_what_was_converted()) return true;
+  return std::ranges::any_of(table_.generators(), [&](const functions::Generator& g) {
+    switch (g.kind) {
+      case Kind::sine:
+      case Kind::cosine:
+      case Kind::exponential:
+      case Kind::inverse:
+        return false;
+      case Kind::root:  // of a number, which has its value everywhere
+        for (std::size_t i = 0; i < table_.ring().size(); ++i)
+          if (g.base.uses(i)) return true;
+        return false;
+      case Kind::function:
+        return g.order != functions::kConstant && g.order != functions::kCosineOfPi;
+      case Kind::absolute:
+      case Kind::imaginary:
+        break;
+    }
+    return true;
+  });
+}
+
 }  // namespace casimir

@@ -105,6 +105,10 @@ class FunctionRing {
   std::vector<std::pair<Polynomial, bool>> implied_positive() const {
     return signs_.implied_positive();
   }
+  /// Whether something is taken to hold, beyond the assumptions, since what was converted has
+  /// values: that a radicand is not negative, and the square of its root. What is proved then is
+  /// proved where all of that has values. (Of a quotient only its denominator is marked.)
+  bool rests_on_what_was_converted() const;
 
   const std::vector<GiNaC::symbol>& symbols() const { return table_.symbols(); }
   const PolynomialRing& ring() const { return table_.ring(); }

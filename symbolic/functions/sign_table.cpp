@@ -98,6 +98,8 @@ void SignTable::read_sign(const Polynomial& p, int sign, Reading reading, bool i
     if (known < 0) sign = -sign;
   }
   if ((odd == 1) != (reading == Reading::first) || others_vanish) return;
+  // That the other factors do not vanish may be implied, and with it the sign of this one.
+  implied = implied || (factors.size() > 2 && rests_on_what_was_converted());
   if (unknown.size() == 1) add_sign(unknown[0], sign, implied, strict);
   if (unknown.size() != 2) return;
   // f g >= 0 and f + g >= 0 make neither negative: if f were, so would be g, and the sum.
@@ -285,6 +287,10 @@ bool SignTable::is_nowhere_zero(const Polynomial& p) const {
   const auto factors = p.factors();
   return std::all_of(factors.begin(), factors.end(),
                      [&](const auto& factor) { return known_nonzero(factor.first); });
+}
+
+bool SignTable::rests_on_what_was_converted() const {
+  return !implied_.empty() || !products_.empty() || !divisors_.empty();
 }
 
 bool SignTable::is_assumed_positive(const Polynomial& p) const {

@@ -51,11 +51,12 @@ class SignTable {
   /// 1 where `p` is not negative anywhere, -1 where it is not positive, 0 where neither is known:
   /// by the signs of its factors.
   int sign_of(const Polynomial& p) const;
-  /// See FunctionRing, as for the next three.
+  /// See FunctionRing, as for the next four.
   bool is_nowhere_zero(const Polynomial& p) const;
   bool is_assumed_positive(const Polynomial& p) const;
   std::vector<Polynomial> real_zeros(const Polynomial& p) const;
   std::vector<std::pair<Polynomial, bool>> implied_positive() const;
+  bool rests_on_what_was_converted() const;
 
   /// Learns from the radicand of an even root that it is not negative where the root is real.
   /// \param strict  it is not zero either, as what a logarithm is taken of

@@ -16,6 +16,12 @@ class ModelDynamics : public Dynamics {
   }
   GiNaC::ex rate(const GiNaC::ex& f) const override { return model_.rate(f); }
   std::size_t dimension() const override { return model_.variables.size(); }
+  std::vector<GiNaC::ex> parts_of_bracket() const override { return model_.bracket_domain; }
+  std::vector<GiNaC::ex> parts_of_flow() const override {
+    std::vector<GiNaC::ex> parts = model_.bracket_domain;
+    parts.insert(parts.end(), model_.domain.begin(), model_.domain.end());
+    return parts;
+  }
 
  private:
   const Model& model_;

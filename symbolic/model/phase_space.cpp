@@ -227,6 +227,7 @@ std::optional<PoissonStructure> make_bracket(const PhaseSpaceText& text, const S
                                              std::vector<ex>* domain) {
   std::vector<ex> parts;
   if (domain == nullptr) domain = &parts;
+  if (frame) domain->insert(domain->end(), frame->domain.begin(), frame->domain.end());
   const auto written = written_bracket(text, variables, names, frame, domain);
   if (!text.dirac) return written;
   if (!written)

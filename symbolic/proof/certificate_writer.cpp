@@ -109,8 +109,15 @@ std::vector<Polynomial> CertificateWriter::cofactors(const Polynomial& p,
   std::vector<Polynomial> quotients(level.size(), Polynomial(p.ring()));
   if (p.is_zero()) return quotients;
   if (level.empty()) throw NotCovered("it is no identity of polynomials without assumptions");
-  if (!p.remainder(level, &quotients).is_zero())
+  // What is zero anyway is no divisor.
+  std::vector<Polynomial> divisors, own;
+  for (const Polynomial& f : level)
+    if (!f.is_zero()) divisors.push_back(f);
+  own.assign(divisors.size(), Polynomial(p.ring()));
+  if (divisors.empty() || !p.remainder(divisors, &own).is_zero())
     throw NotCovered("division by the functions of the level gave no polynomial cofactors");
+  for (std::size_t k = 0, next = 0; k < level.size(); ++k)
+    if (!level[k].is_zero()) quotients[k] = std::move(own[next++]);
   return quotients;
 }
 

@@ -233,7 +233,24 @@ class ModularRelation {
       append_term(sum, coefficient, text_of(relation[k].second));
     }
     if (sum.empty()) sum = "0";
-    return solved ? names_[0] + " = " + sum : sum + " = 0";
+    return solved ? names_[0] + " = " + sum : sum + " = 0" + where_it_determines(relation);
+  }
+
+  /// Where the highest power of the first function has a factor of others, a*F = G says nothing of
+  /// F for a = 0: a phrase, or nothing.
+  std::string where_it_determines(const std::vector<Term>& relation) const {
+    unsigned highest = 0;
+    for (const auto& [coefficient, exponents] : relation) highest = std::max(highest, exponents[0]);
+    std::string factor;
+    bool is_number = true;
+    for (auto [coefficient, exponents] : relation) {
+      if (exponents[0] != highest) continue;
+      exponents[0] = 0;
+      const std::string text = text_of(exponents);
+      is_number = is_number && text.empty();
+      append_term(factor, coefficient, text);
+    }
+    return is_number ? "" : ", where " + factor + " != 0";
   }
 
   Prover& prover_;

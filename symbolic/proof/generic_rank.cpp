@@ -8,6 +8,7 @@
 #include <map>
 
 #include "symbolic/proof/special_parameters.hpp"
+#include "symbolic/proof/thin_domain.hpp"
 
 namespace casimir {
 namespace {
@@ -234,9 +235,12 @@ PiecePoints::PiecePoints(Prover& prover, const std::vector<Polynomial>& function
   const FunctionRing::Pieces what = prover.ring().pieces(functions);
   if (what.switches.empty() && what.rigid) {
     if (auto point = draw()) pieces_.emplace_back().points.push_back(std::move(*point));
-    return;
+  } else {
+    sort_by_signs(what);
   }
-  sort_by_signs(what);
+  if (pieces_.empty() || !thin_assumptions(prover)) return;
+  for (Piece& piece : pieces_) piece.rigid = false;
+  where_ = "around " + pieces_[0].points[0].text() + (where_.empty() ? "" : ", " + where_);
 }
 
 std::optional<RealPoint> PiecePoints::draw() {

@@ -58,7 +58,8 @@ class PiecePoints {
   struct Piece {
     std::vector<RealPoint> points;
     /// A point shows what holds at almost all points of the piece; else only of its connected part,
-    /// so that each point has to be looked at.
+    /// so that each point has to be looked at. So it is, too, where the assumptions leave no open
+    /// set, see `thin_assumptions`.
     bool rigid = true;
   };
   /// Of those that were found, each with at least one point.

@@ -38,6 +38,11 @@ std::vector<ex> Prover::with_dynamics(const Model& model, std::vector<ex> expres
                        model.poisson ? model.field.begin() : model.field.end());
     if (model.hamiltonian) expressions.push_back(*model.hamiltonian);
   }
+  // Where a constraint has no value is no point of the phase space.
+  for (const NamedExpression& constraint : model.constraints) {
+    expressions.push_back(constraint.value);
+    expressions.insert(expressions.end(), constraint.domain.begin(), constraint.domain.end());
+  }
   if (subject == Subject::functions || !model.poisson) return expressions;
   expressions.insert(expressions.end(), model.bracket_domain.begin(), model.bracket_domain.end());
   for (std::size_t i = 0; i < model.variables.size(); ++i) {

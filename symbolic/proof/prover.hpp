@@ -151,6 +151,9 @@ class Prover {
   /// the same root it is proved to be an integral only beside its zeros.
   void say_where_motion_is_unique(Proof& proof, const NamedExpression& f);
 
+  /// Says where roots and logarithms of the claim have values.
+  void say_where_values_are(Proof& proof) const;
+
   /// Points for ranks and the like.
   RealPoints& real_points() { return real_points_; }
 

@@ -117,8 +117,6 @@ void Prover::say_conditions(Proof& proof) {
     }
   }
   proof.nonzero.clear();
-  proof.positive.clear();
-  proof.not_zero.clear();
   const std::vector<Polynomial> denominators = ring_.denominators();
   for (std::size_t k = 0; k < divided_by_.size(); ++k) {
     if (divided_by_[k] && !ring_.is_nowhere_zero(denominators[k]))
@@ -126,6 +124,12 @@ void Prover::say_conditions(Proof& proof) {
   }
   // The ring meets them in an order that differs from one process to the next.
   std::sort(proof.nonzero.begin(), proof.nonzero.end());
+  say_where_values_are(proof);
+}
+
+void Prover::say_where_values_are(Proof& proof) const {
+  proof.positive.clear();
+  proof.not_zero.clear();
   for (const auto& [p, strict] : ring_.implied_positive()) {
     proof.positive.push_back(ring_.text(p));
     if (strict) proof.not_zero.push_back(proof.positive.back());

@@ -5,12 +5,8 @@
 
 namespace casimir::search {
 
-/// What is said of generic values of the parameters says something only where the assumptions leave
-/// an open set of them: a >= 1 and a <= 1 leave a = 1 alone.
-/// \return  why it is not known that they do; empty where they do.
+/// As of a prover, of the one that the search has.
 std::optional<std::string> thin_assumptions(System& system);
-/// The same of a case without a motion of its own, as that of a map.
-std::optional<std::string> thin_assumptions(Prover& prover);
 
 /// Everything that one search of a case needs, from reading to proof.
 class Finder {

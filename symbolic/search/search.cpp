@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "symbolic/functions/short_text.hpp"
+#include "symbolic/proof/thin_domain.hpp"
 #include "symbolic/search/conditions/real_ideal.hpp"
 #include "symbolic/search/finder.hpp"
 #include "symbolic/search/independence.hpp"
@@ -177,31 +178,6 @@ void Finder::check_level() {
 
 std::optional<std::string> thin_assumptions(System& system) {
   return thin_assumptions(system.prover());
-}
-
-std::optional<std::string> thin_assumptions(Prover& prover) {
-  const std::vector<Assumption>& assumptions = prover.model().assumptions;
-  if (assumptions.empty()) return std::nullopt;
-  RealPoints& points = prover.real_points();
-  const auto is_inside = [&](std::vector<GiNaC::ex> coordinates) {
-    try {
-      RealPoint point = points.at(std::move(coordinates));
-      return std::all_of(assumptions.begin(), assumptions.end(), [&](const Assumption& a) {
-        const auto sign = point.evaluator().sign(a.difference);
-        return sign && *sign != 0 && holds(a.comparison, *sign);
-      });
-    } catch (const NotCertified&) {
-      return false;
-    }
-  };
-  const auto states = points.scenes();
-  if (std::any_of(states.begin(), states.end(), is_inside)) return std::nullopt;
-  constexpr int kTries = 400;
-  for (int k = 0; k < kTries; ++k)
-    if (is_inside(points.draw())) return std::nullopt;
-  return "no point was found at which all assumptions hold and none of them with equality: they "
-         "may "
-         "leave special values only";
 }
 
 /// What else has to hold, for "no other" to be about functions.

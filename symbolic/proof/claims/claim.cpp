@@ -50,4 +50,8 @@ std::string hamiltonian_name(const Model& model) {
   return taken ? "the Hamiltonian" : "H";
 }
 
+NamedExpression hamiltonian_of(const Model& model) {
+  return {hamiltonian_name(model), *model.hamiltonian, {}, model.domain};
+}
+
 }  // namespace casimir

@@ -56,6 +56,8 @@ std::vector<GiNaC::ex> values_of(const std::vector<NamedExpression>& functions,
 
 /// What the facts call the Hamiltonian: H, unless the file calls something else that.
 std::string hamiltonian_name(const Model& model);
+/// The Hamiltonian as a function among others, with what it was written with; the case has one.
+NamedExpression hamiltonian_of(const Model& model);
 
 /// {x_i, f} for every coordinate, on a level if one is given.
 Claim casimir_claim(const NamedExpression& f, const std::vector<NamedExpression>& on);

@@ -44,6 +44,7 @@ void decide_independence(Prover& prover, Proof& proof,
                          ? "the gradients are constant and independent"
                          : "the gradients are independent at " + text_of(found->points);
     say_where(proof, found->where, found->nonzero);
+    prover.say_where_values_are(proof);
     prover.check_inhabited(proof, {});
     require_independence_on_constraints(prover, proof, functions);
   } else if (found->exact) {
@@ -52,10 +53,10 @@ void decide_independence(Prover& prover, Proof& proof,
         "only {} of the {} functions are independent: every larger minor of their gradients "
         "vanishes identically",
         found->rank, functions.size());
-    const std::vector<NamedExpression> others = dependent(functions, slopes, found->points);
-    if (!others.empty() && others.size() + found->rank == functions.size())
-      proof.reason += fmt::format("; {} depend{} on those before", listed(others),
-                                  others.size() == 1 ? "s" : "");
+    const auto others = dependent(functions, slopes, found->points);
+    if (others && !others->empty() && others->size() + found->rank == functions.size())
+      proof.reason += fmt::format("; {} depend{} on those before", listed(*others),
+                                  others->size() == 1 ? "s" : "");
   } else {
     proof.reason = fmt::format("the gradients have rank {} at the points tried", found->rank);
   }
@@ -98,6 +99,7 @@ void decide_rank(Prover& prover, Proof& proof) {
                   found->points.empty() ? "the bracket is constant"
                                         : "rank taken at " + text_of(found->points));
   say_where(proof, found->where, found->nonzero);
+  prover.say_where_values_are(proof);
   prover.check_inhabited(proof, {});
   require_on_constraints(prover, proof, {{structure_rows(prover), found->rank}});
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "symbolic/proof/claims/claim.hpp"
+#include "symbolic/proof/claims/real_functions.hpp"
 #include "symbolic/proof/generic_rank.hpp"
 
 namespace casimir {
@@ -15,7 +16,7 @@ using Functions = std::vector<NamedExpression>;
 
 /// The Hamiltonian, the integrals, and those on the same level.
 Functions integrals_on(const Model& model, const Functions& level) {
-  Functions functions{{hamiltonian_name(model), *model.hamiltonian, {}}};
+  Functions functions{hamiltonian_of(model)};
   functions.insert(functions.end(), model.integrals.begin(), model.integrals.end());
   for (const LevelClaim& claim : model.conditionals) {
     if (names_of(claim.on) == names_of(level)) functions.push_back(claim.expression);
@@ -51,7 +52,11 @@ void decide(Prover& prover, Proof& proof, const Functions& on) {
     return;
   }
   const Level level = prover.level(on);
-  const Functions functions = integrals_on(prover.model(), on);
+  if (has_complex_motion(prover.model())) {
+    proof.reason = "the Hamiltonian or the bracket is not real";
+    return;
+  }
+  const Functions functions = real_ones(prover, integrals_on(prover.model(), on));
   PolynomialRows flows;
   for (const NamedExpression& f : functions) flows.push_back(prover.flow(f.value));
   std::optional<RealPoint> point = prover.exact_point(level);

@@ -9,6 +9,7 @@
 #include "symbolic/proof/claims/claim.hpp"
 #include "symbolic/proof/claims/on_constraints.hpp"
 #include "symbolic/proof/claims/ranks.hpp"
+#include "symbolic/proof/claims/real_functions.hpp"
 #include "symbolic/proof/claims/superintegrability.hpp"
 #include "symbolic/proof/special_parameters.hpp"
 
@@ -68,10 +69,34 @@ unsigned largest_set(const std::vector<unsigned>& commutes, RealPoint& point,
 struct SetsOnPieces {
   bool complete = false;      ///< each has as many as are needed
   std::size_t least = 0;      ///< of the piece with the smallest set
-  unsigned set = 0;           ///< of the first piece
+  unsigned set = 0;           ///< the same on all pieces; 0 where there is none
   std::vector<RealPoint> at;  ///< a point on each; or on the one with too few
   std::string where;
 };
+
+/// A set of `needed` functions in involution, the first among them, that are independent on each
+/// piece: at one point of a rigid one, at all points of another. (On p < 0 it may be |p| - p that
+/// counts, and |p| + p on p > 0.) Or 0.
+unsigned set_on_all(std::vector<PiecePoints::Piece>& pieces, const std::vector<unsigned>& commutes,
+                    const PolynomialRows& flows, std::size_t needed) {
+  for (unsigned set = 1; set < (1U << flows.size()); set += 2) {
+    if (static_cast<std::size_t>(std::popcount(set)) != needed) continue;
+    bool involutive = true;
+    PolynomialRows rows;
+    for (std::size_t i = 0; i < flows.size() && involutive; ++i) {
+      if ((set >> i & 1U) == 0) continue;
+      involutive = (set & ~commutes[i]) == 0;
+      rows.push_back(flows[i]);
+    }
+    const auto independent = [&](RealPoint& point) { return point.rank(rows) == needed; };
+    if (involutive && std::ranges::all_of(pieces, [&](PiecePoints::Piece& piece) {
+          return piece.rigid ? std::ranges::any_of(piece.points, independent)
+                             : std::ranges::all_of(piece.points, independent);
+        }))
+      return set;
+  }
+  return 0;
+}
 
 SetsOnPieces sets_on_pieces(Prover& prover, const PolynomialRows& flows,
                             const std::vector<unsigned>& commutes, std::size_t needed) {
@@ -90,7 +115,6 @@ SetsOnPieces sets_on_pieces(Prover& prover, const PolynomialRows& flows,
       const bool better = !best || (piece.rigid ? size(set) > *best : size(set) < *best);
       if (!better) continue;
       best = size(set);
-      if (result.at.empty()) result.set = set;
       if (*best >= needed && piece.rigid) break;
     }
     return *best;
@@ -110,6 +134,7 @@ SetsOnPieces sets_on_pieces(Prover& prover, const PolynomialRows& flows,
       result.at.push_back(piece.points.back());
     }
   } while (!result.complete && found.add_point());
+  if (result.complete) result.set = set_on_all(found.pieces(), commutes, flows, needed);
   return result;
 }
 
@@ -150,7 +175,12 @@ std::string why_not_counted(const std::optional<GenericRank>& leaf, std::size_t 
 
 /// Integrals in involution that are independent on the generic leaf: as many as half its dimension?
 void decide_liouville(Prover& prover, Proof& proof) {
-  const std::vector<NamedExpression> functions = with_hamiltonian(prover.model(), {});
+  if (has_complex_motion(prover.model())) {
+    proof.reason = "the Hamiltonian or the bracket is not real";
+    return;
+  }
+  const std::vector<NamedExpression> functions =
+      real_ones(prover, with_hamiltonian(prover.model(), {}));
   const auto leaf = bracket_rank(prover);
   proof.reason = why_not_counted(leaf, functions.size());
   if (proof.reason.empty() && !is_poisson(prover))
@@ -179,6 +209,13 @@ void decide_liouville(Prover& prover, Proof& proof) {
         leaf->rank, needed, found.least, found.at.empty() ? "" : " at " + text_of(found.at));
     return;
   }
+  if (found.set == 0) {
+    proof.reason = fmt::format(
+        "there are enough integrals in involution on each part of the domain, but other ones (at "
+        "{})",
+        text_of(found.at));
+    return;
+  }
   std::vector<NamedExpression> chosen;
   for (std::size_t i = 0; i < functions.size(); ++i) {
     if ((found.set >> i & 1U) != 0) chosen.push_back(functions[i]);
@@ -195,6 +232,7 @@ void decide_liouville(Prover& prover, Proof& proof) {
   for (const NamedExpression& f : chosen) own.push_back(prover.flow(f.value));
   say_where(proof, found.where != leaf->where ? found.where : "",
             needed_parameters(prover, own, needed));
+  prover.say_where_values_are(proof);
   prover.check_inhabited(proof, {});
   require_on_constraints(prover, proof, {{structure_rows(prover), leaf->rank}, {own, needed}});
 }

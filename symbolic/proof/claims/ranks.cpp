@@ -14,8 +14,7 @@ namespace casimir {
 
 std::vector<NamedExpression> with_hamiltonian(const Model& model,
                                               std::vector<NamedExpression> functions) {
-  if (model.hamiltonian && !model.time)
-    functions.push_back({hamiltonian_name(model), *model.hamiltonian, {}});
+  if (model.hamiltonian && !model.time) functions.push_back(hamiltonian_of(model));
   functions.insert(functions.end(), model.integrals.begin(), model.integrals.end());
   return functions;
 }
@@ -39,17 +38,18 @@ void say_where(Proof& proof, const std::string& where, const std::vector<std::st
   }
 }
 
-std::vector<NamedExpression> dependent(const std::vector<NamedExpression>& functions,
-                                       const PolynomialRows& rows, std::vector<RealPoint>& points) {
+std::optional<std::vector<NamedExpression>> dependent(const std::vector<NamedExpression>& functions,
+                                                      const PolynomialRows& rows,
+                                                      std::vector<RealPoint>& points) {
   std::vector<NamedExpression> result;
   PolynomialRows chosen;
   for (std::size_t i = 0; i < functions.size(); ++i) {
     PolynomialRows more = chosen;
     more.push_back(rows[i]);
-    const bool adds = std::any_of(points.begin(), points.end(), [&](RealPoint& point) {
-      return point.rank(more) > chosen.size();
-    });
-    if (adds)
+    const auto adds = [&](RealPoint& point) { return point.rank(more) > chosen.size(); };
+    const auto count = std::ranges::count_if(points, adds);
+    if (count != 0 && static_cast<std::size_t>(count) != points.size()) return std::nullopt;
+    if (count != 0)
       chosen = std::move(more);
     else
       result.push_back(functions[i]);

@@ -22,9 +22,11 @@ PolynomialRows gradients(Prover& prover, const std::vector<NamedExpression>& fun
 void say_where(Proof& proof, const std::string& where,
                const std::vector<std::string>& nonzero = {});
 
-/// Those of the functions whose rows add nothing to the ones before them, at all of these points.
-std::vector<NamedExpression> dependent(const std::vector<NamedExpression>& functions,
-                                       const PolynomialRows& rows, std::vector<RealPoint>& points);
+/// Those of the functions whose rows add nothing to the ones before them, at all of these points;
+/// nothing where a row adds something at some of them only, as that of |p| - p does for p < 0.
+std::optional<std::vector<NamedExpression>> dependent(const std::vector<NamedExpression>& functions,
+                                                      const PolynomialRows& rows,
+                                                      std::vector<RealPoint>& points);
 
 /// Whether rows that contain arbitrary functions are independent for every choice of these, and all
 /// values of the parameters.

@@ -6,19 +6,11 @@
 
 #include "symbolic/model/given_functions.hpp"
 #include "symbolic/proof/claims/ranks.hpp"
+#include "symbolic/proof/claims/real_functions.hpp"
 #include "symbolic/proof/generic_rank.hpp"
 
 namespace casimir {
 namespace {
-
-/// Of a case with I anything beside polynomials may be complex: a root too, of a negative number.
-bool may_be_complex(const Prover& prover, const Polynomial& f) {
-  if (!prover.model().complex_numbers) return false;
-  const FunctionRing& ring = prover.ring();
-  for (std::size_t place = ring.symbols().size(); place < ring.ring().size(); ++place)
-    if (f.uses(place)) return true;
-  return false;
-}
 
 /// Whether all brackets between them vanish, on the level if there is one.
 Verdict involution_of(Prover& prover, const std::vector<Polynomial>& functions,
@@ -40,21 +32,6 @@ Verdict involution_of(Prover& prover, const std::vector<Polynomial>& functions,
   Proof proof;
   prover.decide(proof, left, level);
   return proof.verdict;
-}
-
-/// Whether the Hamiltonian or the bracket has a number that is not real.
-bool has_complex_motion(const Model& model) {
-  const auto complex = [](const GiNaC::ex& f) {
-    for (auto part = f.preorder_begin(); part != f.preorder_end(); ++part)
-      if (GiNaC::is_a<GiNaC::numeric>(*part) && !GiNaC::ex_to<GiNaC::numeric>(*part).is_real())
-        return true;
-    return false;
-  };
-  const std::size_t n = model.variables.size();
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (complex((*model.poisson)(i, j))) return true;
-  return complex(*model.hamiltonian);
 }
 
 /// Why no count can be made; empty where it can.

@@ -6,6 +6,7 @@
 
 #include "symbolic/proof/claims/on_constraints.hpp"
 #include "symbolic/proof/claims/ranks.hpp"
+#include "symbolic/proof/claims/real_functions.hpp"
 
 namespace casimir {
 namespace {
@@ -20,7 +21,7 @@ struct Chosen {
 
 /// A function that is not proved to be an integral is not counted, however independent it is.
 std::optional<Chosen> independent_integrals(Prover& prover, Proof& proof) {
-  std::vector<NamedExpression> functions = with_hamiltonian(prover.model(), {});
+  std::vector<NamedExpression> functions = real_ones(prover, with_hamiltonian(prover.model(), {}));
   std::erase_if(functions, [&](const NamedExpression& f) {
     return !prover.is_zero(prover.rate(prover.convert(f.value)));
   });
@@ -32,7 +33,13 @@ std::optional<Chosen> independent_integrals(Prover& prover, Proof& proof) {
     return std::nullopt;
   }
   Chosen result;
-  result.others = dependent(functions, flows, found->points);
+  auto others = dependent(functions, flows, found->points);
+  if (!others) {
+    proof.reason = "on other parts of the domain other integrals are independent (at " +
+                   text_of(found->points) + ")";
+    return std::nullopt;
+  }
+  result.others = std::move(*others);
   for (std::size_t i = 0; i < functions.size(); ++i) {
     if (std::ranges::any_of(result.others, [&](const NamedExpression& other) {
           return other.name == functions[i].name;
@@ -94,6 +101,10 @@ void decide_superintegrability(Prover& prover, Proof& proof) {
             : fmt::format("the leaves are only known to have dimension {} or more", leaf->rank);
     return;
   }
+  if (has_complex_motion(prover.model())) {
+    proof.reason = "the Hamiltonian or the bracket is not real";
+    return;
+  }
   if (!is_poisson(prover)) {
     proof.reason = "the Jacobi identity is not proved";
     return;
@@ -140,6 +151,7 @@ void decide_superintegrability(Prover& prover, Proof& proof) {
   say_where(proof, leaf->where, leaf->nonzero);
   say_where(proof, flows.where != leaf->where ? flows.where : "", flows.nonzero);
   say_where(proof, "", rank->nonzero);
+  prover.say_where_values_are(proof);
   prover.check_inhabited(proof, {});
   require_on_constraints(
       prover, proof,

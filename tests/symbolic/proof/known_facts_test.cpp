@@ -31,6 +31,20 @@ const Proof* finding(const Proof& judgement, const std::string& kind) {
   return nullptr;
 }
 
+TEST(Judgement, ARelationSaysWhereItDeterminesTheCandidate) {
+  // At a = 0 nothing follows from G = 0.
+  const Model model = model_of(
+      "hamiltonian = \"p1^2/2\"\n[phase_space]\nvariables = [\"q1\",\"q2\",\"p1\",\"p2\"]\n"
+      "canonical = true\n[parameters]\na = {}\n[integrals]\nG = \"a*p2\"\n");
+  const Proof note = judgement(model, "p2");
+  const Proof* dependence = finding(note, "independence");
+  ASSERT_NE(dependence, nullptr);
+  EXPECT_NE(dependence->reason.find("where a != 0"), std::string::npos) << dependence->reason;
+  const Proof plain = judgement(model, "2*p1^2");
+  ASSERT_NE(finding(plain, "independence"), nullptr);
+  EXPECT_EQ(finding(plain, "independence")->reason.find("where"), std::string::npos);
+}
+
 TEST(Judgement, DependentCandidateComesWithItsRelation) {
   const Proof note = judgement(goryachev_chaplygin(), "3*H^2 - r^2*F1 + F2/2");
   const Proof* dependence = finding(note, "independence");

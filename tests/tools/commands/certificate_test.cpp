@@ -236,6 +236,16 @@ TEST(CertificateOf, CandidateOnALevel) {
   EXPECT_EQ(coqc(folder, "g.v"), 0);
 }
 
+TEST(CertificateOf, FunctionsOfALevelThatAreZeroAreNoDivisors) {
+  const Folder folder;
+  folder.write(
+      "zero.toml",
+      "hamiltonian = \"p^2/2\"\n[phase_space]\nvariables = [\"q\",\"p\"]\ncanonical = true\n"
+      "[[conditional]]\nname = \"C\"\nexpression = \"p^2*q\"\non = [\"p\", \"q - q\"]\n");
+  ASSERT_EQ(run_in(folder, {"verify", "zero.toml", "--certificate", "zero.v"}).status, 0);
+  EXPECT_EQ(coqc(folder, "zero.v"), 0);
+}
+
 TEST(CertificateOf, FalseClaimIsNotWritten) {
   const Folder folder;
   const Outcome outcome =

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "symbolic/proof/prover.hpp"
+
+namespace casimir {
+
+/// Of a case with I anything beside polynomials may be complex: a root too, of a negative number.
+bool may_be_complex(const Prover& prover, const Polynomial& f);
+
+/// Whether the Hamiltonian, if there is one, or the bracket has a number that is not real.
+bool has_complex_motion(const Model& model);
+
+/// Those of the functions that are real. The theorems of Liouville and Mishchenko and Fomenko count
+/// real functions: the levels of q + I*p are those of q and p, which do not commute.
+std::vector<NamedExpression> real_ones(Prover& prover, std::vector<NamedExpression> functions);
+
+}  // namespace casimir
