@@ -45,6 +45,19 @@ std::vector<unsigned> commuting(Prover& prover, const std::vector<NamedExpressio
   return sets;
 }
 
+/// The flows of a set of functions in involution; nothing where they are not.
+std::optional<PolynomialRows> flows_in_involution(unsigned set,
+                                                  const std::vector<unsigned>& commutes,
+                                                  const PolynomialRows& flows) {
+  PolynomialRows rows;
+  for (std::size_t i = 0; i < flows.size(); ++i) {
+    if ((set >> i & 1U) == 0) continue;
+    if ((set & ~commutes[i]) != 0) return std::nullopt;
+    rows.push_back(flows[i]);
+  }
+  return rows;
+}
+
 /// The largest set, up to `needed`, of functions in involution with the first one whose fields have
 /// independent values.
 unsigned largest_set(const std::vector<unsigned>& commutes, RealPoint& point,
@@ -53,14 +66,8 @@ unsigned largest_set(const std::vector<unsigned>& commutes, RealPoint& point,
   const auto size = [](unsigned set) { return static_cast<std::size_t>(std::popcount(set)); };
   for (unsigned set = 1; set < (1U << flows.size()) && size(best) < needed; set += 2) {
     if (size(set) <= size(best) || size(set) > needed) continue;
-    bool involutive = true;
-    PolynomialRows rows;
-    for (std::size_t i = 0; i < flows.size() && involutive; ++i) {
-      if ((set >> i & 1U) == 0) continue;
-      involutive = (set & ~commutes[i]) == 0;
-      rows.push_back(flows[i]);
-    }
-    if (involutive && point.rank(rows) == rows.size()) best = set;
+    const auto rows = flows_in_involution(set, commutes, flows);
+    if (rows && point.rank(*rows) == rows->size()) best = set;
   }
   return best;
 }
@@ -81,15 +88,10 @@ unsigned set_on_all(std::vector<PiecePoints::Piece>& pieces, const std::vector<u
                     const PolynomialRows& flows, std::size_t needed) {
   for (unsigned set = 1; set < (1U << flows.size()); set += 2) {
     if (static_cast<std::size_t>(std::popcount(set)) != needed) continue;
-    bool involutive = true;
-    PolynomialRows rows;
-    for (std::size_t i = 0; i < flows.size() && involutive; ++i) {
-      if ((set >> i & 1U) == 0) continue;
-      involutive = (set & ~commutes[i]) == 0;
-      rows.push_back(flows[i]);
-    }
-    const auto independent = [&](RealPoint& point) { return point.rank(rows) == needed; };
-    if (involutive && std::ranges::all_of(pieces, [&](PiecePoints::Piece& piece) {
+    const auto rows = flows_in_involution(set, commutes, flows);
+    if (!rows) continue;
+    const auto independent = [&](RealPoint& point) { return point.rank(*rows) == needed; };
+    if (std::ranges::all_of(pieces, [&](PiecePoints::Piece& piece) {
           return piece.rigid ? std::ranges::any_of(piece.points, independent)
                              : std::ranges::all_of(piece.points, independent);
         }))
@@ -146,14 +148,8 @@ std::optional<unsigned> always_independent_set(const Prover& prover, const Polyn
   if (!has_arbitrary_functions(prover.model())) return std::nullopt;
   for (unsigned set = 1; set < (1U << flows.size()); set += 2) {  // with the first, the Hamiltonian
     if (static_cast<std::size_t>(std::popcount(set)) != needed) continue;
-    PolynomialRows rows;
-    bool involutive = true;
-    for (std::size_t i = 0; i < flows.size(); ++i) {
-      if ((set >> i & 1U) == 0) continue;
-      involutive = involutive && (commutes[i] & set) == set;
-      rows.push_back(flows[i]);
-    }
-    if (involutive && are_always_independent(prover, rows)) return set;
+    const auto rows = flows_in_involution(set, commutes, flows);
+    if (rows && are_always_independent(prover, *rows)) return set;
   }
   return std::nullopt;
 }
