@@ -20,9 +20,7 @@ using Functions = std::vector<NamedExpression>;
 class Judge {
  public:
   Judge(Prover& prover, NamedExpression f)
-      : prover_(prover),
-        f_(std::move(f)),
-        shared_(!prover.ring().rests_on_what_was_converted() && !prover.ring().is_complex()) {}
+      : prover_(prover), f_(std::move(f)), shared_(prover.ring().is_polynomial()) {}
 
   void judge(Proof& note);
 
@@ -42,7 +40,7 @@ class Judge {
 
   Prover& prover_;
   const NamedExpression f_;
-  const bool shared_;  ///< nothing rests on what else was converted
+  const bool shared_;  ///< all has values everywhere
 };
 
 Proof Judge::finding_of(const Claim& claim) {
