@@ -50,8 +50,11 @@ bool has_imaginary_unit(const toml::node& node, std::initializer_list<std::strin
         *list, [](const toml::node& part) { return has_imaginary_unit(part, {"name"}); });
   const auto* table = node.as_table();
   return table && std::ranges::any_of(*table, [&](const auto& entry) {
-           return std::ranges::find(words, entry.first.str()) == words.end() &&
-                  has_imaginary_unit(entry.second, {});
+           const std::string_view key = entry.first.str();
+           if (std::ranges::find(words, key) != words.end()) return false;
+           return key == "section" && entry.second.is_table()
+                      ? has_imaginary_unit(entry.second, {"labels"})
+                      : has_imaginary_unit(entry.second, {});
          });
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 
+#include "symbolic/algebra/number_text.hpp"
 #include "symbolic/case/build_scene.hpp"
 #include "symbolic/case/case_names.hpp"
 #include "symbolic/case/case_parts.hpp"

@@ -20,6 +20,11 @@ TEST(ImaginaryUnit, IsThatOfExpressions) {
   EXPECT_FALSE(
       is_complex("", "[[conditional]]\nname = \"I\"\nexpression = \"x\"  # I\non = [\"y\"]\n"));
   EXPECT_FALSE(is_complex("", "[integrals]\nF = \"Ix + x_I\"\n", "I1"));
+  EXPECT_FALSE(is_complex(
+      "", "[section]\nfunction = \"x\"\nplot = [\"x\", \"y\"]\nlabels = [\"I\", \"L\"]\n"));
+  EXPECT_TRUE(is_complex(
+      "", "[section]\nfunction = \"x\"\nplot = [\"I*x\", \"y\"]\nlabels = [\"l\", \"L\"]\n"));
+  EXPECT_TRUE(is_complex("", "[integrals]\nlabels = \"I*x\"\n"));
   EXPECT_TRUE(is_complex("", "", "I*x"));
   EXPECT_TRUE(is_complex("", "[integrals]\ntitle = \"I*x\"\n"));
   EXPECT_TRUE(is_complex("", "[integrals]\nF = '''x # \\\\\n  + I'''\n"));
