@@ -52,7 +52,7 @@ void decide(Prover& prover, Proof& proof, const Functions& on) {
     return;
   }
   const Level level = prover.level(on);
-  if (has_complex_motion(prover.model())) {
+  if (has_complex_motion(prover)) {
     proof.reason = "the Hamiltonian or the bracket is not real";
     return;
   }

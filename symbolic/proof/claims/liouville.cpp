@@ -171,7 +171,7 @@ std::string why_not_counted(const std::optional<GenericRank>& leaf, std::size_t 
 
 /// Integrals in involution that are independent on the generic leaf: as many as half its dimension?
 void decide_liouville(Prover& prover, Proof& proof) {
-  if (has_complex_motion(prover.model())) {
+  if (has_complex_motion(prover)) {
     proof.reason = "the Hamiltonian or the bracket is not real";
     return;
   }

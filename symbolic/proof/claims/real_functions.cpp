@@ -10,7 +10,8 @@ bool may_be_complex(const Prover& prover, const Polynomial& f) {
   return false;
 }
 
-bool has_complex_motion(const Model& model) {
+bool has_complex_motion(Prover& prover) {
+  const Model& model = prover.model();
   const auto complex = [](const GiNaC::ex& f) {
     for (auto part = f.preorder_begin(); part != f.preorder_end(); ++part)
       if (GiNaC::is_a<GiNaC::numeric>(*part) && !GiNaC::ex_to<GiNaC::numeric>(*part).is_real())
@@ -21,7 +22,9 @@ bool has_complex_motion(const Model& model) {
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (complex((*model.poisson)(i, j))) return true;
-  return model.hamiltonian && complex(*model.hamiltonian);  // a map has none
+  return model.hamiltonian &&  // a map has none
+         (complex(*model.hamiltonian) ||
+          may_be_complex(prover, prover.convert(*model.hamiltonian)));
 }
 
 std::vector<NamedExpression> real_ones(Prover& prover, std::vector<NamedExpression> functions) {

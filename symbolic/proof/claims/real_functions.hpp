@@ -9,8 +9,10 @@ namespace casimir {
 /// Of a case with I anything beside polynomials may be complex: a root too, of a negative number.
 bool may_be_complex(const Prover& prover, const Polynomial& f);
 
-/// Whether the Hamiltonian, if there is one, or the bracket has a number that is not real.
-bool has_complex_motion(const Model& model);
+/// Whether the bracket has a number that is not real, or the Hamiltonian, if there is one, may be
+/// complex: then there is no real motion, and `real_ones` would leave the Hamiltonian out, which
+/// all others have to commute with.
+bool has_complex_motion(Prover& prover);
 
 /// Those of the functions that are real. The theorems of Liouville and Mishchenko and Fomenko count
 /// real functions: the levels of q + I*p are those of q and p, which do not commute.

@@ -44,7 +44,7 @@ std::string why_not_counted(Prover& prover, const std::vector<Polynomial>& found
     return "the motion is on constraints that are no Casimir functions";
   if (has_arbitrary_functions(model)) return "the case has arbitrary functions";
   if (found.empty()) return "there is none";
-  if (has_complex_motion(model) ||
+  if (has_complex_motion(prover) ||
       std::ranges::any_of(found, [&](const auto& f) { return may_be_complex(prover, f); }))
     return "some may have complex values";
   // Of a function of it each value gives another integral.

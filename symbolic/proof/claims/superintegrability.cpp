@@ -101,7 +101,7 @@ void decide_superintegrability(Prover& prover, Proof& proof) {
             : fmt::format("the leaves are only known to have dimension {} or more", leaf->rank);
     return;
   }
-  if (has_complex_motion(prover.model())) {
+  if (has_complex_motion(prover)) {
     proof.reason = "the Hamiltonian or the bracket is not real";
     return;
   }

@@ -159,6 +159,14 @@ TEST(Domains, OfComplexFunctionsAreNoneOfLiouville) {
             Verdict::proved);
 }
 
+TEST(Domains, OfAComplexHamiltonianLeaveNothingToCount) {
+  // q1 and q2 commute, and are no integrals.
+  const std::string none = "[integrals]\nF = \"q1\"\nG = \"q2\"\nK = \"I*p3\"\n";
+  EXPECT_NE(verdict_in(canonical("sqrt(p1^2 + p2^2 + 1)", none), "liouville"), Verdict::proved);
+  const std::string two = "[integrals]\nF = \"q1\"\nG = \"q2\"\nK = \"I*p1\"\n";
+  EXPECT_NE(verdict_in(canonical("sqrt(p1^2 + p2^2 + 1)", two, 2), "liouville"), Verdict::proved);
+}
+
 const Proof* finding_of(const Proof& note, const std::string& kind) {
   const auto found = std::ranges::find_if(
       note.findings, [&](const Proof& proof) { return to_string(proof.kind) == kind; });
