@@ -95,13 +95,13 @@ void NearSingular::see(double t, const double* x) {
   std::copy_n(x, run_.initial.size(), inputs_.begin());
   inputs_.back() = t;
   (*divisors_)(inputs_.data(), values_.data());
-  bool crosses = false;
+  std::optional<double> crosses;
   for (std::size_t i = 0; i < values_.size(); ++i) {
     Range& range = ranges_[i];
     const double size = std::abs(values_[i]);
     range.largest = std::max(range.largest, size);
     const bool other_sign = values_[i] * range.last < 0;
-    crosses = crosses || other_sign;
+    if (other_sign) crosses = std::max(crosses.value_or(0), size / range.largest);
     if (other_sign && !range.crossed) range.crossed = t;
     range.last = values_[i];
     if (!range.state.empty() && !(size < range.least)) continue;
@@ -112,22 +112,27 @@ void NearSingular::see(double t, const double* x) {
   count(t, crosses);
 }
 
-void NearSingular::count(double t, bool crosses) {
+void NearSingular::count(double t, std::optional<double> crosses) {
   constexpr unsigned long long kWindow = 4096, kOften = kWindow / 4;
-  constexpr double kTiny = 1e-3;
+  constexpr double kTiny = 1e-3, kNear = 1e-2;
   ++steps_;
   if (crosses && changes_ == 0) {
     step_before_ = std::abs(t) / static_cast<double>(steps_);
     window_begins_ = steps_;
     window_time_ = t;
   }
-  if (crosses) ++changes_;
+  if (crosses) {
+    ++changes_;
+    farthest_ = std::max(farthest_, *crosses);
+  }
   if (changes_ == 0 || steps_ < window_begins_ + kWindow) return;
   const double step = std::abs(t - window_time_) / static_cast<double>(kWindow);
-  to_and_fro_ = to_and_fro_ || (changes_ > kOften && step < kTiny * step_before_);
+  to_and_fro_ =
+      to_and_fro_ || (changes_ > kOften && step < kTiny * step_before_ && farthest_ < kNear);
   window_begins_ = steps_;
   window_time_ = t;
   changes_ = 1;
+  farthest_ = 0;
 }
 
 bool NearSingular::crossed() const {

@@ -26,9 +26,9 @@ class NearSingular {
   std::optional<std::string> finding() const;
   /// Whether a divisor changed its sign.
   bool crossed() const;
-  /// Whether the run goes to and fro over a zero of a divisor, in steps that are tiny beside those
-  /// before: a solution ends there, as that of x' = -1/x does, and an error of the size of the
-  /// tolerance takes each step to the other side.
+  /// Whether the run goes to and fro over a zero of a divisor, near it and in steps that are tiny
+  /// beside those before: a solution ends there, as that of x' = -1/x does, and an error of the
+  /// size of the tolerance takes each step to the other side.
   bool goes_to_and_fro() const { return to_and_fro_; }
 
  private:
@@ -39,13 +39,14 @@ class NearSingular {
     std::optional<double> crossed;  ///< the first time at which it has another sign
     std::vector<double> state;
   };
-  void count(double t, bool crosses);
+  void count(double t, std::optional<double> crosses);
 
   const PreparedScene& run_;
   unsigned long long steps_ = 0;
   double step_before_ = 0;  ///< the mean one up to the first change of sign
   unsigned long long window_begins_ = 0, changes_ = 0;
   double window_time_ = 0;
+  double farthest_ = 0;  ///< from zero at a change of sign, as a part of the largest value
   bool to_and_fro_ = false;
   std::optional<Interpreter> divisors_;
   std::vector<std::vector<std::size_t>> states_;  ///< that each divisor depends on

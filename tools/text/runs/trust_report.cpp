@@ -64,8 +64,8 @@ std::vector<std::string> warnings_of(const ErrorEstimate& trust, bool constant_s
     const bool by_rounding = trust.input_rounding > trust.error_estimate / 2;
     warnings.push_back(fmt::format("the end state may be off by {:.0e} of its size{}",
                                    trust.error_estimate,
-                                   by_rounding ? ", since the start of the scene has to be rounded "
-                                                 "to double: --digits 30 sees the rest of it"
+                                   by_rounding     ? ", since the numbers of the scene have to be "
+                                                     "rounded to double: --digits 30 keeps more of them"
                                    : constant_step ? ": take a smaller --step"
                                                    : ": tighten --tolerance"));
   }
