@@ -163,6 +163,8 @@ class Provers {
     }
   }
 
+  /// \throws ModelError  for a claim that has no meaning, as one that divides by what is zero
+  ///     everywhere
   void decide(const Claim& claim, Proof& proof) {
     try {
       const WorkMeter meter(model_.limits);
@@ -184,6 +186,25 @@ class Provers {
   bool inhabited_;
   std::optional<Prover> shared_, own_;
 };
+
+/// Decides a claim; where it has no meaning, by `meaningless`.
+void decide_or_leave(const Model& model, Meaningless meaningless, Proof& proof,
+                     const std::function<void(Proof&)>& decide) {
+  if (meaningless == Meaningless::thrown) return decide(proof);
+  const Proof before = proof;
+  const auto leave = [&](std::string reason) {
+    const Prover has_meaning(model, {});  // of the case, else this throws
+    proof = before;
+    proof.reason = std::move(reason);
+  };
+  try {
+    decide(proof);
+  } catch (const NoValue& nowhere) {
+    leave(fmt::format("what it is about has a value nowhere: {}", nowhere.what()));
+  } catch (const ModelError& error) {
+    leave(error.what());
+  }
+}
 
 /// The claims of a case with arbitrary functions, for functions that are given.
 struct GivenCase {
@@ -275,7 +296,8 @@ Proof prove_claim(const Model& model, ClaimKind kind, const NamedExpression& f,
 std::vector<Proof> prove(const Model& model, const Candidates& candidates,
                          const std::function<bool(const Proof&)>& report) {
   const std::vector<Claim> claims = claims_of(model, candidates);
-  if (!has_arbitrary_functions(model)) return decide_claims(model, claims, report);
+  const Meaningless meaningless = candidates.empty() ? Meaningless::undecided : Meaningless::thrown;
+  if (!has_arbitrary_functions(model)) return decide_claims(model, claims, meaningless, report);
   Provers provers(model, claims, true);
   std::vector<GivenCase> cases =
       given_cases(model, claims.size(), [&](const Model& own, const GivenFunctions& given) {
@@ -284,19 +306,22 @@ std::vector<Proof> prove(const Model& model, const Candidates& candidates,
   std::vector<Proof> proofs;
   for (std::size_t i = 0; i < claims.size(); ++i) {
     proofs.push_back(undecided(claims[i]));
-    decide_for_all(provers, cases, claims[i], i, proofs.back());
+    decide_or_leave(model, meaningless, proofs.back(),
+                    [&](Proof& proof) { decide_for_all(provers, cases, claims[i], i, proof); });
     if (report && !report(proofs.back())) break;
   }
   return proofs;
 }
 
 std::vector<Proof> decide_claims(const Model& model, const std::vector<Claim>& claims,
+                                 Meaningless meaningless,
                                  const std::function<bool(const Proof&)>& report) {
   Provers provers(model, claims);
   std::vector<Proof> proofs;
   for (const Claim& claim : claims) {
     proofs.push_back(undecided(claim));
-    provers.decide(claim, proofs.back());
+    decide_or_leave(model, meaningless, proofs.back(),
+                    [&](Proof& proof) { provers.decide(claim, proof); });
     if (report && !report(proofs.back())) break;
   }
   return proofs;

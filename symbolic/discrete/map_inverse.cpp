@@ -29,7 +29,7 @@ bool is_proved_inverse(const MapModel& map, const Inverse& inverse) {
   claim.expressions.insert(claim.expressions.end(), map.next_domain.begin(), map.next_domain.end());
   for (const ex& previous : inverse) claim.expressions.push_back(map.composed(previous));
   claim.subject = Subject::functions;
-  const Proof proof = decide_claims(map.base, {claim}, {}).front();
+  const Proof proof = decide_claims(map.base, {claim}, Meaningless::thrown, {}).front();
   return proof.verdict == Verdict::proved && proof.where.empty();
 }
 

@@ -66,7 +66,8 @@ std::vector<Proof> prove_map(const MapModel& map, const Candidates& candidates,
       shorten_conditions(proof);
     };
   }
-  return decide_claims(map.base, claims, report);
+  return decide_claims(map.base, claims,
+                       candidates.empty() ? Meaningless::undecided : Meaningless::thrown, report);
 }
 
 std::vector<Proof> pending(const MapModel& map, const Candidates& candidates) {
@@ -74,11 +75,11 @@ std::vector<Proof> pending(const MapModel& map, const Candidates& candidates) {
 }
 
 Proof discrete::prove_integral(const MapModel& map, const NamedExpression& f) {
-  return decide_claims(map.base, {integral_claim(map, f, {})}, {}).front();
+  return decide_claims(map.base, {integral_claim(map, f, {})}, Meaningless::thrown, {}).front();
 }
 
 Proof discrete::prove_density(const MapModel& map, const NamedExpression& density) {
-  return decide_claims(map.base, {measure_claim(map, density)}, {}).front();
+  return decide_claims(map.base, {measure_claim(map, density)}, Meaningless::thrown, {}).front();
 }
 
 }  // namespace casimir

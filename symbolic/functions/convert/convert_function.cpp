@@ -43,6 +43,10 @@ GeneratorTools Converter::elliptic_tools() {
       .convert = [this](const ex& e) { return convert(e); },
       .inverse = [this](const Polynomial& p) { return inverse_of(table_, p); },
       .square_root = [this](const Polynomial& p) { return roots_.root(p, 2); },
+      .vanishes =
+          [this](const Polynomial& p) {
+            return table_.numerator(table_.fraction(p).first).is_zero();
+          },
       .product = [this](const auto& a, const auto& b) { return table_.checked_product(a, b); },
       .slopes = [this](const Polynomial& p) { return table_.slopes(p); },
       .sine = [this](const Polynomial& p) { return angles_.sine_cosine(p).first; },

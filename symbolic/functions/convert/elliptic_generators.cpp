@@ -49,11 +49,14 @@ std::size_t symmetric(const GeneratorTools& t, const std::array<ex, 3>& argument
   std::array<Polynomial, 3> x{t.convert(arguments[0]), t.convert(arguments[1]),
                               t.convert(arguments[2])};
   if (const auto known = t.find(kFirstKind, {x[0], x[1], x[2]})) return *known;
-  for (std::size_t i = 0; i < 3; ++i)
-    if ((x[i] - x[(i + 1) % 3]).is_zero())
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (t.vanishes(x[i]))
+      throw TooLarge("elliptic integrals of an argument 0 have no derivation here");
+    if (t.vanishes(x[i] - x[(i + 1) % 3]))
       throw TooLarge(
           "elliptic integrals of two equal arguments are elementary functions: they have to be "
           "written as these to be proved of");
+  }
   const Polynomial between = t.inverse(x[0] - x[1]), first = t.inverse(x[2] - x[0]),
                    second = t.inverse(x[2] - x[1]), over_last = t.inverse(x[2]);
   const Polynomial sum = t.inverse(t.square_root(t.product(x[0], t.product(x[1], x[2])))).scaled(3);
@@ -130,7 +133,9 @@ Polynomial third_kind(const GeneratorTools& t, const GiNaC::function& f) {
   std::vector<Polynomial> kinds, over;
   for (std::size_t i = 0; i < 3; ++i) {
     const Polynomial difference = x[3] - x[i];
-    if (difference.is_zero())
+    if (t.vanishes(x[i]) || t.vanishes(x[3]))
+      throw TooLarge("elliptic integrals of an argument 0 have no derivation here");
+    if (t.vanishes(difference))
       throw TooLarge("R_J(x, y, z, z) is R_D(x, y, z), and has to be written as that");
     over.push_back(t.inverse(difference));
     kinds.push_back(second_kind(t, {f.op((i + 1) % 3), f.op((i + 2) % 3), f.op(i)}));

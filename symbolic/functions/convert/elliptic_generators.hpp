@@ -15,6 +15,8 @@ struct GeneratorTools {
   const PolynomialRing& ring;
   std::function<Polynomial(const GiNaC::ex&)> convert;
   std::function<Polynomial(const Polynomial&)> inverse, square_root;
+  /// Whether it is zero by the relations among the generators.
+  std::function<bool(const Polynomial&)> vanishes;
   std::function<Polynomial(const Polynomial&, const Polynomial&)> product;
   /// The derivatives by all symbols.
   std::function<std::vector<Polynomial>(const Polynomial&)> slopes;

@@ -120,6 +120,12 @@ TEST(EllipticProofs, WhatIsNoIdentityIsNeverProved) {
   EXPECT_NE(verdict_of("R_F(x, x, x)", "1/sqrt(x)"), Verdict::refuted);
 }
 
+TEST(EllipticProofs, OfArgumentsThatAreEqualByARelationAreUndecided) {
+  for (const char* f : {"R_F(cos(x)^2, 1 - sin(x)^2, 2)", "R_J(1, y, 2, cos(x)^2 + sin(x)^2)",
+                        "R_F(x, y, cos(x)^2 + sin(x)^2 - 1)"})
+    EXPECT_EQ(verdict_of(f, std::string(f) + " + x"), Verdict::undecided) << f;
+}
+
 /// sn(x, y) and sn(x, -y) are one function; what is not known of derivatives by the modulus is no
 /// value that a rank could be taken of.
 TEST(EllipticProofs, DerivativesByTheModulusMakeNothingIndependent) {

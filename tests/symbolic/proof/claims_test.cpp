@@ -449,3 +449,40 @@ TEST(Claims, SquareOfAFunctionThatIsNotInvariantIsNotInvariant) {
 
 }  // namespace
 }  // namespace casimir
+
+namespace casimir::test {
+namespace {
+
+const std::string kTwoDegrees =
+    "[phase_space]\nvariables = [\"x\", \"px\", \"y\", \"py\"]\ncanonical = true\n";
+
+// sin^2 + cos^2 is 1 by a relation, which the reader of the file does not see.
+TEST(MeaninglessClaim, IsUndecidedAndTheOthersOfTheFileAreDecided) {
+  const Model model =
+      model_of("hamiltonian = \"(px^2 + py^2)/2\"\nintegrable = true\n" + kTwoDegrees +
+               "[integrals]\nnowhere = \"py/(sin(x)^2 + cos(x)^2 - 1)\"\n"
+               "logarithm = \"log(sin(x)^2 + cos(x)^2 - 1)\"\nF = \"py\"\nG = \"x*py\"\n");
+  for (const char* name : {"nowhere", "logarithm"}) {
+    const Proof proof = proof_of(model, "integral", name);
+    EXPECT_EQ(proof.verdict, Verdict::undecided) << name;
+    EXPECT_NE(proof.reason.find("value nowhere"), std::string::npos) << proof.reason;
+  }
+  EXPECT_EQ(proof_of(model, "integral", "F").verdict, Verdict::proved);
+  EXPECT_EQ(proof_of(model, "integral", "G").verdict, Verdict::refuted);
+}
+
+TEST(MeaninglessClaim, ThatIsAskedForIsAnError) {
+  const Model model = model_of("hamiltonian = \"(px^2 + py^2)/2\"\n" + kTwoDegrees);
+  Candidates candidates;
+  candidates.integrals = {{"1/(sin(x)^2 + cos(x)^2 - 1)", {"test", 1, 1}, "f"}};
+  EXPECT_THROW(prove(model, candidates), NoValue);
+}
+
+TEST(MeaninglessClaim, OfACaseWithoutMeaningIsAnError) {
+  const Model model = model_of("hamiltonian = \"px^2/(sin(x)^2 + cos(x)^2 - 1)\"\n" + kTwoDegrees +
+                               "[integrals]\nF = \"py\"\n");
+  EXPECT_THROW(prove(model), ModelError);
+}
+
+}  // namespace
+}  // namespace casimir::test
