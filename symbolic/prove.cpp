@@ -187,10 +187,10 @@ class Provers {
   std::optional<Prover> shared_, own_;
 };
 
-/// Decides a claim; where it has no meaning, by `meaningless`.
+/// Decides a claim; where it has no meaning, by `meaningless`. A note is about other claims, too.
 void decide_or_leave(const Model& model, Meaningless meaningless, Proof& proof,
                      const std::function<void(Proof&)>& decide) {
-  if (meaningless == Meaningless::thrown) return decide(proof);
+  if (meaningless == Meaningless::thrown && !proof.note) return decide(proof);
   const Proof before = proof;
   const auto leave = [&](std::string reason) {
     const Prover has_meaning(model, {});  // of the case, else this throws

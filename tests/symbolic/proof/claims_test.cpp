@@ -454,7 +454,7 @@ namespace casimir::test {
 namespace {
 
 const std::string kTwoDegrees =
-    "[phase_space]\nvariables = [\"x\", \"px\", \"y\", \"py\"]\ncanonical = true\n";
+    "[phase_space]\nvariables = [\"x\", \"y\", \"px\", \"py\"]\ncanonical = true\n";
 
 // sin^2 + cos^2 is 1 by a relation, which the reader of the file does not see.
 TEST(MeaninglessClaim, IsUndecidedAndTheOthersOfTheFileAreDecided) {
@@ -476,6 +476,14 @@ TEST(MeaninglessClaim, ThatIsAskedForIsAnError) {
   Candidates candidates;
   candidates.integrals = {{"1/(sin(x)^2 + cos(x)^2 - 1)", {"test", 1, 1}, "f"}};
   EXPECT_THROW(prove(model, candidates), NoValue);
+}
+
+TEST(MeaninglessClaim, OfTheFileLeavesCandidatesDecided) {
+  const Model model = model_of("hamiltonian = \"(px^2 + py^2)/2\"\n" + kTwoDegrees +
+                               "[integrals]\nnowhere = \"1/(sin(x)^2 + cos(x)^2 - 1)\"\n");
+  Candidates candidates;
+  candidates.integrals = {{"py", {"test", 1, 1}, "py"}};
+  EXPECT_EQ(prove(model, candidates).at(0).verdict, Verdict::proved);
 }
 
 TEST(MeaninglessClaim, OfACaseWithoutMeaningIsAnError) {
