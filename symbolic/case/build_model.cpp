@@ -357,7 +357,7 @@ class Builder {
     } else if (file_.lagrangian) {
       model_.hamiltonian = legendre_transform(*model_.frame, *file_.lagrangian);
       // What L shows, H may not.
-      in_domain({*model_.hamiltonian, 1, 0, 1, 1, lagrangian_.parts});
+      in_domain(with_parts(measured(*model_.hamiltonian), lagrangian_parts_));
     } else {
       no_hamiltonian();
     }
@@ -406,18 +406,17 @@ class Builder {
       model_.frame->velocities.push_back(GiNaC::symbol(name.value));
     }
     ExtendedNames names(names_, model_.frame->velocities);
-    lagrangian_ = parse_expression(text, names);
-    for (const ex& part : lost_parts(lagrangian_))
+    const Quantity lagrangian = parse_expression(text, names);
+    for (const ex& part : lost_parts(lagrangian))
       if (has_velocity(part))
         throw text.error(
             fmt::format("{} cancels in the Lagrangian, which has values elsewhere too: write it "
                         "without",
                         printable(expression_text(part), 80)));
-    model_.frame->lagrangian = in_domain(lagrangian_);
-    std::vector<ex> parts;
-    for (const ex& part : lagrangian_.parts ? *lagrangian_.parts : parts)
-      if (!has_velocity(part)) parts.push_back(part);
-    lagrangian_.parts = std::make_shared<const std::vector<ex>>(std::move(parts));
+    model_.frame->lagrangian = in_domain(lagrangian);
+    if (!lagrangian.parts) return;
+    for (const ex& part : *lagrangian.parts)
+      if (!has_velocity(part)) lagrangian_parts_.push_back(part);
   }
 
   void read_explicit_field() {
@@ -455,7 +454,7 @@ class Builder {
   const ParameterValues& fixed_;
   const FindCase& find_case_;
   CaseNames names_;
-  Quantity lagrangian_;  ///< with those of its parts that have no velocity
+  std::vector<ex> lagrangian_parts_;  ///< those that have no velocity
   Model model_;
   ModelDynamics dynamics_;
 };
