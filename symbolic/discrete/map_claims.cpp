@@ -10,8 +10,10 @@
 
 #include "symbolic/discrete/map_inverse.hpp"
 #include "symbolic/discrete/map_jacobian.hpp"
+#include "symbolic/discrete/values_between_steps.hpp"
 #include "symbolic/expression/expression_size.hpp"
 #include "symbolic/proof/claims/density.hpp"
+#include "symbolic/proof/claims/ranks.hpp"
 #include "symbolic/proof/generic_rank.hpp"
 
 namespace casimir::discrete {
@@ -64,18 +66,30 @@ Proof decided_alone(const Model& model, const Claim& claim) {
   return proof;
 }
 
+/// Decides a claim of the composition as of one map.
+void decide_whole(const MapModel& map, const Claim& whole, Proof& proof) {
+  Prover alone(map.base, whole.expressions, whole.subject);
+  alone.begin_claim(whole.expressions, whole.subject);
+  proof.where.clear();
+  whole.decide(alone, proof);
+}
+
 /// What every step keeps at all points, the composition keeps; of the first step the points are
 /// those at which the assumptions hold, those of the others are where the ones before have led.
-/// Where a step does not keep it, or not without a condition, it is decided for the composition
-/// alone.
-Claim kept_by_steps(const MapModel& map, const std::function<Claim(const MapModel&)>& claim_of) {
+/// Where a step does not keep it, or not without a condition, or what is kept need not have a value
+/// between the steps (`have_values_between_steps`), it is decided for the composition alone.
+///
+/// \param kept  the functions that the claim is about, beside the map
+Claim kept_by_steps(const MapModel& map, const std::vector<ex>& kept,
+                    const std::function<Claim(const MapModel&)>& claim_of) {
   std::vector<Claim> parts;
   for (const MapModel& step : map.steps) parts.push_back(claim_of(step));
   Claim claim = parts.front();
   for (const Claim& part : parts)
     claim.expressions.insert(claim.expressions.end(), part.expressions.begin(),
                              part.expressions.end());
-  claim.decide = [&map, parts, claim_of](Prover& prover, Proof& proof) {
+  claim.decide = [&map, kept, parts, claim_of](Prover& prover, Proof& proof) {
+    if (!have_values_between_steps(map, kept)) return decide_whole(map, claim_of(map), proof);
     const Model later = anywhere(map.base);
     std::set<std::string> evidence;
     for (const Claim& part : parts) {
@@ -86,12 +100,7 @@ Claim kept_by_steps(const MapModel& map, const std::function<Claim(const MapMode
         if (!own.evidence.empty()) evidence.insert(own.evidence);
         continue;
       }
-      const Claim whole = claim_of(map);
-      Prover alone(map.base, whole.expressions, whole.subject);
-      alone.begin_claim(whole.expressions, whole.subject);
-      proof.where.clear();
-      whole.decide(alone, proof);
-      return;
+      return decide_whole(map, claim_of(map), proof);
     }
     // One step may lead to where the next one has no value: then all this is about nothing.
     if (!prover.real_points().any(domain_of(map, {}))) {
@@ -121,9 +130,10 @@ Claim or_without_value(ClaimKind kind, const std::string& name,
 }
 
 Claim by_steps(const MapModel& map, ClaimKind kind, const std::string& name,
-               const std::function<Claim(const MapModel&)>& claim_of) {
-  return or_without_value(
-      kind, name, [&] { return map.steps.empty() ? claim_of(map) : kept_by_steps(map, claim_of); });
+               const std::vector<ex>& kept, const std::function<Claim(const MapModel&)>& claim_of) {
+  return or_without_value(kind, name, [&] {
+    return map.steps.empty() ? claim_of(map) : kept_by_steps(map, kept, claim_of);
+  });
 }
 
 Claim whole_integral_claim(const MapModel& map, const NamedExpression& f, const Functions& on) {
@@ -155,12 +165,40 @@ Claim whole_relation_claim(const MapModel& map, const NamedExpression& f, const 
   return claim;
 }
 
+/// Whether rho(x') det is rho(x) at some points and -rho(x) at others, as of a map that reflects
+/// one half of the plane; then the claim, which was decided for one sign, is proved. At a point
+/// where the one is refuted the other may hold: where signs of functions may change, nothing is
+/// refuted that is not for their product.
+bool has_another_sign_on_pieces(Prover& prover, Proof& proof, const Polynomial& image,
+                                const Polynomial& own) {
+  if (proof.verdict != Verdict::refuted || prover.ring().is_polynomial()) return false;
+  Proof both;
+  both.kind = proof.kind;
+  both.name = proof.name;
+  const Polynomial product = (image - own) * (image + own);
+  prover.decide(
+      both,
+      {{"the square of the density at the next point times the Jacobian determinant, less "
+        "that of itself",
+        product, [&prover, product] { return prover.ring().expression(product); }}},
+      {});
+  if (both.verdict == Verdict::refuted && !prover.ring().rests_on_what_was_converted())
+    return false;
+  proof = std::move(both);
+  return proof.verdict == Verdict::proved;
+}
+
 /// By the change of variables x' = phi(x) the measure |rho| dx is kept, near every point at which
 /// the Jacobian determinant is not zero, exactly where rho(x') det(dx'/dx) is rho(x) or -rho(x).
 /// Globally, where the map is one to one besides.
 Claim whole_measure_claim(const MapModel& map, const NamedExpression& density) {
   Claim claim{
       ClaimKind::measure, density.name, false, [&map, density](Prover& prover, Proof& proof) {
+        for (const NamedExpression& c : map.base.constraints) {
+          if (prover.is_zero(prover.convert(map.composed(c.value) - c.value))) continue;
+          proof.reason = kNoMeasureOnConstraints;
+          return;
+        }
         const Polynomial image = prover.convert(map.composed(density.value)) *
                                  determinant(prover.ring().ring(), jacobian(prover, map));
         const Polynomial own = prover.convert(density.value);
@@ -174,25 +212,45 @@ Claim whole_measure_claim(const MapModel& map, const NamedExpression& density) {
         };
         const bool reverses = !prover.is_zero(image - own) && prover.is_zero(image + own);
         prover.decide(proof, {residual(reverses ? -1 : 1)}, {});
+        const bool bends = has_another_sign_on_pieces(prover, proof, image, own);
         judge_density(prover, proof, density.value);
         if (proof.verdict != Verdict::proved) return;
         const auto add = [&](const char* text) {
           proof.evidence += std::string(proof.evidence.empty() ? "" : "; ") + text;
         };
-        if (reverses) add("the map reverses the orientation that the density gives");
+        if (reverses || bends)
+          add(bends ? "the map reverses the orientation that the density gives at some points"
+                    : "the map reverses the orientation that the density gives");
         // Of a map that is not one to one the preimage of a set may have several parts, and their
         // measure is that of the set only one by one: (x^2, y/(2*x)) doubles areas.
         constexpr double kFewTerms = 1000;
         if (!proved_inverse(map, kFewTerms))
           add("locally: that the map is one to one is not shown");
       }};
-  claim.expressions = domain_of(map, {density});
+  Functions all = map.base.constraints;
+  all.push_back(density);
+  claim.expressions = domain_of(map, all);
   claim.subject = Subject::functions;
   return claim;
 }
 
+void add_conditions(Proof& proof, const std::vector<std::string>& conditions) {
+  for (const std::string& condition : conditions)
+    if (std::ranges::find(proof.where, condition) == proof.where.end())
+      proof.where.push_back(condition);
+}
+
 std::string poisson_name(const MapModel& map) {
   return map.sign > 0 ? "Poisson map" : "anti-Poisson map";
+}
+
+/// Of the structure matrix, with what they are defined by.
+std::vector<ex> bracket_entries(const MapModel& map) {
+  std::vector<ex> entries = map.base.bracket_domain;
+  for (std::size_t i = 0; i < map.next.size(); ++i)
+    for (std::size_t j = i + 1; j < map.next.size(); ++j)
+      entries.push_back((*map.base.poisson)(i, j));
+  return entries;
 }
 
 Claim whole_poisson_claim(const MapModel& map) {
@@ -231,17 +289,17 @@ Claim whole_poisson_claim(const MapModel& map) {
 }  // namespace
 
 Claim integral_claim(const MapModel& map, const NamedExpression& f, const Functions& on) {
-  return by_steps(map, ClaimKind::integral, f.name,
+  return by_steps(map, ClaimKind::integral, f.name, values_of(on, f),
                   [f, on](const MapModel& own) { return whole_integral_claim(own, f, on); });
 }
 
 Claim invariant_relation_claim(const MapModel& map, const NamedExpression& f, const Functions& on) {
-  return by_steps(map, ClaimKind::invariant_relation, f.name,
+  return by_steps(map, ClaimKind::invariant_relation, f.name, values_of(on, f),
                   [f, on](const MapModel& own) { return whole_relation_claim(own, f, on); });
 }
 
 Claim measure_claim(const MapModel& map, const NamedExpression& density) {
-  return by_steps(map, ClaimKind::measure, density.name,
+  return by_steps(map, ClaimKind::measure, density.name, values_of(Functions{density}),
                   [density](const MapModel& own) { return whole_measure_claim(own, density); });
 }
 
@@ -252,7 +310,8 @@ Claim casimir_claim(const MapModel& /*map*/, const NamedExpression& f, const Fun
 /// Of an anti-Poisson map the steps need not all be anti-Poisson.
 Claim poisson_claim(const MapModel& map) {
   const std::string name = poisson_name(map);
-  if (map.sign > 0) return by_steps(map, ClaimKind::map, name, whole_poisson_claim);
+  if (map.sign > 0)
+    return by_steps(map, ClaimKind::map, name, bracket_entries(map), whole_poisson_claim);
   return or_without_value(ClaimKind::map, name, [&] { return whole_poisson_claim(map); });
 }
 
@@ -315,6 +374,29 @@ void judge_invertible(Prover& prover, Proof& proof, const std::string& name,
                           : fmt::format("'{}' is not shown to be invertible", name);
 }
 
+/// Why nothing is said of a symmetry; empty where something is. On constraints S may be singular
+/// though it is not beside them, and it may lead out of them; and what is assumed may be wrong
+/// where it leads, unless S changes nothing of that, or multiplies it by a positive number.
+std::string why_not_symmetry(const MapModel& map, const MapSymmetry& symmetry) {
+  if (!map.base.constraints.empty())
+    return fmt::format(
+        "whether '{}' keeps the constraints, and is invertible on them, is not known",
+        symmetry.name);
+  const auto is_kept = [&](const Assumption& assumption) {
+    const ex image = at_image(map, symmetry, {assumption.difference})[0];
+    return std::ranges::any_of(map.base.assumptions, [&](const Assumption& other) {
+      const ex ratio = normal_form(image / other.difference);
+      return other.comparison == assumption.comparison && GiNaC::is_a<GiNaC::numeric>(ratio) &&
+             (GiNaC::ex_to<GiNaC::numeric>(ratio).is_positive() ||
+              other.comparison == Comparison::unequal);
+    });
+  };
+  for (const Assumption& assumption : map.base.assumptions)
+    if (!is_kept(assumption))
+      return fmt::format("whether '{}' keeps {} is not known", symmetry.name, assumption.text);
+  return {};
+}
+
 std::string symmetry_name(const MapSymmetry& symmetry) {
   return symmetry.name + (symmetry.reverses ? ", reversal" : ", symmetry");
 }
@@ -331,6 +413,8 @@ Claim whole_symmetry_claim(const MapModel& map, const MapSymmetry& symmetry) {
   }
   Claim claim{ClaimKind::map, symmetry_name(symmetry), false,
               [&map, symmetry, left, right](Prover& prover, Proof& proof) {
+                proof.reason = why_not_symmetry(map, symmetry);
+                if (!proof.reason.empty()) return;
                 std::vector<Residual> residuals;
                 for (std::size_t i = 0; i < left.size(); ++i)
                   residuals.push_back(
@@ -403,6 +487,7 @@ void judge_invertible_at_image(Prover& prover, Proof& proof, const MapModel& map
   judge_invertible(prover, there, conjugacy.name, after, map.base.variables);
   if (there.verdict == Verdict::proved) {
     proof.evidence = "locally: near almost all points it is invertible";
+    add_conditions(proof, there.where);
     return;
   }
   proof.verdict = Verdict::undecided;
@@ -448,26 +533,56 @@ Claim conjugacy_claim(const MapModel& map, const MapConjugacy& conjugacy) {
                           [&] { return whole_conjugacy_claim(map, conjugacy); });
 }
 
+namespace {
+
+/// Hypothesis of the count on one leaf: the map keeps the leaves. A Poisson map may exchange them;
+/// one that keeps as many independent Casimir functions as the rank falls short of the dimension
+/// does not, where these tell the leaves apart. (That they are integrals of the map is asked for
+/// elsewhere.)
+std::string why_leaves_may_move(Prover& prover, const MapModel& map) {
+  const auto leaf = bracket_rank(prover);
+  if (!leaf || !leaf->exact || !leaf->uneven.empty()) return "the rank of the bracket is not known";
+  const std::size_t needed = prover.dimension() - leaf->rank;
+  if (needed == 0) return {};
+  std::vector<Polynomial> casimirs;
+  for (const NamedExpression& f : map.base.casimirs)
+    if (is_casimir(prover, f)) casimirs.push_back(prover.convert(f.value));
+  const auto rank = casimirs.empty() ? std::nullopt : gradient_rank(prover, casimirs);
+  const std::size_t known = rank && rank->uneven.empty() ? rank->rank : 0;
+  if (known >= needed) return {};
+  return fmt::format(
+      "the map is not shown to keep the leaves, which {} independent Casimir functions among "
+      "'casimirs' would tell apart; {} known",
+      needed, known);
+}
+
+}  // namespace
+
 std::vector<Claim> liouville_claims(const MapModel& map) {
   std::vector<Claim> claims = casimir::liouville_claims(map.base);
   for (Claim& claim : claims) {
     std::vector<Claim> hypotheses{poisson_claim(map)};
-    for (const NamedExpression& f : map.base.integrals)
-      hypotheses.push_back(integral_claim(map, f, {}));
+    for (const auto* list : {&map.base.casimirs, &map.base.integrals})
+      for (const NamedExpression& f : *list) hypotheses.push_back(integral_claim(map, f, {}));
     for (const Claim& hypothesis : hypotheses)
       claim.expressions.insert(claim.expressions.end(), hypothesis.expressions.begin(),
                                hypothesis.expressions.end());
     claim.decide = [&map, hypotheses, count = claim.decide](Prover& prover, Proof& proof) {
+      std::vector<std::string> conditions;
       for (const Claim& hypothesis : hypotheses) {
         Proof shown;
         hypothesis.decide(prover, shown);
+        conditions.insert(conditions.end(), shown.where.begin(), shown.where.end());
         if (shown.verdict == Verdict::proved && map.sign > 0) continue;
         proof.reason = hypothesis.kind == ClaimKind::map
                            ? "the map is not shown to be Poisson"
                            : fmt::format("{} is not shown to be an integral", hypothesis.name);
         return;
       }
+      proof.reason = why_leaves_may_move(prover, map);
+      if (!proof.reason.empty()) return;
       count(prover, proof);
+      if (proof.verdict == Verdict::proved) add_conditions(proof, conditions);
     };
   }
   return claims;

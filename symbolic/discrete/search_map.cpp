@@ -147,11 +147,6 @@ class Search {
     return p.is_zero() ? p : p.scaled(1 / p.content());
   }
 
-  Verdict verdict_of(ClaimKind kind, const NamedExpression& f) const {
-    if (kind == ClaimKind::measure) return prove_density(map_, f).verdict;
-    return prove_integral(map_, f).verdict;
-  }
-
   /// Keeps a function that is proved and, at a random point, independent of those before it.
   void keep_integral(const ex& value, std::string text) {
     std::vector<ex> functions;
@@ -170,7 +165,7 @@ class Search {
     for (std::size_t i = 0; i < functions.size(); ++i)
       gradients.emplace_back(values->begin() + long(i * n), values->begin() + long((i + 1) * n));
     if (echelon(gradients, n).size() < functions.size()) return;
-    if (verdict_of(ClaimKind::integral, {text, value, {}}) == Verdict::proved)
+    if (prove_integral(map_, {text, value, {}}).verdict == Verdict::proved)
       result_.integrals.push_back({value, std::move(text)});
     else
       leave_open();
@@ -315,8 +310,9 @@ class Search {
       if (!p || p->is_zero()) continue;
       const ex density = 1 / ring_.expression(*p);
       std::string text = p->is_constant() ? "1" : fmt::format("1/({})", ring_.text(*p));
-      if (verdict_of(ClaimKind::measure, {text, density, {}}) == Verdict::proved) {
-        result_.densities.push_back({density, std::move(text)});
+      Proof proof = prove_density(map_, {text, density, {}});
+      if (proof.verdict == Verdict::proved) {
+        result_.densities.push_back({density, std::move(text), std::move(proof.evidence)});
         proved.push_back(*p);
       } else {
         leave_open();

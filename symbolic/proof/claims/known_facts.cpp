@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "symbolic/proof/claims/claim.hpp"
+#include "symbolic/proof/claims/on_constraints.hpp"
 #include "symbolic/proof/dependence.hpp"
 #include "symbolic/proof/generic_rank.hpp"
 #include "symbolic/proof/special_parameters.hpp"
@@ -112,6 +113,7 @@ void decide_independence(Prover& prover, const NamedExpression& f, Proof& proof)
     if (!where.empty()) proof.where.insert(proof.where.begin(), where);
     if (!proof.where.empty())
       proof.evidence += fmt::format(" where {}", fmt::join(proof.where, ", "));
+    require_independence_on_constraints(prover, proof, all);
     return;
   }
   const bool more = rank_of(all) > before;

@@ -42,7 +42,9 @@ bool in_involution(Prover& prover, const Functions& functions, const Level& leve
 }
 
 void decide(Prover& prover, Proof& proof, const Functions& on) {
-  if (!std::all_of(on.begin(), on.end(),
+  Functions all = on;
+  all.insert(all.end(), prover.model().constraints.begin(), prover.model().constraints.end());
+  if (!std::all_of(all.begin(), all.end(),
                    [&](const NamedExpression& f) { return is_casimir(prover, f); })) {
     proof.reason = "the level is no level of Casimir functions";
     return;
@@ -51,7 +53,7 @@ void decide(Prover& prover, Proof& proof, const Functions& on) {
     proof.reason = "the Jacobi identity is not proved";
     return;
   }
-  const Level level = prover.level(on);
+  const Level level = prover.level(all);
   if (has_complex_motion(prover)) {
     proof.reason = "the Hamiltonian or the bracket is not real";
     return;

@@ -141,16 +141,21 @@ void decide_map(Prover& prover, Proof& proof, const PoissonMap& map) {
   prover.is_smooth_on(proof, level, functions);
 }
 
+GiNaC::exmap lift_of(const Model& model, const PoissonMap& map, const MapInverse& inverse) {
+  const std::vector<GiNaC::ex> lifted =
+      composed(inverse.expressions, image_point(map), model.limits);
+  GiNaC::exmap lift;
+  for (std::size_t i = 0; i < lifted.size(); ++i) lift[model.variables[i]] = lifted[i];
+  return lift;
+}
+
 /// The functions that have to vanish on this case's constraints for `inverse` to be what it is said
 /// to be: phi(inverse(phi(x))) - phi(x), so that it is a right inverse wherever phi leads, the
 /// constraints at inverse(phi(x)), and what is claimed of the image at phi(x).
 std::vector<std::pair<std::string, GiNaC::ex>> inverse_defects(const Model& model,
                                                                const PoissonMap& map,
                                                                const MapInverse& inverse) {
-  const GiNaC::exmap image = image_point(map);
-  const std::vector<GiNaC::ex> lifted = composed(inverse.expressions, image, model.limits);
-  GiNaC::exmap lift;
-  for (std::size_t i = 0; i < lifted.size(); ++i) lift[model.variables[i]] = lifted[i];
+  const GiNaC::exmap lift = lift_of(model, map, inverse);
   std::vector<std::pair<std::string, GiNaC::ex>> defects;
   const std::vector<GiNaC::ex> again = composed(map.expressions, lift, model.limits);
   for (std::size_t i = 0; i < again.size(); ++i) {
@@ -177,6 +182,57 @@ std::vector<Assumption> conditions_of(const Model& model, const PoissonMap& map,
   return conditions;
 }
 
+/// What this case's domain asks of its variables, at inverse(phi(x)).
+std::vector<Assumption> domain_at_inverse(const Model& model, const PoissonMap& map,
+                                          const MapInverse& inverse) {
+  const GiNaC::exmap lift = lift_of(model, map, inverse);
+  std::vector<Assumption> conditions;
+  for (Assumption condition : model.assumptions) {
+    const GiNaC::ex there = substituted(condition.difference, lift, model.limits);
+    if (there.is_equal(condition.difference)) continue;
+    condition.difference = there;
+    conditions.push_back(std::move(condition));
+  }
+  return conditions;
+}
+
+/// Whether the assumptions imply it, as far as the signs of factors tell.
+bool is_implied(Prover& prover, const Assumption& condition) {
+  const FunctionRing& ring = prover.ring();
+  const Polynomial value = ring.reduced(prover.convert(condition.difference));
+  if (value.is_constant())
+    return holds(condition.comparison,
+                 value.is_zero() ? 0 : (cln::plusp(value.term_list()[0].first) ? 1 : -1));
+  switch (condition.comparison) {
+    case Comparison::greater:
+    case Comparison::at_least:
+      return ring.is_assumed_positive(value);
+    case Comparison::less:
+    case Comparison::at_most:
+      return ring.is_assumed_positive(-value);
+    case Comparison::unequal:
+      return ring.is_nowhere_zero(value);
+    case Comparison::equal:
+      break;
+  }
+  return false;
+}
+
+/// An inverse leads back into the domain of the case: -sqrt(u) is none of u = q^2 for q > 0.
+void leads_back_into_domain(Prover& prover, Proof& proof, const PoissonMap& map,
+                            const MapInverse& inverse) {
+  if (proof.verdict != Verdict::proved) return;
+  for (const Assumption& condition : domain_at_inverse(prover.model(), map, inverse)) {
+    if (is_implied(prover, condition)) continue;
+    proof.verdict = Verdict::undecided;
+    proof.evidence.clear();
+    proof.where.clear();
+    proof.reason =
+        fmt::format("that it leads into the domain of this case, {}, is not shown", condition.text);
+    return;
+  }
+}
+
 /// What the claim that it is an inverse is about.
 std::vector<GiNaC::ex> expressions_of_inverse(const Model& model, const PoissonMap& map,
                                               const MapInverse& inverse) {
@@ -186,6 +242,8 @@ std::vector<GiNaC::ex> expressions_of_inverse(const Model& model, const PoissonM
   for (const GiNaC::ex& part : composed(inverse.defined_by, image_point(map), model.limits))
     expressions.push_back(part);
   expressions.insert(expressions.end(), map.domain.begin(), map.domain.end());
+  for (const Assumption& condition : domain_at_inverse(model, map, inverse))
+    expressions.push_back(condition.difference);
   return expressions;
 }
 
@@ -198,6 +256,7 @@ void decide_inverse(Prover& prover, Proof& proof, std::size_t index, std::size_t
   const auto decide = [&](Prover& own) {
     own.decide(proof, residuals_of(own, inverse_defects(model, map, inverse)),
                own.level(model.constraints));
+    leads_back_into_domain(own, proof, map, inverse);
   };
   if (inverse.domain.empty()) return decide(prover);
   Model inside = model;

@@ -4,6 +4,8 @@
 // zero function the equation would say nothing.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "symbolic/proof/claims/claim.hpp"
 #include "symbolic/proof/claims/density.hpp"
 #include "symbolic/proof/generic_rank.hpp"
@@ -83,7 +85,20 @@ std::string doubt_about(Prover& prover, const GiNaC::ex& density, bool* both_sig
   return {};
 }
 
+/// Whether each constraint is constant along the flow, or along every flow. Then a density of all
+/// variables is one on the constraints, divided by the constraints' differentials; that of a flow
+/// that only keeps their zero level is none: x' = x, z' = -z keeps dx dz, and on z = 0 not dx.
+bool keeps_constraints(Prover& prover, bool every) {
+  return std::ranges::all_of(prover.model().constraints, [&](const NamedExpression& c) {
+    return every ? is_casimir(prover, c) : prover.is_zero(prover.rate(prover.convert(c.value)));
+  });
+}
+
 void decide_measure(Prover& prover, Proof& proof, const NamedExpression& density, bool every) {
+  if (!keeps_constraints(prover, every)) {
+    proof.reason = kNoMeasureOnConstraints;
+    return;
+  }
   prover.decide(
       proof,
       every ? modular_field(prover, density) : std::vector{divergence_of_flow(prover, density)},
@@ -116,7 +131,7 @@ std::vector<Claim> measure_claims(const Model& model) {
                         decide_measure(prover, proof, density, every);
                       },
                       {},
-                      values_of({density}),
+                      values_of(model.constraints, density),
                       false,
                       every ? Subject::bracket : Subject::motion});
   }

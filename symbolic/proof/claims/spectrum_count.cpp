@@ -59,12 +59,12 @@ std::string why_not_counted(Prover& prover, const std::vector<Polynomial>& found
 /// On a level of Casimir functions, around a point of it.
 void count_on_level(Prover& prover, const std::vector<Polynomial>& found,
                     const std::vector<NamedExpression>& on, SpectrumCount& count) {
-  if (!std::ranges::all_of(on, [&](const auto& f) { return is_casimir(prover, f); })) {
+  std::vector<NamedExpression> all = on;
+  all.insert(all.end(), prover.model().constraints.begin(), prover.model().constraints.end());
+  if (!std::ranges::all_of(all, [&](const auto& f) { return is_casimir(prover, f); })) {
     count.reason = "the level is no level of Casimir functions";
     return;
   }
-  std::vector<NamedExpression> all = on;
-  all.insert(all.end(), prover.model().constraints.begin(), prover.model().constraints.end());
   const Level level = prover.level(all);
   count.involution = involution_of(prover, found, level);
   std::optional<RealPoint> point = prover.exact_point(level);
@@ -104,7 +104,7 @@ SpectrumCount count_of_spectrum(Prover& prover, const std::vector<Polynomial>& f
   SpectrumCount count;
   count.reason = why_not_counted(prover, found, spectral);
   if (!count.reason.empty()) return count;
-  if (!on.empty()) {
+  if (!on.empty() || !prover.model().constraints.empty()) {
     count_on_level(prover, found, on, count);
     return count;
   }

@@ -14,6 +14,9 @@ nlohmann::ordered_json to_json(const Model& base, int degree, const discrete::Ma
   for (const discrete::FoundOfMap& f : found.integrals) json["integrals"].push_back(f.text);
   json["densities"] = nlohmann::ordered_json::array();
   for (const discrete::FoundOfMap& f : found.densities) json["densities"].push_back(f.text);
+  json["density_evidence"] = nlohmann::ordered_json::array();
+  for (const discrete::FoundOfMap& f : found.densities)
+    json["density_evidence"].push_back(f.evidence);
   json["trivial"] = 1;
   json["at_most"] = {{"polynomials", found.polynomials},
                      {"relations", found.relations},
@@ -56,7 +59,10 @@ void print(const Model& base, int degree, const discrete::MapSearch& found, doub
              base.name, degree);
   for (const discrete::FoundOfMap& f : found.integrals) fmt::print("  proved  {}\n", f.text);
   if (found.integrals.empty()) fmt::print("  none was found\n");
-  for (const discrete::FoundOfMap& f : found.densities) fmt::print("density {}: proved\n", f.text);
+  for (const discrete::FoundOfMap& f : found.densities) {
+    fmt::print("density {}: proved\n", f.text);
+    if (!f.evidence.empty()) fmt::print("  {}\n", f.evidence);
+  }
   if (found.not_generic.empty()) print_bounds(found);
   fmt::print("{}", whole_space_note(names_of(base.constraints)));
   if (!found.reason.empty()) fmt::print("{}\n", found.reason);
