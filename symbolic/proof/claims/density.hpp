@@ -4,10 +4,10 @@
 
 namespace casimir {
 
-/// Why nothing is said of densities where the constraints are not constant along the motion.
+/// Why nothing is said of densities where the motion may change the volume across the constraints.
 inline constexpr const char* kNoMeasureOnConstraints =
-    "the constraints are not constant along the motion beside their zero level: a density of all "
-    "variables is none on that";
+    "the motion is not shown to keep the volume across the constraints: a density of all variables "
+    "need be none on them";
 
 /// A density is a real function that is not zero on any piece of the domain: leaves `proof`, of
 /// what its equation says, undecided where this is not shown.

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "symbolic/proof/claims/claim.hpp"
+#include "symbolic/proof/claims/constraint_set.hpp"
 #include "symbolic/proof/claims/on_constraints.hpp"
 #include "symbolic/proof/dependence.hpp"
 #include "symbolic/proof/generic_rank.hpp"
@@ -87,6 +88,11 @@ bool is_constant(const Prover& prover, const Polynomial& value) {
 /// Does the candidate follow from the known Casimirs and integrals?
 void decide_independence(Prover& prover, const NamedExpression& f, Proof& proof) {
   const Functions known = known_integrals(prover.model());
+  if (!prover.model().constraints.empty() && ConstraintSet(prover).makes_constant(f)) {
+    proof.verdict = Verdict::refuted;
+    proof.reason = "it is a constant on the constraints";
+    return;
+  }
   std::string where, uneven;  // of the last rank
   const auto rank_of = [&](const Functions& functions) -> std::size_t {
     std::vector<Polynomial> values;

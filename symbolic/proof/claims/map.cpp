@@ -182,16 +182,19 @@ std::vector<Assumption> conditions_of(const Model& model, const PoissonMap& map,
   return conditions;
 }
 
-/// What this case's domain asks of its variables, at inverse(phi(x)).
-std::vector<Assumption> domain_at_inverse(const Model& model, const PoissonMap& map,
-                                          const MapInverse& inverse) {
+/// A condition of this case's domain, and what it is about at inverse(phi(x)).
+struct ConditionAtInverse {
+  Assumption condition;
+  GiNaC::ex there;
+};
+
+std::vector<ConditionAtInverse> domain_at_inverse(const Model& model, const PoissonMap& map,
+                                                  const MapInverse& inverse) {
   const GiNaC::exmap lift = lift_of(model, map, inverse);
-  std::vector<Assumption> conditions;
-  for (Assumption condition : model.assumptions) {
+  std::vector<ConditionAtInverse> conditions;
+  for (const Assumption& condition : model.assumptions) {
     const GiNaC::ex there = substituted(condition.difference, lift, model.limits);
-    if (there.is_equal(condition.difference)) continue;
-    condition.difference = there;
-    conditions.push_back(std::move(condition));
+    if (!there.is_equal(condition.difference)) conditions.push_back({condition, there});
   }
   return conditions;
 }
@@ -218,17 +221,41 @@ bool is_implied(Prover& prover, const Assumption& condition) {
   return false;
 }
 
+/// Whether the constraints alone imply it, to which the inverse leads.
+bool follows_from_constraints(const Model& model, const Assumption& condition) {
+  return std::ranges::any_of(model.constraints, [&](const NamedExpression& c) {
+    for (const int sign : {1, -1}) {
+      const GiNaC::ex rest = (condition.difference + sign * c.value).expand();
+      if (GiNaC::is_a<GiNaC::numeric>(rest) && GiNaC::ex_to<GiNaC::numeric>(rest).is_real())
+        return holds(condition.comparison, GiNaC::ex_to<GiNaC::numeric>(rest).csgn());
+    }
+    return false;
+  });
+}
+
+/// Whether a condition of the case holds at inverse(phi(x)): what it is about is what it was at x,
+/// or has the sign.
+bool holds_at_inverse(const Model& model, Prover& prover, const ConditionAtInverse& at) {
+  if (prover.is_zero(prover.convert(at.there) - prover.convert(at.condition.difference)))
+    return true;
+  Assumption there = at.condition;
+  there.difference = at.there;
+  return is_implied(prover, there) || follows_from_constraints(model, at.condition);
+}
+
 /// An inverse leads back into the domain of the case: -sqrt(u) is none of u = q^2 for q > 0.
-void leads_back_into_domain(Prover& prover, Proof& proof, const PoissonMap& map,
+///
+/// \param prover  may assume more than the case
+void leads_back_into_domain(const Model& model, Prover& prover, Proof& proof, const PoissonMap& map,
                             const MapInverse& inverse) {
   if (proof.verdict != Verdict::proved) return;
-  for (const Assumption& condition : domain_at_inverse(prover.model(), map, inverse)) {
-    if (is_implied(prover, condition)) continue;
+  for (const ConditionAtInverse& at : domain_at_inverse(model, map, inverse)) {
+    if (holds_at_inverse(model, prover, at)) continue;
     proof.verdict = Verdict::undecided;
     proof.evidence.clear();
     proof.where.clear();
-    proof.reason =
-        fmt::format("that it leads into the domain of this case, {}, is not shown", condition.text);
+    proof.reason = fmt::format("that it leads into the domain of this case, {}, is not shown",
+                               at.condition.text);
     return;
   }
 }
@@ -242,8 +269,10 @@ std::vector<GiNaC::ex> expressions_of_inverse(const Model& model, const PoissonM
   for (const GiNaC::ex& part : composed(inverse.defined_by, image_point(map), model.limits))
     expressions.push_back(part);
   expressions.insert(expressions.end(), map.domain.begin(), map.domain.end());
-  for (const Assumption& condition : domain_at_inverse(model, map, inverse))
-    expressions.push_back(condition.difference);
+  for (const ConditionAtInverse& at : domain_at_inverse(model, map, inverse)) {
+    expressions.push_back(at.there);
+    expressions.push_back(at.condition.difference);
+  }
   return expressions;
 }
 
@@ -256,7 +285,7 @@ void decide_inverse(Prover& prover, Proof& proof, std::size_t index, std::size_t
   const auto decide = [&](Prover& own) {
     own.decide(proof, residuals_of(own, inverse_defects(model, map, inverse)),
                own.level(model.constraints));
-    leads_back_into_domain(own, proof, map, inverse);
+    leads_back_into_domain(model, own, proof, map, inverse);
   };
   if (inverse.domain.empty()) return decide(prover);
   Model inside = model;

@@ -85,13 +85,38 @@ std::string doubt_about(Prover& prover, const GiNaC::ex& density, bool* both_sig
   return {};
 }
 
-/// Whether each constraint is constant along the flow, or along every flow. Then a density of all
-/// variables is one on the constraints, divided by the constraints' differentials; that of a flow
-/// that only keeps their zero level is none: x' = x, z' = -z keeps dx dz, and on z = 0 not dx.
+/// Whether the trace of K, of rates dc_i/dt = sum K_ij c_j of the constraints, vanishes on these,
+/// where polynomial division finds such K.
+bool has_no_trace(Prover& prover, const std::vector<Polynomial>& constraints) {
+  const FunctionRing& ring = prover.ring();
+  const Polynomial zero = ring.ring().constant(0);
+  Polynomial top = zero, bottom = ring.ring().constant(1);  // of the trace
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    const auto [rate, below] = ring.lowest_terms(prover.rate(constraints[i]));
+    std::vector<Polynomial> cofactors(constraints.size(), zero);
+    if (!rate.is_zero() && !rate.remainder(constraints, &cofactors).is_zero()) return false;
+    top = top * below + cofactors[i] * bottom;
+    bottom = bottom * below;
+  }
+  std::vector<Polynomial> unused(constraints.size(), zero);
+  return top.is_zero() || top.remainder(constraints, &unused).is_zero();
+}
+
+/// Whether the flow, or every flow, keeps the volume across the constraints: dc_1 .. dc_k changes
+/// on their zero level at the rate tr K. Then a density of all variables, divided by that, is one
+/// on the constraints. Else it is none: x' = x, z' = -z keeps dx dz, and on z = 0 not dx.
 bool keeps_constraints(Prover& prover, bool every) {
-  return std::ranges::all_of(prover.model().constraints, [&](const NamedExpression& c) {
-    return every ? is_casimir(prover, c) : prover.is_zero(prover.rate(prover.convert(c.value)));
-  });
+  const std::vector<NamedExpression>& constraints = prover.model().constraints;
+  if (constraints.empty()) return true;
+  if (every)
+    return std::ranges::all_of(constraints,
+                               [&](const NamedExpression& c) { return is_casimir(prover, c); });
+  std::vector<Polynomial> functions;
+  for (const NamedExpression& c : constraints) {
+    functions.push_back(prover.ring().numerator(prover.convert(c.value)));
+    if (functions.back().is_zero()) return false;
+  }
+  return has_no_trace(prover, functions);
 }
 
 void decide_measure(Prover& prover, Proof& proof, const NamedExpression& density, bool every) {
