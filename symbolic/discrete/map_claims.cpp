@@ -224,8 +224,7 @@ Claim whole_measure_claim(const MapModel& map, const NamedExpression& density) {
         // Of a map that is not one to one the preimage of a set may have several parts, and their
         // measure is that of the set only one by one: (x^2, y/(2*x)) doubles areas.
         constexpr double kFewTerms = 1000;
-        if (!proved_inverse(map, kFewTerms))
-          add("locally: that the map is one to one is not shown");
+        if (!is_one_to_one(map, kFewTerms)) add("locally: that the map is one to one is not shown");
       }};
   Functions all = map.base.constraints;
   all.push_back(density);

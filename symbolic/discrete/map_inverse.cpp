@@ -6,6 +6,7 @@
 #include "symbolic/discrete/modular_program.hpp"
 #include "symbolic/error.hpp"
 #include "symbolic/expression/expression_size.hpp"
+#include "symbolic/functions/function_ring.hpp"
 #include "symbolic/proof/run_claims.hpp"
 
 namespace casimir::discrete {
@@ -176,6 +177,36 @@ std::optional<std::vector<ex>> proved_inverse(const MapModel& map, double larges
     for (ex& value : result) value = substituted(value, after, map.base.limits);
   }
   return result;
+}
+
+namespace {
+
+/// What has to be positive for these to have values.
+std::vector<std::string> implied_by(const Model& model, const std::vector<ex>& expressions) {
+  const FunctionRing ring(model.symbols(), model.assumptions, expressions, model.limits);
+  std::vector<std::string> conditions;
+  for (const auto& [p, strict] : ring.implied_positive()) conditions.push_back(ring.text(p));
+  return conditions;
+}
+
+bool has_values_where(const MapModel& map, const std::vector<ex>& inverse) {
+  std::vector<ex> all = map.next;
+  all.insert(all.end(), map.next_domain.begin(), map.next_domain.end());
+  const std::vector<std::string> known = implied_by(map.base, all);
+  for (const ex& previous : inverse) all.push_back(map.composed(previous));
+  if (!FunctionRing(map.base.symbols(), map.base.assumptions, all, map.base.limits)
+           .rests_on_what_was_converted())
+    return true;
+  return std::ranges::all_of(implied_by(map.base, all), [&](const std::string& condition) {
+    return std::ranges::find(known, condition) != known.end();
+  });
+}
+
+}  // namespace
+
+bool is_one_to_one(const MapModel& map, double largest) {
+  const auto inverse = proved_inverse(map, largest);
+  return inverse && has_values_where(map, *inverse);
 }
 
 }  // namespace casimir::discrete

@@ -21,4 +21,10 @@ namespace casimir::discrete {
 /// \throws TooLarge
 std::optional<std::vector<GiNaC::ex>> proved_inverse(const MapModel& map, double largest = 1e6);
 
+/// Whether the map is shown to be one to one where it has values: by an inverse that has values, up
+/// to zeros of denominators, wherever the map leads. That (exp(1/log(x)), ..) takes (x^2, ..) back
+/// for x > 0 says nothing of -x, which leads to the same point.
+/// \param largest  as of `proved_inverse`
+bool is_one_to_one(const MapModel& map, double largest);
+
 }  // namespace casimir::discrete

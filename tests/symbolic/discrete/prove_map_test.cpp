@@ -376,5 +376,124 @@ TEST(ProveMap, AMapThatIsDefinedNowhereProvesNothing) {
   EXPECT_EQ(verdict_of(map, ClaimKind::integral), Verdict::undecided);
 }
 
+// (1, 0) goes to (-2, 4), where log(x) has no value, and on to (1, 8).
+TEST(ProveMap, AFunctionWithoutAValueBetweenTheStepsIsNotKeptByThem) {
+  const std::string steps = R"toml(
+[[map_step]]
+expressions = { x = "x - 3", y = "y + abs(x - 3) - (x - 3)" }
+[[map_step]]
+expressions = { x = "x + 3", y = "y + abs(x) - x" }
+)toml";
+  const std::string one = "1 + exp(log(x)) - x";
+  const MapModel map =
+      map_of(kPlane + "[phase_space.brackets]\n\"x,y\" = \"" + one + "\"\n" + steps +
+             "[integrals]\nF = \"y + exp(log(x)) - x\"\n[[measure]]\ndensity = \"" + one + "\"\n");
+  EXPECT_EQ(verdict_of(map, ClaimKind::integral), Verdict::refuted);
+  EXPECT_EQ(verdict_of(map, ClaimKind::measure), Verdict::refuted);
+  EXPECT_EQ(verdict_of(map, ClaimKind::map), Verdict::refuted);
+  EXPECT_EQ(verdict_of(map_of(kPlane + steps +
+                              "[[invariant_relation]]\nname = \"r\"\n"
+                              "expression = \"y + exp(log(x)) - x\"\n"),
+                       ClaimKind::invariant_relation),
+            Verdict::refuted);
+}
+
+TEST(ProveMap, AQuotientIsKeptByStepsThatAreQuotients) {
+  const MapModel map = map_of(kPlane +
+                              "[[map_step]]\nexpressions = { x = \"x*y/(x + y)\", y = \"x^2/(x + "
+                              "y)\" }\n[[map_step]]\nexpressions = { x = \"y\", y = \"x\" }\n"
+                              "[integrals]\nF = \"x/y + y/x\"\n");
+  const Proof proof = proof_of(map, ClaimKind::integral);
+  EXPECT_EQ(proof.verdict, Verdict::proved);
+  EXPECT_NE(proof.evidence.find("each of the 2 steps"), std::string::npos) << proof.evidence;
+}
+
+// The logistic map moves the leaves c = const about.
+TEST(ProveMap, IntegrabilityNeedsLeavesThatAreKept) {
+  const auto map = [](const std::string& next, const std::string& more) {
+    return map_of(
+        "integrable = true\n[phase_space]\nvariables = [\"q\", \"p\", \"c\"]\n"
+        "brackets = { \"q,p\" = \"1\" }\n" +
+        more + "[map]\nq = \"q + c^2\"\np = \"p\"\nc = \"" + next + "\"\n[integrals]\nP = \"p\"\n");
+  };
+  const std::string casimirs = "[casimirs]\nC = \"c\"\n";
+  EXPECT_EQ(verdict_of(map("4*c*(1 - c)", ""), ClaimKind::liouville), Verdict::undecided);
+  EXPECT_EQ(verdict_of(map("4*c*(1 - c)", casimirs), ClaimKind::liouville), Verdict::undecided);
+  EXPECT_EQ(verdict_of(map("c", ""), ClaimKind::liouville), Verdict::undecided);
+  EXPECT_EQ(verdict_of(map("c", casimirs), ClaimKind::liouville), Verdict::proved);
+}
+
+TEST(ProveMap, ASymmetryKeepsConstraintsAndDomain) {
+  // S and R take the line z = 0 to one point.
+  const MapModel constrained = map_of(R"toml(
+[phase_space]
+variables = ["x", "z"]
+constraints = ["z"]
+[map]
+x = "2*x"
+z = "z"
+[[symmetry]]
+name = "S"
+expressions = { x = "z*x", z = "z" }
+[[symmetry]]
+name = "R"
+expressions = { x = "z/x", z = "z" }
+reverses = true
+)toml");
+  EXPECT_EQ(verdict_of(constrained, ClaimKind::map, "S, symmetry"), Verdict::undecided);
+  EXPECT_EQ(verdict_of(constrained, ClaimKind::map, "R, reversal"), Verdict::undecided);
+  const MapModel bounded = map_of(R"toml(
+[phase_space]
+variables = ["x", "y"]
+domain = ["x > 0"]
+[parameters]
+eps = { assume = "eps > 0" }
+[map]
+x = "x + eps*x*y^2"
+y = "y"
+[[symmetry]]
+name = "out"
+expressions = { x = "-x" }
+[[symmetry]]
+name = "parameter"
+expressions = { y = "2*y", eps = "eps/4" }
+[[symmetry]]
+name = "in"
+expressions = { x = "3*x", y = "-y" }
+)toml");
+  EXPECT_EQ(verdict_of(bounded, ClaimKind::map, "out, symmetry"), Verdict::undecided);
+  EXPECT_EQ(verdict_of(bounded, ClaimKind::map, "parameter, symmetry"), Verdict::proved);
+  EXPECT_EQ(verdict_of(bounded, ClaimKind::map, "in, symmetry"), Verdict::proved);
+}
+
+// It is its own inverse, and keeps the areas of both halves.
+TEST(ProveMap, AReflectionOfOneHalfOfThePlaneKeepsAreas) {
+  const auto map = [](const std::string& density) {
+    return map_of(kPlane + "[map]\nx = \"x\"\ny = \"y*sign(x)\"\n[[measure]]\ndensity = \"" +
+                  density + "\"\n");
+  };
+  EXPECT_EQ(verdict_of(map("1"), ClaimKind::measure), Verdict::proved);
+  EXPECT_EQ(verdict_of(map("1 + y^2*x^2"), ClaimKind::measure), Verdict::proved);
+  EXPECT_EQ(verdict_of(map("2 + y"), ClaimKind::measure), Verdict::refuted);
+}
+
+TEST(ProveMap, AConjugacySaysWhereTheMapLeadsToWhereItIsInvertible) {
+  const MapModel map =
+      map_of(kPlane +
+             "[parameters]\na = {}\n[map]\nx = \"a*x\"\ny = \"y\"\n"
+             "[[conjugacy]]\nname = \"c\"\nexpressions = { u = \"x^2\", v = \"y\" }"
+             "\nmap = { u = \"a^2*u\", v = \"v\" }\n");
+  const Proof proof = proof_of(map, ClaimKind::conjugacy);
+  EXPECT_EQ(proof.verdict, Verdict::proved);
+  EXPECT_EQ(proof.where, std::vector<std::string>{"a != 0"});
+}
+
+// (x^2, y/(2 x)) doubles areas: two points lead to each.
+TEST(ProveMap, ASearchSaysThatADensityIsALocalOne) {
+  const auto found = search_map(map_of(kPlane + "[map]\nx = \"x^2\"\ny = \"y/(2*x)\"\n"), 2);
+  ASSERT_EQ(found.densities.size(), 1u);
+  EXPECT_NE(found.densities[0].evidence.find("locally"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace casimir::test

@@ -402,6 +402,22 @@ TEST(Claims, AMapSaysWhereItLeadsIntoTheDomain) {
 }
 
 // |x| is x where x > 0, and at q = -1/2 the inverse for that part is not used.
+TEST(Claims, AnInverseOfAMapLeadsBackIntoTheDomain) {
+  const auto verdict = [](const std::string& q, const std::string& p) {
+    return proof_of(
+               model_of("hamiltonian = \"p\"\n[phase_space]\nvariables = [\"q\", \"p\"]\n"
+                        "domain = [\"q > 0\"]\ncanonical = true\n[[map]]\nname = \"m\"\n"
+                        "to = { variables = [\"u\", \"v\"], brackets = { \"u,v\" = \"2*u\" } }\n"
+                        "expressions = { u = \"q^2\", v = \"p*q\" }\n[[map.inverse]]\n"
+                        "expressions = { q = \"" +
+                        q + "\", p = \"" + p + "\" }\n"),
+               "map", "m, right inverse")
+        .verdict;
+  };
+  EXPECT_EQ(verdict("sqrt(u)", "v/sqrt(u)"), Verdict::proved);
+  EXPECT_EQ(verdict("-sqrt(u)", "-v/sqrt(u)"), Verdict::undecided);
+}
+
 TEST(Claims, AnInverseOfAMapHoldsOnItsDomainAlone) {
   const auto verdict = [](const std::string& name, const std::string& q, const std::string& domain,
                           const std::string& image = {}) {

@@ -190,5 +190,83 @@ TEST(Constraints, AFunctionWithACriticalPointIsNoConstant) {
   EXPECT_EQ(independence("x + x*y^2").verdict, Verdict::proved);
 }
 
+const std::string kWithCasimirs =
+    "[phase_space]\nvariables = [\"q1\", \"q2\", \"p1\", \"p2\", \"c\", \"d\"]\n"
+    "constraints = [\"c\"]\nbrackets = { \"q1,p1\" = \"1\", \"q2,p2\" = \"1\" }\n";
+
+// On c = 0 the spectrum is p1 and 0.
+TEST(Constraints, TheSpectrumOfALaxPairIsCountedOnThem) {
+  const auto spectrum = [](const std::string& entry) {
+    return proof_within("lax", "hamiltonian = \"(p1^2 + p2^2)/2\"\n" + kWithCasimirs +
+                                   "[[lax]]\nL = [[\"p1\", \"0\"], [\"0\", \"" + entry +
+                                   "\"]]\nA = [[\"0\", \"0\"], [\"0\", \"0\"]]\n")
+        .spectrum;
+  };
+  const auto vanishing = spectrum("c*p2"), other = spectrum("(1 + c)*p2");
+  ASSERT_TRUE(vanishing && other);
+  EXPECT_EQ(vanishing->verdict, Verdict::undecided);
+  EXPECT_EQ(other->verdict, Verdict::proved);
+}
+
+TEST(Constraints, LiouvillesCountOnALevelIsOneOnThem) {
+  const auto count_on_level = [](const std::string& f) {
+    const Model model =
+        model_of("hamiltonian = \"p1 + d*q1*p2*q2\"\n" + kWithCasimirs +
+                 "[[conditional]]\nname = \"F\"\nexpression = \"" + f + "\"\non = [\"d\"]\n");
+    for (const Proof& proof : prove(model))
+      if (proof.note && proof.kind == ClaimKind::liouville) return proof.verdict;
+    ADD_FAILURE() << "nothing is said of the level";
+    return Verdict::refuted;
+  };
+  EXPECT_EQ(count_on_level("c*p2"), Verdict::undecided);
+  EXPECT_EQ(count_on_level("(1 + c)*p2"), Verdict::proved);
+}
+
+TEST(Constraints, AMeasureOfTheSpaceNeedBeNoneOnThem) {
+  const auto measure = [](const std::string& dz, const std::string& density) {
+    return proof_within("measure",
+                        "[phase_space]\nvariables = [\"x\", \"z\"]\nconstraints = [\"z\"]\n"
+                        "[equations]\nx = \"x\"\nz = \"" +
+                            dz + "\"\n[[measure]]\ndensity = \"" + density + "\"\n")
+        .verdict;
+  };
+  EXPECT_EQ(measure("-z", "1"), Verdict::undecided);  // not refuted either: of dx/x nothing is said
+  EXPECT_EQ(measure("-z", "1/x"), Verdict::undecided);
+  EXPECT_EQ(measure("0", "1/x"), Verdict::proved);
+  EXPECT_EQ(measure("x*z^2", "1"), Verdict::refuted);
+}
+
+// One of two constraints is the rate of the other: the volume across both is kept.
+TEST(Constraints, AMeasureIsOneOnThemWhereTheirRatesHaveNoTrace) {
+  const Proof proof = proof_within("measure", R"toml(
+[phase_space]
+variables = ["x", "y", "z"]
+constraints = ["y", "z"]
+[equations]
+x = "1"
+y = "z"
+z = "0"
+[[measure]]
+density = "1"
+)toml");
+  EXPECT_EQ(proof.verdict, Verdict::proved) << proof.reason;
+}
+
+TEST(Constraints, ACandidateThatIsConstantOnThemIsSaidToBe) {
+  const Model model = model_of(
+      "hamiltonian = \"(x^2 + y^2)/2\"\n[phase_space]\nvariables = [\"x\", \"y\", \"z\"]\n"
+      "brackets = { \"x,y\" = \"1\" }\nconstraints = [\"z\"]\n");
+  const auto independence = [&](const std::string& f) {
+    Candidates candidates;
+    candidates.integrals = {{f, {"test", 1, 1}, f}};
+    for (const Proof& proof : prove(model, candidates))
+      for (const Proof& finding : proof.findings)
+        if (finding.kind == ClaimKind::independence) return finding;
+    return Proof{};
+  };
+  EXPECT_EQ(independence("z*x").reason, "it is a constant on the constraints");
+  EXPECT_EQ(independence("x^2 + y^2 + z").verdict, Verdict::undecided);
+}
+
 }  // namespace
 }  // namespace casimir::test
