@@ -490,7 +490,8 @@ TEST(ProveMap, AConjugacySaysWhereTheMapLeadsToWhereItIsInvertible) {
 
 // (x^2, y/(2 x)) doubles areas: two points lead to each.
 TEST(ProveMap, ASearchSaysThatADensityIsALocalOne) {
-  const auto found = search_map(map_of(kPlane + "[map]\nx = \"x^2\"\ny = \"y/(2*x)\"\n"), 2);
+  const auto found =
+      discrete::search_map(map_of(kPlane + "[map]\nx = \"x^2\"\ny = \"y/(2*x)\"\n"), 2);
   ASSERT_EQ(found.densities.size(), 1u);
   EXPECT_NE(found.densities[0].evidence.find("locally"), std::string::npos);
 }
