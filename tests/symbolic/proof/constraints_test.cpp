@@ -214,7 +214,7 @@ TEST(Constraints, LiouvillesCountOnALevelIsOneOnThem) {
         model_of("hamiltonian = \"p1 + d*q1*p2*q2\"\n" + kWithCasimirs +
                  "[[conditional]]\nname = \"F\"\nexpression = \"" + f + "\"\non = [\"d\"]\n");
     for (const Proof& proof : prove(model))
-      if (proof.note && proof.kind == ClaimKind::liouville) return proof.verdict;
+      if (proof.note && to_string(proof.kind) == "liouville") return proof.verdict;
     ADD_FAILURE() << "nothing is said of the level";
     return Verdict::refuted;
   };
@@ -261,7 +261,7 @@ TEST(Constraints, ACandidateThatIsConstantOnThemIsSaidToBe) {
     candidates.integrals = {{f, {"test", 1, 1}, f}};
     for (const Proof& proof : prove(model, candidates))
       for (const Proof& finding : proof.findings)
-        if (finding.kind == ClaimKind::independence) return finding;
+        if (to_string(finding.kind) == "independence") return finding;
     return Proof{};
   };
   EXPECT_EQ(independence("z*x").reason, "it is a constant on the constraints");
