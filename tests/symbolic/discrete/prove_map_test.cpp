@@ -378,24 +378,33 @@ TEST(ProveMap, AMapThatIsDefinedNowhereProvesNothing) {
 
 // (1, 0) goes to (-2, 4), where log(x) has no value, and on to (1, 8).
 TEST(ProveMap, AFunctionWithoutAValueBetweenTheStepsIsNotKeptByThem) {
-  const std::string steps = R"toml(
+  const std::string shears = R"toml(
 [[map_step]]
 expressions = { x = "x - 3", y = "y + abs(x - 3) - (x - 3)" }
 [[map_step]]
 expressions = { x = "x + 3", y = "y + abs(x) - x" }
 )toml";
-  const std::string one = "1 + exp(log(x)) - x";
-  const MapModel map =
-      map_of(kPlane + "[phase_space.brackets]\n\"x,y\" = \"" + one + "\"\n" + steps +
-             "[integrals]\nF = \"y + exp(log(x)) - x\"\n[[measure]]\ndensity = \"" + one + "\"\n");
-  EXPECT_EQ(verdict_of(map, ClaimKind::integral), Verdict::refuted);
+  const std::string f = "\"y + exp(log(x)) - x\"\n";
+  EXPECT_EQ(verdict_of(map_of(kPlane + shears + "[integrals]\nF = " + f), ClaimKind::integral),
+            Verdict::refuted);
+  EXPECT_EQ(verdict_of(
+                map_of(kPlane + shears + "[[invariant_relation]]\nname = \"r\"\nexpression = " + f),
+                ClaimKind::invariant_relation),
+            Verdict::refuted);
+}
+
+// Around (1, 1) areas become 25 times as large.
+TEST(ProveMap, ADensityWithoutAValueBetweenTheStepsIsNotKeptByThem) {
+  const std::string one = "\"1 + exp(log(x)) - x\"\n";
+  const MapModel map = map_of(kPlane + "[phase_space.brackets]\n\"x,y\" = " + one + R"toml(
+[[map_step]]
+expressions = { x = "x - 3", y = "y*(1 + abs(x - 3) - (x - 3))" }
+[[map_step]]
+expressions = { x = "x + 3", y = "y*(1 + abs(x) - x)" }
+[[measure]]
+density = )toml" + one);
   EXPECT_EQ(verdict_of(map, ClaimKind::measure), Verdict::refuted);
   EXPECT_EQ(verdict_of(map, ClaimKind::map), Verdict::refuted);
-  EXPECT_EQ(verdict_of(map_of(kPlane + steps +
-                              "[[invariant_relation]]\nname = \"r\"\n"
-                              "expression = \"y + exp(log(x)) - x\"\n"),
-                       ClaimKind::invariant_relation),
-            Verdict::refuted);
 }
 
 TEST(ProveMap, AQuotientIsKeptByStepsThatAreQuotients) {
