@@ -117,6 +117,28 @@ TEST(ErrorEstimate, DigitsThatTheEquationsLoseAreCounted) {
   EXPECT_LT(motion.trust().error_estimate, 1e-13);
 }
 
+// An argument that rests is rounded in the same way by every step and every method.
+TEST(ErrorEstimate, DigitsOfArgumentsThatRestAreCounted) {
+  const Model model = model_of(R"toml(
+[phase_space]
+variables = ["x", "z"]
+[equations]
+x = "cos(sqrt(2)*(z - 10^6))"
+z = "0"
+[[scene]]
+name = "default"
+initial = { x = "0", z = "1/2" }
+duration = "1"
+)toml");
+  const Solution motion = solve(model, model.scene("default"));
+  ASSERT_TRUE(motion.ok());
+  const long double end = std::cos(std::sqrt(2.L) * (0.5L - 1e6L));
+  const auto error = static_cast<double>(std::abs(motion.trajectory().state[0] / end - 1));
+  EXPECT_GT(error, 1e-11);
+  EXPECT_GT(motion.trust().error_estimate, error / 3);
+  EXPECT_LT(motion.trust().error_estimate, 30 * error);
+}
+
 /// x' = y, y' = -2x^3 from x = 0, y = 1: the sine of the lemniscate. An eighth of its period, which
 /// is twice 2.622057.., after the start, and so many periods later, x^2 is sqrt(2) - 1.
 struct Lemniscate {

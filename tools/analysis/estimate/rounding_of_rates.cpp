@@ -13,8 +13,8 @@ namespace {
 
 /// Enough for a cancellation of all digits of a double, and for many more.
 constexpr slong kBitsOfRates = 512;
-/// Of the largest rate on the way, the least difference that counts.
-constexpr double kKept = 1e-9;
+/// Of the largest rate on the way, the least difference that counts: some units of the last digit.
+constexpr double kKept = 2e-15;
 
 BigFloat exactly(double value) {
   BigFloat result;

@@ -13,8 +13,9 @@ bool has_rates(const Module& module, double t, const std::vector<double>& x,
                const std::vector<double>& parameters);
 
 /// What the end state of a run owes to rounding within the equations, as in (1 - cos(x))/x for
-/// small x or cos(t + 10^16): relative to `sizes`, and 0 where the rates keep nine digits. No step
-/// size and no other method shows it, since all evaluate the equations with the same digits.
+/// small x or cos(t + 10^16): relative to `sizes`, and 0 where the rates are right to some units of
+/// the last digit. No step size and no other method shows it, since all evaluate the equations with
+/// the same digits.
 ///
 /// The rates are compared with those in many digits, at the samples of the trajectory; what they
 /// differ by is summed up along it.
