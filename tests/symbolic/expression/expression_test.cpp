@@ -47,6 +47,8 @@ TEST_F(Expression, ReadsFunctionsAndConstants) {
   EXPECT_EQ(parse("abs(x)"), parse("sqrt(x^2)"));
   EXPECT_EQ(parse("abs(-3/2) + sign(-7)"), GiNaC::numeric(1, 2));
   EXPECT_EQ(parse("sign(x)"), x_ / GiNaC::sqrt(GiNaC::pow(x_, 2)));
+  EXPECT_EQ(parse("abs(exp(x))"), GiNaC::exp(x_));
+  EXPECT_EQ(parse("sign(exp(x))"), 1);
 }
 
 TEST_F(Expression, HasNoValueAtThePolesOfItsFunctions) {
