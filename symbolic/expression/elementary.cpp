@@ -8,8 +8,8 @@ namespace {
 
 using GiNaC::ex;
 
-/// |a| of real numbers. That of an exponential is itself: under the root GiNaC would write exp(2*z),
-/// which overflows before exp(z) does.
+/// |a| of real numbers. That of an exponential is itself: under the root GiNaC would write
+/// exp(2*z), which overflows before exp(z) does.
 ex modulus(const ex& a) {
   return GiNaC::is_the_function<GiNaC::exp_SERIAL>(a) ? a : GiNaC::sqrt(GiNaC::pow(a, 2));
 }

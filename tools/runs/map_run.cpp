@@ -35,6 +35,12 @@ Table table_of(const MapModel& map, const Scene& scene, const Iterated& run) {
   return table;
 }
 
+std::optional<std::string> warning_of(const Iterated& run) {
+  if (!run.error_estimate || *run.error_estimate < kSpoiledOrbit) return std::nullopt;
+  return "rounding has grown to the size of the state: the last state is that of no orbit that "
+         "begins where the scene does";
+}
+
 nlohmann::ordered_json to_json(const MapModel& map, const Scene& scene, const Iterated& run) {
   nlohmann::ordered_json json{
       {"case", map.base.name},
@@ -60,6 +66,10 @@ nlohmann::ordered_json to_json(const MapModel& map, const Scene& scene, const It
   json["from_cache"] = run.from_cache;
   json["left_out"] = nlohmann::ordered_json::array();
   json["warnings"] = nlohmann::ordered_json::array();
+  if (const auto warning = warning_of(run)) json["warnings"].push_back(*warning);
+  if (run.error_estimate)
+    json["trust"] = {{"error_estimate", *run.error_estimate},
+                     {"beyond_double", *run.error_estimate >= kSpoiledOrbit}};
   return json;
 }
 
@@ -73,6 +83,8 @@ void print(const MapModel& map, const Scene& scene, const Iterated& run) {
   for (const Iterated::Invariant& invariant : run.invariants)
     fmt::print("  {:<10} {:>25}   drift {:.1e}\n", invariant.name, exact_text(invariant.final),
                invariant.drift);
+  if (run.error_estimate) fmt::print("  error of the state about {:.0e}\n", *run.error_estimate);
+  if (const auto warning = warning_of(run)) fmt::print("  warning: {}\n", *warning);
 }
 
 }  // namespace
@@ -114,7 +126,7 @@ int iterate_map(const MapRunRequest& request) {
 
 Row conserve_map(const MapModel& map, const Scene& scene, const std::optional<double>& duration,
                  double bound, const std::function<bool()>& give_up) {
-  const Iterated run = iterate(map, scene, steps_of(scene, duration), 0, give_up);
+  const Iterated run = iterate(map, scene, steps_of(scene, duration), 0, give_up, false);
   Row row{.case_name = map.base.name, .scene = scene.name, .method = "map"};
   for (const Iterated::Invariant& invariant : run.invariants)
     row.drift = std::max(row.drift, invariant.drift);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <sstream>
 
 #include "tests/tools/program.hpp"
@@ -311,6 +312,38 @@ TEST(MapCommands, MoserVeselovIsAMethod) {
   const Outcome refused = run({"integrate", "kovalevskaya", "--method", "moser-veselov"});
   EXPECT_EQ(refused.status, 2);
   EXPECT_TRUE(has(refused.err, "free rigid body")) << refused.err;
+}
+
+// x -> 4 x (1 - x) is sin(u)^2 -> sin(2 u)^2.
+TEST(MapCommands, RoundingOfAnOrbitIsEstimated) {
+  const Folder folder;
+  std::ofstream(folder.path() / "logistic.toml") << R"toml(title = "logistic"
+[phase_space]
+variables = ["x"]
+[map]
+x = "4*x*(1 - x)"
+[[scene]]
+name = "default"
+initial = { x = "1/3" }
+duration = "20"
+)toml";
+  for (const int steps : {0, 10, 20, 30}) {
+    const Json json = run_in(folder, {"integrate", "./logistic.toml", "--duration",
+                                      std::to_string(steps), "--json"})
+                          .json();
+    const long double end =
+        std::pow(std::sin(std::ldexp(std::asin(std::sqrt(1 / 3.L)), steps)), 2.L);
+    const auto error =
+        static_cast<double>(std::abs(std::stod(json.at("state").at("x").get<std::string>()) - end));
+    const double estimate = json.at("trust").at("error_estimate");
+    EXPECT_GT(estimate, error / 3) << steps;
+    EXPECT_LT(estimate, 1000 * error + 1e-15) << steps;
+    EXPECT_TRUE(json.at("warnings").empty());
+  }
+  const Json lost =
+      run_in(folder, {"integrate", "./logistic.toml", "--duration", "100", "--json"}).json();
+  EXPECT_TRUE(lost.at("trust").at("beyond_double"));
+  EXPECT_EQ(lost.at("warnings").size(), 1u);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "codegen/compile.hpp"
 #include "codegen/emit_cpp.hpp"
@@ -71,10 +72,53 @@ bool is_finite(const std::vector<double>& x) {
   return std::ranges::all_of(x, [](double value) { return std::isfinite(value); });
 }
 
+/// An orbit like that to the state `end`, but with random errors of one unit of the last digit: how
+/// far its end is from that, as of Iterated.
+double distance_of_disturbed(const Module& module, const PreparedScene& run, std::uint64_t steps,
+                             const std::vector<double>& end, std::uint64_t seed) {
+  const auto& step = module.functions().rhs;
+  std::mt19937_64 random(seed);
+  std::vector<double> state = run.initial, next(state.size()), largest(state.size());
+  const auto disturb = [&] {
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < state.size(); ++i, bits >>= 1) {
+      if (i % 64 == 0) bits = random();
+      largest[i] = std::max(largest[i], std::abs(state[i]));
+      state[i] *= bits % 2 == 0 ? 1 + std::numeric_limits<double>::epsilon()
+                                : 1 - std::numeric_limits<double>::epsilon();
+    }
+  };
+  disturb();
+  for (std::uint64_t k = 0; k < steps; ++k) {
+    step(0, state.data(), run.parameters.data(), next.data());
+    std::swap(state, next);
+    disturb();
+  }
+  double distance = 0;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const double off = std::abs(state[i] - end[i]);
+    if (!std::isfinite(off)) return 1;  // nothing is left of it
+    if (off > 0) distance = std::max(distance, off / std::max(largest[i], std::abs(end[i])));
+  }
+  return distance;
+}
+
+std::optional<double> estimated_error(const Module& module, const PreparedScene& run,
+                                      const Iterated& orbit) {
+  constexpr double kLongest = 1;  // seconds of an orbit that is repeated
+  constexpr int kRepeats = 3;
+  if (!orbit.finite || orbit.stopped || orbit.seconds > kLongest) return std::nullopt;
+  double estimate = 0;
+  for (int k = 1; k <= kRepeats; ++k)
+    estimate = std::max(estimate, distance_of_disturbed(module, run, orbit.steps, orbit.state,
+                                                        static_cast<std::uint64_t>(k)));
+  return estimate;
+}
+
 }  // namespace
 
 Iterated iterate(const MapModel& map, const Scene& scene, std::uint64_t steps, std::uint64_t every,
-                 const std::function<bool()>& give_up) {
+                 const std::function<bool()>& give_up, bool with_estimate) {
   const Model model = with_integrals_of_level(map, scene);
   const PreparedScene run = prepare(model, scene);
   Specialisation s = run.specialisation;
@@ -121,6 +165,7 @@ Iterated iterate(const MapModel& map, const Scene& scene, std::uint64_t steps, s
   }
   result.seconds = elapsed(start);
   drift.look(result.state, result.invariants);
+  if (with_estimate) result.error_estimate = estimated_error(module, run, result);
   return result;
 }
 

@@ -206,6 +206,7 @@ class MapSearch(Sequence[str]):
 
     integrals: list[str]
     densities: list[str]  #: of measures that the map keeps, up to sign
+    density_evidence: list[str]  #: what the proof of each says beside, as "locally: .."
     no_polynomial: bool  #: proved: no polynomial of the degree is an integral
     no_rational: bool  #: proved: nor is a quotient of them
     polynomials: int  #: at most so many independent ones
@@ -259,6 +260,7 @@ class Iterates:
     stopped: bool  #: by the time limit
     drift: dict[str, float]  #: of each invariant
     seconds: float
+    error_estimate: float | None  #: of the last state, relative, by rounding; None: not estimated
 
     @property
     def success(self) -> bool:

@@ -107,11 +107,13 @@ py::object search_of_map(const MapCase& self, int degree, double seconds, double
       for (const discrete::FoundOfMap& f : list) result.push_back(f.text);
       return result;
     };
+    Names evidence;
+    for (const discrete::FoundOfMap& f : found.densities) evidence.push_back(f.evidence);
     return py::dict("integrals"_a = texts(found.integrals), "densities"_a = texts(found.densities),
-                    "no_polynomial"_a = found.no_polynomial, "no_rational"_a = found.no_fraction,
-                    "polynomials"_a = found.polynomials, "relations"_a = found.relations,
-                    "density_space"_a = found.density_space, "generic"_a = found.generic,
-                    "reason"_a = found.reason);
+                    "density_evidence"_a = evidence, "no_polynomial"_a = found.no_polynomial,
+                    "no_rational"_a = found.no_fraction, "polynomials"_a = found.polynomials,
+                    "relations"_a = found.relations, "density_space"_a = found.density_space,
+                    "generic"_a = found.generic, "reason"_a = found.reason);
   });
 }
 
@@ -189,7 +191,8 @@ py::object iterated(const MapCase& self, const std::string& scene, std::uint64_t
     for (const Iterated::Invariant& one : found.invariants) drift[py::str(one.name)] = one.drift;
     return py::dict("t"_a = t, "y"_a = y, "steps"_a = found.steps, "names"_a = found.names,
                     "state"_a = found.state, "finite"_a = found.finite, "stopped"_a = found.stopped,
-                    "drift"_a = drift, "seconds"_a = found.seconds);
+                    "drift"_a = drift, "seconds"_a = found.seconds,
+                    "error_estimate"_a = found.error_estimate);
   });
 }
 
