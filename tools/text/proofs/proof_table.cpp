@@ -25,6 +25,17 @@ std::string name_of(const Proof& proof) {
   return name;
 }
 
+/// The lines of a name in a column. Conditions that would take many of them stand in a detail.
+std::vector<std::string> lines_of_name(const Proof& proof, std::size_t columns, bool* has_detail) {
+  constexpr std::size_t kMostLines = 4;
+  std::vector<std::string> lines = wrapped(name_of(proof), columns);
+  *has_detail = !proof.where.empty() && lines.size() > kMostLines;
+  if (!*has_detail) return lines;
+  Proof named = proof;
+  named.where = {".."};
+  return wrapped(name_of(named), columns);
+}
+
 std::string witness_text(const Witness& witness) {
   std::string text;
   for (const auto& [name, value] : witness.point)
@@ -107,7 +118,8 @@ std::string ProofTable::heading() const {
 }
 
 std::string ProofTable::row(const Proof& proof) const {
-  const std::vector<std::string> name = wrapped(name_of(proof), name_width_);
+  bool where_below = false;
+  const std::vector<std::string> name = lines_of_name(proof, name_width_, &where_below);
   std::string text = line(verdict_text(proof.verdict, colour_, kVerdictWidth),
                           to_string(proof.kind), name[0], duration_text(proof.seconds));
   const std::size_t used =
@@ -117,7 +129,7 @@ std::string ProofTable::row(const Proof& proof) const {
   text = trimmed(text) + '\n';
   for (std::size_t i = 1; i < name.size(); ++i)
     text += trimmed(line(padded("", kVerdictWidth), "", name[i], "")) + '\n';
-  return text + details(proof, !beside);
+  return text + details(proof, !beside, where_below);
 }
 
 std::string ProofTable::judgement(const Proof& note) const {
@@ -139,7 +151,7 @@ std::string ProofTable::judgement(const Proof& note) const {
   return head + text;
 }
 
-std::string ProofTable::details(const Proof& proof, bool with_evidence) const {
+std::string ProofTable::details(const Proof& proof, bool with_evidence, bool with_where) const {
   // Below the names of the kinds, so that the column of the verdicts stays free.
   const std::string space(indent_ + kVerdictWidth + kGap.size() + 2, ' ');
   std::string text;
@@ -153,6 +165,7 @@ std::string ProofTable::details(const Proof& proof, bool with_evidence) const {
       first = false;
     }
   };
+  if (with_where) detail("where", fmt::format("{}", fmt::join(proof.where, ", ")));
   if (with_evidence && !proof.evidence.empty()) detail("", proof.evidence);
   for (const std::string& integral : proof.integrals) detail("gives", integral);
   if (proof.spectrum) detail("count", spectrum_text(*proof.spectrum));

@@ -45,7 +45,7 @@ class ProofTable {
  private:
   std::string line(const std::string& verdict, const std::string& kind, const std::string& name,
                    const std::string& time) const;
-  std::string details(const Proof& proof, bool with_evidence) const;
+  std::string details(const Proof& proof, bool with_evidence, bool with_where) const;
 
   std::size_t width_, indent_;
   std::size_t kind_width_, name_width_;
