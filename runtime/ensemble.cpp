@@ -24,10 +24,12 @@ class Feed {
         numbers_(count_),
         check_(work.ensemble(), invariants) {
     const Ensemble& ensemble = work.ensemble();
-    if (kernel.watch && looks_at_any(*kernel.watch))
+    if (kernel.watch && looks_at_any(*kernel.watch)) {
       look_.emplace(*kernel.watch, ensemble.states, kernel.lanes, [&ensemble](long long member) {
         return ensemble.values_of(static_cast<std::size_t>(member));
       });
+      look_->end_before_poles();
+    }
   }
 
   static long long next(void* self, double* x, const double** numbers) {
@@ -50,6 +52,7 @@ class Feed {
  private:
   bool looks_at_any(const StepWatch& watch) const {
     const Ensemble& ensemble = work_.ensemble();
+    if (!watch.signed_divisors().empty()) return true;
     for (std::size_t i = 0; i < ensemble.size(); ++i)
       if (watch.looks(ensemble.values_of(i), ensemble.state(i))) return true;
     return false;
@@ -72,6 +75,9 @@ class Feed {
   void take(std::size_t member, const double* x, const casimir_outcome& outcome) {
     MemberResult& result = work_.result.members[member];
     result.status = status_of(outcome.status);
+    if (result.status == Status::step_underflow && look_ &&
+        look_->at_pole(static_cast<long long>(member)))
+      result.status = Status::singularity;
     result.time = outcome.t;
     result.state.assign(x, x + work_.ensemble().states);
     result.steps = outcome.steps;

@@ -82,8 +82,9 @@ bool may_be_passed(const casimir_run& run, const casimir_outcome& outcome) {
 
 /// One run of the kernel, and where the method of Taylor series stops, over the places at which the
 /// equations have no derivative.
-void run_on(const Module& module, const Method& method, casimir_run run, double* x,
-            casimir_outcome& outcome) {
+/// \param look  null where nobody looks at steps. At a pole the solution ends, whatever lies behind.
+void run_on(const Module& module, const Method& method, casimir_run run, const StepLook* look,
+            double* x, casimir_outcome& outcome) {
   module.functions().integrate(&run, x, &outcome);
   if (!method.series) return;
   const double whole = run.t_end - run.t_begin;
@@ -92,6 +93,7 @@ void run_on(const Module& module, const Method& method, casimir_run run, double*
   // Behind the place a series reaches as far as the place is away: it need not be far.
   constexpr double kPart = 0x1p-10;
   for (int k = 0; k < kMostPassages && may_be_passed(run, outcome); ++k) {
+    if (look && look->at_pole()) return;
     Passage passage([&](double t, const double* at,
                         double* rates) { module.functions().rhs(t, at, run.parameters, rates); },
                     run, static_cast<std::size_t>(module.dimension()));
@@ -146,13 +148,16 @@ void run_kernel(const Module& module, const Method& method, const Settings& s,
     run.projector = &projection;
   }
   std::optional<StepLook> look;
-  if (module.watch() && module.watch()->looks(parameters, trajectory.state.data())) {
+  if (module.watch() && (module.watch()->looks(parameters, trajectory.state.data()) ||
+                         !module.watch()->signed_divisors().empty())) {
     look.emplace(*module.watch(), trajectory.state.size(), parameters, trajectory.state.data());
+    look->end_before_poles();
     run.look = [](void* looker, const casimir_step* trial) {
       return (*static_cast<StepLook*>(looker))(*trial);
     };
     run.looker = &*look;
   }
+  const StepLook* const seen = look ? &*look : nullptr;
   std::optional<ProgramLeading> exact_rates;
   casimir_leading leading = {};
   if (method.series && module.exact_rates() && s.rtol > 0 && s.rtol <= kRoundingShows) {
@@ -164,13 +169,16 @@ void run_kernel(const Module& module, const Method& method, const Settings& s,
   const auto start = Clock::now();
   if (s.begin_anew > 0 && s.begin_anew < std::abs(s.duration)) {
     run.t_end = s.begin + std::copysign(s.begin_anew, s.duration);
-    run_on(module, method, run, trajectory.state.data(), outcome);
+    run_on(module, method, run, seen, trajectory.state.data(), outcome);
     run.t_begin = run.t_end;
     run.t_end = s.begin + s.duration;
   }
-  if (outcome.status == CASIMIR_OK) run_on(module, method, run, trajectory.state.data(), outcome);
+  if (outcome.status == CASIMIR_OK)
+    run_on(module, method, run, seen, trajectory.state.data(), outcome);
   trajectory.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   trajectory.status = status_of(outcome.status);
+  if (trajectory.status == Status::step_underflow && look && look->at_pole())
+    trajectory.status = Status::singularity;
   trajectory.time = outcome.t;
   trajectory.steps = outcome.steps;
   trajectory.rejected = outcome.rejected;

@@ -75,7 +75,7 @@ class Cutter {
       return LaneLook(watch, shared.work.ensemble().states, shared.kernel.lanes,
                       [](long long) { return nullptr; });
     };
-    if (shared.kernel.watch) look_.emplace(looks(*shared.kernel.watch));
+    if (shared.kernel.watch) look_.emplace(looks(*shared.kernel.watch)).end_before_poles();
     if (shared.plane_watch) plane_look_.emplace(looks(*shared.plane_watch));
   }
 

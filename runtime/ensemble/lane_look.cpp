@@ -63,6 +63,15 @@ LaneLook::LaneLook(const StepWatch& watch, std::size_t states, int lanes, Parame
   for (Lane& lane : lanes_) lane.look.end_at_poles();
 }
 
+void LaneLook::end_before_poles() {
+  for (Lane& lane : lanes_) lane.look.end_before_poles();
+}
+
+bool LaneLook::at_pole(long long member) const {
+  return std::ranges::any_of(
+      lanes_, [&](const Lane& lane) { return lane.member == member && lane.look.at_pole(); });
+}
+
 /// What `looks` says of the step of a lane, whose end is known.
 template <class Look>
 auto LaneLook::look(const casimir_lane_step& trial, std::size_t lane, const Look& looks) {

@@ -17,6 +17,11 @@ class LaneLook {
   /// Borrows the watch.
   LaneLook(const StepWatch& watch, std::size_t states, int lanes, Parameters parameters);
 
+  /// Runs end before poles: see StepLook.
+  void end_before_poles();
+  /// Whether a member that stands in a lane could not go on for that reason.
+  bool at_pole(long long member) const;
+
   /// \param parts  for each lane that is to take the step, what StepLook says.
   void operator()(const casimir_lane_step& trial, double* parts);
 

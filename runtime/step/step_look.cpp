@@ -75,6 +75,14 @@ void StepLook::begin(const double* parameters, const double* state) {
   shift_ = 0.5;
   quiet_for_ = 0;
   chatter_ = {};
+  at_pole_ = false;
+  if (poles_) poles_->begin(parameters);
+}
+
+void StepLook::end_before_poles() {
+  if (watch_.signed_divisors().empty()) return;
+  poles_.emplace(watch_, states_);
+  poles_->begin(parameters_);
 }
 
 void StepLook::arguments(double t, const double* x, double* values) {
@@ -140,6 +148,8 @@ bool StepLook::is_quiet(const casimir_step& trial) {
   const double h = std::abs(trial.t1 - trial.t0);
   met_ = nullptr;
   take_ends(trial);
+  if (may_go_over_pole()) return false;
+  if (watched_.empty()) return true;
   const bool follows = trial.t0 == quiet_until_ && h <= kLonger * quiet_for_ && !jump_;
   quiet_for_ = 0;
   for (const StepWatch::Watched& watched : watched_)
@@ -258,7 +268,28 @@ bool StepLook::passes_pole() const {
   });
 }
 
+bool StepLook::may_go_over_pole() const {
+  return poles_ && poles_->may_lie_between(first().values.data(), last().values.data());
+}
+
+/// What may be tried of a step that goes over a pole.
+std::optional<double> StepLook::up_to_pole(const casimir_step& trial) {
+  constexpr double kOfTheWay = 0.7;
+  if (!may_go_over_pole()) return std::nullopt;
+  const auto part = poles_->first_in(trial, first().values.data(), last().values.data());
+  if (!part) return std::nullopt;
+  const double least = 64 * std::numeric_limits<double>::epsilon() * std::abs(trial.t0);
+  at_pole_ = *part * std::abs(trial.t1 - trial.t0) <= least;
+  return at_pole_ ? 0 : kOfTheWay * *part;
+}
+
 double StepLook::within(const casimir_step& trial, const double* middle) {
+  if (const auto part = up_to_pole(trial)) {
+    met_ = nullptr;
+    jump_.reset();
+    return *part;
+  }
+  if (watched_.empty()) return 1;
   if (chatter_.goes_on(trial.t0)) return 0;
   const double h = std::abs(trial.t1 - trial.t0);
   const double least = 64 * std::numeric_limits<double>::epsilon() * std::abs(trial.t0);

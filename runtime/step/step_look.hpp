@@ -10,6 +10,7 @@
 #include "runtime/module_abi.h"
 #include "runtime/program/interpreter.hpp"
 #include "runtime/step/chatter.hpp"
+#include "runtime/step/step_poles.hpp"
 #include "runtime/step/step_watch.hpp"
 
 namespace casimir {
@@ -29,6 +30,12 @@ class StepLook {
   /// A run ends where something that is divided by passes zero, instead of going on behind it: for
   /// those that nobody warns of it.
   void end_at_poles() { ends_at_poles_ = true; }
+
+  /// A run ends before a pole that one of its steps would go over: see StepPoles. The steps towards
+  /// it become shorter until the time does not move any more.
+  void end_before_poles();
+  /// Whether that is why the run could not go on.
+  bool at_pole() const { return at_pole_; }
 
   /// The numbers of the run have no largest one, as those of many digits.
   void no_largest_number() { beyond_ = std::numeric_limits<double>::infinity(); }
@@ -89,6 +96,8 @@ class StepLook {
   bool hardly_changes(const StepWatch::Watched& watched) const;
   bool ends_behind_jump(const casimir_step& trial) const;
   bool passes_pole() const;
+  std::optional<double> up_to_pole(const casimir_step& trial);
+  bool may_go_over_pole() const;
   bool is_calm(const StepWatch::Watched& watched, std::size_t index);
   void sample(const casimir_step& trial);
   Values sampled_at(const StepWatch::Watched& watched) const;
@@ -119,7 +128,8 @@ class StepLook {
   double beyond_ = 711;
   Values places_ = {};
   double shift_ = 0.5;
-  bool ends_at_poles_ = false;
+  bool ends_at_poles_ = false, at_pole_ = false;
+  std::optional<StepPoles> poles_;
   double quiet_until_ = 0, quiet_for_ = 0;  ///< the end and the size of the last quiet step
   const StepWatch::Watched* met_ = nullptr;
   std::optional<double> jump_;  ///< when a step that was cut is to end behind a jump

@@ -248,6 +248,7 @@ StepWatch::StepWatch(const Program& rhs)
   watch_divisors(rhs, varies, within_arguments(false));
   watch_near_kinks(rhs, varies);
   watch_phases(varies);
+  find_signed_divisors(rhs);
   arguments_ = pruned(arguments_);
 }
 
@@ -357,8 +358,8 @@ void StepWatch::watch_divisors(const Program& rhs, const std::vector<bool>& vari
     if (line.op == Op::tan) {
       const double power = highest_power(rhs, i);
       arguments_.code.push_back({Op::cos, line.a});
-      watch(Kind::divisor, {static_cast<int>(arguments_.code.size()) - 1}, power,
-            power < enough(i));
+      watch(Kind::divisor, {static_cast<int>(arguments_.code.size()) - 1}, power, power < enough(i))
+          .pole = true;
     }
     const double power = line.op == Op::div ? 1 : line.op == Op::pow ? -exponent_of(rhs, line) : 0;
     if (!(power > 0)) continue;
@@ -368,7 +369,8 @@ void StepWatch::watch_divisors(const Program& rhs, const std::vector<bool>& vari
     for (std::size_t base = 0; base < i; ++base) {
       if (powers[base] == 0 || !varies[base]) continue;
       watch(Kind::divisor, {static_cast<int>(base)}, powers[base],
-            powers[base] * degree[base] < enough(i));
+            powers[base] * degree[base] < enough(i))
+          .pole = true;
     }
   }
 }
@@ -402,20 +404,38 @@ void StepWatch::watch_phases(const std::vector<bool>& varies) {
   }
 }
 
-void StepWatch::watch(Kind kind, const std::vector<int>& lines, double exponent, bool faint) {
+/// Behind all others, while the lines of the right-hand side have their places.
+void StepWatch::find_signed_divisors(const Program& rhs) {
+  const std::vector<bool> positive = nowhere_negative(arguments_);
+  rates_and_divisors_ = arguments_;
+  rates_and_divisors_.outputs = rhs.outputs;
+  rates_and_divisors_.output_names = rhs.output_names;
+  for (const Watched& watched : watched_) {
+    const int line = arguments_.outputs[watched.place];
+    if (!watched.pole || positive[index(line)]) continue;
+    signed_divisors_.push_back(watched.place);
+    rates_and_divisors_.outputs.push_back(line);
+    rates_and_divisors_.output_names.push_back(arguments_.output_names[watched.place]);
+  }
+  rates_and_divisors_ = signed_divisors_.empty() ? Program{} : pruned(rates_and_divisors_);
+}
+
+StepWatch::Watched& StepWatch::watch(Kind kind, const std::vector<int>& lines, double exponent,
+                                     bool faint) {
   for (Watched& known : watched_) {
     if (known.kind != kind || arguments_.outputs[known.place] != lines[0] ||
         (lines.size() > 1 && arguments_.outputs[known.place + 1] != lines[1]))
       continue;
     known.exponent = std::max(known.exponent, exponent);
     known.faint = known.faint && faint;
-    return;
+    return known;
   }
-  watched_.push_back({kind, arguments_.outputs.size(), exponent, faint});
+  const std::size_t place = arguments_.outputs.size();
   for (const int line : lines) {
     arguments_.outputs.push_back(line);
     arguments_.output_names.push_back("u" + std::to_string(arguments_.outputs.size()));
   }
+  return watched_.emplace_back(Watched{kind, place, exponent, faint});
 }
 
 std::shared_ptr<const StepWatch> watch_of_object(const Program& rhs, const std::string& path) {

@@ -39,6 +39,7 @@ class StepWatch {
     std::size_t place;   ///< of u among the outputs of `arguments`; v, if there is one, is the next
     double exponent;     ///< of a power or a divisor
     bool faint = false;  ///< watched only where numbers are extreme: see `is_extreme`
+    bool pole = false;   ///< of a divisor: what is divided by it has a pole where it is zero
   };
 
   /// \param rhs  a right-hand side, with the inputs of one.
@@ -53,6 +54,10 @@ class StepWatch {
   /// Whether there is anything to be watched with these numbers.
   bool looks(const double* parameters, const double* state) const;
   const std::vector<Watched>& watched() const { return watched_; }
+  /// The places of divisors that may have both signs, among the outputs of `arguments`.
+  const std::vector<std::size_t>& signed_divisors() const { return signed_divisors_; }
+  /// The rates, and behind them these divisors, as functions of the inputs of the right-hand side.
+  const Program& rates_and_divisors() const { return rates_and_divisors_; }
   /// The arguments, as functions of the inputs of the right-hand side.
   const Program& arguments() const { return arguments_; }
   /// Writes the values of the outputs of `arguments`.
@@ -69,17 +74,19 @@ class StepWatch {
   double log_of_factors() const { return log_of_factors_; }
 
  private:
-  void watch(Kind kind, const std::vector<int>& lines, double exponent = 1, bool faint = false);
+  Watched& watch(Kind kind, const std::vector<int>& lines, double exponent = 1, bool faint = false);
   void watch_branches(const Program& rhs, const std::vector<bool>& varies);
   void watch_powers(const Program& rhs, const std::vector<bool>& varies);
   void watch_divisors(const Program& rhs, const std::vector<bool>& varies,
                       const std::vector<bool>& watched);
   void watch_near_kinks(const Program& rhs, const std::vector<bool>& varies);
+  void find_signed_divisors(const Program& rhs);
   void watch_phases(const std::vector<bool>& varies);
   std::vector<bool> within_arguments(bool faint_too) const;
 
   std::vector<Watched> watched_;
-  Program arguments_;
+  std::vector<std::size_t> signed_divisors_;
+  Program arguments_, rates_and_divisors_;
   Values* compiled_ = nullptr;
   std::shared_ptr<void> open_;  ///< what keeps that loaded
   double log_of_factors_ = 0, log_of_extremes_ = 0;

@@ -153,6 +153,35 @@ TEST(EnsembleFile, WhatRoundingDecidesIsAWarning) {
   EXPECT_TRUE(calm.json().at("warnings").empty()) << calm.json().at("warnings");
 }
 
+/// x = 1 - sqrt(1 - 2t): the field points at the pole from both sides, so that steps of a loose
+/// tolerance would go over it, and come back.
+TEST(EnsembleFile, MembersEndAtPolesAtEveryTolerance) {
+  const Folder folder;
+  write(folder, "pole.toml",
+        "[phase_space]\nvariables = [\"x\"]\n[parameters]\na = {}\n[equations]\n"
+        "x = \"a/(1 - x)\"\n[[scene]]\nname = \"default\"\nparameters = { a = \"1\" }\n"
+        "initial = { x = \"0\" }\nduration = \"2\"\n");
+  for (const char* method : {"taylor", "dop853"})
+    for (const char* tolerance : {"1e-3", "1e-5", "1e-8", "1e-12"}) {
+      const Outcome all = members(folder, "x\n0\n1/2\n2\n",
+                                  {"integrate", "pole.toml", "--tolerance", tolerance, "--method",
+                                   method, "--json", "--time-limit", "20"});
+      EXPECT_EQ(all.status, 5) << method << ' ' << tolerance;
+      const double within = 10 * std::stod(tolerance);
+      const auto run = all.json();
+      const std::vector<double> ends{0.5, 0.125, 0.5};
+      for (std::size_t i = 0; i < ends.size(); ++i) {
+        const auto& member = run.at("members")[i];
+        EXPECT_EQ(member.at("status"), "singularity") << method << ' ' << tolerance;
+        EXPECT_NEAR(number(member.at("t")), ends[i], within) << method << ' ' << tolerance;
+      }
+    }
+  EXPECT_EQ(run_in(folder, {"sweep", "pole.toml", "--over", "a=1,2", "--tolerance", "1e-3",
+                            "--time-limit", "20", "--quiet"})
+                .status,
+            5);
+}
+
 /// The absolute tolerance is in units of each start: that of the scene would be all of the small
 /// ones. They are members of one linear system, so each is the first, made smaller.
 TEST(EnsembleFile, SmallMembersHaveAllTheirDigits) {
