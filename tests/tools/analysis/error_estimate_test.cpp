@@ -8,6 +8,7 @@
 #include "runtime/methods.hpp"
 #include "tests/tools/analysis/systems.hpp"
 #include "tools/analysis/estimate/growth_of_changes.hpp"
+#include "tools/analysis/run/ensemble_check.hpp"
 #include "tools/analysis/run/prepared_scene.hpp"
 #include "tools/analysis/solve.hpp"
 
@@ -311,6 +312,28 @@ TEST(Conditioning, TheTimeOfAGrowthIsTheLastBeforeIt) {
   EXPECT_EQ(flow.time_of(5), 1);
   EXPECT_FALSE(flow.time_of(65));
   EXPECT_EQ(flow.on_the_way(), 64);
+}
+
+/// What takes longest is what most needs a check: that there was no time for one is said.
+TEST(ErrorEstimate, MembersWithoutTimeForACheckAreUnconfirmed) {
+  const Oscillator oscillator;
+  const PreparedScene run = prepare(oscillator.model, oscillator.scene(100));
+  Ensemble ensemble{.states = 2, .initial = {1, 0, 2, 0}, .values = {}};
+  EnsembleResult result;
+  for (const double size : {1., 2.})
+    result.members.push_back({.status = Status::ok,
+                              .time = 100,
+                              .state = {size * std::cos(100.), -size * std::sin(100.)},
+                              .invariants = {}});
+  Settings settings;
+  settings.duration = 100;
+  const auto checked = [&](double budget) {
+    return check_members(run, *find_method("taylor"), settings, ensemble, result, budget);
+  };
+  ASSERT_EQ(checked(10).size(), 2U);
+  EXPECT_FALSE(checked(10)[0].trust.unconfirmed);
+  ASSERT_EQ(checked(1e-9).size(), 1U);
+  EXPECT_TRUE(checked(1e-9)[0].trust.unconfirmed);
 }
 
 }  // namespace

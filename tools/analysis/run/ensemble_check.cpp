@@ -58,11 +58,11 @@ std::vector<CheckedMember> check_members(const PreparedScene& run, const Method&
     alone.atol = ensemble.atol_of(member, settings.atol);
     alone.give_up = time_limit(budget);
     const Trajectory again = integrate(compiled.module, how, alone, own.initial, own.parameters);
-    if (again.status == Status::stopped) break;  // the others take as long
     CheckedMember& found = checked.emplace_back(CheckedMember{member, {}});
     if (again.status != Status::ok) {
       found.trust.known = true;
       found.trust.unconfirmed = true;
+      if (again.status == Status::stopped) break;  // the others take as long
       continue;
     }
     found.trust = assess(own, compiled, how, alone, again, kPart * budget);

@@ -20,9 +20,10 @@ struct CheckedMember {
 std::vector<std::size_t> members_to_check(std::size_t members,
                                           const std::function<bool(std::size_t)>& ended);
 
-/// Integrates some members again by themselves, as far as that takes no more than about `budget`
-/// seconds, with an estimate of their errors: `members_to_check`. Members have no estimate of their
-/// own, and what rounding or a step does to one of them it mostly does to its neighbours as well.
+/// Integrates some members again by themselves, each for no more than about `budget` seconds, with
+/// an estimate of their errors: `members_to_check`. One that does not reach the end in that time is
+/// unconfirmed, and the last that is tried. Members have no estimate of their own, and what
+/// rounding or a step does to one of them it mostly does to its neighbours as well.
 /// \param run  what the members are, but for their initial states and parameters.
 std::vector<CheckedMember> check_members(const PreparedScene& run, const Method& method,
                                          const Settings& settings, const Ensemble& ensemble,
