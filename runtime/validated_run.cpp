@@ -29,6 +29,8 @@ constexpr int kDoubleOrder = 22, kGuardBits = 24;
 constexpr slong kDataBits = 128;
 /// A step has to be so much of the time that it leads to, so that the times are short numbers.
 constexpr int kTimeBits = 44;
+/// The logarithm of the least positive double: shorter steps are none.
+constexpr double kLeastStep = -1074;
 /// The time may grow by such a factor in a step: its bits fit a double then.
 constexpr double kGrowth = 100;
 
@@ -126,6 +128,7 @@ class Runner {
     const auto begin = std::chrono::steady_clock::now();
     try {
       record_start();
+      if (arb_is_zero(end_exact_.raw()) != 0) rest();
       while (run_.status == ValidatedStatus::ok && !done_) step();
     } catch (const std::domain_error& problem) {
       stop(ValidatedStatus::no_enclosure,
@@ -147,6 +150,12 @@ class Runner {
   void stop(ValidatedStatus status, std::string reason) {
     run_.status = status;
     run_.reason = std::move(reason);
+  }
+
+  /// The end of a run of no duration: it is the start.
+  void rest() {
+    done_ = true;
+    if (crossings_ && !crossings_->finish(lohner_.box(), end_)) touches();
   }
 
   bool may_step() {
@@ -181,7 +190,7 @@ class Runner {
         return stop(ValidatedStatus::no_enclosure, "the numbers have become too large");
       const bool last = log2_h >= log2_left || next_time(log2_h) >= approximate(end_);
       const double next = last ? 0 : next_time(log2_h);
-      if (!last && !(next > elapsed_))
+      if (last ? log2_h < kLeastStep : !(next > elapsed_))
         return stop(ValidatedStatus::no_enclosure, "no step of any length can be enclosed");
       const Ball h = last ? left : Ball(next - elapsed_);
       const double by = lohner_.shortened_by(h, full && !last);
@@ -189,6 +198,7 @@ class Runner {
       ++run_.rejected;
       full = false;
       log2_h = std::min(log2_h, log2_left) - by;
+      if (!may_step()) return;
     }
   }
 

@@ -45,6 +45,18 @@ TEST(ValidatedCommand, RefusesWithTheTimeReached) {
   EXPECT_NE(outcome.err.find("enclosed up to t = "), std::string::npos) << outcome.err;
 }
 
+TEST(ValidatedCommand, NoDurationLeavesTheStart) {
+  const Folder folder;
+  folder.write("steep.toml",
+               "[phase_space]\nvariables = [\"y\"]\n[equations]\ny = \"1/y^7\"\n[[scene]]\n"
+               "name = \"default\"\ninitial = { y = \"1/1000\" }\nduration = \"0\"\n");
+  const Outcome outcome =
+      run_in(folder, {"integrate", "steep.toml", "--validated", "--json", "--time-limit", "20"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(end(outcome.json(), "y", 0), 1e-3);
+  EXPECT_EQ(end(outcome.json(), "y", 1), 1e-3);
+}
+
 TEST(ValidatedCommand, RangesContainWhatTheirMembersDo) {
   const Outcome wide = enclosed("kovalevskaya", {"--param", "r=1..1.001", "--duration", "5"});
   const Outcome start = enclosed("kovalevskaya", {"--initial-radius", "1e-3", "--duration", "5"});
