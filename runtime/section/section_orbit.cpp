@@ -75,21 +75,49 @@ std::vector<PolynomialRoot> RunningOrbit::passages_in(const LaneOfStep& step,
   return all;
 }
 
+double RunningOrbit::off_plane(const LaneOfStep& step, const PlaneOfOrbit& plane, double at,
+                               double value) const {
+  std::vector<double> x, values;
+  for (std::size_t i = 0; i < plane.states; ++i) x.push_back(step.state(i, at));
+  const double off = value_of(plane.function, x.data(), values) + shift_ - value;
+  return plane.period > 0 ? off - plane.period * std::round(off / plane.period) : off;
+}
+
+/// By bisection, from the nearest places around on which the function has different signs. Rounding
+/// moves a multiple zero of the series far from that of the function, whose sign at a state is
+/// known better.
+double RunningOrbit::place_of_sign(const LaneOfStep& step, const PlaneOfOrbit& plane, double at,
+                                   double value) const {
+  constexpr double kNearest = 1e-9, kWider = 4, kEqual = 1e-15;
+  const double length = std::abs(step.taken());
+  const double least = std::min(0., step.taken()), most = std::max(0., step.taken());
+  for (double aside = kNearest * length; aside < length; aside *= kWider) {
+    double before = std::max(at - aside, least), behind = std::min(at + aside, most);
+    const double first = off_plane(step, plane, before, value);
+    if (!(first * off_plane(step, plane, behind, value) < 0)) continue;
+    while (behind - before > kEqual * length) {
+      const double middle = (before + behind) / 2;
+      if (!(middle > before && middle < behind)) break;
+      (off_plane(step, plane, middle, value) * first > 0 ? before : behind) = middle;
+    }
+    return behind;
+  }
+  return at;
+}
+
 double RunningOrbit::exact_place(const LaneOfStep& step, const PlaneOfOrbit& plane, double at,
                                  double value) const {
-  std::vector<double> x, values;
   for (int round = 0; round < 2; ++round) {
-    x.clear();
-    for (std::size_t i = 0; i < plane.states; ++i) x.push_back(step.state(i, at));
-    double off = value_of(plane.function, x.data(), values) + shift_ - value;
-    if (plane.period > 0) off -= plane.period * std::round(off / plane.period);
     double slope = 0;
     for (int k = step.step.order; k > 0; --k) slope = slope * at + k * step.coefficient(k);
-    const double next = at - off / slope;
-    // Where it only just passes, the place is not better known than that.
+    const double next = at - off_plane(step, plane, at, value) / slope;
+    // Where it only just passes, Newton's step says nothing.
     constexpr double kSmall = 1e-6;
     const double change = std::abs(next - at) / std::abs(step.taken());
-    if (!(change <= kSmall)) break;
+    if (!(change <= kSmall)) {
+      at = place_of_sign(step, plane, at, value);
+      break;
+    }
     at = next;
     if (change < 1e-12) break;  // the next one is rounding
   }

@@ -60,6 +60,10 @@ class RunningOrbit {
   /// The place where the function itself is `value`, next to where its series is.
   double exact_place(const LaneOfStep& step, const PlaneOfOrbit& plane, double at,
                      double value) const;
+  double off_plane(const LaneOfStep& step, const PlaneOfOrbit& plane, double at,
+                   double value) const;
+  double place_of_sign(const LaneOfStep& step, const PlaneOfOrbit& plane, double at,
+                       double value) const;
   void record(const LaneOfStep& step, double at, const SectionSettings& settings);
   double size_of_deviation(const double* deviation, const SectionSettings& settings) const;
 

@@ -53,6 +53,33 @@ TEST(Section, OrbitsOfUncoupledOscillatorsLieOnEllipses) {
   }
 }
 
+/// Rounding moves an n-fold zero of a series by an n-th root of it.
+TEST(Section, MultipleZerosOfAPlaneAreWhereTheFunctionHasThem) {
+  const Pair pair(0);
+  const GiNaC::ex shifted = pair.x + GiNaC::numeric(1, 10);
+  const auto times = [&](const GiNaC::ex& plane) {
+    PoincareOptions options = pair.options(1, 5, 0.25);
+    options.seeds = {{0.1, 0.1, 0.5, 0.3}};
+    options.request.plane = FunctionText{plane, "plane"};
+    options.request.energy = 0.5 * (0.25 + 0.09 + 0.01) + 0.01;
+    return section(pair.model, pair.scene, options).orbits.at(0).orbit.times;
+  };
+  const std::vector<double> simple = times(pair.x), aside = times(shifted);
+  ASSERT_EQ(simple.size(), 5U);
+  const std::vector<std::pair<GiNaC::ex, std::vector<double>>> planes{
+      {GiNaC::pow(pair.x, 9), simple},
+      {pair.x - GiNaC::sin(pair.x), simple},
+      {GiNaC::pow(shifted, 3), aside},
+      {GiNaC::pow(shifted, 3).expand(), aside},
+      {(GiNaC::pow(shifted, 3) * GiNaC::pow(pair.v - 7, 2)).expand(), aside}};
+  for (const auto& [plane, expected] : planes) {
+    const std::vector<double> found = times(plane);
+    ASSERT_EQ(found.size(), expected.size()) << plane;
+    for (std::size_t i = 0; i < found.size(); ++i)
+      EXPECT_NEAR(found[i], expected[i], 1e-7) << plane;
+  }
+}
+
 TEST(Section, TheLevelIsTheSceneSUnlessAnotherIsAskedFor) {
   const Pair pair(0);
   PoincareOptions options = pair.options(2, 10, 0.25);

@@ -18,6 +18,7 @@
 #include "symbolic/expression/expression_size.hpp"
 #include "tools/analysis/error.hpp"
 #include "tools/analysis/section/periods.hpp"
+#include "tools/analysis/section/simple_zeros.hpp"
 
 namespace casimir {
 namespace {
@@ -80,7 +81,7 @@ class Maker {
   /// equations.
   void specialise_all() {
     Model model = model_;
-    model.integrals = {{"the plane", plane_, {}},
+    model.integrals = {{"the plane", with_simple_zeros(plane_, model_.variables), {}},
                        {"the first plotted function", pair_[0], {}},
                        {"the second plotted function", pair_[1], {}}};
     SpecialiseOptions what;
