@@ -66,17 +66,29 @@ std::optional<Eigen::VectorXcd> eigenvalues_of(const Eigen::MatrixXcd& a) {
   return eigenvalues<Eigen::ComplexEigenSolver<Eigen::MatrixXcd>>(a);
 }
 
-std::optional<std::vector<ConditionedEigenvalue>> conditioned_eigenvalues_of(
-    const Eigen::MatrixXcd& a) {
+std::optional<EigenSystem> eigen_system_of(const Eigen::MatrixXcd& a) {
   const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(a);
   if (solver.info() != Eigen::Success) return std::nullopt;
-  const Eigen::MatrixXcd& right = solver.eigenvectors();
-  const Eigen::MatrixXcd left = right.fullPivLu().inverse();
+  return EigenSystem{solver.eigenvalues(), solver.eigenvectors(),
+                     solver.eigenvectors().fullPivLu().inverse()};
+}
+
+std::optional<std::vector<ConditionedEigenvalue>> conditioned_eigenvalues_of(
+    const Eigen::MatrixXcd& a) {
+  const auto system = eigen_system_of(a);
+  if (!system) return std::nullopt;
   std::vector<ConditionedEigenvalue> result;
   for (Eigen::Index k = 0; k < a.cols(); ++k) {
-    const double condition = left.row(k).norm() * right.col(k).norm();
-    result.push_back({solver.eigenvalues()(k), std::isfinite(condition) ? condition : HUGE_VAL});
+    const double condition = system->left.row(k).norm() * system->right.col(k).norm();
+    result.push_back({system->values(k), std::isfinite(condition) ? condition : HUGE_VAL});
   }
+  return result;
+}
+
+SingularDirections singular_directions_of(const Eigen::MatrixXd& a) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeFullV);
+  SingularDirections result{Eigen::VectorXd::Zero(a.cols()), svd.matrixV()};
+  result.sizes.head(svd.singularValues().size()) = svd.singularValues();
   return result;
 }
 

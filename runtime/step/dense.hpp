@@ -38,6 +38,26 @@ struct ConditionedEigenvalue {
 std::optional<std::vector<ConditionedEigenvalue>> conditioned_eigenvalues_of(
     const Eigen::MatrixXcd& a);
 
+/// The eigenvalues of a square matrix with its right eigenvectors, columns of length 1, and the
+/// left ones, the rows of their inverse.
+struct EigenSystem {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd right, left;
+};
+
+/// Empty where the iteration does not converge.
+std::optional<EigenSystem> eigen_system_of(const Eigen::MatrixXcd& a);
+
+/// Directions of length 1, a column each, that are orthogonal to each other and that a matrix maps
+/// to orthogonal vectors of these sizes, from the largest to the smallest.
+struct SingularDirections {
+  Eigen::VectorXd sizes;
+  Eigen::MatrixXd directions;
+};
+
+/// As many as a has columns.
+SingularDirections singular_directions_of(const Eigen::MatrixXd& a);
+
 /// An orthonormal basis, a column each, of `count` directions that are orthogonal to the columns of
 /// a.
 Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& a, Eigen::Index count);
