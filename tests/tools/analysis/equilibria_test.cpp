@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/tools/analysis/systems.hpp"
@@ -55,6 +56,114 @@ TEST(Equilibria, AFlatValleyIsOneFamily) {
   const Equilibrium& rest = report.equilibria.front();
   EXPECT_NEAR(rest.state[0], rest.state[1], 1e-9);
   EXPECT_TRUE(rest.degenerate);
+}
+
+/// Of the only rest of linear equations with these right-hand sides.
+Equilibrium rest_of(const std::vector<std::string>& rates) {
+  std::string variables, equations, initial;
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    const std::string name = "x" + std::to_string(i + 1), comma = i > 0 ? ", " : "";
+    variables += comma + '"' + name + '"';
+    equations += name + " = \"" + rates[i] + "\"\n";
+    initial += comma + name + " = \"1\"";
+  }
+  const Model model = model_of(
+      "title = \"t\"\n[phase_space]\nvariables = [" + variables + "]\n[equations]\n" + equations +
+      "[[scene]]\nname = \"default\"\ninitial = { " + initial + " }\nduration = \"1\"\n");
+  const EquilibriumReport report = found(model, model.scene("default"));
+  EXPECT_EQ(report.equilibria.size(), 1U);
+  return report.equilibria.at(0);
+}
+
+TEST(Equilibria, ASlowRateBesideFastOnesIsNoRounding) {
+  const Equilibrium saddle = rest_of({"x1", "-10^6*x2"});
+  EXPECT_EQ(saddle.stability, SpectralStability::unstable);
+  EXPECT_NEAR(saddle.growth(), 1, 1e-12);
+  const Equilibrium slow = rest_of({"-x2", "x1", "x3/10^8"});
+  EXPECT_EQ(slow.stability, SpectralStability::unstable);
+  EXPECT_NEAR(slow.growth(), 1e-8, 1e-20);
+}
+
+TEST(Equilibria, ASlowSaddleBesideAnOscillatorIsUnstable) {
+  const GiNaC::symbol x("x"), y("y"), u("u"), v("v");
+  const Model model = hamiltonian_system(
+      "saddle", {x, y}, {u, v}, (u * u - x * x) / 2 + GiNaC::ex(1000000) * (v * v + y * y) / 2);
+  const EquilibriumReport report = found(model, scene_from(model, {1, 1, 0, 0}, 1));
+  ASSERT_EQ(report.equilibria.size(), 1U);
+  EXPECT_EQ(report.equilibria[0].stability, SpectralStability::unstable);
+  EXPECT_NEAR(report.equilibria[0].growth(), 1, 1e-9);
+}
+
+/// Oscillators of opposite sign with the same frequency leave the axis when they are coupled
+/// (Krein), those of the same sign do not.
+TEST(Equilibria, OnlyOscillatorsOfOppositeSignLeaveTheAxis) {
+  const GiNaC::symbol x("x"), y("y"), u("u"), v("v");
+  const GiNaC::ex coupling = x * y / 1000000;
+  for (const int sign : {-1, 1}) {
+    const Model model = hamiltonian_system(
+        "two", {x, y}, {u, v}, (u * u + x * x) / 2 + sign * (v * v + y * y) / 2 + coupling);
+    const EquilibriumReport report = found(model, scene_from(model, {1, 1, 0, 0}, 1));
+    ASSERT_EQ(report.equilibria.size(), 1U);
+    EXPECT_EQ(report.equilibria[0].stability,
+              sign < 0 ? SpectralStability::unstable : SpectralStability::stable);
+    if (sign < 0) {
+      EXPECT_NEAR(report.equilibria[0].growth(), 5e-7, 1e-8);
+    }
+  }
+}
+
+/// The same frequencies exactly: of one sign they are on the axis whatever rounding does; of
+/// opposite signs in a Jordan block rounding decides.
+TEST(Equilibria, ADoubleFrequencyIsDecidedByItsSigns) {
+  const GiNaC::symbol x("x"), y("y"), u("u"), v("v");
+  const auto stability = [&](const GiNaC::ex& hamiltonian) {
+    const Model model = hamiltonian_system("two", {x, y}, {u, v}, hamiltonian);
+    const EquilibriumReport report = found(model, scene_from(model, {1, 1, 0, 0}, 1));
+    EXPECT_EQ(report.equilibria.size(), 1U);
+    return report.equilibria.at(0).stability;
+  };
+  EXPECT_EQ(stability((u * u + x * x + v * v + y * y) / 2 + x * y / 3 + u * v / 3),
+            SpectralStability::stable);
+  EXPECT_EQ(stability(x * v - y * u + (x * x + y * y) / 2), SpectralStability::undecided);
+}
+
+TEST(Equilibria, OfEquationsWithoutStructureAnEigenvalueOnTheAxisIsNotDecided) {
+  EXPECT_EQ(rest_of({"x1 - 2*x2", "x1 - x2 - x3", "-x3"}).stability, SpectralStability::undecided);
+  EXPECT_EQ(rest_of({"-x2", "x1"}).stability, SpectralStability::stable);  // reversible
+  EXPECT_EQ(rest_of({"x2 - x1/10^7", "-x1"}).stability, SpectralStability::stable);
+  EXPECT_EQ(rest_of({"x2 + x1/10^7", "-x1"}).stability, SpectralStability::unstable);
+}
+
+TEST(Equilibria, ABadlyConditionedRestIsNoFamily) {
+  const Equilibrium rest =
+      rest_of({"x1/10^8 - 9999999999/10^8*x2 - 1000000001/10^8*x4", "100*x2", "-100*x3", "-10*x4"});
+  EXPECT_EQ(rest.family, 0U);
+  EXPECT_FALSE(rest.degenerate);
+  for (const double x : rest.state) EXPECT_NEAR(x, 0, 1e-12);
+}
+
+TEST(Equilibria, AtAKinkNothingIsToldFromOneSide) {
+  for (const char* rate : {"-x1 + 2*abs(x1)", "-(x1 - 1/3) + 2*abs(x1 - 1/3)"}) {
+    const Equilibrium rest = rest_of({rate, "-x2"});
+    EXPECT_EQ(rest.stability, SpectralStability::no_derivative) << rate;
+    EXPECT_TRUE(rest.eigenvalues.empty());
+  }
+  EXPECT_EQ(rest_of({"-x1 - 2*x1*abs(x1)", "-x2"}).stability, SpectralStability::stable);
+}
+
+/// About the axes of a free top the eigenvalue 0 of the Casimir function is known.
+TEST(Equilibria, CasimirFunctionsGiveExactZeros) {
+  const Model model = model_of(
+      "title = \"t\"\nhamiltonian = \"M1^2/2 + M2^2 + 3*M3^2/2\"\n[phase_space]\nvariables = "
+      "[\"M1\", \"M2\", \"M3\"]\nalgebra = \"so(3)\"\n[casimirs]\nF = \"M1^2 + M2^2 + "
+      "M3^2\"\n[[scene]]\nname = \"default\"\ninitial = { M1 = \"1\", M2 = \"1/2\", M3 = "
+      "\"1/3\" }\nduration = \"1\"\n");
+  const EquilibriumReport report = found(model, model.scene("default"));
+  ASSERT_EQ(report.equilibria.size(), 6U);
+  for (const Equilibrium& rest : report.equilibria) {
+    EXPECT_NE(rest.stability, SpectralStability::undecided);
+    EXPECT_EQ(std::ranges::count(rest.eigenvalues, 0.), 1);
+  }
 }
 
 TEST(Equilibria, EquationsThatDependOnTheTimeHaveNone) {

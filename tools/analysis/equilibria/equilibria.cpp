@@ -12,6 +12,8 @@
 #include "runtime/program/interpreter.hpp"
 #include "runtime/step/dense.hpp"
 #include "symbolic/search/search.hpp"
+#include "tools/analysis/equilibria/eigenvalue_discs.hpp"
+#include "tools/analysis/equilibria/kinks.hpp"
 
 namespace casimir {
 namespace {
@@ -20,8 +22,8 @@ using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
 constexpr std::size_t kMostStarts = 400;
-// Of eigenvalues, relative to the largest: rounding splits a triple zero by the cube root of its
-// size.
+// Of eigenvalues that tell members of families apart, relative to the largest: rounding splits a
+// triple zero by the cube root of its size.
 constexpr double kZeroEigenvalue = 1e-5;
 
 /// The integrals of degree 1 that are no Casimirs.
@@ -83,6 +85,14 @@ class Equations {
   const Vector& start() const { return start_; }
   std::size_t states() const { return states_; }
 
+  /// Of the right-hand side.
+  const std::vector<double>& inputs(const Vector& x, const Vector& v) const {
+    std::copy(x.data(), x.data() + x.size(), inputs_.begin());
+    std::copy(v.data(), v.data() + v.size(),
+              inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
+    return inputs_;
+  }
+
   Vector rates(const Vector& x, const Vector& v) const {
     Vector result(static_cast<Eigen::Index>(states_));
     rhs_(filled(x, v), result.data());
@@ -92,6 +102,15 @@ class Equations {
   Vector residual(const Vector& x, const Vector& v) const {
     Vector result(static_cast<Eigen::Index>(states_ + level_.size()));
     result << rates(x, v), invariants(x, v) - values_;
+    return result;
+  }
+
+  /// What each velocity adds to the rates: the flows of the symmetries, reversed.
+  Matrix by_velocities(const Vector& x, Eigen::Index count) const {
+    Matrix result(static_cast<Eigen::Index>(states_), count);
+    const Vector base = rates(x, Vector::Zero(count));
+    for (Eigen::Index k = 0; k < count; ++k)  // the rates are affine in the velocities
+      result.col(k) = rates(x, Vector::Unit(count, k)) - base;
     return result;
   }
 
@@ -111,9 +130,7 @@ class Equations {
     Matrix result = Matrix::Zero(n + static_cast<Eigen::Index>(level_.size()),
                                  n + static_cast<Eigen::Index>(velocities_));
     result.topLeftCorner(n, n) = linearised(x, v);
-    const Vector base = rates(x, Vector::Zero(v.size()));
-    for (Eigen::Index k = 0; k < v.size(); ++k)  // the rates are affine in the velocities
-      result.col(n + k).head(n) = rates(x, Vector::Unit(v.size(), k)) - base;
+    result.topRightCorner(n, v.size()) = by_velocities(x, v.size());
     std::vector<double> entries(gradient_entries_.size());
     gradients_(filled(x, v), entries.data());
     for (std::size_t k = 0; k < entries.size(); ++k) {
@@ -126,12 +143,7 @@ class Equations {
   }
 
  private:
-  const double* filled(const Vector& x, const Vector& v) const {
-    std::copy(x.data(), x.data() + x.size(), inputs_.begin());
-    std::copy(v.data(), v.data() + v.size(),
-              inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
-    return inputs_.data();
-  }
+  const double* filled(const Vector& x, const Vector& v) const { return inputs(x, v).data(); }
   Vector invariants(const Vector& x, const Vector& v) const {
     std::vector<double> values(all_);
     invariants_(filled(x, v), values.data());
@@ -223,11 +235,15 @@ class Scaled {
 constexpr double kSolved = 1e-11;
 /// Pivots below it are zero: directions in which the equations do not change to first order.
 constexpr double kFlat = 1e-8;
+/// .. and these are so whatever the equations do nearby: it is rounding of the derivative.
+constexpr double kNoChange = 1e-14;
+/// Of rates and levels, in their units.
+constexpr double kRoundingOfRates = 0x1p-50, kSeveral = 10;
 constexpr double kNearEachOther = 1e-6;
 
 /// Newton's iteration with the shortest step that the linear equations allow, as long as it makes
 /// the residual smaller: at a multiple root it comes nearer by a part each time.
-bool solve(const Scaled& equations, Place& place) {
+bool approach(const Scaled& equations, Place& place) {
   constexpr int kRounds = 200, kFree = 30;
   constexpr double kLongestCorrection = 2, kShrinks = 0.7;
   double last = equations.error(place);
@@ -251,23 +267,89 @@ bool solve(const Scaled& equations, Place& place) {
   return last < kSolved;
 }
 
+/// Goes on in the directions in which the equations change so little that the iteration above took
+/// them for flat, as long as that is no rounding: a residual that is small in units of the
+/// equations may be all that they have there.
+void refine(const Scaled& equations, Place& place) {
+  constexpr int kRounds = 60;
+  constexpr double kLongestStep = 100, kNothingLeft = 1e-30;
+  double last = equations.error(place);
+  for (int round = 0; round < kRounds && last > kNothingLeft; ++round) {
+    const Vector step =
+        shortest_solution(equations.derivative(place), equations.residual(place), kNoChange);
+    if (!(step.norm() <= kLongestStep)) return;
+    const Place next = equations.moved(place, -step);
+    const double error = equations.error(next);
+    if (!(error < last / 2)) return;
+    place = next;
+    last = error;
+  }
+}
+
+bool solve(const Scaled& equations, Place& place) {
+  if (!approach(equations, place)) return false;
+  refine(equations, place);
+  return true;
+}
+
+/// Directions from a solution, a column each.
+struct Directions {
+  Matrix flat;     ///< in which the equations do not change to first order, as far as can be told
+  Matrix regular;  ///< the others, each as long as the solution may be off: by rounding of the
+                   ///< equations, and by what is left of them
+};
+
+/// Whether the equations change in a direction by so little that rounding may have made it. At a
+/// multiple root, or beside a family that is curved, the derivative is another one within what
+/// rounding moves the solution; that of equations that are regular and badly conditioned is the
+/// same (the quantity of Kantorovich's theorem on Newton's iteration).
+/// \param size     of the derivative in this direction
+/// \param largest  of its sizes in all directions
+bool is_flat(const Scaled& equations, const Place& place, const Matrix& derivative,
+             const Vector& direction, double size, double largest) {
+  if (size <= kNoChange * std::max(1., largest)) return true;
+  if (size > kFlat * largest) return false;
+  constexpr double kFarthest = 0.1;
+  const double way = std::min(kFarthest, kSeveral * kRoundingOfRates / size);
+  for (const double sign : {-1., 1.}) {
+    const Place other = equations.moved(place, sign * way * direction);
+    const double change = ((equations.derivative(other) - derivative) * direction).norm();
+    if (!(change <= size / 2)) return true;
+  }
+  return false;
+}
+
+Directions directions_at(const Scaled& equations, const Place& place) {
+  const Matrix derivative = equations.derivative(place);
+  const auto [sizes, all] = singular_directions_of(derivative);
+  std::vector<Eigen::Index> flat, regular;
+  for (Eigen::Index k = 0; k < all.cols(); ++k)
+    (is_flat(equations, place, derivative, all.col(k), sizes(k), sizes(0)) ? flat : regular)
+        .push_back(k);
+  Directions result{all(Eigen::all, flat), all(Eigen::all, regular)};
+  const double residual = kRoundingOfRates + equations.error(place);
+  for (std::size_t k = 0; k < regular.size(); ++k)
+    result.regular.col(static_cast<Eigen::Index>(k)) *= residual / sizes(regular[k]);
+  return result;
+}
+
 /// The dimension of the solutions near one that is solved: a flat direction belongs to a family
 /// only if there are solutions at some distance that way. The minimum of q^10 is flat, and alone.
 std::size_t family_at(const Scaled& equations, const Place& place, std::mt19937_64& random) {
-  const Matrix derivative = equations.derivative(place);
-  const Eigen::Index flat = derivative.cols() - rank_of(derivative, kFlat);
+  const Matrix directions = directions_at(equations, place).flat;
+  const Eigen::Index flat = directions.cols();
   if (flat == 0) return 0;
   constexpr double kAside = 0.5, kLeast = 0.25;
   std::normal_distribution<double> normal;
-  Matrix found(derivative.cols(), 0);
+  Matrix found(directions.rows(), 0);
   for (Eigen::Index k = 0; k < 3 * flat; ++k) {
-    Vector aside(derivative.cols());
+    Vector aside(directions.rows());
     for (double& entry : aside) entry = normal(random);
-    aside -= shortest_solution(derivative, derivative * aside, kFlat);
+    aside = directions * (directions.transpose() * aside);
     aside *= kAside / aside.norm();
     Place other = equations.moved(place, aside);
     if (!solve(equations, other)) continue;
-    Vector way(derivative.cols());
+    Vector way(directions.rows());
     way << (other.x - place.x) / equations.length(), other.v - place.v;
     if (way.norm() < kLeast) continue;
     found.conservativeResize(Eigen::NoChange, found.cols() + 1);
@@ -305,22 +387,10 @@ bool joined(const Scaled& equations, const Place& a, const Place& b) {
   return false;
 }
 
-/// The same matrix in other units of the states, in which rows and columns are alike: eigenvalues
-/// stay, and its size is one of them (Osborne: J. ACM 7, 338, 1960).
-Matrix balanced(Matrix a) {
-  constexpr int kMostSweeps = 20;
-  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-    for (Eigen::Index i = 0; i < a.rows(); ++i) {
-      const double diagonal = std::abs(a(i, i));
-      const double row = a.row(i).cwiseAbs().sum() - diagonal,
-                   column = a.col(i).cwiseAbs().sum() - diagonal;
-      if (!(row > 0) || !(column > 0)) continue;
-      const double unit = std::exp2(std::round(std::log2(row / column) / 2));
-      a.row(i) /= unit;
-      a.col(i) *= unit;
-    }
-  }
-  return a;
+/// In units in which rows and columns are alike: eigenvalues stay, and its size is one of them.
+Matrix balanced(const Matrix& a) {
+  const Vector units = balancing_units(a);
+  return units.cwiseInverse().asDiagonal() * a * units.asDiagonal();
 }
 
 /// Empty where the eigenvalues cannot be computed.
@@ -337,8 +407,7 @@ std::optional<Equilibrium> described(const Equations& equations, const Scaled& s
   const Matrix matrix = balanced(linearised);
   const auto values = eigenvalues_of(matrix);
   if (!values) return std::nullopt;
-  const Matrix derivative = scaled.derivative(place);
-  result.degenerate = derivative.cols() > rank_of(derivative, kFlat);
+  result.degenerate = directions_at(scaled, place).flat.cols() > 0;
   // A flat direction is known to kFlat of the units, and its eigenvalues to the root of that.
   const double unit_rate = scaled.rate() / scaled.length();
   const double zero = result.degenerate ? 2 * std::sqrt(kFlat * unit_rate * linearised.norm())
@@ -395,9 +464,14 @@ class Collection {
     groups_[home].points.push_back(place);
   }
 
-  std::vector<Equilibrium> equilibria() const {
+  /// \param assess  completes what is said of each, at the point that stands for it
+  std::vector<Equilibrium> equilibria(
+      const std::function<void(const Place&, Equilibrium&)>& assess) const {
     std::vector<Equilibrium> result;
-    for (const Group& group : groups_) result.push_back(group.first);
+    for (const Group& group : groups_) {
+      result.push_back(group.first);
+      assess(group.points.front(), result.back());  // it was the first
+    }
     return result;
   }
 
@@ -423,6 +497,164 @@ class Collection {
   const Scaled& scaled_;
   std::mt19937_64& random_;
   std::vector<Group> groups_;
+};
+
+/// Functions that keep their values: all that the model has, and these.
+std::vector<GiNaC::ex> all_integrals(const Model& model, std::vector<GiNaC::ex> result) {
+  if (model.hamiltonian) result.push_back(*model.hamiltonian);
+  for (const auto* more : {&model.casimirs, &model.integrals})
+    for (const NamedExpression& function : *more) result.push_back(function.value);
+  return result;
+}
+
+/// What the linearised equations tell of a solution.
+class Assessment {
+ public:
+  /// \param integrals  functions that keep their values without the velocities
+  Assessment(const Model& model, const Scene& scene, const Specialisation& spec,
+             const std::vector<GiNaC::ex>& integrals, const Equations& equations,
+             const Scaled& scaled, std::mt19937_64& random)
+      : equations_(equations),
+        scaled_(scaled),
+        random_(random),
+        bracket_(model, scene),
+        forms_(model, scene, integrals),
+        kinks_(spec.rhs) {
+    constexpr int kTries = 16;
+    for (int k = 0; k < kTries && !generic_; ++k)
+      generic_ = bracket_.at(scaled.random_place(random).x);
+  }
+
+  void operator()(const Place& place, Equilibrium& found) const {
+    const Directions directions = directions_at(scaled_, place);
+    Place own = place;
+    if (found.velocities.empty()) own.v.setZero();
+    const std::vector<Place> nearby = indistinguishable(own, directions, found);
+    if (has_no_derivative(own, nearby)) {
+      found.eigenvalues.clear();
+      found.stability = SpectralStability::no_derivative;
+      return;
+    }
+    const Matrix linearised = equations_.linearised(own.x, own.v);
+    LinearStructure known = structure(own, directions, found);
+    known.forms = [&] { return forms_.at(own.x, linearised); };
+    const auto stability = linear_stability(linearised, error_of(linearised, nearby), known);
+    if (!stability) return;
+    found.eigenvalues = stability->eigenvalues;
+    found.stability = stability->stability;
+  }
+
+ private:
+  /// Points that rounding does not tell from a solution. A multiple root may be anywhere near.
+  std::vector<Place> indistinguishable(const Place& place, const Directions& directions,
+                                       const Equilibrium& found) const {
+    constexpr int kPoints = 8;
+    constexpr double kOfMultipleRoot = 1e-5, kFarthest = 1e-2;
+    std::vector<Place> result;
+    for (int k = 0; k < kPoints; ++k) {
+      Vector step = Vector::Zero(directions.regular.rows());
+      for (const auto& direction : directions.regular.colwise()) step += sign() * direction;
+      if (found.family == 0 || scaled_.error(place) > kSeveral * kRoundingOfRates)
+        for (const auto& direction : directions.flat.colwise())
+          step += sign() * kOfMultipleRoot * direction;
+      if (step.norm() > kFarthest) step *= kFarthest / step.norm();
+      result.push_back(scaled_.moved(place, step));
+      if (found.velocities.empty()) result.back().v.setZero();
+    }
+    return result;
+  }
+
+  double sign() const { return random_() % 2 == 0 ? -1 : 1; }
+
+  /// Of each entry: that of its own rounding, and what it changes by to the points nearby.
+  Matrix error_of(const Matrix& linearised, const std::vector<Place>& nearby) const {
+    constexpr double kOfEntry = 0x1p-49, kOfChange = 2;
+    Matrix changes = Matrix::Zero(linearised.rows(), linearised.cols());
+    for (const Place& other : nearby) {
+      const Matrix there = equations_.linearised(other.x, other.v);
+      if (there.allFinite()) changes = changes.cwiseMax((there - linearised).cwiseAbs());
+    }
+    return kOfEntry * linearised.cwiseAbs() + kOfChange * changes;
+  }
+
+  /// Whether the linearised equations are others on the other side, however near: |x|, and not
+  /// x|x|.
+  bool has_no_derivative(const Place& place, const std::vector<Place>& nearby) const {
+    std::vector<std::vector<double>> inputs;
+    for (const Place& other : nearby) inputs.push_back(equations_.inputs(other.x, other.v));
+    if (!kinks_.are_at(equations_.inputs(place.x, place.v), inputs)) return false;
+    constexpr double kNear = 1e-6, kNearer = 1e-9, kStays = 0.1, kSmall = 1e-7;
+    const double jump = difference(place, kNearer);
+    return jump > kStays * difference(place, kNear) &&
+           jump > kSmall * equations_.linearised(place.x, place.v).norm();
+  }
+
+  /// The largest difference of the linearised equations across a point.
+  double difference(const Place& place, double distance) const {
+    constexpr int kWays = 8;
+    double result = 0;
+    std::normal_distribution<double> normal;
+    for (int k = 0; k < kWays; ++k) {
+      Vector step = Vector::Zero(place.x.size() + place.v.size());
+      for (double& entry : step.head(place.x.size())) entry = normal(random_);
+      step *= distance / step.norm();
+      const Place one = scaled_.moved(place, step), other = scaled_.moved(place, -step);
+      const double change =
+          (equations_.linearised(one.x, one.v) - equations_.linearised(other.x, other.v)).norm();
+      if (std::isfinite(change)) result = std::max(result, change);
+    }
+    return result;
+  }
+
+  LinearStructure structure(const Place& place, const Directions& directions,
+                            const Equilibrium& found) const {
+    const auto bracket = bracket_.at(place.x);
+    if (bracket && generic_)
+      if (const auto result =
+              hamiltonian_structure(*bracket, *generic_, null_directions(place, directions, found)))
+        return *result;
+    if (!found.velocities.empty()) return {};
+    // Along the level, whose gradients the linearised equations take to 0 from the left, those of
+    // the family are taken to 0.
+    const auto n = static_cast<Eigen::Index>(equations_.states());
+    const Matrix derivative = scaled_.derivative(place);
+    const Matrix gradients = derivative.bottomLeftCorner(derivative.rows() - n, n);
+    LinearStructure result;
+    result.zeros =
+        rank_of_directions(gradients.transpose()) + rank_of_directions(directions.flat.topRows(n));
+    return result;
+  }
+
+  /// Directions that a power of the linearised equations takes to 0. The flow of a symmetry is one
+  /// where the symmetry is an integral of what moves it, as one alone is, or all are at rest; and
+  /// what leads to other solutions is taken to a sum of such flows.
+  Matrix null_directions(const Place& place, const Directions& directions,
+                         const Equilibrium& found) const {
+    const auto n = static_cast<Eigen::Index>(equations_.states());
+    const Eigen::Index count = place.v.size();
+    const Matrix flows = equations_.by_velocities(place.x, count);
+    Matrix columns(n, 0);
+    const auto take = [&](const Matrix& more, double least) {
+      for (const Vector column : more.colwise()) {
+        if (!(column.norm() > least)) continue;
+        columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
+        columns.rightCols(1) = column.normalized();
+      }
+    };
+    constexpr double kSmallFlow = 1e-8, kSmallPart = 1e-6;
+    const bool all_are_null = count <= 1 || found.velocities.empty();
+    take(all_are_null ? flows : Matrix(flows * place.v), kSmallFlow * scaled_.length());
+    if (all_are_null) take(directions.flat.topRows(n), kSmallPart);
+    return columns;
+  }
+
+  const Equations& equations_;
+  const Scaled& scaled_;
+  std::mt19937_64& random_;
+  NumericBracket bracket_;
+  PreservedForms forms_;
+  std::optional<Matrix> generic_;
+  Kinks kinks_;
 };
 
 }  // namespace
@@ -460,7 +692,8 @@ EquilibriumReport find_equilibria(const Model& model, const Scene& scene,
     if (report.starts == 0) place.x = equations.start();
     if (solve(scaled, place)) collection.add(place);
   }
-  report.equilibria = collection.equilibria();
+  report.equilibria = collection.equilibria(
+      Assessment(extended, own, spec, all_integrals(model, integrals), equations, scaled, random));
   report.size = scaled.length();
   std::stable_sort(report.equilibria.begin(), report.equilibria.end(),
                    [](const auto& a, const auto& b) { return a.family < b.family; });

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "symbolic/model.hpp"
+#include "tools/analysis/equilibria/linear_stability.hpp"
 
 namespace casimir {
 
@@ -15,8 +16,9 @@ struct Equilibrium {
   std::vector<double> state;       ///< one number for each variable
   std::vector<double> velocities;  ///< of the symmetries, one for each integral; none: at rest
   /// Of the linearised equations, seen from the moving state; parts that rounding alone may have
-  /// made are 0.
+  /// made are 0. None where the equations have no derivative.
   std::vector<std::complex<double>> eigenvalues;
+  SpectralStability stability = SpectralStability::undecided;  ///< what they tell
   std::size_t family = 0;  ///< dimension of the family of such states on the level; 0: isolated
   /// Whether the equations do not change to first order in some direction: in one of a family, or
   /// at a multiple root, whose place is known to few digits.
