@@ -40,10 +40,6 @@ struct EquilibriaAnswer {
   }
 };
 
-std::string stability(const Equilibrium& e) {
-  return e.growth() > 0 ? "unstable" : "spectrally stable";
-}
-
 std::string full_text(double value) { return fmt::format("{:.17g}", value); }
 
 nlohmann::ordered_json ends(const RationalInterval& interval) {
@@ -87,7 +83,7 @@ nlohmann::ordered_json equilibria_json(const Model& model, const Scene& scene,
     own["eigenvalues"] = nlohmann::ordered_json::array();
     for (const auto& value : e.eigenvalues)
       own["eigenvalues"].push_back({full_text(value.real()), full_text(value.imag())});
-    own["stability"] = stability(e);
+    own["stability"] = to_string(e.stability);
     own["growth"] = full_text(e.growth());
     own["family"] = e.family;
     own["degenerate"] = e.degenerate;
@@ -124,6 +120,21 @@ void print_equilibria(const ProvedEquilibrium& proof, const std::string& ranges)
                  : fmt::format("proved to be {}", to_string(proof.stability)));
 }
 
+/// \param values  the eigenvalues
+std::string stability_text(const Equilibrium& e, const std::string& values) {
+  switch (e.stability) {
+    case SpectralStability::no_derivative:
+      return "the equations have no derivative here: stability is not told";
+    case SpectralStability::undecided:
+      return fmt::format(
+          "eigenvalues {}: not decided, rounding may have moved one over the imaginary "
+          "axis",
+          values);
+    default:
+      return fmt::format("eigenvalues {}: {}", values, to_string(e.stability));
+  }
+}
+
 void print_equilibria(const Model& model, const Scene& scene, const EquilibriaAnswer& answer,
                       double seconds) {
   const EquilibriumReport& report = answer.report;
@@ -137,15 +148,12 @@ void print_equilibria(const Model& model, const Scene& scene, const EquilibriaAn
   for (const Equilibrium& e : report.equilibria) {
     if (shown == kMost) break;
     const ProvedEquilibrium* proof = answer.proof(shown++);
-    double scale = 0;
-    for (const auto& value : e.eigenvalues) scale = std::max(scale, std::abs(value));
     std::string state, values;
     for (std::size_t i = 0; i < e.state.size(); ++i)
       state += fmt::format("{}{} = {}", i > 0 ? ", " : "", model.variables[i].get_name(),
                            state_text(e.state[i], report.size, proof));
-    for (const auto& value : e.eigenvalues) {
-      const std::string real = rounded(value.real(), scale),
-                        imaginary = rounded(value.imag(), scale);
+    for (const auto& value : e.eigenvalues) {  // what may be rounding is 0 already
+      const std::string real = rounded(value.real(), 0), imaginary = rounded(value.imag(), 0);
       values += (values.empty() ? "" : ", ") +
                 (imaginary == "0" ? real
                  : real == "0"    ? imaginary + "i"
@@ -157,7 +165,7 @@ void print_equilibria(const Model& model, const Scene& scene, const EquilibriaAn
                               : "",
                state);
     if (!e.velocities.empty()) fmt::print("  velocity {:.6g}\n", fmt::join(e.velocities, ", "));
-    fmt::print("  eigenvalues {}: {}\n", values, stability(e));
+    fmt::print("  {}\n", stability_text(e, values));
     if (proof != nullptr) print_equilibria(*proof, answer.ranges);
   }
   if (report.equilibria.size() > kMost)
@@ -183,6 +191,7 @@ int equilibria(const EquilibriaArguments& options) {
     EquilibriaAnswer answer{
         find_equilibria(model, scene, watch.watch().tick), {}, ranges_text(given)};
     if (options.validated) answer.proofs = enclose_equilibria(model, scene, answer.report, ranges);
+    take_proved(answer.proofs, answer.report);
     const double seconds = watch.end();
     if (options.common.json)
       print_json(equilibria_json(model, scene, answer, seconds));

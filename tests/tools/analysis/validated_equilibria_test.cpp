@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "tests/tools/analysis/systems.hpp"
 
@@ -105,6 +106,28 @@ TEST(ValidatedEquilibria, WithoutABracketSinksAreStable) {
     ASSERT_TRUE(proofs[k].proved);
     EXPECT_EQ(proofs[k].stability, report.equilibria[k].state[0] > 0 ? ProvedStability::stable
                                                                      : ProvedStability::unstable);
+  }
+}
+
+TEST(ValidatedEquilibria, TakeThePlaceOfNumbersThatTheyExclude) {
+  const Model model = one_equation("x - x^3", "1");
+  auto [report, proofs] = both(model, model.scene("default"));
+  ASSERT_EQ(proofs.size(), 3U);
+  const std::vector<double> found = [&] {
+    std::vector<double> result;
+    for (const Equilibrium& rest : report.equilibria) result.push_back(rest.state[0]);
+    return result;
+  }();
+  for (Equilibrium& rest : report.equilibria) {
+    rest.state[0] += 1e-9;
+    rest.stability = SpectralStability::undecided;
+  }
+  take_proved(proofs, report);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const double exact = std::round(found[k]);
+    EXPECT_NEAR(report.equilibria[k].state[0], exact, 1e-30);
+    EXPECT_EQ(report.equilibria[k].stability,
+              exact == 0 ? SpectralStability::unstable : SpectralStability::stable);
   }
 }
 

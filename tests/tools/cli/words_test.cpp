@@ -123,6 +123,43 @@ TEST(EquilibriumWords, AFlatMinimumIsOne) {
   }
 }
 
+/// What is proved stands in the place of what Newton's iteration left, and of what the eigenvalues
+/// in doubles tell.
+TEST(EquilibriumWords, DoNotContradictWhatIsProved) {
+  const Folder folder;
+  const std::string file =
+      folder.write("c.toml", canonical("p1*q2 - p2*q1 + (q1^2 + q2^2)/2 + (p1^2 + p2^2)",
+                                       "\"q1\", \"q2\", "
+                                       "\"p1\", \"p2\"",
+                                       "q1 = \"1\", q2 = \"1/3\", p1 = \"1/7\", p2 = \"0\""));
+  const Json found = answered(folder, {"equilibria", file, "--validated"});
+  for (const Json& e : found.at("equilibria")) {
+    const Json& proof = e.at("validated");
+    ASSERT_EQ(proof.at("verdict"), "proved");
+    for (const auto& [name, ends] : proof.at("enclosure").items()) {
+      const double value = number(e.at("state").at(name));
+      EXPECT_LE(number(ends[0]), value) << name;
+      EXPECT_GE(number(ends[1]), value) << name;
+    }
+    if (proof.at("stability") == "unstable") {
+      EXPECT_EQ(e.at("stability"), "unstable");
+    }
+  }
+}
+
+TEST(EquilibriumWords, AKinkHasNone) {
+  const Folder folder;
+  const std::string file =
+      folder.write("k.toml", equations("\"u\", \"v\"",
+                                       "u = \"-u + 2*abs(u)\"\nv = \"-v\"\n[[scene]]\nname = "
+                                       "\"default\"\ninitial = { u = \"1\", v = \"1\" }\nduration "
+                                       "= \"1\""));
+  const Json found = answered(folder, {"equilibria", file});
+  ASSERT_EQ(found.at("equilibria").size(), 1u);
+  EXPECT_EQ(found.at("equilibria")[0].at("stability"), "no derivative");
+  EXPECT_TRUE(found.at("equilibria")[0].at("eigenvalues").empty());
+}
+
 TEST(EquilibriumWords, DoNotDependOnUnits) {
   const Folder folder;
   for (const char* size : {"10^(-6)", "1", "10^6"}) {

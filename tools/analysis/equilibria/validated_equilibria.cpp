@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
 #include "runtime/step/dense.hpp"
 #include "symbolic/algebra/ball_evaluator.hpp"
@@ -360,6 +361,19 @@ class Prover {
   std::string unproved_;
 };
 
+/// The number that was found; or, where that lies outside of what is proved, the middle of it.
+double within(double found, const RationalInterval& proved) {
+  const double middle = cln::double_approx((proved.low + proved.high) / 2),
+               half = cln::double_approx((proved.high - proved.low) / 2);
+  return std::abs(found - middle) <= half ? found : middle;
+}
+
+SpectralStability spectral(ProvedStability proved, SpectralStability found) {
+  if (proved == ProvedStability::unstable) return SpectralStability::unstable;
+  // Where a state is stable in the sense of Lyapunov, no eigenvalue is in the right half plane.
+  return proved == ProvedStability::stable ? SpectralStability::stable : found;
+}
+
 }  // namespace
 
 std::string to_string(ProvedStability stability) {
@@ -381,6 +395,19 @@ std::vector<ProvedEquilibrium> enclose_equilibria(const Model& model, const Scen
   std::vector<ProvedEquilibrium> result;
   for (const Equilibrium& found : report.equilibria) result.push_back(prover.proved(found));
   return result;
+}
+
+void take_proved(const std::vector<ProvedEquilibrium>& proofs, EquilibriumReport& report) {
+  for (std::size_t k = 0; k < proofs.size(); ++k) {
+    const ProvedEquilibrium& proof = proofs[k];
+    Equilibrium& found = report.equilibria[k];
+    for (std::size_t i = 0; i < proof.state.size(); ++i)
+      found.state[i] = within(found.state[i], proof.state[i]);
+    const std::size_t velocities = std::min(proof.velocities.size(), found.velocities.size());
+    for (std::size_t i = 0; i < velocities; ++i)
+      found.velocities[i] = within(found.velocities[i], proof.velocities[i]);
+    found.stability = spectral(proof.stability, found.stability);
+  }
 }
 
 }  // namespace casimir

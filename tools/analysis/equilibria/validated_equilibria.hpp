@@ -59,4 +59,9 @@ std::vector<ProvedEquilibrium> enclose_equilibria(const Model& model, const Scen
                                                   const EquilibriumReport& report,
                                                   const ParameterRanges& ranges = {});
 
+/// Puts what is proved in the place of what it contradicts: of numbers outside of their enclosures
+/// the middles of these, and of what eigenvalues in doubles tell of the stability the theorem.
+/// \param proofs  of the same report, or none
+void take_proved(const std::vector<ProvedEquilibrium>& proofs, EquilibriumReport& report);
+
 }  // namespace casimir

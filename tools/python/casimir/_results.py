@@ -456,6 +456,9 @@ class Equilibrium:
     family: int  #: dimension of the family on the level; 0: isolated
     degenerate: bool
     residual: float  #: the largest rate that is left
+    #: 'spectrally stable', 'unstable', 'not decided' (rounding may have moved an eigenvalue over the
+    #: imaginary axis) or 'no derivative'
+    stability: str
     proof: ProvedEquilibrium | None = None  #: where it was asked for
 
 

@@ -164,9 +164,10 @@ py::dict to_python(const ProvedEquilibrium& proof, const Names& states) {
 py::dict equilibria(const Case& self, const std::string& scene, bool proved) {
   const ExactAlgebra guard;
   const Model& model = self.model();
-  const EquilibriumReport report = find_equilibria(model, model.scene(scene), [](double) {});
+  EquilibriumReport report = find_equilibria(model, model.scene(scene), [](double) {});
   std::vector<ProvedEquilibrium> proofs;
   if (proved) proofs = enclose_equilibria(model, model.scene(scene), report);
+  take_proved(proofs, report);
   Names states;
   for (const GiNaC::symbol& x : model.variables) states.push_back(x.get_name());
   const py::gil_scoped_acquire python;
@@ -177,7 +178,8 @@ py::dict equilibria(const Case& self, const std::string& scene, bool proved) {
         "state"_a =
             py::array_t<double>(static_cast<py::ssize_t>(one.state.size()), one.state.data()),
         "velocities"_a = one.velocities, "eigenvalues"_a = one.eigenvalues, "family"_a = one.family,
-        "degenerate"_a = one.degenerate, "growth"_a = one.growth(), "residual"_a = one.residual,
+        "degenerate"_a = one.degenerate, "stability"_a = to_string(one.stability),
+        "growth"_a = one.growth(), "residual"_a = one.residual,
         "proof"_a = proofs.empty() ? py::object(py::none()) : to_python(proofs[k], states)));
   }
   return py::dict("symmetries"_a = report.symmetries, "level"_a = report.level,
