@@ -113,7 +113,8 @@ TEST(Equilibria, OnlyOscillatorsOfOppositeSignLeaveTheAxis) {
 }
 
 /// The same frequencies exactly: of one sign they are on the axis whatever rounding does; of
-/// opposite signs in a Jordan block rounding decides.
+/// opposite signs rounding decides. A coordinate that acts on itself leaves the bracket alone to
+/// tell of it.
 TEST(Equilibria, ADoubleFrequencyIsDecidedByItsSigns) {
   const GiNaC::symbol x("x"), y("y"), u("u"), v("v");
   const auto stability = [&](const GiNaC::ex& hamiltonian) {
@@ -122,9 +123,29 @@ TEST(Equilibria, ADoubleFrequencyIsDecidedByItsSigns) {
     EXPECT_EQ(report.equilibria.size(), 1U);
     return report.equilibria.at(0).stability;
   };
-  EXPECT_EQ(stability((u * u + x * x + v * v + y * y) / 2 + x * y / 3 + u * v / 3),
-            SpectralStability::stable);
+  const GiNaC::ex one = (u * u + x * x) / 2 + x * u / 5, other = (v * v + y * y) / 2 + y * v / 5;
+  EXPECT_EQ(stability(one + 2 * other), SpectralStability::stable);
+  EXPECT_EQ(stability(one - 2 * other), SpectralStability::stable);
+  EXPECT_EQ(stability(one + other), SpectralStability::stable);
+  EXPECT_EQ(stability(one - other), SpectralStability::undecided);
   EXPECT_EQ(stability(x * v - y * u + (x * x + y * y) / 2), SpectralStability::undecided);
+}
+
+/// Of a rotation in other coordinates nothing but its integral tells that it is one.
+TEST(Equilibria, ADefiniteIntegralKeepsEigenvaluesOnTheAxis) {
+  const std::string text =
+                        "title = \"t\"\n[phase_space]\nvariables = [\"x\", \"y\"]\n[equations]\nx "
+                        "= \"x - 2*y\"\ny = "
+                        "\"x - y\"\n",
+                    scene =
+                        "[[scene]]\nname = \"default\"\ninitial = { x = \"1\", y = \"1\" "
+                        "}\nduration = \"1\"\n",
+                    integral = "[integrals]\nF = \"x^2 - 2*x*y + 2*y^2\"\n";
+  const Model with = model_of(text + integral + scene), without = model_of(text + scene);
+  EXPECT_EQ(found(with, with.scene("default")).equilibria.at(0).stability,
+            SpectralStability::stable);
+  EXPECT_EQ(found(without, without.scene("default")).equilibria.at(0).stability,
+            SpectralStability::undecided);
 }
 
 TEST(Equilibria, OfEquationsWithoutStructureAnEigenvalueOnTheAxisIsNotDecided) {

@@ -648,6 +648,8 @@ class Runs(unittest.TestCase):
                                 initial={"q": 1, "p": 0}, duration=1)
         for one in pendulum.equilibria():
             self.assertAlmostEqual(math.sin(one.state[0]), 0, places=9)
+            self.assertEqual(one.stability,
+                             "spectrally stable" if math.cos(one.state[0]) > 0 else "unstable")
 
     def test_dirac_bracket(self):
         pendulum = casimir.Case(

@@ -14,6 +14,7 @@
 #include "symbolic/search/search.hpp"
 #include "tools/analysis/equilibria/eigenvalue_discs.hpp"
 #include "tools/analysis/equilibria/kinks.hpp"
+#include "tools/analysis/equilibria/linear_stability.hpp"
 
 namespace casimir {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "symbolic/model.hpp"
-#include "tools/analysis/equilibria/linear_stability.hpp"
+#include "tools/analysis/equilibria/spectral_stability.hpp"
 
 namespace casimir {
 

@@ -5,23 +5,12 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "symbolic/model.hpp"
+#include "tools/analysis/equilibria/spectral_stability.hpp"
 
 namespace casimir {
-
-/// What the linearised equations at a rest tell of it.
-enum class SpectralStability {
-  stable,         ///< no eigenvalue has a positive real part
-  unstable,       ///< one has, whatever rounding has done
-  undecided,      ///< rounding may have moved one over the imaginary axis
-  no_derivative,  ///< there are no linearised equations
-};
-
-/// "spectrally stable", "unstable", "not decided" or "no derivative".
-std::string to_string(SpectralStability stability);
 
 /// What is known of the eigenvalues of a linearised system besides its numbers.
 struct LinearStructure {
