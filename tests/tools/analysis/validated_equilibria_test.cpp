@@ -113,12 +113,9 @@ TEST(ValidatedEquilibria, TakeThePlaceOfNumbersThatTheyExclude) {
   const Model model = one_equation("x - x^3", "1");
   auto [report, proofs] = both(model, model.scene("default"));
   ASSERT_EQ(proofs.size(), 3U);
-  const std::vector<double> found = [&] {
-    std::vector<double> result;
-    for (const Equilibrium& rest : report.equilibria) result.push_back(rest.state[0]);
-    return result;
-  }();
+  std::vector<double> found;
   for (Equilibrium& rest : report.equilibria) {
+    found.push_back(rest.state[0]);
     rest.state[0] += 1e-9;
     rest.stability = SpectralStability::undecided;
   }

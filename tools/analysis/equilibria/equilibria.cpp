@@ -239,7 +239,7 @@ constexpr double kFlat = 1e-8;
 /// .. and these are so whatever the equations do nearby: it is rounding of the derivative.
 constexpr double kNoChange = 1e-14;
 /// Of rates and levels, in their units.
-constexpr double kRoundingOfRates = 0x1p-50, kSeveral = 10;
+constexpr double kRoundingOfRates = 0x1p-50, kManyRoundings = 10;
 constexpr double kNearEachOther = 1e-6;
 
 /// Newton's iteration with the shortest step that the linear equations allow, as long as it makes
@@ -273,12 +273,12 @@ bool approach(const Scaled& equations, Place& place) {
 /// equations may be all that they have there.
 void refine(const Scaled& equations, Place& place) {
   constexpr int kRounds = 60;
-  constexpr double kLongestStep = 100, kNothingLeft = 1e-30;
+  constexpr double kLongestRefinement = 100, kNothingLeft = 1e-30;
   double last = equations.error(place);
   for (int round = 0; round < kRounds && last > kNothingLeft; ++round) {
     const Vector step =
         shortest_solution(equations.derivative(place), equations.residual(place), kNoChange);
-    if (!(step.norm() <= kLongestStep)) return;
+    if (!(step.norm() <= kLongestRefinement)) return;
     const Place next = equations.moved(place, -step);
     const double error = equations.error(next);
     if (!(error < last / 2)) return;
@@ -310,8 +310,8 @@ bool is_flat(const Scaled& equations, const Place& place, const Matrix& derivati
              const Vector& direction, double size, double largest) {
   if (size <= kNoChange * std::max(1., largest)) return true;
   if (size > kFlat * largest) return false;
-  constexpr double kFarthest = 0.1;
-  const double way = std::min(kFarthest, kSeveral * kRoundingOfRates / size);
+  constexpr double kFarthestAside = 0.1;
+  const double way = std::min(kFarthestAside, kManyRoundings * kRoundingOfRates / size);
   for (const double sign : {-1., 1.}) {
     const Place other = equations.moved(place, sign * way * direction);
     const double change = ((equations.derivative(other) - derivative) * direction).norm();
@@ -550,15 +550,15 @@ class Assessment {
   std::vector<Place> indistinguishable(const Place& place, const Directions& directions,
                                        const Equilibrium& found) const {
     constexpr int kPoints = 8;
-    constexpr double kOfMultipleRoot = 1e-5, kFarthest = 1e-2;
+    constexpr double kOfMultipleRoot = 1e-5, kFarthestAside = 1e-2;
     std::vector<Place> result;
     for (int k = 0; k < kPoints; ++k) {
       Vector step = Vector::Zero(directions.regular.rows());
       for (const auto& direction : directions.regular.colwise()) step += sign() * direction;
-      if (found.family == 0 || scaled_.error(place) > kSeveral * kRoundingOfRates)
+      if (found.family == 0 || scaled_.error(place) > kManyRoundings * kRoundingOfRates)
         for (const auto& direction : directions.flat.colwise())
           step += sign() * kOfMultipleRoot * direction;
-      if (step.norm() > kFarthest) step *= kFarthest / step.norm();
+      if (step.norm() > kFarthestAside) step *= kFarthestAside / step.norm();
       result.push_back(scaled_.moved(place, step));
       if (found.velocities.empty()) result.back().v.setZero();
     }

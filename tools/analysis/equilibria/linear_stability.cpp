@@ -58,8 +58,8 @@ Eigen::MatrixXcd orthonormal(Eigen::MatrixXcd columns) {
 
 /// The numbers of GiNaC refuse to underflow; what is so small changes neither ranks nor forms.
 GiNaC::exmap values_at(const std::vector<GiNaC::symbol>& variables, const Eigen::VectorXd& state) {
-  constexpr double kNothing = 1e-30, kLeast = 1e-100;
-  const double least = std::max(kNothing * state.norm(), kLeast);
+  constexpr double kVanishing = 1e-30, kLeast = 1e-100;
+  const double least = std::max(kVanishing * state.norm(), kLeast);
   GiNaC::exmap result;
   for (std::size_t i = 0; i < variables.size(); ++i) {
     const double value = state(static_cast<Eigen::Index>(i));
@@ -133,8 +133,8 @@ class Groups {
   std::complex<double> without_error(const EigenvalueDisc& disc, Position position) const {
     if (position == Position::zero) return 0;
     const double real = disc.value.real(), imaginary = disc.value.imag();
-    constexpr double kNothing = 1e-60;  // what an iteration towards 0 leaves of it
-    const double small = std::max(disc.radius, kNothing * a_.norm());
+    constexpr double kVanishing = 1e-60;  // what an iteration towards 0 leaves of it
+    const double small = std::max(disc.radius, kVanishing * a_.norm());
     const bool no_real = position == Position::axis || std::abs(real) <= small;
     return {no_real ? 0 : real, std::abs(imaginary) <= small ? 0 : imaginary};
   }

@@ -365,7 +365,7 @@ class Prover {
 double within(double found, const RationalInterval& proved) {
   const double middle = cln::double_approx((proved.low + proved.high) / 2),
                half = cln::double_approx((proved.high - proved.low) / 2);
-  return std::abs(found - middle) <= half ? found : middle;
+  return std::abs(found - middle) <= half ? found : middle + 0.;  // no -0
 }
 
 SpectralStability spectral(ProvedStability proved, SpectralStability found) {
