@@ -387,7 +387,7 @@ std::string why_not_symmetry(const MapModel& map, const MapSymmetry& symmetry) {
       const ex ratio = normal_form(image / other.difference);
       return other.comparison == assumption.comparison && GiNaC::is_a<GiNaC::numeric>(ratio) &&
              (GiNaC::ex_to<GiNaC::numeric>(ratio).is_positive() ||
-              other.comparison == Comparison::unequal);
+              (other.comparison == Comparison::unequal && !ratio.is_zero()));
     });
   };
   for (const Assumption& assumption : map.base.assumptions)
