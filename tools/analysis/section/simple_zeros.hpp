@@ -1,8 +1,8 @@
 #pragma once
 
-#include <vector>
+#include <ginac/ginac.h>
 
-#include "symbolic/expression/expression.hpp"
+#include <vector>
 
 namespace casimir {
 
