@@ -37,8 +37,8 @@ struct SymmetricCycle {
   std::vector<std::complex<double>> multipliers;
   int rounds = 0;  ///< of Newton's method
 
-  /// Whether all multipliers are on the unit circle: neighbours stay near, as far as the linear
-  /// equations tell.
+  /// Whether all multipliers are on the unit circle, up to rounding: small changes grow more slowly
+  /// than exponentially. (Of a multiple one they may still grow, as within a family of cycles.)
   bool stable() const;
   /// Why it may be no cycle, or no isolated one: sentences.
   std::vector<std::string> warnings() const;
