@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "runtime/step/dense.hpp"
+#include "symbolic/algebra/where_defined.hpp"
 #include "tools/analysis/equilibria/eigenvalue_discs.hpp"
 
 namespace casimir {
@@ -68,16 +69,15 @@ GiNaC::exmap values_at(const std::vector<GiNaC::symbol>& variables, const Eigen:
   return result;
 }
 
-/// Empty where it has no value.
+/// Empty where it has no value, or one that no double holds.
 std::optional<double> number(const GiNaC::ex& e, const GiNaC::exmap& values) {
-  try {
+  const auto evaluate = [&]() -> std::optional<double> {
     const GiNaC::ex value = e.subs(values).evalf();
     if (!GiNaC::is_a<GiNaC::numeric>(value)) return std::nullopt;
     const auto& exact = GiNaC::ex_to<GiNaC::numeric>(value);
     return exact.is_real() ? std::optional(exact.to_double()) : std::nullopt;
-  } catch (const std::exception&) {  // a pole, or a number that is too large
-    return std::nullopt;
-  }
+  };
+  return where_defined(evaluate).value_or(std::nullopt);
 }
 
 /// The gradient and the second derivatives; empty where they have no values.
