@@ -1,0 +1,152 @@
+#include "tools/analysis/equilibria/relative_equations.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace casimir::equilibria {
+namespace {
+
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+
+}  // namespace
+
+Equations::Equations(const Specialisation& spec, std::size_t velocities)
+    : states_(spec.states.size()),
+      velocities_(velocities),
+      inputs_(spec.rhs.inputs.size(), 0),
+      rhs_(spec.rhs),
+      jacobian_(spec.jacobian.program),
+      invariants_(spec.invariants),
+      gradients_(spec.gradients.program),
+      jacobian_entries_(spec.jacobian.entries),
+      gradient_entries_(spec.gradients.entries),
+      all_(spec.invariants.outputs.size()) {
+  // H is on no level here.
+  for (std::size_t i = 0; i < spec.invariant_names.size(); ++i)
+    if (spec.invariant_names[i] != "H") level_.push_back(i);
+  std::vector<double> start(spec.start.outputs.size());
+  Interpreter run(spec.start);
+  run(nullptr, start.data());
+  start_ = Eigen::Map<Vector>(start.data(), static_cast<Eigen::Index>(states_));
+  values_ = invariants(start_, Vector::Zero(static_cast<Eigen::Index>(velocities_)));
+}
+
+const std::vector<double>& Equations::inputs(const Vector& x, const Vector& v) const {
+  std::copy(x.data(), x.data() + x.size(), inputs_.begin());
+  std::copy(v.data(), v.data() + v.size(), inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
+  return inputs_;
+}
+
+Vector Equations::rates(const Vector& x, const Vector& v) const {
+  Vector result(static_cast<Eigen::Index>(states_));
+  rhs_(inputs(x, v).data(), result.data());
+  return result;
+}
+
+Vector Equations::residual(const Vector& x, const Vector& v) const {
+  Vector result(static_cast<Eigen::Index>(states_ + level_.size()));
+  result << rates(x, v), invariants(x, v) - values_;
+  return result;
+}
+
+Matrix Equations::by_velocities(const Vector& x, Eigen::Index count) const {
+  Matrix result(static_cast<Eigen::Index>(states_), count);
+  const Vector base = rates(x, Vector::Zero(count));
+  for (Eigen::Index k = 0; k < count; ++k)  // the rates are affine in the velocities
+    result.col(k) = rates(x, Vector::Unit(count, k)) - base;
+  return result;
+}
+
+Matrix Equations::linearised(const Vector& x, const Vector& v) const {
+  Matrix result =
+      Matrix::Zero(static_cast<Eigen::Index>(states_), static_cast<Eigen::Index>(states_));
+  std::vector<double> entries(jacobian_entries_.size());
+  jacobian_(inputs(x, v).data(), entries.data());
+  for (std::size_t k = 0; k < entries.size(); ++k)
+    result(jacobian_entries_[k].first, jacobian_entries_[k].second) = entries[k];
+  return result;
+}
+
+Matrix Equations::derivative(const Vector& x, const Vector& v) const {
+  const auto n = static_cast<Eigen::Index>(states_);
+  Matrix result = Matrix::Zero(n + static_cast<Eigen::Index>(level_.size()),
+                               n + static_cast<Eigen::Index>(velocities_));
+  result.topLeftCorner(n, n) = linearised(x, v);
+  result.topRightCorner(n, v.size()) = by_velocities(x, v.size());
+  std::vector<double> entries(gradient_entries_.size());
+  gradients_(inputs(x, v).data(), entries.data());
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    const auto [state, invariant] = gradient_entries_[k];
+    const auto place = std::find(level_.begin(), level_.end(), static_cast<std::size_t>(invariant));
+    if (place != level_.end()) result(n + (place - level_.begin()), state) = entries[k];
+  }
+  return result;
+}
+
+Vector Equations::invariants(const Vector& x, const Vector& v) const {
+  std::vector<double> values(all_);
+  invariants_(inputs(x, v).data(), values.data());
+  Vector result(static_cast<Eigen::Index>(level_.size()));
+  for (std::size_t i = 0; i < level_.size(); ++i)
+    result(static_cast<Eigen::Index>(i)) = values[level_[i]];
+  return result;
+}
+
+ScaledEquations::ScaledEquations(const Equations& equations, std::size_t velocities,
+                                 std::mt19937_64& random)
+    : equations_(equations), velocities_(static_cast<Eigen::Index>(velocities)) {
+  const double norm = equations.start().norm();
+  length_ = norm > 0 ? norm : 1;
+  constexpr int kSamples = 16;
+  for (int k = 0; k < kSamples; ++k) {
+    const Place place = random_place(random);
+    const Vector sizes = equations.residual(place.x, place.v).cwiseAbs();
+    if (!sizes.allFinite()) continue;
+    sizes_ = sizes_.size() == 0 ? sizes : Vector(sizes_.cwiseMax(sizes));
+  }
+  if (sizes_.size() == 0) sizes_ = equations.residual(equations.start(), Vector::Zero(velocities_));
+  for (double& size : sizes_)
+    if (!(size > 0) || !std::isfinite(size)) size = 1;
+}
+
+double ScaledEquations::rate() const {
+  return sizes_.head(static_cast<Eigen::Index>(equations_.states())).maxCoeff();
+}
+
+Place ScaledEquations::random_place(std::mt19937_64& random) const {
+  std::normal_distribution<double> normal;
+  Place place{equations_.start(), Vector::Zero(velocities_)};
+  for (double& entry : place.x) entry = length_ * normal(random);
+  for (double& entry : place.v) entry = normal(random);
+  return place;
+}
+
+Vector ScaledEquations::residual(const Place& place) const {
+  return equations_.residual(place.x, place.v).cwiseQuotient(sizes_);
+}
+
+Matrix ScaledEquations::derivative(const Place& place) const {
+  Matrix result = sizes_.cwiseInverse().asDiagonal() * equations_.derivative(place.x, place.v);
+  result.leftCols(place.x.size()) *= length_;
+  return result;
+}
+
+double ScaledEquations::distance(const Place& a, const Place& b) const {
+  return std::max((a.x - b.x).lpNorm<Eigen::Infinity>() / length_,
+                  a.v.size() == 0 ? 0 : (a.v - b.v).lpNorm<Eigen::Infinity>());
+}
+
+Place ScaledEquations::between(const Place& place, const Place& to, double share) {
+  return {place.x + share * (to.x - place.x), place.v + share * (to.v - place.v)};
+}
+
+Place ScaledEquations::moved(const Place& place, const Vector& step) const {
+  return {place.x + length_ * step.head(place.x.size()), place.v + step.tail(place.v.size())};
+}
+
+double ScaledEquations::error(const Place& place) const {
+  return residual(place).lpNorm<Eigen::Infinity>();
+}
+
+}  // namespace casimir::equilibria
