@@ -3,6 +3,7 @@
 #include <string>
 
 #include "symbolic/discrete/map_model.hpp"
+#include "symbolic/discrete/prove_map.hpp"
 
 namespace casimir::test {
 
@@ -17,5 +18,19 @@ inline MapModel bundled_map(const std::string& name, const ParameterValues& fixe
       std::get<MapCaseFile>(read_any_case(CASIMIR_SOURCE_DIR "/cases/maps/" + name + ".toml")),
       fixed);
 }
+
+/// The first proof of the kind, or an undecided one without a reason.
+inline Proof proof_of(const MapModel& map, ClaimKind kind, const std::string& name = "") {
+  for (const Proof& proof : prove_map(map)) {
+    if (proof.kind == kind && (name.empty() || proof.name == name)) return proof;
+  }
+  return {};
+}
+
+inline Verdict verdict_of(const MapModel& map, ClaimKind kind, const std::string& name = "") {
+  return proof_of(map, kind, name).verdict;
+}
+
+inline const std::string kPhaseSpaceOfPlane = "[phase_space]\nvariables = [\"x\", \"y\"]\n";
 
 }  // namespace casimir::test
