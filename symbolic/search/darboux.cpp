@@ -7,6 +7,7 @@
 #include "symbolic/algebra/number_text.hpp"
 #include "symbolic/case/limits.hpp"
 #include "symbolic/functions/short_text.hpp"
+#include "symbolic/search/conditions/special_values.hpp"
 #include "symbolic/search/darboux_equations.hpp"
 #include "symbolic/search/darboux_integrals.hpp"
 #include "symbolic/search/finder.hpp"
@@ -28,6 +29,8 @@ class DarbouxSearch {
     report_.reason = reason;
   }
   bool set_cofactor(DarbouxPolynomial& result, const Polynomial& function);
+  bool hides_integral(const Polynomial& relation, std::size_t root,
+                      const Polynomial& product) const;
   bool follows_from_others(const Branch& branch, const Polynomial& function) const;
   void add(const Branch& branch, const Polynomial& f, const Polynomial& k);
 
@@ -61,11 +64,27 @@ bool DarbouxSearch::set_cofactor(DarbouxPolynomial& result, const Polynomial& fu
   return true;
 }
 
+/// Whether a product of conjugates has an integral for a factor, where one of them may be real.
+/// \param relation  of the root in the coefficients
+bool DarbouxSearch::hides_integral(const Polynomial& relation, std::size_t root,
+                                   const Polynomial& product) const {
+  std::size_t unknowns = 0;
+  for (std::size_t place = 0; place < equations_.ring().size(); ++place)
+    unknowns += relation.uses(place) ? 1 : 0;
+  if (unknowns == 1 && real_roots(relation, root) == 0) return false;
+  return std::ranges::any_of(product.factors(), [&](const auto& own) {
+    return equations_.degree_in_coordinates(own.first) > 0 && equations_.rate(own.first).is_zero();
+  });
+}
+
 /// Whether all factors of functions with coefficients that are free, or roots of an irreducible
 /// polynomial, are integrals or factors of polynomials without such coefficients, which are found
 /// on their own. With a root: of the product of all conjugates, as x*(y + i*z), of which it is one.
 /// With free ones: for a Darboux polynomial of the family that is irreducible is one of the
 /// factors.
+///
+/// An integral is none of those that are found: x - sqrt(2)*y, of x^2 - 2*y^2 that is one, would
+/// leave no trace (hides_integral).
 bool DarbouxSearch::follows_from_others(const Branch& branch, const Polynomial& function) const {
   if (branch.rest.size() > 1) return false;
   Polynomial product = function;
@@ -75,7 +94,10 @@ bool DarbouxSearch::follows_from_others(const Branch& branch, const Polynomial& 
     for (std::size_t place = system_.ring().size(); place < equations_.ring().size(); ++place)
       if (relation.uses(place)) roots.push_back(place);
     if (roots.size() != 1) return false;
-    if (function.uses(roots[0])) product = resultant(relation, function, roots[0]);
+    if (function.uses(roots[0])) {
+      product = resultant(relation, function, roots[0]);
+      if (hides_integral(relation, roots[0], product)) return false;
+    }
   }
   const Monomials& monomials = equations_.monomials();
   for (const auto& [factor, exponent] : product.factors()) {

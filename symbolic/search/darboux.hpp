@@ -43,7 +43,9 @@ struct DarbouxReport {
   /// Proved: every integral that is a product of powers of those found, times an exponential of a
   /// polynomial up to the degree, follows from the combinations and the polynomial integrals.
   bool all_integrals_combined = false;
-  bool complete = false;  ///< there are no others, for generic parameters
+  /// There are no others, for generic parameters; of those that `has_conjugates` tells of, the
+  /// products alone are among those found, or are integrals with complex factors.
+  bool complete = false;
   /// Some of them, or integrals, are products of others whose coefficients are algebraic numbers ..
   bool has_conjugates = false;
   bool has_moving_conjugates = false;  ///< .. that depend on parameters, as the root of one

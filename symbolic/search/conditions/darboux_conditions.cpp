@@ -220,6 +220,7 @@ std::vector<DarbouxPolynomial> DarbouxConditions::additional_of(const Model& spe
 }
 
 void DarbouxConditions::leave_open_if_split(const DarbouxReport& report) {
+  report_.has_conjugates |= report.has_conjugates;
   if (!report.has_moving_conjugates) return;
   leave_open(
       "there are factors with coefficients that are roots of functions of parameters, and rational "

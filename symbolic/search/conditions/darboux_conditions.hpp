@@ -24,6 +24,8 @@ struct DarbouxConditionReport {
   std::vector<DarbouxCondition> conditions;
   bool complete = false;  ///< proved: on no other value, curve or set is there an additional one
   std::string reason;     ///< where it is not complete
+  /// There, or at one of the values that were looked at, is what `has_conjugates` of a report says.
+  bool has_conjugates = false;
 };
 
 /// The real values of some parameters at which there are Darboux polynomials up to a degree that

@@ -187,6 +187,27 @@ TEST(Darboux, ConjugateFactorsAreNoOthers) {
   EXPECT_FALSE(search::find_darboux(model, 1).complete);
 }
 
+/// x^2 - 2*y^2 is an integral, and is not listed: its factors x - sqrt(2)*y are none.
+TEST(Darboux, RealFactorsOfAnIntegralLeaveTheAnswerOpen) {
+  const std::string plane = R"(["x", "y"])", space = R"(["x", "y", "z"])";
+  for (const auto& [variables, equations] :
+       {std::pair(plane, "x = \"2*y\"\ny = \"x\"\n"), std::pair(plane, "x = \"a*y\"\ny = \"x\"\n"),
+        std::pair(space, "x = \"2*y + 1\"\ny = \"x + 1\"\nz = \"x*z + y\"\n")}) {
+    const Model model = with_equations(variables, "a = {}\n", equations);
+    for (const int degree : {1, 2})
+      EXPECT_FALSE(search::find_darboux(model, degree).complete) << equations << degree;
+  }
+  // At a = 0 they are there.
+  const Model line =
+      with_equations(space, "a = {}\n", "x = \"2*y + a*z\"\ny = \"x\"\nz = \"z^2 + x\"\n");
+  EXPECT_FALSE(found(line, 2, {"a"}).complete);
+  // Those of x^2 + y^2 are not real.
+  const auto circle =
+      search::find_darboux(with_equations(plane, "a = {}\n", "x = \"-y\"\ny = \"x\"\n"), 2);
+  EXPECT_TRUE(circle.complete) << circle.reason;
+  EXPECT_TRUE(circle.has_conjugates);
+}
+
 /// (x + c)*y for every c, as x is an integral.
 TEST(Darboux, ProductsWithIntegralsAreNoOthers) {
   const auto report = search::find_darboux(

@@ -97,6 +97,7 @@ py::object darboux_conditions(const Case& self, int degree, const Names& free, d
                             "verdict"_a = to_string(own.verdict)));
     }
     return py::dict("found"_a = found, "verdict"_a = verdict_of(report.complete),
+                    "coefficients"_a = report.has_conjugates ? "rational" : "algebraic",
                     "reason"_a = report.reason);
   });
 }

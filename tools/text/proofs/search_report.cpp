@@ -68,6 +68,19 @@ void print_list(const std::vector<search::DarbouxPolynomial>& list, bool colour)
   }
 }
 
+/// Of what "no others" is said.
+const char* coefficients_of(bool has_conjugates) {
+  return has_conjugates ? "rational" : "algebraic";
+}
+
+/// Factors with coefficients that are algebraic numbers are not among those found.
+std::string no_others(const search::DarbouxReport& report) {
+  if (report.found.empty())
+    return report.has_conjugates ? "There are none with rational coefficients" : "There are none";
+  return report.has_conjugates ? "No others that are irreducible over the rational numbers"
+                               : "No others that are irreducible";
+}
+
 /// NAME = VALUE, NAME = VALUE.
 std::string values_line(const std::vector<std::pair<std::string, std::string>>& parameters) {
   std::string line;
@@ -82,10 +95,12 @@ std::string for_generic(const std::vector<std::string>& parameters) {
   return fmt::format(", for generic values of {}", fmt::join(parameters, ", "));
 }
 
-void print_end(bool complete, const std::string& reason, std::size_t conditions, double seconds) {
+/// \param of  what alone is said not to be there elsewhere
+void print_end(bool complete, const std::string& reason, std::size_t conditions, double seconds,
+               const std::string& of = "") {
   const bool colour = may_colour(1);
   if (complete)
-    fmt::print("No other value, curve or set: {}\n", verdict_text(Verdict::proved, colour));
+    fmt::print("No other value, curve or set{}: {}\n", of, verdict_text(Verdict::proved, colour));
   else
     fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
                reason);
@@ -212,6 +227,7 @@ nlohmann::ordered_json to_json(const Model& model, int degree,
                               {"invariant_relations", relations_of(report.generic.found)},
                               {"conditions", nlohmann::ordered_json::array()},
                               {"verdict", report.complete ? "proved" : "undecided"},
+                              {"coefficients", coefficients_of(report.has_conjugates)},
                               {"generic", report.generic.generic}};
   for (const search::DarbouxCondition& condition : report.conditions) {
     nlohmann::ordered_json own{{"parameters", nlohmann::ordered_json::object()}};
@@ -247,7 +263,8 @@ void print(const Model& model, int degree, const search::DarbouxConditionReport&
     print_list(condition.found, colour);
   }
   if (report.conditions.empty()) fmt::print("none found\n");
-  print_end(report.complete, report.reason, report.conditions.size(), seconds);
+  print_end(report.complete, report.reason, report.conditions.size(), seconds,
+            report.has_conjugates ? " of F with rational coefficients" : "");
 }
 
 nlohmann::ordered_json to_json(const Model& model, int degree, const search::DarbouxReport& report,
@@ -257,6 +274,7 @@ nlohmann::ordered_json to_json(const Model& model, int degree, const search::Dar
                               {"integrals", nlohmann::ordered_json::array()},
                               {"invariant_relations", relations_of(report.found)},
                               {"verdict", report.complete ? "proved" : "undecided"},
+                              {"coefficients", coefficients_of(report.has_conjugates)},
                               {"generic", report.generic}};
   json["combinations"] = nlohmann::ordered_json::array();
   for (const search::DarbouxCombination& own : report.combinations) {
@@ -277,9 +295,8 @@ void print(const Model& model, int degree, const search::DarbouxReport& report, 
              model.name, degree);
   print_list(report.found, colour);
   if (report.complete)
-    fmt::print("{}{}: {}\n",
-               report.found.empty() ? "There are none" : "No others that are irreducible",
-               for_generic(report.generic), verdict_text(Verdict::proved, colour));
+    fmt::print("{}{}: {}\n", no_others(report), for_generic(report.generic),
+               verdict_text(Verdict::proved, colour));
   else
     fmt::print("Whether there are others is {}: {}\n", verdict_text(Verdict::undecided, colour),
                report.reason);
