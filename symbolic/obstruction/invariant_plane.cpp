@@ -22,6 +22,18 @@ GiNaC::ex substituted(const GiNaC::ex& expression, const GiNaC::exmap& values) {
   }
 }
 
+/// The same in lowest terms. A denominator that is zero only when it is multiplied out is an
+/// overflow to GiNaC.
+GiNaC::ex normal_on_surface(const GiNaC::ex& expression, const GiNaC::exmap& values) {
+  try {
+    return substituted(expression, values).normal();
+  } catch (const std::overflow_error&) {
+    throw NotDecided("the equations have no value on the surface");
+  } catch (const std::domain_error&) {
+    throw NotDecided("the equations have no value on the surface");
+  }
+}
+
 InvariantPlane with_values(const HamiltonianSystem& system, GiNaC::exmap values) {
   InvariantPlane result;
   for (std::size_t i = 0; i < system.variables.size(); ++i) {
@@ -60,7 +72,7 @@ GiNaC::ex defect(const HamiltonianSystem& system, const GiNaC::exmap& values, co
   GiNaC::ex rate = system.rates[system.index(x)];
   for (std::size_t i = 0; i < system.variables.size(); ++i)
     rate -= value.diff(system.variables[i]) * system.rates[i];
-  return substituted(rate, values).normal();
+  return normal_on_surface(rate, values);
 }
 
 bool is_invariant(const HamiltonianSystem& system, const GiNaC::exmap& values) {
@@ -135,7 +147,7 @@ InvariantPlane invariant_plane(const HamiltonianSystem& system,
                                const std::vector<GiNaC::ex>& functions) {
   GiNaC::exmap values;
   for (const GiNaC::ex& f : functions) {
-    const GiNaC::ex own = substituted(f, values).normal();
+    const GiNaC::ex own = normal_on_surface(f, values);
     if (!own.is_zero()) add(system, own, values);
   }
   return closed(system, std::move(values));

@@ -83,6 +83,9 @@ class SurfaceSearch {
     } catch (const std::invalid_argument&) {
       // GiNaC's, of a greatest common divisor.
       leave_out(plane, "the equations are no rational functions");
+    } catch (const std::overflow_error&) {
+      // GiNaC's, of a denominator that is zero when it is multiplied out.
+      leave_out(plane, "the equations have no value on it");
     }
   }
 
@@ -295,6 +298,8 @@ void with_reason(Obstruction& result, const Decision& decision) {
     result.reason = problem.what();
   } catch (const std::invalid_argument&) {
     result.reason = "the equations are no rational functions";
+  } catch (const std::overflow_error&) {
+    result.reason = "the equations have no value there";
   }
 }
 

@@ -182,6 +182,12 @@ TEST(Obstruct, InvariantRelationsOfTheCaseAreSurfaces) {
       refuted(turned("[[invariant_relation]]\nname = \"a\"\nexpression = \"3*x + 5*y\"\n")));
 }
 
+/// (x + y + px)^2, multiplied out: GiNaC sees that it is zero only when it divides.
+TEST(Obstruct, ASurfaceOnWhichTheEquationsHaveNoValueIsLeftOut) {
+  const Model model = planar("(px^2 + py^2)/2 + 1/(x^2 + y^2 + px^2 + 2*x*y + 2*x*px + 2*y*px)");
+  EXPECT_FALSE(obstruction_of(model, {"x + y + px = 0"}).proved);
+}
+
 TEST(Obstruct, AnIrregularPointExcludesRationalIntegralsOnly) {
   // z = y = exp-like motion: y'' = y along x = 0, and x'' = -(1 + y) x has an irregular point.
   const Obstruction answer =
