@@ -202,18 +202,18 @@ void add_orbits(Drawing& drawing, const std::vector<OrbitReport>& orbits, const 
 }
 
 void add_cycles(Drawing& drawing, const std::vector<Cycle>& cycles) {
-  for (const bool stable : {true, false}) {
+  for (const bool elliptic : {true, false}) {
     std::string points;
     for (const Cycle& cycle : cycles) {
-      if (cycle.stable() != stable) continue;
+      if ((cycle.stability() == SpectralStability::stable) != elliptic) continue;
       std::vector<std::array<double, 2>> places;
       for (const PlacedPoint& point : cycle.points) places.push_back(point.place);
       points += drawing.places(places);
     }
     drawing.add(
         points,
-        stable ? "pt 6 ps 1.3 lw 1.5 lc rgb '#000000'" : "pt 2 ps 1.3 lw 1.5 lc rgb '#000000'",
-        stable ? "stable cycles" : "unstable cycles");
+        elliptic ? "pt 6 ps 1.3 lw 1.5 lc rgb '#000000'" : "pt 2 ps 1.3 lw 1.5 lc rgb '#000000'",
+        elliptic ? "elliptic cycles" : "other cycles");
   }
 }
 

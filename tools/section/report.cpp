@@ -36,6 +36,7 @@ Json to_json(const SectionReport& report, const OrbitReport& orbit, std::size_t 
                {"t", exact_text(orbit.orbit.time)},
                {"exponent", orbit.judged ? Json(exact_text(orbit.exponent)) : Json(nullptr)},
                {"chaotic", orbit.judged ? Json(orbit.chaotic) : Json(nullptr)},
+               {"closed", orbit.closed},
                {"megno", orbit.judged ? Json(exact_text(orbit.megno)) : Json(nullptr)},
                {"off_level", exact_text(orbit.off_level)},
                {"seed", Json::object()}};
@@ -51,6 +52,13 @@ Json to_json(const SectionReport& report, const OrbitReport& orbit, std::size_t 
   return json;
 }
 
+/// Null where it is not decided.
+Json is_stable(const Cycle& cycle) {
+  const SpectralStability stability = cycle.stability();
+  if (stability == SpectralStability::undecided) return nullptr;
+  return stability == SpectralStability::stable;
+}
+
 Json to_json(const SectionReport& report, const Cycle& cycle) {
   Json json = {{"length", cycle.length()},
                {"points", Json::array()},
@@ -59,7 +67,8 @@ Json to_json(const SectionReport& report, const Cycle& cycle) {
                {"determinant", exact_text(cycle.determinant)},
                {"multipliers", Json::array()},
                {"kind", cycle.kind()},
-               {"stable", cycle.stable()},
+               {"stable", is_stable(cycle)},
+               {"stability", to_string(cycle.stability())},
                {"residual", exact_text(cycle.residual)}};
   for (const std::complex<double>& m : cycle.multipliers())
     json["multipliers"].push_back({exact_text(m.real()), exact_text(m.imag())});
@@ -131,7 +140,7 @@ void print_cycles(const SectionReport& report) {
                  place[0], place[1]);
       if (i == 0)
         fmt::print("  {:>12.6f}  {:>12.6f}  {}, {}", cycle.period, cycle.trace, cycle.kind(),
-                   cycle.stable() ? "stable" : "unstable");
+                   to_string(cycle.stability()));
       fmt::print("\n");
     }
     if (!report.proofs.empty()) print(report.proofs[k], report.ranges);
@@ -293,10 +302,14 @@ void print_text(const SectionReport& report) {
              report.orbits.size(), report.crossings(), duration_text(report.seconds), report.jobs,
              report.jobs == 1 ? "" : "s", report.lanes);
   const auto unknown = std::ranges::count(report.orbits, false, &OrbitReport::judged);
-  fmt::print("  {} regular, {} chaotic{}; every point on its level to {:.1e}\n",
-             report.orbits.size() - report.chaotic() - static_cast<std::size_t>(unknown),
-             report.chaotic(), unknown > 0 ? fmt::format(", {} too short to tell", unknown) : "",
-             report.off_level());
+  const auto closed = std::ranges::count_if(
+      report.orbits, [](const OrbitReport& orbit) { return orbit.judged && orbit.closed; });
+  fmt::print(
+      "  {} regular, {} chaotic{}{} by the growth of deviations, which is evidence\n"
+      "  every point on its level to {:.1e}\n",
+      report.orbits.size() - report.chaotic() - static_cast<std::size_t>(unknown), report.chaotic(),
+      closed > 0 ? fmt::format(", {} of the regular ones closed", closed) : "",
+      unknown > 0 ? fmt::format(", {} too short to tell:", unknown) : ":", report.off_level());
   double largest = 0;
   for (const OrbitReport& orbit : report.orbits)
     if (orbit.chaotic) largest = std::max(largest, orbit.exponent);

@@ -95,8 +95,10 @@ class SymmetricReport {
     for (const auto& m : cycle_.multipliers)
       fmt::print(" {:.6f}{}", m.real(),
                  std::abs(m.imag()) < 5e-7 ? "" : fmt::format("{:+.6f}i", m.imag()));
-    fmt::print("\n  {}\n", cycle_.stable() ? "all on the unit circle: spectrally stable"
-                                           : "not all on the unit circle: unstable");
+    fmt::print("\n  {}\n",
+               cycle_.stable()
+                   ? "all on the unit circle to 1e-5: spectrally stable, as far as that tells"
+                   : "not all on the unit circle: unstable");
     for (const std::string& warning : warnings_) fmt::print("  warning: {}\n", warning);
   }
 

@@ -133,15 +133,28 @@ TEST(Section, SystemsWithoutOneAreRefused) {
 TEST(Cycle, ItsKindFollowsFromTheTrace) {
   Cycle cycle;
   cycle.trace = 1;
-  EXPECT_TRUE(cycle.stable());
+  EXPECT_EQ(cycle.stability(), SpectralStability::stable);
   EXPECT_EQ(cycle.kind(), "elliptic");
   EXPECT_NEAR(std::abs(cycle.multipliers()[0]), 1, 1e-15);
   cycle.trace = 2.5;
   EXPECT_EQ(cycle.kind(), "hyperbolic");
   EXPECT_NEAR(std::abs(cycle.multipliers()[0] * cycle.multipliers()[1] - 1.), 0, 1e-15);
   cycle.trace = -2.5;
-  EXPECT_FALSE(cycle.stable());
+  EXPECT_EQ(cycle.stability(), SpectralStability::unstable);
   EXPECT_EQ(cycle.kind(), "inverse hyperbolic");
+}
+
+TEST(Cycle, ATraceThatIsMinusTwoToRoundingTellsNothing) {
+  for (const double aside : {-1e-9, 0., 1e-9}) {
+    Cycle cycle;
+    cycle.trace = -2 + aside;
+    EXPECT_EQ(cycle.stability(), SpectralStability::undecided);
+    EXPECT_EQ(cycle.kind(), "parabolic or nearly so");
+  }
+  Cycle distorted;
+  distorted.trace = 2.001;
+  distorted.determinant = 1.001;
+  EXPECT_EQ(distorted.stability(), SpectralStability::undecided);
 }
 
 TEST(Cycle, TheNormalModeOfTwoOscillatorsIsAFixedPoint) {

@@ -157,10 +157,24 @@ void turn(Cycle& cycle) {
 }  // namespace
 
 std::string Cycle::kind() const {
-  return stable() ? "elliptic" : trace > 0 ? "hyperbolic" : "inverse hyperbolic";
+  switch (stability()) {
+    case SpectralStability::stable:
+      return "elliptic";
+    case SpectralStability::unstable:
+      return trace > 0 ? "hyperbolic" : "inverse hyperbolic";
+    default:
+      return "parabolic or nearly so";
+  }
 }
 
-bool Cycle::stable() const { return std::abs(trace) < 2; }
+SpectralStability Cycle::stability() const {
+  // What integration leaves of a derivative, and what it has made of the determinant.
+  constexpr double kError = 1e-7, kOfDeterminant = 10;
+  const double error = kError + kOfDeterminant * std::abs(determinant - 1);
+  const double beyond = std::abs(trace) - 2;
+  if (!(std::abs(beyond) > error)) return SpectralStability::undecided;
+  return beyond < 0 ? SpectralStability::stable : SpectralStability::unstable;
+}
 
 std::array<std::complex<double>, 2> Cycle::multipliers() const {
   const std::complex<double> half = trace / 2;

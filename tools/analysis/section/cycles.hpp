@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/analysis/equilibria/spectral_stability.hpp"
 #include "tools/analysis/section/orbits.hpp"
 
 namespace casimir {
@@ -19,10 +20,12 @@ struct Cycle {
 
   /// How many times it crosses the plane.
   std::size_t length() const { return points.size(); }
-  /// "elliptic", "hyperbolic", "inverse hyperbolic".
+  /// "elliptic", "hyperbolic", "inverse hyperbolic" or "parabolic or nearly so".
   std::string kind() const;
-  /// Whether neighbours stay near: it is elliptic.
-  bool stable() const;
+  /// What the trace tells. An elliptic cycle is spectrally stable, and may be unstable all the same
+  /// where a power up to 4 of its multipliers is 1 (Levi-Civita 1901; Arnold, Mathematical Methods
+  /// of Classical Mechanics, app. 7). Nothing is told of a trace that is 2 or -2 within its error.
+  SpectralStability stability() const;
   /// The two Floquet multipliers of the periodic orbit that are not 1 by the motion along it and
   /// across the levels: the roots of m^2 - trace*m + 1.
   std::array<std::complex<double>, 2> multipliers() const;

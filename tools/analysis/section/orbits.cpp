@@ -148,10 +148,30 @@ double megno_of(const SectionOrbit& orbit) {
   return time > 0 ? mean / time : 0;
 }
 
+/// Whether the crossings repeat after some of them, all along: the orbit is a cycle, or nearer to
+/// one than can be told.
+bool is_closed(const std::vector<std::array<double, 2>>& places) {
+  constexpr double kSame = 1e-9;
+  constexpr std::size_t kLongest = 64, kRepetitions = 3;
+  double size = 0;
+  for (const auto& [u, v] : places) size = std::max({size, std::abs(u), std::abs(v)});
+  const auto same = [&](std::size_t i, std::size_t k) {
+    return std::abs(places[i][0] - places[k][0]) <= kSame * size &&
+           std::abs(places[i][1] - places[k][1]) <= kSame * size;
+  };
+  for (std::size_t length = 1; length <= kLongest && kRepetitions * length <= places.size(); ++length) {
+    std::size_t i = length;
+    while (i < places.size() && same(i, i - length)) ++i;
+    if (i == places.size()) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void judge_growth(OrbitReport& report) {
   const SectionOrbit& orbit = report.orbit;
+  report.closed = orbit.status == Status::ok && is_closed(report.places);
   // One that runs to infinity is neither regular nor chaotic.
   report.judged = orbit.size() >= kFewestOrbits &&
                   (orbit.status == Status::ok || orbit.status == Status::stopped);
@@ -161,7 +181,8 @@ void judge_growth(OrbitReport& report) {
                time = orbit.times.back() - orbit.times[first];
   report.exponent = growth / time;
   report.megno = megno_of(orbit);
-  report.chaotic = growth > kLargestPower * std::log(orbit.times.back() / orbit.times[first]);
+  report.chaotic =
+      !report.closed && growth > kLargestPower * std::log(orbit.times.back() / orbit.times[first]);
 }
 
 std::vector<OrbitReport> judged_orbits(const LevelSet& level, SectionResult result,

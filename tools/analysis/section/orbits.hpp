@@ -65,6 +65,7 @@ struct OrbitReport {
   /// MEGNO of the deviation: 2 for regular motion, see `Indicators`.
   double megno = 0;
   bool judged = false;        ///< it is long enough to tell, and bounded
+  bool closed = false;        ///< its crossings repeat: a cycle, which may be unstable, is no chaos
   bool chaotic = false;       ///< deviations grow faster than a power of time
   double off_level = 0;       ///< largest deviation from the level, relative to its terms
   bool leaves_level = false;  ///< a crossing was further from it than kOnLevel, and dropped

@@ -37,8 +37,9 @@ struct SymmetricCycle {
   std::vector<std::complex<double>> multipliers;
   int rounds = 0;  ///< of Newton's method
 
-  /// Whether all multipliers are on the unit circle, up to rounding: small changes grow more slowly
-  /// than exponentially. (Of a multiple one they may still grow, as within a family of cycles.)
+  /// Whether all multipliers are on the unit circle to 1e-5, as near as rounding brings multiple
+  /// ones: small changes grow more slowly than exponentially, or by that much in T/n. (Of a
+  /// multiple one they may still grow, as within a family of cycles.)
   bool stable() const;
   /// Why it may be no cycle, or no isolated one: sentences.
   std::vector<std::string> warnings() const;

@@ -516,8 +516,9 @@ class Cycle:
     period: float
     trace: float  #: of the derivative of the return map along it
     multipliers: tuple[complex, complex]
-    kind: str  #: 'elliptic', 'hyperbolic' or 'inverse hyperbolic'
-    stable: bool  #: it is elliptic
+    kind: str  #: 'elliptic', 'hyperbolic', 'inverse hyperbolic' or 'parabolic or nearly so'
+    stable: bool | None  #: spectrally: it is elliptic; None where that is not decided
+    stability: str  #: 'spectrally stable', 'unstable' or 'not decided'
     residual: float  #: how far it is from closing
     proof: ProvedCycle | None = None  #: where it was asked for
 
@@ -536,7 +537,7 @@ class SymmetricCycle:
     residual: float  #: how far x(T/n) is from S x(0), relative to the size of the state
     closure: float  #: the same of x(T) and x(0)
     multipliers: list[complex]  #: n-th roots of those of Floquet
-    stable: bool  #: all of these are on the unit circle
+    stable: bool  #: all of these are on the unit circle to 1e-5
     order: int  #: of S
     names: list[str]  #: of the entries of a state
     warnings: list[str]

@@ -77,6 +77,13 @@ py::dict to_python(const ProvedCycle& proof, const Names& states) {
   return result;
 }
 
+/// None where it is not decided.
+py::object is_stable(const Cycle& cycle) {
+  const SpectralStability stability = cycle.stability();
+  if (stability == SpectralStability::undecided) return py::none();
+  return py::bool_(stability == SpectralStability::stable);
+}
+
 py::list cycles_of(const PoincareSection& cut) {
   const Names& states = cut.problem->run.specialisation.states;
   py::list list;
@@ -90,8 +97,8 @@ py::list cycles_of(const PoincareSection& cut) {
     }
     py::dict one("points"_a = points, "states"_a = at, "period"_a = cycle.period,
                  "trace"_a = cycle.trace, "residual"_a = cycle.residual, "kind"_a = cycle.kind(),
-                 "stable"_a = cycle.stable(), "multipliers"_a = cycle.multipliers(),
-                 "proof"_a = py::none());
+                 "stable"_a = is_stable(cycle), "stability"_a = to_string(cycle.stability()),
+                 "multipliers"_a = cycle.multipliers(), "proof"_a = py::none());
     if (!cut.proofs.empty()) one["proof"] = to_python(cut.proofs[k], states);
     list.append(one);
   }
