@@ -19,14 +19,14 @@ constexpr double kSameOrbit = 1e-7;
 constexpr double kLeastGrowth = 1.6;
 
 /// Some returns of a state, and the derivative of all of them along the tangent planes.
-struct Iterated {
+struct IteratedReturn {
   std::vector<Returned> returns;
   std::vector<Matrix> bases;        ///< of the tangent planes, that of the start first
   std::vector<Matrix> derivatives;  ///< 2 x 2, of each return
 };
 
-std::optional<Iterated> iterated(const NumericReturn& map, Vector x, std::size_t length) {
-  Iterated result;
+std::optional<IteratedReturn> iterated(const NumericReturn& map, Vector x, std::size_t length) {
+  IteratedReturn result;
   result.bases.push_back(map.tangent(x));
   for (std::size_t k = 0; k < length; ++k) {
     auto next = map(x, true);
@@ -132,7 +132,7 @@ class CycleFinder {
     return std::nullopt;
   }
 
-  static std::optional<HyperbolicCycle> described(const Vector& x, const Iterated& orbit,
+  static std::optional<HyperbolicCycle> described(const Vector& x, const IteratedReturn& orbit,
                                                   const Matrix& product) {
     const double trace = product.trace(),
                  determinant = product(0, 0) * product(1, 1) - product(0, 1) * product(1, 0);
@@ -165,7 +165,7 @@ class CycleFinder {
 
   /// The stable direction at the point k of the cycle, from that of the last by the adjugates of
   /// the derivatives, which are their inverses up to a factor.
-  static Vector stable_at(const Iterated& orbit, double value, const Matrix& product,
+  static Vector stable_at(const IteratedReturn& orbit, double value, const Matrix& product,
                           std::size_t k) {
     Vector direction = eigenvector(product, value);
     for (std::size_t j = orbit.derivatives.size(); j-- > k;) {
