@@ -346,5 +346,30 @@ duration = "20"
   EXPECT_EQ(lost.at("warnings").size(), 1u);
 }
 
+// Within the steps 1 - cos(y) loses its digits, and (1 - cos(y))/y^2 tends to 1/2.
+TEST(MapCommands, WhatCancelsInAStepIsSeen) {
+  const Folder folder;
+  std::ofstream(folder.path() / "cancels.toml") << R"toml(title = "cancels"
+[phase_space]
+variables = ["x", "y"]
+[map]
+x = "(1 - cos(y))/y^2"
+y = "y/10"
+[[scene]]
+name = "default"
+initial = { x = "1/2", y = "1/10" }
+duration = "9"
+)toml";
+  for (const int steps : {2, 5, 9}) {
+    const Json json = run_in(folder, {"integrate", "./cancels.toml", "--duration",
+                                      std::to_string(steps), "--json"})
+                          .json();
+    const double y = std::pow(10., -steps);  // of the step before, with x up to y^4/720
+    const double error =
+        std::abs(std::stod(json.at("state").at("x").get<std::string>()) - (0.5 - y * y / 24));
+    EXPECT_GT(json.at("trust").at("error_estimate"), error / 10) << steps;
+  }
+}
+
 }  // namespace
 }  // namespace casimir::test

@@ -9,6 +9,7 @@
 #include "codegen/compile.hpp"
 #include "codegen/emit_cpp.hpp"
 #include "symbolic/expression/expression_size.hpp"
+#include "tools/analysis/run/disturbed_map.hpp"
 
 namespace casimir {
 namespace {
@@ -73,12 +74,17 @@ bool is_finite(const std::vector<double>& x) {
 }
 
 /// An orbit like that to the state `end`, but with random errors of one unit of the last digit: how
-/// far its end is from that, as of Iterated.
+/// far its end is from that, as of Iterated. Of a long orbit the first and the last steps have them
+/// in all operations, those between in the state alone.
 double distance_of_disturbed(const Module& module, const PreparedScene& run, std::uint64_t steps,
                              const std::vector<double>& end, std::uint64_t seed) {
   const auto& step = module.functions().rhs;
   std::mt19937_64 random(seed);
   std::vector<double> state = run.initial, next(state.size()), largest(state.size());
+  constexpr std::uint64_t kMostOperations = 2'000'000;
+  DisturbedMap disturbed(run.specialisation.rhs);
+  const std::uint64_t in_all_operations =
+      kMostOperations / std::max<std::size_t>(1, disturbed.operations());
   const auto disturb = [&] {
     std::uint64_t bits = 0;
     for (std::size_t i = 0; i < state.size(); ++i, bits >>= 1) {
@@ -90,7 +96,10 @@ double distance_of_disturbed(const Module& module, const PreparedScene& run, std
   };
   disturb();
   for (std::uint64_t k = 0; k < steps; ++k) {
-    step(0, state.data(), run.parameters.data(), next.data());
+    if (k < in_all_operations || steps - k <= in_all_operations)
+      disturbed(state, run.parameters, random, next);
+    else
+      step(0, state.data(), run.parameters.data(), next.data());
     std::swap(state, next);
     disturb();
   }
