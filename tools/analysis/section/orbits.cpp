@@ -159,7 +159,8 @@ bool is_closed(const std::vector<std::array<double, 2>>& places) {
     return std::abs(places[i][0] - places[k][0]) <= kSame * size &&
            std::abs(places[i][1] - places[k][1]) <= kSame * size;
   };
-  for (std::size_t length = 1; length <= kLongest && kRepetitions * length <= places.size(); ++length) {
+  for (std::size_t length = 1; length <= kLongest && kRepetitions * length <= places.size();
+       ++length) {
     std::size_t i = length;
     while (i < places.size() && same(i, i - length)) ++i;
     if (i == places.size()) return true;
