@@ -1,5 +1,7 @@
 #include "runtime/exact/closed_form.hpp"
 
+#include <cln/exception.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -139,6 +141,17 @@ void run_along(const ClosedForm& form, std::size_t states, const casimir_run& ru
   }
 }
 
+/// Of numbers whose sizes are too different for the digits that there are, one may be lost, and be
+/// divided by.
+Recognised recognised_by(Recognised (*recognise)(const exact::Motion&),
+                         const exact::Motion& motion) {
+  try {
+    return recognise(motion);
+  } catch (const cln::runtime_exception&) {
+    return {nullptr, "the sizes of the states and coefficients are too different"};
+  }
+}
+
 }  // namespace
 
 Recognised closed_form(const Program& rhs, const std::vector<cln::cl_F>& initial) {
@@ -150,7 +163,7 @@ Recognised closed_form(const Program& rhs, const std::vector<cln::cl_F>& initial
   std::string reasons;
   for (const auto recognise : {exact::free_body, exact::gyrostat, exact::symmetric_top,
                                exact::pendulum, exact::polynomial_force}) {
-    Recognised found = recognise(motion);
+    Recognised found = recognised_by(recognise, motion);
     if (found.form) return found;
     reasons += (reasons.empty() ? "" : "; ") + found.reason;
   }

@@ -38,7 +38,10 @@ class FreeBody : public ClosedForm {
       const N one = of.number(1), side = cln::minusp(xa) ? -one : one, s = side * xb / B;
       amplitude_[0] *= cln::double_approx(side);
       amplitude_[1] *= cln::double_approx(side);
-      start_ = cln::double_approx(cln::ln((one + s) / (one - s)) / of.number(2));
+      // Next to the end of the separatrix nothing is left of the way to it.
+      start_ = one - cln::abs(s) < vanishing_part(one)
+                   ? std::numeric_limits<double>::infinity()
+                   : cln::double_approx(cln::ln((one + s) / (one - s)) / of.number(2));
       return;
     }
     functions_ = JacobiFunctions(m, m1);

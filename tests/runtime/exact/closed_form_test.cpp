@@ -91,6 +91,18 @@ TEST(ClosedForm, NextToASeparatrix) {
   EXPECT_LT(error(pendulum(1, -1, 0), {0, 2 + tiny}, 200), 1e-12);
 }
 
+/// Three hundred digits do not tell where on the way along a separatrix these begin.
+TEST(ClosedForm, OfSizesThatAreTooDifferentNothingIsSaid) {
+  const auto part = [](int digits) { return Rational(1) / cln::expt(cln::cl_I(10), digits); };
+  for (const int digits : {160, 200}) {
+    const Start start{part(digits), 1, part(digits)};
+    for (const Program& program : {body({-1, 1, -1}), body({1, -1, part(20)})}) {
+      const Recognised found = closed_form(program, exact(start));
+      if (found.form) EXPECT_LT(found.form->horizon(), 0) << digits;
+    }
+  }
+}
+
 TEST(ClosedForm, EquilibriaStayWhereTheyAre) {
   for (const Start& x : {Start{0, 5, 0}, Start{1, 0, 0}, Start{0, 0, 0}})
     EXPECT_EQ(error(body({1, -2, 1}), x, 1000), 0);
